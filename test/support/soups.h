@@ -1,0 +1,149 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_TEST_SUPPORT_SOUPS_H
+#define SELVEDGE_TEST_SUPPORT_SOUPS_H
+
+#include <selvedge/mesh/Triangle_soup.h>
+
+#include <utility>
+#include <vector>
+
+/// Tiny soups made by hand, each with the one property that its name says.
+namespace selvedge::test {
+
+inline Triangle_soup soup(std::vector<Point_3> points, std::vector<Index_triple> triangles)
+{
+  Triangle_soup soup;
+  soup.points = std::move(points);
+  soup.triangles = std::move(triangles);
+  return soup;
+}
+
+/// Both soups side by side, sharing no vertex number.
+inline Triangle_soup joined(Triangle_soup first, const Triangle_soup& second)
+{
+  const Index offset = static_cast<Index>(first.points.size());
+  first.points.insert(first.points.end(), second.points.begin(), second.points.end());
+  for (const auto& [a, b, c] : second.triangles)
+    first.triangles.push_back({a + offset, b + offset, c + offset});
+  return first;
+}
+
+/// The same with every point replaced.
+template <class Function>
+Triangle_soup mapped(Triangle_soup soup, Function function)
+{
+  for (Point_3& point : soup.points)
+    point = function(point);
+  return soup;
+}
+
+/// No two triangles share a vertex number any more; the positions stay.
+inline Triangle_soup unshared(const Triangle_soup& soup)
+{
+  Triangle_soup result;
+  for (const Index_triple& triangle : soup.triangles) {
+    const Index first = static_cast<Index>(result.points.size());
+    for (const Index vertex : triangle)
+      result.points.push_back(soup.points[vertex]);
+    result.triangles.push_back({first, first + 1, first + 2});
+  }
+  return result;
+}
+
+/// A flat sheet of width × depth squares of side 1 at height z, two triangles each.
+inline Triangle_soup sheet(Index width, Index depth, double z = 0)
+{
+  Triangle_soup result;
+  for (Index y = 0; y <= depth; ++y)
+    for (Index x = 0; x <= width; ++x)
+      result.points.emplace_back(x, y, z);
+  for (Index y = 0; y < depth; ++y)
+    for (Index x = 0; x < width; ++x) {
+      const Index a = y * (width + 1) + x, b = a + 1, c = b + width + 1, d = c - 1;
+      result.triangles.push_back({a, b, c});
+      result.triangles.push_back({a, c, d});
+    }
+  return result;
+}
+
+inline Triangle_soup tetrahedron()
+{
+  return soup({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
+}
+
+inline Triangle_soup one_triangle()
+{
+  return soup({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}});
+}
+
+/// Embedded: all that two triangles share is one vertex.
+inline Triangle_soup bowtie()
+{
+  return soup({{0, 0, 0}, {2, 1, 0}, {2, -1, 0}, {-2, 1, 0}, {-2, -1, 0}}, {{0, 1, 2}, {0, 3, 4}});
+}
+
+/// Embedded: three sheets on one edge.
+inline Triangle_soup book()
+{
+  return soup({{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}}, {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}});
+}
+
+inline Triangle_soup vertex_touching_face()
+{
+  return joined(one_triangle(), soup({{1, 1, 0}, {1, 1, 2}, {2, 1, 2}}, {{0, 1, 2}}));
+}
+
+inline Triangle_soup edge_touching_edge()
+{
+  return joined(one_triangle(), soup({{1, 0, -1}, {1, 0, 1}, {1, -3, 0}}, {{0, 1, 2}}));
+}
+
+inline Triangle_soup crossing()
+{
+  return joined(one_triangle(), soup({{1, 1, -1}, {1, 1, 1}, {9, 9, 0}}, {{0, 1, 2}}));
+}
+
+inline Triangle_soup coplanar_overlap()
+{
+  return joined(one_triangle(), soup({{1, 1, 0}, {5, 1, 0}, {1, 5, 0}}, {{0, 1, 2}}));
+}
+
+inline Triangle_soup coplanar_inside()
+{
+  return joined(one_triangle(), soup({{1, 1, 0}, {2, 1, 0}, {1, 2, 0}}, {{0, 1, 2}}));
+}
+
+inline Triangle_soup duplicate()
+{
+  return soup(one_triangle().points, {{0, 1, 2}, {1, 2, 0}});
+}
+
+inline Triangle_soup opposite_duplicate()
+{
+  return soup(one_triangle().points, {{0, 1, 2}, {0, 2, 1}});
+}
+
+/// The middle of an edge is the corner of two triangles beyond it: both touch the first without sharing its
+/// edge.
+inline Triangle_soup t_junction()
+{
+  return soup({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {2, 0, 0}, {2, -2, 0}}, {{0, 1, 2}, {0, 4, 3}, {3, 4, 1}});
+}
+
+/// Two triangles on one edge, folded flat onto each other.
+inline Triangle_soup folded_over()
+{
+  return soup({{0, 0, 0}, {4, 0, 0}, {1, 3, 0}, {2, 2, 0}}, {{0, 1, 2}, {1, 0, 3}});
+}
+
+/// Three collinear corners, all different.
+inline Triangle_soup collinear_triangle()
+{
+  return soup({{0, 0, 0}, {2, 0, 0}, {4, 0, 0}}, {{0, 1, 2}});
+}
+
+} // namespace selvedge::test
+
+#endif // SELVEDGE_TEST_SUPPORT_SOUPS_H
