@@ -1,0 +1,103 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SPATIAL_INTERNAL_MONOTONE_BOX_H
+#define SELVEDGE_SPATIAL_INTERNAL_MONOTONE_BOX_H
+
+#include <CGAL/Bbox_3.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace selvedge {
+namespace internal {
+
+/// An axis-aligned box of floats, half the size of a `CGAL::Bbox_3`.
+///
+/// Boxes of doubles become boxes of floats through one map x ↦ float(x − origin) per axis, whose every step is
+/// monotone, whatever the rounding mode. Overlap is a conjunction of ≤ between bounds, and a monotone map keeps
+/// every ≤. So two boxes that overlapped still do: the map can add overlaps, never lose one.
+struct Monotone_box
+{
+  std::array<float, 3> lower;
+  std::array<float, 3> upper;
+
+  static Monotone_box empty()
+  {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+  }
+
+  Monotone_box& operator+=(const Monotone_box& other)
+  {
+    for (int axis = 0; axis < 3; ++axis) {
+      lower[axis] = std::min(lower[axis], other.lower[axis]);
+      upper[axis] = std::max(upper[axis], other.upper[axis]);
+    }
+    return *this;
+  }
+
+  bool overlaps(const Monotone_box& other) const
+  {
+    // Without short cuts: six comparisons and no branch to mispredict.
+    return (lower[0] <= other.upper[0]) & (other.lower[0] <= upper[0]) & (lower[1] <= other.upper[1]) &
+           (other.lower[1] <= upper[1]) & (lower[2] <= other.upper[2]) & (other.lower[2] <= upper[2]);
+  }
+
+  bool contains(const Monotone_box& other) const
+  {
+    return lower[0] <= other.lower[0] && lower[1] <= other.lower[1] && lower[2] <= other.lower[2] &&
+           upper[0] >= other.upper[0] && upper[1] >= other.upper[1] && upper[2] >= other.upper[2];
+  }
+
+  /// Twice the centre along one axis: enough to compare by.
+  float centre(int axis) const { return lower[axis] + upper[axis]; }
+
+  int longest_axis() const
+  {
+    int longest = 0;
+    for (int axis = 1; axis < 3; ++axis)
+      if (upper[axis] - lower[axis] > upper[longest] - lower[longest])
+        longest = axis;
+    return longest;
+  }
+};
+
+/// The map itself; its origin lies amid the mesh, where floats are densest.
+class Monotone_box_map
+{
+public:
+  Monotone_box_map() = default;
+  explicit Monotone_box_map(const CGAL::Bbox_3& domain)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+      if ((domain.min)(axis) <= (domain.max)(axis)) // the box of nothing is none
+        m_origin[axis] = 0.5 * (domain.min)(axis) + 0.5 * (domain.max)(axis);
+  }
+
+  Monotone_box operator()(const CGAL::Bbox_3& box) const
+  {
+    Monotone_box result;
+    for (int axis = 0; axis < 3; ++axis) {
+      result.lower[axis] = to_float((box.min)(axis) - m_origin[axis]);
+      result.upper[axis] = to_float((box.max)(axis) - m_origin[axis]);
+    }
+    return result;
+  }
+
+private:
+  // A double beyond the range of float has no defined conversion; clamping to that range is monotone, too.
+  static float to_float(double x)
+  {
+    constexpr double largest = (std::numeric_limits<float>::max)();
+    return static_cast<float>(std::clamp(x, -largest, largest));
+  }
+
+  std::array<double, 3> m_origin{0, 0, 0};
+};
+
+} // namespace internal
+} // namespace selvedge
+
+#endif // SELVEDGE_SPATIAL_INTERNAL_MONOTONE_BOX_H

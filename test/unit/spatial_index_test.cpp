@@ -1,0 +1,161 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <selvedge/spatial/Brute_force_index.h>
+#include <selvedge/spatial/Clustered_AABB_tree.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <set>
+
+namespace {
+
+using selvedge::Brute_force_index;
+using selvedge::Clustered_AABB_tree;
+using Id = Clustered_AABB_tree::Id;
+
+class Random_boxes
+{
+public:
+  Random_boxes(unsigned seed, double origin, double extent) : m_random(seed), m_origin(origin), m_extent(extent) {}
+
+  double number() { return double(m_random()) / double(std::mt19937::max()); }
+  Id index(std::size_t size) { return Id(m_random() % size); }
+
+  // Sizes over many orders of magnitude, points among them.
+  CGAL::Bbox_3 box()
+  {
+    double lower[3], upper[3];
+    const double size = m_random() % 8 == 0 ? 0 : std::pow(10, -6 * number());
+    for (int axis = 0; axis < 3; ++axis) {
+      lower[axis] = m_origin + m_extent * number();
+      upper[axis] = lower[axis] + m_extent * size * number();
+    }
+    return {lower[0], lower[1], lower[2], upper[0], upper[1], upper[2]};
+  }
+
+private:
+  std::mt19937 m_random;
+  double m_origin, m_extent;
+};
+
+template <class Index>
+std::multiset<Id> overlapping(const Index& index, const CGAL::Bbox_3& box)
+{
+  std::multiset<Id> result;
+  index.visit_overlapping(box, [&](Id id) { result.insert(id); });
+  return result;
+}
+
+// What every query must satisfy: all that overlap, each once, and nothing that is not in.
+void expect_same_but_for_rounding(const Clustered_AABB_tree& index, const Brute_force_index& judge,
+                                  const std::vector<bool>& is_in, const CGAL::Bbox_3& query)
+{
+  const std::multiset<Id> found = overlapping(index, query);
+  for (const Id id : overlapping(judge, query))
+    ASSERT_EQ(found.count(id), 1u) << "face " << id << " was missed or visited twice";
+  for (const Id id : found) {
+    ASSERT_EQ(found.count(id), 1u);
+    ASSERT_TRUE(is_in[id]) << "face " << id << " is gone, and was visited";
+  }
+}
+
+class Spatial_index : public testing::TestWithParam<std::tuple<int, double, double>>
+{};
+
+TEST_P(Spatial_index, NeverMissesABoxWhileBoxesComeChangeAndGo)
+{
+  const auto [faces_per_cluster, origin, extent] = GetParam();
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    Random_boxes random(seed, origin, extent);
+    std::vector<Id> faces;
+    std::vector<CGAL::Bbox_3> boxes;
+    for (Id face = 0; face < 700; ++face) {
+      boxes.push_back(random.box());
+      if (face % 7 != 3)
+        faces.push_back(face);
+    }
+    std::vector<bool> is_in(boxes.size(), false);
+    for (const Id face : faces)
+      is_in[face] = true;
+    Clustered_AABB_tree index(faces_per_cluster);
+    Brute_force_index judge;
+    index.build(faces, [&](Id face) { return boxes[face]; });
+    judge.build(faces, [&](Id face) { return boxes[face]; });
+
+    for (int step = 0; step < 1500; ++step) {
+      const Id face = random.index(boxes.size());
+      if (is_in[face] && random.number() < 0.4) {
+        index.remove(face);
+        judge.remove(face);
+        is_in[face] = false;
+      } else {
+        const CGAL::Bbox_3 box = random.box();
+        index.set(face, box);
+        judge.set(face, box);
+        is_in[face] = true;
+      }
+      expect_same_but_for_rounding(index, judge, is_in, random.box());
+      if (HasFatalFailure())
+        return;
+    }
+    EXPECT_GT(index.statistics().cluster_rebuilds + index.statistics().top_rebuilds, 0u);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+  Sizes, Spatial_index,
+  testing::Combine(testing::Values(1, 10, 100, 100000),
+                   // Far from the origin and huge, where float has next to no digits left, and tiny.
+                   testing::Values(0.0, 1e7, -1e30), testing::Values(1.0, 1e-9, 1e300)));
+
+TEST(SpatialIndex, FindsWhatFloatsCannotTellApart)
+{
+  const auto point = [](double x) { return CGAL::Bbox_3(x, x, x, x, x, x); };
+  Clustered_AABB_tree index;
+  index.build({0, 1}, [&](Id id) { return point(id == 0 ? 1.0 : std::nextafter(1.0, 2.0)); });
+  EXPECT_EQ(overlapping(index, point(1.0)).count(0), 1u);
+  EXPECT_EQ(overlapping(index, point(std::nextafter(1.0, 2.0))).count(1), 1u);
+}
+
+TEST(SpatialIndex, WorksFromEmpty)
+{
+  Clustered_AABB_tree index;
+  index.build({}, [](Id) { return CGAL::Bbox_3(); });
+  EXPECT_TRUE(overlapping(index, CGAL::Bbox_3(0, 0, 0, 1, 1, 1)).empty());
+  index.set(4, CGAL::Bbox_3(0, 0, 0, 1, 1, 1));
+  EXPECT_EQ(overlapping(index, CGAL::Bbox_3(1, 1, 1, 2, 2, 2)), (std::multiset<Id>{4}));
+  index.remove(4);
+  EXPECT_TRUE(overlapping(index, CGAL::Bbox_3(0, 0, 0, 1, 1, 1)).empty());
+}
+
+TEST(SpatialIndex, MovesWithItsContent)
+{
+  Clustered_AABB_tree first;
+  first.build({0}, [](Id) { return CGAL::Bbox_3(0, 0, 0, 1, 1, 1); });
+  Clustered_AABB_tree second = std::move(first);
+  second.set(1, CGAL::Bbox_3(0, 0, 0, 1, 1, 1));
+  EXPECT_EQ(overlapping(second, CGAL::Bbox_3(0, 0, 0, 1, 1, 1)), (std::multiset<Id>{0, 1}));
+}
+
+TEST(SpatialIndex, RefusesEmptyClusters) { EXPECT_THROW(Clustered_AABB_tree(0), selvedge::Argument_error); }
+
+TEST(SpatialIndex, HoldsAboutAsManyFacesPerClusterAsAskedFor)
+{
+  std::vector<Id> faces(40000);
+  for (Id face = 0; face < faces.size(); ++face)
+    faces[face] = face;
+  const auto box_on_sheet = [](Id face) {
+    const double x = face % 200, y = face / 200;
+    return CGAL::Bbox_3(x, y, 0, x + 1, y + 1, 0);
+  };
+  Clustered_AABB_tree index(100);
+  index.build(faces, box_on_sheet);
+  EXPECT_GT(index.statistics().clusters, 200u);
+  EXPECT_LT(index.statistics().clusters, 800u);
+}
+
+} // namespace
