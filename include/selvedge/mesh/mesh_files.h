@@ -6,15 +6,127 @@
 
 #include <selvedge/mesh/Triangle_soup.h>
 
+#include <cstddef>
 #include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace selvedge {
+
+/// \file
+/// Mesh files to and from a `Triangle_soup`, with positions that are the same doubles on both sides.
+///
+/// **Guarantees**
+/// 1. *Read*: a decimal in a text file (OBJ, OFF, ascii PLY and STL) becomes the double nearest to it,
+/// whatever
+///    type the file declares for it; a binary number becomes the double of the same value.
+/// 2. *Written* (G3): `read_mesh(p)` after `write_mesh(p, soup)` gives the same coordinates bit for bit, the
+/// same
+///    triangles in the same order, and the same number of every vertex. STL, which has no vertex numbers,
+///    gives the same triangles up to those numbers (and the sign of zeros).
+/// 3. *Refusal* (G9): a file that is not a mesh with at least one triangle and finite coordinates is refused
+/// with an
+///    `Input_error` of one line that names file, line (in text), element and mend. No content of a file,
+///    however damaged, does anything else, nor takes more memory than a small multiple of the file's size.
+/// 4. *Atomicity* (G9): a file appears whole or not at all; see `write_mesh`.
+/// 5. What a file holds and the soup does not is said in `Read_notes`, what a soup holds and a format does
+///    not by `not_carried`.
+///
+/// **Faces.** A face of more than three corners is cut into triangles by one rule: ears are cut off in turn,
+/// the second corner being tried first. On a convex polygon that is the fan of its first corner; on any other
+/// simple polygon it gives triangles that neither overlap nor degenerate. It is decided exactly on the
+/// projection to one of the coordinate planes, the one in which the polygon looks largest if that works out,
+/// else another one. A polygon that looks simple in none of them becomes the fan of its first corner. Faces
+/// of fewer than three corners are skipped and counted. Faces that name a vertex twice are kept: a soup may
+/// hold degenerate triangles.
+///
+/// **Complexity.** Linear in the size of the file, except for polygons: quadratic in the number of corners
+/// of each as a rule, cubic at worst.
 
 enum class Mesh_format { obj, off, ply, stl };
 
 /// The format that a path's extension names (`.obj`, `.off`, `.ply`, `.stl`, in any case).
 /// Throws `Input_error` when it names none of them.
 Mesh_format mesh_format(const std::filesystem::path& path);
+
+/// Whether every file of this format holds its positions as 32-bit floats, as STL does: what is written there
+/// must be rounded before it is judged (`round_to_float32`). PLY holds floats when that loses nothing, else
+/// doubles.
+bool stores_float32(Mesh_format format);
+
+/// What the author of a file may want to know about how it was read.
+struct Read_notes
+{
+  std::size_t polygons_cut = 0;     ///< Faces of more than three corners, each cut into triangles.
+  std::size_t repeated_corner = 0;  ///< Faces that name a vertex more than once; kept.
+  std::size_t fewer_than_three = 0; ///< Faces of fewer than three corners; skipped.
+  std::map<std::string, std::size_t>
+      ignored; ///< What the soup does not hold: its name, and how often it stands there.
+};
+
+/// The notes as lines for a person, each ending in a count; none when there is nothing to say.
+std::vector<std::string> describe(const Read_notes& notes);
+
+struct Mesh_file
+{
+  Triangle_soup soup;
+  Mesh_format format = Mesh_format::obj;
+  Read_notes notes;
+};
+
+/// Reads a mesh; its extension says the format.
+///
+/// - OBJ: `v`, `vt`, `f` with absolute and relative indices, `g` and `o`. The group of a triangle is the
+/// latest `g` or
+///   `o` above it, `default` above the first. Texture coordinates are carried when every corner of every
+///   triangle has one. A backslash at the end of a line counts as a blank.
+/// - OFF: one vertex or face to a line; further columns are ignored.
+/// - PLY: ascii and both binary kinds; elements in any order, further elements and properties are skipped.
+/// - STL: ascii and binary. Corners of identical coordinates (−0 equals 0) are one vertex, which has the
+///   coordinates of the first of them; vertices are numbered by their first corner.
+///
+/// Vertices in messages are counted as the format does: from 1 in OBJ, from 0 elsewhere.
+/// Throws `Input_error`.
+Mesh_file read_mesh(const std::filesystem::path& path);
+
+/// The same from memory; `name` stands for the file in messages.
+Mesh_file read_mesh(std::string_view contents, Mesh_format format, const std::string& name);
+
+enum class Encoding { binary, ascii, binary_big_endian };
+
+struct Write_options
+{
+  /// For PLY, and for STL (which has no big-endian form: `Argument_error`). Binary is little endian.
+  Encoding encoding = Encoding::binary;
+
+  /// Lines of comment at the head of OBJ, OFF and PLY files; STL has no place for any.
+  /// Precondition, checked (`Argument_error`): no control characters.
+  std::vector<std::string> comments = {};
+};
+
+/// Writes a mesh; the path's extension says the format.
+///
+/// The whole file is written to a new file in the same folder, brought to the disk, and only then renamed to
+/// `path`. When anything fails (no room, no permission) that new file is removed, what stood at `path` is
+/// untouched, and `Output_error` is thrown. A symbolic link is followed; what is neither a file nor a link to
+/// one (a device, a pipe) is written to directly.
+///
+/// OBJ and OFF hold the shortest decimals that read back as the same doubles. PLY properties are `float` when
+/// every coordinate is one, else `double`.
+///
+/// Preconditions, checked (`Argument_error`): coordinates are finite, and 32-bit floats when the format
+/// stores those; names of groups in an OBJ are not empty, begin and end with no blank, do not end in a
+/// backslash, and hold no control characters.
+void write_mesh(const std::filesystem::path& path, const Triangle_soup& soup,
+                const Write_options& options = {});
+
+/// What of this soup a file of that format does not hold, as names; empty when it holds all.
+std::vector<std::string> not_carried(const Triangle_soup& soup, Mesh_format format);
+
+/// Writes any file as `write_mesh` does: whole or not at all. Throws `Output_error`.
+void write_file(const std::filesystem::path& path, std::string_view contents);
 
 } // namespace selvedge
 

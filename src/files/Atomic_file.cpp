@@ -1,0 +1,102 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "files/Atomic_file.h"
+
+#include <selvedge/Error.h>
+
+#include <cerrno>
+#include <system_error>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace selvedge::files {
+
+Atomic_file::Atomic_file(const std::filesystem::path& path) : m_name(path.string()), m_target(path)
+{
+  // A rename would replace a symbolic link instead of what it points to.
+  std::error_code dangling;
+  if (std::filesystem::is_symlink(path, dangling)) {
+    m_target = std::filesystem::weakly_canonical(path, dangling);
+    if (dangling)
+      fail(dangling.value());
+  }
+  struct stat status = {};
+  const bool exists = ::stat(m_target.c_str(), &status) == 0;
+  if (exists && S_ISDIR(status.st_mode))
+    fail(EISDIR);
+  if (exists && ::access(m_target.c_str(), W_OK) != 0)
+    fail(errno);
+  if (exists && !S_ISREG(status.st_mode)) {
+    m_descriptor = ::open(m_target.c_str(), O_WRONLY | O_CLOEXEC);
+    if (m_descriptor < 0)
+      fail(errno);
+    return;
+  }
+  open_temporary();
+  if (exists && ::fchmod(m_descriptor, status.st_mode & 07777) != 0) {
+    // The new file keeps the permissions of any new file.
+  }
+}
+
+Atomic_file::~Atomic_file()
+{
+  if (m_descriptor >= 0)
+    ::close(m_descriptor);
+  if (!m_temporary.empty())
+    ::unlink(m_temporary.c_str());
+}
+
+void Atomic_file::open_temporary()
+{
+  // Not derived from the target's name, which may be as long as names can be.
+  const std::string stem = ".selvedge-" + std::to_string(::getpid()) + "-";
+  for (unsigned attempt = 0;; ++attempt) {
+    const std::filesystem::path candidate =
+        m_target.parent_path() / (stem + std::to_string(attempt) + ".tmp");
+    m_descriptor = ::open(candidate.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (m_descriptor >= 0) {
+      m_temporary = candidate;
+      return;
+    }
+    if (errno != EEXIST)
+      fail(errno);
+  }
+}
+
+void Atomic_file::write(const char* data, std::size_t size)
+{
+  while (size != 0) {
+    const ssize_t written = ::write(m_descriptor, data, size);
+    if (written < 0 && errno != EINTR)
+      fail(errno);
+    if (written > 0) {
+      data += written;
+      size -= static_cast<std::size_t>(written);
+    }
+  }
+}
+
+void Atomic_file::commit()
+{
+  if (!m_temporary.empty() && ::fsync(m_descriptor) != 0)
+    fail(errno);
+  const int descriptor = m_descriptor;
+  m_descriptor = -1;
+  if (::close(descriptor) != 0)
+    fail(errno);
+  if (m_temporary.empty())
+    return;
+  if (::rename(m_temporary.c_str(), m_target.c_str()) != 0)
+    fail(errno);
+  m_temporary.clear();
+}
+
+void Atomic_file::fail(int error) const
+{
+  throw Output_error(m_name + ": cannot be written: " + std::generic_category().message(error));
+}
+
+} // namespace selvedge::files

@@ -1,0 +1,38 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SRC_FILES_ATOMIC_FILE_H
+#define SELVEDGE_SRC_FILES_ATOMIC_FILE_H
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+namespace selvedge::files {
+
+/// A file that appears whole, on `commit`, or not at all; until then its contents are in a new file of the
+/// same folder. Every function throws `Output_error`, after which the destructor removes that file.
+class Atomic_file
+{
+public:
+  explicit Atomic_file(const std::filesystem::path& path);
+  ~Atomic_file();
+  Atomic_file(const Atomic_file&) = delete;
+  Atomic_file& operator=(const Atomic_file&) = delete;
+
+  void write(const char* data, std::size_t size);
+  void commit();
+
+private:
+  [[noreturn]] void fail(int error) const;
+  void open_temporary();
+
+  std::string m_name;
+  std::filesystem::path m_target;
+  std::filesystem::path m_temporary; // empty when the target is no regular file, and written to directly
+  int m_descriptor = -1;
+};
+
+} // namespace selvedge::files
+
+#endif // SELVEDGE_SRC_FILES_ATOMIC_FILE_H

@@ -1,0 +1,26 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SRC_FILES_FORMATS_H
+#define SELVEDGE_SRC_FILES_FORMATS_H
+
+#include "files/Byte_writer.h"
+
+#include <selvedge/mesh/mesh_files.h>
+
+namespace selvedge::files {
+
+// One reader and one writer per format; `name` stands for the file in messages.
+Mesh_file read_obj(std::string_view contents, const std::string& name);
+Mesh_file read_off(std::string_view contents, const std::string& name);
+Mesh_file read_ply(std::string_view contents, const std::string& name);
+Mesh_file read_stl(std::string_view contents, const std::string& name);
+
+void write_obj(Byte_writer& out, const Triangle_soup& soup, const Write_options& options);
+void write_off(Byte_writer& out, const Triangle_soup& soup, const Write_options& options);
+void write_ply(Byte_writer& out, const Triangle_soup& soup, const Write_options& options);
+void write_stl(Byte_writer& out, const Triangle_soup& soup, const Write_options& options);
+
+} // namespace selvedge::files
+
+#endif // SELVEDGE_SRC_FILES_FORMATS_H

@@ -1,0 +1,161 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <selvedge/Error.h>
+#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/mesh/rounding.h>
+
+#include "files/formats.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+namespace selvedge {
+namespace {
+
+std::string read_contents(const std::filesystem::path& path)
+{
+  const std::string name = path.string();
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status))
+    throw Input_error(name + ": there is no such file");
+  if (std::filesystem::is_directory(status))
+    throw Input_error(name + ": is a folder; name a mesh file in it");
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream)
+    throw Input_error(name + ": cannot be opened; check its permissions");
+  std::string contents;
+  if (const auto size = std::filesystem::file_size(path, error); !error)
+    contents.resize(size);
+  std::size_t read = 0;
+  for (;;) {
+    // A file that grows meanwhile, or has no size beforehand (a pipe), is read to its end all the same.
+    if (read == contents.size() && stream.peek() != std::ifstream::traits_type::eof())
+      contents.resize(std::max<std::size_t>(2 * read, 1 << 16));
+    stream.read(contents.data() + read, static_cast<std::streamsize>(contents.size() - read));
+    read += static_cast<std::size_t>(stream.gcount());
+    if (stream.bad())
+      throw Input_error(name + ": cannot be read to its end; check the disk");
+    if (stream.eof() || stream.fail())
+      break;
+  }
+  contents.resize(read);
+  return contents;
+}
+
+void check_writable(const Triangle_soup& soup, Mesh_format format, const Write_options& options)
+{
+  const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+  for (const std::string& comment : options.comments)
+    if (std::any_of(comment.begin(), comment.end(), is_control))
+      throw Argument_error("a comment for a mesh file holds a control character or is more than one line");
+  for (const Point_3& point : soup.points)
+    for (int axis = 0; axis < 3; ++axis)
+      if (!std::isfinite(point[axis]) || (stores_float32(format) && !is_float32(point[axis])))
+        throw Argument_error("vertex " + std::to_string(&point - soup.points.data()) +
+                             " (counted from 0) has a coordinate that " +
+                             (std::isfinite(point[axis]) ? "is no 32-bit float; call round_to_float32 first"
+                                                         : "is not finite"));
+}
+
+} // namespace
+
+Mesh_format mesh_format(const std::filesystem::path& path)
+{
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  if (extension == ".obj")
+    return Mesh_format::obj;
+  if (extension == ".off")
+    return Mesh_format::off;
+  if (extension == ".ply")
+    return Mesh_format::ply;
+  if (extension == ".stl")
+    return Mesh_format::stl;
+  throw Input_error(path.string() +
+                    ": the name does not end in .obj, .off, .ply or .stl; rename or convert the file");
+}
+
+bool stores_float32(Mesh_format format)
+{
+  return format == Mesh_format::stl;
+}
+
+std::vector<std::string> describe(const Read_notes& notes)
+{
+  std::vector<std::string> sentences;
+  const auto say = [&sentences](const std::string& what, std::size_t count) {
+    if (count != 0)
+      sentences.push_back(what + ": " + std::to_string(count));
+  };
+  say("faces of more than three corners, cut into triangles", notes.polygons_cut);
+  say("faces of fewer than three corners, skipped", notes.fewer_than_three);
+  say("faces that name a vertex more than once, kept", notes.repeated_corner);
+  for (const auto& [name, count] : notes.ignored)
+    say("not carried, " + name, count);
+  return sentences;
+}
+
+Mesh_file read_mesh(const std::filesystem::path& path)
+{
+  const Mesh_format format = mesh_format(path);
+  return read_mesh(read_contents(path), format, path.string());
+}
+
+Mesh_file read_mesh(std::string_view contents, Mesh_format format, const std::string& name)
+{
+  if (contents.empty())
+    throw Input_error(name + ": the file is empty; export it again");
+  switch (format) {
+  case Mesh_format::obj:
+    return files::read_obj(contents, name);
+  case Mesh_format::off:
+    return files::read_off(contents, name);
+  case Mesh_format::ply:
+    return files::read_ply(contents, name);
+  case Mesh_format::stl:
+    break;
+  }
+  return files::read_stl(contents, name);
+}
+
+void write_mesh(const std::filesystem::path& path, const Triangle_soup& soup, const Write_options& options)
+{
+  const Mesh_format format = mesh_format(path);
+  check_writable(soup, format, options);
+  files::Byte_writer out(path);
+  switch (format) {
+  case Mesh_format::obj:
+    return files::write_obj(out, soup, options);
+  case Mesh_format::off:
+    return files::write_off(out, soup, options);
+  case Mesh_format::ply:
+    return files::write_ply(out, soup, options);
+  case Mesh_format::stl:
+    return files::write_stl(out, soup, options);
+  }
+}
+
+std::vector<std::string> not_carried(const Triangle_soup& soup, Mesh_format format)
+{
+  std::vector<std::string> names;
+  if (format != Mesh_format::obj && !soup.uvs.empty())
+    names.push_back("texture coordinates");
+  if (format != Mesh_format::obj && !soup.groups.empty())
+    names.push_back("groups");
+  if (format == Mesh_format::stl && !soup.points.empty())
+    names.push_back("vertex numbers");
+  return names;
+}
+
+void write_file(const std::filesystem::path& path, std::string_view contents)
+{
+  files::Byte_writer out(path);
+  out << contents;
+  out.commit();
+}
+
+} // namespace selvedge
