@@ -1,0 +1,94 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_GENERATE_H
+#define SELVEDGE_GENERATE_H
+
+#include <selvedge/mesh/Triangle_soup.h>
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace selvedge {
+
+/// What a generated mesh looks like. Lengths are in metres; garments are about one metre tall, scenes about
+/// one metre wide. Numbers out of range are refused, and so are numbers that are in range but do not fit
+/// together: more layers than the faces can make, or a stack of layers too thick for the body that it
+/// surrounds.
+struct Generate_options
+{
+  /// Triangles wanted, in [100, 20,000,000]; what comes is within 2 % of it.
+  std::size_t faces = 100'000;
+
+  /// Layers of cloth, sheets, spheres or folds on top of one another, in [1, 100].
+  int layers = 3;
+
+  /// Thickness of the cloth of a garment, 0 or in [1e-9, 0.01]. Cloth with thickness has an outer and an
+  /// inner side and is closed at its hems; at 0 each cloth is one sheet. Only garments have it.
+  double thickness = 5e-4;
+
+  /// Smallest distance of two layers along the direction in which they are stacked, at most 0.01 and at least
+  /// 1e-9 for garments, 1e-12 for nested spheres, 1e-15 for sheets and folded cloth. Garments widen it to
+  /// twice as much in places.
+  double gap = 1e-3;
+
+  /// Amplitude of folds and waves, in [0, 0.03].
+  double fold_depth = 0.02;
+
+  /// Folds around a garment, waves along a sheet, in [0, 200].
+  int folds = 14;
+
+  /// Of the vertices' irregularity and of the shape of the folds.
+  unsigned seed = 1;
+};
+
+struct Scene_description
+{
+  std::string_view name;
+  std::string_view description;
+};
+
+/// Every name that `generate` knows, garments first, with one line each.
+const std::vector<Scene_description>& scenes();
+
+/// Makes a garment of several layers, or a scene that is hard to reduce without intersections.
+///
+/// **Guarantees**
+/// 1. *Embedded*: any two triangles meet exactly in the positions that they share, and none is degenerate. It
+/// holds
+///    for the coordinates as they stand, rounded to doubles, by construction; nothing is searched or
+///    repaired.
+/// 2. *Pieces*: pattern pieces have vertices of their own; where two are sewn together their vertices have
+///    bit-identical positions. Every piece has a group name and its own place in texture space.
+/// 3. *Texture*: every triangle is positively oriented in texture space, inside [0,1]²; pieces do not overlap
+/// there.
+/// 4. *Deterministic*: same name and options, same bytes, for any build, since only operations that IEEE 754
+/// defines
+///    to the last bit are used.
+///
+/// **Complexity**: linear in the faces; beside the soup itself at most a fifth of its memory.
+///
+/// \throws Argument_error when the name is unknown (the message lists those that are known) or an option is
+/// out of range.
+Triangle_soup generate(std::string_view name, const Generate_options& options = {});
+
+/// A shallow bump over a small separate patch, with the one collapse that tunnels: moving `moving` along the
+/// edge to `target` leaves an embedded mesh, but the faces at `moving` pass through the patch, which lies
+/// under the bump before and above the sheet after. Nothing else speaks against that collapse: `moving` is
+/// the only interior vertex, the link condition holds, normals turn by at most 17°, and no triangle's shape
+/// becomes worse than 0.2. Every other vertex is a corner of a border, so a border rule leaves no other
+/// collapse.
+struct Tunnel_scene
+{
+  Triangle_soup soup;
+  Index moving;
+  Index target;
+};
+
+Tunnel_scene tunnel_scene();
+
+} // namespace selvedge
+
+#endif // SELVEDGE_GENERATE_H

@@ -1,0 +1,475 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <selvedge/Error.h>
+
+#include "generate/Lattice.h"
+#include "generate/scenes.h"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+
+namespace selvedge {
+
+namespace {
+
+using internal::Closed_surface;
+using internal::cosine_sine;
+using internal::Lattice;
+using internal::Panel;
+using internal::Random;
+using internal::Soup_builder;
+using internal::Vector;
+
+/// Height and radius, joined by smooth steps.
+using Profile = std::vector<std::array<double, 2>>;
+
+double radius_at(const Profile& profile, double height)
+{
+  if (height <= profile.front()[0])
+    return profile.front()[1];
+  for (std::size_t k = 1; k < profile.size(); ++k)
+    if (height < profile[k][0]) {
+      const auto& [h0, r0] = profile[k - 1];
+      const auto& [h1, r1] = profile[k];
+      const double t = (height - h0) / (h1 - h0);
+      return r0 + (r1 - r0) * t * t * (3 - 2 * t);
+    }
+  return profile.back()[1];
+}
+
+/// A pattern piece by its place in the parameters of its part.
+struct Pattern
+{
+  std::string name;
+  double u_first, u_last, v_first, v_last;
+  unsigned hems;
+};
+
+/// An affine frame: an axis with two directions across it, which need not be of equal length.
+struct Frame
+{
+  Vector origin, across, depth, axis;
+
+  Vector radial(double turns) const
+  {
+    const auto [c, s] = cosine_sine(turns);
+    return c * across + s * depth;
+  }
+};
+
+/// A part of a garment: a tube around an axis, all around or open along a line, with the body inside it.
+///
+/// Its layers are graphs over the cylinder of (angle, height): in the frame the direction of stacking is
+/// radial, and the radii of neighbouring vertices differ by less than 1.8 : 1, which with vertices off their
+/// lattice by an eighth of a cell makes every triangle seen from its front by the directions of its corners,
+/// as Lattice asks. Whatever the radii, the base never comes near itself across the cylinder.
+struct Part
+{
+  std::string name;
+  bool closed;
+  /// Typical extent in metres, for the size of cells.
+  double width, height;
+  Frame frame;
+  double first_turn, last_turn;
+  double bottom, top;
+  std::function<double(double turns, double height)> radius;
+  std::vector<Pattern> patterns;
+  /// Patches over the outermost layer, level over level; those of one level lie apart.
+  std::vector<std::vector<Pattern>> patches;
+  /// Places of buttons in (u,v).
+  std::vector<std::array<double, 2>> buttons;
+  /// The body in this part: its own height and radius where the cloth leaves room.
+  Profile body;
+};
+
+struct Division
+{
+  std::size_t columns, rows;
+};
+
+Division divide(const Part& part, double cell)
+{
+  const auto cells = [&](double length, double least) {
+    return static_cast<std::size_t>(std::max(least, std::floor(length / cell + 0.5)));
+  };
+  return {cells(part.width, 8), cells(part.height, 4)};
+}
+
+Panel place(const Pattern& pattern, const std::string& name, const Division& division)
+{
+  // Coarse lattices: what is inside stays inside, so that neighbours keep at least one cell each.
+  const auto line = [](double parameter, std::size_t cells) {
+    const auto nearest = static_cast<std::size_t>(std::floor(parameter * static_cast<double>(cells) + 0.5));
+    if (parameter <= 0 || parameter >= 1)
+      return nearest;
+    return std::min(std::max<std::size_t>(nearest, 1), cells - 1);
+  };
+  Panel panel{name,
+              line(pattern.u_first, division.columns),
+              line(pattern.u_last, division.columns),
+              line(pattern.v_first, division.rows),
+              line(pattern.v_last, division.rows),
+              pattern.hems};
+  // A patch is at least one cell.
+  if (panel.columns() == 0)
+    panel.first_column < division.columns ? ++panel.last_column : --panel.first_column;
+  if (panel.rows() == 0)
+    panel.first_row < division.rows ? ++panel.last_row : --panel.first_row;
+  return panel;
+}
+
+std::size_t button_corners(const Generate_options& options)
+{
+  return options.faces < 20'000 ? 6 : 24;
+}
+
+std::size_t count_faces(const Part& part, double cell, const Generate_options& options)
+{
+  const Division division = divide(part, cell);
+  const bool thick = options.thickness > 0;
+  std::size_t count = 4 * button_corners(options) * part.buttons.size();
+  for (const Pattern& pattern : part.patterns)
+    count += static_cast<std::size_t>(options.layers) * count_faces(place(pattern, "", division), thick);
+  for (const std::vector<Pattern>& level : part.patches)
+    for (const Pattern& pattern : level)
+      count += count_faces(place(pattern, "", division), thick);
+  return count;
+}
+
+std::string layer_name(std::size_t layer, std::size_t layers)
+{
+  if (layer + 1 == layers)
+    return "shell";
+  return layer == 0 ? "lining" : "interlining_" + std::to_string(layer);
+}
+
+/// A flat disc over the outermost layer. It lies beyond a plane that no triangle near it reaches.
+void add_button(Soup_builder& builder, std::string name, const Vector& middle, const Vector& axis,
+                const Vector& up, double radius, double distance, double thickness, std::size_t corners)
+{
+  builder.begin_piece(std::move(name));
+  const Vector right = CGAL::cross_product(up, axis);
+  const auto add = [&](double turns, double r, double height, double u, double v) {
+    const auto [c, s] = cosine_sine(turns);
+    return std::pair{builder.add_point(middle + r * (c * right + s * up) + (distance + height) * axis),
+                     builder.add_uv(u + r / radius * 0.2 * c, v + r / radius * 0.2 * s)};
+  };
+  const auto bottom = add(0, 0, 0, 0.25, 0.25);
+  const auto top = add(0, 0, thickness, 0.75, 0.25);
+  std::vector<Index> lower, upper, lower_uv, upper_uv;
+  const double width = static_cast<double>(corners);
+  for (std::size_t k = 0; k < corners; ++k) {
+    const double turns = static_cast<double>(k) / width;
+    const auto a = add(turns, radius, 0, 0.25, 0.25);
+    const auto b = add(turns, radius, thickness, 0.75, 0.25);
+    lower.push_back(a.first);
+    lower_uv.push_back(a.second);
+    upper.push_back(b.first);
+    upper_uv.push_back(b.second);
+  }
+  for (std::size_t k = 0; k < corners; ++k) {
+    const std::size_t next = (k + 1) % corners;
+    const double u = static_cast<double>(k) / width;
+    const double u_next = static_cast<double>(k + 1) / width;
+    builder.add_triangle({top.first, upper[k], upper[next]}, {top.second, upper_uv[k], upper_uv[next]});
+    // The underside, seen from below, is a mirror image.
+    const Index m = builder.add_uv(0.25, 0.25);
+    const auto mirrored = [&](double turns) {
+      const auto [c, s] = cosine_sine(turns);
+      return builder.add_uv(0.25 - 0.2 * c, 0.25 + 0.2 * s);
+    };
+    const Index mk = mirrored(u);
+    builder.add_triangle({bottom.first, lower[next], lower[k]}, {m, mirrored(u_next), mk});
+    const Index a = builder.add_uv(u, 0.6);
+    const Index b = builder.add_uv(u_next, 0.6);
+    const Index c = builder.add_uv(u_next, 0.7);
+    const Index d = builder.add_uv(u, 0.7);
+    builder.add_triangle({lower[k], lower[next], upper[next]}, {a, b, c});
+    builder.add_triangle({lower[k], upper[next], upper[k]}, {a, c, d});
+  }
+}
+
+class Garment
+{
+public:
+  Garment(const Generate_options& options, std::vector<Part> parts)
+      : m_options(options), m_layers(static_cast<std::size_t>(options.layers)), m_parts(std::move(parts)),
+        m_random(options.seed)
+  {
+  }
+
+  Triangle_soup make()
+  {
+    // Bodies take what the cloth leaves, about a tenth, and so make the number of faces exact.
+    const double room = 0.92 * static_cast<double>(m_options.faces);
+    double coarse = 0.2;
+    double fine = 1e-5;
+    if (static_cast<double>(count(coarse)) > room)
+      throw Argument_error("this garment in " + std::to_string(m_layers) + " layers needs at least " +
+                           std::to_string(count(coarse) * 100 / 92 + 1) + " faces");
+    for (int k = 0; k < 60; ++k) {
+      const double middle = (coarse + fine) / 2;
+      (static_cast<double>(count(middle)) <= room ? coarse : fine) = middle;
+    }
+    const std::size_t rest = m_options.faces - count(coarse);
+
+    std::size_t pieces = 0;
+    double bodies = 0;
+    for (const Part& part : m_parts) {
+      pieces += m_layers * part.patterns.size() + part.buttons.size() + 1;
+      for (const std::vector<Pattern>& level : part.patches)
+        pieces += level.size();
+      bodies += part.width * part.height;
+    }
+    Soup_builder builder(pieces, m_options.faces);
+    std::size_t spent = 0;
+    double share = 0;
+    for (const Part& part : m_parts) {
+      share += part.width * part.height / bodies;
+      const auto due = static_cast<std::size_t>(share * static_cast<double>(rest)) - spent;
+      spent += add_part(builder, part, coarse, due);
+    }
+    return builder.take();
+  }
+
+private:
+  std::size_t count(double cell) const
+  {
+    std::size_t faces = 0;
+    for (const Part& part : m_parts)
+      faces += count_faces(part, cell, m_options);
+    return faces;
+  }
+
+  /// Returns the faces of the body.
+  std::size_t add_part(Soup_builder& builder, const Part& part, double cell, std::size_t body_faces)
+  {
+    const Division division = divide(part, cell);
+    Lattice lattice(division.columns, division.rows, part.closed);
+    for (const Pattern& pattern : part.patterns)
+      lattice.keep_straight(place(pattern, "", division));
+    for (const std::vector<Pattern>& level : part.patches)
+      for (const Pattern& pattern : level)
+        lattice.keep_straight(place(pattern, "", division));
+    lattice.disturb(m_random);
+
+    std::vector<double> radii;
+    for (std::size_t k = 0; k < lattice.u.size(); ++k) {
+      const double turns = part.first_turn + (part.last_turn - part.first_turn) * lattice.u[k];
+      const double height = part.bottom + (part.top - part.bottom) * lattice.v[k];
+      const Vector d = part.frame.radial(turns);
+      radii.push_back(part.radius(turns, height));
+      lattice.base.push_back(part.frame.origin + height * part.frame.axis + radii.back() * d);
+      lattice.direction.push_back(d);
+    }
+    const std::size_t made = add_body(builder, part, lattice, radii, body_faces);
+
+    const double thickness = m_options.thickness;
+    std::vector<double> offset(lattice.u.size(), 0.0);
+    std::vector<double> outer = offset;
+    const std::vector<char> may_differ = loose_cells(lattice);
+    const auto add = [&](const Panel& panel, const std::vector<char>& diagonals) {
+      if (thickness > 0)
+        add_cloth(builder, lattice, panel, offset, outer, diagonals);
+      else
+        add_sheet(builder, lattice, panel, offset, diagonals);
+    };
+    const auto rise = [&](double wave) {
+      const double phase = m_random.unit();
+      for (std::size_t k = 0; k < offset.size(); ++k) {
+        const double swell =
+            cosine_sine(wave * lattice.u[k] + phase)[0] * cosine_sine(1.3 * lattice.v[k] - phase)[0];
+        offset[k] = outer[k] + m_options.gap * (1.5 + 0.5 * swell);
+      }
+    };
+    const auto thicken = [&] {
+      for (std::size_t k = 0; k < offset.size(); ++k)
+        outer[k] = offset[k] + thickness;
+    };
+    const auto vary = [&] {
+      std::vector<char> diagonals = lattice.diagonals;
+      for (std::size_t k = 0; k < diagonals.size(); ++k)
+        if (const bool other = m_random.coin(); other && may_differ[k])
+          diagonals[k] = !diagonals[k];
+      return diagonals;
+    };
+    for (std::size_t layer = 0; layer < m_layers; ++layer) {
+      if (layer > 0)
+        rise(static_cast<double>(2 + layer % 3));
+      thicken();
+      const std::vector<char> diagonals = vary();
+      for (const Pattern& pattern : part.patterns)
+        add(place(pattern, layer_name(layer, m_layers) + "_" + part.name + pattern.name, division),
+            diagonals);
+    }
+    for (const std::vector<Pattern>& level : part.patches) {
+      rise(1);
+      thicken();
+      for (const Pattern& pattern : level)
+        add(place(pattern, part.name + pattern.name, division), vary());
+    }
+    for (std::size_t k = 0; k < part.buttons.size(); ++k)
+      place_button(builder, part, lattice, outer, k);
+    return made;
+  }
+
+  /// Cells in which a layer may have the other diagonal. Between the two lies at most the distance of the
+  /// midpoints of the diagonals; where a quarter of the gap, measured across the cloth, is more than that,
+  /// layers stay apart.
+  std::vector<char> loose_cells(const Lattice& lattice) const
+  {
+    std::vector<char> loose(lattice.columns * lattice.rows);
+    const auto across = [](const Vector& e, const Vector& f, const Vector& d) {
+      const Vector n = CGAL::cross_product(e, f);
+      return (n * d) / std::sqrt(n.squared_length());
+    };
+    for (std::size_t j = 0; j < lattice.rows; ++j)
+      for (std::size_t i = 0; i < lattice.columns; ++i) {
+        const std::size_t corners[] = {lattice.vertex(i, j), lattice.vertex(i + 1, j),
+                                       lattice.vertex(i + 1, j + 1), lattice.vertex(i, j + 1)};
+        double least = std::numeric_limits<double>::max();
+        for (std::size_t k = 0; k < 4; ++k) {
+          const Vector& p = lattice.base[corners[k]];
+          for (const std::size_t d : corners)
+            least = std::min(least, across(lattice.base[corners[(k + 1) % 4]] - p,
+                                           lattice.base[corners[(k + 3) % 4]] - p, lattice.direction[d]));
+        }
+        const Vector apart = (lattice.base[corners[0]] + lattice.base[corners[2]] - lattice.base[corners[1]] -
+                              lattice.base[corners[3]]) /
+                             2;
+        loose[lattice.cell(i, j)] = 4 * std::sqrt(apart.squared_length()) < m_options.gap * least;
+      }
+    return loose;
+  }
+
+  /// The body keeps to nine tenths of the smallest radius of the cloth anywhere between a ring's neighbours,
+  /// less what straight edges cut off from the circle: so the cone between two rings does as well.
+  std::size_t add_body(Soup_builder& builder, const Part& part, const Lattice& lattice,
+                       const std::vector<double>& radii, std::size_t faces)
+  {
+    const double low = part.body.front()[0];
+    const double high = part.body.back()[0];
+    const auto [columns, bands] = Closed_surface::divide(faces, part.width * 0.7 / (high - low));
+    const Closed_surface surface(columns, bands, m_random);
+    const double band = (high - low) / static_cast<double>(bands);
+    const double row = (part.top - part.bottom) / static_cast<double>(lattice.rows);
+    const double chord = cosine_sine(0.625 / static_cast<double>(lattice.columns))[0];
+    std::vector<double> room(lattice.rows + 1, std::numeric_limits<double>::max());
+    for (std::size_t k = 0; k < radii.size(); ++k)
+      room[k / lattice.width] = std::min(room[k / lattice.width], 0.9 * chord * radii[k]);
+
+    std::vector<Vector> points(surface.size());
+    points[surface.south()] = part.frame.origin + low * part.frame.axis;
+    points[surface.north()] = part.frame.origin + high * part.frame.axis;
+    for (std::size_t k = 1; k < bands; ++k) {
+      const double height = low + band * static_cast<double>(k);
+      double radius = radius_at(part.body, height);
+      for (std::size_t j = 0; j <= lattice.rows; ++j)
+        if (std::abs(part.bottom + row * static_cast<double>(j) - height) <= band + 1.25 * row)
+          radius = std::min(radius, room[j]);
+      for (std::size_t i = 0; i < columns; ++i)
+        points[surface.ring_vertex(i, k)] =
+            part.frame.origin + height * part.frame.axis + radius * part.frame.radial(surface.turns(i, k));
+    }
+    surface.add(builder, part.name.empty() ? "body" : "body_" + part.name, points);
+    return Closed_surface::count_faces(columns, bands);
+  }
+
+  void place_button(Soup_builder& builder, const Part& part, const Lattice& lattice,
+                    const std::vector<double>& outer, std::size_t number) const
+  {
+    const double radius = 0.009;
+    const auto [u, v] = part.buttons[number];
+    const double turns = part.first_turn + (part.last_turn - part.first_turn) * u;
+    const double height = part.bottom + (part.top - part.bottom) * v;
+    const Vector radial = part.frame.radial(turns);
+    const Vector axis = radial / std::sqrt(radial.squared_length());
+    const Vector middle = part.frame.origin + height * part.frame.axis;
+
+    // A triangle that comes under the button has all its corners within the radius and its longest edge.
+    double longest = 0;
+    const auto position = [&](std::size_t k) { return lattice.base[k] + outer[k] * lattice.direction[k]; };
+    for (std::size_t j = 0; j < lattice.rows; ++j)
+      for (std::size_t i = 0; i < lattice.columns; ++i) {
+        const Vector p = position(lattice.vertex(i, j));
+        const Vector q = position(lattice.vertex(i + 1, j));
+        const Vector r = position(lattice.vertex(i + 1, j + 1));
+        const Vector s = position(lattice.vertex(i, j + 1));
+        for (const Vector& e : {q - p, r - p, s - p, s - q, r - q, r - s})
+          longest = std::max(longest, e.squared_length());
+      }
+    const double reach = radius + std::sqrt(longest);
+    double distance = 0;
+    for (std::size_t k = 0; k < outer.size(); ++k) {
+      const Vector p = position(k) - middle;
+      const double along = p * axis;
+      if (along > 0 && (p - along * axis).squared_length() <= reach * reach)
+        distance = std::max(distance, along);
+    }
+    add_button(builder, "button_" + std::to_string(number), middle, axis, part.frame.axis, radius,
+               distance + m_options.gap, 0.003, button_corners(m_options));
+  }
+
+  const Generate_options& m_options;
+  std::size_t m_layers;
+  std::vector<Part> m_parts;
+  Random m_random;
+};
+
+/// The space that all layers, pockets and bands need must be far smaller than the tubes are wide.
+void require_thin(const Generate_options& options)
+{
+  const double stack = (options.layers + 3) * (options.thickness + 2 * options.gap);
+  if (stack > 0.05)
+    throw Argument_error("the layers with their gaps are " + std::to_string(stack) +
+                         " m thick together, a garment has room for 0.05; reduce layers, thickness or gap");
+}
+
+const Frame UPRIGHT{Vector(0, 0, 0), Vector(1, 0, 0), Vector(0, 1, 0), Vector(0, 0, 1)};
+
+} // namespace
+
+Triangle_soup internal::skirt(const Generate_options& options)
+{
+  require_thin(options);
+  Random random(options.seed + 1000003u);
+  const double phase = random.unit();
+  const double drift = 0.2 * random.symmetric();
+
+  Part part;
+  part.closed = true;
+  part.width = 1.5;
+  part.height = 0.65;
+  part.frame = UPRIGHT;
+  part.frame.depth = Vector(0, 0.85, 0);
+  part.first_turn = 0;
+  part.last_turn = 1;
+  part.bottom = 0.4;
+  part.top = 1.05;
+  const Profile shape{{0.4, 0.33}, {0.85, 0.2}, {1.05, 0.14}};
+  part.radius = [=, &options](double turns, double height) {
+    const double fall = (1.05 - height) / 0.65;
+    const double pleat = cosine_sine(options.folds * turns + phase + drift * height)[0];
+    const double uneven = cosine_sine(3 * turns - phase)[1];
+    const double second = cosine_sine((options.folds / 2 + 1) * turns + 2 * phase - drift * height)[1];
+    return radius_at(shape, height) +
+           options.fold_depth * fall * (pleat * (0.75 + 0.25 * uneven) + 0.35 * second);
+  };
+  part.patterns = {{"front", 0.5, 1, 0, 0.9, Panel::BOTTOM},
+                   {"back", 0, 0.5, 0, 0.9, Panel::BOTTOM},
+                   {"yoke_right", 0.25, 0.75, 0.9, 1, Panel::TOP},
+                   {"yoke_left", 0.75, 1.25, 0.9, 1, Panel::TOP}};
+  part.patches = {
+      {{"pocket_left", 0.84, 0.91, 0.5, 0.72, Panel::ALL},
+       {"pocket_right", 0.59, 0.66, 0.5, 0.72, Panel::ALL}},
+      {{"waistband", 0, 1, 0.93, 0.99, Panel::BOTTOM | Panel::TOP}},
+      {{"loop_left", 0.87, 0.885, 0.9, 1, Panel::ALL}, {"loop_right", 0.61, 0.625, 0.9, 1, Panel::ALL}}};
+  part.buttons = {{0.75, 0.96}};
+  part.body = {{0.32, 0.05}, {0.36, 0.1},  {0.6, 0.155}, {0.85, 0.17}, {1.05, 0.125},
+               {1.3, 0.155}, {1.42, 0.13}, {1.47, 0.05}, {1.52, 0.05}};
+  return Garment(options, {part}).make();
+}
+
+} // namespace selvedge

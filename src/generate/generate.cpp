@@ -1,0 +1,90 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <selvedge/Error.h>
+#include <selvedge/generate.h>
+
+#include "generate/scenes.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace selvedge {
+
+namespace {
+
+struct Scene
+{
+  Scene_description description;
+  double smallest_gap;
+  Triangle_soup (*make)(const Generate_options&);
+};
+
+const std::vector<Scene>& known_scenes()
+{
+  static const std::vector<Scene> known{
+      {{"skirt", "a pleated skirt on a dress form: layers of cloth, pockets, waistband and button"},
+       1e-9,
+       internal::skirt},
+      {{"sheets", "wavy sheets above one another, as close as doubles allow"}, 1e-15, internal::sheets},
+      {{"folded", "one cloth folded over itself like a pile of shirts"}, 1e-15, internal::folded},
+      {{"nested", "closed spheres inside one another"}, 1e-12, internal::nested},
+      {{"seams", "flat pieces sewn together: a T-junction, three on one edge, one turned over"},
+       0,
+       internal::seams},
+      {{"tunnel", "shallow bumps over small patches: one collapse each passes through and ends embedded"},
+       0,
+       internal::tunnels},
+      {{"grid", "a flat regular grid, where every quadric error is zero"}, 0, internal::grid},
+      {{"needles", "sheets of triangles a million times as long as wide"}, 1e-15, internal::needles},
+  };
+  return known;
+}
+
+/// NaN is out of every range.
+void require_range(const char* option, double value, double least, double most)
+{
+  if (value >= least && value <= most)
+    return;
+  std::ostringstream message;
+  message << option << " is " << value << ", it must be in [" << least << ", " << most << "]";
+  throw Argument_error(message.str());
+}
+
+} // namespace
+
+const std::vector<Scene_description>& scenes()
+{
+  static const std::vector<Scene_description> descriptions = [] {
+    std::vector<Scene_description> all;
+    for (const Scene& scene : known_scenes())
+      all.push_back(scene.description);
+    return all;
+  }();
+  return descriptions;
+}
+
+Triangle_soup generate(std::string_view name, const Generate_options& options)
+{
+  for (const Scene& scene : known_scenes()) {
+    if (scene.description.name != name)
+      continue;
+    require_range("faces", static_cast<double>(options.faces), 100, 20e6);
+    require_range("layers", options.layers, 1, 100);
+    if (options.thickness != 0)
+      require_range("thickness", options.thickness, 1e-9, 0.01);
+    require_range("gap", options.gap, scene.smallest_gap, 0.01);
+    require_range("fold depth", options.fold_depth, 0, 0.03);
+    require_range("folds", options.folds, 0, 200);
+    if (options.faces < 20 * static_cast<std::size_t>(options.layers))
+      throw Argument_error(std::to_string(options.layers) + " layers need more than " +
+                           std::to_string(options.faces) + " faces");
+    return scene.make(options);
+  }
+  std::string message = "there is no scene called '" + std::string(name) + "', only";
+  for (const Scene_description& scene : scenes())
+    message += " " + std::string(scene.name);
+  throw Argument_error(message);
+}
+
+} // namespace selvedge
