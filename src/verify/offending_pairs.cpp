@@ -32,20 +32,24 @@ struct Vertex_ranks
       std::stable_sort(order.begin(), order.end(),
                        [&](Index v, Index w) { return points[v][axis] < points[w][axis]; });
       along[axis].resize(points.size());
-      rank(order, along[axis], [&](Index v, Index w) { return points[v][axis] == points[w][axis]; });
+      distinct[axis] =
+          rank(order, along[axis], [&](Index v, Index w) { return points[v][axis] == points[w][axis]; });
     }
     rank(order, position, [&](Index v, Index w) { return points[v] == points[w]; });
   }
 
   std::array<std::vector<Index>, 3> along;
+  std::array<std::size_t, 3> distinct;
   std::vector<Index> position;
 
 private:
+  /// Numbers runs of equal elements, and says how many there are.
   template <class Equal>
-  static void rank(const std::vector<Index>& order, std::vector<Index>& ranks, Equal equal)
+  static std::size_t rank(const std::vector<Index>& order, std::vector<Index>& ranks, Equal equal)
   {
     for (std::size_t i = 1; i < order.size(); ++i)
       ranks[order[i]] = ranks[order[i - 1]] + !equal(order[i - 1], order[i]);
+    return order.empty() ? 0 : std::size_t(ranks[order.back()]) + 1;
   }
 };
 
@@ -58,10 +62,10 @@ public:
 
   Rank_box(const Vertex_ranks& ranks, const Index_triple& corners, Index triangle) : m_triangle(triangle)
   {
+    const auto& [a, b, c] = corners;
     for (int axis = 0; axis < 3; ++axis) {
       const std::vector<Index>& along = ranks.along[axis];
-      std::tie(m_low[axis], m_high[axis]) =
-          std::minmax({along[corners[0]], along[corners[1]], along[corners[2]]});
+      std::tie(m_low[axis], m_high[axis]) = std::minmax({along[a], along[b], along[c]});
     }
   }
 
@@ -70,10 +74,38 @@ public:
   NT max_coord(int axis) const { return m_high[axis]; }
   ID id() const { return m_triangle; }
 
+  void reorder_axes(const std::array<int, 3>& axes)
+  {
+    const std::array<Index, 3> low = m_low, high = m_high;
+    m_low = {low[axes[0]], low[axes[1]], low[axes[2]]};
+    m_high = {high[axes[0]], high[axes[1]], high[axes[2]]};
+  }
+
 private:
   std::array<Index, 3> m_low, m_high;
   Index m_triangle;
 };
+
+/// The boxes of all triangles, with their axes in the order that suits CGAL's traversal.
+std::vector<Rank_box> rank_boxes(const Triangle_soup& soup, const Vertex_ranks& ranks)
+{
+  std::vector<Rank_box> boxes;
+  boxes.reserve(soup.triangles.size());
+  // How much of each axis a box takes up, summed over all.
+  std::array<double, 3> extent = {};
+  for (Index i = 0; i < soup.triangles.size(); ++i) {
+    boxes.emplace_back(ranks, soup.triangles[i], i);
+    for (int axis = 0; axis < 3; ++axis)
+      extent[axis] += (1.0 + boxes[i].max_coord(axis) - boxes[i].min_coord(axis)) / ranks.distinct[axis];
+  }
+  // CGAL divides along axis 2 first and scans along axis 0: that is where the boxes should be short. A sheet
+  // across either of these two axes costs several times as much.
+  std::array<int, 3> axes = {0, 1, 2};
+  std::sort(axes.begin(), axes.end(), [&](int a, int b) { return extent[a] < extent[b]; });
+  for (Rank_box& box : boxes)
+    box.reorder_axes({axes[1], axes[2], axes[0]});
+  return boxes;
+}
 
 struct Corner
 {
@@ -222,13 +254,10 @@ public:
   template <class Report>
   void judge(Report report) const
   {
-    std::vector<Rank_box> boxes;
-    boxes.reserve(m_soup.triangles.size());
-    for (Index i = 0; i < m_soup.triangles.size(); ++i) {
-      boxes.emplace_back(m_ranks, m_soup.triangles[i], i);
+    for (Index i = 0; i < m_soup.triangles.size(); ++i)
       if (m_degenerate[i])
         report(Offending_pair{i, i, Offence::degenerate});
-    }
+    std::vector<Rank_box> boxes = rank_boxes(m_soup, m_ranks);
     CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Rank_box& a, const Rank_box& b) {
       if (const std::optional<Offence> offence = judge(a.id(), b.id()))
         report(Offending_pair{std::min(a.id(), b.id()), std::max(a.id(), b.id()), *offence});
