@@ -1,0 +1,66 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SIMPLIFY_OPTIONS_H
+#define SELVEDGE_SIMPLIFY_OPTIONS_H
+
+#include <selvedge/Surface_mesh_simplification/Quadric_cost.h>
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+
+namespace selvedge {
+
+/// How far a reduction has come, for whoever watches it.
+struct Simplify_progress
+{
+  std::size_t faces_input;
+  std::size_t faces_target;
+  std::size_t faces; ///< now
+};
+
+/// What `simplify` is asked to do. Values outside the ranges given throw `Argument_error`.
+///
+/// The target is the largest of the face counts that `ratio` and `faces` name; with neither it is no face at all,
+/// and the limits decide.
+struct Simplify_options
+{
+  /// Faces to keep, as a share of the input's, in [0, 1].
+  std::optional<double> ratio;
+
+  /// Faces to keep.
+  std::optional<std::size_t> faces;
+
+  /// The largest error of a collapse, as a share of the diagonal of the bounding box, at least 0: the root mean square
+  /// distance, weighted by area, of the merged vertex to the planes of the original faces that it stands for.
+  std::optional<double> max_error;
+
+  /// The largest change of a face's normal in one collapse, in degrees from 0 to 180.
+  double max_normal_change = 45;
+
+  /// The least aspect ratio of a face, in [0, 1], unless it is better than before.
+  double min_aspect_ratio = 0.2;
+
+  /// The largest turn of a border or seam at a vertex that leaves it, in degrees from 0 to 180.
+  double max_border_turn = 8;
+
+  /// The largest distance of an original border or seam vertex to the segment that replaced it, as a share of the
+  /// diagonal, at least 0.
+  double max_border_drift = 0.001;
+
+  /// Whether layers are kept from piercing each other. Without, everything else stays the same: a control.
+  bool check_intersections = true;
+
+  /// What the cells of the index aim at, at least 1.
+  std::size_t faces_per_cluster = 100;
+
+  Quadric_cost_options cost;
+
+  /// Asked now and then; when it returns true, the reduction ends with the mesh as it is. It may be empty.
+  std::function<bool(const Simplify_progress&)> should_stop;
+};
+
+} // namespace selvedge
+
+#endif // SELVEDGE_SIMPLIFY_OPTIONS_H

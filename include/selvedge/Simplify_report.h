@@ -1,0 +1,81 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SIMPLIFY_REPORT_H
+#define SELVEDGE_SIMPLIFY_REPORT_H
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <string>
+#include <utility>
+
+namespace selvedge {
+
+/// How often which rule refused a direction of an edge that the loop considered. Cheap rules come first, and each
+/// counts only what those before it had accepted. An edge counts again when it is considered again.
+struct Refusals
+{
+  std::size_t border = 0;        ///< borders, seams, locked vertices
+  std::size_t error = 0;         ///< `Simplify_options::max_error`
+  std::size_t aspect_ratio = 0;
+  std::size_t normal_change = 0;
+  std::size_t intersection = 0;
+  std::size_t by_loop = 0;       ///< accepted by all rules, refused by a geometric test of CGAL's loop
+};
+
+/// What the exact filter and its index did.
+struct Intersection_statistics
+{
+  std::size_t motions_judged = 0;
+  std::size_t stars_clear_by_view = 0; ///< motions whose star one view settled
+  std::size_t sweeps_tested = 0;       ///< pairs of a sweep and a stationary face whose boxes overlap
+  std::size_t refused_by_link = 0;     ///< motions that would join what is not joined
+  std::size_t refused_by_star = 0;     ///< motions in which the star would meet itself
+  std::size_t refused_by_sweep = 0;    ///< motions in which a face would meet one that stands still
+  std::size_t clusters = 0;
+  std::size_t queries = 0;
+  std::size_t faces_visited = 0;
+  std::size_t cluster_rebuilds = 0;
+  std::size_t top_rebuilds = 0;
+};
+
+/// What a reduction of a mesh did.
+struct Simplify_report
+{
+  std::size_t faces_input = 0;
+  std::size_t faces_target = 0;
+  std::size_t faces_output = 0;
+  std::size_t collapses = 0;
+  std::size_t passes = 0; ///< of CGAL's loop; another one begins while edges refused before have become possible
+  bool is_stopped = false; ///< by `Simplify_options::should_stop`
+  Refusals refused;
+  Intersection_statistics intersections;
+  double seconds_index = 0;  ///< for building the index
+  double seconds_reduce = 0; ///< in all, the index included
+
+  /// What was refused in the last pass alone, when everything still possible was tried once more.
+  Refusals refused_in_last_pass;
+
+  bool is_reached() const { return faces_output <= faces_target; }
+
+  /// "reached", "stopped", or the rule that refused most in the last pass.
+  std::string outcome() const
+  {
+    if (is_reached())
+      return "reached";
+    if (is_stopped)
+      return "stopped";
+    const Refusals& last = refused_in_last_pass;
+    const std::pair<std::size_t, const char*> rules[] = {
+      {last.border, "border"},           {last.error, "error"},         {last.aspect_ratio, "aspect_ratio"},
+      {last.normal_change, "normal_change"}, {last.intersection, "intersection"}, {last.by_loop, "by_loop"}};
+    const auto most = std::max_element(std::begin(rules), std::end(rules),
+                                       [](const auto& a, const auto& b) { return a.first < b.first; });
+    return most->first > 0 ? most->second : "topology";
+  }
+};
+
+} // namespace selvedge
+
+#endif // SELVEDGE_SIMPLIFY_REPORT_H

@@ -1,0 +1,70 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_ASPECT_RATIO_FILTER_H
+#define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_ASPECT_RATIO_FILTER_H
+
+#include <selvedge/Error.h>
+#include <selvedge/Surface_mesh_simplification/internal/Filter_base.h>
+#include <selvedge/Surface_mesh_simplification/internal/collapse_geometry.h>
+
+#include <CGAL/Kernel/global_functions.h>
+#include <CGAL/number_type_basic.h>
+#include <CGAL/squared_distance_3.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace selvedge {
+
+/// The aspect ratio of a triangle: its height over its longest edge, scaled so that the equilateral triangle has 1
+/// and a degenerate one 0. In floating point.
+template <class Point>
+double aspect_ratio(const Point& a, const Point& b, const Point& c)
+{
+  const double longest = std::max({CGAL::to_double(CGAL::squared_distance(a, b)),
+                                   CGAL::to_double(CGAL::squared_distance(b, c)),
+                                   CGAL::to_double(CGAL::squared_distance(c, a))});
+  if (!(longest > 0))
+    return 0;
+  // Twice the area is height × longest edge.
+  const double twice_area = std::sqrt(CGAL::to_double(CGAL::cross_product(b - a, c - a).squared_length()));
+  return 2 / std::sqrt(3.0) * twice_area / longest;
+}
+
+/// Refuses a collapse after which a face has an aspect ratio below a limit and worse than it had.
+///
+/// A model of CGAL's concept `PlacementFilter`, usable with any placement.
+///
+/// **Exactness** Floating point: a limit of quality, on which no statement about intersections rests.
+///
+/// **Reference** Derichs, Misiak, Fuhrmann, section 3.1 (0.2 there).
+template <class BaseFilter = No_filter>
+class Aspect_ratio_filter : public internal::Filter_base<Aspect_ratio_filter<BaseFilter>, BaseFilter>
+{
+public:
+  /// `min_aspect_ratio` lies in [0, 1], or `Argument_error` is thrown; 0 accepts everything.
+  explicit Aspect_ratio_filter(double min_aspect_ratio = 0.2, const BaseFilter& base = {})
+    : internal::Filter_base<Aspect_ratio_filter, BaseFilter>(base), m_min_aspect_ratio(min_aspect_ratio)
+  {
+    if (!(min_aspect_ratio >= 0 && min_aspect_ratio <= 1))
+      throw Argument_error("the least aspect ratio lies between 0 and 1, that of the equilateral triangle");
+  }
+
+  template <class Profile, class Point>
+  bool accepts(const Profile& profile, const Point& placement) const
+  {
+    return internal::all_of_changed_faces(
+      profile, placement, [this](const Point& before, const Point& after, const Point& a, const Point& b) {
+        const double ratio = aspect_ratio(after, a, b);
+        return ratio >= m_min_aspect_ratio || ratio > aspect_ratio(before, a, b);
+      });
+  }
+
+private:
+  double m_min_aspect_ratio;
+};
+
+} // namespace selvedge
+
+#endif // SELVEDGE_SURFACE_MESH_SIMPLIFICATION_ASPECT_RATIO_FILTER_H

@@ -1,0 +1,60 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_BORDER_FILTER_H
+#define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_BORDER_FILTER_H
+
+#include <selvedge/Surface_mesh_simplification/Border_rule.h>
+#include <selvedge/Surface_mesh_simplification/internal/Filter_base.h>
+
+#include <CGAL/Surface_mesh_simplification/Edge_collapse_visitor_base.h>
+
+namespace selvedge {
+
+/// Refuses a placement that a `Border_rule` does not allow.
+///
+/// A model of CGAL's concept `PlacementFilter`, usable with any placement. Pass `Border_visitor` of the same rule
+/// to the loop: marks of seams, locks and drift follow the collapses through it.
+template <class Rule, class BaseFilter = No_filter>
+class Border_filter : public internal::Filter_base<Border_filter<Rule, BaseFilter>, BaseFilter>
+{
+public:
+  explicit Border_filter(const Rule& rule, const BaseFilter& base = {})
+    : internal::Filter_base<Border_filter, BaseFilter>(base), m_rule(rule)
+  {}
+
+  template <class Profile, class Point>
+  bool accepts(const Profile& profile, const Point& placement) const
+  {
+    return m_rule.allows(profile, placement);
+  }
+
+private:
+  Rule m_rule;
+};
+
+/// Keeps a `Border_rule` true while edges collapse: a model of CGAL's concept `EdgeCollapseSimplificationVisitor`.
+template <class TriangleMesh, class Rule = Border_rule<TriangleMesh>>
+class Border_visitor : public CGAL::Surface_mesh_simplification::Edge_collapse_visitor_base<TriangleMesh>
+{
+public:
+  explicit Border_visitor(const Rule& rule) : m_rule(rule) {}
+
+  template <class Profile, class OptionalPoint>
+  void OnCollapsing(const Profile& profile, const OptionalPoint& placement)
+  {
+    m_rule.before_collapse(profile, *placement);
+  }
+  template <class Profile, class Vertex>
+  void OnCollapsed(const Profile&, const Vertex& kept)
+  {
+    m_rule.after_collapse(kept);
+  }
+
+private:
+  Rule m_rule;
+};
+
+} // namespace selvedge
+
+#endif // SELVEDGE_SURFACE_MESH_SIMPLIFICATION_BORDER_FILTER_H

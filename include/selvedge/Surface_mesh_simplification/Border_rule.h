@@ -1,0 +1,312 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_BORDER_RULE_H
+#define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_BORDER_RULE_H
+
+#include <selvedge/Error.h>
+#include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
+#include <selvedge/Surface_mesh_simplification/internal/collapse_geometry.h>
+
+#include <CGAL/Dynamic_property_map.h>
+#include <CGAL/boost/graph/iterator.h>
+#include <CGAL/number_type_basic.h>
+#include <CGAL/squared_distance_3.h>
+
+#include <boost/unordered_map.hpp>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace selvedge {
+
+/// How far lines may change.
+struct Border_rule_options
+{
+  /// The largest angle, in degrees from 0 to 180, by which a line may turn at a vertex that leaves it.
+  double max_turn = 8;
+
+  /// The largest distance, in units of the mesh, from an original vertex of a line to the segment that replaced it.
+  double max_drift = std::numeric_limits<double>::infinity();
+};
+
+/// Knows the *lines* of a mesh, its borders and the edges marked as lines (seams), and which motions of vertices
+/// respect them. What `Border_filter` and `Halfedge_placement` ask, and what `Border_visitor` keeps true.
+///
+/// **Guarantees** for a mesh reduced by halfedge collapses that `allows` accepts:
+/// 1. A locked vertex stays where it is.
+/// 2. A vertex on a line moves only along it, to the next vertex of the same line, and only where the line turns by
+///    at most `max_turn`. Corners, ends of lines, and vertices where more than two line edges or lines of both kinds
+///    meet never move.
+/// 3. Every original vertex of a line lies within `max_drift` of the segment that replaced it.
+///
+/// **Preconditions** The mesh outlives the rule. Marks and locks are set before the first collapse.
+///
+/// **Exactness** Which vertex may move along which edge is combinatorial; angle and drift are compared in floating
+/// point, as limits of quality: no statement about intersections rests on them.
+///
+/// Copies share one state.
+///
+/// **Reference** Derichs, Misiak, Fuhrmann, section 3.1 and figure 2 (8° there).
+template <class TriangleMesh,
+          class VertexPointMap = typename boost::property_map<TriangleMesh, CGAL::vertex_point_t>::const_type>
+class Border_rule
+{
+  using Graph_traits = boost::graph_traits<TriangleMesh>;
+  using Point = typename boost::property_traits<VertexPointMap>::value_type;
+  using Geom_traits = typename CGAL::Kernel_traits<Point>::Kernel;
+  using Vector = typename Geom_traits::Vector_3;
+
+public:
+  using Vertex = typename Graph_traits::vertex_descriptor;
+  using Halfedge = typename Graph_traits::halfedge_descriptor;
+  using Edge = typename Graph_traits::edge_descriptor;
+
+  /// Throws `Argument_error` when an option is out of its range.
+  explicit Border_rule(const TriangleMesh& mesh, const Border_rule_options& options = {})
+    : Border_rule(mesh, get(CGAL::vertex_point, mesh), options)
+  {}
+
+  Border_rule(const TriangleMesh& mesh, const VertexPointMap& points, const Border_rule_options& options = {})
+    : m_state(std::make_shared<State>(mesh, points, options))
+  {}
+
+  /// Makes an inner edge a line.
+  void mark(Edge e)
+  {
+    put(m_state->marks, e, true);
+    const Halfedge h = halfedge(e, m_state->mesh);
+    m_state->raise(source(h, m_state->mesh), Freedom::along_line);
+    m_state->raise(target(h, m_state->mesh), Freedom::along_line);
+  }
+
+  /// Forbids a vertex to move.
+  void lock(Vertex v) { m_state->raise(v, Freedom::none); }
+
+  bool is_locked(Vertex v) const { return get(m_state->freedoms, v) == Freedom::none; }
+
+  /// Is the edge a border or marked?
+  bool is_line(Edge e) const
+  {
+    const Halfedge h = halfedge(e, m_state->mesh);
+    return get(m_state->marks, e) || is_border(h, m_state->mesh) || is_border(opposite(h, m_state->mesh), m_state->mesh);
+  }
+  friend bool get(const Border_rule& rule, Edge e) { return rule.is_line(e); }
+
+  /// May the source of `h` move onto its target?
+  bool may_move(Halfedge h) const
+  {
+    const State& state = *m_state;
+    const Vertex mover = source(h, state.mesh);
+    const Freedom freedom = get(state.freedoms, mover);
+    if (freedom == Freedom::free)
+      return true;
+    if (freedom == Freedom::none || !is_line(edge(h, state.mesh)))
+      return false;
+    const std::optional<Halfedge> behind = line_behind(h);
+    return behind && may_straighten(*behind, h, get(state.points, target(h, state.mesh)));
+  }
+
+  /// May the ends of the profile's edge merge at `placement`, wherever that is?
+  ///
+  /// When it is neither end: inner vertices may go anywhere; where one end is bound, the placement must be that
+  /// end; where both are, the edge must be a line, and the line turn by at most the angle at every place that the
+  /// merged vertex changes.
+  template <class Profile>
+  bool allows(const Profile& profile, const Point& placement) const
+  {
+    const State& state = *m_state;
+    if (!internal::is_v0_moved(profile, placement))
+      return may_move(profile.v1_v0());
+    if (!internal::is_v1_moved(profile, placement))
+      return may_move(profile.v0_v1());
+    const bool is_v0_free = get(state.freedoms, profile.v0()) == Freedom::free;
+    const bool is_v1_free = get(state.freedoms, profile.v1()) == Freedom::free;
+    if (is_v0_free && is_v1_free)
+      return true;
+    if (is_v0_free || is_v1_free || is_locked(profile.v0()) || is_locked(profile.v1()) ||
+        !is_line(edge(profile.v0_v1(), state.mesh)))
+      return false;
+    const std::optional<Halfedge> behind = line_behind(profile.v0_v1());
+    const std::optional<Halfedge> ahead = line_behind(profile.v1_v0());
+    return behind && ahead && may_straighten(*behind, profile.v0_v1(), placement) &&
+           may_straighten(*ahead, profile.v1_v0(), placement);
+  }
+
+  /// Called by `Border_visitor` before and after every collapse.
+  template <class Profile>
+  void before_collapse(const Profile& profile, const Point& placement) const
+  {
+    m_state->pending = pending_collapse(profile, placement);
+  }
+  void after_collapse(Vertex kept) const
+  {
+    State& state = *m_state;
+    put(state.freedoms, kept, state.pending.freedom);
+    for (const Pending_line& line : state.pending.lines) {
+      const Edge e = edge(halfedge(kept, line.far_end, state.mesh).first, state.mesh);
+      if (line.is_marked)
+        put(state.marks, e, true);
+      if (!line.passed.empty())
+        state.passed[e] = line.passed;
+    }
+  }
+
+private:
+  enum class Freedom : unsigned char { free, along_line, none };
+
+  // A line edge at the merged vertex: what it must be after the collapse, whichever of two edges CGAL keeps.
+  struct Pending_line
+  {
+    Vertex far_end;
+    bool is_marked;
+    std::vector<Point> passed;
+  };
+  struct Pending_collapse
+  {
+    Freedom freedom;
+    std::vector<Pending_line> lines;
+  };
+
+  struct State
+  {
+    State(const TriangleMesh& mesh_, const VertexPointMap& points_, const Border_rule_options& options)
+      : mesh(mesh_), points(points_), min_cosine(std::cos(options.max_turn * CGAL_PI / 180)),
+        max_squared_drift(options.max_drift * options.max_drift),
+        freedoms(get(CGAL::dynamic_vertex_property_t<Freedom>(), mesh_)),
+        marks(get(CGAL::dynamic_edge_property_t<unsigned char>(), mesh_))
+    {
+      if (!(options.max_turn >= 0 && options.max_turn <= 180))
+        throw Argument_error("the turn allowed at a border is an angle between 0 and 180 degrees");
+      if (!(options.max_drift >= 0))
+        throw Argument_error("the drift allowed at a border is a length of at least 0");
+      for (const Halfedge h : halfedges(mesh))
+        if (is_border(h, mesh))
+          raise(target(h, mesh), Freedom::along_line);
+    }
+
+    void raise(Vertex v, Freedom freedom)
+    {
+      if (get(freedoms, v) < freedom)
+        put(freedoms, v, freedom);
+    }
+
+    const TriangleMesh& mesh;
+    VertexPointMap points;
+    double min_cosine;
+    double max_squared_drift;
+    typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<Freedom>>::const_type freedoms;
+    typename boost::property_map<TriangleMesh, CGAL::dynamic_edge_property_t<unsigned char>>::const_type marks;
+    boost::unordered_map<Edge, std::vector<Point>> passed; // original line vertices that an edge has replaced
+    Pending_collapse pending;
+  };
+
+  // The other line edge at the source of the line edge `h`, pointing away from it; none when the source is an end, a
+  // junction, or a place where a border becomes a marked edge.
+  std::optional<Halfedge> line_behind(Halfedge h) const
+  {
+    const TriangleMesh& mesh = m_state->mesh;
+    std::optional<Halfedge> behind;
+    for (const Halfedge out : CGAL::halfedges_around_source(source(h, mesh), mesh)) {
+      if (out == h || !is_line(edge(out, mesh)))
+        continue;
+      if (behind)
+        return std::nullopt;
+      behind = out;
+    }
+    if (behind && is_border_edge(*behind) != is_border_edge(h))
+      return std::nullopt;
+    return behind;
+  }
+
+  bool is_border_edge(Halfedge h) const
+  {
+    return is_border(h, m_state->mesh) || is_border(opposite(h, m_state->mesh), m_state->mesh);
+  }
+
+  // May the line u – m – t, with `behind` = m→u and `ahead` = m→t, become the segment u – p?
+  bool may_straighten(Halfedge behind, Halfedge ahead, const Point& p) const
+  {
+    const State& state = *m_state;
+    const Point& m = get(state.points, source(ahead, state.mesh));
+    const Point& u = get(state.points, target(behind, state.mesh));
+    if (!is_turn_small(m - u, p - m))
+      return false;
+    if (state.max_squared_drift == std::numeric_limits<double>::infinity())
+      return true;
+    const typename Geom_traits::Segment_3 segment(u, p);
+    const auto is_near = [&](const Point& q) {
+      return CGAL::to_double(CGAL::squared_distance(q, segment)) <= state.max_squared_drift;
+    };
+    if (!is_near(m))
+      return false;
+    for (const Halfedge h : {behind, ahead}) {
+      const auto found = state.passed.find(edge(h, state.mesh));
+      if (found != state.passed.end())
+        for (const Point& q : found->second)
+          if (!is_near(q))
+            return false;
+    }
+    return true;
+  }
+
+  bool is_turn_small(const Vector& before, const Vector& after) const
+  {
+    const double lengths = std::sqrt(CGAL::to_double(before.squared_length())) *
+                           std::sqrt(CGAL::to_double(after.squared_length()));
+    return CGAL::to_double(before * after) >= m_state->min_cosine * lengths;
+  }
+
+  template <class Profile>
+  Pending_collapse pending_collapse(const Profile& profile, const Point& placement) const
+  {
+    const State& state = *m_state;
+    const TriangleMesh& mesh = state.mesh;
+    Pending_collapse pending;
+    const Freedom freedom_0 = get(state.freedoms, profile.v0());
+    const Freedom freedom_1 = get(state.freedoms, profile.v1());
+    pending.freedom = (std::max)(freedom_0, freedom_1);
+    if (pending.freedom == Freedom::free)
+      return pending;
+
+    const Edge merged = edge(profile.v0_v1(), mesh);
+    const bool is_along_line = is_line(merged);
+    for (const Halfedge at : {profile.v0_v1(), profile.v1_v0()}) {
+      const Vertex near_end = source(at, mesh);
+      const bool moves = get(state.points, near_end) != placement;
+      for (const Halfedge out : CGAL::halfedges_around_source(near_end, mesh)) {
+        const Edge e = edge(out, mesh);
+        if (e == merged || !is_line(e))
+          continue;
+        Pending_line line{target(out, mesh), bool(get(state.marks, e)), {}};
+        take_passed(e, line.passed);
+        if (moves && is_along_line) {
+          line.passed.push_back(get(state.points, near_end));
+          take_passed(merged, line.passed);
+        }
+        pending.lines.push_back(std::move(line));
+      }
+    }
+    m_state->passed.erase(merged);
+    return pending;
+  }
+
+  void take_passed(Edge e, std::vector<Point>& points) const
+  {
+    const auto found = m_state->passed.find(e);
+    if (found == m_state->passed.end())
+      return;
+    points.insert(points.end(), found->second.begin(), found->second.end());
+    m_state->passed.erase(found);
+  }
+
+  std::shared_ptr<State> m_state;
+};
+
+} // namespace selvedge
+
+#endif // SELVEDGE_SURFACE_MESH_SIMPLIFICATION_BORDER_RULE_H

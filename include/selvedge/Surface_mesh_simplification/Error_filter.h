@@ -1,0 +1,39 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_ERROR_FILTER_H
+#define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_ERROR_FILTER_H
+
+#include <selvedge/Surface_mesh_simplification/internal/Filter_base.h>
+
+namespace selvedge {
+
+/// Refuses a collapse whose error is larger than a limit, where the error is what `Cost::error_at(profile, point)` says,
+/// as `Quadric_cost` has it: the root mean square distance to the original planes gathered so far.
+///
+/// A model of CGAL's concept `PlacementFilter`, usable with any placement.
+///
+/// **Exactness** Floating point: a limit of quality.
+template <class Cost, class BaseFilter = No_filter>
+class Error_filter : public internal::Filter_base<Error_filter<Cost, BaseFilter>, BaseFilter>
+{
+public:
+  /// `max_error` is a length in units of the mesh.
+  Error_filter(double max_error, const Cost& cost, const BaseFilter& base = {})
+    : internal::Filter_base<Error_filter, BaseFilter>(base), m_max_error(max_error), m_cost(cost)
+  {}
+
+  template <class Profile, class Point>
+  bool accepts(const Profile& profile, const Point& placement) const
+  {
+    return m_cost.error_at(profile, placement) <= m_max_error;
+  }
+
+private:
+  double m_max_error;
+  Cost m_cost;
+};
+
+} // namespace selvedge
+
+#endif // SELVEDGE_SURFACE_MESH_SIMPLIFICATION_ERROR_FILTER_H

@@ -1,0 +1,62 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_NORMAL_CHANGE_FILTER_H
+#define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_NORMAL_CHANGE_FILTER_H
+
+#include <selvedge/Error.h>
+#include <selvedge/Surface_mesh_simplification/internal/Filter_base.h>
+#include <selvedge/Surface_mesh_simplification/internal/collapse_geometry.h>
+
+#include <CGAL/Kernel/global_functions.h>
+#include <CGAL/number_type_basic.h>
+
+#include <cmath>
+
+namespace selvedge {
+
+/// Refuses a collapse that turns the normal of a face by more than a limit.
+///
+/// A face without a computable normal before the collapse may get any; one that would lose it is refused.
+///
+/// A model of CGAL's concept `PlacementFilter`, usable with any placement.
+///
+/// **Exactness** Floating point: a limit of quality, on which no statement about intersections rests.
+///
+/// **Reference** Derichs, Misiak, Fuhrmann, section 3.1 and figure 3 (45° there).
+template <class BaseFilter = No_filter>
+class Normal_change_filter : public internal::Filter_base<Normal_change_filter<BaseFilter>, BaseFilter>
+{
+public:
+  /// `max_change` is an angle in degrees from 0 to 180, or `Argument_error` is thrown.
+  explicit Normal_change_filter(double max_change = 45, const BaseFilter& base = {})
+    : internal::Filter_base<Normal_change_filter, BaseFilter>(base),
+      m_min_cosine(max_change == 180 ? -2 : std::cos(max_change * CGAL_PI / 180))
+  {
+    if (!(max_change >= 0 && max_change <= 180))
+      throw Argument_error("the change allowed to a normal is an angle between 0 and 180 degrees");
+  }
+
+  template <class Profile, class Point>
+  bool accepts(const Profile& profile, const Point& placement) const
+  {
+    return internal::all_of_changed_faces(
+      profile, placement, [this](const Point& before, const Point& after, const Point& a, const Point& b) {
+        const auto normal_before = CGAL::cross_product(a - before, b - before);
+        const auto normal_after = CGAL::cross_product(a - after, b - after);
+        const double length_before = std::sqrt(CGAL::to_double(normal_before.squared_length()));
+        const double length_after = std::sqrt(CGAL::to_double(normal_after.squared_length()));
+        if (!(length_before > 0))
+          return true;
+        return length_after > 0 &&
+               CGAL::to_double(normal_before * normal_after) >= m_min_cosine * length_before * length_after;
+      });
+  }
+
+private:
+  double m_min_cosine;
+};
+
+} // namespace selvedge
+
+#endif // SELVEDGE_SURFACE_MESH_SIMPLIFICATION_NORMAL_CHANGE_FILTER_H

@@ -1,0 +1,274 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_QUADRIC_COST_H
+#define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_QUADRIC_COST_H
+
+#include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
+
+#include <CGAL/Dynamic_property_map.h>
+#include <CGAL/Bbox_3.h>
+#include <CGAL/boost/graph/iterator.h>
+#include <CGAL/tags.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+
+namespace selvedge {
+
+/// A quadratic function of a point, x ↦ xᵀAx + 2bᵀx + c, in double precision.
+class Quadric
+{
+public:
+  using Vector = std::array<double, 3>;
+
+  /// Adds weight × squared distance to the plane through `point` with the unit normal `normal`.
+  void add_plane(const Vector& normal, const Vector& point, double weight)
+  {
+    const double d = -dot(normal, point);
+    m_xx += weight * normal[0] * normal[0];
+    m_xy += weight * normal[0] * normal[1];
+    m_xz += weight * normal[0] * normal[2];
+    m_yy += weight * normal[1] * normal[1];
+    m_yz += weight * normal[1] * normal[2];
+    m_zz += weight * normal[2] * normal[2];
+    for (int i = 0; i < 3; ++i)
+      m_b[i] += weight * d * normal[i];
+    m_c += weight * d * d;
+  }
+
+  /// Adds weight × squared distance to `point`.
+  void add_point(const Vector& point, double weight)
+  {
+    m_xx += weight;
+    m_yy += weight;
+    m_zz += weight;
+    for (int i = 0; i < 3; ++i)
+      m_b[i] -= weight * point[i];
+    m_c += weight * dot(point, point);
+  }
+
+  Quadric& operator+=(const Quadric& other)
+  {
+    m_xx += other.m_xx;
+    m_xy += other.m_xy;
+    m_xz += other.m_xz;
+    m_yy += other.m_yy;
+    m_yz += other.m_yz;
+    m_zz += other.m_zz;
+    for (int i = 0; i < 3; ++i)
+      m_b[i] += other.m_b[i];
+    m_c += other.m_c;
+    return *this;
+  }
+
+  double operator()(const Vector& x) const
+  {
+    return x[0] * (m_xx * x[0] + 2 * (m_xy * x[1] + m_xz * x[2] + m_b[0])) +
+           x[1] * (m_yy * x[1] + 2 * (m_yz * x[2] + m_b[1])) + x[2] * (m_zz * x[2] + 2 * m_b[2]) + m_c;
+  }
+
+  /// The sum of the weights of the planes, and three times those of the points.
+  double trace() const { return m_xx + m_yy + m_zz; }
+
+  static double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+private:
+  double m_xx = 0, m_xy = 0, m_xz = 0, m_yy = 0, m_yz = 0, m_zz = 0;
+  Vector m_b{0, 0, 0};
+  double m_c = 0;
+};
+
+/// How much of what a `Quadric_cost` weighs. Both numbers are ratios, at least 0.
+struct Quadric_cost_options
+{
+  /// Weight of the plane that stands on a border edge, per squared length of the edge; a face plane weighs its area.
+  double border_weight = 1;
+
+  /// Weight of the squared distance to the original vertices themselves, per area. On flat cloth every collapse
+  /// costs nothing by its planes alone, and this decides: the nearer merge first, and triangles stay round. Small
+  /// enough not to outweigh the planes where there is a shape to keep.
+  double stabiliser = 1e-5;
+};
+
+/// Marks no edge but the borders.
+struct No_line_map
+{
+  template <class Edge>
+  friend bool get(const No_line_map&, const Edge&)
+  {
+    return false;
+  }
+};
+
+/// The cost of a collapse by accumulated quadrics: area-weighted planes of the faces, planes that stand on border
+/// edges, and a small pull to the original vertices.
+///
+/// A model of CGAL's concept `GetCost`, usable with any placement. The quadrics belong to the mesh it was made
+/// for: copies share them, and a second run on the same mesh goes on with what the first has accumulated.
+///
+/// **Preconditions** The mesh outlives the policy. `EdgeIsLineMap` is a readable property map from edges to
+/// `bool`: edges inside the mesh that are to be kept as borders are.
+///
+/// **Exactness** Floating point; the cost orders the collapses and decides nothing else. Coordinates are taken
+/// relative to the centre of the mesh, so that a mesh far from the origin loses nothing.
+///
+/// **Reference** Garland, Heckbert: Surface simplification using quadric error metrics, sections 3 to 6;
+/// Derichs, Misiak, Fuhrmann, section 3.
+template <class TriangleMesh, class EdgeIsLineMap = No_line_map>
+class Quadric_cost
+{
+  using Graph_traits = boost::graph_traits<TriangleMesh>;
+  using Vertex = typename Graph_traits::vertex_descriptor;
+  using Halfedge = typename Graph_traits::halfedge_descriptor;
+  using Quadric_map = typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<Quadric>>::const_type;
+
+public:
+  /// Asks CGAL's loop to call `initialize` and `update_after_collapse`.
+  using Update_tag = CGAL::Tag_true;
+
+  explicit Quadric_cost(const TriangleMesh& mesh, const Quadric_cost_options& options = {},
+                        const EdgeIsLineMap& edge_is_line = {})
+    : m_state(std::make_shared<State>(mesh, options, edge_is_line))
+  {}
+
+  /// Computes the quadrics, the first time; called by the loop.
+  template <class VertexPointMap, class GeomTraits>
+  void initialize(const TriangleMesh& mesh, const VertexPointMap& points, const GeomTraits&) const
+  {
+    if (m_state->is_initialised)
+      return;
+    m_state->is_initialised = true;
+    CGAL::Bbox_3 box;
+    for (const Vertex v : vertices(mesh))
+      box += get(points, v).bbox();
+    for (int i = 0; i < 3 && box.min(i) <= box.max(i); ++i)
+      m_state->origin[i] = 0.5 * box.min(i) + 0.5 * box.max(i);
+    for (const auto face : faces(mesh))
+      add_face(halfedge(face, mesh), mesh, points);
+  }
+
+  /// The cost of merging the ends of the profile's edge at `placement`, in units of area × squared length; none
+  /// when there is no placement.
+  template <class Profile, class Point>
+  internal::Optional<typename Profile::FT> operator()(const Profile& profile,
+                                                      const internal::Optional<Point>& placement) const
+  {
+    if (!placement)
+      return {};
+    return typename Profile::FT(cost_at(profile, *placement));
+  }
+
+  /// The same number for a point.
+  template <class Profile, class Point>
+  double cost_at(const Profile& profile, const Point& point) const
+  {
+    const Quadric::Vector x = m_state->vector(point);
+    const double sum = get(m_state->quadrics, profile.v0())(x) + get(m_state->quadrics, profile.v1())(x);
+    return (std::max)(0.0, sum); // cancellation may leave a little less than nothing
+  }
+
+  /// The root mean square distance of `point` to the planes gathered at both ends of the edge, weighted by area.
+  template <class Profile, class Point>
+  double error_at(const Profile& profile, const Point& point) const
+  {
+    const double weight =
+      get(m_state->quadrics, profile.v0()).trace() + get(m_state->quadrics, profile.v1()).trace();
+    return weight > 0 ? std::sqrt(cost_at(profile, point) / weight) : 0;
+  }
+
+  /// Gives the merged vertex the sum of both; called by the loop.
+  template <class Profile>
+  void update_after_collapse(const Profile& profile, Vertex kept) const
+  {
+    Quadric sum = get(m_state->quadrics, profile.v0());
+    sum += get(m_state->quadrics, profile.v1());
+    put(m_state->quadrics, kept, sum);
+  }
+
+private:
+  struct State
+  {
+    State(const TriangleMesh& mesh, const Quadric_cost_options& options_, const EdgeIsLineMap& edge_is_line_)
+      : options(options_), edge_is_line(edge_is_line_),
+        quadrics(get(CGAL::dynamic_vertex_property_t<Quadric>(), mesh))
+    {}
+
+    template <class Point>
+    Quadric::Vector vector(const Point& p) const
+    {
+      return {CGAL::to_double(p.x()) - origin[0], CGAL::to_double(p.y()) - origin[1],
+              CGAL::to_double(p.z()) - origin[2]};
+    }
+
+    Quadric_cost_options options;
+    EdgeIsLineMap edge_is_line;
+    Quadric_map quadrics;
+    Quadric::Vector origin{0, 0, 0};
+    bool is_initialised = false;
+  };
+
+  static Quadric::Vector difference(const Quadric::Vector& a, const Quadric::Vector& b)
+  {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+  }
+  static Quadric::Vector cross(const Quadric::Vector& a, const Quadric::Vector& b)
+  {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  }
+
+  // Scales to length 1 and returns the length it had; leaves the zero vector as it is.
+  static double normalise(Quadric::Vector& v)
+  {
+    const double length = std::hypot(v[0], v[1], v[2]);
+    if (length > 0)
+      for (double& coordinate : v)
+        coordinate /= length;
+    return length;
+  }
+
+  template <class VertexPointMap>
+  void add_face(Halfedge first, const TriangleMesh& mesh, const VertexPointMap& points) const
+  {
+    const State& state = *m_state;
+    const std::array<Halfedge, 3> edges{first, next(first, mesh), next(next(first, mesh), mesh)};
+    std::array<Quadric::Vector, 3> corners; // corner i is the source of edge i
+    for (int i = 0; i < 3; ++i)
+      corners[i] = state.vector(get(points, source(edges[i], mesh)));
+    Quadric::Vector normal = cross(difference(corners[1], corners[0]), difference(corners[2], corners[0]));
+    const double area = 0.5 * normalise(normal);
+
+    Quadric of_face;
+    of_face.add_plane(normal, corners[0], area);
+    for (int i = 0; i < 3; ++i) {
+      Quadric of_corner = of_face;
+      of_corner.add_point(corners[i], state.options.stabiliser * area);
+      add(source(edges[i], mesh), of_corner);
+    }
+    for (int i = 0; i < 3; ++i) {
+      if (!is_border(opposite(edges[i], mesh), mesh) && !get(state.edge_is_line, edge(edges[i], mesh)))
+        continue;
+      Quadric::Vector along = difference(corners[(i + 1) % 3], corners[i]);
+      const double length = normalise(along);
+      Quadric of_border;
+      of_border.add_plane(cross(normal, along), corners[i], state.options.border_weight * length * length);
+      add(source(edges[i], mesh), of_border);
+      add(target(edges[i], mesh), of_border);
+    }
+  }
+
+  void add(Vertex v, const Quadric& quadric) const
+  {
+    Quadric sum = get(m_state->quadrics, v);
+    sum += quadric;
+    put(m_state->quadrics, v, sum);
+  }
+
+  std::shared_ptr<State> m_state;
+};
+
+} // namespace selvedge
+
+#endif // SELVEDGE_SURFACE_MESH_SIMPLIFICATION_QUADRIC_COST_H
