@@ -145,9 +145,10 @@ public:
   /// The next word as an integer.
   std::int64_t integer()
   {
+    const Text_reader start = *this;
     const std::int64_t value = integer_prefix();
     if (!at_separator(m_at))
-      fail_at_word("an integer");
+      start.fail_at_word("an integer");
     return value;
   }
 

@@ -8,9 +8,12 @@
 namespace selvedge::files {
 namespace {
 
-bool starts_number(char c)
+/// Whether the next word is no number.
+bool at_keyword(Text_reader text)
 {
-  return (c >= '0' && c <= '9') || c == '+' || c == '-';
+  const std::string_view word = text.word();
+  return std::any_of(word.begin(), word.end(),
+                     [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); });
 }
 
 /// A count of the header; refused when that many elements of `least_bytes` each cannot follow.
@@ -40,14 +43,14 @@ Mesh_file read_off(std::string_view contents, const std::string& name)
   // The keyword may be missing, and what its prefixes announce is recognised by the further columns.
   if (!text.to_next_statement())
     fail("the file has no header; an OFF file begins with OFF");
-  if (!starts_number(text.peek())) {
+  if (at_keyword(text)) {
     const std::string_view keyword = text.word();
     if (keyword != "OFF" && keyword != "COFF" && keyword != "NOFF" && keyword != "CNOFF" &&
         keyword != "STOFF" && keyword != "STCOFF" && keyword != "STNOFF" && keyword != "STCNOFF")
       fail("the header is " + in_quotes(keyword) + ", not that of an OFF file with three coordinates");
     if (!text.to_next_statement())
       fail("the file ends after its header; it is cut short");
-    if (!starts_number(text.peek()))
+    if (at_keyword(text))
       fail("the header continues with " + in_quotes(text.word()) + "; only text is read, convert the file");
   }
   const std::size_t vertices = read_count(text, "vertices", 6);

@@ -173,6 +173,8 @@ private:
       m_text.fail("the first line is not 'ply'; the file is no PLY file");
     for (;;) {
       next_line();
+      if (m_text.at_end())
+        m_text.fail("the file ends within its header; it is cut short");
       const std::string_view keyword = m_text.word();
       if (keyword == "end_header") {
         next_line();
@@ -184,7 +186,7 @@ private:
         read_element();
       else if (keyword == "property")
         read_property();
-      else if (keyword != "comment" && keyword != "obj_info")
+      else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty())
         m_text.fail("the header has an unknown statement " + in_quotes(keyword) + "; remove it");
     }
     if (m_format.empty())

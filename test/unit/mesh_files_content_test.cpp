@@ -1,0 +1,237 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// What the readers make of what stands in a file.
+
+#include "support/Temporary_folder.h"
+
+#include <selvedge/Error.h>
+#include <selvedge/mesh/mesh_files.h>
+
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <random>
+#include <string>
+
+using namespace selvedge;
+using Triangles = std::vector<Index_triple>;
+
+namespace {
+
+Mesh_file read_obj(const std::string& contents)
+{
+  return read_mesh(contents, Mesh_format::obj, "text");
+}
+
+// Numbers
+
+TEST(ObjNumbers, AreTheNearestDoubles)
+{
+  const auto first =
+      read_obj("v 0.1 9007199254740993 -0\n" // the second lies between two doubles
+               "v 2.4703282292062327208e-324 2.4703282292062328e-324 -1e-400\n" // about half of the least
+               "v 179769313486231580793e288 1e23 .5\n"
+               "f 1 2 3\n")
+          .soup.points;
+  EXPECT_EQ(first[0], Point_3(0.1, 9007199254740992.0, 0));
+  EXPECT_TRUE(std::signbit(first[0].z()));
+  EXPECT_EQ(first[1].x(), 0);
+  EXPECT_EQ(first[1].y(), std::numeric_limits<double>::denorm_min());
+  EXPECT_EQ(first[1].z(), 0);
+  EXPECT_TRUE(std::signbit(first[1].z()));
+  EXPECT_EQ(first[2], Point_3(std::numeric_limits<double>::max(), 1e23, 0.5));
+}
+
+// Attributes
+
+TEST(ObjTextureCoordinates, FollowTheCorners)
+{
+  const Mesh_file file = read_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+                                  "vt 0.25\nvt 0.5 1\nvt 1 1 0\nvt 0 0.5\n"
+                                  "f 1/4/1 2/3/1 3/2/1 4/1/1\nf 1/-1 2/-2 3/-4\n");
+  EXPECT_EQ(file.soup.uvs, (std::vector<std::array<double, 2>>{{0.25, 0}, {0.5, 1}, {1, 1}, {0, 0.5}}));
+  EXPECT_EQ(file.soup.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}}));
+  EXPECT_EQ(file.soup.uv_triangles, (Triangles{{3, 2, 1}, {3, 1, 0}, {3, 2, 0}}));
+}
+
+TEST(ObjTextureCoordinates, AreDroppedWhenOneCornerHasNone)
+{
+  const Mesh_file file = read_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nf 1/1 2/1 3/1\nf 1/1 2 3/1\n");
+  EXPECT_TRUE(file.soup.uvs.empty());
+  EXPECT_TRUE(file.soup.uv_triangles.empty());
+  EXPECT_EQ(file.soup.triangles.size(), 2u);
+  EXPECT_EQ(file.notes.ignored.size(), 1u);
+}
+
+TEST(ObjGroups, AreTheLatestGroupOrObjectAboveTheFace)
+{
+  const Mesh_file file =
+      read_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+               "f 1 2 3\no coat\nf 1 2 3 4\ng  left sleeve \nf 1 2 3\ng\nf 1 3 4\ng left sleeve\nf 1 2 4\n");
+  EXPECT_EQ(file.soup.group_names, (std::vector<std::string>{"default", "coat", "left sleeve"}));
+  EXPECT_EQ(file.soup.groups, (std::vector<Index>{0, 1, 1, 2, 0, 2}));
+  EXPECT_TRUE(read_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n").soup.groups.empty());
+}
+
+// Polygons
+
+std::string polygon_obj(const std::vector<std::array<double, 2>>& corners, int view)
+{
+  std::string text, face = "f";
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    std::array<double, 3> p = {};
+    p[(view + 1) % 3] = corners[i][0];
+    p[(view + 2) % 3] = corners[i][1];
+    p[view] = 1;
+    text += "v " + std::to_string(p[0]) + " " + std::to_string(p[1]) + " " + std::to_string(p[2]) + "\n";
+    face += " " + std::to_string(i + 1);
+  }
+  return text + face + "\n";
+}
+
+/// Checks that the triangles of a simple counter-clockwise polygon all turn its way and fill its area
+/// exactly, which leaves them no room for an overlap.
+void expect_exact_cut(const std::vector<std::array<double, 2>>& corners, int view)
+{
+  using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
+  const Triangle_soup soup = read_obj(polygon_obj(corners, view)).soup;
+  ASSERT_EQ(soup.triangles.size(), corners.size() - 2);
+  const auto at = [&](Index i) { return Exact::Point_2(corners[i][0], corners[i][1]); };
+  Exact::FT twice_area = 0, sum = 0;
+  for (Index i = 1; i + 1 < corners.size(); ++i)
+    twice_area += CGAL::determinant(at(i) - at(0), at(i + 1) - at(0));
+  for (const auto& [a, b, c] : soup.triangles) {
+    EXPECT_EQ(CGAL::orientation(at(a), at(b), at(c)), CGAL::LEFT_TURN);
+    sum += CGAL::determinant(at(b) - at(a), at(c) - at(a));
+  }
+  EXPECT_TRUE(twice_area == sum);
+}
+
+TEST(Polygons, ConvexOneIsTheFanOfItsFirstCorner)
+{
+  const std::vector<std::array<double, 2>> hexagon = {{0, 0}, {2, 0}, {3, 1}, {2, 2}, {0, 2}, {-1, 1}};
+  for (int view = 0; view < 3; ++view)
+    EXPECT_EQ(read_obj(polygon_obj(hexagon, view)).soup.triangles,
+              (Triangles{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}));
+}
+
+TEST(Polygons, ConcaveOneIsCutWithoutOverlap)
+{
+  std::vector<std::array<double, 2>> arrow = {{0, 0}, {4, 0}, {1, 1}, {0, 4}};
+  std::vector<std::array<double, 2>> comb = {{0, 0}, {7, 0}, {7, 3}, {6, 3}, {6, 1}, {5, 1},
+                                             {5, 3}, {4, 3}, {4, 1}, {3, 1}, {3, 3}, {0, 3}};
+  std::vector<std::array<double, 2>> straight = {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {3, 3}, {2, 3}, {0, 3}};
+  for (auto* corners : {&arrow, &comb, &straight})
+    for (std::size_t turn = 0; turn < corners->size(); ++turn) {
+      SCOPED_TRACE(turn);
+      for (int view = 0; view < 3; ++view)
+        expect_exact_cut(*corners, view);
+      std::rotate(corners->begin(), corners->begin() + 1, corners->end());
+    }
+}
+
+TEST(Polygons, RandomStarsAreCutWithoutOverlap)
+{
+  constexpr unsigned seed = 11;
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  std::uniform_int_distribution<int> radius(1, 9), corners(4, 40);
+  for (int round = 0; round < 300; ++round) {
+    std::vector<std::array<double, 2>> star;
+    const int size = corners(random);
+    for (int i = 0; i < size; ++i) {
+      const double angle = 2 * CGAL_PI * i / size;
+      const int r = radius(random);
+      // Rounded to what polygon_obj writes.
+      star.push_back({std::round(1000 * r * std::cos(angle)), std::round(1000 * r * std::sin(angle))});
+    }
+    expect_exact_cut(star, round % 3);
+  }
+}
+
+TEST(Polygons, WithoutACutTheyAreTheFan)
+{
+  // A bow tie, a needle and a point have no area to cut; they are kept all the same.
+  for (const char* points : {"v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\n", "v 0 0 0\nv 1 1 1\nv 2 2 2\nv 3 3 3\n",
+                             "v 1 1 1\nv 1 1 1\nv 1 1 1\nv 1 1 1\n"})
+    EXPECT_EQ(read_obj(points + std::string("f 1 2 3 4\n")).soup.triangles,
+              (Triangles{{0, 1, 2}, {0, 2, 3}}));
+}
+
+// Formats
+
+TEST(Stl, VerticesAreNumberedByTheirFirstCorner)
+{
+  const Mesh_file file =
+      read_mesh("solid\nfacet normal 0 0 0\nouter loop\nvertex 5 0 -0\nvertex 1 0 0\nvertex 0 1 0\n"
+                "endloop\nendfacet\nfacet normal 0 0 0\nouter loop\nvertex 0 1 -0\nvertex 7 7 7\n"
+                "vertex 5 0 0\nendloop\nendfacet\nendsolid\n",
+                Mesh_format::stl, "text");
+  EXPECT_EQ(file.soup.points,
+            (std::vector<Point_3>{Point_3(5, 0, 0), Point_3(1, 0, 0), Point_3(0, 1, 0), Point_3(7, 7, 7)}));
+  EXPECT_TRUE(std::signbit(file.soup.points[0].z()));
+  EXPECT_EQ(file.soup.triangles, (Triangles{{0, 1, 2}, {2, 3, 0}}));
+}
+
+TEST(Ply, EveryTypeOfNumberIsRead)
+{
+  const std::pair<const char*, std::size_t> types[] = {{"char", 1},   {"uint8", 1}, {"short", 2},
+                                                       {"ushort", 2}, {"int32", 4}, {"uint", 4}};
+  for (const bool big_endian : {false, true})
+    for (const auto& [type, size] : types) {
+      SCOPED_TRACE(type);
+      const auto number = [big_endian, bytes = size](char value) {
+        std::string text(bytes, '\0');
+        text[big_endian ? bytes - 1 : 0] = value;
+        return text;
+      };
+      const std::string name = type;
+      std::string text = std::string("ply\nformat binary_") + (big_endian ? "big" : "little") +
+                         "_endian 1.0\nelement vertex 3\nproperty " + name + " x\nproperty " + name +
+                         " y\nproperty " + name + " z\nproperty list " + name + " " + name +
+                         " skipped\nelement face 1\nproperty list " + name + " " + name +
+                         " vertex_index\nend_header\n";
+      for (const char value : {5, 0, 0, 1, 99, 0, 100, 0, 0, 0, 0, 100, 2, 98, 97, 3, 2, 0, 1})
+        text += number(value);
+      const Mesh_file file = read_mesh(text, Mesh_format::ply, "bytes");
+      EXPECT_EQ(file.soup.points,
+                (std::vector<Point_3>{Point_3(5, 0, 0), Point_3(0, 100, 0), Point_3(0, 0, 100)}));
+      EXPECT_EQ(file.soup.triangles, (Triangles{{2, 0, 1}}));
+      EXPECT_EQ(file.notes.ignored.size(), 1u);
+    }
+}
+
+TEST(Formats, AreNamedByTheExtensionInAnyCase)
+{
+  EXPECT_EQ(mesh_format("a/b.c/D.OBJ"), Mesh_format::obj);
+  EXPECT_EQ(mesh_format("x.Off"), Mesh_format::off);
+  EXPECT_EQ(mesh_format("x.y.ply"), Mesh_format::ply);
+  EXPECT_EQ(mesh_format("x.stL"), Mesh_format::stl);
+  for (const char* path : {"obj", ".obj", "x.", "x.fbx", "", "x.obj/y", "x.obj "})
+    EXPECT_THROW(mesh_format(path), Input_error) << path;
+}
+
+// Paths
+
+TEST(Paths, ThatAreNoFilesAreRefused)
+{
+  const test::Temporary_folder folder;
+  std::filesystem::create_directory(folder / "folder.obj");
+  std::filesystem::create_symlink("nowhere.obj", folder / "dangling.obj");
+  std::filesystem::create_symlink("loop.obj", folder / "loop.obj");
+  write_file(folder / "empty.obj", "");
+  for (const char* name :
+       {"folder.obj", "dangling.obj", "loop.obj", "missing.obj", "empty.obj", "nowhere/x.obj"})
+    try {
+      read_mesh(folder / name);
+      ADD_FAILURE() << name << " was read";
+    } catch (const Input_error& error) {
+      EXPECT_EQ(std::string(error.what()).rfind((folder / name).string() + ": ", 0), 0u) << error.what();
+    }
+}
+
+} // namespace
