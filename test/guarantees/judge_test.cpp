@@ -1,0 +1,110 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/verify.h>
+
+#include "support/soups.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace selvedge {
+namespace {
+
+using namespace test;
+
+TEST(Judge, AcceptsAnEmbeddedMesh)
+{
+  const Verification found = verify(joined(sheet(9, 7), tetrahedron()));
+  EXPECT_FALSE(found.embedded()); // the tetrahedron stands on the sheet
+  EXPECT_EQ(found.new_pairs.size(), found.pairs.size());
+  EXPECT_FALSE(found.accepted());
+
+  const Verification apart = verify(joined(sheet(9, 7, -1), tetrahedron()));
+  EXPECT_TRUE(apart.embedded());
+  EXPECT_TRUE(apart.accepted());
+  EXPECT_EQ(apart.pieces.size(), 2u);
+  EXPECT_FALSE(apart.distances.has_value());
+}
+
+TEST(Judge, AcceptsAResultWhoseDefectsAreThoseOfItsOriginal)
+{
+  const Triangle_soup original = joined(crossing(), sheet(4, 4, 20));
+  const Triangle_soup result = joined(crossing(), sheet(1, 1, 20));
+  const Verification found = verify(result, original);
+  EXPECT_FALSE(found.embedded());
+  EXPECT_TRUE(found.new_pairs.empty());
+  EXPECT_TRUE(found.same_topology());
+  EXPECT_TRUE(found.accepted());
+  ASSERT_TRUE(found.distances.has_value());
+  EXPECT_EQ(found.distances->result_to_original.maximum, 0);
+  EXPECT_GT(found.distances->original_to_result.maximum, 0);
+}
+
+TEST(Judge, RefusesANewPair)
+{
+  const Triangle_soup original = joined(crossing(), sheet(4, 4, 20));
+  const Triangle_soup result = joined(crossing(), sheet(4, 4, 0.5));
+  const Verification found = verify(result, original, offending_pairs(original));
+  EXPECT_EQ(found.pairs.size(), found.new_pairs.size() + 1);
+  EXPECT_FALSE(found.new_pairs.empty());
+  EXPECT_TRUE(found.same_topology());
+  EXPECT_FALSE(found.accepted());
+}
+
+TEST(Judge, RefusesAnotherTopology)
+{
+  const Verification found = verify(sheet(4, 4), joined(sheet(4, 4), sheet(4, 4, 1)));
+  EXPECT_TRUE(found.embedded());
+  ASSERT_EQ(found.topology_differences.size(), 1u);
+  EXPECT_EQ(found.topology_differences[0].pieces_of_original, 2u);
+  EXPECT_EQ(found.topology_differences[0].pieces_of_result, 1u);
+  EXPECT_FALSE(found.accepted());
+}
+
+/// A real mesh, and what was measured of it elsewhere.
+struct Known_mesh
+{
+  const char* path;
+  std::size_t faces, pieces, border_edges, intersecting_pairs;
+};
+
+class Judge_of_real_meshes : public testing::TestWithParam<Known_mesh>
+{
+};
+
+TEST_P(Judge_of_real_meshes, FindsWhatIsKnownOfThem)
+{
+  const std::filesystem::path path = std::filesystem::path(SELVEDGE_SHARED_DATA) / GetParam().path;
+  if (!std::filesystem::exists(path))
+    GTEST_SKIP() << "no folder of real meshes beside the checkout: " << path;
+  const Triangle_soup soup = read_mesh(path).soup;
+  ASSERT_EQ(soup.triangles.size(), GetParam().faces);
+
+  const std::vector<Offending_pair> pairs = offending_pairs(soup);
+  EXPECT_EQ(pairs.size(), GetParam().intersecting_pairs);
+  EXPECT_EQ(is_embedded(soup), pairs.empty());
+  for (const Offending_pair& pair : pairs)
+    EXPECT_EQ(pair.offence, Offence::intersection);
+
+  const std::vector<Piece> all = pieces(soup);
+  EXPECT_EQ(all.size(), GetParam().pieces);
+  std::size_t border_edges = 0;
+  for (const Piece& piece : all)
+    border_edges += piece.border_edges;
+  EXPECT_EQ(border_edges, GetParam().border_edges);
+}
+
+INSTANTIATE_TEST_SUITE_P(, Judge_of_real_meshes,
+                         testing::Values(Known_mesh{"garments/dress_14_pieces_uv.obj", 29456, 14, 1828, 0},
+                                         Known_mesh{"garments/multilayer_skirt.obj", 58687, 10, 2221, 0},
+                                         Known_mesh{"garments/multilayer_skirt_as_found.obj", 84159, 18, 2345,
+                                                    1131},
+                                         Known_mesh{"garments/avatar_in_suit_uv.obj", 40999, 6, 1167, 0},
+                                         Known_mesh{"scans/stanford_bunny.obj", 69451, 1, 223, 0},
+                                         Known_mesh{"scans/spot.obj", 23062, 1, 0, 0}));
+
+} // namespace
+} // namespace selvedge
