@@ -59,42 +59,74 @@ struct Frame
   }
 };
 
-/// A part of a garment: a tube around an axis, all around or open along a line, with the body inside it.
-///
-/// Its layers are graphs over the cylinder of (angle, height): in the frame the direction of stacking is
-/// radial, and the radii of neighbouring vertices differ by less than 1.8 : 1, which with vertices off their
-/// lattice by an eighth of a cell makes every triangle seen from its front by the directions of its corners,
-/// as Lattice asks. Whatever the radii, the base never comes near itself across the cylinder.
-struct Part
-{
-  std::string name;
-  bool closed;
-  /// Typical extent in metres, for the size of cells.
-  double width, height;
-  Frame frame;
-  double first_turn, last_turn;
-  double bottom, top;
-  std::function<double(double turns, double height)> radius;
-  std::vector<Pattern> patterns;
-  /// Patches over the outermost layer, level over level; those of one level lie apart.
-  std::vector<std::vector<Pattern>> patches;
-  /// Places of buttons in (u,v).
-  std::vector<std::array<double, 2>> buttons;
-  /// The body in this part: its own height and radius where the cloth leaves room.
-  Profile body;
-};
-
 struct Division
 {
   std::size_t columns, rows;
 };
 
-Division divide(const Part& part, double cell)
+/// A part of a garment: one lattice with the pieces cut from it, the patches over it and the body under it.
+struct Part
 {
-  const auto cells = [&](double length, double least) {
-    return static_cast<std::size_t>(std::max(least, std::floor(length / cell + 0.5)));
+  std::string name;
+  std::string body_name;
+  bool closed;
+  /// Typical extent in metres, for the share of faces.
+  double width, height;
+  /// Columns and rows for cells of a size.
+  std::function<Division(double cell)> divide;
+  /// Gives base and direction to a lattice that has its parameters.
+  std::function<void(Lattice& lattice)> shape;
+  std::vector<Pattern> patterns;
+  /// Patches over the outermost layer, level over level; those of one level lie apart.
+  std::vector<std::vector<Pattern>> patches;
+  /// Angles (in turns) and heights of buttons, in the frame in which the body stands as well.
+  std::vector<std::array<double, 2>> buttons;
+  Frame frame;
+  /// The body's radius where the cloth leaves room.
+  Profile body;
+};
+
+std::size_t cells_along(double length, double cell, double least)
+{
+  return static_cast<std::size_t>(std::max(least, std::floor(length / cell + 0.5)));
+}
+
+/// A tube around an axis, all around or open along a line.
+///
+/// Its layers are graphs over the cylinder of (angle, height): in the frame the direction of stacking is
+/// radial, and the radii of neighbouring vertices differ by less than 1.8 : 1, which with vertices off their
+/// lattice by an eighth of a cell makes every triangle seen from its front by the directions of its corners,
+/// as Lattice asks. Whatever the radii, the base never comes near itself across the cylinder.
+struct Tube
+{
+  double first_turn, last_turn;
+  double bottom, top;
+  std::function<double(double turns, double height)> radius;
+
+  void shape(const Frame& frame, Lattice& lattice) const
+  {
+    for (std::size_t k = 0; k < lattice.u.size(); ++k) {
+      const double turns = first_turn + (last_turn - first_turn) * lattice.u[k];
+      const double height = bottom + (top - bottom) * lattice.v[k];
+      const Vector d = frame.radial(turns);
+      lattice.base.push_back(frame.origin + height * frame.axis + radius(turns, height) * d);
+      lattice.direction.push_back(d / std::sqrt(d.squared_length()));
+    }
+  }
+};
+
+Part tube(const Tube& shape, const Frame& frame, double width, double height)
+{
+  Part part;
+  part.closed = shape.last_turn - shape.first_turn == 1;
+  part.width = width;
+  part.height = height;
+  part.divide = [=](double cell) {
+    return Division{cells_along(width, cell, 8), cells_along(height, cell, 4)};
   };
-  return {cells(part.width, 8), cells(part.height, 4)};
+  part.shape = [=](Lattice& lattice) { shape.shape(frame, lattice); };
+  part.frame = frame;
+  return part;
 }
 
 Panel place(const Pattern& pattern, const std::string& name, const Division& division)
@@ -127,7 +159,7 @@ std::size_t button_corners(const Generate_options& options)
 
 std::size_t count_faces(const Part& part, double cell, const Generate_options& options)
 {
-  const Division division = divide(part, cell);
+  const Division division = part.divide(cell);
   const bool thick = options.thickness > 0;
   std::size_t count = 4 * button_corners(options) * part.buttons.size();
   for (const Pattern& pattern : part.patterns)
@@ -196,7 +228,7 @@ class Garment
 public:
   Garment(const Generate_options& options, std::vector<Part> parts)
       : m_options(options), m_layers(static_cast<std::size_t>(options.layers)), m_parts(std::move(parts)),
-        m_random(options.seed)
+        m_random(options.seed), m_phase(m_random.unit())
   {
   }
 
@@ -246,7 +278,7 @@ private:
   /// Returns the faces of the body.
   std::size_t add_part(Soup_builder& builder, const Part& part, double cell, std::size_t body_faces)
   {
-    const Division division = divide(part, cell);
+    const Division division = part.divide(cell);
     Lattice lattice(division.columns, division.rows, part.closed);
     for (const Pattern& pattern : part.patterns)
       lattice.keep_straight(place(pattern, "", division));
@@ -255,16 +287,8 @@ private:
         lattice.keep_straight(place(pattern, "", division));
     lattice.disturb(m_random);
 
-    std::vector<double> radii;
-    for (std::size_t k = 0; k < lattice.u.size(); ++k) {
-      const double turns = part.first_turn + (part.last_turn - part.first_turn) * lattice.u[k];
-      const double height = part.bottom + (part.top - part.bottom) * lattice.v[k];
-      const Vector d = part.frame.radial(turns);
-      radii.push_back(part.radius(turns, height));
-      lattice.base.push_back(part.frame.origin + height * part.frame.axis + radii.back() * d);
-      lattice.direction.push_back(d);
-    }
-    const std::size_t made = add_body(builder, part, lattice, radii, body_faces);
+    part.shape(lattice);
+    const std::size_t made = add_body(builder, part, lattice, body_faces);
 
     const double thickness = m_options.thickness;
     std::vector<double> offset(lattice.u.size(), 0.0);
@@ -276,11 +300,12 @@ private:
       else
         add_sheet(builder, lattice, panel, offset, diagonals);
     };
+    // Widths depend on the place only, so that sewn parts agree where they meet.
     const auto rise = [&](double wave) {
-      const double phase = m_random.unit();
       for (std::size_t k = 0; k < offset.size(); ++k) {
+        const Vector& p = lattice.base[k];
         const double swell =
-            cosine_sine(wave * lattice.u[k] + phase)[0] * cosine_sine(1.3 * lattice.v[k] - phase)[0];
+            cosine_sine(wave * p.x() + m_phase)[0] * cosine_sine(wave * p.y() + 1.3 * p.z() - m_phase)[0];
         offset[k] = outer[k] + m_options.gap * (1.5 + 0.5 * swell);
       }
     };
@@ -344,36 +369,55 @@ private:
     return loose;
   }
 
-  /// The body keeps to nine tenths of the smallest radius of the cloth anywhere between a ring's neighbours,
-  /// less what straight edges cut off from the circle: so the cone between two rings does as well.
-  std::size_t add_body(Soup_builder& builder, const Part& part, const Lattice& lattice,
-                       const std::vector<double>& radii, std::size_t faces)
+  /// The body keeps to nine tenths of the smallest distance of the cloth from the axis anywhere between a
+  /// ring's neighbours, less what straight edges cut off from the circle: so the cone between two rings does
+  /// as well.
+  std::size_t add_body(Soup_builder& builder, const Part& part, const Lattice& lattice, std::size_t faces)
   {
     const double low = part.body.front()[0];
     const double high = part.body.back()[0];
     const auto [columns, bands] = Closed_surface::divide(faces, part.width * 0.7 / (high - low));
     const Closed_surface surface(columns, bands, m_random);
     const double band = (high - low) / static_cast<double>(bands);
-    const double row = (part.top - part.bottom) / static_cast<double>(lattice.rows);
     const double chord = cosine_sine(0.625 / static_cast<double>(lattice.columns))[0];
-    std::vector<double> room(lattice.rows + 1, std::numeric_limits<double>::max());
-    for (std::size_t k = 0; k < radii.size(); ++k)
-      room[k / lattice.width] = std::min(room[k / lattice.width], 0.9 * chord * radii[k]);
 
+    const Frame& frame = part.frame;
+    const auto coordinate = [](const Vector& p, const Vector& axis) {
+      return p * axis / axis.squared_length();
+    };
+    struct Row
+    {
+      double low = std::numeric_limits<double>::max();
+      double high = std::numeric_limits<double>::lowest();
+      double room = std::numeric_limits<double>::max();
+    };
+    std::vector<Row> rows(lattice.rows);
+    for (std::size_t k = 0; k < lattice.base.size(); ++k) {
+      const Vector p = lattice.base[k] - frame.origin;
+      const double x = coordinate(p, frame.across);
+      const double y = coordinate(p, frame.depth);
+      const double height = coordinate(p, frame.axis);
+      const std::size_t j = k / lattice.width;
+      for (std::size_t row = j == 0 ? 0 : j - 1; row <= j && row < lattice.rows; ++row) {
+        rows[row].low = std::min(rows[row].low, height);
+        rows[row].high = std::max(rows[row].high, height);
+        rows[row].room = std::min(rows[row].room, 0.9 * chord * std::sqrt(x * x + y * y));
+      }
+    }
     std::vector<Vector> points(surface.size());
-    points[surface.south()] = part.frame.origin + low * part.frame.axis;
-    points[surface.north()] = part.frame.origin + high * part.frame.axis;
+    points[surface.south()] = frame.origin + low * frame.axis;
+    points[surface.north()] = frame.origin + high * frame.axis;
     for (std::size_t k = 1; k < bands; ++k) {
       const double height = low + band * static_cast<double>(k);
       double radius = radius_at(part.body, height);
-      for (std::size_t j = 0; j <= lattice.rows; ++j)
-        if (std::abs(part.bottom + row * static_cast<double>(j) - height) <= band + 1.25 * row)
-          radius = std::min(radius, room[j]);
+      for (const Row& row : rows)
+        if (height + band >= row.low && height - band <= row.high)
+          radius = std::min(radius, row.room);
       for (std::size_t i = 0; i < columns; ++i)
         points[surface.ring_vertex(i, k)] =
-            part.frame.origin + height * part.frame.axis + radius * part.frame.radial(surface.turns(i, k));
+            frame.origin + height * frame.axis + radius * frame.radial(surface.turns(i, k));
     }
-    surface.add(builder, part.name.empty() ? "body" : "body_" + part.name, points);
+    surface.add(builder, part.body_name, points);
     return Closed_surface::count_faces(columns, bands);
   }
 
@@ -381,9 +425,7 @@ private:
                     const std::vector<double>& outer, std::size_t number) const
   {
     const double radius = 0.009;
-    const auto [u, v] = part.buttons[number];
-    const double turns = part.first_turn + (part.last_turn - part.first_turn) * u;
-    const double height = part.bottom + (part.top - part.bottom) * v;
+    const auto [turns, height] = part.buttons[number];
     const Vector radial = part.frame.radial(turns);
     const Vector axis = radial / std::sqrt(radial.squared_length());
     const Vector middle = part.frame.origin + height * part.frame.axis;
@@ -408,7 +450,7 @@ private:
       if (along > 0 && (p - along * axis).squared_length() <= reach * reach)
         distance = std::max(distance, along);
     }
-    add_button(builder, "button_" + std::to_string(number), middle, axis, part.frame.axis, radius,
+    add_button(builder, part.name + "button_" + std::to_string(number), middle, axis, part.frame.axis, radius,
                distance + m_options.gap, 0.003, button_corners(m_options));
   }
 
@@ -416,12 +458,19 @@ private:
   std::size_t m_layers;
   std::vector<Part> m_parts;
   Random m_random;
+  double m_phase;
 };
 
-/// The space that all layers, pockets and bands need must be far smaller than the tubes are wide.
+/// The space that all layers, pockets and bands take at most.
+double stack_of(const Generate_options& options)
+{
+  return (options.layers + 3) * (options.thickness + 2 * options.gap);
+}
+
+/// It must be far smaller than the tubes are wide.
 void require_thin(const Generate_options& options)
 {
-  const double stack = (options.layers + 3) * (options.thickness + 2 * options.gap);
+  const double stack = stack_of(options);
   if (stack > 0.05)
     throw Argument_error("the layers with their gaps are " + std::to_string(stack) +
                          " m thick together, a garment has room for 0.05; reduce layers, thickness or gap");
@@ -437,19 +486,8 @@ Triangle_soup internal::skirt(const Generate_options& options)
   Random random(options.seed + 1000003u);
   const double phase = random.unit();
   const double drift = 0.2 * random.symmetric();
-
-  Part part;
-  part.closed = true;
-  part.width = 1.5;
-  part.height = 0.65;
-  part.frame = UPRIGHT;
-  part.frame.depth = Vector(0, 0.85, 0);
-  part.first_turn = 0;
-  part.last_turn = 1;
-  part.bottom = 0.4;
-  part.top = 1.05;
   const Profile shape{{0.4, 0.33}, {0.85, 0.2}, {1.05, 0.14}};
-  part.radius = [=, &options](double turns, double height) {
+  const auto radius = [=, &options](double turns, double height) {
     const double fall = (1.05 - height) / 0.65;
     const double pleat = cosine_sine(options.folds * turns + phase + drift * height)[0];
     const double uneven = cosine_sine(3 * turns - phase)[1];
@@ -457,6 +495,9 @@ Triangle_soup internal::skirt(const Generate_options& options)
     return radius_at(shape, height) +
            options.fold_depth * fall * (pleat * (0.75 + 0.25 * uneven) + 0.35 * second);
   };
+  Frame frame = UPRIGHT;
+  frame.depth = Vector(0, 0.85, 0);
+  Part part = tube({0, 1, 0.4, 1.05, radius}, frame, 1.5, 0.65);
   part.patterns = {{"front", 0.5, 1, 0, 0.9, Panel::BOTTOM},
                    {"back", 0, 0.5, 0, 0.9, Panel::BOTTOM},
                    {"yoke_right", 0.25, 0.75, 0.9, 1, Panel::TOP},
@@ -466,10 +507,65 @@ Triangle_soup internal::skirt(const Generate_options& options)
        {"pocket_right", 0.59, 0.66, 0.5, 0.72, Panel::ALL}},
       {{"waistband", 0, 1, 0.93, 0.99, Panel::BOTTOM | Panel::TOP}},
       {{"loop_left", 0.87, 0.885, 0.9, 1, Panel::ALL}, {"loop_right", 0.61, 0.625, 0.9, 1, Panel::ALL}}};
-  part.buttons = {{0.75, 0.96}};
+  part.buttons = {{0.75, 1.024}};
+  part.body_name = "body";
   part.body = {{0.32, 0.05}, {0.36, 0.1},  {0.6, 0.155}, {0.85, 0.17}, {1.05, 0.125},
                {1.3, 0.155}, {1.42, 0.13}, {1.47, 0.05}, {1.52, 0.05}};
   return Garment(options, {part}).make();
+}
+
+Triangle_soup internal::jacket(const Generate_options& options)
+{
+  require_thin(options);
+  Random random(options.seed + 2000003u);
+  const double phase = random.unit();
+  const double stack = stack_of(options);
+
+  // Open in front, where y is least.
+  const Profile shape{{0.78, 0.19}, {1.0, 0.165}, {1.2, 0.175}, {1.33, 0.16}, {1.42, 0.09}, {1.47, 0.095}};
+  const auto torso_radius = [=, &options](double turns, double height) {
+    const double loose = 0.25 + 0.6 * std::max(0.0, 1.0 - height) / 0.22;
+    const double fold = cosine_sine(options.folds * turns * 0.5 + phase + 0.9 * height)[0];
+    const double crease = cosine_sine(2 * turns - phase)[1] * cosine_sine(7 * height + 3 * turns)[0];
+    return radius_at(shape, height) + options.fold_depth * loose * (0.3 * fold + 0.2 * crease);
+  };
+  Frame frame = UPRIGHT;
+  frame.across = Vector(1.2, 0, 0);
+  frame.depth = Vector(0, 0.8, 0);
+  Part torso = tube({0.765, 1.735, 0.78, 1.47, torso_radius}, frame, 1.0, 0.69);
+  torso.patterns = {{"front_left", 0, 0.27, 0, 0.9, Panel::LEFT | Panel::BOTTOM},
+                    {"back", 0.27, 0.73, 0, 0.9, Panel::BOTTOM},
+                    {"front_right", 0.73, 1, 0, 0.9, Panel::RIGHT | Panel::BOTTOM},
+                    {"collar", 0, 1, 0.9, 1, Panel::LEFT | Panel::RIGHT | Panel::TOP}};
+  torso.patches = {{{"pocket_left", 0.08, 0.19, 0.12, 0.28, Panel::ALL},
+                    {"pocket_right", 0.81, 0.92, 0.12, 0.28, Panel::ALL},
+                    {"back_strap", 0.38, 0.62, 0.33, 0.37, Panel::ALL}},
+                   {{"flap_left", 0.075, 0.195, 0.25, 0.3, Panel::ALL},
+                    {"flap_right", 0.805, 0.925, 0.25, 0.3, Panel::ALL}}};
+  torso.buttons = {{0.785, 0.87}, {0.785, 0.99}, {0.785, 1.11}, {0.785, 1.23}};
+  torso.body_name = "body";
+  torso.body = {{0.68, 0.06}, {0.72, 0.13}, {0.85, 0.16}, {1.0, 0.135}, {1.2, 0.16},   {1.33, 0.14},
+                {1.42, 0.06}, {1.48, 0.05}, {1.53, 0.07}, {1.6, 0.08},  {1.68, 0.065}, {1.71, 0.03}};
+
+  // Sleeves hang at the sides, far enough out for all layers of both.
+  const auto sleeve_radius = [=, &options](double turns, double height) {
+    const double crease = cosine_sine(9 * height + phase)[0] * cosine_sine(turns + phase + height)[0];
+    return 0.062 + 0.025 * (height + 0.52) + 0.15 * options.fold_depth * crease;
+  };
+  const auto sleeve = [&](double side, std::string name) {
+    const double out = 0.25 + 2 * stack + 0.3 * options.fold_depth;
+    const Frame arm{Vector(side * out, 0, 1.32), Vector(0.8, 0, side * 0.6), Vector(0, 1, 0),
+                    Vector(-side * 0.6, 0, 0.8)};
+    Part part = tube({0, 1, -0.52, 0, sleeve_radius}, arm, 0.4, 0.52);
+    part.name = "sleeve_" + name + "_";
+    part.patterns = {{"back", 0, 0.5, 0, 1, Panel::BOTTOM | Panel::TOP},
+                     {"front", 0.5, 1, 0, 1, Panel::BOTTOM | Panel::TOP}};
+    part.patches = {{{"cuff", 0, 1, 0.02, 0.12, Panel::BOTTOM | Panel::TOP}}};
+    part.body_name = "arm_" + name;
+    part.body = {{-0.66, 0.01}, {-0.6, 0.03}, {-0.5, 0.04}, {-0.25, 0.05}, {0, 0.055}, {0.02, 0.03}};
+    return part;
+  };
+  return Garment(options, {torso, sleeve(1, "left"), sleeve(-1, "right")}).make();
 }
 
 } // namespace selvedge

@@ -53,6 +53,9 @@ Triangle_soup stacked_sheets(const Generate_options& options, double length)
   const auto layers = static_cast<std::size_t>(options.layers);
   Random random(options.seed);
   Lattice lattice = square(options.faces / layers, 1);
+  if (length < 1) // Needles lie along x only when their far ends have the same x.
+    for (std::size_t i = 0; i <= lattice.columns; ++i)
+      lattice.keep_straight({"", i, i, 0, lattice.rows, Panel::NONE});
   lattice.disturb(random);
   for (std::size_t k = 0; k < lattice.u.size(); ++k) {
     const double along = cosine_sine(options.folds * lattice.u[k])[1];
