@@ -34,7 +34,7 @@ using selvedge::Star_verdict;
 #ifdef NDEBUG
 constexpr int case_scale = 1;
 #else
-constexpr int case_scale = 10;
+constexpr int case_scale = 4;
 #endif
 
 template <class To>

@@ -30,7 +30,7 @@ using Grid_point = selvedge::oracle::Point<Integer>;
 #ifdef NDEBUG
 constexpr int case_scale = 1;
 #else
-constexpr int case_scale = 10;
+constexpr int case_scale = 4;
 #endif
 
 /// m, t, a, b and a face; the coordinates are small integers or any doubles.
