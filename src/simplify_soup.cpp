@@ -132,7 +132,7 @@ Prepared_soup prepare(Triangle_soup input, const Prepare_options& options)
   return prepared;
 }
 
-Simplified_soup simplify(const Prepared_soup& prepared, const Simplify_options& options)
+Simplified_soup simplify_soup(const Prepared_soup& prepared, const Simplify_options& options)
 {
   Simplified_soup result;
   Clock::time_point start = Clock::now();

@@ -93,17 +93,21 @@ public:
                           return m_report.is_stopped;
                         }));
     // CGAL's loop forgets an edge that was refused until its neighbourhood changes, though the layer that blocked it may have
-    // moved away. A new pass asks again.
-    bool is_progressing = true;
-    while (is_progressing && face_count(m_mesh) > m_report.faces_target && !m_report.is_stopped) {
+    // moved away, and though the turn of its second direction may have come. A new pass asks again.
+    while (face_count(m_mesh) > m_report.faces_target && !m_report.is_stopped) {
       const std::size_t collapses_before = m_report.collapses;
+      const std::size_t deferrals_before = placement.deferrals();
       const Refusals refused_before = refusals();
       CGAL::Surface_mesh_simplification::edge_collapse(
         m_mesh, stop,
         CGAL::parameters::get_cost(m_cost).get_placement(placement).visitor(Visitor<decltype(placement)>(*this, placement)));
       ++m_report.passes;
-      is_progressing = m_report.collapses > collapses_before;
       m_report.refused_in_last_pass = difference(refusals(), refused_before);
+      if (m_report.collapses == collapses_before) {
+        if (placement.deferrals() == deferrals_before)
+          break;
+        placement.stop_deferring();
+      }
     }
     m_report.faces_output = face_count(m_mesh);
     m_report.refused = refusals();

@@ -26,7 +26,7 @@ struct Prepare_options
   bool is_strict = false;
 };
 
-/// A soup that has been rounded and judged: what `simplify` reduces, and what its result is to be judged against.
+/// A soup that has been rounded and judged: what `simplify_soup` reduces, and what its result is to be judged against.
 struct Prepared_soup
 {
   /// The input, rounded where that was asked for, without the triangles that have two corners at one position.
@@ -78,7 +78,7 @@ struct Simplified_soup
 /// 3. *Seams*: coincident borders of pieces are sewn before and separate after the reduction, and coincide at every
 ///    vertex; texture seams and borders between groups are kept like them.
 /// 4. The triangles left are in the order of the input, each with its first corner first.
-Simplified_soup simplify(const Prepared_soup& prepared, const Simplify_options& options);
+Simplified_soup simplify_soup(const Prepared_soup& prepared, const Simplify_options& options);
 
 } // namespace selvedge
 

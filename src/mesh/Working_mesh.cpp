@@ -53,7 +53,7 @@ private:
     std::vector<Side> sides;
     sides.reserve(m_mates.size());
     for (Index side = 0; side < m_mates.size(); ++side) {
-      const auto [low, high] = std::minmax(position(side), position(next(side)));
+      const auto [low, high] = std::minmax({position(side), position(next(side))});
       sides.push_back({low, high, side});
     }
     std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {

@@ -54,11 +54,14 @@ public:
   template <class Profile, class Point>
   bool accepts(const Profile& profile, const Point& placement) const
   {
-    return internal::all_of_changed_faces(
-      profile, placement, [this](const Point& before, const Point& after, const Point& a, const Point& b) {
-        const double ratio = aspect_ratio(after, a, b);
-        return ratio >= m_min_aspect_ratio || ratio > aspect_ratio(before, a, b);
+    double least_before = 1, least_after = 1;
+    internal::all_of_changed_faces(
+      profile, placement, [&](const Point& before, const Point& after, const Point& a, const Point& b) {
+        least_before = (std::min)(least_before, aspect_ratio(before, a, b));
+        least_after = (std::min)(least_after, aspect_ratio(after, a, b));
+        return true;
       });
+    return least_after >= m_min_aspect_ratio || least_after > least_before;
   }
 
 private:

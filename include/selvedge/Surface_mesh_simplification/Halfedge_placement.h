@@ -7,8 +7,10 @@
 #include <selvedge/Surface_mesh_simplification/internal/Filter_base.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <limits>
 #include <memory>
-#include <optional>
 
 namespace selvedge {
 
@@ -53,7 +55,13 @@ public:
     const bool may_move_v1 = m_rule.may_move(profile.v1_v0());
     if (may_move_v0 != may_move_v1)
       return may_move_v1;
-    return m_cost.cost_at(profile, profile.p0()) < m_cost.cost_at(profile, profile.p1());
+    return cost_at(profile, profile.p0()) < cost_at(profile, profile.p1());
+  }
+
+  template <class Profile, class Point>
+  double cost_at(const Profile& profile, const Point& point) const
+  {
+    return m_cost.cost_at(profile, point);
   }
 
 private:
@@ -65,8 +73,12 @@ private:
 ///
 /// CGAL's loop takes an edge from its queue once, asks for one placement, and drops the edge when a filter refuses
 /// that. This decorator asks the filter itself, for one direction and then the other, and answers with the one that
-/// passed, or none. Pass its `visitor` to the loop: it tells the popping of an edge, when the question is
-/// asked in earnest, from the mere computing of a cost, for which the filters would be far too dear. The same filter
+/// passed, or none. The second direction gets its chance when its turn has come: when it costs no more than some
+/// edge has that was selected before. Sooner, and the dear directions of cheap edges would spoil what
+/// the order by cost is for (on a scanned bunny the mean error at 30 % grows by half).
+///
+/// The loop's visitor must call `expect_decision` in `OnSelected`: that tells the popping of an edge, when the question
+/// is asked in earnest, from the mere computing of a cost, for which the filters would be far too dear. The same filter
 /// need not be given to the loop.
 ///
 /// A model of CGAL's concept `GetPlacement`. Copies share one state.
@@ -76,6 +88,8 @@ class Filtered_halfedge_placement
   struct State
   {
     bool is_deciding = false;
+    double reached_cost = 0;
+    std::size_t deferrals = 0;
   };
 
 public:
@@ -94,13 +108,24 @@ public:
     if (!m_state->is_deciding)
       return first;
     m_state->is_deciding = false;
+    m_state->reached_cost = (std::max)(m_state->reached_cost, m_placement.cost_at(profile, *first));
     if (const Result accepted = m_filter(profile, first))
       return accepted;
-    return m_filter(profile, Result(is_v0_target ? profile.p1() : profile.p0()));
+    const Result second = is_v0_target ? profile.p1() : profile.p0();
+    if (m_placement.cost_at(profile, *second) <= m_state->reached_cost)
+      return m_filter(profile, second);
+    ++m_state->deferrals;
+    return {};
   }
 
-  /// The next placement asked for is a decision; called by the visitor.
+  /// The next placement asked for is a decision; to be called by the loop's visitor.
   void expect_decision() const { m_state->is_deciding = true; }
+
+  /// How many second directions were not tried because their turn had not come.
+  std::size_t deferrals() const { return m_state->deferrals; }
+
+  /// From now on every second direction is tried at once.
+  void stop_deferring() const { m_state->reached_cost = std::numeric_limits<double>::infinity(); }
 
 private:
   Placement m_placement;
