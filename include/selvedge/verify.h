@@ -10,8 +10,8 @@
 #include <optional>
 #include <vector>
 
-/// The judge of any mesh, or of a result against its original. It shares no code with the policies that it
-/// judges: what they have in common is the definition (GEOMETRY) and CGAL's predicates.
+// The judge: of any mesh by itself, or of a result against its original. It shares no code with the policies
+// whose output it judges, and nothing with them but the definition of an embedded mesh and CGAL's predicates.
 
 namespace selvedge {
 
@@ -99,10 +99,11 @@ struct Topology_difference
   std::size_t pieces_of_result;
 };
 
-/// What two meshes differ in by kinds of pieces; empty when they have the same topology, as far as a file can
-/// tell: which piece became which is not written in it, so two pieces that swapped their kinds pass, and so
-/// does a Möbius strip that became a ring (one loop against two tells those two apart, but not every
-/// orientable piece from every other).
+/// What two meshes differ in by kinds of pieces, a kind being a number of boundary loops with an Euler
+/// characteristic; empty when they have the same topology, as far as this tells.
+///
+/// **Not promised.** A file does not say which piece became which, so pieces that swapped their kinds pass.
+/// Orientability is no part of a kind: a torus and a Klein bottle are alike.
 std::vector<Topology_difference> topology_differences(const std::vector<Piece>& result,
                                                       const std::vector<Piece>& original);
 
@@ -123,8 +124,10 @@ struct Distance
 /// **Complexity.** O(log n) for each vertex in practice; 70 bytes per triangle of `to`.
 Distance distance(const Triangle_soup& from, const Triangle_soup& to);
 
-/// Distances both ways, as parts of the diagonal. The seed's measure is
-/// `original_to_result.root_mean_square`.
+/// Distances both ways, as parts of the diagonal.
+///
+/// **Reference.** Derichs, Misiak and Fuhrmann, *Intersection-free mesh decimation for high resolution cloth
+/// models*, whose measure is `original_to_result.root_mean_square`.
 struct Distances
 {
   Distance original_to_result;
