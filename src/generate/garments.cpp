@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <memory>
+#include <optional>
 
 namespace selvedge {
 
@@ -81,7 +83,7 @@ struct Part
   std::vector<std::vector<Pattern>> patches;
   /// Angles (in turns) and heights of buttons, in the frame in which the body stands as well.
   std::vector<std::array<double, 2>> buttons;
-  Frame frame;
+  std::function<Frame(const Lattice& lattice)> frame;
   /// The body's radius where the cloth leaves room.
   Profile body;
 };
@@ -125,7 +127,7 @@ Part tube(const Tube& shape, const Frame& frame, double width, double height)
     return Division{cells_along(width, cell, 8), cells_along(height, cell, 4)};
   };
   part.shape = [=](Lattice& lattice) { shape.shape(frame, lattice); };
-  part.frame = frame;
+  part.frame = [=](const Lattice&) { return frame; };
   return part;
 }
 
@@ -256,12 +258,18 @@ public:
       bodies += part.width * part.height;
     }
     Soup_builder builder(pieces, m_options.faces);
-    std::size_t spent = 0;
-    double share = 0;
-    for (const Part& part : m_parts) {
-      share += part.width * part.height / bodies;
-      const auto due = static_cast<std::size_t>(share * static_cast<double>(rest)) - spent;
-      spent += add_part(builder, part, coarse, due);
+    std::vector<Lattice> lattices;
+    for (const Part& part : m_parts)
+      lattices.push_back(add_cloths(builder, part, coarse));
+    // The largest body comes last and makes up for what the others were off.
+    std::size_t left = rest;
+    for (std::size_t k = m_parts.size(); k-- > 0;) {
+      const Part& part = m_parts[k];
+      const double share =
+          k == 0 ? 1
+                 : static_cast<double>(rest) / static_cast<double>(left) * part.width * part.height / bodies;
+      left -= std::min(left, add_body(builder, part, lattices[k],
+                                      static_cast<std::size_t>(share * static_cast<double>(left))));
     }
     return builder.take();
   }
@@ -275,8 +283,7 @@ private:
     return faces;
   }
 
-  /// Returns the faces of the body.
-  std::size_t add_part(Soup_builder& builder, const Part& part, double cell, std::size_t body_faces)
+  Lattice add_cloths(Soup_builder& builder, const Part& part, double cell)
   {
     const Division division = part.divide(cell);
     Lattice lattice(division.columns, division.rows, part.closed);
@@ -288,8 +295,6 @@ private:
     lattice.disturb(m_random);
 
     part.shape(lattice);
-    const std::size_t made = add_body(builder, part, lattice, body_faces);
-
     const double thickness = m_options.thickness;
     std::vector<double> offset(lattice.u.size(), 0.0);
     std::vector<double> outer = offset;
@@ -337,7 +342,7 @@ private:
     }
     for (std::size_t k = 0; k < part.buttons.size(); ++k)
       place_button(builder, part, lattice, outer, k);
-    return made;
+    return lattice;
   }
 
   /// Cells in which a layer may have the other diagonal. Between the two lies at most the distance of the
@@ -381,7 +386,7 @@ private:
     const double band = (high - low) / static_cast<double>(bands);
     const double chord = cosine_sine(0.625 / static_cast<double>(lattice.columns))[0];
 
-    const Frame& frame = part.frame;
+    const Frame frame = part.frame(lattice);
     const auto coordinate = [](const Vector& p, const Vector& axis) {
       return p * axis / axis.squared_length();
     };
@@ -426,9 +431,10 @@ private:
   {
     const double radius = 0.009;
     const auto [turns, height] = part.buttons[number];
-    const Vector radial = part.frame.radial(turns);
+    const Frame frame = part.frame(lattice);
+    const Vector radial = frame.radial(turns);
     const Vector axis = radial / std::sqrt(radial.squared_length());
-    const Vector middle = part.frame.origin + height * part.frame.axis;
+    const Vector middle = frame.origin + height * frame.axis;
 
     // A triangle that comes under the button has all its corners within the radius and its longest edge.
     double longest = 0;
@@ -450,7 +456,7 @@ private:
       if (along > 0 && (p - along * axis).squared_length() <= reach * reach)
         distance = std::max(distance, along);
     }
-    add_button(builder, part.name + "button_" + std::to_string(number), middle, axis, part.frame.axis, radius,
+    add_button(builder, part.name + "button_" + std::to_string(number), middle, axis, frame.axis, radius,
                distance + m_options.gap, 0.003, button_corners(m_options));
   }
 
@@ -468,21 +474,109 @@ double stack_of(const Generate_options& options)
 }
 
 /// It must be far smaller than the tubes are wide.
-void require_thin(const Generate_options& options)
+void require_thin(const Generate_options& options, double room)
 {
   const double stack = stack_of(options);
-  if (stack > 0.05)
+  if (stack > room)
     throw Argument_error("the layers with their gaps are " + std::to_string(stack) +
-                         " m thick together, a garment has room for 0.05; reduce layers, thickness or gap");
+                         " m thick together, this garment has room for " + std::to_string(room) +
+                         "; reduce layers, thickness or gap");
 }
 
 const Frame UPRIGHT{Vector(0, 0, 0), Vector(1, 0, 0), Vector(0, 1, 0), Vector(0, 0, 1)};
+
+/// A hole in the torso's lattice for a sleeve.
+///
+/// Around it the directions lean away from the hole, so that at its edge they are halfway between the normals
+/// of torso and sleeve and both surfaces are seen from their fronts. They lean less and less over twice the
+/// room that the stack has, so leaning never turns a triangle over.
+struct Armhole
+{
+  static constexpr double bottom = 0.54;
+  static constexpr double top = 0.8;
+
+  double first, last;
+  Vector arm, forward;
+
+  Panel place_in(const Division& division) const
+  {
+    return place({"", first, last, bottom, top, Panel::NONE}, "", division);
+  }
+
+  /// Half the width of what fits through the hole.
+  double radius(const Lattice& torso) const
+  {
+    const std::vector<std::size_t> edge = ring(torso);
+    const Vector up = CGAL::cross_product(arm, forward);
+    double least = std::numeric_limits<double>::max();
+    for (const Vector& across : {forward, -forward, up, -up}) {
+      double most = 0;
+      for (const std::size_t k : edge)
+        most = std::max(most, (torso.base[k] - middle(torso)) * across);
+      least = std::min(least, most);
+    }
+    return least;
+  }
+
+  Vector middle(const Lattice& torso) const
+  {
+    const std::vector<std::size_t> edge = ring(torso);
+    Vector sum(0, 0, 0);
+    for (const std::size_t k : edge)
+      sum = sum + torso.base[k];
+    return sum / static_cast<double>(edge.size());
+  }
+
+  /// The frame of the sleeve: its axis starts in the middle of the hole.
+  Frame frame(const Lattice& torso) const
+  {
+    return {middle(torso), forward, CGAL::cross_product(arm, forward), arm};
+  }
+
+  /// The vertices around the hole, counter-clockwise from outside, from the lower corner at its left.
+  std::vector<std::size_t> ring(const Lattice& lattice) const
+  {
+    const Panel panel = place_in({lattice.columns, lattice.rows});
+    std::vector<std::size_t> vertices;
+    for (std::size_t i = panel.first_column; i < panel.last_column; ++i)
+      vertices.push_back(lattice.vertex(i, panel.first_row));
+    for (std::size_t j = panel.first_row; j < panel.last_row; ++j)
+      vertices.push_back(lattice.vertex(panel.last_column, j));
+    for (std::size_t i = panel.last_column; i > panel.first_column; --i)
+      vertices.push_back(lattice.vertex(i, panel.last_row));
+    for (std::size_t j = panel.last_row; j > panel.first_row; --j)
+      vertices.push_back(lattice.vertex(panel.first_column, j));
+    return vertices;
+  }
+
+  void tilt_directions(Lattice& lattice, double width, double height) const
+  {
+    const Vector centre = middle(lattice);
+    const Panel panel = place_in({lattice.columns, lattice.rows});
+    const auto beyond = [](double x, std::size_t low, std::size_t high, std::size_t cells) {
+      const double n = static_cast<double>(cells);
+      return std::max({0.0, static_cast<double>(low) / n - x, x - static_cast<double>(high) / n});
+    };
+    for (std::size_t k = 0; k < lattice.base.size(); ++k) {
+      const double dx = width * beyond(lattice.u[k], panel.first_column, panel.last_column, lattice.columns);
+      const double dy = height * beyond(lattice.v[k], panel.first_row, panel.last_row, lattice.rows);
+      const double lean = 1 - radius_at({{0, 0}, {0.06, 1}}, std::sqrt(dx * dx + dy * dy));
+      const Vector away = lattice.base[k] - centre;
+      const Vector across = away - (away * arm) * arm;
+      if (lean == 0 || across == CGAL::NULL_VECTOR)
+        continue;
+      const Vector edge = (across / std::sqrt(across.squared_length()) + arm) / std::sqrt(2.0);
+      const Vector d = (1 - lean) * lattice.direction[k] + lean * edge;
+      lattice.direction[k] = d / std::sqrt(d.squared_length());
+    }
+  }
+};
 
 } // namespace
 
 Triangle_soup internal::skirt(const Generate_options& options)
 {
-  require_thin(options);
+  require_thin(options, 0.05);
   Random random(options.seed + 1000003u);
   const double phase = random.unit();
   const double drift = 0.2 * random.symmetric();
@@ -514,58 +608,112 @@ Triangle_soup internal::skirt(const Generate_options& options)
   return Garment(options, {part}).make();
 }
 
+// The sleeves are sewn in: the vertices of a hole in the torso's lattice are the first ring of the sleeve's.
 Triangle_soup internal::jacket(const Generate_options& options)
 {
-  require_thin(options);
+  require_thin(options, 0.03);
   Random random(options.seed + 2000003u);
   const double phase = random.unit();
-  const double stack = stack_of(options);
 
   // Open in front, where y is least.
-  const Profile shape{{0.78, 0.19}, {1.0, 0.165}, {1.2, 0.175}, {1.33, 0.16}, {1.42, 0.09}, {1.47, 0.095}};
-  const auto torso_radius = [=, &options](double turns, double height) {
+  const Profile profile{{0.78, 0.19}, {1.0, 0.165}, {1.2, 0.175}, {1.33, 0.16}, {1.42, 0.09}, {1.47, 0.095}};
+  const auto radius = [=, &options](double turns, double height) {
     const double loose = 0.25 + 0.6 * std::max(0.0, 1.0 - height) / 0.22;
     const double fold = cosine_sine(options.folds * turns * 0.5 + phase + 0.9 * height)[0];
     const double crease = cosine_sine(2 * turns - phase)[1] * cosine_sine(7 * height + 3 * turns)[0];
-    return radius_at(shape, height) + options.fold_depth * loose * (0.3 * fold + 0.2 * crease);
+    return radius_at(profile, height) + options.fold_depth * loose * (0.3 * fold + 0.2 * crease);
   };
-  Frame frame = UPRIGHT;
-  frame.across = Vector(1.2, 0, 0);
-  frame.depth = Vector(0, 0.8, 0);
-  Part torso = tube({0.765, 1.735, 0.78, 1.47, torso_radius}, frame, 1.0, 0.69);
-  torso.patterns = {{"front_left", 0, 0.27, 0, 0.9, Panel::LEFT | Panel::BOTTOM},
-                    {"back", 0.27, 0.73, 0, 0.9, Panel::BOTTOM},
-                    {"front_right", 0.73, 1, 0, 0.9, Panel::RIGHT | Panel::BOTTOM},
-                    {"collar", 0, 1, 0.9, 1, Panel::LEFT | Panel::RIGHT | Panel::TOP}};
-  torso.patches = {{{"pocket_left", 0.08, 0.19, 0.12, 0.28, Panel::ALL},
-                    {"pocket_right", 0.81, 0.92, 0.12, 0.28, Panel::ALL},
+  Frame upright = UPRIGHT;
+  upright.across = Vector(1.2, 0, 0);
+  upright.depth = Vector(0, 0.8, 0);
+  const double width = 1.1;
+  const double height = 0.69;
+  const Tube trunk{0.765, 1.735, 0.78, 1.47, radius};
+  const Armhole left{0.172, 0.312, Vector(12.0 / 13, 0, -5.0 / 13), Vector(0, 1, 0)};
+  const Armhole right{0.688, 0.828, Vector(-12.0 / 13, 0, -5.0 / 13), Vector(0, -1, 0)};
+
+  const auto torso_lattice = std::make_shared<std::optional<Lattice>>();
+  Part torso = tube(trunk, upright, width, height);
+  torso.divide = [=](double cell) {
+    return Division{cells_along(width, cell, 12), cells_along(height, cell, 8)};
+  };
+  torso.shape = [=](Lattice& lattice) {
+    trunk.shape(upright, lattice);
+    for (const Armhole& hole : {left, right})
+      hole.tilt_directions(lattice, width, height);
+    *torso_lattice = lattice;
+  };
+  torso.patterns = {
+      {"front_left", 0, left.first, 0, 0.9, Panel::LEFT | Panel::BOTTOM},
+      {"side_left", left.first, left.last, 0, Armhole::bottom, Panel::BOTTOM},
+      {"shoulder_left", left.first, left.last, Armhole::top, 0.9, Panel::NONE},
+      {"back", left.last, right.first, 0, 0.9, Panel::BOTTOM},
+      {"side_right", right.first, right.last, 0, Armhole::bottom, Panel::BOTTOM},
+      {"shoulder_right", right.first, right.last, Armhole::top, 0.9, Panel::NONE},
+      {"front_right", right.last, 1, 0, 0.9, Panel::RIGHT | Panel::BOTTOM},
+      {"collar", 0, 1, 0.9, 1, Panel::LEFT | Panel::RIGHT | Panel::TOP},
+  };
+  torso.patches = {{{"pocket_left", 0.06, 0.18, 0.12, 0.28, Panel::ALL},
+                    {"pocket_right", 0.82, 0.94, 0.12, 0.28, Panel::ALL},
                     {"back_strap", 0.38, 0.62, 0.33, 0.37, Panel::ALL}},
-                   {{"flap_left", 0.075, 0.195, 0.25, 0.3, Panel::ALL},
-                    {"flap_right", 0.805, 0.925, 0.25, 0.3, Panel::ALL}}};
+                   {{"flap_left", 0.055, 0.185, 0.25, 0.3, Panel::ALL},
+                    {"flap_right", 0.815, 0.945, 0.25, 0.3, Panel::ALL}}};
   torso.buttons = {{0.785, 0.87}, {0.785, 0.99}, {0.785, 1.11}, {0.785, 1.23}};
   torso.body_name = "body";
   torso.body = {{0.68, 0.06}, {0.72, 0.13}, {0.85, 0.16}, {1.0, 0.135}, {1.2, 0.16},   {1.33, 0.14},
                 {1.42, 0.06}, {1.48, 0.05}, {1.53, 0.07}, {1.6, 0.08},  {1.68, 0.065}, {1.71, 0.03}};
 
-  // Sleeves hang at the sides, far enough out for all layers of both.
-  const auto sleeve_radius = [=, &options](double turns, double height) {
-    const double crease = cosine_sine(9 * height + phase)[0] * cosine_sine(turns + phase + height)[0];
-    return 0.062 + 0.025 * (height + 0.52) + 0.15 * options.fold_depth * crease;
-  };
-  const auto sleeve = [&](double side, std::string name) {
-    const double out = 0.25 + 2 * stack + 0.3 * options.fold_depth;
-    const Frame arm{Vector(side * out, 0, 1.32), Vector(0.8, 0, side * 0.6), Vector(0, 1, 0),
-                    Vector(-side * 0.6, 0, 0.8)};
-    Part part = tube({0, 1, -0.52, 0, sleeve_radius}, arm, 0.4, 0.52);
+  const auto sleeve = [&](const Armhole& hole, const std::string& name) {
+    const double length = 0.5;
+    Part part;
     part.name = "sleeve_" + name + "_";
-    part.patterns = {{"back", 0, 0.5, 0, 1, Panel::BOTTOM | Panel::TOP},
-                     {"front", 0.5, 1, 0, 1, Panel::BOTTOM | Panel::TOP}};
-    part.patches = {{{"cuff", 0, 1, 0.02, 0.12, Panel::BOTTOM | Panel::TOP}}};
+    part.closed = true;
+    part.width = 0.45;
+    part.height = length;
+    part.divide = [=, divide_torso = torso.divide](double cell) {
+      const Panel panel = hole.place_in(divide_torso(cell));
+      return Division{2 * (panel.columns() + panel.rows()), cells_along(length, cell, 4)};
+    };
+    part.frame = [=](const Lattice&) { return hole.frame(**torso_lattice); };
+    part.shape = [=, &options](Lattice& lattice) {
+      const std::vector<std::size_t> ring = hole.ring(**torso_lattice);
+      const Frame frame = hole.frame(**torso_lattice);
+      const double wide = 0.95 * hole.radius(**torso_lattice);
+      const double columns = static_cast<double>(lattice.columns);
+      for (std::size_t k = 0; k < lattice.u.size(); ++k) {
+        if (k < lattice.columns) {
+          lattice.u[k] = static_cast<double>(k) / columns;
+          lattice.base.push_back((*torso_lattice)->base[ring[k]]);
+          lattice.direction.push_back((*torso_lattice)->direction[ring[k]]);
+          continue;
+        }
+        const double turns = lattice.u[k] - 0.375;
+        const double t = lattice.v[k];
+        const double crease = cosine_sine(5 * t + phase)[0] * cosine_sine(turns + phase + t)[0];
+        const double tube_radius = wide + (0.065 - wide) * t + 0.15 * options.fold_depth * crease;
+        const Vector radial = frame.radial(turns);
+        const Vector along = length * t * frame.axis;
+        const double x = lattice.u[k] * columns + columns;
+        const auto before = static_cast<std::size_t>(x);
+        const double between = x - static_cast<double>(before);
+        const auto mix = [&](const std::vector<Vector>& values) {
+          return (1 - between) * values[ring[before % ring.size()]] +
+                 between * values[ring[(before + 1) % ring.size()]];
+        };
+        const double round = radius_at({{0, 0}, {0.4, 1}}, t);
+        const Vector d = (1 - round) * mix((*torso_lattice)->direction) + round * radial;
+        lattice.base.push_back((1 - round) * (mix((*torso_lattice)->base) + along) +
+                               round * (frame.origin + along + tube_radius * radial));
+        lattice.direction.push_back(d / std::sqrt(d.squared_length()));
+      }
+    };
+    part.patterns = {{"under", 0, 0.5, 0, 1, Panel::TOP}, {"upper", 0.5, 1, 0, 1, Panel::TOP}};
+    part.patches = {{{"cuff", 0, 1, 0.86, 0.97, Panel::BOTTOM | Panel::TOP}}};
     part.body_name = "arm_" + name;
-    part.body = {{-0.66, 0.01}, {-0.6, 0.03}, {-0.5, 0.04}, {-0.25, 0.05}, {0, 0.055}, {0.02, 0.03}};
+    part.body = {{0.03, 0.02}, {0.06, 0.05}, {0.3, 0.045}, {0.5, 0.035}, {0.58, 0.035}, {0.64, 0.01}};
     return part;
   };
-  return Garment(options, {torso, sleeve(1, "left"), sleeve(-1, "right")}).make();
+  return Garment(options, {torso, sleeve(left, "left"), sleeve(right, "right")}).make();
 }
 
 } // namespace selvedge

@@ -133,12 +133,13 @@ TEST_P(Every_scene, HasAboutTheFacesAskedFor)
       Generate_options options;
       options.faces = faces;
       options.layers = layers;
+      options.gap = 5e-4;
       Triangle_soup soup;
       try {
         soup = generate(name(), options);
       } catch (const Argument_error& error) {
         EXPECT_TRUE(is_garment(name())) << error.what();
-        EXPECT_LT(faces, 1'500u * static_cast<unsigned>(layers)) << error.what();
+        EXPECT_LT(faces, 2'000u + 800u * static_cast<unsigned>(layers)) << error.what();
         continue;
       }
       EXPECT_NEAR(static_cast<double>(soup.triangles.size()), static_cast<double>(faces),
