@@ -84,7 +84,6 @@ public:
   /// path in one may end with a backslash.
   void skip_line()
   {
-    const bool comment = peek() == '#';
     for (;;) {
       const void* const found = std::memchr(m_at, '\n', remaining());
       if (found == nullptr) {
@@ -95,7 +94,7 @@ public:
       const char* last = line_end;
       if (last != m_at && last[-1] == '\r')
         --last;
-      const bool continued = !comment && last != m_at && last[-1] == '\\';
+      const bool continued = last != m_at && last[-1] == '\\' && std::find(m_at, last, '#') == last;
       m_at = line_end + 1;
       if (!continued)
         return;

@@ -55,7 +55,7 @@ private:
     }
   }
 
-  void note_further_columns(Text_reader& text)
+  void note_further_columns(Text_reader text)
   {
     std::size_t columns = 0;
     for (; !text.at_line_end(); ++columns)
@@ -75,7 +75,7 @@ private:
     else if (keyword == "vt")
       ++m_uvs_above;
     else if (keyword == "g" || keyword == "o")
-      start_group(text.line());
+      start_group(Text_reader(text).line()); // skip_line must see whether the line is continued
     else
       ignore_statement(keyword);
   }
@@ -132,6 +132,8 @@ private:
   {
     if (m_label_is_new)
       m_builder.ignore("groups and objects without faces");
+    while (!name.empty() && (name.back() == '\\' || name.back() == ' '))
+      name.remove_suffix(1);
     m_label = name.empty() ? default_group : name;
     m_label_is_new = true;
   }
@@ -144,8 +146,8 @@ private:
     if (m_label_is_new) {
       m_label_is_new = false;
       const std::size_t unlabelled = soup.triangles.size() - count;
-      if (soup.groups.size() <
-          unlabelled) // faces above the first label are in the group that an OBJ begins with
+      // Faces above the first label are in the group that an OBJ begins with.
+      if (soup.groups.size() < unlabelled)
         soup.groups.resize(unlabelled, group_number(default_group));
       m_group = group_number(m_label);
     }

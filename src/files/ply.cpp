@@ -139,9 +139,8 @@ public:
   {
     for (; count != 0; --count) {
       m_text.skip_space();
-      if (m_text.at_end())
-        fail("the file ends before its last element; it is cut short");
-      m_text.word();
+      if (m_text.word().empty())
+        fail("a value is missing; the file is damaged or cut short");
     }
   }
 

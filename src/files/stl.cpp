@@ -120,7 +120,7 @@ private:
       const Text_reader start = text;
       const std::string_view word = text.word();
       if (word != keyword)
-        start.fail((word.empty() ? "the file ends" : in_quotes(word) + " stands") + " where '" +
+        start.fail((start.at_end() ? "the file ends" : in_quotes(word) + " stands") + " where '" +
                    std::string(keyword) + "' should; the file is damaged or cut short");
     };
     while (!text.at_end()) {

@@ -19,17 +19,14 @@ namespace selvedge {
 /// Mesh files to and from a `Triangle_soup`, with positions that are the same doubles on both sides.
 ///
 /// **Guarantees**
-/// 1. *Read*: a decimal in a text file (OBJ, OFF, ascii PLY and STL) becomes the double nearest to it,
-/// whatever
-///    type the file declares for it; a binary number becomes the double of the same value.
+/// 1. *Read*: a decimal in a text file (OBJ, OFF, ascii PLY and STL) becomes the double nearest to it, also
+///    where the file declares a narrower type for it; a binary number becomes the double of the same value.
 /// 2. *Written* (G3): `read_mesh(p)` after `write_mesh(p, soup)` gives the same coordinates bit for bit, the
-/// same
-///    triangles in the same order, and the same number of every vertex. STL, which has no vertex numbers,
-///    gives the same triangles up to those numbers (and the sign of zeros).
+///    same triangles in the same order, and the same number of every vertex. STL, which has no vertex
+///    numbers, gives the same triangles up to those numbers (and the sign of zeros).
 /// 3. *Refusal* (G9): a file that is not a mesh with at least one triangle and finite coordinates is refused
-/// with an
-///    `Input_error` of one line that names file, line (in text), element and mend. No content of a file,
-///    however damaged, does anything else, nor takes more memory than a small multiple of the file's size.
+///    with an `Input_error` of one line that names file, line (in text), element and mend. No content of a
+///    file, however damaged, does anything else, and no count in it is believed before the bytes are there.
 /// 4. *Atomicity* (G9): a file appears whole or not at all; see `write_mesh`.
 /// 5. What a file holds and the soup does not is said in `Read_notes`, what a soup holds and a format does
 ///    not by `not_carried`.
@@ -62,8 +59,9 @@ struct Read_notes
   std::size_t polygons_cut = 0;     ///< Faces of more than three corners, each cut into triangles.
   std::size_t repeated_corner = 0;  ///< Faces that name a vertex more than once; kept.
   std::size_t fewer_than_three = 0; ///< Faces of fewer than three corners; skipped.
-  std::map<std::string, std::size_t>
-      ignored; ///< What the soup does not hold: its name, and how often it stands there.
+
+  /// What the soup does not hold, by name, and how often it stands in the file.
+  std::map<std::string, std::size_t> ignored;
 };
 
 /// The notes as lines for a person, each ending in a count; none when there is nothing to say.
@@ -79,9 +77,8 @@ struct Mesh_file
 /// Reads a mesh; its extension says the format.
 ///
 /// - OBJ: `v`, `vt`, `f` with absolute and relative indices, `g` and `o`. The group of a triangle is the
-/// latest `g` or
-///   `o` above it, `default` above the first. Texture coordinates are carried when every corner of every
-///   triangle has one. A backslash at the end of a line counts as a blank.
+///   latest `g` or `o` above it, `default` above the first. Texture coordinates are carried when every
+///   corner of every triangle has one. A backslash at the end of a line, outside comments, counts as a blank.
 /// - OFF: one vertex or face to a line; further columns are ignored.
 /// - PLY: ascii and both binary kinds; elements in any order, further elements and properties are skipped.
 /// - STL: ascii and binary. Corners of identical coordinates (−0 equals 0) are one vertex, which has the
@@ -110,8 +107,8 @@ struct Write_options
 ///
 /// The whole file is written to a new file in the same folder, brought to the disk, and only then renamed to
 /// `path`. When anything fails (no room, no permission) that new file is removed, what stood at `path` is
-/// untouched, and `Output_error` is thrown. A symbolic link is followed; what is neither a file nor a link to
-/// one (a device, a pipe) is written to directly.
+/// untouched, and `Output_error` is thrown. A symbolic link is followed (one that leads nowhere is
+/// replaced); what is neither a file nor a link to one (a device, a pipe) is written to directly.
 ///
 /// OBJ and OFF hold the shortest decimals that read back as the same doubles. PLY properties are `float` when
 /// every coordinate is one, else `double`.
