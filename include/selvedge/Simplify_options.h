@@ -42,12 +42,16 @@ struct Simplify_options
   /// The least aspect ratio of a face, in [0, 1], unless it is better than before.
   double min_aspect_ratio = 0.2;
 
-  /// The largest turn of a border or seam at a vertex that leaves it, in degrees from 0 to 180.
+  /// The largest turn of a border at a vertex that leaves it, in degrees from 0 to 180.
   double max_border_turn = 8;
+
+  /// The same for a line inside the surface: a sewn seam, a texture seam, a border between groups. There is no outline to
+  /// fray there, and such lines are often bent: with 8° they would keep most of their vertices.
+  double max_seam_turn = 60;
 
   /// The largest distance of an original border or seam vertex to the segment that replaced it, as a share of the
   /// diagonal, at least 0.
-  double max_border_drift = 0.001;
+  double max_border_drift = 0.002;
 
   /// Whether layers are kept from piercing each other. Without, everything else stays the same: a control.
   bool check_intersections = true;

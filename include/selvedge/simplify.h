@@ -169,7 +169,8 @@ private:
   Rule make_rule(const Simplify_constraints<TriangleMesh>& constraints) const
   {
     Border_rule_options options;
-    options.max_turn = m_options.max_border_turn;
+    options.max_border_turn = m_options.max_border_turn;
+    options.max_seam_turn = m_options.max_seam_turn;
     options.max_drift = m_options.max_border_drift * m_diagonal;
     Rule rule(m_mesh, options);
     for (const auto e : constraints.line_edges)

@@ -27,8 +27,11 @@ namespace selvedge {
 /// How far lines may change.
 struct Border_rule_options
 {
-  /// The largest angle, in degrees from 0 to 180, by which a line may turn at a vertex that leaves it.
-  double max_turn = 8;
+  /// The largest angle, in degrees from 0 to 180, by which a border may turn at a vertex that leaves it.
+  double max_border_turn = 8;
+
+  /// The same for a marked edge inside the mesh, where there is surface on both sides and no outline to fray.
+  double max_seam_turn = 60;
 
   /// The largest distance, in units of the mesh, from an original vertex of a line to the segment that replaced it.
   double max_drift = std::numeric_limits<double>::infinity();
@@ -40,7 +43,7 @@ struct Border_rule_options
 /// **Guarantees** for a mesh reduced by halfedge collapses that `allows` accepts:
 /// 1. A locked vertex stays where it is.
 /// 2. A vertex on a line moves only along it, to the next vertex of the same line, and only where the line turns by
-///    at most `max_turn`. Corners, ends of lines, and vertices where more than two line edges or lines of both kinds
+///    at most `max_border_turn` or `max_seam_turn`. Corners, ends of lines, and vertices where more than two line edges or lines of both kinds
 ///    meet never move.
 /// 3. Every original vertex of a line lies within `max_drift` of the segment that replaced it.
 ///
@@ -175,13 +178,15 @@ private:
   struct State
   {
     State(const TriangleMesh& mesh_, const VertexPointMap& points_, const Border_rule_options& options)
-      : mesh(mesh_), points(points_), min_cosine(std::cos(options.max_turn * CGAL_PI / 180)),
+      : mesh(mesh_), points(points_), min_border_cosine(std::cos(options.max_border_turn * CGAL_PI / 180)),
+        min_seam_cosine(std::cos(options.max_seam_turn * CGAL_PI / 180)),
         max_squared_drift(options.max_drift * options.max_drift),
         freedoms(get(CGAL::dynamic_vertex_property_t<Freedom>(), mesh_)),
         marks(get(CGAL::dynamic_edge_property_t<unsigned char>(), mesh_))
     {
-      if (!(options.max_turn >= 0 && options.max_turn <= 180))
-        throw Argument_error("the turn allowed at a border is an angle between 0 and 180 degrees");
+      for (const double turn : {options.max_border_turn, options.max_seam_turn})
+        if (!(turn >= 0 && turn <= 180))
+          throw Argument_error("the turn allowed at a border or seam is an angle between 0 and 180 degrees");
       if (!(options.max_drift >= 0))
         throw Argument_error("the drift allowed at a border is a length of at least 0");
       for (const Halfedge h : halfedges(mesh))
@@ -197,7 +202,8 @@ private:
 
     const TriangleMesh& mesh;
     VertexPointMap points;
-    double min_cosine;
+    double min_border_cosine;
+    double min_seam_cosine;
     double max_squared_drift;
     typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<Freedom>>::const_type freedoms;
     typename boost::property_map<TriangleMesh, CGAL::dynamic_edge_property_t<unsigned char>>::const_type marks;
@@ -234,7 +240,7 @@ private:
     const State& state = *m_state;
     const Point& m = get(state.points, source(ahead, state.mesh));
     const Point& u = get(state.points, target(behind, state.mesh));
-    if (!is_turn_small(m - u, p - m))
+    if (!is_turn_small(m - u, p - m, is_border_edge(ahead) ? state.min_border_cosine : state.min_seam_cosine))
       return false;
     if (state.max_squared_drift == std::numeric_limits<double>::infinity())
       return true;
@@ -254,11 +260,11 @@ private:
     return true;
   }
 
-  bool is_turn_small(const Vector& before, const Vector& after) const
+  static bool is_turn_small(const Vector& before, const Vector& after, double min_cosine)
   {
     const double lengths = std::sqrt(CGAL::to_double(before.squared_length())) *
                            std::sqrt(CGAL::to_double(after.squared_length()));
-    return CGAL::to_double(before * after) >= m_state->min_cosine * lengths;
+    return CGAL::to_double(before * after) >= min_cosine * lengths;
   }
 
   template <class Profile>
