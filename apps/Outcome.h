@@ -1,0 +1,37 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_APPS_OUTCOME_H
+#define SELVEDGE_APPS_OUTCOME_H
+
+#include "exit_codes.h"
+
+namespace selvedge::app {
+
+/// How a reduction ended, and what follows from it.
+struct Outcome
+{
+  bool is_guarded = true;   ///< the intersection filter was on
+  bool is_accepted = true;  ///< the judge found nothing that was not there before
+  bool is_interrupted = false;
+  bool is_reached = true;
+  bool is_target_required = false;
+
+  /// A guarded result that the judge refuses is a bug of ours: it must not take the place of a good file. An unguarded
+  /// one is what was asked for.
+  bool is_written() const { return is_accepted || !is_guarded; }
+
+  /// An unguarded result is never called verified: the judge sees its end, not the way there.
+  Exit_code exit_code() const
+  {
+    if (!is_accepted || !is_guarded)
+      return exit_not_verified;
+    if (is_interrupted)
+      return exit_interrupted;
+    return is_reached || !is_target_required ? exit_done : exit_not_verified;
+  }
+};
+
+} // namespace selvedge::app
+
+#endif // SELVEDGE_APPS_OUTCOME_H

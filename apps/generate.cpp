@@ -1,0 +1,86 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "output_files.h"
+#include "subcommands.h"
+#include "text.h"
+
+#include <selvedge/Error.h>
+#include <selvedge/generate.h>
+#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/mesh/rounding.h>
+#include <selvedge/verify.h>
+
+#include <iostream>
+#include <memory>
+#include <string>
+
+namespace selvedge::app {
+namespace {
+
+struct Request
+{
+  std::string name;
+  std::string output;
+  Generate_options options;
+  bool is_list = false;
+  bool is_quiet = false;
+  bool is_ascii = false;
+};
+
+Exit_code run(const Request& request)
+{
+  if (request.is_list) {
+    for (const Scene_description& scene : scenes())
+      std::cout << scene.name << std::string(10 - scene.name.size(), ' ') << scene.description << '\n';
+    std::cout << std::flush;
+    return exit_done;
+  }
+  if (request.name.empty())
+    throw Argument_error("say what to generate; --list names all there is");
+  if (request.output.empty())
+    throw Argument_error("say where to write it: -o FILE");
+  const Mesh_format format = output_format(request.output);
+  require_writable(request.output);
+
+  Triangle_soup soup = generate(request.name, request.options);
+  if (stores_float32(format) && round_to_float32(soup).coordinates > 0 && !is_embedded(soup))
+    throw Output_error(request.output + ": not written: rounded to the 32-bit floats of this format, the mesh would not be "
+                                        "embedded any more; choose .ply or .obj, or a larger gap");
+  write_output(request.output, soup, request.is_ascii);
+  if (!request.is_quiet)
+    std::cout << request.output << ": " << counted(soup.triangles.size(), "face") << " of '" << request.name
+              << "', embedded by construction" << std::endl;
+  return exit_done;
+}
+
+} // namespace
+
+Action add_generate(CLI::App& command)
+{
+  const auto request = std::make_shared<Request>();
+  Generate_options& options = request->options;
+  command.add_option("NAME", request->name, "What to make; --list names all there is")->type_name("");
+  command.add_option("-o,--output", request->output, "Where it goes: .obj, .off, .ply or .stl")->type_name("FILE");
+  command.add_flag("--list", request->is_list, "Name all that can be made");
+  command.add_option("--faces", options.faces, "Faces, within 2 %")->type_name("N")->capture_default_str();
+  command.add_option("--layers", options.layers, "Layers on top of one another")->type_name("L")->capture_default_str();
+  command.add_option("--thickness", options.thickness, "Thickness of a garment's cloth in metres; 0: sheets")
+    ->type_name("T")->capture_default_str();
+  command.add_option("--gap", options.gap, "Smallest distance of two layers in metres")->type_name("G")->capture_default_str();
+  command.add_option("--fold-depth", options.fold_depth, "Amplitude of folds and waves in metres")
+    ->type_name("D")->capture_default_str();
+  command.add_option("--folds", options.folds, "Folds around a garment, waves along a sheet")
+    ->type_name("N")->capture_default_str();
+  command.add_option("--seed", options.seed, "Of what is irregular")->type_name("S")->capture_default_str();
+  command.add_flag("--quiet", request->is_quiet, "No summary");
+  command.add_flag("--ascii", request->is_ascii, "Write PLY and STL as text");
+  command.footer("Examples:\n"
+                 "  selvedge generate --list\n"
+                 "  selvedge generate skirt -o skirt.obj --faces 50000 --layers 3\n"
+                 "  selvedge generate sheets -o sheets.ply --faces 1000000 --layers 5 --gap 1e-9\n\n"
+                 "The same name and options give the same bytes on every machine.");
+  return [request] { return run(*request); };
+}
+
+} // namespace selvedge::app

@@ -1,0 +1,66 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "output_files.h"
+
+#include <selvedge/Error.h>
+
+#include <cerrno>
+#include <string>
+#include <system_error>
+
+#include <unistd.h>
+
+namespace selvedge::app {
+
+namespace fs = std::filesystem;
+
+Mesh_format output_format(const fs::path& path)
+{
+  try {
+    return mesh_format(path);
+  } catch (const Input_error& error) {
+    throw Argument_error(error.what());
+  }
+}
+
+void require_writable(const fs::path& path)
+{
+  const auto refuse = [&](int error) {
+    throw Output_error(path.string() + ": cannot be written: " + std::generic_category().message(error));
+  };
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  if (fs::is_directory(status))
+    refuse(EISDIR);
+  if (fs::exists(status) && ::access(path.c_str(), W_OK) != 0)
+    refuse(errno);
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    return; // a device is written to directly
+  if (::access(folder.c_str(), F_OK) != 0)
+    refuse(errno);
+  if (!fs::is_directory(folder, ignored))
+    refuse(ENOTDIR);
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    refuse(errno);
+}
+
+bool is_same_file(const fs::path& a, const fs::path& b)
+{
+  std::error_code ignored;
+  return fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored) || fs::equivalent(a, b, ignored);
+}
+
+void write_output(const fs::path& path, const Triangle_soup& soup, bool is_ascii)
+{
+  Write_options options;
+  options.encoding = is_ascii ? Encoding::ascii : Encoding::binary;
+  try {
+    write_mesh(path, soup, options);
+  } catch (const Argument_error& error) {
+    throw Output_error(path.string() + ": cannot be written: " + error.what());
+  }
+}
+
+} // namespace selvedge::app

@@ -1,0 +1,146 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "report_json.h"
+
+#include "text.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include <sys/resource.h>
+
+namespace selvedge::app {
+namespace {
+
+constexpr std::size_t pairs_named = 100;
+
+Json to_json(const Distance& distance)
+{
+  return {{"rms", distance.root_mean_square}, {"max", distance.maximum}};
+}
+
+Json first_of(const std::vector<Offending_pair>& pairs)
+{
+  Json list = Json::array();
+  for (std::size_t i = 0; i < (std::min)(pairs.size(), pairs_named); ++i)
+    list.push_back({{"first", pairs[i].first + 1}, {"second", pairs[i].second + 1}, {"offence", name(pairs[i].offence)}});
+  return list;
+}
+
+// Soups may have as many pieces as triangles; kinds are few.
+Json kinds_of(const std::vector<Piece>& pieces)
+{
+  struct Kind
+  {
+    std::size_t pieces = 0;
+    std::size_t faces = 0;
+  };
+  std::map<std::pair<std::size_t, long>, Kind> kinds;
+  for (const Piece& piece : pieces) {
+    Kind& kind = kinds[{piece.boundary_loops, piece.euler_characteristic}];
+    ++kind.pieces;
+    kind.faces += piece.faces;
+  }
+  Json list = Json::array();
+  for (const auto& [key, kind] : kinds)
+    list.push_back({{"boundary_loops", key.first},
+                    {"euler_characteristic", key.second},
+                    {"pieces", kind.pieces},
+                    {"faces", kind.faces}});
+  return list;
+}
+
+} // namespace
+
+Json new_report(const std::string& command)
+{
+  return {{"schema", 1}, {"version", SELVEDGE_VERSION}, {"command", command}};
+}
+
+Json input_json(const std::filesystem::path& path, const Mesh_file& file)
+{
+  return {{"path", path.string()},
+          {"vertices", file.soup.points.size()},
+          {"triangles", file.soup.triangles.size()},
+          {"notes", describe(file.notes)}};
+}
+
+void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified_soup& result)
+{
+  const Simplify_report& done = result.report;
+  report["faces"] = {{"input", prepared.soup.triangles.size()},
+                     {"output", result.soup.triangles.size()},
+                     {"target", done.faces_target}};
+  report["target"] = {{"reached", done.is_reached()}, {"outcome", done.outcome()}};
+  report["collapses"] = done.collapses;
+  report["passes"] = done.passes;
+  report["refused"] = {{"border", done.refused.border},
+                       {"error", done.refused.error},
+                       {"aspect_ratio", done.refused.aspect_ratio},
+                       {"normal_change", done.refused.normal_change},
+                       {"intersection", done.refused.intersection},
+                       {"by_loop", done.refused.by_loop}};
+  report["frozen"] = {{"faces", prepared.frozen_faces}};
+  const Intersection_statistics& index = done.intersections;
+  report["index"] = {{"clusters", index.clusters},
+                     {"queries", index.queries},
+                     {"faces_visited", index.faces_visited},
+                     {"cluster_rebuilds", index.cluster_rebuilds},
+                     {"top_rebuilds", index.top_rebuilds},
+                     {"motions_judged", index.motions_judged},
+                     {"stars_clear_by_view", index.stars_clear_by_view},
+                     {"sweeps_tested", index.sweeps_tested},
+                     {"refused_by_link", index.refused_by_link},
+                     {"refused_by_star", index.refused_by_star},
+                     {"refused_by_sweep", index.refused_by_sweep}};
+  const Welding_notes& welding = result.welding;
+  report["welding"] = {{"unused_vertices", welding.unused_vertices},
+                       {"welded_vertices", welding.welded_vertices},
+                       {"seam_edges", welding.seam_edges},
+                       {"non_manifold_edges", welding.non_manifold_edges},
+                       {"misoriented_edges", welding.misoriented_edges},
+                       {"unwelded_positions", welding.unwelded_positions},
+                       {"left_out_faces", prepared.left_out_faces}};
+  report["rounding"] = {{"coordinates", prepared.rounding.coordinates},
+                        {"vertices", prepared.rounding.vertices},
+                        {"pairs", prepared.pairs_by_rounding},
+                        {"left_out_faces", prepared.left_out_by_rounding}};
+}
+
+void add_verification(Json& report, const Verification& verification, bool has_original)
+{
+  report["verified"] = {{"embedded", verification.embedded()},
+                        {"pairs", verification.pairs.size()},
+                        {"new_pairs", verification.new_pairs.size()},
+                        {"first_new_pairs", first_of(verification.new_pairs)}};
+  report["pieces"] = {{"count", verification.pieces.size()}, {"kinds", kinds_of(verification.pieces)}};
+  if (!has_original)
+    return;
+  Json differences = Json::array();
+  for (const Topology_difference& difference : verification.topology_differences)
+    differences.push_back({{"boundary_loops", difference.boundary_loops},
+                           {"euler_characteristic", difference.euler_characteristic},
+                           {"pieces_of_original", difference.pieces_of_original},
+                           {"pieces_of_result", difference.pieces_of_result}});
+  report["topology"] = {{"same", verification.same_topology()}, {"differences", std::move(differences)}};
+  if (verification.distances)
+    report["distance"] = {{"original_to_result", to_json(verification.distances->original_to_result)},
+                          {"result_to_original", to_json(verification.distances->result_to_original)},
+                          {"diagonal", verification.distances->diagonal}};
+}
+
+std::size_t peak_memory_bytes()
+{
+  rusage usage = {};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return std::size_t(usage.ru_maxrss) * 1024;
+}
+
+std::string to_text(const Json& report)
+{
+  return report.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+} // namespace selvedge::app

@@ -1,0 +1,39 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_APPS_REPORT_JSON_H
+#define SELVEDGE_APPS_REPORT_JSON_H
+
+#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/simplify_soup.h>
+#include <selvedge/verify.h>
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <string>
+
+namespace selvedge::app {
+
+/// Keys stay in the order in which docs/report.md has them.
+using Json = nlohmann::ordered_json;
+
+/// The head of every report: schema, version, command.
+Json new_report(const std::string& command);
+
+Json input_json(const std::filesystem::path& path, const Mesh_file& file);
+
+/// Sets `faces`, `target`, `collapses`, `passes`, `refused`, `frozen`, `index`, `welding` and `rounding`.
+void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified_soup& result);
+
+/// Sets `verified`, `pieces`, and `topology` and `distance` where there is an original.
+void add_verification(Json& report, const Verification& verification, bool has_original);
+
+std::size_t peak_memory_bytes();
+
+/// What is written, ending in a line break. Names that are no UTF-8 are mended, infinite numbers are null.
+std::string to_text(const Json& report);
+
+} // namespace selvedge::app
+
+#endif // SELVEDGE_APPS_REPORT_JSON_H

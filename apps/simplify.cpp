@@ -1,0 +1,311 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "Outcome.h"
+#include "Progress_bar.h"
+#include "interruption.h"
+#include "output_files.h"
+#include "report_json.h"
+#include "subcommands.h"
+#include "text.h"
+
+#include <selvedge/Error.h>
+#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/simplify_soup.h>
+#include <selvedge/verify.h>
+
+#include <chrono>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace selvedge::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start)
+{
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+struct Request
+{
+  std::string input;
+  std::string output;
+  std::string report;
+  Simplify_options options;
+  bool is_unguarded = false;
+  bool is_strict = false;
+  bool is_target_required = false;
+  bool is_quiet = false;
+  bool is_ascii = false;
+};
+
+Json options_json(const Request& request)
+{
+  const Simplify_options& options = request.options;
+  const auto optional = [](const auto& value) { return value ? Json(*value) : Json(nullptr); };
+  return {{"ratio", optional(options.ratio)},
+          {"faces", optional(options.faces)},
+          {"error", optional(options.max_error)},
+          {"normal_change", options.max_normal_change},
+          {"aspect_ratio", options.min_aspect_ratio},
+          {"border_turn", options.max_border_turn},
+          {"border_drift", options.max_border_drift},
+          {"cluster_size", options.faces_per_cluster},
+          {"intersection_check", options.check_intersections},
+          {"stabiliser", options.cost.stabiliser},
+          {"border_weight", options.cost.border_weight},
+          {"strict", request.is_strict}};
+}
+
+/// What can be refused before any work is.
+void check(const Request& request)
+{
+  if (!request.options.ratio && !request.options.faces && !request.options.max_error)
+    throw Argument_error("say how far to reduce: --ratio, --faces or --error");
+  output_format(request.output);
+  if (!request.report.empty()) {
+    if (is_same_file(request.report, request.output) || is_same_file(request.report, request.input))
+      throw Argument_error("--report names the same file as a mesh: " + request.report);
+    require_writable(request.report);
+  }
+  require_writable(request.output);
+}
+
+/// One reduction, from file to file.
+class Reduction
+{
+public:
+  explicit Reduction(const Request& request) : m_request(request), m_bar(!request.is_quiet) {}
+
+  Exit_code run()
+  {
+    m_report["input"] = nullptr;
+    Prepared_soup prepared = read_and_prepare();
+    const std::optional<Simplified_soup> result = reduce(prepared);
+    if (!result)
+      return exit_interrupted;
+    const Verification verification = judge(*result, prepared);
+    write(*result, verification);
+    report(prepared, *result, verification);
+    return m_outcome.exit_code();
+  }
+
+private:
+  Prepared_soup read_and_prepare()
+  {
+    m_bar.begin("reading");
+    const Clock::time_point start = Clock::now();
+    Mesh_file file = read_mesh(m_request.input);
+    m_seconds["read"] = seconds_since(start);
+    m_report["input"] = input_json(m_request.input, file);
+
+    m_bar.begin("judging the input");
+    Prepare_options options;
+    options.round_to_float32 = stores_float32(mesh_format(m_request.output));
+    options.is_strict = m_request.is_strict;
+    try {
+      return prepare(std::move(file.soup), options);
+    } catch (const Input_error& error) {
+      throw Input_error(m_request.input + ": " + error.what());
+    }
+  }
+
+  std::optional<Simplified_soup> reduce(const Prepared_soup& prepared)
+  {
+    if (is_interrupted()) {
+      complain("interrupted before the reduction began; nothing was written");
+      return std::nullopt;
+    }
+    m_bar.begin("sewing");
+    Simplify_options options = m_request.options;
+    options.should_stop = [this](const Simplify_progress& progress) {
+      m_bar.update(progress);
+      return is_interrupted();
+    };
+    Simplified_soup result = simplify_soup(prepared, options);
+    m_seconds["weld"] = prepared.seconds_weld + result.seconds_weld;
+    m_seconds["check"] = prepared.seconds_check;
+    m_seconds["index"] = result.report.seconds_index;
+    m_seconds["reduce"] = result.report.seconds_reduce;
+    return result;
+  }
+
+  Verification judge(const Simplified_soup& result, const Prepared_soup& prepared)
+  {
+    m_bar.begin("judging the result");
+    const Clock::time_point start = Clock::now();
+    Verification verification = verify(result.soup, prepared.soup, prepared.offending_pairs);
+    m_seconds["verify"] = seconds_since(start);
+    m_outcome = {m_request.options.check_intersections, verification.accepted(), result.report.is_stopped,
+                 result.report.is_reached(), m_request.is_target_required};
+    return verification;
+  }
+
+  void write(const Simplified_soup& result, const Verification& verification)
+  {
+    const Clock::time_point start = Clock::now();
+    if (m_outcome.is_written()) {
+      m_bar.begin("writing");
+      write_output(m_request.output, result.soup, m_request.is_ascii);
+    }
+    m_seconds["write"] = seconds_since(start);
+    m_bar.clear();
+    if (!m_outcome.is_written())
+      complain("THE RESULT IS WRONG and was not written: " + counted(verification.new_pairs.size(), "new offending pair") +
+               (verification.same_topology() ? "" : ", topology changed") +
+               "; this is a bug in selvedge, please report it with the input and the options");
+    else if (!m_outcome.is_guarded)
+      complain("not verified: the intersection check was off (" +
+               counted(verification.new_pairs.size(), "new offending pair") + "); written all the same");
+    else if (m_outcome.is_interrupted)
+      complain("interrupted at " + counted(result.soup.triangles.size(), "face") + "; these are verified and written");
+    else if (m_outcome.exit_code() != exit_done)
+      complain("the target of " + counted(result.report.faces_target, "face") + " was missed, " +
+               with_commas(result.soup.triangles.size()) + " are left (held back by " + result.report.outcome() +
+               "); written all the same");
+  }
+
+  void report(const Prepared_soup& prepared, const Simplified_soup& result, const Verification& verification)
+  {
+    const Mesh_format format = mesh_format(m_request.output);
+    const std::vector<std::string> dropped = not_carried(prepared.soup, format);
+    if (!m_request.is_quiet)
+      print_summary(prepared, result, verification, dropped);
+    if (m_request.report.empty())
+      return;
+    m_report["output"] = {
+      {"path", m_request.output}, {"written", m_outcome.is_written()}, {"not_carried", dropped}};
+    m_report["options"] = options_json(m_request);
+    add_reduction(m_report, prepared, result);
+    add_verification(m_report, verification, true);
+    m_report["seconds"] = Json::object();
+    for (const char* phase : {"read", "weld", "check", "index", "reduce", "verify", "write"})
+      m_report["seconds"][phase] = m_seconds[phase];
+    m_report["memory"] = {{"peak_bytes", peak_memory_bytes()}};
+    m_report["exit_code"] = int(m_outcome.exit_code());
+    write_file(m_request.report, to_text(m_report));
+  }
+
+  void print_summary(const Prepared_soup& prepared, const Simplified_soup& result, const Verification& verification,
+                     const std::vector<std::string>& dropped)
+  {
+    const Simplify_report& done = result.report;
+    const std::size_t faces = result.soup.triangles.size();
+    std::cout << m_request.input << ": " << counted(prepared.soup.triangles.size(), "face");
+    if (!prepared.offending_pairs.empty())
+      std::cout << ", " << counted(prepared.offending_pairs.size(), "offending pair") << ", "
+                << counted(prepared.frozen_faces, "face") << " frozen";
+    if (const std::size_t left_out = prepared.left_out_faces + prepared.left_out_by_rounding; left_out > 0)
+      std::cout << ", " << counted(left_out, "degenerate face") << " left out";
+    std::cout << '\n';
+    for (const Json& note : m_report["input"]["notes"])
+      std::cout << "  " << note.get<std::string>() << '\n';
+    if (prepared.rounding.coordinates > 0)
+      std::cout << "  rounded to 32-bit floats, as this format stores no more: "
+                << counted(prepared.rounding.coordinates, "coordinate") << '\n';
+    for (const std::string& what : dropped)
+      std::cout << "  not in the output, whose format has no place for it: " << what << '\n';
+
+    std::cout << "reduced to " << counted(faces, "face") << " ("
+              << with_digits(100.0 * double(faces) / double(prepared.soup.triangles.size())) << " %) in "
+              << with_digits(done.seconds_reduce) << " s: ";
+    if (m_request.options.ratio || m_request.options.faces)
+      std::cout << "target " << with_commas(done.faces_target)
+                << (done.is_reached() ? " reached" : " not reached (" + done.outcome() + ")");
+    else
+      std::cout << "as far as the limits allow";
+    std::cout << "\nrefused: border " << with_commas(done.refused.border) << ", error " << with_commas(done.refused.error)
+              << ", aspect ratio " << with_commas(done.refused.aspect_ratio) << ", normal change "
+              << with_commas(done.refused.normal_change) << ", intersection " << with_commas(done.refused.intersection)
+              << ", other " << with_commas(done.refused.by_loop);
+    std::cout << "\njudged: ";
+    if (verification.embedded())
+      std::cout << "embedded";
+    else
+      std::cout << counted(verification.pairs.size(), "offending pair") << ", "
+                << with_commas(verification.new_pairs.size()) << " of them new";
+    std::cout << ", topology " << (verification.same_topology() ? "kept" : "CHANGED") << ", distance "
+              << with_digits(verification.distances->original_to_result.root_mean_square) << " RMS, "
+              << with_digits(verification.distances->original_to_result.maximum) << " at most, of the diagonal\n"
+              << (m_outcome.is_written() ? "written: " : "NOT written: ") << m_request.output << std::endl;
+  }
+
+  void complain(const std::string& message)
+  {
+    m_bar.clear();
+    std::cerr << "selvedge: " << message << std::endl;
+  }
+
+  const Request& m_request;
+  Progress_bar m_bar;
+  Outcome m_outcome;
+  Json m_report = new_report("simplify");
+  std::map<std::string, double> m_seconds;
+};
+
+} // namespace
+
+Action add_simplify(CLI::App& command)
+{
+  const auto request = std::make_shared<Request>();
+  Simplify_options& options = request->options;
+  command.add_option("IN", request->input, "Mesh to reduce: .obj, .off, .ply or .stl")->required()->type_name("");
+  command.add_option("-o,--output", request->output, "Where the result goes; may be IN")->required()->type_name("FILE");
+
+  command.add_option("--ratio", options.ratio, "Share of the faces to keep, 0 to 1")
+    ->check(in_range(0, 1))->type_name("R")->group("How far (with several, whichever is met first)");
+  command.add_option("--faces", options.faces, "Faces to keep")
+    ->type_name("N")->group("How far (with several, whichever is met first)");
+  command.add_option("--error", options.max_error, "Largest error of a collapse, as a share of the diagonal")
+    ->check(in_range(0))->type_name("E")->group("How far (with several, whichever is met first)");
+
+  const char* const limits = "What a collapse may not do";
+  command.add_option("--normal-change", options.max_normal_change, "Turn a face by more than this, in degrees")
+    ->check(in_range(0, 180))->type_name("DEG")->capture_default_str()->group(limits);
+  command.add_option("--aspect-ratio", options.min_aspect_ratio, "Make a face thinner than this, unless it was; 0 to 1")
+    ->check(in_range(0, 1))->type_name("A")->capture_default_str()->group(limits);
+  command.add_option("--border-turn", options.max_border_turn, "Cut a corner of a border or seam of more than this")
+    ->check(in_range(0, 180))->type_name("DEG")->capture_default_str()->group(limits);
+  command.add_option("--border-drift", options.max_border_drift, "Take a border further away, as a share of the diagonal")
+    ->check(in_range(0))->type_name("D")->capture_default_str()->group(limits);
+  command.add_flag("--no-intersection-check", request->is_unguarded,
+                   "Let layers pierce each other: a control. Exit code 1, since nothing is vouched for")->group(limits);
+
+  const char* const tuning = "Tuning";
+  command.add_option("--cluster-size", options.faces_per_cluster, "Faces per cluster of the index")
+    ->check(in_range(1))->type_name("N")->capture_default_str()->group(tuning);
+  command.add_option("--stabiliser", options.cost.stabiliser, "Pull to the original vertices, where all is flat")
+    ->check(in_range(0))->type_name("W")->capture_default_str()->group(tuning);
+  command.add_option("--border-weight", options.cost.border_weight, "Weight of borders in the cost")
+    ->check(in_range(0))->type_name("W")->capture_default_str()->group(tuning);
+
+  const char* const conduct = "Conduct";
+  command.add_flag("--strict", request->is_strict, "Refuse an input that is not embedded, instead of freezing what offends")
+    ->group(conduct);
+  command.add_flag("--require-target", request->is_target_required, "Exit code 1 when the target is missed")->group(conduct);
+  command.add_option("--report", request->report, "Write a report as JSON")->type_name("FILE")->group(conduct);
+  command.add_flag("--quiet", request->is_quiet, "No summary and no progress bar")->group(conduct);
+  command.add_flag("--ascii", request->is_ascii, "Write PLY and STL as text")->group(conduct);
+
+  command.footer("Examples:\n"
+                 "  selvedge simplify jacket.obj -o small.obj --ratio 0.3\n"
+                 "  selvedge simplify jacket.obj -o small.ply --faces 20000 --report small.json\n"
+                 "  selvedge simplify jacket.obj -o jacket.obj --error 0.0005      as far as 0.05 % of the size allows\n"
+                 "  selvedge simplify jacket.obj -o small.obj --ratio 0.1 --require-target || echo missed\n\n"
+                 "The result is always judged before it is written. A target that cannot be reached is no failure: the\n"
+                 "file is written, and summary and report say what held it back. Ctrl-C writes what was reached.");
+  return [request] {
+    request->options.check_intersections = !request->is_unguarded;
+    check(*request);
+    watch_for_interruption();
+    return Reduction(*request).run();
+  };
+}
+
+} // namespace selvedge::app

@@ -1,0 +1,62 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_APPS_TEXT_H
+#define SELVEDGE_APPS_TEXT_H
+
+#include <selvedge/verify.h>
+
+#include <cstddef>
+#include <cstdio>
+#include <string>
+
+namespace selvedge::app {
+
+/// 1234567 as 1,234,567.
+inline std::string with_commas(std::size_t number)
+{
+  std::string text = std::to_string(number);
+  for (std::size_t i = text.size(); i > 3; i -= 3)
+    text.insert(i - 3, 1, ',');
+  return text;
+}
+
+/// "1 face", "2,000 faces".
+inline std::string counted(std::size_t number, const std::string& noun)
+{
+  return with_commas(number) + ' ' + noun + (number == 1 ? "" : "s");
+}
+
+inline std::string with_digits(double value, const char* format = "%.3g")
+{
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+inline const char* name(Offence offence)
+{
+  switch (offence) {
+  case Offence::degenerate:
+    return "degenerate";
+  case Offence::duplicate:
+    return "duplicate";
+  case Offence::intersection:
+    return "intersection";
+  }
+  return "";
+}
+
+/// Triangles are counted from 1, for a person.
+inline std::string describe(const Offending_pair& pair)
+{
+  const std::string first = std::to_string(pair.first + 1);
+  if (pair.first == pair.second)
+    return "triangle " + first + " is degenerate";
+  return "triangles " + first + " and " + std::to_string(pair.second + 1) +
+         (pair.offence == Offence::duplicate ? " have the same three corners" : " intersect");
+}
+
+} // namespace selvedge::app
+
+#endif // SELVEDGE_APPS_TEXT_H
