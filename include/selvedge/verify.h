@@ -46,7 +46,7 @@ struct Offending_pair
 ///
 /// **Exactness.** Every decision is a sign of an exact predicate on input coordinates; nothing is rounded.
 /// **Complexity.** O(n log³ n + k) for n triangles of which k pairs have boxes that meet; in practice a
-/// million triangles of layered cloth take about a second, and 70 bytes each.
+/// million triangles of layered cloth take some seconds, and 70 bytes each.
 /// **Reference.** Boxes: Zomorodian and Edelsbrunner, *Fast software for box intersections*, 2000
 /// (CGAL's `box_self_intersection_d`). Triangles: Guigue and Devillers, *Fast and robust triangle-triangle
 /// overlap test using orientation predicates*, 2003 (CGAL's `do_intersect`).
