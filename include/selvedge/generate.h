@@ -56,17 +56,15 @@ const std::vector<Scene_description>& scenes();
 /// Makes a garment of several layers, or a scene that is hard to reduce without intersections.
 ///
 /// **Guarantees**
-/// 1. *Embedded*: any two triangles meet exactly in the positions that they share, and none is degenerate. It
-/// holds
-///    for the coordinates as they stand, rounded to doubles, by construction; nothing is searched or
+/// 1. *Embedded*: any two triangles meet exactly in the positions that they share, and none is degenerate,
+///    for the coordinates as they stand, rounded to doubles. By construction: nothing is searched or
 ///    repaired.
 /// 2. *Pieces*: pattern pieces have vertices of their own; where two are sewn together their vertices have
 ///    bit-identical positions. Every piece has a group name and its own place in texture space.
 /// 3. *Texture*: every triangle is positively oriented in texture space, inside [0,1]²; pieces do not overlap
-/// there.
+///    there.
 /// 4. *Deterministic*: same name and options, same bytes, for any build, since only operations that IEEE 754
-/// defines
-///    to the last bit are used.
+///    defines to the last bit are used.
 ///
 /// **Complexity**: linear in the faces; beside the soup itself at most two thirds of its memory, for thick
 /// cloth in several layers a fifth.

@@ -209,8 +209,8 @@ std::pair<std::size_t, std::size_t> divide(std::size_t cells, double aspect)
 
 std::pair<std::size_t, std::size_t> Closed_surface::divide(std::size_t faces, double aspect)
 {
-  const auto [columns, rows] = internal::divide(faces / 2, aspect);
-  return {std::max<std::size_t>(columns, 5), std::max<std::size_t>(rows + 1, 4)};
+  const std::size_t columns = std::max<std::size_t>(5, internal::divide(faces / 2, aspect).first);
+  return {columns, std::max<std::size_t>(3, (faces / 2 + columns / 2) / columns) + 1};
 }
 
 Closed_surface::Closed_surface(std::size_t columns_, std::size_t bands_, Random& random)

@@ -236,13 +236,16 @@ public:
 
   Triangle_soup make()
   {
-    // Bodies take what the cloth leaves, about a tenth, and so make the number of faces exact.
-    const double room = 0.92 * static_cast<double>(m_options.faces);
+    // Bodies take what the cloth leaves, about a twelfth, and so make the number of faces exact.
+    const std::size_t least = 50 * m_parts.size();
+    const double room = std::min(0.92 * static_cast<double>(m_options.faces),
+                                 static_cast<double>(m_options.faces) - static_cast<double>(least));
     double coarse = 0.2;
     double fine = 1e-5;
     if (static_cast<double>(count(coarse)) > room)
       throw Argument_error("this garment in " + std::to_string(m_layers) + " layers needs at least " +
-                           std::to_string(count(coarse) * 100 / 92 + 1) + " faces");
+                           std::to_string(std::max(count(coarse) * 100 / 92 + 1, count(coarse) + least)) +
+                           " faces");
     for (int k = 0; k < 60; ++k) {
       const double middle = (coarse + fine) / 2;
       (static_cast<double>(count(middle)) <= room ? coarse : fine) = middle;
@@ -714,6 +717,131 @@ Triangle_soup internal::jacket(const Generate_options& options)
     return part;
   };
   return Garment(options, {torso, sleeve(left, "left"), sleeve(right, "right")}).make();
+}
+
+// Hips are a tube; each leg begins with half of the hips' lower ring and a crotch seam in the plane x = 0,
+// which both legs share. In use the directions of a leg never point up, and lean to the other leg less than
+// the leg has already moved away from it: so the layers of the legs stay under the hips', and on their own
+// sides of that plane.
+Triangle_soup internal::shorts(const Generate_options& options)
+{
+  require_thin(options, 0.025);
+  Random random(options.seed + 3000017u);
+  const double phase = random.unit();
+
+  const double crotch_height = 0.75;
+  const double hem_height = 0.47;
+  const Profile profile{{0.75, 0.2}, {0.85, 0.195}, {1.0, 0.15}};
+  const Tube trunk{0, 1, crotch_height, 1.0, [=, &options](double turns, double height) {
+                     const double crease = cosine_sine(options.folds * turns + 2 * height + phase)[0];
+                     return radius_at(profile, height) - 0.1 * options.fold_depth * (1 + crease);
+                   }};
+  Frame upright = UPRIGHT;
+  upright.depth = Vector(0, 0.8, 0);
+
+  const auto hips_lattice = std::make_shared<std::optional<Lattice>>();
+  Part hips = tube(trunk, upright, 1.1, 0.26);
+  // The seams in the middle of front and back are at quarters of the columns.
+  hips.divide = [](double cell) {
+    return Division{4 * cells_along(1.1 / 4, cell, 3), cells_along(0.26, cell, 4)};
+  };
+  hips.shape = [=](Lattice& lattice) {
+    trunk.shape(upright, lattice);
+    *hips_lattice = lattice;
+  };
+  hips.patterns = {
+      {"left_front", 0.75, 1, 0, 0.8, Panel::NONE},   {"left_back", 0, 0.25, 0, 0.8, Panel::NONE},
+      {"right_back", 0.25, 0.5, 0, 0.8, Panel::NONE}, {"right_front", 0.5, 0.75, 0, 0.8, Panel::NONE},
+      {"yoke_left", 0.75, 1.25, 0.8, 1, Panel::TOP},  {"yoke_right", 0.25, 0.75, 0.8, 1, Panel::TOP}};
+  hips.patches = {
+      {{"pocket_left_front", 0.87, 0.95, 0.2, 0.62, Panel::ALL},
+       {"pocket_left_back", 0.08, 0.18, 0.2, 0.62, Panel::ALL},
+       {"pocket_right_back", 0.32, 0.42, 0.2, 0.62, Panel::ALL},
+       {"pocket_right_front", 0.55, 0.63, 0.2, 0.62, Panel::ALL}},
+      {{"waistband", 0, 1, 0.84, 0.98, Panel::BOTTOM | Panel::TOP}},
+      {{"loop_left", 0.9, 0.92, 0.8, 1, Panel::ALL}, {"loop_right", 0.58, 0.6, 0.8, 1, Panel::ALL}}};
+  hips.buttons = {{0.76, 0.975}};
+  hips.body_name = "body";
+  hips.body = {{0.74, 0.05}, {0.76, 0.12},  {0.85, 0.17}, {1.0, 0.13}, {1.22, 0.16},
+               {1.34, 0.14}, {1.41, 0.055}, {1.46, 0.05}, {1.5, 0.05}};
+
+  const auto leg = [&](double side, const std::string& name) {
+    Part part;
+    part.name = "leg_" + name + "_";
+    part.closed = true;
+    part.width = 0.6;
+    part.height = crotch_height - hem_height;
+    part.divide = [=, divide_hips = hips.divide](double cell) {
+      const std::size_t half = divide_hips(cell).columns / 2;
+      return Division{half + std::max<std::size_t>(2, half * 46 / 100),
+                      cells_along(crotch_height - hem_height, cell, 4)};
+    };
+    Frame frame = UPRIGHT;
+    frame.origin = Vector(side * 0.115, 0, 0);
+    part.frame = [=](const Lattice&) { return frame; };
+    part.shape = [=, &options](Lattice& lattice) {
+      const Lattice& above = **hips_lattice;
+      const std::size_t half = above.columns / 2;
+      const std::size_t crotch = lattice.columns - half;
+      const std::size_t first = (side > 0 ? 3 : 1) * half / 2;
+      std::vector<Vector> ring, ring_direction;
+      for (std::size_t i = 0; i <= half; ++i) {
+        ring.push_back(above.base[above.vertex(first + i, 0)]);
+        ring_direction.push_back(above.direction[above.vertex(first + i, 0)]);
+      }
+      const Vector front = side > 0 ? ring.front() : ring.back();
+      const Vector back = side > 0 ? ring.back() : ring.front();
+      for (std::size_t i = 1; i < crotch; ++i) {
+        // Counted from the front in both legs, so that both compute the same.
+        const double s = static_cast<double>(side > 0 ? crotch - i : i) / static_cast<double>(crotch);
+        const auto [c, d] = cosine_sine(s / 2);
+        ring.emplace_back(0, front.y() + (back.y() - front.y()) * s, crotch_height - 0.24 * s * (1 - s));
+        ring_direction.emplace_back(0, -c, -d);
+      }
+      for (std::size_t k = 0; k < lattice.u.size(); ++k) {
+        if (k >= lattice.rows * lattice.width) {
+          const std::size_t i = k % lattice.width;
+          lattice.u[k] = static_cast<double>(i) / static_cast<double>(lattice.columns);
+          lattice.base.push_back(ring[i]);
+          lattice.direction.push_back(ring_direction[i]);
+          continue;
+        }
+        const double columns = static_cast<double>(lattice.columns);
+        const double x = lattice.u[k] < 0 ? lattice.u[k] * columns + columns : lattice.u[k] * columns;
+        const auto before = static_cast<std::size_t>(x);
+        const double between = x - static_cast<double>(before);
+        const auto mix = [&](const std::vector<Vector>& values) {
+          return (1 - between) * values[before % ring.size()] + between * values[(before + 1) % ring.size()];
+        };
+        const double outside = static_cast<double>(half);
+        const double turns =
+            (side > 0 ? 0 : 0.5) +
+            (x < outside ? 0.658 + 0.684 * x / outside : 1.342 + 0.316 * (x - outside) / (columns - outside));
+        const double t = 1 - lattice.v[k];
+        const double crease = cosine_sine(std::floor(options.folds * 0.5) * turns + phase + t)[0];
+        const double radius = 0.085 - 0.15 * options.fold_depth * t * (1 + crease);
+        const Vector radial = frame.radial(turns);
+        // Away from the crotch first, then down: a vault.
+        const double out = t * (2 - t);
+        const double down = t * (1 + t) / 2;
+        const Vector top = mix(ring);
+        const Vector bottom = frame.origin + hem_height * frame.axis + radius * radial;
+        lattice.base.emplace_back((1 - out) * top.x() + out * bottom.x(),
+                                  (1 - out) * top.y() + out * bottom.y(),
+                                  (1 - down) * top.z() + down * bottom.z());
+        const Vector d = (1 - t) * mix(ring_direction) + t * radial;
+        lattice.direction.push_back(d / std::sqrt(d.squared_length()));
+      }
+    };
+    const std::string first = side > 0 ? "back" : "front";
+    const std::string second = side > 0 ? "front" : "back";
+    part.patterns = {{first, 0.342, 0.842, 0, 1, Panel::BOTTOM}, {second, 0.842, 1.342, 0, 1, Panel::BOTTOM}};
+    part.patches = {{{"cuff", 0, 1, 0.04, 0.16, Panel::BOTTOM | Panel::TOP}}};
+    part.body_name = "thigh_" + name;
+    part.body = {{0.3, 0.02}, {0.32, 0.05}, {0.55, 0.065}, {0.64, 0.06}, {0.7, 0.02}};
+    return part;
+  };
+  return Garment(options, {hips, leg(1, "left"), leg(-1, "right")}).make();
 }
 
 } // namespace selvedge

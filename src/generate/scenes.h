@@ -11,6 +11,7 @@ namespace selvedge::internal {
 // Garments.
 Triangle_soup skirt(const Generate_options& options);
 Triangle_soup jacket(const Generate_options& options);
+Triangle_soup shorts(const Generate_options& options);
 
 // Scenes that hurt.
 Triangle_soup sheets(const Generate_options& options);
