@@ -315,7 +315,7 @@ TEST(OffendingPairs, MissNoneOfAllPairs)
     std::mt19937 random(static_cast<unsigned>(seed));
     const auto [x, y, z] = stretches[seed];
     const Triangle_soup soup =
-        mapped(random_soup(random, 300 * scale), [&, x = x, y = y, z = z](const Point_3& p) {
+        mapped(random_soup(random, 200 * scale), [&, x = x, y = y, z = z](const Point_3& p) {
           return Point_3(x * p.x(), y * p.y(), z * p.z());
         });
     const std::vector<Offending_pair> expected = oracle::offending_pairs(soup);
