@@ -309,10 +309,15 @@ public:
     const auto draw = [&] { return kind == 0 ? point() : combine(frame); };
     for (Point& p : c.sweep)
       p = draw();
-    for (Point& p : c.face)
+    // Some faces are small and near the middle of the sweep, so that they may lie inside.
+    const bool is_small = m_random() % 4 == 0;
+    for (Point& p : c.face) {
       p = draw();
+      for (std::size_t i = 0; is_small && i < 3; ++i)
+        p[i] = (c.sweep[0][i] + c.sweep[1][i] + c.sweep[2][i] + c.sweep[3][i]) / 4 + p[i] / 8;
+    }
     for (const std::size_t i : {0, 1}) {
-      if (m_random() % 2 == 0)
+      if (m_random() % 2 == 0 && !is_small)
         c.face[i] = c.sweep[1 + (m_random() + i) % 3];
     }
     return c.face[0] == c.face[1] ? next() : c;

@@ -122,6 +122,14 @@ TEST(Sweep, ThinSheetInTheWayIsNotClear)
   EXPECT_TRUE(is_clear(sweep, {Point(-1, -1, -2), Point(3, -1, -2), Point(-1, 3, -2)}));
 }
 
+TEST(Sweep, FaceInsideTheSweepIsNotClear)
+{
+  // Wholly inside, so that no edge of the one meets a face of the other.
+  const std::array<Point, 4> sweep{Point(0, 0, 0), Point(9, 0, 0), Point(0, 9, 0), Point(0, 0, 9)};
+  EXPECT_FALSE(is_clear(sweep, {Point(1, 1, 1), Point(2, 1, 1), Point(1, 2, 1)}));
+  EXPECT_FALSE(is_clear(sweep, {Point(1, 1, 1), Point(2, 1, 1), Point(3, 1, 1)}));
+}
+
 TEST(Sweep, SmallestGapsAndContactsAreTold)
 {
   // The sheet one step of a double below the lowest point of the sweep, and at it.

@@ -46,25 +46,19 @@ private:
   const Vertex_motion<Point>& m_motion;
 };
 
-// Whether the link is one simple cycle of positions.
+// Whether the link is one simple cycle of positions: going on from edge to edge leads through all of them. Of
+// two edges that start at one position, only the first is ever reached.
 template <class Kernel>
 bool is_cycle(const Link<typename Kernel::Point_3>& link, const Kernel& kernel)
 {
   const auto is_equal = kernel.equal_3_object();
   std::size_t edge = 0;
   for (std::size_t length = 1; length <= link.size(); ++length) {
-    std::size_t next = link.size();
-    for (std::size_t i = 0; i < link.size(); ++i) {
-      if (is_equal(link[i][0], link[edge][1])) {
-        if (next != link.size())
-          return false;
-        next = i;
-      }
-    }
-    if (next == link.size())
-      return false;
-    if (next == 0)
-      return length == link.size();
+    std::size_t next = 0;
+    while (next < link.size() && !is_equal(link[next][0], link[edge][1]))
+      ++next;
+    if (next == 0 || next == link.size())
+      return next == 0 && length == link.size();
     edge = next;
   }
   return false;

@@ -276,8 +276,7 @@ private:
     return false;
   }
 
-  // Whether the line pq passes through the closed triangle uvw, in whose plane it does not lie; never when u,
-  // v, w are collinear.
+  // Whether the line pq passes through the closed triangle uvw, in whose plane it does not lie.
   bool is_pierced(const Point_3& u, const Point_3& v, const Point_3& w, const Point_3& p,
                   const Point_3& q) const
   {
@@ -286,8 +285,7 @@ private:
     if (uv * vw == CGAL::NEGATIVE)
       return false;
     const Sign wu = orientation(p, q, w, u);
-    return uv * wu != CGAL::NEGATIVE && vw * wu != CGAL::NEGATIVE &&
-           (uv != CGAL::ZERO || vw != CGAL::ZERO || wu != CGAL::ZERO);
+    return uv * wu != CGAL::NEGATIVE && vw * wu != CGAL::NEGATIVE;
   }
 
   // The sweep and f in one plane: disjoint when the line of an edge of one of them has the other strictly on
