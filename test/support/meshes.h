@@ -8,17 +8,24 @@
 
 #include <cmath>
 #include <cstddef>
+#include <string_view>
 
 namespace selvedge::test {
 
-/// A skirt of `layers` layers of double-sided cloth with all that belongs to it.
-inline Triangle_soup skirt(std::size_t faces, int layers = 3, unsigned seed = 1)
+/// A garment ("skirt", "jacket", "shorts") of `layers` layers of double-sided cloth with all that belongs to
+/// it.
+inline Triangle_soup garment(std::string_view name, std::size_t faces, int layers = 3, unsigned seed = 1)
 {
   Generate_options options;
   options.faces = faces;
   options.layers = layers;
   options.seed = seed;
-  return generate("skirt", options);
+  return generate(name, options);
+}
+
+inline Triangle_soup skirt(std::size_t faces, int layers = 3, unsigned seed = 1)
+{
+  return garment("skirt", faces, layers, seed);
 }
 
 /// Wavy sheets above one another.
