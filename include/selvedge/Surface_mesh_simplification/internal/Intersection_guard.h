@@ -176,7 +176,7 @@ private:
         if (is_border(opposite(next_edge, m_mesh), m_mesh) &&
             is_border(opposite(next(next_edge, m_mesh), m_mesh), m_mesh))
           return false;
-        contracted[contracted_count++] = CGAL::target(next_edge, m_mesh);
+        contracted[contracted_count++] = source(next(next_edge, m_mesh), m_mesh);
       }
     }
     const auto is_allowed = [&](Vertex neighbour) {
@@ -209,7 +209,7 @@ private:
     for (const Halfedge h : CGAL::halfedges_around_target(halfedge(motion.mover, m_mesh), m_mesh)) {
       if (is_border(h, m_mesh))
         continue;
-      const Vertex a = CGAL::target(next(h, m_mesh), m_mesh);
+      const Vertex a = target(next(h, m_mesh), m_mesh);
       const Vertex b = source(h, m_mesh);
       const bool is_contracted = motion.target && (a == *motion.target || b == *motion.target);
       (is_contracted ? m_star.contracted : m_star.moving).push_back({place_of(a, motion), place_of(b, motion)});
@@ -280,7 +280,7 @@ private:
   std::array<Vertex, 3> face_corners(Face face) const
   {
     const Halfedge h = halfedge(face, m_mesh);
-    return {source(h, m_mesh), CGAL::target(h, m_mesh), CGAL::target(next(h, m_mesh), m_mesh)};
+    return {source(h, m_mesh), target(h, m_mesh), target(next(h, m_mesh), m_mesh)};
   }
 
   CGAL::Bbox_3 face_box(Face face) const
@@ -311,7 +311,7 @@ private:
     }
     for (const auto edge : edges(m_mesh)) {
       const Halfedge h = halfedge(edge, m_mesh);
-      if (get(m_points, source(h, m_mesh)) == get(m_points, CGAL::target(h, m_mesh)))
+      if (get(m_points, source(h, m_mesh)) == get(m_points, target(h, m_mesh)))
         throw Argument_error("the mesh has an edge of length zero; remove its degenerate faces first");
     }
   }
