@@ -11,14 +11,14 @@ namespace selvedge::app {
 /// How a reduction ended, and what follows from it.
 struct Outcome
 {
-  bool is_guarded = true;   ///< the intersection filter was on
-  bool is_accepted = true;  ///< the judge found nothing that was not there before
+  bool is_guarded = true;  ///< the intersection filter was on
+  bool is_accepted = true; ///< the judge found nothing that was not there before
   bool is_interrupted = false;
   bool is_reached = true;
   bool is_target_required = false;
 
-  /// A guarded result that the judge refuses is a bug of ours: it must not take the place of a good file. An unguarded
-  /// one is what was asked for.
+  /// A guarded result that the judge refuses is a bug of ours: it must not take the place of a good file. An
+  /// unguarded one is what was asked for.
   bool is_written() const { return is_accepted || !is_guarded; }
 
   /// An unguarded result is never called verified: the judge sees its end, not the way there.

@@ -18,8 +18,8 @@
 
 namespace selvedge::app {
 
-/// One line on stderr that says what is being done, how fast, and for how long still. Nothing unless stderr is a
-/// terminal.
+/// One line on stderr that says what is being done, how fast, and for how long still. Nothing unless stderr
+/// is a terminal.
 class Progress_bar
 {
   using Clock = std::chrono::steady_clock;
@@ -33,13 +33,16 @@ public:
   /// Begins the next piece of work.
   void begin(const char* phase)
   {
-    m_start = m_shown_at = Clock::now();
+    m_is_reducing = false;
     show(std::string(phase) + " …");
   }
 
   void update(const Simplify_progress& progress)
   {
     const Clock::time_point now = Clock::now();
+    if (!m_is_reducing)
+      m_start = m_shown_at = now;
+    m_is_reducing = true;
     if (!m_is_shown || now - m_shown_at < std::chrono::milliseconds(100))
       return;
     m_shown_at = now;
@@ -50,8 +53,8 @@ public:
       const double done = double(progress.faces_input - progress.faces) /
                           double(progress.faces_input - progress.faces_target);
       const std::size_t filled = (std::min)(std::size_t(done * width), width);
-      line += '[' + std::string(filled, '=') + std::string(width - filled, ' ') + "] " + with_digits(100 * done, "%.0f %%") +
-              ", ";
+      line += '[' + std::string(filled, '=') + std::string(width - filled, ' ') + "] " +
+              with_digits(100 * done, "%.0f %%") + ", ";
     }
     line += counted(progress.faces, "face") + ", " + with_commas(std::size_t(rate)) + " removed per second";
     if (progress.faces_target > 0 && rate > 0)
@@ -71,6 +74,7 @@ private:
   }
 
   bool m_is_shown;
+  bool m_is_reducing = false;
   Clock::time_point m_start{};
   Clock::time_point m_shown_at{};
 };

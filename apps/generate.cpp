@@ -45,8 +45,9 @@ Exit_code run(const Request& request)
 
   Triangle_soup soup = generate(request.name, request.options);
   if (stores_float32(format) && round_to_float32(soup).coordinates > 0 && !is_embedded(soup))
-    throw Output_error(request.output + ": not written: rounded to the 32-bit floats of this format, the mesh would not be "
-                                        "embedded any more; choose .ply or .obj, or a larger gap");
+    throw Output_error(request.output +
+                       ": not written: rounded to the 32-bit floats of this format, the mesh would not be "
+                       "embedded any more; choose .ply or .obj, or a larger gap");
   write_output(request.output, soup, request.is_ascii);
   if (!request.is_quiet)
     std::cout << request.output << ": " << counted(soup.triangles.size(), "face") << " of '" << request.name
@@ -61,18 +62,32 @@ Action add_generate(CLI::App& command)
   const auto request = std::make_shared<Request>();
   Generate_options& options = request->options;
   command.add_option("NAME", request->name, "What to make; --list names all there is")->type_name("");
-  command.add_option("-o,--output", request->output, "Where it goes: .obj, .off, .ply or .stl")->type_name("FILE");
+  command.add_option("-o,--output", request->output, "Where it goes: .obj, .off, .ply or .stl")
+      ->type_name("FILE");
   command.add_flag("--list", request->is_list, "Name all that can be made");
-  command.add_option("--faces", options.faces, "Faces, within 2 %")->type_name("N")->capture_default_str();
-  command.add_option("--layers", options.layers, "Layers on top of one another")->type_name("L")->capture_default_str();
+  command.add_option("--faces", options.faces, "Faces, within 2 %")
+      ->check(in_range(0))
+      ->type_name("N")
+      ->capture_default_str();
+  command.add_option("--layers", options.layers, "Layers on top of one another")
+      ->type_name("L")
+      ->capture_default_str();
   command.add_option("--thickness", options.thickness, "Thickness of a garment's cloth in metres; 0: sheets")
-    ->type_name("T")->capture_default_str();
-  command.add_option("--gap", options.gap, "Smallest distance of two layers in metres")->type_name("G")->capture_default_str();
+      ->type_name("T")
+      ->capture_default_str();
+  command.add_option("--gap", options.gap, "Smallest distance of two layers in metres")
+      ->type_name("G")
+      ->capture_default_str();
   command.add_option("--fold-depth", options.fold_depth, "Amplitude of folds and waves in metres")
-    ->type_name("D")->capture_default_str();
+      ->type_name("D")
+      ->capture_default_str();
   command.add_option("--folds", options.folds, "Folds around a garment, waves along a sheet")
-    ->type_name("N")->capture_default_str();
-  command.add_option("--seed", options.seed, "Of what is irregular")->type_name("S")->capture_default_str();
+      ->type_name("N")
+      ->capture_default_str();
+  command.add_option("--seed", options.seed, "Of what is irregular")
+      ->check(in_range(0))
+      ->type_name("S")
+      ->capture_default_str();
   command.add_flag("--quiet", request->is_quiet, "No summary");
   command.add_flag("--ascii", request->is_ascii, "Write PLY and STL as text");
   command.footer("Examples:\n"

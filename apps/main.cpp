@@ -20,24 +20,27 @@ using namespace selvedge::app;
 /// One line, whatever is in a file name.
 Exit_code fail(Exit_code code, std::string message)
 {
-  std::replace_if(message.begin(), message.end(), [](unsigned char c) { return c < ' ' || c == 127; }, ' ');
+  std::replace_if(
+      message.begin(), message.end(), [](unsigned char c) { return c < ' ' || c == 127; }, ' ');
   std::cerr << "selvedge: " << message << std::endl;
   return code;
 }
 
 Exit_code run(int argc, char** argv)
 {
-  CLI::App app("Reduces triangle meshes that lie close together so that no layer ever pierces another, decided exactly.");
+  CLI::App app("Reduces triangle meshes that lie close together so that no layer ever pierces another, "
+               "decided exactly.");
   app.name("selvedge");
   app.set_version_flag("--version", "selvedge " SELVEDGE_VERSION);
   app.require_subcommand(1);
-  app.footer("Examples:\n"
-             "  selvedge generate skirt -o skirt.obj --faces 50000 --layers 3\n"
-             "  selvedge simplify skirt.obj -o small.obj --ratio 0.2\n"
-             "  selvedge verify small.obj --against skirt.obj\n"
-             "`selvedge COMMAND --help` says more.\n\n"
-             "Exit codes: 0 done and verified, 1 not verified (or target missed with --require-target), 2 usage,\n"
-             "3 unreadable or unacceptable input, 4 output not written, 5 interrupted.");
+  app.footer(
+      "Examples:\n"
+      "  selvedge generate skirt -o skirt.obj --faces 50000 --layers 3\n"
+      "  selvedge simplify skirt.obj -o small.obj --ratio 0.2\n"
+      "  selvedge verify small.obj --against skirt.obj\n"
+      "`selvedge COMMAND --help` says more.\n\n"
+      "Exit codes: 0 done and verified, 1 not verified (or target missed with --require-target), 2 usage,\n"
+      "3 unreadable or unacceptable input, 4 output not written, 5 interrupted.");
 
   struct Command
   {
@@ -49,9 +52,9 @@ Exit_code run(int argc, char** argv)
     return Command{command, declare(*command)};
   };
   const std::array<Command, 3> commands{
-    add("simplify", "Reduce a mesh, judge the result, and write it.", add_simplify),
-    add("verify", "Judge a mesh, or a result against its original.", add_verify),
-    add("generate", "Make a layered garment or a hard scene, embedded by construction.", add_generate)};
+      add("simplify", "Reduce a mesh, judge the result, and write it.", add_simplify),
+      add("verify", "Judge a mesh, or a result against its original.", add_verify),
+      add("generate", "Make a layered garment or a hard scene, embedded by construction.", add_generate)};
 
   try {
     app.parse(argc, argv);
@@ -61,7 +64,8 @@ Exit_code run(int argc, char** argv)
   } catch (const CLI::ParseError& error) {
     return fail(exit_usage, std::string(error.what()) + " (selvedge --help says more)");
   }
-  return std::find_if(commands.begin(), commands.end(), [](const Command& c) { return c.app->parsed(); })->action();
+  return std::find_if(commands.begin(), commands.end(), [](const Command& c) { return c.app->parsed(); })
+      ->action();
 }
 
 } // namespace

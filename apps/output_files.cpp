@@ -49,7 +49,8 @@ void require_writable(const fs::path& path)
 bool is_same_file(const fs::path& a, const fs::path& b)
 {
   std::error_code ignored;
-  return fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored) || fs::equivalent(a, b, ignored);
+  return fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored) ||
+         fs::equivalent(a, b, ignored);
 }
 
 void write_output(const fs::path& path, const Triangle_soup& soup, bool is_ascii)

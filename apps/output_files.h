@@ -19,8 +19,8 @@ void require_writable(const std::filesystem::path& path);
 /// Whether both name one file, existing or not.
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
-/// `write_mesh`, for which a mesh that the format cannot hold is an `Output_error`: nothing is wrong with the command
-/// line.
+/// `write_mesh`, for which a mesh that the format cannot hold is an `Output_error`: nothing is wrong with the
+/// command line.
 void write_output(const std::filesystem::path& path, const Triangle_soup& soup, bool is_ascii);
 
 } // namespace selvedge::app

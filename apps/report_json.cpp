@@ -25,7 +25,9 @@ Json first_of(const std::vector<Offending_pair>& pairs)
 {
   Json list = Json::array();
   for (std::size_t i = 0; i < (std::min)(pairs.size(), pairs_named); ++i)
-    list.push_back({{"first", pairs[i].first + 1}, {"second", pairs[i].second + 1}, {"offence", name(pairs[i].offence)}});
+    list.push_back({{"first", pairs[i].first + 1},
+                    {"second", pairs[i].second + 1},
+                    {"offence", name(pairs[i].offence)}});
   return list;
 }
 

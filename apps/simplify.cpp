@@ -122,7 +122,7 @@ private:
       complain("interrupted before the reduction began; nothing was written");
       return std::nullopt;
     }
-    m_bar.begin("sewing");
+    m_bar.begin("sewing and indexing");
     Simplify_options options = m_request.options;
     options.should_stop = [this](const Simplify_progress& progress) {
       m_bar.update(progress);
@@ -157,18 +157,20 @@ private:
     m_seconds["write"] = seconds_since(start);
     m_bar.clear();
     if (!m_outcome.is_written())
-      complain("THE RESULT IS WRONG and was not written: " + counted(verification.new_pairs.size(), "new offending pair") +
+      complain("THE RESULT IS WRONG and was not written: " +
+               counted(verification.new_pairs.size(), "new offending pair") +
                (verification.same_topology() ? "" : ", topology changed") +
                "; this is a bug in selvedge, please report it with the input and the options");
     else if (!m_outcome.is_guarded)
       complain("not verified: the intersection check was off (" +
                counted(verification.new_pairs.size(), "new offending pair") + "); written all the same");
     else if (m_outcome.is_interrupted)
-      complain("interrupted at " + counted(result.soup.triangles.size(), "face") + "; these are verified and written");
+      complain("interrupted at " + counted(result.soup.triangles.size(), "face") +
+               "; these are verified and written");
     else if (m_outcome.exit_code() != exit_done)
       complain("the target of " + counted(result.report.faces_target, "face") + " was missed, " +
-               with_commas(result.soup.triangles.size()) + " are left (held back by " + result.report.outcome() +
-               "); written all the same");
+               with_commas(result.soup.triangles.size()) + " are left (held back by " +
+               result.report.outcome() + "); written all the same");
   }
 
   void report(const Prepared_soup& prepared, const Simplified_soup& result, const Verification& verification)
@@ -180,7 +182,7 @@ private:
     if (m_request.report.empty())
       return;
     m_report["output"] = {
-      {"path", m_request.output}, {"written", m_outcome.is_written()}, {"not_carried", dropped}};
+        {"path", m_request.output}, {"written", m_outcome.is_written()}, {"not_carried", dropped}};
     m_report["options"] = options_json(m_request);
     add_reduction(m_report, prepared, result);
     add_verification(m_report, verification, true);
@@ -192,8 +194,8 @@ private:
     write_file(m_request.report, to_text(m_report));
   }
 
-  void print_summary(const Prepared_soup& prepared, const Simplified_soup& result, const Verification& verification,
-                     const std::vector<std::string>& dropped)
+  void print_summary(const Prepared_soup& prepared, const Simplified_soup& result,
+                     const Verification& verification, const std::vector<std::string>& dropped)
   {
     const Simplify_report& done = result.report;
     const std::size_t faces = result.soup.triangles.size();
@@ -220,10 +222,11 @@ private:
                 << (done.is_reached() ? " reached" : " not reached (" + done.outcome() + ")");
     else
       std::cout << "as far as the limits allow";
-    std::cout << "\nrefused: border " << with_commas(done.refused.border) << ", error " << with_commas(done.refused.error)
-              << ", aspect ratio " << with_commas(done.refused.aspect_ratio) << ", normal change "
-              << with_commas(done.refused.normal_change) << ", intersection " << with_commas(done.refused.intersection)
-              << ", other " << with_commas(done.refused.by_loop);
+    std::cout << "\nrefused: border " << with_commas(done.refused.border) << ", error "
+              << with_commas(done.refused.error) << ", aspect ratio "
+              << with_commas(done.refused.aspect_ratio) << ", normal change "
+              << with_commas(done.refused.normal_change) << ", intersection "
+              << with_commas(done.refused.intersection) << ", other " << with_commas(done.refused.by_loop);
     std::cout << "\njudged: ";
     if (verification.embedded())
       std::cout << "embedded";
@@ -232,7 +235,8 @@ private:
                 << with_commas(verification.new_pairs.size()) << " of them new";
     std::cout << ", topology " << (verification.same_topology() ? "kept" : "CHANGED") << ", distance "
               << with_digits(verification.distances->original_to_result.root_mean_square) << " RMS, "
-              << with_digits(verification.distances->original_to_result.maximum) << " at most, of the diagonal\n"
+              << with_digits(verification.distances->original_to_result.maximum)
+              << " at most, of the diagonal\n"
               << (m_outcome.is_written() ? "written: " : "NOT written: ") << m_request.output << std::endl;
   }
 
@@ -255,51 +259,98 @@ Action add_simplify(CLI::App& command)
 {
   const auto request = std::make_shared<Request>();
   Simplify_options& options = request->options;
-  command.add_option("IN", request->input, "Mesh to reduce: .obj, .off, .ply or .stl")->required()->type_name("");
-  command.add_option("-o,--output", request->output, "Where the result goes; may be IN")->required()->type_name("FILE");
+  command.add_option("IN", request->input, "Mesh to reduce: .obj, .off, .ply or .stl")
+      ->required()
+      ->type_name("");
+  command.add_option("-o,--output", request->output, "Where the result goes; may be IN")
+      ->required()
+      ->type_name("FILE");
 
   command.add_option("--ratio", options.ratio, "Share of the faces to keep, 0 to 1")
-    ->check(in_range(0, 1))->type_name("R")->group("How far (with several, whichever is met first)");
+      ->check(in_range(0, 1))
+      ->type_name("R")
+      ->group("How far (with several, whichever is met first)");
   command.add_option("--faces", options.faces, "Faces to keep")
-    ->type_name("N")->group("How far (with several, whichever is met first)");
+      ->check(in_range(0))
+      ->type_name("N")
+      ->group("How far (with several, whichever is met first)");
   command.add_option("--error", options.max_error, "Largest error of a collapse, as a share of the diagonal")
-    ->check(in_range(0))->type_name("E")->group("How far (with several, whichever is met first)");
+      ->check(in_range(0))
+      ->type_name("E")
+      ->group("How far (with several, whichever is met first)");
 
   const char* const limits = "What a collapse may not do";
-  command.add_option("--normal-change", options.max_normal_change, "Turn a face by more than this, in degrees")
-    ->check(in_range(0, 180))->type_name("DEG")->capture_default_str()->group(limits);
-  command.add_option("--aspect-ratio", options.min_aspect_ratio, "Make a face thinner than this, unless it was; 0 to 1")
-    ->check(in_range(0, 1))->type_name("A")->capture_default_str()->group(limits);
-  command.add_option("--border-turn", options.max_border_turn, "Cut a corner of a border or seam of more than this")
-    ->check(in_range(0, 180))->type_name("DEG")->capture_default_str()->group(limits);
-  command.add_option("--border-drift", options.max_border_drift, "Take a border further away, as a share of the diagonal")
-    ->check(in_range(0))->type_name("D")->capture_default_str()->group(limits);
-  command.add_flag("--no-intersection-check", request->is_unguarded,
-                   "Let layers pierce each other: a control. Exit code 1, since nothing is vouched for")->group(limits);
+  command
+      .add_option("--normal-change", options.max_normal_change, "Turn a face by more than this, in degrees")
+      ->check(in_range(0, 180))
+      ->type_name("DEG")
+      ->capture_default_str()
+      ->group(limits);
+  command
+      .add_option("--aspect-ratio", options.min_aspect_ratio,
+                  "Make a face thinner than this, unless it was; 0 to 1")
+      ->check(in_range(0, 1))
+      ->type_name("A")
+      ->capture_default_str()
+      ->group(limits);
+  command
+      .add_option("--border-turn", options.max_border_turn,
+                  "Cut a corner of a border or seam of more than this")
+      ->check(in_range(0, 180))
+      ->type_name("DEG")
+      ->capture_default_str()
+      ->group(limits);
+  command
+      .add_option("--border-drift", options.max_border_drift,
+                  "Take a border further away, as a share of the diagonal")
+      ->check(in_range(0))
+      ->type_name("D")
+      ->capture_default_str()
+      ->group(limits);
+  command
+      .add_flag("--no-intersection-check", request->is_unguarded,
+                "Let layers pierce each other: a control. Exit code 1, since nothing is vouched for")
+      ->group(limits);
 
   const char* const tuning = "Tuning";
   command.add_option("--cluster-size", options.faces_per_cluster, "Faces per cluster of the index")
-    ->check(in_range(1))->type_name("N")->capture_default_str()->group(tuning);
-  command.add_option("--stabiliser", options.cost.stabiliser, "Pull to the original vertices, where all is flat")
-    ->check(in_range(0))->type_name("W")->capture_default_str()->group(tuning);
+      ->check(in_range(1))
+      ->type_name("N")
+      ->capture_default_str()
+      ->group(tuning);
+  command
+      .add_option("--stabiliser", options.cost.stabiliser, "Pull to the original vertices, where all is flat")
+      ->check(in_range(0))
+      ->type_name("W")
+      ->capture_default_str()
+      ->group(tuning);
   command.add_option("--border-weight", options.cost.border_weight, "Weight of borders in the cost")
-    ->check(in_range(0))->type_name("W")->capture_default_str()->group(tuning);
+      ->check(in_range(0))
+      ->type_name("W")
+      ->capture_default_str()
+      ->group(tuning);
 
   const char* const conduct = "Conduct";
-  command.add_flag("--strict", request->is_strict, "Refuse an input that is not embedded, instead of freezing what offends")
-    ->group(conduct);
-  command.add_flag("--require-target", request->is_target_required, "Exit code 1 when the target is missed")->group(conduct);
-  command.add_option("--report", request->report, "Write a report as JSON")->type_name("FILE")->group(conduct);
+  command
+      .add_flag("--strict", request->is_strict,
+                "Refuse an input that is not embedded, instead of freezing what offends")
+      ->group(conduct);
+  command.add_flag("--require-target", request->is_target_required, "Exit code 1 when the target is missed")
+      ->group(conduct);
+  command.add_option("--report", request->report, "Write a report as JSON")
+      ->type_name("FILE")
+      ->group(conduct);
   command.add_flag("--quiet", request->is_quiet, "No summary and no progress bar")->group(conduct);
   command.add_flag("--ascii", request->is_ascii, "Write PLY and STL as text")->group(conduct);
 
-  command.footer("Examples:\n"
-                 "  selvedge simplify jacket.obj -o small.obj --ratio 0.3\n"
-                 "  selvedge simplify jacket.obj -o small.ply --faces 20000 --report small.json\n"
-                 "  selvedge simplify jacket.obj -o jacket.obj --error 0.0005      as far as 0.05 % of the size allows\n"
-                 "  selvedge simplify jacket.obj -o small.obj --ratio 0.1 --require-target || echo missed\n\n"
-                 "The result is always judged before it is written. A target that cannot be reached is no failure: the\n"
-                 "file is written, and summary and report say what held it back. Ctrl-C writes what was reached.");
+  command.footer(
+      "Examples:\n"
+      "  selvedge simplify jacket.obj -o small.obj --ratio 0.3\n"
+      "  selvedge simplify jacket.obj -o small.ply --faces 20000 --report small.json\n"
+      "  selvedge simplify jacket.obj -o jacket.obj --error 0.0005      as far as 0.05 % of the size allows\n"
+      "  selvedge simplify jacket.obj -o small.obj --ratio 0.1 --require-target || echo missed\n\n"
+      "The result is always judged before it is written. A target that cannot be reached is no failure: the\n"
+      "file is written, and summary and report say what held it back. Ctrl-C writes what was reached.");
   return [request] {
     request->options.check_intersections = !request->is_unguarded;
     check(*request);

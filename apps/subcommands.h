@@ -25,16 +25,17 @@ Action add_generate(CLI::App& command);
 inline CLI::Validator in_range(double least, double most = std::numeric_limits<double>::infinity())
 {
   return CLI::Validator(
-    [=](const std::string& text) -> std::string {
-      double value = 0;
-      if (CLI::detail::lexical_cast(text, value) && value >= least && value <= most)
-        return {};
-      const std::string range = most == std::numeric_limits<double>::infinity()
-                                  ? "at least " + CLI::detail::to_string(least)
-                                  : "from " + CLI::detail::to_string(least) + " to " + CLI::detail::to_string(most);
-      return "'" + text + "' is not a number " + range;
-    },
-    "");
+      [=](const std::string& text) -> std::string {
+        double value = 0;
+        if (CLI::detail::lexical_cast(text, value) && value >= least && value <= most)
+          return {};
+        const std::string range =
+            most == std::numeric_limits<double>::infinity()
+                ? "at least " + CLI::detail::to_string(least)
+                : "from " + CLI::detail::to_string(least) + " to " + CLI::detail::to_string(most);
+        return "'" + text + "' is not a number " + range;
+      },
+      "");
 }
 
 } // namespace selvedge::app

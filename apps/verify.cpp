@@ -50,7 +50,8 @@ void print(const Request& request, const Mesh_file& mesh, const Verification& ve
     if (has_original)
       std::cout << ", " << with_commas(verification.new_pairs.size()) << " of them not in the original";
     std::cout << '\n';
-    const auto& pairs = has_original && !verification.new_pairs.empty() ? verification.new_pairs : verification.pairs;
+    const auto& pairs =
+        has_original && !verification.new_pairs.empty() ? verification.new_pairs : verification.pairs;
     for (std::size_t i = 0; i < (std::min)(pairs.size(), named); ++i)
       std::cout << "  " << describe(pairs[i]) << '\n';
     if (pairs.size() > named)
@@ -59,9 +60,9 @@ void print(const Request& request, const Mesh_file& mesh, const Verification& ve
   if (has_original) {
     std::cout << (verification.same_topology() ? "topology: as in the original\n" : "topology CHANGED:\n");
     for (const Topology_difference& difference : verification.topology_differences)
-      std::cout << "  pieces with " << counted(difference.boundary_loops, "boundary loop") << " and Euler characteristic "
-                << difference.euler_characteristic << ": " << difference.pieces_of_original << " before, "
-                << difference.pieces_of_result << " now\n";
+      std::cout << "  pieces with " << counted(difference.boundary_loops, "boundary loop")
+                << " and Euler characteristic " << difference.euler_characteristic << ": "
+                << difference.pieces_of_original << " before, " << difference.pieces_of_result << " now\n";
     const auto line = [](const char* what, const Distance& distance) {
       std::cout << "distance, " << what << ": " << with_digits(distance.root_mean_square) << " RMS, "
                 << with_digits(distance.maximum) << " at most, of the diagonal\n";
@@ -76,7 +77,8 @@ Exit_code run(const Request& request)
 {
   const bool has_original = !request.original.empty();
   if (!request.report.empty()) {
-    if (is_same_file(request.report, request.mesh) || (has_original && is_same_file(request.report, request.original)))
+    if (is_same_file(request.report, request.mesh) ||
+        (has_original && is_same_file(request.report, request.original)))
       throw Argument_error("--report names the same file as a mesh: " + request.report);
     require_writable(request.report);
   }
@@ -110,18 +112,24 @@ Exit_code run(const Request& request)
 Action add_verify(CLI::App& command)
 {
   const auto request = std::make_shared<Request>();
-  command.add_option("MESH", request->mesh, "Mesh to judge: .obj, .off, .ply or .stl")->required()->type_name("");
-  command.add_option("--against", request->original, "The original that MESH was made from")->type_name("FILE");
+  command.add_option("MESH", request->mesh, "Mesh to judge: .obj, .off, .ply or .stl")
+      ->required()
+      ->type_name("");
+  command.add_option("--against", request->original, "The original that MESH was made from")
+      ->type_name("FILE");
   CLI::Option* const report =
-    command.add_option("--report", request->report, "Write the verdict as JSON, beside the text")->type_name("FILE");
+      command.add_option("--report", request->report, "Write the verdict as JSON, beside the text")
+          ->type_name("FILE");
   command.add_flag("--json", request->is_json, "Print the verdict as JSON instead of text")->excludes(report);
-  command.footer("Examples:\n"
-                 "  selvedge verify jacket.obj                          is it embedded?\n"
-                 "  selvedge verify small.obj --against jacket.obj      is anything wrong that was not wrong before?\n"
-                 "  selvedge verify small.obj --json | jq .verified.pairs\n\n"
-                 "Exit code 0 when MESH is embedded; with an original, when no offending pair is new and pieces, boundary\n"
-                 "loops and Euler characteristics are the same. A mesh that was rounded (STL) is compared best with an\n"
-                 "original in the same format. Triangles are counted from 1, after polygons were cut.");
+  command.footer(
+      "Examples:\n"
+      "  selvedge verify jacket.obj                          is it embedded?\n"
+      "  selvedge verify small.obj --against jacket.obj      is anything wrong that was not wrong before?\n"
+      "  selvedge verify small.obj --json | jq .verified.pairs\n\n"
+      "Exit code 0 when MESH is embedded; with an original, when no offending pair is new and pieces, "
+      "boundary\n"
+      "loops and Euler characteristics are the same. A mesh that was rounded (STL) is compared best with an\n"
+      "original in the same format. Triangles are counted from 1, after polygons were cut.");
   return [request] { return run(*request); };
 }
 

@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# Copyright (c) 2026 the Selvedge authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# Installs what Selvedge is built from, on Debian 12 or later; does nothing where all of it is there already.
+set -euo pipefail
+
+packages=(
+  g++ cmake ninja-build
+  libcgal-dev           # the geometry
+  libcli11-dev          # options of the app
+  nlohmann-json3-dev    # reports of the app
+  libgtest-dev          # tests
+  libeigen3-dev         # tests: the Garland-Heckbert policies of CGAL, beside which ours must work
+)
+
+is_installed() { [[ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" == installed ]]; }
+
+if ! command -v dpkg-query >/dev/null; then
+  echo "No Debian here: install the like of ${packages[*]} yourself." >&2
+  exit 0
+fi
+missing=()
+for package in "${packages[@]}"; do
+  is_installed "$package" || missing+=("$package")
+done
+if [[ ${#missing[@]} == 0 ]]; then
+  exit 0
+fi
+
+as_root=()
+if [[ $EUID != 0 ]]; then
+  if ! command -v sudo >/dev/null; then
+    echo "Missing packages, and no sudo to install them: as root, run  apt-get install ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+echo "Installing ${missing[*]}"
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"

@@ -1,0 +1,118 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "App_run.h"
+
+#include <selvedge/mesh/mesh_files.h>
+
+#include <nlohmann/json.hpp>
+
+#include <set>
+#include <sstream>
+
+namespace selvedge::test {
+namespace {
+
+using Json = nlohmann::json;
+
+// "a.b" for every value of every object; arrays are values.
+void collect_keys(const Json& object, const std::string& prefix, std::set<std::string>& keys)
+{
+  for (const auto& [name, value] : object.items())
+    if (value.is_object())
+      collect_keys(value, prefix + name + '.', keys);
+    else
+      keys.insert(prefix + name);
+}
+
+// The keys that the tables of the documentation name under the heading of a command.
+std::set<std::string> documented_keys(const std::string& command)
+{
+  std::istringstream lines(contents_of(SELVEDGE_REPORT_SCHEMA));
+  std::set<std::string> keys;
+  bool is_inside = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("## ", 0) == 0)
+      is_inside = line.find("`selvedge " + command) != std::string::npos;
+    if (is_inside && line.rfind("| `", 0) == 0)
+      keys.insert(line.substr(3, line.find('`', 3) - 3));
+  }
+  return keys;
+}
+
+Json report_of(const Workspace& folder, const std::string& in, const std::string& out,
+               std::vector<std::string> options)
+{
+  options.insert(options.begin(), {"simplify", in, "-o", out, "--quiet", "--report", folder / "report.json"});
+  const App_result result = run_app(options);
+  const Json report = Json::parse(contents_of(folder / "report.json"));
+  EXPECT_EQ(report["exit_code"], result.code);
+  return report;
+}
+
+TEST(App_report, HasExactlyTheDocumentedKeys)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("skirt", "in.obj", 2000);
+  std::set<std::string> keys;
+  collect_keys(report_of(folder, in, folder / "out.obj", {"--ratio", "0.6"}), "", keys);
+  EXPECT_FALSE(keys.empty());
+  EXPECT_EQ(keys, documented_keys("simplify"));
+
+  keys.clear();
+  collect_keys(Json::parse(run_app({"verify", folder / "out.obj", "--against", in, "--json"}).out), "", keys);
+  EXPECT_EQ(keys, documented_keys("verify"));
+}
+
+TEST(App_report, AgreesWithTheFiles)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("skirt", "in.obj", 2000);
+  const Json report = report_of(folder, in, folder / "out.obj", {"--ratio", "0.6"});
+  EXPECT_EQ(report["version"], SELVEDGE_VERSION);
+  EXPECT_EQ(report["faces"]["input"], read_mesh(in).soup.triangles.size());
+  EXPECT_EQ(report["faces"]["output"], read_mesh(folder / "out.obj").soup.triangles.size());
+  EXPECT_EQ(report["target"]["reached"], true);
+  EXPECT_EQ(report["target"]["outcome"], "reached");
+  EXPECT_EQ(report["verified"]["embedded"], true);
+  EXPECT_EQ(report["verified"]["new_pairs"], 0);
+  EXPECT_EQ(report["topology"]["same"], true);
+  EXPECT_EQ(report["output"]["written"], true);
+  EXPECT_GT(report["collapses"], 0);
+  EXPECT_GT(report["memory"]["peak_bytes"], 1'000'000);
+}
+
+TEST(App_report, SaysWhatHeldBack)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("sheets", "in.obj", 1000);
+  const Json report = report_of(folder, in, folder / "out.obj",
+                                {"--faces", "1", "--normal-change", "0.01", "--aspect-ratio", "0"});
+  EXPECT_EQ(report["target"]["reached"], false);
+  EXPECT_EQ(report["target"]["outcome"], "normal_change");
+  EXPECT_GT(report["refused"]["normal_change"], 0);
+}
+
+TEST(App_report, CountsPairsOfAnUncheckedRun)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("skirt", "in.obj", 4000);
+  const Json report =
+      report_of(folder, in, folder / "out.obj", {"--ratio", "0.4", "--no-intersection-check"});
+  EXPECT_EQ(report["exit_code"], 1);
+  EXPECT_EQ(report["output"]["written"], true);
+  EXPECT_EQ(report["options"]["intersection_check"], false);
+  EXPECT_GT(report["verified"]["new_pairs"], 0);
+}
+
+TEST(App_report, SaysWhatRoundingAndTheFormatTake)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("skirt", "in.obj", 2000);
+  const Json report = report_of(folder, in, folder / "out.stl", {"--ratio", "0.6"});
+  EXPECT_GT(report["rounding"]["coordinates"], 0);
+  EXPECT_FALSE(report["output"]["not_carried"].empty());
+}
+
+} // namespace
+} // namespace selvedge::test

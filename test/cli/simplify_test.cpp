@@ -1,0 +1,217 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "App_run.h"
+
+#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/verify.h>
+
+#include <set>
+
+namespace selvedge::test {
+namespace {
+
+using Position = std::array<double, 3>;
+
+std::set<Position> positions(const Triangle_soup& soup)
+{
+  std::set<Position> result;
+  for (const Point_3& p : soup.points)
+    result.insert({p.x(), p.y(), p.z()});
+  return result;
+}
+
+TEST(App_simplify, ReducesVerifiesAndSaysSo)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("skirt", "in.obj", 3000);
+  const App_result result = run_app({"simplify", in, "-o", folder / "out.obj", "--ratio", "0.6"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  for (const char* word : {"reduced to", "reached", "embedded", "topology kept", "written: "})
+    EXPECT_NE(result.out.find(word), std::string::npos) << result.out;
+  const Triangle_soup before = read_mesh(in).soup, after = read_mesh(folder / "out.obj").soup;
+  EXPECT_LE(after.triangles.size(), before.triangles.size() * 6 / 10 + 1);
+  EXPECT_TRUE(verify(after, before).accepted());
+  EXPECT_EQ(folder.files(), 2u);
+}
+
+TEST(App_simplify, GoesThroughEveryFormat)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("skirt", "in.obj", 2000);
+  const std::set<Position> original = positions(read_mesh(in).soup);
+  for (const char* name : {"a.obj", "a.off", "a.ply", "a.stl"})
+    for (const bool is_ascii : {false, true}) {
+      SCOPED_TRACE(std::string(name) + (is_ascii ? " ascii" : ""));
+      const std::string out = folder / name, again = folder / "again.obj";
+      std::vector<std::string> command{"simplify", in, "-o", out, "--ratio", "0.6", "--quiet"};
+      if (is_ascii)
+        command.push_back("--ascii");
+      const App_result result = run_app(command);
+      EXPECT_EQ(result.code, 0);
+      EXPECT_EQ(result.out + result.err, "");
+      const Triangle_soup reduced = read_mesh(out).soup;
+      EXPECT_TRUE(is_embedded(reduced));
+      EXPECT_LT(reduced.triangles.size(), 1300u);
+      for (const Position& p : positions(reduced))
+        if (stores_float32(mesh_format(out)))
+          EXPECT_EQ(double(float(p[0])), p[0]);
+        else
+          EXPECT_EQ(original.count(p), 1u);
+      // And from that format on: nothing is left to do, and nothing changes.
+      EXPECT_EQ(run_app({"simplify", out, "-o", again, "--ratio", "1", "--quiet"}).code, 0);
+      EXPECT_EQ(positions(read_mesh(again).soup), positions(reduced));
+    }
+}
+
+TEST(App_simplify, GivesTheSameBytesEachTime)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("skirt", "in.obj", 2000);
+  for (const char* name : {"a.ply", "b.ply"})
+    EXPECT_EQ(run_app({"simplify", in, "-o", folder / name, "--ratio", "0.5", "--quiet"}).code, 0);
+  EXPECT_EQ(contents_of(folder / "a.ply"), contents_of(folder / "b.ply"));
+}
+
+TEST(App_simplify, MayReplaceItsInput)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("grid", "in.obj", 1000);
+  EXPECT_EQ(run_app({"simplify", in, "-o", in, "--faces", "500", "--quiet"}).code, 0);
+  EXPECT_LE(read_mesh(in).soup.triangles.size(), 500u);
+}
+
+TEST(App_simplify, WritesWhenTheTargetIsOutOfReach)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("sheets", "in.obj", 1000);
+  const std::string out = folder / "out.obj";
+  const App_result lenient = run_app({"simplify", in, "-o", out, "--faces", "1"});
+  EXPECT_EQ(lenient.code, 0);
+  EXPECT_EQ(lenient.err, "");
+  EXPECT_NE(lenient.out.find("not reached"), std::string::npos);
+  const std::string written = contents_of(out);
+  std::filesystem::remove(out);
+  expect_refused({"simplify", in, "-o", out, "--faces", "1", "--require-target", "--quiet"}, 1, "was missed");
+  EXPECT_EQ(contents_of(out), written);
+}
+
+TEST(App_simplify, StopsAtTheErrorAllowed)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("sheets", "in.obj", 2000);
+  std::size_t faces_before = 0;
+  for (const char* error : {"1e-2", "1e-4", "0"}) {
+    EXPECT_EQ(run_app({"simplify", in, "-o", folder / "out.obj", "--error", error, "--quiet"}).code, 0);
+    const std::size_t faces = read_mesh(folder / "out.obj").soup.triangles.size();
+    EXPECT_GT(faces, faces_before) << error;
+    faces_before = faces;
+  }
+}
+
+TEST(App_simplify, UncheckedIsWrittenAndNotVerified)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("skirt", "in.obj", 4000);
+  const std::string out = folder / "out.obj";
+  expect_refused({"simplify", in, "-o", out, "--ratio", "0.4", "--no-intersection-check", "--quiet"}, 1,
+                 "not verified");
+  EXPECT_FALSE(is_embedded(read_mesh(out).soup)); // the control: without the filter, this scene is pierced
+  EXPECT_EQ(run_app({"simplify", in, "-o", out, "--ratio", "0.4", "--quiet"}).code, 0);
+  EXPECT_TRUE(is_embedded(read_mesh(out).soup));
+}
+
+TEST(App_simplify, OffendingInputIsFrozenOrRefused)
+{
+  const Workspace folder;
+  const std::string in = folder / "in.obj";
+  write_text(in, "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 -1\nv 1 1 1\nv 9 9 0\nf 1 2 3\nf 4 5 6\n");
+  expect_refused({"simplify", in, "-o", folder / "out.obj", "--ratio", "0.5", "--strict"}, 3, in);
+  EXPECT_EQ(folder.files(), 1u);
+  const App_result result = run_app({"simplify", in, "-o", folder / "out.obj", "--ratio", "0.5"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("1 offending pair, 2 faces frozen"), std::string::npos) << result.out;
+}
+
+TEST(App_simplify, KeepsWhatStoodThereWhenWritingFails)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("grid", "in.obj", 4000);
+  const std::string out = folder / "out.obj";
+  write_text(out, "precious");
+  App_limits full;
+  full.file_size = 1000;
+  expect_refused({"simplify", in, "-o", out, "--ratio", "0.5", "--quiet"}, 4, out, full);
+  EXPECT_EQ(contents_of(out), "precious");
+  EXPECT_EQ(folder.files(), 2u);
+}
+
+TEST(App_simplify, RefusesUnreadableInput)
+{
+  const Workspace folder;
+  const std::pair<const char*, const char*> inputs[] = {
+      {"empty.obj", ""},
+      {"comment.obj", "# nothing\n"},
+      {"points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"},
+      {"range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"},
+      {"zero.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n"},
+      {"nan.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
+      {"inf.obj", "v 0 0 1e999\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
+      {"word.obj", "v 0 0 zero\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
+      {"points.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n"},
+      {"cut.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\n"},
+      {"cut.stl", "short"},
+      {"point.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n"},
+      {"none.xyz", "1 2 3\n"}};
+  for (const auto& [name, text] : inputs) {
+    SCOPED_TRACE(name);
+    write_text(folder / name, text);
+    expect_refused({"simplify", folder / name, "-o", folder / "out.obj", "--ratio", "0.5"}, 3, name);
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.obj"));
+  }
+  expect_refused({"simplify", folder / "absent.obj", "-o", folder / "out.obj", "--ratio", "0.5"}, 3,
+                 "absent.obj");
+  // A line break in a name does not make two lines of the message.
+  expect_refused({"simplify", folder / "a\nb.obj", "-o", folder / "out.obj", "--ratio", "0.5"}, 3, "a b.obj");
+}
+
+TEST(App_simplify, EveryNastyFileEndsDefined)
+{
+  const std::filesystem::path nasty = std::filesystem::path(SELVEDGE_SHARED_DATA) / "nasty";
+  if (!std::filesystem::exists(nasty))
+    GTEST_SKIP() << "no shared data at " << nasty;
+  const Workspace folder;
+  for (const auto& file : std::filesystem::directory_iterator(nasty)) {
+    SCOPED_TRACE(file.path().filename().string());
+    const std::string out = folder / "out.obj";
+    std::filesystem::remove(out);
+    const App_result result =
+        run_app({"simplify", file.path().string(), "-o", out, "--ratio", "0.5", "--quiet"});
+    EXPECT_EQ(result.out, "");
+    if (result.code == 0) {
+      EXPECT_EQ(result.err, "");
+      EXPECT_FALSE(read_mesh(out).soup.triangles.empty());
+    } else {
+      EXPECT_EQ(result.code, 3);
+      EXPECT_TRUE(result.is_one_line()) << result.err;
+      EXPECT_FALSE(std::filesystem::exists(out));
+    }
+  }
+}
+
+TEST(App_simplify, RealGarmentKeepsItsLayersApart)
+{
+  const std::filesystem::path dress =
+      std::filesystem::path(SELVEDGE_SHARED_DATA) / "garments/dress_14_pieces_uv.obj";
+  if (!std::filesystem::exists(dress))
+    GTEST_SKIP() << "no shared data at " << dress;
+  const Workspace folder;
+  const App_result result = run_app({"simplify", dress.string(), "-o", folder / "out.obj", "--ratio", "0.3"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_LE(read_mesh(folder / "out.obj").soup.triangles.size(), 8925u); // within 1 %
+  EXPECT_EQ(run_app({"verify", folder / "out.obj", "--against", dress.string()}).code, 0);
+}
+
+} // namespace
+} // namespace selvedge::test

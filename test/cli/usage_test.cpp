@@ -1,0 +1,83 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "App_run.h"
+
+namespace selvedge::test {
+namespace {
+
+TEST(App_usage, HelpTeachesByExample)
+{
+  for (const char* command : {"", "simplify", "verify", "generate"}) {
+    std::vector<std::string> arguments{"--help"};
+    if (*command)
+      arguments.insert(arguments.begin(), command);
+    const App_result result = run_app(arguments);
+    EXPECT_EQ(result.code, 0);
+    EXPECT_EQ(result.err, "");
+    EXPECT_NE(result.out.find(std::string("  selvedge ") + command), std::string::npos) << result.out;
+    EXPECT_NE(result.out.find("Examples:"), std::string::npos) << result.out;
+  }
+}
+
+TEST(App_usage, VersionIsTheProjects)
+{
+  EXPECT_EQ(run_app({"--version"}).out, "selvedge " SELVEDGE_VERSION "\n");
+}
+
+TEST(App_usage, RefusesWhatMakesNoSense)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("grid", "in.obj", 200);
+  const std::string out = folder / "out.obj";
+  const std::pair<std::vector<std::string>, const char*> senseless[] = {
+      {{}, "subcommand"},
+      {{"shrink"}, "subcommand"},
+      {{"simplify", in}, "--output"},
+      {{"simplify", "-o", out, "--ratio", "0.5"}, "IN"},
+      {{"simplify", in, "-o", out}, "--ratio"},
+      {{"simplify", in, "-o", out, "--ratio", "1.5"}, "--ratio"},
+      {{"simplify", in, "-o", out, "--ratio", "nan"}, "--ratio"},
+      {{"simplify", in, "-o", out, "--ratio", "half"}, "--ratio"},
+      {{"simplify", in, "-o", out, "--ratio"}, "--ratio"},
+      {{"simplify", in, "-o", out, "--faces", "-1"}, "--faces"},
+      {{"simplify", in, "-o", out, "--faces", "1.5"}, "--faces"},
+      {{"generate", "grid", "-o", out, "--faces", "-5"}, "--faces"},
+      {{"generate", "grid", "-o", out, "--seed", "-5"}, "--seed"},
+      {{"simplify", in, "-o", out, "--error", "-1"}, "--error"},
+      {{"simplify", in, "-o", out, "--ratio", "0.5", "--normal-change", "181"}, "--normal-change"},
+      {{"simplify", in, "-o", out, "--ratio", "0.5", "--aspect-ratio", "2"}, "--aspect-ratio"},
+      {{"simplify", in, "-o", out, "--ratio", "0.5", "--border-turn", "-8"}, "--border-turn"},
+      {{"simplify", in, "-o", out, "--ratio", "0.5", "--border-drift", "-1"}, "--border-drift"},
+      {{"simplify", in, "-o", out, "--ratio", "0.5", "--cluster-size", "0"}, "--cluster-size"},
+      {{"simplify", in, "-o", out, "--ratio", "0.5", "--stabiliser", "-1"}, "--stabiliser"},
+      {{"simplify", in, "-o", out, "--ratio", "0.5", "--border-weight", "x"}, "--border-weight"},
+      {{"simplify", in, "-o", out, "--ratio", "0.5", "--wish"}, "--wish"},
+      {{"simplify", in, "-o", folder / "out.xyz", "--ratio", "0.5"}, "out.xyz"},
+      {{"simplify", folder / "absent.obj", "-o", folder / "out.xyz", "--ratio", "0.5"},
+       "out.xyz"}, // before any work
+      {{"simplify", in, "-o", out, "--ratio", "0.5", "--report", out}, "--report"},
+      {{"simplify", in, "-o", out, "--ratio", "0.5", "--report", in}, "--report"},
+      {{"verify"}, "MESH"},
+      {{"verify", in, "--json", "--report", folder / "r.json"}, "--json"}};
+  for (const auto& [arguments, what] : senseless)
+    expect_refused(arguments, 2, what);
+  EXPECT_EQ(folder.files(), 1u);
+}
+
+TEST(App_usage, RefusesAPlaceThatCannotBeWrittenBeforeAnyWork)
+{
+  const Workspace folder;
+  write_text(folder / "file", "");
+  std::filesystem::create_directory(folder / "folder.obj");
+  // The input does not exist: that these end with 4 shows what was looked at first.
+  const std::string in = folder / "absent.obj";
+  for (const char* name : {"none/out.obj", "file/out.obj", "folder.obj"})
+    expect_refused({"simplify", in, "-o", folder / name, "--ratio", "0.5"}, 4, name);
+  expect_refused({"simplify", in, "-o", folder / "a.obj", "--ratio", "0.5", "--report", folder / "none/r"}, 4,
+                 "none/r");
+  expect_refused({"generate", "grid", "-o", folder / "none/out.obj"}, 4, "none/out.obj");
+}
+
+} // namespace
+} // namespace selvedge::test
