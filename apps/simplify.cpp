@@ -55,6 +55,7 @@ Json options_json(const Request& request)
           {"normal_change", options.max_normal_change},
           {"aspect_ratio", options.min_aspect_ratio},
           {"border_turn", options.max_border_turn},
+          {"seam_turn", options.max_seam_turn},
           {"border_drift", options.max_border_drift},
           {"cluster_size", options.faces_per_cluster},
           {"intersection_check", options.check_intersections},
@@ -293,16 +294,21 @@ Action add_simplify(CLI::App& command)
       ->type_name("A")
       ->capture_default_str()
       ->group(limits);
+  command.add_option("--border-turn", options.max_border_turn, "Cut a corner of a border of more than this")
+      ->check(in_range(0, 180))
+      ->type_name("DEG")
+      ->capture_default_str()
+      ->group(limits);
   command
-      .add_option("--border-turn", options.max_border_turn,
-                  "Cut a corner of a border or seam of more than this")
+      .add_option("--seam-turn", options.max_seam_turn,
+                  "The same for a seam: a line with surface on both sides")
       ->check(in_range(0, 180))
       ->type_name("DEG")
       ->capture_default_str()
       ->group(limits);
   command
       .add_option("--border-drift", options.max_border_drift,
-                  "Take a border further away, as a share of the diagonal")
+                  "Take a border or seam further away, as a share of the diagonal")
       ->check(in_range(0))
       ->type_name("D")
       ->capture_default_str()

@@ -9,9 +9,10 @@
 
 int main()
 {
-  using Mesh = CGAL::Surface_mesh<CGAL::Exact_predicates_inexact_constructions_kernel::Point_3>;
+  using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
+  using Mesh = CGAL::Surface_mesh<Point>;
   Mesh mesh;
-  CGAL::make_icosahedron(mesh);
+  CGAL::make_icosahedron(mesh, Point(0, 0, 0), 1.0);
   selvedge::Simplify_options options;
   options.faces = 12;
   options.max_normal_change = 180;
