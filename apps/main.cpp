@@ -81,7 +81,7 @@ int main(int argc, char** argv)
   } catch (const selvedge::Input_error& error) {
     return fail(exit_bad_input, error.what());
   } catch (const std::bad_alloc&) {
-    return fail(exit_bad_input, "there is not enough memory for this mesh; nothing was written");
+    return fail(exit_bad_input, "there is not enough memory for this mesh");
   } catch (const std::exception& error) {
     return fail(exit_bad_input, error.what());
   }
