@@ -56,7 +56,7 @@ public:
       line += '[' + std::string(filled, '=') + std::string(width - filled, ' ') + "] " +
               with_digits(100 * done, "%.0f %%") + ", ";
     }
-    line += counted(progress.faces, "face") + ", " + with_commas(std::size_t(rate)) + " removed per second";
+    line += counted(progress.faces, "face") + ", " + with_commas(std::size_t(rate)) + " removed/s";
     if (progress.faces_target > 0 && rate > 0)
       line += ", " + with_digits(double(progress.faces - progress.faces_target) / rate, "%.0f s") + " left";
     show(line);
@@ -65,7 +65,7 @@ public:
   void clear() { show(""); }
 
 private:
-  static constexpr std::size_t width = 24;
+  static constexpr std::size_t width = 16;
 
   void show(const std::string& line) const
   {
