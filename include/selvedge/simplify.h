@@ -86,28 +86,39 @@ public:
       return accepted;
     };
     const Halfedge_placement<TriangleMesh, Cost, Rule> directions(m_cost, m_rule);
-    const Filtered_halfedge_placement placement(directions, filter);
+    const Filtered_halfedge_placement placement(m_mesh, directions, filter);
+    // CGAL's loop forgets an edge that was refused until its neighbourhood changes, though the layer that blocked it may have
+    // moved away, and though its second direction may do. A new pass asks again: at the end, and sooner when so many are
+    // forgotten that the loop is about to pay much more elsewhere.
+    std::size_t forgotten_before = 0;
+    double dearest = 0;
+    const auto forgotten = [&] { return refusals().intersection - forgotten_before; };
+    const Pass_stop is_pass_over([&](double cost) {
+      if (cost < dearest || forgotten() * s_forgotten_share < face_count(m_mesh))
+        return false;
+      dearest = s_dearer * (std::max)(cost, (std::numeric_limits<double>::min)());
+      return true;
+    });
     const Any_stop stop(Face_count_stop(m_report.faces_target), Hook_stop([this](std::size_t faces) {
                           m_report.is_stopped = m_options.should_stop &&
                                                 m_options.should_stop({m_report.faces_input, m_report.faces_target, faces});
                           return m_report.is_stopped;
-                        }));
-    // CGAL's loop forgets an edge that was refused until its neighbourhood changes, though the layer that blocked it may have
-    // moved away, and though the turn of its second direction may have come. A new pass asks again.
+                        }),
+                        is_pass_over);
     while (face_count(m_mesh) > m_report.faces_target && !m_report.is_stopped) {
       const std::size_t collapses_before = m_report.collapses;
-      const std::size_t deferrals_before = placement.deferrals();
       const Refusals refused_before = refusals();
+      const double dearest_before = dearest;
+      const std::size_t turned_before = placement.turned();
+      forgotten_before += forgotten();
       CGAL::Surface_mesh_simplification::edge_collapse(
         m_mesh, stop,
         CGAL::parameters::get_cost(m_cost).get_placement(placement).visitor(Visitor<decltype(placement)>(*this, placement)));
       ++m_report.passes;
       m_report.refused_in_last_pass = difference(refusals(), refused_before);
-      if (m_report.collapses == collapses_before) {
-        if (placement.deferrals() == deferrals_before)
-          break;
-        placement.stop_deferring();
-      }
+      if (m_report.collapses == collapses_before && dearest == dearest_before &&
+          placement.turned() == turned_before)
+        break;
     }
     m_report.faces_output = face_count(m_mesh);
     m_report.refused = refusals();
@@ -119,6 +130,27 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
 
+  // A pass ends early when one edge is forgotten for so many faces, and costs have grown by such a factor since the last
+  // time.
+  static constexpr std::size_t s_forgotten_share = 4;
+  static constexpr double s_dearer = 4;
+
+  template <class Function>
+  class Pass_stop
+  {
+  public:
+    explicit Pass_stop(const Function& is_over) : m_is_over(is_over) {}
+
+    template <class FT, class Profile>
+    bool operator()(const FT& cost, const Profile&, std::size_t, std::size_t) const
+    {
+      return m_is_over(cost);
+    }
+
+  private:
+    Function m_is_over;
+  };
+
   template <class Placement>
   class Visitor : public CGAL::Surface_mesh_simplification::Edge_collapse_visitor_base<TriangleMesh>
   {
@@ -127,10 +159,11 @@ private:
       : m_simplification(&simplification), m_placement(placement)
     {}
 
+    void OnStarted(TriangleMesh&) { m_placement.on_started(); }
     template <class Profile, class OptionalCost, class Size>
     void OnSelected(const Profile&, const OptionalCost&, Size, Size)
     {
-      m_placement.expect_decision();
+      m_placement.on_selected();
     }
     template <class Profile, class OptionalPoint>
     void OnCollapsing(const Profile& profile, const OptionalPoint& placement)
@@ -141,6 +174,7 @@ private:
     void OnCollapsed(const Profile&, const Vertex& kept)
     {
       m_simplification->after_collapse(kept);
+      m_placement.on_collapsed(kept);
     }
 
   private:
