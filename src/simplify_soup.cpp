@@ -5,6 +5,7 @@
 
 #include <selvedge/Error.h>
 #include <selvedge/mesh/Working_mesh.h>
+#include <selvedge/mesh/selection.h>
 
 #include <algorithm>
 #include <chrono>
@@ -25,17 +26,6 @@ bool has_two_corners_at_one_position(const Index_triple& triangle, const std::ve
 {
   const Index a = positions[triangle[0]], b = positions[triangle[1]], c = positions[triangle[2]];
   return a == b || b == c || c == a;
-}
-
-// Removes the marked entries of an array that has one for every triangle, or none at all.
-template <class T>
-void remove_marked(std::vector<T>& entries, const std::vector<char>& is_marked)
-{
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < entries.size(); ++i)
-    if (!is_marked[i])
-      entries[kept++] = std::move(entries[i]);
-  entries.resize(kept);
 }
 
 std::string describe(const Offending_pair& pair)
@@ -69,19 +59,15 @@ Prepared_soup prepare(Triangle_soup input, const Prepare_options& options)
 
   Clock::time_point start = Clock::now();
   prepared.positions = number_positions(soup.points);
-  std::vector<char> is_left_out(soup.triangles.size());
   const auto leave_out = [&](const std::vector<Index>& positions) {
-    std::size_t count = 0;
-    for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
-      is_left_out[t] = has_two_corners_at_one_position(soup.triangles[t], positions);
-      count += is_left_out[t];
-    }
-    if (count > 0) {
-      remove_marked(soup.uv_triangles, is_left_out);
-      remove_marked(soup.groups, is_left_out);
-      remove_marked(soup.triangles, is_left_out);
-    }
-    return count;
+    std::vector<Index> kept;
+    for (Index t = 0; t < soup.triangles.size(); ++t)
+      if (!has_two_corners_at_one_position(soup.triangles[t], positions))
+        kept.push_back(t);
+    const std::size_t left_out = soup.triangles.size() - kept.size();
+    if (left_out > 0)
+      keep_triangles(soup, kept);
+    return left_out;
   };
   prepared.left_out_faces = leave_out(prepared.positions);
 
@@ -143,7 +129,10 @@ Simplified_soup simplify_soup(const Prepared_soup& prepared, const Simplify_opti
   result.report = simplify(working.mesh(), options, working.constraints(), working);
 
   start = Clock::now();
-  result.soup = working.result();
+  Working_mesh::Result left = working.result();
+  result.soup = std::move(left.soup);
+  result.triangles = std::move(left.triangles);
+  result.corners = std::move(left.corners);
   result.seconds_weld += seconds_since(start);
   return result;
 }

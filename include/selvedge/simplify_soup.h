@@ -65,6 +65,12 @@ Prepared_soup prepare(Triangle_soup input, const Prepare_options& options = {});
 struct Simplified_soup
 {
   Triangle_soup soup;
+
+  /// Which triangle of the original each one was, and which corner of the original each corner now is, as
+  /// 3 × triangle + place in it.
+  std::vector<Index> triangles;
+  std::vector<Index_triple> corners;
+
   Welding_notes welding;
   Simplify_report report;
   double seconds_weld = 0; ///< sewing, and taking apart again

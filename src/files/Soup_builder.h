@@ -52,7 +52,7 @@ public:
     if (corners.size() == 3) {
       mesh.triangles.push_back({corners[0], corners[1], corners[2]});
       if (!uvs.empty())
-        mesh.uv_triangles.push_back({uvs[0], uvs[1], uvs[2]});
+        mesh.uvs.of_triangle.push_back({uvs[0], uvs[1], uvs[2]});
       return 1;
     }
     ++m_file.notes.polygons_cut;
@@ -60,7 +60,7 @@ public:
     for (const auto& [a, b, c] : cut) {
       mesh.triangles.push_back({corners[a], corners[b], corners[c]});
       if (!uvs.empty())
-        mesh.uv_triangles.push_back({uvs[a], uvs[b], uvs[c]});
+        mesh.uvs.of_triangle.push_back({uvs[a], uvs[b], uvs[c]});
     }
     return cut.size();
   }

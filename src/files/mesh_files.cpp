@@ -144,7 +144,7 @@ std::vector<std::string> not_carried(const Triangle_soup& soup, Mesh_format form
   std::vector<std::string> names;
   if (format != Mesh_format::obj && !soup.uvs.empty())
     names.push_back("texture coordinates");
-  if (format != Mesh_format::obj && !soup.groups.empty())
+  if (format != Mesh_format::obj && !soup.groups.of_triangle.empty())
     names.push_back("groups");
   if (format == Mesh_format::stl && !soup.points.empty())
     names.push_back("vertex numbers");

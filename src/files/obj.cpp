@@ -43,7 +43,7 @@ private:
       if (!text.at_line_end())
         note_further_columns(text);
     } else if (keyword == "vt") {
-      auto& uvs = m_builder.soup().uvs;
+      auto& uvs = m_builder.soup().uvs.values;
       const double u = text.real(), v = text.at_line_end() ? 0 : text.real();
       if (!std::isfinite(u) || !std::isfinite(v))
         fail("texture coordinate " + std::to_string(uvs.size() + 1) + " is not finite; remove or repair it");
@@ -91,7 +91,7 @@ private:
         text.advance(1);
         if (text.peek() != '/' && !text.at_word_end())
           m_uv_corners.push_back(
-              read_index(text, "texture coordinate", m_uvs_above, m_builder.soup().uvs.size()));
+              read_index(text, "texture coordinate", m_uvs_above, m_builder.soup().uvs.values.size()));
         if (text.peek() == '/') {
           text.advance(1);
           has_normals = true;
@@ -147,16 +147,16 @@ private:
       m_label_is_new = false;
       const std::size_t unlabelled = soup.triangles.size() - count;
       // Faces above the first label are in the group that an OBJ begins with.
-      if (soup.groups.size() < unlabelled)
-        soup.groups.resize(unlabelled, group_number(default_group));
+      if (soup.groups.of_triangle.size() < unlabelled)
+        soup.groups.of_triangle.resize(unlabelled, group_number(default_group));
       m_group = group_number(m_label);
     }
-    soup.groups.resize(soup.triangles.size(), m_group);
+    soup.groups.of_triangle.resize(soup.triangles.size(), m_group);
   }
 
   Index group_number(std::string_view name)
   {
-    auto& names = m_builder.soup().group_names;
+    auto& names = m_builder.soup().groups.names;
     const auto [place, is_new] = m_group_numbers.emplace(name, static_cast<Index>(names.size()));
     if (is_new)
       names.emplace_back(name);
@@ -184,13 +184,13 @@ private:
   void close_uvs()
   {
     Triangle_soup& soup = m_builder.soup();
-    if (soup.uvs.empty() || soup.uv_triangles.size() == soup.triangles.size())
+    if (soup.uvs.values.empty() || soup.uvs.of_triangle.size() == soup.triangles.size())
       return;
-    m_builder.ignore(soup.uv_triangles.empty() ? "texture coordinates that no face names"
+    m_builder.ignore(soup.uvs.of_triangle.empty() ? "texture coordinates that no face names"
                                                : "texture coordinates, for some corners have none",
-                     soup.uvs.size());
-    soup.uvs = {};
-    soup.uv_triangles = {};
+                     soup.uvs.values.size());
+    soup.uvs.values = {};
+    soup.uvs.of_triangle = {};
   }
 
   std::string_view m_contents;
@@ -222,24 +222,24 @@ Mesh_file read_obj(std::string_view contents, const std::string& name)
 
 void write_obj(Byte_writer& out, const Triangle_soup& soup, const Write_options& options)
 {
-  for (const std::string& name : soup.group_names)
+  for (const std::string& name : soup.groups.names)
     if (!is_group_name(name))
       throw Argument_error("the group name '" + name + "' cannot stand in an OBJ file; rename the group");
   for (const std::string& comment : options.comments)
     out << "# " << comment << '\n';
   for (const Point_3& p : soup.points)
     out << "v " << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
-  const bool has_uvs = !soup.uv_triangles.empty();
-  for (std::size_t i = 0; has_uvs && i < soup.uvs.size(); ++i)
-    out << "vt " << soup.uvs[i][0] << ' ' << soup.uvs[i][1] << '\n';
+  const bool has_uvs = !soup.uvs.of_triangle.empty();
+  for (std::size_t i = 0; has_uvs && i < soup.uvs.values.size(); ++i)
+    out << "vt " << soup.uvs.values[i][0] << ' ' << soup.uvs.values[i][1] << '\n';
   for (std::size_t i = 0; i < soup.triangles.size(); ++i) {
-    if (!soup.groups.empty() && (i == 0 || soup.groups[i] != soup.groups[i - 1]))
-      out << "g " << soup.group_names[soup.groups[i]] << '\n';
+    if (!soup.groups.of_triangle.empty() && (i == 0 || soup.groups.of_triangle[i] != soup.groups.of_triangle[i - 1]))
+      out << "g " << soup.groups.names[soup.groups.of_triangle[i]] << '\n';
     out << 'f';
     for (int corner = 0; corner < 3; ++corner) {
       out << ' ' << std::uint64_t{soup.triangles[i][corner]} + 1;
       if (has_uvs)
-        out << '/' << std::uint64_t{soup.uv_triangles[i][corner]} + 1;
+        out << '/' << std::uint64_t{soup.uvs.of_triangle[i][corner]} + 1;
     }
     out << '\n';
   }

@@ -23,16 +23,16 @@ public:
       : m_tiles(static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(pieces)))))
   {
     m_soup.triangles.reserve(faces + faces / 50);
-    m_soup.uv_triangles.reserve(faces + faces / 50);
-    m_soup.groups.reserve(faces + faces / 50);
+    m_soup.uvs.of_triangle.reserve(faces + faces / 50);
+    m_soup.groups.of_triangle.reserve(faces + faces / 50);
     m_soup.points.reserve(faces / 2 + faces / 20);
-    m_soup.uvs.reserve(faces / 2 + faces / 20);
+    m_soup.uvs.values.reserve(faces / 2 + faces / 20);
   }
 
   void begin_piece(std::string name)
   {
-    m_soup.group_names.push_back(std::move(name));
-    m_tile = m_soup.group_names.size() - 1;
+    m_soup.groups.names.push_back(std::move(name));
+    m_tile = m_soup.groups.names.size() - 1;
   }
 
   Index add_point(const Vector& p)
@@ -46,16 +46,16 @@ public:
   {
     const double size = 1 / static_cast<double>(m_tiles);
     const double margin = 0.01;
-    m_soup.uvs.push_back({(static_cast<double>(m_tile % m_tiles) + margin + (1 - 2 * margin) * u) * size,
+    m_soup.uvs.values.push_back({(static_cast<double>(m_tile % m_tiles) + margin + (1 - 2 * margin) * u) * size,
                           (static_cast<double>(m_tile / m_tiles) + margin + (1 - 2 * margin) * v) * size});
-    return static_cast<Index>(m_soup.uvs.size() - 1);
+    return static_cast<Index>(m_soup.uvs.values.size() - 1);
   }
 
   void add_triangle(const Index_triple& triangle, const Index_triple& uv_triangle)
   {
     m_soup.triangles.push_back(triangle);
-    m_soup.uv_triangles.push_back(uv_triangle);
-    m_soup.groups.push_back(static_cast<Index>(m_tile));
+    m_soup.uvs.of_triangle.push_back(uv_triangle);
+    m_soup.groups.of_triangle.push_back(static_cast<Index>(m_tile));
   }
 
   Triangle_soup take() { return std::move(m_soup); }

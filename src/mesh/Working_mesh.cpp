@@ -210,10 +210,15 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
 
 bool Working_mesh::is_line(Corner a, Corner b) const
 {
-  const Index s = a / 3, t = b / 3;
-  return vertex_of(a) != vertex_of(b) ||
-         (!m_soup.uv_triangles.empty() && m_soup.uv_triangles[s][a % 3] != m_soup.uv_triangles[t][b % 3]) ||
-         (!m_soup.groups.empty() && m_soup.groups[s] != m_soup.groups[t]);
+  // By value, for files that write a number twice.
+  const auto differ = [&](const auto& corners) {
+    return !corners.empty() && corners.values[corners.of_triangle[a / 3][a % 3]] != corners.values[corners.of_triangle[b / 3][b % 3]];
+  };
+  const auto differ_in_label = [&](const Triangle_labels& labels) {
+    return !labels.empty() && labels.of_triangle[a / 3] != labels.of_triangle[b / 3];
+  };
+  return vertex_of(a) != vertex_of(b) || differ(m_soup.uvs) || differ(m_soup.normals) || differ_in_label(m_soup.groups) ||
+         differ_in_label(m_soup.objects) || differ_in_label(m_soup.materials);
 }
 
 Working_mesh::Corner* Working_mesh::find_corner(Mesh::Face_index face, Mesh::Vertex_index vertex)
@@ -248,47 +253,14 @@ void Working_mesh::before_collapse(Mesh::Halfedge_index moving)
   carry(back, moving, [this](Mesh::Halfedge_index h) { return m_mesh.opposite(m_mesh.next(h)); });
 }
 
-Triangle_soup Working_mesh::result() const
+Working_mesh::Result Working_mesh::result() const
 {
-  Triangle_soup result;
-  const auto keep_used = [](const std::vector<Index_triple>& triangles, std::size_t size) {
-    std::vector<Index> numbers(size, s_none);
-    for (const Index_triple& triangle : triangles)
-      for (const Index i : triangle)
-        numbers[i] = 0;
-    Index next = 0;
-    for (Index& number : numbers)
-      if (number != s_none)
-        number = next++;
-    return numbers;
-  };
-  const auto renumber = [&](std::vector<Index_triple>& triangles, const auto& from, auto& to) {
-    const std::vector<Index> numbers = keep_used(triangles, from.size());
-    for (std::size_t i = 0; i < from.size(); ++i)
-      if (numbers[i] != s_none)
-        to.push_back(from[i]);
-    for (Index_triple& triangle : triangles)
-      for (Index& i : triangle)
-        i = numbers[i];
-  };
-
-  const bool has_uvs = !m_soup.uv_triangles.empty(), has_groups = !m_soup.groups.empty();
+  Result result;
   for (const Mesh::Face_index face : m_mesh.faces()) {
-    const auto& corners = m_corners[face];
-    result.triangles.push_back({vertex_of(corners[0]), vertex_of(corners[1]), vertex_of(corners[2])});
-    if (has_uvs) {
-      Index_triple uvs;
-      for (int k = 0; k < 3; ++k)
-        uvs[k] = m_soup.uv_triangles[corners[k] / 3][corners[k] % 3];
-      result.uv_triangles.push_back(uvs);
-    }
-    if (has_groups)
-      result.groups.push_back(m_soup.groups[face]);
+    result.triangles.push_back(face);
+    result.corners.push_back(m_corners[face]);
   }
-  renumber(result.triangles, m_soup.points, result.points);
-  if (has_uvs)
-    renumber(result.uv_triangles, m_soup.uvs, result.uvs);
-  result.group_names = m_soup.group_names;
+  result.soup = selected(m_soup, result.triangles, result.corners);
   return result;
 }
 

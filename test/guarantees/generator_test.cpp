@@ -47,7 +47,7 @@ std::string first_offence(const Triangle_soup& soup)
   if (pairs.empty())
     return "";
   const auto piece = [&](Index triangle) {
-    return std::to_string(triangle) + " of " + soup.group_names[soup.groups[triangle]];
+    return std::to_string(triangle) + " of " + soup.groups.names[soup.groups.of_triangle[triangle]];
   };
   return std::to_string(pairs.size()) + " pairs, first: " + piece(pairs[0].first) + " and " +
          piece(pairs[0].second);
@@ -55,8 +55,8 @@ std::string first_offence(const Triangle_soup& soup)
 
 bool same_bytes(const Triangle_soup& a, const Triangle_soup& b)
 {
-  return a.points == b.points && a.triangles == b.triangles && a.uvs == b.uvs &&
-         a.uv_triangles == b.uv_triangles && a.groups == b.groups && a.group_names == b.group_names;
+  return a.points == b.points && a.triangles == b.triangles && a.uvs.values == b.uvs.values &&
+         a.uvs.of_triangle == b.uvs.of_triangle && a.groups.of_triangle == b.groups.of_triangle && a.groups.names == b.groups.names;
 }
 
 class Every_scene : public testing::TestWithParam<Scene_description>
@@ -164,8 +164,8 @@ TEST_P(Every_scene, IsAWholeSoup)
   Generate_options options;
   options.faces = 20'000;
   const Triangle_soup soup = generate(name(), options);
-  ASSERT_EQ(soup.uv_triangles.size(), soup.triangles.size());
-  ASSERT_EQ(soup.groups.size(), soup.triangles.size());
+  ASSERT_EQ(soup.uvs.of_triangle.size(), soup.triangles.size());
+  ASSERT_EQ(soup.groups.of_triangle.size(), soup.triangles.size());
   std::vector<char> used(soup.points.size());
   for (const Index_triple& triangle : soup.triangles)
     for (const Index v : triangle) {
@@ -175,9 +175,9 @@ TEST_P(Every_scene, IsAWholeSoup)
   EXPECT_EQ(std::count(used.begin(), used.end(), 0), 0);
   for (const Point_3& p : soup.points)
     ASSERT_TRUE(std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z()));
-  const std::set<std::string> names(soup.group_names.begin(), soup.group_names.end());
-  EXPECT_EQ(names.size(), soup.group_names.size());
-  const std::set<Index> groups(soup.groups.begin(), soup.groups.end());
+  const std::set<std::string> names(soup.groups.names.begin(), soup.groups.names.end());
+  EXPECT_EQ(names.size(), soup.groups.names.size());
+  const std::set<Index> groups(soup.groups.of_triangle.begin(), soup.groups.of_triangle.end());
   EXPECT_EQ(groups.size(), names.size());
 }
 
@@ -187,15 +187,15 @@ TEST_P(Every_scene, IsPositivelyOrientedInTheTexture)
   Generate_options options;
   options.faces = 20'000;
   const Triangle_soup soup = generate(name(), options);
-  for (const auto& [u, v] : soup.uvs)
+  for (const auto& [u, v] : soup.uvs.values)
     ASSERT_TRUE(u >= 0 && u <= 1 && v >= 0 && v <= 1) << u << " " << v;
-  for (std::size_t k = 0; k < soup.uv_triangles.size(); ++k) {
+  for (std::size_t k = 0; k < soup.uvs.of_triangle.size(); ++k) {
     const auto point = [&](int corner) {
-      const auto& [u, v] = soup.uvs[soup.uv_triangles[k][corner]];
+      const auto& [u, v] = soup.uvs.values[soup.uvs.of_triangle[k][corner]];
       return Point_2(u, v);
     };
     ASSERT_EQ(CGAL::orientation(point(0), point(1), point(2)), CGAL::COUNTERCLOCKWISE)
-        << "triangle " << k << " of " << soup.group_names[soup.groups[k]];
+        << "triangle " << k << " of " << soup.groups.names[soup.groups.of_triangle[k]];
   }
 }
 
@@ -223,7 +223,7 @@ TEST(Generator, PiecesMeetAtTheSamePositions)
     std::map<Position, std::set<Index>> groups_at;
     for (std::size_t k = 0; k < soup.triangles.size(); ++k)
       for (const Index v : soup.triangles[k])
-        groups_at[position(soup.points[v])].insert(soup.groups[k]);
+        groups_at[position(soup.points[v])].insert(soup.groups.of_triangle[k]);
     std::size_t seams = 0;
     std::size_t junctions = 0;
     for (const auto& [place, groups] : groups_at) {
@@ -248,11 +248,11 @@ TEST(Generator, LayersAreAsCloseAsAsked)
     SCOPED_TRACE(name);
     Triangle_soup soup = generate(name, options);
     std::vector<char> moved(soup.points.size());
-    const std::string layer = soup.group_names[soup.groups.front()] == "sheet_0" ? "sheet_0"
+    const std::string layer = soup.groups.names[soup.groups.of_triangle.front()] == "sheet_0" ? "sheet_0"
                               : name == std::string("nested")                    ? "sphere_0"
                                                                                  : "lining_front";
     for (std::size_t k = 0; k < soup.triangles.size(); ++k)
-      if (soup.group_names[soup.groups[k]] == layer)
+      if (soup.groups.names[soup.groups.of_triangle[k]] == layer)
         for (const Index v : soup.triangles[k])
           moved[v] = 1;
     for (std::size_t v = 0; v < moved.size(); ++v)
@@ -354,9 +354,9 @@ Triangle_soup collapse(const Triangle_soup& soup, Index moving, Index target)
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
       continue;
     result.triangles.push_back(t);
-    result.groups.push_back(soup.groups[k]);
+    result.groups.of_triangle.push_back(soup.groups.of_triangle[k]);
   }
-  result.group_names = soup.group_names;
+  result.groups.names = soup.groups.names;
   return result;
 }
 
@@ -366,13 +366,13 @@ int side_of_patch(const Triangle_soup& soup)
   using Line_3 = Exact::Line_3;
   int side = 2;
   for (std::size_t k = 0; k < soup.triangles.size(); ++k) {
-    if (soup.group_names[soup.groups[k]] != "patch_0")
+    if (soup.groups.names[soup.groups.of_triangle[k]] != "patch_0")
       continue;
     for (const Index v : soup.triangles[k]) {
       const Exact::Point_3 p = exact(soup.points[v]);
       bool covered = false;
       for (std::size_t f = 0; f < soup.triangles.size(); ++f) {
-        if (soup.groups[f] == soup.groups[k])
+        if (soup.groups.of_triangle[f] == soup.groups.of_triangle[k])
           continue;
         const Index_triple& t = soup.triangles[f];
         const Exact::Triangle_3 sheet(exact(soup.points[t[0]]), exact(soup.points[t[1]]),
@@ -473,7 +473,7 @@ TEST(Tunnel, EveryBumpOfTheSceneTunnels)
   options.faces = 700;
   const Triangle_soup soup = generate("tunnel", options);
   EXPECT_EQ(soup.triangles.size(), 700u);
-  EXPECT_EQ(soup.group_names.size(), 200u);
+  EXPECT_EQ(soup.groups.names.size(), 200u);
 }
 
 // What the other tests build on.

@@ -73,13 +73,13 @@ TEST(Motion, OrderOfLayersIsKept)
   options.layers = 2;
   options.gap = 1e-4;
   const Triangle_soup sheets = generate("sheets", options);
-  ASSERT_EQ(sheets.group_names.size(), 2u);
+  ASSERT_EQ(sheets.groups.names.size(), 2u);
 
   const auto layer = [](const Triangle_soup& soup, Index group) {
     Triangle_soup result;
     result.points = soup.points;
     for (std::size_t t = 0; t < soup.triangles.size(); ++t)
-      if (soup.groups[t] == group)
+      if (soup.groups.of_triangle[t] == group)
         result.triangles.push_back(soup.triangles[t]);
     return result;
   };

@@ -306,22 +306,22 @@ TEST(WrittenAttributes, ObjCarriesTextureCoordinatesAndGroups)
   const Temporary_folder folder;
   Triangle_soup soup = soup_of(hard_doubles());
   for (const Point_3& p : soup.points)
-    soup.uvs.push_back({p.y(), p.x()});
+    soup.uvs.values.push_back({p.y(), p.x()});
   for (const auto& [a, b, c] : soup.triangles)
-    soup.uv_triangles.push_back({c, a, b});
-  soup.group_names = {"left sleeve", "collar #2", "default"};
+    soup.uvs.of_triangle.push_back({c, a, b});
+  soup.groups.names = {"left sleeve", "collar #2", "default"};
   for (std::size_t i = 0; i < soup.triangles.size(); ++i)
-    soup.groups.push_back(i == 0 ? 0 : static_cast<Index>(i / 5 % 3));
+    soup.groups.of_triangle.push_back(i == 0 ? 0 : static_cast<Index>(i / 5 % 3));
   write_mesh(folder / "m.obj", soup);
   const Mesh_file file = read_mesh(folder / "m.obj");
   expect_same_bits(file.soup, soup);
-  ASSERT_EQ(file.soup.uvs.size(), soup.uvs.size());
-  for (std::size_t i = 0; i < soup.uvs.size(); ++i)
+  ASSERT_EQ(file.soup.uvs.values.size(), soup.uvs.values.size());
+  for (std::size_t i = 0; i < soup.uvs.values.size(); ++i)
     for (int axis = 0; axis < 2; ++axis)
-      ASSERT_EQ(bits_of(file.soup.uvs[i][axis]), bits_of(soup.uvs[i][axis]));
-  EXPECT_EQ(file.soup.uv_triangles, soup.uv_triangles);
-  EXPECT_EQ(file.soup.groups, soup.groups);
-  EXPECT_EQ(file.soup.group_names, soup.group_names);
+      ASSERT_EQ(bits_of(file.soup.uvs.values[i][axis]), bits_of(soup.uvs.values[i][axis]));
+  EXPECT_EQ(file.soup.uvs.of_triangle, soup.uvs.of_triangle);
+  EXPECT_EQ(file.soup.groups.of_triangle, soup.groups.of_triangle);
+  EXPECT_EQ(file.soup.groups.names, soup.groups.names);
   EXPECT_TRUE(not_carried(soup, Mesh_format::obj).empty());
   EXPECT_EQ(not_carried(soup, Mesh_format::ply), (std::vector<std::string>{"texture coordinates", "groups"}));
 }

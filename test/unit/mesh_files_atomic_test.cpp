@@ -157,9 +157,9 @@ TEST(AtomicFile, RefusedArgumentsLeaveTheOldFile)
   EXPECT_THROW(write_mesh(folder / "m.stl", strip(), big_endian), Argument_error);
   EXPECT_THROW(write_mesh(folder / "m.obj", strip(), two_lines), Argument_error);
   Triangle_soup named = strip();
-  named.groups.assign(named.triangles.size(), 0);
+  named.groups.of_triangle.assign(named.triangles.size(), 0);
   for (const char* name : {"", " ", "a\nb", "a ", " a", "a\\"}) {
-    named.group_names = {name};
+    named.groups.names = {name};
     EXPECT_THROW(write_mesh(folder / "m.obj", named), Argument_error) << name;
   }
   EXPECT_EQ(contents_of(folder / "m.stl"), "what stood here");

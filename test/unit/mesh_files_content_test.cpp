@@ -53,16 +53,16 @@ TEST(ObjTextureCoordinates, FollowTheCorners)
   const Mesh_file file = read_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
                                   "vt 0.25\nvt 0.5 1\nvt 1 1 0\nvt 0 0.5\n"
                                   "f 1/4/1 2/3/1 3/2/1 4/1/1\nf 1/-1 2/-2 3/-4\n");
-  EXPECT_EQ(file.soup.uvs, (std::vector<std::array<double, 2>>{{0.25, 0}, {0.5, 1}, {1, 1}, {0, 0.5}}));
+  EXPECT_EQ(file.soup.uvs.values, (std::vector<std::array<double, 2>>{{0.25, 0}, {0.5, 1}, {1, 1}, {0, 0.5}}));
   EXPECT_EQ(file.soup.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}}));
-  EXPECT_EQ(file.soup.uv_triangles, (Triangles{{3, 2, 1}, {3, 1, 0}, {3, 2, 0}}));
+  EXPECT_EQ(file.soup.uvs.of_triangle, (Triangles{{3, 2, 1}, {3, 1, 0}, {3, 2, 0}}));
 }
 
 TEST(ObjTextureCoordinates, AreDroppedWhenOneCornerHasNone)
 {
   const Mesh_file file = read_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nf 1/1 2/1 3/1\nf 1/1 2 3/1\n");
   EXPECT_TRUE(file.soup.uvs.empty());
-  EXPECT_TRUE(file.soup.uv_triangles.empty());
+  EXPECT_TRUE(file.soup.uvs.of_triangle.empty());
   EXPECT_EQ(file.soup.triangles.size(), 2u);
   EXPECT_EQ(file.notes.ignored.size(), 1u);
 }
@@ -72,9 +72,9 @@ TEST(ObjGroups, AreTheLatestGroupOrObjectAboveTheFace)
   const Mesh_file file =
       read_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
                "f 1 2 3\no coat\nf 1 2 3 4\ng  left sleeve \nf 1 2 3\ng\nf 1 3 4\ng left sleeve\nf 1 2 4\n");
-  EXPECT_EQ(file.soup.group_names, (std::vector<std::string>{"default", "coat", "left sleeve"}));
-  EXPECT_EQ(file.soup.groups, (std::vector<Index>{0, 1, 1, 2, 0, 2}));
-  EXPECT_TRUE(read_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n").soup.groups.empty());
+  EXPECT_EQ(file.soup.groups.names, (std::vector<std::string>{"default", "coat", "left sleeve"}));
+  EXPECT_EQ(file.soup.groups.of_triangle, (std::vector<Index>{0, 1, 1, 2, 0, 2}));
+  EXPECT_TRUE(read_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n").soup.groups.of_triangle.empty());
 }
 
 // Polygons

@@ -47,10 +47,10 @@ std::string valid_file(const Form& form)
   for (Index i = 0; i + 2 < 8; ++i)
     soup.triangles.push_back({i, i + 1, i + 2});
   for (const Point_3& p : soup.points)
-    soup.uvs.push_back({p.x(), p.y()});
-  soup.uv_triangles = soup.triangles;
-  soup.groups = {0, 0, 1, 1, 0, 0};
-  soup.group_names = {"front", "back"};
+    soup.uvs.values.push_back({p.x(), p.y()});
+  soup.uvs.of_triangle = soup.triangles;
+  soup.groups.of_triangle = {0, 0, 1, 1, 0, 0};
+  soup.groups.names = {"front", "back"};
   const char* const extensions[] = {"m.obj", "m.off", "m.ply", "m.stl"};
   const test::Temporary_folder folder;
   const auto path = folder / extensions[static_cast<int>(form.format)];
@@ -105,13 +105,13 @@ void expect_sound(const Triangle_soup& soup)
   for (const Index_triple& triangle : soup.triangles)
     for (const Index vertex : triangle)
       ASSERT_LT(vertex, soup.points.size());
-  ASSERT_TRUE(soup.uv_triangles.empty() || soup.uv_triangles.size() == soup.triangles.size());
-  for (const Index_triple& triangle : soup.uv_triangles)
+  ASSERT_TRUE(soup.uvs.of_triangle.empty() || soup.uvs.of_triangle.size() == soup.triangles.size());
+  for (const Index_triple& triangle : soup.uvs.of_triangle)
     for (const Index uv : triangle)
-      ASSERT_LT(uv, soup.uvs.size());
-  ASSERT_TRUE(soup.groups.empty() || soup.groups.size() == soup.triangles.size());
-  for (const Index group : soup.groups)
-    ASSERT_LT(group, soup.group_names.size());
+      ASSERT_LT(uv, soup.uvs.values.size());
+  ASSERT_TRUE(soup.groups.of_triangle.empty() || soup.groups.of_triangle.size() == soup.triangles.size());
+  for (const Index group : soup.groups.of_triangle)
+    ASSERT_LT(group, soup.groups.names.size());
 }
 
 class Mesh_files_mutation : public testing::TestWithParam<Form>

@@ -7,6 +7,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -21,7 +22,39 @@ using Point_3 = Kernel::Point_3;
 using Index = std::uint32_t;
 using Index_triple = std::array<Index, 3>;
 
-/// A mesh as a file holds it: vertices, triangles that name three of them, and what hangs on the corners.
+/// A name for every triangle: its group, its material. Both are empty when the file says none.
+struct Triangle_labels
+{
+  std::vector<Index> of_triangle; ///< indices into `names`
+  std::vector<std::string> names;
+
+  bool empty() const { return of_triangle.empty(); }
+};
+
+/// Values that corners of triangles refer to by number, as texture coordinates and normals are in OBJ files.
+/// All three are empty when the file has none.
+template <std::size_t dimension>
+struct Corner_values
+{
+  std::vector<std::array<double, dimension>> values;
+  std::vector<Index_triple> of_triangle; ///< for every triangle three indices into `values`
+
+  bool empty() const { return of_triangle.empty(); }
+};
+
+/// A column of numbers that a file keeps for every vertex or every triangle, as the bytes that it keeps.
+struct Attribute
+{
+  enum class Type : unsigned char { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+  std::string name; ///< as in the file: "red", "quality", "NORMAL", "JOINTS_0"
+  Type type = Type::float64;
+  std::uint32_t components = 1; ///< numbers in a row
+  bool is_normalized = false;   ///< integers stand for fractions of their largest value, as glTF says it
+  std::vector<unsigned char> rows; ///< one after another, each `components` numbers in the machine's byte order
+};
+
+/// A mesh as a file holds it: vertices, triangles that name three of them, and what hangs on both.
 ///
 /// Nothing is assumed of the triangles: a vertex may be unused, several may lie at one position, a triangle may
 /// be degenerate, doubled or cross another, more than two may share an edge. Two triangles belong to one
@@ -37,15 +70,19 @@ struct Triangle_soup
   /// Three indices into `points`, counter-clockwise seen from outside.
   std::vector<Index_triple> triangles;
 
-  /// Texture coordinates, in [0,1]² as a rule; empty when there are none.
-  std::vector<std::array<double, 2>> uvs;
+  /// Texture coordinates, in [0,1]² as a rule, and normals.
+  Corner_values<2> uvs;
+  Corner_values<3> normals;
 
-  /// For every triangle three indices into `uvs`; empty when there are none.
-  std::vector<Index_triple> uv_triangles;
+  /// Groups and objects, materials, smoothing groups.
+  Triangle_labels groups;
+  Triangle_labels objects;
+  Triangle_labels materials;
+  Triangle_labels smoothing_groups;
 
-  /// For every triangle an index into `group_names`; empty when the file has no groups.
-  std::vector<Index> groups;
-  std::vector<std::string> group_names;
+  /// Whatever else the file keeps for its vertices and its triangles.
+  std::vector<Attribute> vertex_attributes;
+  std::vector<Attribute> triangle_attributes;
 };
 
 } // namespace selvedge

@@ -6,11 +6,11 @@
 
 #include <selvedge/mesh/Triangle_soup.h>
 #include <selvedge/mesh/Welding_notes.h>
+#include <selvedge/mesh/selection.h>
 #include <selvedge/simplify.h>
 
 #include <CGAL/Surface_mesh.h>
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -45,9 +45,14 @@ public:
   /// Moves corners; called by `simplify`, as an observer.
   void before_collapse(Mesh::Halfedge_index moving);
 
-  /// The faces that are left, in the order of the input, each with its first corner first; of the vertices, texture
-  /// coordinates and groups those still used, in their order.
-  Triangle_soup result() const;
+  /// What is left: which triangles of the soup, in their order, and which of its corners each now has.
+  struct Result
+  {
+    Triangle_soup soup;
+    std::vector<Index> triangles;
+    std::vector<Index_triple> corners; ///< each 3 × triangle + place in it
+  };
+  Result result() const;
 
 private:
   using Corner = Index; // 3 × triangle + place in it
@@ -58,7 +63,7 @@ private:
 
   const Triangle_soup& m_soup;
   Mesh m_mesh;
-  std::vector<std::array<Corner, 3>> m_corners; // by face, which has the number of its triangle
+  std::vector<Index_triple> m_corners;          // by face, which has the number of its triangle
   Simplify_constraints<Mesh> m_constraints;
   Welding_notes m_notes;
 };
