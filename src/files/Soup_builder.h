@@ -38,9 +38,10 @@ public:
     points.emplace_back(x, y, z);
   }
 
-  /// Adds a face whose corners are in range; `uvs` is empty or as long as `corners`. Returns how many
+  /// Adds a face whose corners are in range; `uvs` and `normals` are empty or as long as `corners`. Returns how many
   /// triangles it became.
-  std::size_t add_face(const std::vector<Index>& corners, const std::vector<Index>& uvs = {})
+  std::size_t add_face(const std::vector<Index>& corners, const std::vector<Index>& uvs = {},
+                       const std::vector<Index>& normals = {})
   {
     Triangle_soup& mesh = m_file.soup;
     if (corners.size() < 3) {
@@ -49,20 +50,25 @@ public:
     }
     if (has_repeated(corners))
       ++m_file.notes.repeated_corner;
+    const std::size_t first = mesh.triangles.size();
     if (corners.size() == 3) {
-      mesh.triangles.push_back({corners[0], corners[1], corners[2]});
-      if (!uvs.empty())
-        mesh.uvs.of_triangle.push_back({uvs[0], uvs[1], uvs[2]});
-      return 1;
+      m_cut = {{0, 1, 2}};
+    } else {
+      ++m_file.notes.polygons_cut;
+      m_cut = triangulate_polygon(mesh.points, corners);
     }
-    ++m_file.notes.polygons_cut;
-    const std::vector<Index_triple> cut = triangulate_polygon(mesh.points, corners);
-    for (const auto& [a, b, c] : cut) {
+    for (const auto& [a, b, c] : m_cut)
       mesh.triangles.push_back({corners[a], corners[b], corners[c]});
-      if (!uvs.empty())
-        mesh.uvs.of_triangle.push_back({uvs[a], uvs[b], uvs[c]});
-    }
-    return cut.size();
+    add_values(mesh.uvs, uvs, first);
+    add_values(mesh.normals, normals, first);
+    return m_cut.size();
+  }
+
+  /// Values of every vertex, in their order, become values of all corners. Called after the last face.
+  template <std::size_t dimension>
+  void set_vertex_values(Corner_values<dimension>& values, std::vector<std::array<double, dimension>> of_vertex)
+  {
+    values = {std::move(of_vertex), m_file.soup.triangles};
   }
 
   Mesh_file take(const std::string& name)
@@ -71,10 +77,47 @@ public:
       throw Input_error(name + ": the file has no faces" +
                         (m_file.notes.fewer_than_three != 0 ? " of three or more corners" : "") +
                         "; export the mesh as polygons");
+    close(m_file.soup.uvs, "texture coordinates");
+    close(m_file.soup.normals, "normals");
     return std::move(m_file);
   }
 
 private:
+  static constexpr Index s_none = std::numeric_limits<Index>::max();
+
+  template <std::size_t dimension>
+  void add_values(Corner_values<dimension>& values, const std::vector<Index>& numbers, std::size_t first)
+  {
+    if (numbers.empty())
+      return;
+    values.of_triangle.resize(first, {s_none, s_none, s_none});
+    for (const auto& [a, b, c] : m_cut)
+      values.of_triangle.push_back({numbers[a], numbers[b], numbers[c]});
+  }
+
+  /// Gives triangles without values one that stands for none.
+  template <std::size_t dimension>
+  void close(Corner_values<dimension>& values, const std::string& name)
+  {
+    if (values.empty()) {
+      if (!values.values.empty())
+        ignore(name + " that no face names", values.values.size());
+      values = {};
+      return;
+    }
+    values.of_triangle.resize(m_file.soup.triangles.size(), {s_none, s_none, s_none});
+    const auto is_none = [](const Index_triple& corners) { return corners[0] == s_none; };
+    if (std::none_of(values.of_triangle.begin(), values.of_triangle.end(), is_none))
+      return;
+    std::array<double, dimension> none = {};
+    while (std::find(values.values.begin(), values.values.end(), none) != values.values.end())
+      --none[0];
+    values.missing = static_cast<Index>(values.values.size());
+    values.values.push_back(none);
+    std::replace_if(values.of_triangle.begin(), values.of_triangle.end(), is_none,
+                    Index_triple{*values.missing, *values.missing, *values.missing});
+  }
+
   static bool has_repeated(const std::vector<Index>& corners)
   {
     if (corners.size() == 3)
@@ -85,6 +128,7 @@ private:
   }
 
   Mesh_file m_file;
+  std::vector<Index_triple> m_cut;
 };
 
 } // namespace selvedge::files

@@ -124,15 +124,33 @@ public:
     return content.substr(0, size);
   }
 
-  /// The next word as the double nearest to it; infinite when that overflows.
-  double real()
+  /// The rest of the statement without blanks and backslashes at its end; a continued line end counts as a blank.
+  std::string statement() const
+  {
+    Text_reader first = *this, last = *this;
+    first.skip_blanks();
+    last.skip_line();
+    std::string result;
+    for (const char* at = first.m_at; at < last.m_at;) {
+      const std::size_t continued = continuation(at);
+      result += continued != 0 ? ' ' : *at;
+      at += std::max<std::size_t>(continued, 1);
+    }
+    while (!result.empty() && (is_blank(result.back()) || result.back() == '\n' || result.back() == '\\'))
+      result.pop_back();
+    return result;
+  }
+
+  /// The next word as the number nearest to it; infinite when that overflows.
+  template <class Number = double>
+  Number real()
   {
     skip_blanks();
     const char* const first = number_begin();
-    double value = 0;
+    Number value = 0;
     const auto [last, error] = std::from_chars(first, m_end, value);
     if (error == std::errc::result_out_of_range)
-      value = out_of_range_value(std::string(first, last));
+      value = static_cast<Number>(out_of_range_value(std::string(first, last)));
     else if (error != std::errc())
       fail_at_word("a number");
     if (!at_separator(last))

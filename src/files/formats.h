@@ -21,6 +21,12 @@ void write_off(Byte_writer& out, const Triangle_soup& soup, const Write_options&
 void write_ply(Byte_writer& out, const Triangle_soup& soup, const Write_options& options);
 void write_stl(Byte_writer& out, const Triangle_soup& soup, const Write_options& options);
 
+/// Whether an OBJ file of this soup holds this attribute of its vertices: a colour, or else a weight.
+bool is_in_obj(const Triangle_soup& soup, const Attribute& attribute);
+
+/// The normal of every vertex, as PLY has them; empty when there are none, or a vertex has several.
+std::vector<std::array<double, 3>> values_of_vertices(const Corner_values<3>& values, const Triangle_soup& soup);
+
 } // namespace selvedge::files
 
 #endif // SELVEDGE_SRC_FILES_FORMATS_H

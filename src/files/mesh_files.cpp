@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <sstream>
 
 namespace selvedge {
 namespace {
@@ -141,14 +142,51 @@ void write_mesh(const std::filesystem::path& path, const Triangle_soup& soup, co
 
 std::vector<std::string> not_carried(const Triangle_soup& soup, Mesh_format format)
 {
+  const bool is_obj = format == Mesh_format::obj, is_ply = format == Mesh_format::ply;
   std::vector<std::string> names;
-  if (format != Mesh_format::obj && !soup.uvs.empty())
-    names.push_back("texture coordinates");
-  if (format != Mesh_format::obj && !soup.groups.of_triangle.empty())
-    names.push_back("groups");
-  if (format == Mesh_format::stl && !soup.points.empty())
-    names.push_back("vertex numbers");
+  const auto say = [&names](bool is_lost, const std::string& name) {
+    if (is_lost)
+      names.push_back(name);
+  };
+  say(!is_obj && !is_ply && !soup.uvs.empty(), "texture coordinates");
+  if (is_ply)
+    say(!soup.normals.empty() && files::values_of_vertices(soup.normals, soup).empty(),
+        "normals, for not every vertex has one and only one");
+  else
+    say(!is_obj && !soup.normals.empty(), "normals");
+  say(!is_obj && !soup.groups.empty(), "groups");
+  say(!is_obj && !soup.objects.empty(), "objects");
+  say(!is_obj && !soup.materials.empty(), "materials");
+  say(!is_obj && !soup.smoothing_groups.empty(), "smoothing groups");
+  say(!is_obj && !soup.material_libraries.empty(), "material libraries");
+  if (!is_ply) {
+    for (const Attribute& attribute : soup.vertex_attributes)
+      say(!is_obj || !files::is_in_obj(soup, attribute), "vertex attribute '" + attribute.name + "'");
+    for (const Attribute& attribute : soup.triangle_attributes)
+      say(true, "face attribute '" + attribute.name + "'");
+    say(!soup.header_comments.empty(), "comments of the header");
+  }
+  say(format == Mesh_format::stl && !soup.points.empty(), "vertex numbers");
   return names;
+}
+
+std::vector<std::string> missing_material_libraries(const std::filesystem::path& path, const Triangle_soup& soup)
+{
+  const auto is_there = [folder = path.parent_path()](const std::string& name) {
+    std::error_code error;
+    return std::filesystem::exists(folder / name, error);
+  };
+  std::vector<std::string> missing;
+  for (const std::string& libraries : soup.material_libraries) {
+    // A statement holds one name, perhaps with blanks in it, or several without.
+    if (is_there(libraries))
+      continue;
+    std::istringstream words(libraries);
+    for (std::string name; words >> name;)
+      if (!is_there(name))
+        missing.push_back(name);
+  }
+  return missing;
 }
 
 void write_file(const std::filesystem::path& path, std::string_view contents)

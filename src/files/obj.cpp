@@ -3,16 +3,37 @@
 
 #include "files/Soup_builder.h"
 #include "files/Text_reader.h"
+#include "files/columns.h"
 #include "files/formats.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <set>
 #include <unordered_map>
 
 namespace selvedge::files {
 namespace {
 
-constexpr std::string_view default_group = "default";
+/// The names that statements of one keyword give to the faces below them.
+struct Label_reader
+{
+  std::string_view keyword;
+  std::string plural;
+  Triangle_labels& labels;
+  Index current = 0;
+  bool is_begun = false;  // a statement stands above
+  bool is_unused = false; // no face stands below it
+  std::unordered_map<std::string, Index> numbers = {};
+
+  Index number(const std::string& name)
+  {
+    const auto [place, is_new] = numbers.emplace(name, static_cast<Index>(labels.names.size()));
+    if (is_new)
+      labels.names.push_back(name);
+    return place->second;
+  }
+};
 
 /// Reads the text twice: first the vertices, then the faces, which need all vertices for cutting polygons.
 class Obj_reader
@@ -26,9 +47,10 @@ public:
       read_vertex_statement(text);
     for (Text_reader text(m_contents, m_name); text.to_next_statement(); text.skip_line())
       read_face_statement(text);
-    close_uvs();
-    if (m_label_is_new)
-      m_builder.ignore("groups and objects without faces");
+    for (const Label_reader& reader : m_labels)
+      if (reader.is_unused)
+        m_builder.ignore(reader.plural + " without faces");
+    close_columns();
     return m_builder.take(m_name);
   }
 
@@ -37,32 +59,72 @@ private:
   {
     const std::string_view keyword = text.word();
     const auto fail = [&text](const std::string& message) { text.fail(message); };
+    Triangle_soup& soup = m_builder.soup();
     if (keyword == "v") {
       const double x = text.real(), y = text.real(), z = text.real();
       m_builder.add_point(x, y, z, 1, fail);
       if (!text.at_line_end())
-        note_further_columns(text);
+        read_further_columns(text);
     } else if (keyword == "vt") {
-      auto& uvs = m_builder.soup().uvs.values;
       const double u = text.real(), v = text.at_line_end() ? 0 : text.real();
       if (!std::isfinite(u) || !std::isfinite(v))
-        fail("texture coordinate " + std::to_string(uvs.size() + 1) + " is not finite; remove or repair it");
-      if (uvs.size() == std::numeric_limits<Index>::max())
-        fail("the mesh has more than 4294967295 texture coordinates; split it");
-      uvs.push_back({u, v});
+        fail("texture coordinate " + std::to_string(soup.uvs.values.size() + 1) +
+             " is not finite; remove or repair it");
+      add_value(soup.uvs, {u, v}, "texture coordinates", text);
       if (!text.at_line_end() && text.real() != 0)
         m_builder.ignore("third texture coordinates");
+    } else if (keyword == "vn") {
+      const double x = text.real(), y = text.real(), z = text.real();
+      add_value(soup.normals, {x, y, z}, "normals", text);
     }
   }
 
-  void note_further_columns(Text_reader text)
+  template <std::size_t dimension>
+  static void add_value(Corner_values<dimension>& values, const std::array<double, dimension>& value,
+                        const std::string& plural, const Text_reader& text)
   {
-    std::size_t columns = 0;
-    for (; !text.at_line_end(); ++columns)
-      text.word();
-    m_builder.ignore(columns == 1                   ? "vertex weights"
-                     : columns == 3 || columns == 4 ? "vertex colours"
-                                                    : "vertex columns");
+    if (values.values.size() + 1 >= std::numeric_limits<Index>::max())
+      text.fail("the mesh has more than 4294967293 " + plural + "; split it");
+    values.values.push_back(value);
+  }
+
+  /// One number is a weight, three are a colour, four a colour with its alpha. Takes a copy of the reader: skip_line must
+  /// see the whole line.
+  void read_further_columns(Text_reader text)
+  {
+    std::array<double, 4> numbers;
+    std::size_t size = 0;
+    bool is_known = true;
+    while (!text.at_line_end()) {
+      const std::string_view word = text.word();
+      double number = 0;
+      const auto [last, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+      is_known = is_known && size < 4 && error == std::errc() && last == word.data() + word.size();
+      if (is_known)
+        numbers[size++] = number;
+    }
+    if (!is_known || size == 2)
+      return m_builder.ignore("vertex columns");
+    const std::size_t first = size == 1 ? 0 : 1;
+    for (std::size_t i = 0; i < size; ++i) {
+      std::vector<double>& column = m_columns[first + i];
+      column.resize(m_builder.soup().points.size() - 1, nan);
+      column.push_back(numbers[i]);
+    }
+  }
+
+  void close_columns()
+  {
+    Triangle_soup& soup = m_builder.soup();
+    for (std::size_t i = 0; i < m_columns.size(); ++i) {
+      if (m_columns[i].empty())
+        continue;
+      m_columns[i].resize(soup.points.size(), nan);
+      Attribute& attribute = soup.vertex_attributes.emplace_back();
+      attribute.name = column_names[i];
+      for (const double number : m_columns[i])
+        append_number(attribute.rows, number);
+    }
   }
 
   void read_face_statement(Text_reader& text)
@@ -70,47 +132,62 @@ private:
     const std::string_view keyword = text.word();
     if (keyword == "v")
       ++m_points_above;
-    else if (keyword == "f")
-      read_face(text);
     else if (keyword == "vt")
       ++m_uvs_above;
-    else if (keyword == "g" || keyword == "o")
-      start_group(Text_reader(text).line()); // skip_line must see whether the line is continued
+    else if (keyword == "vn")
+      ++m_normals_above;
+    else if (keyword == "f")
+      read_face(text);
+    else if (keyword == "mtllib")
+      m_builder.soup().material_libraries.push_back(text.statement());
+    else if (const auto reader = std::find_if(m_labels.begin(), m_labels.end(),
+                                              [&](const Label_reader& r) { return r.keyword == keyword; });
+             reader != m_labels.end())
+      start_label(*reader, text.statement());
     else
       ignore_statement(keyword);
   }
 
   void read_face(Text_reader& text)
   {
+    const Triangle_soup& soup = m_builder.soup();
     m_corners.clear();
     m_uv_corners.clear();
-    bool has_normals = false;
+    m_normal_corners.clear();
     while (!text.at_line_end()) {
-      m_corners.push_back(read_index(text, "vertex", m_points_above, m_builder.soup().points.size()));
+      m_corners.push_back(read_index(text, "vertex", m_points_above, soup.points.size()));
       if (text.peek() == '/') {
         text.advance(1);
         if (text.peek() != '/' && !text.at_word_end())
           m_uv_corners.push_back(
-              read_index(text, "texture coordinate", m_uvs_above, m_builder.soup().uvs.values.size()));
+              read_index(text, "texture coordinate", m_uvs_above, soup.uvs.values.size()));
         if (text.peek() == '/') {
           text.advance(1);
-          has_normals = true;
           if (!text.at_word_end())
-            text.integer_prefix();
+            m_normal_corners.push_back(
+                read_index(text, "normal", m_normals_above, soup.normals.values.size()));
         }
       }
       if (!text.at_word_end())
         text.fail("a corner of a face is followed by " + in_quotes(text.word()) +
                   "; write corners as v, v/vt, v//vn or v/vt/vn");
     }
-    if (has_normals)
-      m_builder.ignore("normals at the corners of faces");
-    const bool has_uvs = !m_corners.empty() && m_uv_corners.size() == m_corners.size();
-    if (!has_uvs)
-      m_uv_corners.clear();
-    const std::size_t triangles = m_builder.add_face(m_corners, m_uv_corners);
-    if (triangles != 0)
-      label_triangles(triangles);
+    keep_if_complete(m_uv_corners, "texture coordinates");
+    keep_if_complete(m_normal_corners, "normals");
+    const std::size_t triangles = m_builder.add_face(m_corners, m_uv_corners, m_normal_corners);
+    for (Label_reader& reader : m_labels)
+      if (triangles != 0 && reader.is_begun) {
+        reader.labels.of_triangle.resize(soup.triangles.size(), reader.current);
+        reader.is_unused = false;
+      }
+  }
+
+  void keep_if_complete(std::vector<Index>& numbers, const std::string& plural)
+  {
+    if (numbers.empty() || numbers.size() == m_corners.size())
+      return;
+    m_builder.ignore(plural + " of faces that have them at some corners only");
+    numbers.clear();
   }
 
   Index read_index(Text_reader& text, const std::string& kind, std::size_t above, std::size_t count)
@@ -128,46 +205,20 @@ private:
     return static_cast<Index>(index);
   }
 
-  void start_group(std::string_view name)
+  void start_label(Label_reader& reader, const std::string& name)
   {
-    if (m_label_is_new)
-      m_builder.ignore("groups and objects without faces");
-    while (!name.empty() && (name.back() == '\\' || name.back() == ' '))
-      name.remove_suffix(1);
-    m_label = name.empty() ? default_group : name;
-    m_label_is_new = true;
-  }
-
-  void label_triangles(std::size_t count)
-  {
-    if (m_label.empty())
-      return;
-    Triangle_soup& soup = m_builder.soup();
-    if (m_label_is_new) {
-      m_label_is_new = false;
-      const std::size_t unlabelled = soup.triangles.size() - count;
-      // Faces above the first label are in the group that an OBJ begins with.
-      if (soup.groups.of_triangle.size() < unlabelled)
-        soup.groups.of_triangle.resize(unlabelled, group_number(default_group));
-      m_group = group_number(m_label);
-    }
-    soup.groups.of_triangle.resize(soup.triangles.size(), m_group);
-  }
-
-  Index group_number(std::string_view name)
-  {
-    auto& names = m_builder.soup().groups.names;
-    const auto [place, is_new] = m_group_numbers.emplace(name, static_cast<Index>(names.size()));
-    if (is_new)
-      names.emplace_back(name);
-    return place->second;
+    if (reader.is_unused)
+      m_builder.ignore(reader.plural + " without faces");
+    if (!reader.is_begun && !m_builder.soup().triangles.empty())
+      reader.labels.of_triangle.resize(m_builder.soup().triangles.size(), reader.number(""));
+    reader.current = reader.number(name);
+    reader.is_begun = reader.is_unused = true;
   }
 
   void ignore_statement(std::string_view keyword)
   {
     static const std::unordered_map<std::string_view, std::string> names = {
-        {"vn", "normals"},       {"l", "line elements"},       {"p", "point elements"},
-        {"usemtl", "materials"}, {"mtllib", "material files"}, {"s", "smoothing groups"}};
+        {"l", "line elements"}, {"p", "point elements"}};
     constexpr std::size_t most_names = 16; // a file that is no OBJ at all has a new one on every line
     const auto known = names.find(keyword);
     if (known != names.end()) {
@@ -180,38 +231,113 @@ private:
     }
   }
 
-  /// Texture coordinates are on every corner, or are dropped.
-  void close_uvs()
-  {
-    Triangle_soup& soup = m_builder.soup();
-    if (soup.uvs.values.empty() || soup.uvs.of_triangle.size() == soup.triangles.size())
-      return;
-    m_builder.ignore(soup.uvs.of_triangle.empty() ? "texture coordinates that no face names"
-                                               : "texture coordinates, for some corners have none",
-                     soup.uvs.values.size());
-    soup.uvs.values = {};
-    soup.uvs.of_triangle = {};
-  }
+  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  static constexpr std::array<const char*, 5> column_names = {"w", "red", "green", "blue", "alpha"};
 
   std::string_view m_contents;
   const std::string& m_name;
   Soup_builder m_builder{Mesh_format::obj};
-  std::vector<Index> m_corners, m_uv_corners;
-  std::size_t m_points_above = 0, m_uvs_above = 0;
-  std::string_view m_label; // empty above the first group or object
-  bool m_label_is_new = false;
-  Index m_group = 0;
-  std::unordered_map<std::string_view, Index> m_group_numbers;
+  std::vector<Index> m_corners, m_uv_corners, m_normal_corners;
+  std::size_t m_points_above = 0, m_uvs_above = 0, m_normals_above = 0;
+  std::array<std::vector<double>, column_names.size()> m_columns;
+  std::array<Label_reader, 4> m_labels = {{{"o", "objects", m_builder.soup().objects},
+                                           {"g", "groups", m_builder.soup().groups},
+                                           {"usemtl", "materials", m_builder.soup().materials},
+                                           {"s", "smoothing groups", m_builder.soup().smoothing_groups}}};
   std::set<std::string> m_unknown;
 };
 
-/// Whether a reader finds the same name again.
-bool is_group_name(const std::string& name)
+/// Whether a reader finds the same text again behind a keyword.
+bool is_statement_text(const std::string& text)
 {
-  const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
-  return !name.empty() && name.front() != ' ' && name.back() != ' ' && name.back() != '\\' &&
-         std::none_of(name.begin(), name.end(), is_control);
+  const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; };
+  return text.empty() || (!is_blank(text.front()) && !is_blank(text.back()) && text.back() != '\\' &&
+                          text.find('\n') == std::string::npos);
 }
+
+void check_text(const std::string& text, const std::string& kind)
+{
+  if (!is_statement_text(text))
+    throw Argument_error("the name " + in_quotes(text) + " of a " + kind +
+                         " cannot stand in an OBJ file; rename the " + kind);
+}
+
+void write_points(Byte_writer& out, const Triangle_soup& soup)
+{
+  const std::vector<Column> colours = find_colours(soup.vertex_attributes);
+  const std::optional<Column> weight = find_column(soup.vertex_attributes, "w");
+  for (std::size_t i = 0; i < soup.points.size(); ++i) {
+    const Point_3& p = soup.points[i];
+    out << "v " << p.x() << ' ' << p.y() << ' ' << p.z();
+    if (!colours.empty() && !std::isnan(colours[0].real(i))) {
+      for (const Column& colour : colours)
+        if (const double value = colour.real(i); !std::isnan(value))
+          out << ' ' << value;
+    } else if (weight && !std::isnan(weight->real(i))) {
+      out << ' ' << weight->real(i);
+    }
+    out << '\n';
+  }
+}
+
+template <std::size_t dimension>
+void write_values(Byte_writer& out, std::string_view keyword, const Corner_values<dimension>& values)
+{
+  for (Index i = 0; i < values.values.size() && !values.empty(); ++i)
+    if (i != values.missing) {
+      out << keyword;
+      for (const double value : values.values[i])
+        out << ' ' << value;
+      out << '\n';
+    }
+}
+
+/// The number of a value in the file, from 1; 0 when there is none.
+template <std::size_t dimension>
+std::uint64_t written_number(const Corner_values<dimension>& values, std::size_t triangle, std::size_t corner)
+{
+  if (values.empty())
+    return 0;
+  const Index number = values.of_triangle[triangle][corner];
+  if (number == values.missing)
+    return 0;
+  return std::uint64_t{number} + 1 - (values.missing && number > *values.missing ? 1 : 0);
+}
+
+/// Writes the statements that must stand between two triangles. Some readers forget all others at an object.
+class Label_writer
+{
+public:
+  explicit Label_writer(const Triangle_soup& soup)
+      : m_kinds{{{"o", &soup.objects}, {"g", &soup.groups}, {"usemtl", &soup.materials}, {"s", &soup.smoothing_groups}}}
+  {
+  }
+
+  void write(Byte_writer& out, std::size_t triangle)
+  {
+    bool is_new_object = false;
+    for (Kind& kind : m_kinds) {
+      if (kind.labels->empty())
+        continue;
+      const std::string& name = kind.labels->names[kind.labels->of_triangle[triangle]];
+      const bool is_new = name != kind.current;
+      if (is_new || (is_new_object && !name.empty()))
+        out << kind.keyword << (name.empty() ? "" : " ") << name << '\n';
+      is_new_object = is_new_object || (is_new && kind.labels == m_kinds[0].labels);
+      kind.current = name;
+    }
+  }
+
+private:
+  struct Kind
+  {
+    std::string_view keyword;
+    const Triangle_labels* labels;
+    std::string_view current = {};
+  };
+
+  std::array<Kind, 4> m_kinds;
+};
 
 } // namespace
 
@@ -220,26 +346,51 @@ Mesh_file read_obj(std::string_view contents, const std::string& name)
   return Obj_reader(contents, name).read();
 }
 
+bool is_in_obj(const Triangle_soup& soup, const Attribute& attribute)
+{
+  const std::vector<Column> colours = find_colours(soup.vertex_attributes);
+  if (std::any_of(colours.begin(), colours.end(),
+                  [&](const Column& column) { return column.attribute == &attribute; }))
+    return true;
+  const std::optional<Column> weight = find_column(soup.vertex_attributes, "w");
+  if (!weight || weight->attribute != &attribute)
+    return false;
+  for (std::size_t i = 0; i < soup.points.size() && !colours.empty(); ++i)
+    if (!std::isnan(weight->real(i)) && !std::isnan(colours[0].real(i)))
+      return false;
+  return true;
+}
+
 void write_obj(Byte_writer& out, const Triangle_soup& soup, const Write_options& options)
 {
-  for (const std::string& name : soup.groups.names)
-    if (!is_group_name(name))
-      throw Argument_error("the group name '" + name + "' cannot stand in an OBJ file; rename the group");
+  for (const auto& [labels, kind] :
+       {std::pair(&soup.objects, "object"), std::pair(&soup.groups, "group"),
+        std::pair(&soup.materials, "material"), std::pair(&soup.smoothing_groups, "smoothing group")})
+    for (const std::string& name : labels->names)
+      check_text(name, kind);
+  for (const std::string& library : soup.material_libraries)
+    check_text(library, "material library");
+
   for (const std::string& comment : options.comments)
     out << "# " << comment << '\n';
-  for (const Point_3& p : soup.points)
-    out << "v " << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
-  const bool has_uvs = !soup.uvs.of_triangle.empty();
-  for (std::size_t i = 0; has_uvs && i < soup.uvs.values.size(); ++i)
-    out << "vt " << soup.uvs.values[i][0] << ' ' << soup.uvs.values[i][1] << '\n';
+  for (const std::string& library : soup.material_libraries)
+    out << "mtllib " << library << '\n';
+  write_points(out, soup);
+  write_values(out, "vt", soup.uvs);
+  write_values(out, "vn", soup.normals);
+  Label_writer labels(soup);
   for (std::size_t i = 0; i < soup.triangles.size(); ++i) {
-    if (!soup.groups.of_triangle.empty() && (i == 0 || soup.groups.of_triangle[i] != soup.groups.of_triangle[i - 1]))
-      out << "g " << soup.groups.names[soup.groups.of_triangle[i]] << '\n';
+    labels.write(out, i);
     out << 'f';
     for (int corner = 0; corner < 3; ++corner) {
       out << ' ' << std::uint64_t{soup.triangles[i][corner]} + 1;
-      if (has_uvs)
-        out << '/' << std::uint64_t{soup.uvs.of_triangle[i][corner]} + 1;
+      const std::uint64_t uv = written_number(soup.uvs, i, corner), normal = written_number(soup.normals, i, corner);
+      if (uv != 0 || normal != 0)
+        out << '/';
+      if (uv != 0)
+        out << uv;
+      if (normal != 0)
+        out << '/' << normal;
     }
     out << '\n';
   }

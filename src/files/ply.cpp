@@ -4,6 +4,7 @@
 #include "files/Binary_reader.h"
 #include "files/Soup_builder.h"
 #include "files/Text_reader.h"
+#include "files/columns.h"
 #include "files/formats.h"
 
 #include <selvedge/mesh/rounding.h>
@@ -16,12 +17,14 @@
 namespace selvedge::files {
 namespace {
 
-enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+using Type = Attribute::Type;
+
+constexpr std::array<std::string_view, 8> type_names = {"char", "uchar", "short", "ushort",
+                                                        "int",  "uint",  "float", "double"};
 
 std::size_t size_of(Type type)
 {
-  constexpr std::array<std::size_t, 8> sizes = {1, 1, 2, 2, 4, 4, 4, 8};
-  return sizes[static_cast<std::size_t>(type)];
+  return with_number(type, [](auto number) { return sizeof number; });
 }
 
 bool is_integer(Type type)
@@ -95,6 +98,12 @@ public:
     }
   }
 
+  void append(Type type, std::vector<unsigned char>& rows)
+  {
+    check(size_of(type));
+    with_number(type, [&](auto zero) { append_number(rows, m_data.take<decltype(zero)>()); });
+  }
+
   void skip(Type type, std::uint64_t count)
   {
     check(count * size_of(type)); // a list's count has at most 32 bits
@@ -133,6 +142,24 @@ public:
   {
     m_text.skip_space();
     return m_text.integer();
+  }
+
+  void append(Type type, std::vector<unsigned char>& rows)
+  {
+    m_text.skip_space();
+    with_number(type, [&](auto zero) {
+      using Number = decltype(zero);
+      if constexpr (std::is_integral_v<Number>) {
+        const std::int64_t value = m_text.integer();
+        if (value < std::numeric_limits<Number>::min() || value > std::numeric_limits<Number>::max())
+          fail("the value " + std::to_string(value) + " is not of the type " +
+               std::string(type_names[static_cast<std::size_t>(type)]) +
+               " that the header announces; correct the header");
+        append_number(rows, static_cast<Number>(value));
+      } else {
+        append_number(rows, m_text.real<Number>());
+      }
+    });
   }
 
   void skip(Type, std::uint64_t count)
@@ -185,7 +212,9 @@ private:
         read_element();
       else if (keyword == "property")
         read_property();
-      else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty())
+      else if (keyword == "comment" || keyword == "obj_info")
+        read_comment(keyword);
+      else if (!keyword.empty())
         m_text.fail("the header has an unknown statement " + in_quotes(keyword) + "; remove it");
     }
     if (m_format.empty())
@@ -198,6 +227,13 @@ private:
     if (m_text.at_end())
       m_text.fail("the file ends within its header; it is cut short");
     m_text.advance(1);
+  }
+
+  void read_comment(std::string_view keyword)
+  {
+    const std::string_view text = m_text.line();
+    if (text != "\\") // would continue the line when written
+      m_builder.soup().header_comments.push_back(std::string(keyword) + ' ' + std::string(text));
   }
 
   void read_format()
@@ -233,6 +269,8 @@ private:
     }
     property.type = read_type(type);
     property.name = m_text.word();
+    while (!property.name.empty() && property.name.back() == '\\') // would continue the line when written
+      property.name.pop_back();
     m_elements.back().properties.push_back(std::move(property));
   }
 
@@ -329,66 +367,223 @@ private:
         skip_property(values, property);
   }
 
+  /// Where the values of a property go: to a number, to an attribute, or, when they are a list, nowhere.
+  struct Target
+  {
+    double* number = nullptr;
+    Attribute* attribute = nullptr;
+  };
+
+  /// Makes an attribute of every property that has no target yet.
+  void add_attributes(const Element& element, std::vector<Target>& targets, std::vector<Attribute>& attributes)
+  {
+    attributes.reserve(element.properties.size()); // targets point there
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+      const Property& property = element.properties[i];
+      if (targets[i].number != nullptr)
+        continue;
+      if (property.count_type) {
+        if (!is_read_list(element, property))
+          m_builder.ignore("values of the " + element.name + " property " + in_quotes(property.name),
+                           element.count);
+        continue;
+      }
+      const bool is_colour = property.name == "red" || property.name == "green" ||
+                             property.name == "blue" || property.name == "alpha";
+      const bool is_normalized = is_colour && (property.type == Type::uint8 || property.type == Type::uint16);
+      attributes.push_back({property.name, property.type, 1, is_normalized, {}});
+      attributes.back().rows.reserve(element.count * size_of(property.type));
+      targets[i].attribute = &attributes.back();
+    }
+  }
+
+  static bool is_read_list(const Element& element, const Property& property)
+  {
+    return element.name == "face" && property.count_type &&
+           (&property == find_list(element) || &property == find_uv_list(element));
+  }
+
+  static const Property* find_list(const Element& element)
+  {
+    const std::size_t plural = element.find("vertex_indices");
+    const std::size_t list = plural != element.properties.size() ? plural : element.find("vertex_index");
+    return list == element.properties.size() ? nullptr : &element.properties[list];
+  }
+
+  static const Property* find_uv_list(const Element& element)
+  {
+    const std::size_t list = element.find("texcoord");
+    const bool is_one = list != element.properties.size() && element.properties[list].count_type &&
+                        !is_integer(element.properties[list].type);
+    return is_one ? &element.properties[list] : nullptr;
+  }
+
+  /// Whether the element has all of these properties as floating-point numbers, which then go to `numbers`.
+  template <std::size_t size>
+  static bool find_numbers(const Element& element, const std::array<const char*, size>& names,
+                           std::array<double, size>& numbers, std::vector<Target>& targets)
+  {
+    std::array<std::size_t, size> places;
+    for (std::size_t i = 0; i < size; ++i) {
+      places[i] = element.find(names[i]);
+      if (places[i] == element.properties.size() || element.properties[places[i]].count_type ||
+          is_integer(element.properties[places[i]].type))
+        return false;
+    }
+    for (std::size_t i = 0; i < size; ++i)
+      targets[places[i]].number = &numbers[i];
+    return true;
+  }
+
   template <class Values>
   void read_vertices(Values& values, const Element& element)
   {
-    const std::array<std::size_t, 3> axes = {element.find("x"), element.find("y"), element.find("z")};
-    for (const std::size_t axis : axes)
-      if (axis == element.properties.size() || element.properties[axis].count_type)
+    Triangle_soup& soup = m_builder.soup();
+    std::vector<Target> targets(element.properties.size());
+    std::array<double, 3> position = {}, normal = {};
+    std::array<double, 2> uv = {};
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::size_t place = element.find(std::string(1, static_cast<char>('x' + axis)));
+      if (place == element.properties.size() || element.properties[place].count_type)
         values.fail("the vertices lack one of the properties x, y, z");
-    const auto fail = [&values](const std::string& message) { values.fail(message); };
-    m_builder.soup().points.reserve(element.count);
-    for (std::uint64_t i = 0; i < element.count; ++i) {
-      std::array<double, 3> position = {};
-      for (std::size_t p = 0; p < element.properties.size(); ++p) {
-        const auto axis = std::find(axes.begin(), axes.end(), p);
-        if (axis != axes.end())
-          position[static_cast<std::size_t>(axis - axes.begin())] = values.real(element.properties[p].type);
-        else
-          skip_property(values, element.properties[p]);
-      }
-      m_builder.add_point(position[0], position[1], position[2], 0, fail);
+      targets[place].number = &position[axis];
     }
-    for (std::size_t p = 0; p < element.properties.size(); ++p)
-      if (std::find(axes.begin(), axes.end(), p) == axes.end())
-        m_builder.ignore("values of the vertex property " + in_quotes(element.properties[p].name),
-                         element.count);
+    m_has_normals = find_numbers<3>(element, {"nx", "ny", "nz"}, normal, targets);
+    const bool has_face_uvs =
+        std::any_of(m_elements.begin(), m_elements.end(), [](const Element& candidate) {
+          return candidate.name == "face" && find_uv_list(candidate) != nullptr;
+        });
+    m_has_uvs = !has_face_uvs && (find_numbers<2>(element, {"s", "t"}, uv, targets) ||
+                                  find_numbers<2>(element, {"u", "v"}, uv, targets) ||
+                                  find_numbers<2>(element, {"texture_u", "texture_v"}, uv, targets));
+    add_attributes(element, targets, soup.vertex_attributes);
+
+    const auto fail = [&values](const std::string& message) { values.fail(message); };
+    soup.points.reserve(element.count);
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      for (std::size_t p = 0; p < targets.size(); ++p)
+        read_property(values, element.properties[p], targets[p]);
+      m_builder.add_point(position[0], position[1], position[2], 0, fail);
+      if (m_has_normals)
+        m_normals.push_back(normal);
+      if (m_has_uvs) {
+        check_uv(values, uv, "vertex " + std::to_string(i));
+        m_uvs.push_back(uv);
+      }
+    }
+  }
+
+  template <class Values>
+  static void read_property(Values& values, const Property& property, const Target& target)
+  {
+    if (target.number != nullptr)
+      *target.number = values.real(property.type);
+    else if (target.attribute != nullptr)
+      values.append(property.type, target.attribute->rows);
+    else
+      skip_property(values, property);
+  }
+
+  template <class Values>
+  static void check_uv(const Values& values, const std::array<double, 2>& uv, const std::string& where)
+  {
+    if (!std::isfinite(uv[0]) || !std::isfinite(uv[1]))
+      values.fail(where + " has a texture coordinate that is not finite; remove or repair it");
   }
 
   template <class Values>
   void read_faces(Values& values, const Element& element)
   {
-    const std::size_t plural = element.find("vertex_indices");
-    const std::size_t list = plural != element.properties.size() ? plural : element.find("vertex_index");
-    if (list == element.properties.size() || !element.properties[list].count_type ||
-        !is_integer(element.properties[list].type))
+    const Property* const list = find_list(element);
+    if (list == nullptr || !list->count_type || !is_integer(list->type))
       values.fail("the faces lack a list of integers 'vertex_indices'; export the file as a mesh");
-    const std::size_t vertices = m_builder.soup().points.size();
-    m_builder.soup().triangles.reserve(element.count);
-    std::vector<Index> corners;
+    const Property* const uv_list = find_uv_list(element);
+    Triangle_soup& soup = m_builder.soup();
+    std::vector<Target> targets(element.properties.size());
+    add_attributes(element, targets, soup.triangle_attributes);
+    soup.triangles.reserve(element.count);
+    std::vector<Index> corners, uv_corners;
+    std::vector<double> uvs;
     for (std::uint64_t i = 0; i < element.count; ++i) {
-      for (std::size_t p = 0; p < element.properties.size(); ++p) {
+      for (std::size_t p = 0; p < targets.size(); ++p) {
         const Property& property = element.properties[p];
-        if (p != list) {
-          skip_property(values, property);
-          continue;
-        }
-        corners.resize(read_length(values, property));
-        for (Index& corner : corners) {
-          const std::int64_t index = values.integer(property.type);
-          if (index < 0 || static_cast<std::uint64_t>(index) >= vertices)
-            values.fail("face " + std::to_string(i) + " names vertex " + std::to_string(index) +
-                        ", but there are only " + std::to_string(vertices) +
-                        " counted from 0; correct or remove the face");
-          corner = static_cast<Index>(index);
-        }
+        if (&property == list)
+          read_corners(values, property, i, corners);
+        else if (&property == uv_list)
+          read_numbers(values, property, uvs);
+        else
+          read_property(values, property, targets[p]);
       }
-      m_builder.add_face(corners);
+      number_uvs(values, uvs, corners.size(), i, uv_corners);
+      repeat_last_rows(m_builder.add_face(corners, uv_corners));
     }
-    for (std::size_t p = 0; p < element.properties.size(); ++p)
-      if (p != list)
-        m_builder.ignore("values of the face property " + in_quotes(element.properties[p].name),
-                         element.count);
+    if (m_has_normals)
+      m_builder.set_vertex_values(soup.normals, std::move(m_normals));
+    if (m_has_uvs)
+      m_builder.set_vertex_values(soup.uvs, std::move(m_uvs));
+  }
+
+  template <class Values>
+  void read_corners(Values& values, const Property& list, std::uint64_t face, std::vector<Index>& corners)
+  {
+    const std::size_t vertices = m_builder.soup().points.size();
+    corners.resize(read_length(values, list));
+    for (Index& corner : corners) {
+      const std::int64_t index = values.integer(list.type);
+      if (index < 0 || static_cast<std::uint64_t>(index) >= vertices)
+        values.fail("face " + std::to_string(face) + " names vertex " + std::to_string(index) +
+                    ", but there are only " + std::to_string(vertices) +
+                    " counted from 0; correct or remove the face");
+      corner = static_cast<Index>(index);
+    }
+  }
+
+  template <class Values>
+  static void read_numbers(Values& values, const Property& list, std::vector<double>& numbers)
+  {
+    numbers.resize(read_length(values, list));
+    for (double& number : numbers)
+      number = values.real(list.type);
+  }
+
+  /// Texture coordinates of a face's corners; equal ones get the number of the first of them.
+  template <class Values>
+  void number_uvs(const Values& values, const std::vector<double>& uvs, std::size_t corners, std::uint64_t face,
+                  std::vector<Index>& numbers)
+  {
+    numbers.clear();
+    if (uvs.size() != 2 * corners) {
+      if (!uvs.empty())
+        m_builder.ignore("texture coordinates of faces, not two to a corner");
+      return;
+    }
+    auto& known = m_builder.soup().uvs.values;
+    for (std::size_t i = 0; i < corners; ++i) {
+      const std::array<double, 2> uv = {uvs[2 * i], uvs[2 * i + 1]};
+      check_uv(values, uv, "face " + std::to_string(face));
+      if (known.size() + 1 >= std::numeric_limits<Index>::max())
+        values.fail("the mesh has more than 4294967293 texture coordinates; split it");
+      const std::string_view bytes(reinterpret_cast<const char*>(uv.data()), sizeof uv);
+      const auto [place, is_new] = m_uv_numbers.emplace(bytes, static_cast<Index>(known.size()));
+      if (is_new)
+        known.push_back(uv);
+      numbers.push_back(place->second);
+    }
+  }
+
+  /// The row that a face has added to each attribute becomes one for each of its triangles.
+  void repeat_last_rows(std::size_t triangles)
+  {
+    for (Attribute& attribute : m_builder.soup().triangle_attributes) {
+      const std::size_t size = size_of(attribute.type);
+      attribute.rows.resize(attribute.rows.size() - (triangles == 0 ? size : 0));
+      for (std::size_t i = 1; i < triangles; ++i) {
+        attribute.rows.resize(attribute.rows.size() + size);
+        std::copy(attribute.rows.end() - 2 * static_cast<std::ptrdiff_t>(size),
+                  attribute.rows.end() - static_cast<std::ptrdiff_t>(size),
+                  attribute.rows.end() - static_cast<std::ptrdiff_t>(size));
+      }
+    }
   }
 
   const std::string& m_name;
@@ -396,30 +591,125 @@ private:
   Soup_builder m_builder{Mesh_format::ply};
   std::string_view m_format;
   std::vector<Element> m_elements;
+  bool m_has_normals = false, m_has_uvs = false; // at vertices
+  std::vector<std::array<double, 3>> m_normals;
+  std::vector<std::array<double, 2>> m_uvs;
+  std::unordered_map<std::string, Index> m_uv_numbers; // by their bytes
 };
 
-void write_ascii(Byte_writer& out, const Triangle_soup& soup)
+/// Writes numbers one after the other, in the encoding asked for.
+class Value_writer
 {
-  for (const Point_3& p : soup.points)
-    out << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
-  for (const auto& [a, b, c] : soup.triangles)
-    out << "3 " << a << ' ' << b << ' ' << c << '\n';
+public:
+  Value_writer(Byte_writer& out, Encoding encoding) : m_out(out), m_encoding(encoding) {}
+
+  template <class Number>
+  void write(Number number)
+  {
+    if (m_encoding == Encoding::ascii) {
+      if (!m_is_line_begin)
+        m_out << ' ';
+      m_out << number;
+      m_is_line_begin = false;
+    } else if constexpr (sizeof number == 1) {
+      m_out << static_cast<char>(number);
+    } else {
+      m_out.binary(number, m_encoding == Encoding::binary_big_endian);
+    }
+  }
+
+  void write_real(double value, bool as_float32)
+  {
+    // The same text in both cases: a decimal is read as the double nearest to it.
+    if (as_float32 && m_encoding != Encoding::ascii)
+      write(static_cast<float>(value));
+    else
+      write(value);
+  }
+
+  void end_element()
+  {
+    if (m_encoding == Encoding::ascii)
+      m_out << '\n';
+    m_is_line_begin = true;
+  }
+
+private:
+  Byte_writer& m_out;
+  Encoding m_encoding;
+  bool m_is_line_begin = true;
+};
+
+template <class Rows>
+bool are_float32(const Rows& rows, std::size_t dimension)
+{
+  return std::all_of(rows.begin(), rows.end(), [&](const auto& row) {
+    for (std::size_t i = 0; i < dimension; ++i)
+      if (!is_float32(row[static_cast<int>(i)]) && !std::isnan(row[static_cast<int>(i)]))
+        return false;
+    return true;
+  });
 }
 
-void write_binary(Byte_writer& out, const Triangle_soup& soup, bool as_float32, bool big_endian)
+struct Named_column
 {
-  for (const Point_3& point : soup.points)
-    for (int axis = 0; axis < 3; ++axis)
-      if (as_float32)
-        out.binary(static_cast<float>(point[axis]), big_endian);
-      else
-        out.binary(point[axis], big_endian);
-  for (const Index_triple& triangle : soup.triangles) {
-    out << char{3};
-    for (const Index corner : triangle)
-      out.binary(corner, big_endian);
+  std::string name;
+  Column column;
+};
+
+/// Whether a reader finds the same name again.
+bool is_property_name(const std::string& name)
+{
+  return name.find_first_of(" \t\r\v\f\n") == std::string::npos && (name.empty() || name.back() != '\\');
+}
+
+/// The components of attributes, one property each.
+std::vector<Named_column> columns_of(const std::vector<Attribute>& attributes)
+{
+  std::vector<Named_column> columns;
+  for (const Attribute& attribute : attributes)
+    for (std::size_t i = 0; i < attribute.components; ++i)
+      columns.push_back(
+          {attribute.components == 1 ? attribute.name : attribute.name + '_' + std::to_string(i), {&attribute, i}});
+  return columns;
+}
+
+void write_properties(Byte_writer& out, const std::vector<Named_column>& columns)
+{
+  for (const auto& [name, column] : columns) {
+    if (!is_property_name(name))
+      throw Argument_error("the attribute name " + in_quotes(name) +
+                           " cannot stand in a PLY file; rename the attribute");
+    out << "property " << type_names[static_cast<std::size_t>(column.attribute->type)] << ' ' << name << '\n';
   }
 }
+
+void write_properties(Byte_writer& out, bool as_float32, std::initializer_list<std::string_view> names)
+{
+  for (const std::string_view name : names)
+    out << "property " << (as_float32 ? "float " : "double ") << name << '\n';
+}
+
+/// What a PLY file says of a soup, and where.
+struct Ply_layout
+{
+  explicit Ply_layout(const Triangle_soup& soup)
+      : vertex_columns(columns_of(soup.vertex_attributes)), face_columns(columns_of(soup.triangle_attributes)),
+        normals(values_of_vertices(soup.normals, soup))
+  {
+    if (soup.uvs.empty())
+      return;
+    const bool is_name_free = std::none_of(vertex_columns.begin(), vertex_columns.end(),
+                                           [](const auto& c) { return c.name == "s" || c.name == "t"; });
+    has_vertex_uvs = is_name_free && !soup.uvs.missing && soup.uvs.of_triangle == soup.triangles &&
+                     soup.uvs.values.size() == soup.points.size();
+    has_face_uvs = !has_vertex_uvs;
+  }
+
+  std::vector<Named_column> vertex_columns, face_columns;
+  std::vector<std::array<double, 3>> normals; // of vertices
+  bool has_vertex_uvs = false, has_face_uvs = false;
+};
 
 } // namespace
 
@@ -428,32 +718,90 @@ Mesh_file read_ply(std::string_view contents, const std::string& name)
   return Ply_reader(contents, name).read();
 }
 
+std::vector<std::array<double, 3>> values_of_vertices(const Corner_values<3>& values, const Triangle_soup& soup)
+{
+  if (values.empty() || values.missing)
+    return {};
+  if (values.of_triangle == soup.triangles && values.values.size() == soup.points.size())
+    return values.values;
+  constexpr Index none = std::numeric_limits<Index>::max();
+  std::vector<Index> numbers(soup.points.size(), none);
+  std::vector<std::array<double, 3>> result(soup.points.size(), {0, 0, 0});
+  for (std::size_t i = 0; i < soup.triangles.size(); ++i)
+    for (int corner = 0; corner < 3; ++corner) {
+      const Index vertex = soup.triangles[i][corner], number = values.of_triangle[i][corner];
+      const auto& value = values.values[number];
+      if (numbers[vertex] == none)
+        result[vertex] = value;
+      else if (numbers[vertex] != number && std::memcmp(&result[vertex], &value, sizeof value) != 0)
+        return {};
+      numbers[vertex] = number;
+    }
+  return result;
+}
+
 void write_ply(Byte_writer& out, const Triangle_soup& soup, const Write_options& options)
 {
-  const bool as_float32 = std::all_of(soup.points.begin(), soup.points.end(), [](const Point_3& p) {
-    return is_float32(p.x()) && is_float32(p.y()) && is_float32(p.z());
-  });
-  const bool big_endian = options.encoding == Encoding::binary_big_endian;
-  const bool ascii = options.encoding == Encoding::ascii;
+  const Ply_layout layout(soup);
+  const bool as_float32 = are_float32(soup.points, 3), float32_normals = are_float32(layout.normals, 3),
+             float32_uvs = are_float32(soup.uvs.values, 2);
   // Many readers know only signed indices.
   const bool is_small =
       soup.points.size() <= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
   out << "ply\nformat "
-      << (ascii        ? "ascii"
-          : big_endian ? "binary_big_endian"
-                       : "binary_little_endian")
+      << (options.encoding == Encoding::ascii               ? "ascii"
+          : options.encoding == Encoding::binary_big_endian ? "binary_big_endian"
+                                                            : "binary_little_endian")
       << " 1.0\n";
   for (const std::string& comment : options.comments)
     out << "comment " << comment << '\n';
+  for (const std::string& comment : soup.header_comments)
+    out << comment << '\n';
   out << "element vertex " << soup.points.size() << '\n';
-  for (const char axis : {'x', 'y', 'z'})
-    out << "property " << (as_float32 ? "float " : "double ") << axis << '\n';
+  write_properties(out, as_float32, {"x", "y", "z"});
+  if (!layout.normals.empty())
+    write_properties(out, float32_normals, {"nx", "ny", "nz"});
+  if (layout.has_vertex_uvs)
+    write_properties(out, float32_uvs, {"s", "t"});
+  write_properties(out, layout.vertex_columns);
   out << "element face " << soup.triangles.size() << "\nproperty list uchar " << (is_small ? "int" : "uint")
-      << " vertex_indices\nend_header\n";
-  if (ascii)
-    write_ascii(out, soup);
-  else
-    write_binary(out, soup, as_float32, big_endian);
+      << " vertex_indices\n";
+  if (layout.has_face_uvs)
+    out << "property list uchar " << (float32_uvs ? "float" : "double") << " texcoord\n";
+  write_properties(out, layout.face_columns);
+  out << "end_header\n";
+
+  Value_writer values(out, options.encoding);
+  const auto write_columns = [&values](const std::vector<Named_column>& columns, std::size_t row) {
+    for (const auto& [name, column] : columns)
+      column.with(row, [&](auto number) { values.write(number); });
+  };
+  for (std::size_t i = 0; i < soup.points.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis)
+      values.write_real(soup.points[i][axis], as_float32);
+    if (!layout.normals.empty())
+      for (const double coordinate : layout.normals[i])
+        values.write_real(coordinate, float32_normals);
+    if (layout.has_vertex_uvs)
+      for (const double coordinate : soup.uvs.values[i])
+        values.write_real(coordinate, float32_uvs);
+    write_columns(layout.vertex_columns, i);
+    values.end_element();
+  }
+  for (std::size_t i = 0; i < soup.triangles.size(); ++i) {
+    values.write(std::uint8_t{3});
+    for (const Index corner : soup.triangles[i])
+      values.write(corner);
+    if (layout.has_face_uvs) {
+      const bool has_uvs = soup.uvs.of_triangle[i][0] != soup.uvs.missing;
+      values.write(std::uint8_t(has_uvs ? 6 : 0));
+      for (int corner = 0; corner < 3 && has_uvs; ++corner)
+        for (const double coordinate : soup.uvs.values[soup.uvs.of_triangle[i][corner]])
+          values.write_real(coordinate, float32_uvs);
+    }
+    write_columns(layout.face_columns, i);
+    values.end_element();
+  }
   out.commit();
 }
 

@@ -3,6 +3,7 @@
 
 #include <selvedge/mesh/selection.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 
@@ -70,7 +71,13 @@ Corner_values<dimension> selected(const Corner_values<dimension>& from, const st
   if (from.empty())
     return result;
   result.of_triangle = at_corners(from.of_triangle, corners);
-  result.values = rows(from.values, keep_used(result.of_triangle, from.values.size()));
+  const std::vector<Index> kept = keep_used(result.of_triangle, from.values.size());
+  result.values = rows(from.values, kept);
+  if (from.missing) {
+    const auto missing = std::lower_bound(kept.begin(), kept.end(), *from.missing);
+    if (missing != kept.end() && *missing == *from.missing)
+      result.missing = Index(missing - kept.begin());
+  }
   return result;
 }
 
@@ -131,6 +138,8 @@ Triangle_soup selected(const Triangle_soup& soup, const std::vector<Index>& tria
   result.objects = selected(soup.objects, triangles);
   result.materials = selected(soup.materials, triangles);
   result.smoothing_groups = selected(soup.smoothing_groups, triangles);
+  result.material_libraries = soup.material_libraries;
+  result.header_comments = soup.header_comments;
   return result;
 }
 

@@ -51,29 +51,58 @@ TEST(ObjNumbers, AreTheNearestDoubles)
 TEST(ObjTextureCoordinates, FollowTheCorners)
 {
   const Mesh_file file = read_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
-                                  "vt 0.25\nvt 0.5 1\nvt 1 1 0\nvt 0 0.5\n"
+                                  "vt 0.25\nvt 0.5 1\nvt 1 1 0\nvt 0 0.5\nvn 0 0 1\n"
                                   "f 1/4/1 2/3/1 3/2/1 4/1/1\nf 1/-1 2/-2 3/-4\n");
   EXPECT_EQ(file.soup.uvs.values, (std::vector<std::array<double, 2>>{{0.25, 0}, {0.5, 1}, {1, 1}, {0, 0.5}}));
   EXPECT_EQ(file.soup.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}}));
   EXPECT_EQ(file.soup.uvs.of_triangle, (Triangles{{3, 2, 1}, {3, 1, 0}, {3, 2, 0}}));
 }
 
-TEST(ObjTextureCoordinates, AreDroppedWhenOneCornerHasNone)
+TEST(ObjTextureCoordinates, AreMissingWhereAFaceHasNotAll)
 {
-  const Mesh_file file = read_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nf 1/1 2/1 3/1\nf 1/1 2 3/1\n");
-  EXPECT_TRUE(file.soup.uvs.empty());
-  EXPECT_TRUE(file.soup.uvs.of_triangle.empty());
-  EXPECT_EQ(file.soup.triangles.size(), 2u);
+  const Mesh_file file = read_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nf 1 2 3\nf 1/1 2/1 3/1\nf 1/1 2 3/1\n");
+  EXPECT_EQ(file.soup.uvs.of_triangle, (Triangles{{1, 1, 1}, {0, 0, 0}, {1, 1, 1}}));
+  EXPECT_EQ(file.soup.uvs.missing, Index(1));
+  ASSERT_EQ(file.soup.uvs.values.size(), 2u);
+  EXPECT_NE(file.soup.uvs.values[0], file.soup.uvs.values[1]);
   EXPECT_EQ(file.notes.ignored.size(), 1u);
 }
 
-TEST(ObjGroups, AreTheLatestGroupOrObjectAboveTheFace)
+TEST(ObjNormals, FollowTheCorners)
+{
+  const Mesh_file file = read_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 1\nvn 0 0.1 1\nf 1//1 2//-1 3//-2\n");
+  EXPECT_EQ(file.soup.normals.values, (std::vector<std::array<double, 3>>{{0, 0, 1}, {0, 0.1, 1}}));
+  EXPECT_EQ(file.soup.normals.of_triangle, (Triangles{{0, 1, 0}}));
+  EXPECT_FALSE(file.soup.normals.missing);
+}
+
+TEST(ObjLabels, AreNamesAsTheyStandInTheFile)
+{
+  const Triangle_soup soup =
+      read_obj("mtllib my wool.mtl\r\nmtllib a.mtl b.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n"
+               "o  body  left\nusemtl wool (2) #3\ns 1\nf 1 2 3\ns off\ng a \\\n b\nf 1 2 3\ng\nf 1 2 3\n").soup;
+  EXPECT_EQ(soup.material_libraries, (std::vector<std::string>{"my wool.mtl", "a.mtl b.mtl"}));
+  const auto expect = [](const Triangle_labels& labels, const std::vector<std::string>& of_triangle) {
+    std::vector<std::string> found;
+    for (const Index label : labels.of_triangle)
+      found.push_back(labels.names.at(label));
+    EXPECT_EQ(found, of_triangle);
+  };
+  expect(soup.objects, {"", "body  left", "body  left", "body  left"});
+  expect(soup.materials, {"", "wool (2) #3", "wool (2) #3", "wool (2) #3"});
+  expect(soup.smoothing_groups, {"", "1", "off", "off"});
+  expect(soup.groups, {"", "", "a   b", ""});
+}
+
+TEST(ObjGroups, AreTheLatestGroupAboveTheFace)
 {
   const Mesh_file file =
       read_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
                "f 1 2 3\no coat\nf 1 2 3 4\ng  left sleeve \nf 1 2 3\ng\nf 1 3 4\ng left sleeve\nf 1 2 4\n");
-  EXPECT_EQ(file.soup.groups.names, (std::vector<std::string>{"default", "coat", "left sleeve"}));
-  EXPECT_EQ(file.soup.groups.of_triangle, (std::vector<Index>{0, 1, 1, 2, 0, 2}));
+  EXPECT_EQ(file.soup.groups.names, (std::vector<std::string>{"", "left sleeve"}));
+  EXPECT_EQ(file.soup.groups.of_triangle, (std::vector<Index>{0, 0, 0, 1, 0, 1}));
+  EXPECT_EQ(file.soup.objects.names, (std::vector<std::string>{"", "coat"}));
+  EXPECT_EQ(file.soup.objects.of_triangle, (std::vector<Index>{0, 1, 1, 1, 1, 1}));
   EXPECT_TRUE(read_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n").soup.groups.of_triangle.empty());
 }
 

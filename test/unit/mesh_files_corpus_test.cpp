@@ -128,7 +128,7 @@ const std::vector<Entry>& corpus()
       {"ObjCommentEndsInBackslash", obj, "# C:\\meshes\\\n" + corner + "f 1 2 3\n", "", 3, 1},
       {"ObjCommentAfterStatement", obj, corner + "f 1 2 3 # the only one\n", "", 3, 1},
       {"ObjCommentAfterIgnoredStatement", obj, "vn 0 0 1 # C:\\\n" + corner + "f 1 2 3 # C:\\\nf -1 -2 -3\n",
-       "", 3, 2, "not carried, normals: 1"},
+       "", 3, 2, "not carried, normals that no face names: 1"},
       {"ObjCommentWithoutBlank", obj, "v 0 0 0#one\n" + corner, ":1: '0#one' is not a number"},
       {"ObjColumnWithHash", obj, "v 0 0 0 a#b \\\n" + corner + "f -3 -2 -1\n", "", 4, 1,
        "not carried, vertex columns: 1"},
@@ -138,20 +138,33 @@ const std::vector<Entry>& corpus()
       {"ObjByteOrderMark", obj, "\xef\xbb\xbf" + corner + "f 1 2 3\n", "", 3, 1},
 
       // What is not carried
-      {"ObjNormals", obj, corner + "vn 0 0 1\nf 1//1 2//1 3//1\n", "", 3, 1, "not carried, normals: 1"},
-      {"ObjWeights", obj, "v 0 0 0 0.5\nv 4 0 0\nv 0 4 0\nf 1 2 3\n", "", 3, 1,
-       "not carried, vertex weights: 1"},
-      {"ObjColours", obj, "v 0 0 0 1 0 0\nv 4 0 0 1 0 0\nv 0 4 0\nf 1 2 3\n", "", 3, 1,
-       "not carried, vertex colours: 2"},
+      {"ObjNormals", obj, corner + "vn 0 0 1\nf 1//1 2//1 3//1\n", "", 3, 1},
+      {"ObjNormalIndexTooLarge", obj, corner + "vn 0 0 1\nf 1//1 2//2 3//1\n", ":5: a face names normal 2"},
+      {"ObjNormalsAtSomeCorners", obj, corner + "vn 0 0 1\nf 1//1 2//1 3\nf 3//1 2//1 1//1\n", "", 3, 2,
+       "not carried, normals of faces that have them at some corners only: 1"},
+      {"ObjNormalNotFinite", obj, corner + "vn nan nan nan\nf 1//1 2//1 3//1\n", "", 3, 1},
+      {"ObjWeights", obj, "v 0 0 0 0.5\nv 4 0 0\nv 0 4 0\nf 1 2 3\n", "", 3, 1},
+      {"ObjColours", obj, "v 0 0 0 1 0 0\nv 4 0 0 1 0 0\nv 0 4 0\nf 1 2 3\n", "", 3, 1},
+      {"ObjTwoFurtherColumns", obj, "v 0 0 0 1 2\nv 4 0 0\nv 0 4 0\nf 1 2 3\n", "", 3, 1,
+       "not carried, vertex columns: 1"},
+      {"ObjFiveFurtherColumns", obj, "v 0 0 0 1 2 3 4 5\nv 4 0 0\nv 0 4 0\nf 1 2 3\n", "", 3, 1,
+       "not carried, vertex columns: 1"},
+      {"ObjThirdTextureCoordinate", obj, corner + "vt 0 0 0\nvt 1 0 0.5\nf 1/1 2/2 3/2\n", "", 3, 1,
+       "not carried, third texture coordinates: 1"},
       {"ObjLines", obj, corner + "l 1 2 3\nf 1 2 3\n", "", 3, 1, "not carried, line elements: 1"},
       {"ObjPoints", obj, corner + "p 1\np 2\nf 1 2 3\n", "", 3, 1, "not carried, point elements: 2"},
-      {"ObjMaterials", obj, corner + "usemtl wool\nf 1 2 3\n", "", 3, 1, "not carried, materials: 1"},
+      {"ObjMaterials", obj, corner + "usemtl wool\nf 1 2 3\n", "", 3, 1},
+      {"ObjUnusedMaterial", obj, corner + "usemtl wool\nusemtl silk\nf 1 2 3\n", "", 3, 1,
+       "not carried, materials without faces: 1"},
       {"ObjUnknownStatement", obj, corner + "curv 0 1 1 2\nf 1 2 3\n", "", 3, 1,
        "not carried, statements 'curv': 1"},
-      {"ObjPartOfTextureCoordinates", obj, corner + "vt 0 0\nf 1/1 2/1 3/1\nf 1 2 3\n", "", 3, 2,
-       "not carried, texture coordinates, for some corners have none: 1"},
+      {"ObjPartOfTextureCoordinates", obj, corner + "vt 0 0\nf 1/1 2/1 3/1\nf 1 2 3\n", "", 3, 2},
+      {"ObjTextureCoordinatesAtSomeCorners", obj, corner + "vt 0 0\nf 1/1 2/1 3\n", "", 3, 1,
+       "not carried, texture coordinates of faces that have them at some corners only: 1"},
+      {"ObjTextureCoordinatesOfNoFace", obj, corner + "vt 0 0\nf 1 2 3\n", "", 3, 1,
+       "not carried, texture coordinates that no face names: 1"},
       {"ObjEmptyGroup", obj, corner + "g nothing\ng all\nf 1 2 3\n", "", 3, 1,
-       "not carried, groups and objects without faces: 1"},
+       "not carried, groups without faces: 1"},
 
       // Nothing there
       {"ObjEmpty", obj, "", ": the file is empty"},
@@ -212,6 +225,26 @@ const std::vector<Entry>& corpus()
        "a\nproperty int b\n"
        "end_header\n7 0 0 2 8 8 0\n7 0 0 0 4\n7 0 4 1 8 0\n5 3 0 1 2\n0 1\n",
        "", 3, 1, "not carried, elements 'edge': 1"},
+      {"PlyLists", ply,
+       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+       "property list int float history\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+       "0 0 0 2 8 8\n4 0 0 0\n0 4 0 1 8\n3 0 1 2\n",
+       "", 3, 1, "not carried, values of the vertex property 'history': 3"},
+      {"PlyValueNotOfItsType", ply,
+       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+       "property uchar red\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+       "0 0 0 255\n4 0 0 256\n0 4 0 7\n3 0 1 2\n",
+       ":12: the value 256 is not of the type uchar"},
+      {"PlyTextureCoordinateNotFinite", ply,
+       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+       "property float s\nproperty float t\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+       "0 0 0 0 0\n4 0 0 inf 0\n0 4 0 7 0\n3 0 1 2\n",
+       ":13: vertex 1 has a texture coordinate that is not finite"},
+      {"PlyTextureCoordinatesNotTwoToACorner", ply,
+       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+       "element face 1\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\nend_header\n" +
+           ply_points + "3 0 1 2 5 0 0 1 0 1\n",
+       "", 3, 1, "not carried, texture coordinates of faces, not two to a corner: 1"},
       {"PlyIndexTooLarge", ply, ply_header("ascii", "3", "1") + ply_points + "3 0 1 3\n",
        ":13: face 0 names vertex 3"},
       {"PlyIndexNegative", ply, ply_header("ascii", "3", "1") + ply_points + "3 0 1 -1\n",

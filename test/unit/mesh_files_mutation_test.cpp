@@ -8,6 +8,7 @@
 
 #include <selvedge/Error.h>
 #include <selvedge/mesh/mesh_files.h>
+#include <selvedge/mesh/selection.h>
 
 #include <gtest/gtest.h>
 
@@ -51,6 +52,14 @@ std::string valid_file(const Form& form)
   soup.uvs.of_triangle = soup.triangles;
   soup.groups.of_triangle = {0, 0, 1, 1, 0, 0};
   soup.groups.names = {"front", "back"};
+  soup.materials = {{1, 1, 0, 0, 0, 1}, {"wool", "", "silk (2)"}};
+  soup.normals.values = {{0, 0, 1}, {0.6, 0, 0.8}};
+  soup.normals.of_triangle = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  soup.vertex_attributes = {{"red", Attribute::Type::uint8, 1, true, {7, 8, 9, 255, 0, 1, 2, 3}}};
+  soup.vertex_attributes.push_back(
+      {"quality", Attribute::Type::float32, 1, false, std::vector<unsigned char>(32, 0x3e)});
+  soup.triangle_attributes = {{"flags", Attribute::Type::int8, 1, false, std::vector<unsigned char>(6, 7)}};
+  soup.header_comments = {"comment TextureFile wool.png", "obj_info by hand"};
   const char* const extensions[] = {"m.obj", "m.off", "m.ply", "m.stl"};
   const test::Temporary_folder folder;
   const auto path = folder / extensions[static_cast<int>(form.format)];
@@ -60,7 +69,7 @@ std::string valid_file(const Form& form)
   std::ifstream stream(path, std::ios::binary);
   std::string contents(std::istreambuf_iterator<char>(stream), {});
   if (form.format == Mesh_format::obj)
-    contents += "f 1/1 2/2 4/4 3/3\nf 1//1 2 \\\n 3 4 5\nl 1 2\n";
+    contents += "f 1/1 2/2 4/4 3/3\nf 1//1 2 \\\n 3 4 5\nl 1 2\nmtllib a b.mtl\nv 1 2 3 0.5\nv 1 2 3 1 0 0.5 1\n";
   return contents;
 }
 
@@ -105,13 +114,26 @@ void expect_sound(const Triangle_soup& soup)
   for (const Index_triple& triangle : soup.triangles)
     for (const Index vertex : triangle)
       ASSERT_LT(vertex, soup.points.size());
-  ASSERT_TRUE(soup.uvs.of_triangle.empty() || soup.uvs.of_triangle.size() == soup.triangles.size());
-  for (const Index_triple& triangle : soup.uvs.of_triangle)
-    for (const Index uv : triangle)
-      ASSERT_LT(uv, soup.uvs.values.size());
-  ASSERT_TRUE(soup.groups.of_triangle.empty() || soup.groups.of_triangle.size() == soup.triangles.size());
-  for (const Index group : soup.groups.of_triangle)
-    ASSERT_LT(group, soup.groups.names.size());
+  const auto expect_sound_values = [&](const auto& values) {
+    ASSERT_TRUE(values.empty() || values.of_triangle.size() == soup.triangles.size());
+    for (const Index_triple& triangle : values.of_triangle)
+      for (const Index number : triangle)
+        ASSERT_LT(number, values.values.size());
+    ASSERT_TRUE(!values.missing || *values.missing < values.values.size());
+  };
+  expect_sound_values(soup.uvs);
+  expect_sound_values(soup.normals);
+  for (const auto& uv : soup.uvs.values)
+    ASSERT_TRUE(std::isfinite(uv[0]) && std::isfinite(uv[1]));
+  for (const Triangle_labels* labels : {&soup.groups, &soup.objects, &soup.materials, &soup.smoothing_groups}) {
+    ASSERT_TRUE(labels->empty() || labels->of_triangle.size() == soup.triangles.size());
+    for (const Index label : labels->of_triangle)
+      ASSERT_LT(label, labels->names.size());
+  }
+  for (const Attribute& attribute : soup.vertex_attributes)
+    ASSERT_EQ(attribute.rows.size(), soup.points.size() * row_size(attribute));
+  for (const Attribute& attribute : soup.triangle_attributes)
+    ASSERT_EQ(attribute.rows.size(), soup.triangles.size() * row_size(attribute));
 }
 
 class Mesh_files_mutation : public testing::TestWithParam<Form>
@@ -123,6 +145,7 @@ TEST_P(Mesh_files_mutation, IsReadOrRefused)
   const std::string valid = valid_file(GetParam());
   expect_sound(read_mesh(valid, GetParam().format, "valid").soup);
   std::mt19937 random(seed);
+  const test::Temporary_folder folder;
   int read = 0, refused = 0;
   for (int round = 0; round < rounds; ++round) {
     SCOPED_TRACE("seed " + std::to_string(seed) + ", round " + std::to_string(round));
@@ -131,9 +154,13 @@ TEST_P(Mesh_files_mutation, IsReadOrRefused)
     mutate(mutated, random);
     const std::vector<char> bytes(mutated.begin(), mutated.end());
     try {
-      expect_sound(
-          read_mesh(std::string_view(bytes.data(), bytes.size()), GetParam().format, "mutated").soup);
+      const Triangle_soup soup =
+          read_mesh(std::string_view(bytes.data(), bytes.size()), GetParam().format, "mutated").soup;
+      expect_sound(soup);
       ++read;
+      // What was read can be written; that takes the time of a disk.
+      if (round % 16 == 0 && (GetParam().format == Mesh_format::obj || GetParam().format == Mesh_format::ply))
+        write_mesh(folder / (GetParam().format == Mesh_format::obj ? "m.obj" : "m.ply"), soup);
     } catch (const Input_error& error) {
       ++refused;
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);

@@ -44,7 +44,7 @@ TEST(SharedMeshes, HaveTheirCountsAndGoThroughEveryFormat)
     const Triangle_soup soup = read_mesh(path).soup;
     EXPECT_EQ(soup.triangles.size(), counts.faces);
     EXPECT_EQ(soup.points.size(), counts.vertices);
-    EXPECT_EQ(soup.uvs.of_triangle.size(), counts.uvs.values ? counts.faces : 0u);
+    EXPECT_EQ(soup.uvs.of_triangle.size(), counts.uvs ? counts.faces : 0u);
     const test::Temporary_folder folder;
     for (const char* copy : {"m.obj", "m.off", "m.ply"}) {
       write_mesh(folder / copy, soup);

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,8 @@ using Point_3 = Kernel::Point_3;
 using Index = std::uint32_t;
 using Index_triple = std::array<Index, 3>;
 
-/// A name for every triangle: its group, its material. Both are empty when the file says none.
+/// A name for every triangle: its group, its material. Both are empty when the file says none; the empty name is that of
+/// triangles for which alone it says none.
 struct Triangle_labels
 {
   std::vector<Index> of_triangle; ///< indices into `names`
@@ -38,6 +40,10 @@ struct Corner_values
 {
   std::vector<std::array<double, dimension>> values;
   std::vector<Index_triple> of_triangle; ///< for every triangle three indices into `values`
+
+  /// The value that stands for none, in a file that has some but not at every triangle: at all corners of a triangle or at
+  /// none. It is finite, and like no other value.
+  std::optional<Index> missing = std::nullopt;
 
   bool empty() const { return of_triangle.empty(); }
 };
@@ -80,9 +86,17 @@ struct Triangle_soup
   Triangle_labels materials;
   Triangle_labels smoothing_groups;
 
-  /// Whatever else the file keeps for its vertices and its triangles.
+  /// Whatever else the file keeps for its vertices and its triangles. A colour is the columns `red`, `green`, `blue` and,
+  /// where there is one, `alpha`, of one component each; floats are fractions, integers are marked as normalized. A number
+  /// that a file has for some vertices only is NaN at the others.
   std::vector<Attribute> vertex_attributes;
   std::vector<Attribute> triangle_attributes;
+
+  /// Where an OBJ file finds its materials, in its own words: a name relative to its folder, or several.
+  std::vector<std::string> material_libraries;
+
+  /// What the header of a PLY file says in `comment` and `obj_info`, each with its keyword.
+  std::vector<std::string> header_comments;
 };
 
 } // namespace selvedge

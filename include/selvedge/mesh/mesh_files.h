@@ -76,11 +76,16 @@ struct Mesh_file
 
 /// Reads a mesh; its extension says the format.
 ///
-/// - OBJ: `v`, `vt`, `f` with absolute and relative indices, `g` and `o`. The group of a triangle is the
-///   latest `g` or `o` above it, `default` above the first. Texture coordinates are carried when every
-///   corner of every triangle has one. A backslash at the end of a line, outside comments, counts as a blank.
+/// - OBJ: `v` with a weight (attribute `w`) or a colour (`red`, `green`, `blue`, `alpha`), `vt` of one or two
+///   numbers (the second is 0 when there is none; a third that is not 0 is noted), `vn`, `f` with absolute and
+///   relative indices, `o`, `g`, `usemtl`, `s`, `mtllib`. A label of a triangle is the whole text of the latest
+///   such statement above it without blanks at its ends (a `g` of several names is one label), and empty above
+///   the first. A backslash at the end of a line, outside comments, counts as a blank.
 /// - OFF: one vertex or face to a line; further columns are ignored.
-/// - PLY: ascii and both binary kinds; elements in any order, further elements and properties are skipped.
+/// - PLY: ascii and both binary kinds; elements in any order. Of vertices, `nx ny nz` are normals, `s t`, `u v` or
+///   `texture_u texture_v` texture coordinates; of faces, a list `texcoord` of two numbers per corner is,
+///   in place of those. All other numbers are attributes of the type that the header says; a number in text that is
+///   not of it is refused. Other lists and other elements are noted. Triangles of a polygon have its attributes.
 /// - STL: ascii and binary. Corners of identical coordinates (−0 equals 0) are one vertex, which has the
 ///   coordinates of the first of them; vertices are numbered by their first corner.
 ///
@@ -110,17 +115,27 @@ struct Write_options
 /// untouched, and `Output_error` is thrown. A symbolic link is followed (one that leads nowhere is
 /// replaced); what is neither a file nor a link to one (a device, a pipe) is written to directly.
 ///
-/// OBJ and OFF hold the shortest decimals that read back as the same doubles. PLY properties are `float` when
-/// every coordinate is one, else `double`.
+/// OBJ and OFF hold the shortest decimals that read back as the same doubles. PLY positions, normals and texture
+/// coordinates are `float` when every one of them is, else `double`.
+///
+/// - OBJ: statements stand before the first face to which they apply, where several do in the order `o`, `g`,
+///   `usemtl`, `s`; behind an `o` the others are repeated, which some readers forget there. Colours of a PLY
+///   file's integers become fractions. `mtllib` stays as it is, also when the file goes to another folder:
+///   `missing_material_libraries` says what then has to be copied there.
+/// - PLY: texture coordinates stand at the vertices (`s t`) when they have the numbers of the vertices, else at the
+///   faces (`texcoord`). Attributes of several components become as many properties, `name_0`, `name_1`, ...
 ///
 /// Preconditions, checked (`Argument_error`): coordinates are finite, and 32-bit floats when the format
-/// stores those; names of groups in an OBJ are not empty, begin and end with no blank, do not end in a
-/// backslash, and hold no control characters.
+/// stores those; labels in an OBJ begin and end with no blank, do not end in a backslash, and are one line;
+/// names of attributes in a PLY hold no blanks and do not end in a backslash.
 void write_mesh(const std::filesystem::path& path, const Triangle_soup& soup,
                 const Write_options& options = {});
 
 /// What of this soup a file of that format does not hold, as names; empty when it holds all.
 std::vector<std::string> not_carried(const Triangle_soup& soup, Mesh_format format);
+
+/// The files that an OBJ at `path` names as its material libraries and that are not there.
+std::vector<std::string> missing_material_libraries(const std::filesystem::path& path, const Triangle_soup& soup);
 
 /// Writes any file as `write_mesh` does: whole or not at all. Throws `Output_error`.
 void write_file(const std::filesystem::path& path, std::string_view contents);

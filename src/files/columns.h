@@ -1,0 +1,103 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SRC_FILES_COLUMNS_H
+#define SELVEDGE_SRC_FILES_COLUMNS_H
+
+#include <selvedge/mesh/Triangle_soup.h>
+
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace selvedge::files {
+
+/// Calls `function(number)` with a zero of the C++ type that an attribute's numbers have.
+template <class Function>
+decltype(auto) with_number(Attribute::Type type, const Function& function)
+{
+  switch (type) {
+  case Attribute::Type::int8:
+    return function(std::int8_t{});
+  case Attribute::Type::uint8:
+    return function(std::uint8_t{});
+  case Attribute::Type::int16:
+    return function(std::int16_t{});
+  case Attribute::Type::uint16:
+    return function(std::uint16_t{});
+  case Attribute::Type::int32:
+    return function(std::int32_t{});
+  case Attribute::Type::uint32:
+    return function(std::uint32_t{});
+  case Attribute::Type::float32:
+    return function(float{});
+  default:
+    return function(double{});
+  }
+}
+
+template <class Number>
+void append_number(std::vector<unsigned char>& rows, Number number)
+{
+  const std::size_t size = rows.size();
+  rows.resize(size + sizeof number);
+  std::memcpy(rows.data() + size, &number, sizeof number);
+}
+
+/// One component of an attribute.
+struct Column
+{
+  const Attribute* attribute = nullptr;
+  std::size_t component = 0;
+
+  /// Calls `function(number)` with the number in a row, in the type that it has.
+  template <class Function>
+  decltype(auto) with(std::size_t row, const Function& function) const
+  {
+    return with_number(attribute->type, [&](auto number) -> decltype(auto) {
+      std::memcpy(&number, attribute->rows.data() + (row * attribute->components + component) * sizeof number,
+                  sizeof number);
+      return function(number);
+    });
+  }
+
+  /// The number in a row as a double; a fraction where the attribute is normalized.
+  double real(std::size_t row) const
+  {
+    return with(row, [this](auto number) {
+      using Number = decltype(number);
+      const double value = static_cast<double>(number);
+      return attribute->is_normalized && std::is_integral_v<Number>
+                 ? value / static_cast<double>(std::numeric_limits<Number>::max())
+                 : value;
+    });
+  }
+};
+
+/// The column of one component that has this name.
+inline std::optional<Column> find_column(const std::vector<Attribute>& attributes, std::string_view name)
+{
+  for (const Attribute& attribute : attributes)
+    if (attribute.name == name && attribute.components == 1)
+      return Column{&attribute, 0};
+  return std::nullopt;
+}
+
+/// Red, green, blue and, where there is one, alpha; empty when the vertices have no colours.
+inline std::vector<Column> find_colours(const std::vector<Attribute>& attributes)
+{
+  std::vector<Column> columns;
+  for (const char* name : {"red", "green", "blue", "alpha"})
+    if (const std::optional<Column> column = find_column(attributes, name))
+      columns.push_back(*column);
+    else if (columns.size() < 3)
+      return {};
+  return columns;
+}
+
+} // namespace selvedge::files
+
+#endif // SELVEDGE_SRC_FILES_COLUMNS_H
