@@ -115,6 +115,10 @@ Prepared_soup prepare(Triangle_soup input, const Prepare_options& options)
   }
   prepared.frozen_faces = std::count(prepared.is_frozen.begin(), prepared.is_frozen.end(), true);
   prepared.seconds_check += seconds_since(start);
+
+  start = Clock::now();
+  prepared.snapping = snap_borders(soup, prepared.positions, prepared.is_frozen, options.weld_distance);
+  prepared.seconds_snap = seconds_since(start);
   return prepared;
 }
 

@@ -9,6 +9,7 @@
 #include <selvedge/mesh/Triangle_soup.h>
 #include <selvedge/mesh/Welding_notes.h>
 #include <selvedge/mesh/rounding.h>
+#include <selvedge/mesh/snapping.h>
 #include <selvedge/verify.h>
 
 #include <cstddef>
@@ -24,12 +25,16 @@ struct Prepare_options
 
   /// Refuse an input that is not embedded (`Input_error`), instead of freezing what offends.
   bool is_strict = false;
+
+  /// Close seams whose two sides lie within this distance, in the unit of the coordinates: finite, at least 0. Vertices
+  /// then have the coordinates of their partners, bit for bit; see snapping.h.
+  double weld_distance = 0;
 };
 
 /// A soup that has been rounded and judged: what `simplify_soup` reduces, and what its result is to be judged against.
 struct Prepared_soup
 {
-  /// The input, rounded where that was asked for, without the triangles that have two corners at one position.
+  /// The input, rounded and snapped where that was asked for, without the triangles that have two corners at one position.
   Triangle_soup soup;
 
   /// For every vertex the first vertex at its position. What only rounding has made equal counts as different.
@@ -51,11 +56,13 @@ struct Prepared_soup
   std::size_t left_out_by_rounding = 0;
 
   Rounding_notes rounding;
+  Snapping_notes snapping;
   double seconds_weld = 0;  ///< rounding, and finding what coincides
   double seconds_check = 0; ///< judging
+  double seconds_snap = 0;  ///< closing seams
 };
 
-/// Rounds, finds what coincides, judges, and freezes, in this order.
+/// Rounds, finds what coincides, judges, freezes, and snaps, in this order.
 ///
 /// Throws `Input_error` when the input has no triangle, when a coordinate overflows in rounding, and, if strict, when it
 /// is not embedded: the message says how many pairs offend and names the first, by triangle numbers of the input.

@@ -1,0 +1,462 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <selvedge/mesh/snapping.h>
+
+#include <selvedge/Error.h>
+#include <selvedge/geometry/Vertex_motion.h>
+#include <selvedge/geometry/star.h>
+#include <selvedge/geometry/sweep.h>
+#include <selvedge/mesh/Working_mesh.h>
+#include <selvedge/mesh/selection.h>
+#include <selvedge/spatial/Brute_force_index.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+namespace selvedge {
+namespace {
+
+constexpr Index s_none = std::numeric_limits<Index>::max();
+
+/// Why two partners stay apart.
+enum class Obstacle { rival, frozen, unmanifold, folding, blocked };
+
+/// One run of `snap_borders`. A *site* is a position on a border; sites are numbered as their positions are.
+template <class FaceIndex>
+class Border_snapping
+{
+public:
+  Border_snapping(const Triangle_soup& soup, const std::vector<Index>& positions,
+                  const std::vector<char>& is_frozen, double distance)
+      : m_points(soup.points), m_distance(distance), m_moved_to(soup.points.size(), s_none)
+  {
+    m_triangles.reserve(soup.triangles.size());
+    for (const Index_triple& v : soup.triangles)
+      m_triangles.push_back({positions[v[0]], positions[v[1]], positions[v[2]]});
+    find_borders();
+    gather_faces(is_frozen);
+  }
+
+  Snapping_notes run()
+  {
+    m_notes.border_vertices = m_sites.size();
+    if (m_sites.empty())
+      return m_notes;
+    std::vector<Index> faces(m_triangles.size());
+    for (Index face = 0; face < faces.size(); ++face)
+      faces[face] = face;
+    m_index.build(faces, [this](Index face) { return face_box(face); });
+
+    for (bool is_changed = true; is_changed;) {
+      is_changed = false;
+      for (const Pair& pair : mutual_partners())
+        is_changed |= join(pair);
+      drop_sewn_sides();
+    }
+    count();
+    return std::move(m_notes);
+  }
+
+  /// Where the vertices of a position are now.
+  Index place_of(Index position) const
+  {
+    while (m_moved_to[position] != s_none)
+      position = m_moved_to[position];
+    return position;
+  }
+
+private:
+  struct Site
+  {
+    Index position;
+    std::vector<Index> faces;
+    std::vector<Index> next; // sites, along the border with the surface on the left
+    std::vector<Index> previous;
+    bool is_frozen = false;
+    bool is_near = false; // to another border
+    bool is_partnered = false;
+    bool is_joined = false;
+    Obstacle obstacle = Obstacle::frozen; // until there is a partner that could be joined
+  };
+
+  struct Pair
+  {
+    double distance;
+    Index low, high;
+
+    bool operator<(const Pair& other) const
+    {
+      return std::tie(distance, low, high) < std::tie(other.distance, other.low, other.high);
+    }
+  };
+
+  using Side = std::array<Index, 2>; // from position to position, as the triangle runs
+
+  static std::pair<Index, Index> ends(const Side& side) { return std::minmax(side[0], side[1]); }
+
+  // Leaves the sides that are alone in their place. Together with `is_manifold` the second call finds the
+  // same borders among those of before as among all sides.
+  static void drop_shared(std::vector<Side>& sides)
+  {
+    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+      return std::make_pair(ends(a), a) < std::make_pair(ends(b), b);
+    });
+    auto kept = sides.begin();
+    for (auto first = sides.begin(), beyond = first; first != sides.end(); first = beyond) {
+      while (beyond != sides.end() && ends(*beyond) == ends(*first))
+        ++beyond;
+      if (beyond - first == 1)
+        *kept++ = *first;
+    }
+    sides.erase(kept, sides.end());
+  }
+
+  void find_borders()
+  {
+    m_sides.reserve(3 * m_triangles.size());
+    for (const Index_triple& triangle : m_triangles)
+      for (std::size_t k = 0; k < 3; ++k)
+        m_sides.push_back({triangle[k], triangle[(k + 1) % 3]});
+    drop_shared(m_sides);
+    m_sides.shrink_to_fit();
+
+    m_site_at.assign(m_points.size(), s_none);
+    for (const Side& side : m_sides)
+      m_site_at[side[0]] = m_site_at[side[1]] = 0;
+    for (Index position = 0; position < m_site_at.size(); ++position)
+      if (m_site_at[position] != s_none) {
+        m_site_at[position] = Index(m_sites.size());
+        m_sites.emplace_back().position = position;
+      }
+  }
+
+  void gather_faces(const std::vector<char>& is_frozen)
+  {
+    for (Index face = 0; face < m_triangles.size(); ++face)
+      for (const Index position : m_triangles[face])
+        if (m_site_at[position] != s_none) {
+          Site& site = m_sites[m_site_at[position]];
+          site.faces.push_back(face);
+          site.is_frozen |= is_frozen[face] != 0;
+        }
+  }
+
+  void drop_sewn_sides()
+  {
+    const std::size_t before = m_sides.size();
+    for (Side& side : m_sides)
+      side = {place_of(side[0]), place_of(side[1])};
+    drop_shared(m_sides);
+    m_notes.seam_edges += (before - m_sides.size()) / 2;
+  }
+
+  const Point_3& point(const Site& site) const { return m_points[site.position]; }
+
+  double distance(const Site& a, const Site& b) const
+  {
+    const Point_3 &p = point(a), &q = point(b);
+    return std::hypot(p.x() - q.x(), p.y() - q.y(), p.z() - q.z());
+  }
+
+  // The pairs that name each other, in the order in which they are joined.
+  std::vector<Pair> mutual_partners()
+  {
+    for (Site& site : m_sites) {
+      site.next.clear();
+      site.previous.clear();
+    }
+    for (const Side& side : m_sides) {
+      m_sites[m_site_at[side[0]]].next.push_back(m_site_at[side[1]]);
+      m_sites[m_site_at[side[1]]].previous.push_back(m_site_at[side[0]]);
+    }
+    std::vector<Index> on_border;
+    for (Index i = 0; i < m_sites.size(); ++i)
+      if (!m_sites[i].next.empty())
+        on_border.push_back(i);
+    FaceIndex index;
+    index.build(on_border, [this](Index i) { return point(m_sites[i]).bbox(); });
+
+    std::vector<Pair> nearest(m_sites.size(), {0, s_none, s_none});
+    for (const Index i : on_border) {
+      Site& site = m_sites[i];
+      // Twice as far, so that rounding the box loses none.
+      const Point_3& p = point(site);
+      const double reach = 2 * m_distance;
+      const CGAL::Bbox_3 box(p.x() - reach, p.y() - reach, p.z() - reach, p.x() + reach, p.y() + reach,
+                             p.z() + reach);
+      index.visit_overlapping(box, [&](Index j) {
+        if (i == j || distance(site, m_sites[j]) > m_distance || have_common_face(site, m_sites[j]))
+          return;
+        site.is_near = true;
+        if (!are_partners(i, j))
+          return;
+        site.is_partnered = true;
+        if (site.is_frozen || m_sites[j].is_frozen)
+          return;
+        const Pair pair{distance(site, m_sites[j]), (std::min)(i, j), (std::max)(i, j)};
+        if (nearest[i].low == s_none || pair < nearest[i])
+          nearest[i] = pair;
+      });
+      if (nearest[i].low != s_none && site.obstacle == Obstacle::frozen)
+        site.obstacle = Obstacle::rival;
+    }
+    std::vector<Pair> pairs;
+    for (const Index i : on_border)
+      if (const Pair& pair = nearest[i];
+          pair.low == i && nearest[pair.high].low == i && nearest[pair.high].high == pair.high)
+        pairs.push_back(pair);
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+  }
+
+  bool have_common_face(const Site& a, const Site& b) const
+  {
+    return std::any_of(a.faces.begin(), a.faces.end(), [&](Index face) {
+      const Index_triple& triangle = m_triangles[face];
+      return std::find(triangle.begin(), triangle.end(), b.position) != triangle.end();
+    });
+  }
+
+  bool are_partners(Index i, Index j) const
+  {
+    return (is_edge_sewable(m_sites[i], m_sites[j]) || is_edge_sewable(m_sites[j], m_sites[i])) &&
+           !is_shortly_followed(i, j) && !is_shortly_followed(j, i);
+  }
+
+  // Whether the border edge that starts at a can be sewn to one that ends at b.
+  bool is_edge_sewable(const Site& a, const Site& b) const
+  {
+    for (const Index p : a.next)
+      for (const Index q : b.previous)
+        if (p == q || distance(m_sites[p], m_sites[q]) <= m_distance)
+          return true;
+    return false;
+  }
+
+  // Whether the border, as far as it does not branch, leads from i to j within twice the distance.
+  bool is_shortly_followed(Index i, Index j) const
+  {
+    double length = 0;
+    for (Index at = i; m_sites[at].next.size() == 1;) {
+      const Index next = m_sites[at].next.front();
+      length += distance(m_sites[at], m_sites[next]);
+      if (length > 2 * m_distance || next == i)
+        return false;
+      if (next == j)
+        return true;
+      at = next;
+    }
+    return false;
+  }
+
+  bool join(const Pair& pair)
+  {
+    Site *stays = &m_sites[pair.low], *goes = &m_sites[pair.high];
+    if (stays->faces.size() < goes->faces.size())
+      std::swap(stays, goes);
+    std::optional<Obstacle> obstacle = judge(*goes, *stays);
+    if (obstacle) {
+      std::swap(stays, goes);
+      obstacle = judge(*goes, *stays);
+    }
+    if (!obstacle)
+      move(*goes, *stays, pair.distance);
+    else
+      stays->obstacle = goes->obstacle = *obstacle;
+    return !obstacle;
+  }
+
+  std::optional<Obstacle> judge(const Site& goes, const Site& stays)
+  {
+    if (!is_manifold(goes, stays))
+      return Obstacle::unmanifold;
+    m_star = {point(goes), point(stays), {}, {}};
+    for (const Index face : goes.faces) {
+      const auto [a, b] = link_edge(face, goes.position);
+      m_star.moving.push_back({m_points[a], m_points[b]});
+    }
+    if (!is_star_motion_clear<Kernel>(m_star))
+      return Obstacle::folding;
+    if (!are_sweeps_clear(goes))
+      return Obstacle::blocked;
+    return std::nullopt;
+  }
+
+  // Whether only border edges that run opposite ways would become one.
+  bool is_manifold(const Site& goes, const Site& stays) const
+  {
+    struct Uses
+    {
+      std::array<int, 2> out{0, 0}, in{0, 0}; // of the edge to a neighbour, by the faces at both sites
+    };
+    std::map<Index, Uses> neighbours;
+    for (const int which : {0, 1}) {
+      const Site& site = which == 0 ? goes : stays;
+      for (const Index face : site.faces) {
+        const auto [a, b] = link_edge(face, site.position);
+        ++neighbours[a].out[which];
+        ++neighbours[b].in[which];
+      }
+    }
+    return std::all_of(neighbours.begin(), neighbours.end(), [](const auto& entry) {
+      const auto& [out, in] = entry.second;
+      const bool is_common = out[0] + in[0] > 0 && out[1] + in[1] > 0;
+      return !is_common || (out[0] + in[0] == 1 && out[1] + in[1] == 1 && out[0] == in[1]);
+    });
+  }
+
+  bool are_sweeps_clear(const Site& goes)
+  {
+    const CGAL::Bbox_3 path = m_star.from.bbox() + m_star.to.bbox();
+    CGAL::Bbox_3 box = path;
+    for (const auto& [a, b] : m_star.moving)
+      box += a.bbox() + b.bbox();
+    m_stationary.clear();
+    m_index.visit_overlapping(box, [&](Index face) {
+      const Index_triple& triangle = m_triangles[face];
+      if (std::find(triangle.begin(), triangle.end(), goes.position) == triangle.end())
+        m_stationary.push_back(face);
+    });
+    for (const auto& [a, b] : m_star.moving) {
+      const CGAL::Bbox_3 sweep_box = path + a.bbox() + b.bbox();
+      const Sweep_test<Kernel> sweep(m_star.from, m_star.to, a, b);
+      for (const Index face : m_stationary) {
+        const auto& [p, q, r] = m_triangles[face];
+        if (CGAL::do_overlap(sweep_box, face_box(face)) &&
+            !sweep.is_clear(m_points[p], m_points[q], m_points[r]))
+          return false;
+      }
+    }
+    return true;
+  }
+
+  void move(Site& goes, Site& stays, double distance)
+  {
+    for (const Index face : goes.faces) {
+      Index_triple& triangle = m_triangles[face];
+      std::replace(triangle.begin(), triangle.end(), goes.position, stays.position);
+      m_index.set(face, face_box(face));
+    }
+    stays.faces.insert(stays.faces.end(), goes.faces.begin(), goes.faces.end());
+    goes.faces.clear();
+    m_moved_to[goes.position] = stays.position;
+    goes.is_joined = stays.is_joined = true;
+    m_notes.snaps.push_back({goes.position, stays.position});
+    m_notes.largest_distance = (std::max)(m_notes.largest_distance, distance);
+  }
+
+  void count()
+  {
+    for (const Site& site : m_sites) {
+      m_notes.partnered += site.is_partnered;
+      m_notes.near_without_edge += site.is_near && !site.is_partnered;
+      if (!site.is_partnered)
+        continue;
+      ++(site.is_joined                          ? m_notes.sewn
+         : site.obstacle == Obstacle::rival      ? m_notes.left_ambiguous
+         : site.obstacle == Obstacle::frozen     ? m_notes.left_frozen
+         : site.obstacle == Obstacle::unmanifold ? m_notes.left_unmanifold
+         : site.obstacle == Obstacle::folding    ? m_notes.left_folding
+                                                 : m_notes.left_blocked);
+    }
+  }
+
+  // The two other positions of a face, in its order.
+  std::array<Index, 2> link_edge(Index face, Index position) const
+  {
+    const Index_triple& triangle = m_triangles[face];
+    const std::size_t k = std::find(triangle.begin(), triangle.end(), position) - triangle.begin();
+    return {triangle[(k + 1) % 3], triangle[(k + 2) % 3]};
+  }
+
+  CGAL::Bbox_3 face_box(Index face) const
+  {
+    const auto& [a, b, c] = m_triangles[face];
+    return m_points[a].bbox() + m_points[b].bbox() + m_points[c].bbox();
+  }
+
+  const std::vector<Point_3>& m_points;
+  const double m_distance;
+  std::vector<Index_triple> m_triangles; // of positions
+  std::vector<Side> m_sides;             // of borders
+  std::vector<Site> m_sites;
+  std::vector<Index> m_site_at;  // by position
+  std::vector<Index> m_moved_to; // by position
+  FaceIndex m_index;
+  Snapping_notes m_notes;
+
+  Vertex_motion<Point_3> m_star;
+  std::vector<Index> m_stationary;
+};
+
+} // namespace
+
+template <class FaceIndex>
+Snapping_notes snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
+                            const std::vector<char>& is_frozen, double distance)
+{
+  if (!(std::isfinite(distance) && distance >= 0))
+    throw Argument_error("the weld distance must be a finite number, 0 or larger");
+  if (distance == 0)
+    return {};
+  Border_snapping<FaceIndex> snapping(soup, positions, is_frozen, distance);
+  Snapping_notes notes = snapping.run();
+
+  const std::vector<Point_3> points = soup.points;
+  std::vector<Index> first_at(points.size(), s_none);
+  for (Index v = 0; v < points.size(); ++v) {
+    const Index place = snapping.place_of(positions[v]);
+    if (place != positions[v])
+      soup.points[v] = points[place];
+    if (first_at[place] == s_none)
+      first_at[place] = v;
+    positions[v] = first_at[place];
+  }
+  return notes;
+}
+
+template Snapping_notes snap_borders<Clustered_AABB_tree>(Triangle_soup&, std::vector<Index>&,
+                                                          const std::vector<char>&, double);
+template Snapping_notes snap_borders<Brute_force_index>(Triangle_soup&, std::vector<Index>&,
+                                                        const std::vector<char>&, double);
+
+Triangle_soup joined_at_positions(const Triangle_soup& soup)
+{
+  const std::vector<Index> positions = number_positions(soup.points);
+  const auto have_same_attributes = [&](Index v, Index w) {
+    return std::all_of(soup.vertex_attributes.begin(), soup.vertex_attributes.end(),
+                       [&](const Attribute& attribute) {
+                         const std::size_t size = row_size(attribute);
+                         return std::memcmp(&attribute.rows[v * size], &attribute.rows[w * size], size) == 0;
+                       });
+  };
+  // Per position the first vertex of each set of attributes: few.
+  std::vector<std::vector<Index>> firsts(soup.points.size());
+  std::vector<Index> joined(soup.points.size());
+  for (Index v = 0; v < joined.size(); ++v) {
+    std::vector<Index>& known = firsts[positions[v]];
+    const auto it =
+        std::find_if(known.begin(), known.end(), [&](Index w) { return have_same_attributes(v, w); });
+    joined[v] = it == known.end() ? known.emplace_back(v) : *it;
+  }
+  Triangle_soup renumbered = soup;
+  std::vector<Index> triangles(soup.triangles.size());
+  std::vector<Index_triple> corners(soup.triangles.size());
+  for (Index t = 0; t < triangles.size(); ++t) {
+    for (Index& v : renumbered.triangles[t])
+      v = joined[v];
+    triangles[t] = t;
+    corners[t] = {3 * t, 3 * t + 1, 3 * t + 2};
+  }
+  return selected(renumbered, triangles, corners);
+}
+
+} // namespace selvedge

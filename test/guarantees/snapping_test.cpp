@@ -1,0 +1,332 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// What snapping.h promises, on garments whose pieces are pulled apart by a hair, and on real ones.
+
+#include "support/meshes.h"
+#include "support/reduction.h"
+#include "support/soups.h"
+
+#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/mesh/snapping.h>
+#include <selvedge/spatial/Brute_force_index.h>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <random>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace selvedge::test {
+namespace {
+
+using Coordinates = std::tuple<double, double, double>;
+
+Coordinates coordinates(const Point_3& p)
+{
+  return {p.x(), p.y(), p.z()};
+}
+
+constexpr double s_hair = 4e-5; // a garment's cloth is 5e-4 thick
+constexpr unsigned s_seed = 20261;
+
+/// Every vertex on a border of its piece goes into its piece by up to half a hair; the mesh stays embedded.
+Triangle_soup pulled_apart(const Triangle_soup& soup, unsigned seed, double hair = s_hair)
+{
+  std::map<std::pair<Index, Index>, int> uses;
+  for (const Index_triple& t : soup.triangles)
+    for (int k = 0; k < 3; ++k)
+      ++uses[std::minmax(t[k], t[(k + 1) % 3])];
+  std::set<Index> on_border;
+  for (const auto& [edge, count] : uses)
+    if (count == 1)
+      on_border.insert({edge.first, edge.second});
+  std::map<Index, std::vector<Index>> neighbours; // of border vertices, once per face
+  for (const Index_triple& t : soup.triangles)
+    for (int k = 0; k < 3; ++k)
+      if (on_border.count(t[k]))
+        neighbours[t[k]].insert(neighbours[t[k]].end(), {t[(k + 1) % 3], t[(k + 2) % 3]});
+
+  Triangle_soup result = soup;
+  std::mt19937 random(seed);
+  for (const auto& [v, around] : neighbours) {
+    Kernel::Vector_3 inwards(0, 0, 0);
+    for (const Index w : around)
+      inwards = inwards + (soup.points[w] - soup.points[v]) / double(around.size());
+    const double length = std::sqrt(inwards.squared_length());
+    const double share = 0.1 + 0.35 * (random() / 4294967296.0); // portable, unlike <random>'s distributions
+    result.points[v] = soup.points[v] + inwards * (share * hair / length);
+  }
+  return result;
+}
+
+Prepared_soup snapped(const Triangle_soup& soup, double distance)
+{
+  Prepare_options options;
+  options.weld_distance = distance;
+  return prepare(soup, options);
+}
+
+/// Which pieces have a vertex at a position, by their numbers in the original.
+using Pieces_at = std::map<Coordinates, std::set<Index>>;
+
+std::vector<Index> piece_of_vertex(const Triangle_soup& soup)
+{
+  std::vector<Index> piece(soup.points.size());
+  for (Index v = 0; v < piece.size(); ++v)
+    piece[v] = v;
+  const auto root = [&](Index v) {
+    while (piece[v] != v)
+      v = piece[v] = piece[piece[v]];
+    return v;
+  };
+  for (const auto& [a, b, c] : soup.triangles) {
+    piece[root(b)] = root(a);
+    piece[root(c)] = root(a);
+  }
+  for (Index v = 0; v < piece.size(); ++v)
+    piece[v] = root(v);
+  return piece;
+}
+
+Pieces_at pieces_at(const Triangle_soup& soup, const std::vector<Index>& piece_of_triangle)
+{
+  Pieces_at result;
+  for (Index t = 0; t < soup.triangles.size(); ++t)
+    for (const Index v : soup.triangles[t])
+      result[coordinates(soup.points[v])].insert(piece_of_triangle[t]);
+  return result;
+}
+
+/// At how many positions of the result pieces meet; expects that at each the same pieces meet as before, so
+/// that every border vertex of one side has its partner on the other, at distance zero.
+std::size_t expect_partners_kept(const Prepared_soup& prepared, const Simplified_soup& result)
+{
+  const std::vector<Index> piece_of = piece_of_vertex(prepared.soup);
+  std::vector<Index> before, after;
+  for (const Index_triple& t : prepared.soup.triangles)
+    before.push_back(piece_of[t[0]]);
+  for (const Index t : result.triangles)
+    after.push_back(before[t]);
+  const Pieces_at expected = pieces_at(prepared.soup, before);
+  std::size_t meetings = 0, gaps = 0;
+  for (const auto& [position, pieces] : pieces_at(result.soup, after)) {
+    meetings += pieces.size() > 1;
+    gaps += pieces != expected.at(position);
+  }
+  EXPECT_EQ(gaps, 0u) << "positions at which a piece has lost its partner";
+  return meetings;
+}
+
+std::size_t left(const Snapping_notes& notes)
+{
+  return notes.left_ambiguous + notes.left_frozen + notes.left_unmanifold + notes.left_folding +
+         notes.left_blocked;
+}
+
+std::vector<std::pair<std::string, Triangle_soup>> garments()
+{
+  return {{"skirt", skirt(6000, 2)},
+          {"jacket", garment("jacket", 6000, 2)},
+          {"shorts", garment("shorts", 6000, 2)}};
+}
+
+TEST(Snapping, FindsEverySeamThatWasPulledApart)
+{
+  for (const auto& [name, original] : garments()) {
+    SCOPED_TRACE(name + ", seed " + std::to_string(s_seed));
+    const Triangle_soup apart = pulled_apart(original, s_seed);
+    ASSERT_TRUE(is_embedded(apart));
+    const std::vector<Index> positions = number_positions(original.points);
+    std::set<Index> seams; // positions where vertices were one
+    std::size_t vanished = 0;
+    for (Index v = 0; v < positions.size(); ++v)
+      if (positions[v] != v) {
+        ++vanished;
+        seams.insert(positions[v]);
+      }
+    ASSERT_GT(seams.size(), 50u);
+
+    const Prepared_soup prepared = snapped(apart, s_hair);
+    EXPECT_EQ(prepared.positions, positions) << "what was one is one again, and nothing else is";
+    EXPECT_EQ(prepared.snapping.snaps.size(), vanished);
+    EXPECT_EQ(prepared.snapping.sewn, seams.size() + vanished);
+    EXPECT_EQ(left(prepared.snapping), 0u);
+    EXPECT_LE(prepared.snapping.largest_distance, s_hair);
+
+    const Prepared_soup control = snapped(apart, 0);
+    EXPECT_TRUE(control.snapping.snaps.empty());
+    EXPECT_NE(control.positions, positions);
+  }
+}
+
+TEST(Snapping, SeamsStayClosedAtEveryRatio)
+{
+  for (const auto& [name, original] : garments()) {
+    const Prepared_soup prepared = snapped(pulled_apart(original, s_seed + 1), s_hair);
+    for (const double ratio : {0.3, 0.1, 0.05}) {
+      SCOPED_TRACE(name + " at " + std::to_string(ratio) + ", seed " + std::to_string(s_seed + 1));
+      const Simplified_soup result = simplify_soup(prepared, to_ratio(ratio));
+      EXPECT_GT(expect_partners_kept(prepared, result), 10u);
+      const Verification verification = verify(result.soup, prepared.soup, prepared.offending_pairs);
+      EXPECT_TRUE(verification.embedded());
+      EXPECT_TRUE(verification.same_topology()) << "pieces are separate again as they came";
+    }
+  }
+}
+
+// The control of the test above: where nothing was sewn, vertices go whose partners stay.
+TEST(Snapping, WithoutItSeamsGape)
+{
+  const Triangle_soup original = skirt(6000, 2);
+  const std::vector<Index> positions = number_positions(original.points);
+  const auto count_lone = [&](double distance) {
+    const Prepared_soup prepared = snapped(pulled_apart(original, s_seed + 1), distance);
+    const Simplified_soup result = simplify_soup(prepared, to_ratio(0.1));
+    std::vector<std::set<Index>> left_at(positions.size());
+    for (const Index_triple& corners : result.corners)
+      for (const Index corner : corners) {
+        const Index v = original.triangles[corner / 3][corner % 3];
+        left_at[positions[v]].insert(v);
+      }
+    std::vector<std::size_t> were_at(positions.size(), 0);
+    for (const Index position : positions)
+      ++were_at[position];
+    std::size_t lone = 0;
+    for (Index position = 0; position < were_at.size(); ++position)
+      lone += !left_at[position].empty() && left_at[position].size() < were_at[position];
+    return lone;
+  };
+  EXPECT_EQ(count_lone(s_hair), 0u);
+  EXPECT_GT(count_lone(0), 10u);
+}
+
+TEST(Snapping, StaysEmbeddedAfterEverySnap)
+{
+  const Triangle_soup apart = pulled_apart(garment("shorts", 1500, 1), s_seed + 2);
+  const Prepared_soup prepared = snapped(apart, s_hair);
+  std::vector<Index> positions = number_positions(apart.points);
+  Triangle_soup soup = apart;
+  ASSERT_GT(prepared.snapping.snaps.size(), 20u);
+  std::size_t count = 0;
+  for (const Snap& snap : prepared.snapping.snaps) {
+    const Point_3 place = soup.points[snap.to];
+    for (Index v = 0; v < positions.size(); ++v)
+      if (positions[v] == snap.from) {
+        soup.points[v] = place;
+        positions[v] = snap.to;
+      }
+    ASSERT_TRUE(is_embedded(soup)) << "after snap " << ++count << ", seed " << s_seed + 2;
+  }
+  for (Index v = 0; v < soup.points.size(); ++v)
+    EXPECT_EQ(soup.points[v], prepared.soup.points[v]);
+}
+
+TEST(Snapping, IndexDoesNotMatter)
+{
+  for (const auto& [name, original] : garments()) {
+    SCOPED_TRACE(name + ", seed " + std::to_string(s_seed + 3));
+    Triangle_soup fast = pulled_apart(original, s_seed + 3), slow = fast;
+    // Far enough to reach other seams and the next layer, so that much is refused.
+    for (const double distance : {0.5 * s_hair, 1e-3, 1e-2}) {
+      std::vector<Index> fast_positions = number_positions(fast.points), slow_positions = fast_positions;
+      const std::vector<char> is_frozen(fast.triangles.size(), false);
+      const Snapping_notes a = snap_borders(fast, fast_positions, is_frozen, distance);
+      const Snapping_notes b = snap_borders<Brute_force_index>(slow, slow_positions, is_frozen, distance);
+      ASSERT_EQ(a.snaps.size(), b.snaps.size());
+      for (std::size_t i = 0; i < a.snaps.size(); ++i) {
+        EXPECT_EQ(a.snaps[i].from, b.snaps[i].from);
+        EXPECT_EQ(a.snaps[i].to, b.snaps[i].to);
+      }
+      EXPECT_EQ(fast_positions, slow_positions);
+      EXPECT_EQ(fast.points, slow.points);
+      EXPECT_EQ(left(a), left(b));
+      EXPECT_EQ(a.left_blocked, b.left_blocked);
+      EXPECT_EQ(a.near_without_edge, b.near_without_edge);
+      EXPECT_TRUE(is_embedded(fast)) << "at " << distance;
+    }
+  }
+}
+
+TEST(Snapping, MakesNoNewPosition)
+{
+  const Triangle_soup apart = pulled_apart(skirt(3000, 2), s_seed + 4);
+  const Prepared_soup prepared = snapped(apart, s_hair);
+  std::set<Coordinates> known;
+  for (const Point_3& point : apart.points)
+    known.insert(coordinates(point));
+  std::size_t moved = 0;
+  for (Index v = 0; v < apart.points.size(); ++v) {
+    EXPECT_TRUE(known.count(coordinates(prepared.soup.points[v])));
+    moved += prepared.soup.points[v] != apart.points[v];
+  }
+  EXPECT_EQ(moved, prepared.snapping.snaps.size()) << "no two vertices shared a position";
+  EXPECT_EQ(prepared.soup.triangles, apart.triangles);
+  EXPECT_EQ(prepared.soup.uvs.of_triangle, apart.uvs.of_triangle);
+  EXPECT_EQ(prepared.soup.uvs.values, apart.uvs.values);
+}
+
+// Coordinates that are floats before are floats afterwards.
+TEST(Snapping, AfterRounding)
+{
+  const Triangle_soup apart = pulled_apart(skirt(3000, 2), s_seed + 5);
+  Prepare_options options;
+  options.round_to_float32 = true;
+  options.weld_distance = s_hair;
+  const Prepared_soup prepared = prepare(apart, options);
+  EXPECT_GT(prepared.snapping.sewn, 50u);
+  EXPECT_TRUE(is_embedded(prepared.soup));
+  for (const Point_3& p : prepared.soup.points)
+    for (int axis = 0; axis < 3; ++axis)
+      EXPECT_EQ(double(float(p[axis])), p[axis]);
+}
+
+TEST(Snapping, DistanceIsChecked)
+{
+  for (const double distance : {-1.0, std::nan(""), HUGE_VAL})
+    EXPECT_THROW(snapped(sheet(2, 2), distance), Error) << distance;
+}
+
+struct Real
+{
+  std::string file;
+  double distance; // as data/README.md says: 1 % and 8 % of the median edge
+};
+
+class Real_garment : public testing::TestWithParam<Real>
+{
+};
+
+TEST_P(Real_garment, SeamsCloseAndStayClosed)
+{
+  const std::string path = std::string(SELVEDGE_SHARED_DATA "/garments/") + GetParam().file;
+  if (!std::filesystem::exists(path))
+    GTEST_SKIP() << "not there: " << path;
+  const Triangle_soup original = read_mesh(path).soup;
+  const Prepared_soup prepared = snapped(original, GetParam().distance);
+  const Snapping_notes& notes = prepared.snapping;
+  EXPECT_GT(notes.sewn, notes.border_vertices / 4);
+  EXPECT_EQ(notes.sewn + left(notes), notes.partnered);
+  const std::vector<Offending_pair> before = offending_pairs(original);
+  EXPECT_TRUE(new_pairs(prepared.soup, offending_pairs(prepared.soup), original, before).empty());
+  for (const double ratio : {0.3, 0.1, 0.05}) {
+    SCOPED_TRACE(ratio);
+    const Simplified_soup result = simplify_soup(prepared, to_ratio(ratio));
+    EXPECT_GT(expect_partners_kept(prepared, result), 10u);
+    EXPECT_TRUE(is_embedded(result.soup));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Snapping, Real_garment,
+                         testing::Values(Real{"multilayer_skirt.obj", 1.1e-4},
+                                         Real{"dress_14_pieces_uv.obj", 5.6e-4}),
+                         [](const auto& real) {
+                           return real.param.file.substr(0, real.param.file.find('.'));
+                         });
+
+} // namespace
+} // namespace selvedge::test

@@ -1,0 +1,238 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Who is a partner of whom, who goes, and what is refused, on sheets of squares of side 1.
+
+#include "support/reduction.h"
+#include "support/soups.h"
+
+#include <selvedge/mesh/snapping.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <set>
+#include <vector>
+
+namespace selvedge::test {
+namespace {
+
+constexpr double s_distance = 0.01;
+
+Triangle_soup shifted(const Triangle_soup& soup, double x, double y, double z = 0)
+{
+  return mapped(soup, [=](const Point_3& p) { return Point_3(p.x() + x, p.y() + y, p.z() + z); });
+}
+
+/// Two sheets side by side, with a gap of 0.005 along x = width.
+Triangle_soup two_sheets(Index width = 3, Index depth = 3)
+{
+  return joined(sheet(width, depth), shifted(sheet(width, depth), width + 0.005, 0));
+}
+
+struct Snapped
+{
+  Triangle_soup soup;
+  std::vector<Index> positions;
+  Snapping_notes notes;
+};
+
+Snapped snap(Triangle_soup soup, const std::set<Index>& frozen = {}, double distance = s_distance)
+{
+  std::vector<Index> positions = number_positions(soup.points);
+  std::vector<char> is_frozen(soup.triangles.size(), false);
+  for (const Index t : frozen)
+    is_frozen[t] = true;
+  Snapping_notes notes = snap_borders(soup, positions, is_frozen, distance);
+  EXPECT_EQ(positions, number_positions(soup.points));
+  return {std::move(soup), std::move(positions), std::move(notes)};
+}
+
+TEST(Snapping_rules, TwoSheets)
+{
+  const Snapped result = snap(two_sheets());
+  EXPECT_EQ(result.notes.border_vertices, 24u);
+  EXPECT_EQ(result.notes.partnered, 8u);
+  EXPECT_EQ(result.notes.sewn, 8u);
+  EXPECT_EQ(result.notes.snaps.size(), 4u);
+  EXPECT_EQ(result.notes.seam_edges, 3u);
+  EXPECT_TRUE(is_embedded(result.soup));
+}
+
+TEST(Snapping_rules, NothingIsNearEnough)
+{
+  const Snapped result = snap(two_sheets(), {}, 0.004);
+  EXPECT_EQ(result.notes.partnered, 0u);
+  EXPECT_EQ(result.soup.points, two_sheets().points);
+}
+
+TEST(Snapping_rules, FewerFacesGo)
+{
+  // Corners of a sheet have one face or two; which one is the other's partner's opposite.
+  const Triangle_soup before = two_sheets(1, 1);
+  const Snapped result = snap(before);
+  ASSERT_EQ(result.notes.snaps.size(), 2u);
+  const auto faces = [&](Index v) {
+    return std::count_if(before.triangles.begin(), before.triangles.end(),
+                         [v](const Index_triple& t) { return std::count(t.begin(), t.end(), v) > 0; });
+  };
+  for (const Snap& snap : result.notes.snaps)
+    EXPECT_LT(faces(snap.from), faces(snap.to));
+}
+
+TEST(Snapping_rules, FourPiecesMeetInOnePosition)
+{
+  // The corner of the fourth is near the others' only one after another.
+  const Triangle_soup left = joined(sheet(2, 2), shifted(sheet(2, 2), 2.004, 0.001));
+  const Triangle_soup right = joined(shifted(sheet(2, 2), 0.001, 2.005), shifted(sheet(2, 2), 2.006, 2.007));
+  const Snapped result = snap(joined(left, right));
+  EXPECT_EQ(result.notes.sewn, 4u + 4u * 4u)
+      << "a corner of each, and four seams of two more vertices on each side";
+  EXPECT_EQ(result.notes.seam_edges, 8u);
+  const Point_3 corner = result.soup.points[8];
+  EXPECT_EQ(std::count(result.soup.points.begin(), result.soup.points.end(), corner), 4);
+  EXPECT_TRUE(is_embedded(result.soup));
+}
+
+TEST(Snapping_rules, VerticesAtOnePositionGoTogether)
+{
+  // Two pieces that meet in a corner already, and a fan of more faces opposite: both corners go.
+  const Triangle_soup corners =
+      soup({{0, 0.005, 0}, {2, 0.005, 0}, {1, 2, 0}, {0, 0.005, 0}, {-1, 2, 0}, {-2, 0.005, 0}},
+           {{0, 1, 2}, {3, 4, 5}});
+  const Triangle_soup fan = soup({{0, 0, 0}, {2, 0, 0}, {-2, 0, 0}, {-1, -1, 0}, {0, -1, 0}, {1, -1, 0}},
+                                 {{0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 1}});
+  const Snapped result = snap(joined(corners, fan));
+  EXPECT_EQ(result.notes.snaps.size(), 3u);
+  EXPECT_EQ(result.notes.seam_edges, 2u);
+  EXPECT_EQ(result.soup.points[0], Point_3(0, 0, 0));
+  EXPECT_EQ(result.soup.points[3], Point_3(0, 0, 0));
+  EXPECT_TRUE(is_embedded(result.soup));
+}
+
+TEST(Snapping_rules, FrozenVerticesDoNotSnap)
+{
+  const Triangle_soup soup = two_sheets();
+  const Snapped result = snap(soup, {4}); // the face of vertices 2, 3 and 7
+  EXPECT_EQ(result.notes.partnered, 8u);
+  EXPECT_EQ(result.notes.left_frozen, 4u);
+  EXPECT_EQ(result.notes.sewn, 4u);
+  EXPECT_EQ(result.soup.points[3], soup.points[3]);
+  EXPECT_EQ(result.soup.points[7], soup.points[7]);
+  EXPECT_EQ(result.soup.points[16], soup.points[16]);
+  EXPECT_EQ(result.notes.seam_edges, 1u);
+}
+
+TEST(Snapping_rules, WhatLiesInTheGapIsNotPassed)
+{
+  // A sheet that hangs in the gap, between two of the partners.
+  const Triangle_soup hanging = soup({{3.002, 0.5, -1}, {3.002, 1.5, -1}, {3.002, 1, 1}}, {{0, 1, 2}});
+  const Snapped result = snap(joined(two_sheets(), hanging));
+  EXPECT_EQ(result.notes.left_blocked, 2u);
+  EXPECT_EQ(result.notes.sewn, 6u);
+  EXPECT_TRUE(is_embedded(result.soup));
+  EXPECT_EQ(snap(two_sheets()).notes.left_blocked, 0u) << "the control";
+}
+
+TEST(Snapping_rules, LayersAreNotSewnToEachOther)
+{
+  const Snapped result = snap(joined(sheet(3, 3), shifted(sheet(3, 3), 0, 0, 0.005)));
+  EXPECT_TRUE(result.notes.snaps.empty());
+  EXPECT_EQ(result.notes.partnered, 0u);
+  EXPECT_EQ(result.notes.near_without_edge, 24u);
+}
+
+TEST(Snapping_rules, CornersThatComeNearAreNotSewn)
+{
+  const Snapped result = snap(joined(sheet(1, 1), shifted(sheet(1, 1), 1.004, 1.004)));
+  EXPECT_TRUE(result.notes.snaps.empty());
+  EXPECT_EQ(result.notes.near_without_edge, 2u);
+}
+
+// A vertex in the middle of the other side's edge has no partner and stays.
+TEST(Snapping_rules, TJunctionIsKept)
+{
+  const Triangle_soup coarse = soup({{0, -1, 0}, {2, -1, 0}, {0, 0, 0}, {2, 0, 0}}, {{0, 1, 3}, {0, 3, 2}});
+  const Triangle_soup fine = shifted(sheet(2, 1), 0, 0.005);
+  const Snapped result = snap(joined(coarse, fine));
+  EXPECT_EQ(result.notes.snaps.size(), 0u) << "no edge of one side is an edge of the other";
+  EXPECT_TRUE(is_embedded(result.soup));
+}
+
+/// A square whose right side is cut open to its middle, vertex 4, by 2 × `half_width`.
+Triangle_soup cut_open(double half_width)
+{
+  return soup(
+      {{0, 0, 0}, {2, 0, 0}, {2, 1 - half_width, 0}, {2, 1 + half_width, 0}, {1, 1, 0}, {0, 2, 0}, {2, 2, 0}},
+      {{0, 1, 4}, {1, 2, 4}, {4, 3, 6}, {4, 6, 5}, {0, 4, 5}});
+}
+
+TEST(Snapping_rules, DartCloses)
+{
+  const Snapped result = snap(cut_open(0.004));
+  EXPECT_EQ(result.notes.seam_edges, 1u);
+  EXPECT_EQ(result.soup.points[2], result.soup.points[3]);
+  EXPECT_TRUE(is_embedded(result.soup));
+  EXPECT_TRUE(snap(cut_open(0.4), {}, 1).notes.snaps.empty() == false);
+  // The border from 2 over 4 to 3 is not longer than twice this.
+  EXPECT_TRUE(snap(cut_open(0.4), {}, 1.1).notes.snaps.empty());
+}
+
+TEST(Snapping_rules, AnEdgeGetsNoThirdFace)
+{
+  // The gap in the square is closed already by a strip that shares its edges.
+  Triangle_soup filled = cut_open(0.004);
+  filled.triangles.push_back({2, 3, 4});
+  const Snapped alone = snap(filled);
+  EXPECT_TRUE(alone.notes.snaps.empty()) << "the two are joined by an edge";
+}
+
+// Distances as large as the faces ask for what would degenerate, fold or pierce: it is refused.
+TEST(Snapping_rules, AnyDistanceLeavesTheMeshEmbedded)
+{
+  const Triangle_soup tilted =
+      mapped(sheet(3, 3), [](const Point_3& p) { return Point_3(p.x(), p.y(), 0.1 + 0.2 * p.y()); });
+  const Triangle_soup scene = joined(joined(two_sheets(), cut_open(0.3)), shifted(tilted, 0.4, 0.3));
+  std::set<Index> frozen;
+  for (const Offending_pair& pair : offending_pairs(scene))
+    frozen.insert({pair.first, pair.second});
+  std::size_t refused = 0;
+  for (const double distance : {0.1, 0.3, 0.6, 0.9, 1.2, 1.7, 3.0}) {
+    SCOPED_TRACE(distance);
+    const Snapped result = snap(scene, frozen, distance);
+    EXPECT_TRUE(new_pairs(result.soup, offending_pairs(result.soup), scene, offending_pairs(scene)).empty());
+    refused += result.notes.left_blocked + result.notes.left_folding + result.notes.left_unmanifold;
+  }
+  EXPECT_GT(refused, 0u);
+}
+
+TEST(Joined_at_positions, PiecesHangTogether)
+{
+  const Triangle_soup apart = joined(sheet(2, 2), shifted(sheet(2, 2), 2, 0));
+  ASSERT_EQ(pieces(apart).size(), 2u);
+  const Triangle_soup one = joined_at_positions(apart);
+  EXPECT_EQ(one.points.size(), 15u);
+  ASSERT_EQ(pieces(one).size(), 1u);
+  EXPECT_EQ(pieces(one).front().boundary_loops, 1u);
+  for (Index t = 0; t < one.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k)
+      EXPECT_EQ(one.points[one.triangles[t][k]], apart.points[apart.triangles[t][k]]);
+}
+
+TEST(Joined_at_positions, WhatDiffersInAttributesStaysApart)
+{
+  Triangle_soup apart = joined(sheet(1, 1), shifted(sheet(1, 1), 1, 0));
+  Attribute quality;
+  quality.name = "quality";
+  quality.type = Attribute::Type::uint8;
+  quality.rows = {0, 1, 2, 3, 1, 5, 9, 7}; // 1 and 4 are at one position, and so are 3 and 6
+  apart.vertex_attributes.push_back(quality);
+  const Triangle_soup one = joined_at_positions(apart);
+  EXPECT_EQ(one.points.size(), 7u);
+  ASSERT_EQ(one.vertex_attributes.size(), 1u);
+  EXPECT_EQ(one.vertex_attributes[0].rows, (std::vector<unsigned char>{0, 1, 2, 3, 5, 9, 7}));
+}
+
+} // namespace
+} // namespace selvedge::test
