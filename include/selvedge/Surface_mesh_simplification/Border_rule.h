@@ -44,7 +44,7 @@ struct Border_rule_options
 /// 1. A locked vertex stays where it is.
 /// 2. A vertex on a line moves only along it, to the next vertex of the same line, and only where the line turns by
 ///    at most `max_border_turn` or `max_seam_turn`. Corners, ends of lines, and vertices where more than two line edges or lines of both kinds
-///    meet never move.
+///    meet never move. No collapse takes the last face between three lines.
 /// 3. Every original vertex of a line lies within `max_drift` of the segment that replaced it.
 ///
 /// **Preconditions** The mesh outlives the rule. Marks and locks are set before the first collapse.
@@ -111,7 +111,7 @@ public:
     if (freedom == Freedom::none || !is_line(edge(h, state.mesh)))
       return false;
     const std::optional<Halfedge> behind = line_behind(h);
-    return behind && may_straighten(*behind, h, get(state.points, target(h, state.mesh)));
+    return behind && !is_cut_off(h) && may_straighten(*behind, h, get(state.points, target(h, state.mesh)));
   }
 
   /// May the ends of the profile's edge merge at `placement`, wherever that is?
@@ -227,6 +227,16 @@ private:
     if (behind && is_border_edge(*behind) != is_border_edge(h))
       return std::nullopt;
     return behind;
+  }
+
+  // Is a face at this edge all that lines enclose there? It would vanish, and a piece or its corner with it.
+  bool is_cut_off(Halfedge h) const
+  {
+    const TriangleMesh& mesh = m_state->mesh;
+    for (const Halfedge side : {h, opposite(h, mesh)})
+      if (!is_border(side, mesh) && is_line(edge(next(side, mesh), mesh)) && is_line(edge(prev(side, mesh), mesh)))
+        return true;
+    return false;
   }
 
   bool is_border_edge(Halfedge h) const
