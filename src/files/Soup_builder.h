@@ -38,8 +38,8 @@ public:
     points.emplace_back(x, y, z);
   }
 
-  /// Adds a face whose corners are in range; `uvs` and `normals` are empty or as long as `corners`. Returns how many
-  /// triangles it became.
+  /// Adds a face whose corners are in range; `uvs` and `normals` are empty or as long as `corners`. Returns
+  /// how many triangles it became.
   std::size_t add_face(const std::vector<Index>& corners, const std::vector<Index>& uvs = {},
                        const std::vector<Index>& normals = {})
   {
@@ -66,7 +66,8 @@ public:
 
   /// Values of every vertex, in their order, become values of all corners. Called after the last face.
   template <std::size_t dimension>
-  void set_vertex_values(Corner_values<dimension>& values, std::vector<std::array<double, dimension>> of_vertex)
+  void set_vertex_values(Corner_values<dimension>& values,
+                         std::vector<std::array<double, dimension>> of_vertex)
   {
     values = {std::move(of_vertex), m_file.soup.triangles};
   }

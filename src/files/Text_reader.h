@@ -124,7 +124,8 @@ public:
     return content.substr(0, size);
   }
 
-  /// The rest of the statement without blanks and backslashes at its end; a continued line end counts as a blank.
+  /// The rest of the statement without blanks and backslashes at its end; a continued line end counts as a
+  /// blank.
   std::string statement() const
   {
     Text_reader first = *this, last = *this;

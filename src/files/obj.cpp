@@ -88,8 +88,8 @@ private:
     values.values.push_back(value);
   }
 
-  /// One number is a weight, three are a colour, four a colour with its alpha. Takes a copy of the reader: skip_line must
-  /// see the whole line.
+  /// One number is a weight, three are a colour, four a colour with its alpha. Takes a copy of the reader:
+  /// skip_line must see the whole line.
   void read_further_columns(Text_reader text)
   {
     std::array<double, 4> numbers;
@@ -159,8 +159,7 @@ private:
       if (text.peek() == '/') {
         text.advance(1);
         if (text.peek() != '/' && !text.at_word_end())
-          m_uv_corners.push_back(
-              read_index(text, "texture coordinate", m_uvs_above, soup.uvs.values.size()));
+          m_uv_corners.push_back(read_index(text, "texture coordinate", m_uvs_above, soup.uvs.values.size()));
         if (text.peek() == '/') {
           text.advance(1);
           if (!text.at_word_end())
@@ -217,8 +216,8 @@ private:
 
   void ignore_statement(std::string_view keyword)
   {
-    static const std::unordered_map<std::string_view, std::string> names = {
-        {"l", "line elements"}, {"p", "point elements"}};
+    static const std::unordered_map<std::string_view, std::string> names = {{"l", "line elements"},
+                                                                            {"p", "point elements"}};
     constexpr std::size_t most_names = 16; // a file that is no OBJ at all has a new one on every line
     const auto known = names.find(keyword);
     if (known != names.end()) {
@@ -309,7 +308,10 @@ class Label_writer
 {
 public:
   explicit Label_writer(const Triangle_soup& soup)
-      : m_kinds{{{"o", &soup.objects}, {"g", &soup.groups}, {"usemtl", &soup.materials}, {"s", &soup.smoothing_groups}}}
+      : m_kinds{{{"o", &soup.objects},
+                 {"g", &soup.groups},
+                 {"usemtl", &soup.materials},
+                 {"s", &soup.smoothing_groups}}}
   {
   }
 
@@ -384,7 +386,8 @@ void write_obj(Byte_writer& out, const Triangle_soup& soup, const Write_options&
     out << 'f';
     for (int corner = 0; corner < 3; ++corner) {
       out << ' ' << std::uint64_t{soup.triangles[i][corner]} + 1;
-      const std::uint64_t uv = written_number(soup.uvs, i, corner), normal = written_number(soup.normals, i, corner);
+      const std::uint64_t uv = written_number(soup.uvs, i, corner),
+                          normal = written_number(soup.normals, i, corner);
       if (uv != 0 || normal != 0)
         out << '/';
       if (uv != 0)

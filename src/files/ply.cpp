@@ -375,7 +375,8 @@ private:
   };
 
   /// Makes an attribute of every property that has no target yet.
-  void add_attributes(const Element& element, std::vector<Target>& targets, std::vector<Attribute>& attributes)
+  void add_attributes(const Element& element, std::vector<Target>& targets,
+                      std::vector<Attribute>& attributes)
   {
     attributes.reserve(element.properties.size()); // targets point there
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
@@ -388,8 +389,8 @@ private:
                            element.count);
         continue;
       }
-      const bool is_colour = property.name == "red" || property.name == "green" ||
-                             property.name == "blue" || property.name == "alpha";
+      const bool is_colour = property.name == "red" || property.name == "green" || property.name == "blue" ||
+                             property.name == "alpha";
       const bool is_normalized = is_colour && (property.type == Type::uint8 || property.type == Type::uint16);
       attributes.push_back({property.name, property.type, 1, is_normalized, {}});
       attributes.back().rows.reserve(element.count * size_of(property.type));
@@ -449,10 +450,9 @@ private:
       targets[place].number = &position[axis];
     }
     m_has_normals = find_numbers<3>(element, {"nx", "ny", "nz"}, normal, targets);
-    const bool has_face_uvs =
-        std::any_of(m_elements.begin(), m_elements.end(), [](const Element& candidate) {
-          return candidate.name == "face" && find_uv_list(candidate) != nullptr;
-        });
+    const bool has_face_uvs = std::any_of(m_elements.begin(), m_elements.end(), [](const Element& candidate) {
+      return candidate.name == "face" && find_uv_list(candidate) != nullptr;
+    });
     m_has_uvs = !has_face_uvs && (find_numbers<2>(element, {"s", "t"}, uv, targets) ||
                                   find_numbers<2>(element, {"u", "v"}, uv, targets) ||
                                   find_numbers<2>(element, {"texture_u", "texture_v"}, uv, targets));
@@ -548,8 +548,8 @@ private:
 
   /// Texture coordinates of a face's corners; equal ones get the number of the first of them.
   template <class Values>
-  void number_uvs(const Values& values, const std::vector<double>& uvs, std::size_t corners, std::uint64_t face,
-                  std::vector<Index>& numbers)
+  void number_uvs(const Values& values, const std::vector<double>& uvs, std::size_t corners,
+                  std::uint64_t face, std::vector<Index>& numbers)
   {
     numbers.clear();
     if (uvs.size() != 2 * corners) {
@@ -670,7 +670,8 @@ std::vector<Named_column> columns_of(const std::vector<Attribute>& attributes)
   for (const Attribute& attribute : attributes)
     for (std::size_t i = 0; i < attribute.components; ++i)
       columns.push_back(
-          {attribute.components == 1 ? attribute.name : attribute.name + '_' + std::to_string(i), {&attribute, i}});
+          {attribute.components == 1 ? attribute.name : attribute.name + '_' + std::to_string(i),
+           {&attribute, i}});
   return columns;
 }
 
@@ -694,8 +695,8 @@ void write_properties(Byte_writer& out, bool as_float32, std::initializer_list<s
 struct Ply_layout
 {
   explicit Ply_layout(const Triangle_soup& soup)
-      : vertex_columns(columns_of(soup.vertex_attributes)), face_columns(columns_of(soup.triangle_attributes)),
-        normals(values_of_vertices(soup.normals, soup))
+      : vertex_columns(columns_of(soup.vertex_attributes)),
+        face_columns(columns_of(soup.triangle_attributes)), normals(values_of_vertices(soup.normals, soup))
   {
     if (soup.uvs.empty())
       return;
@@ -718,7 +719,8 @@ Mesh_file read_ply(std::string_view contents, const std::string& name)
   return Ply_reader(contents, name).read();
 }
 
-std::vector<std::array<double, 3>> values_of_vertices(const Corner_values<3>& values, const Triangle_soup& soup)
+std::vector<std::array<double, 3>> values_of_vertices(const Corner_values<3>& values,
+                                                      const Triangle_soup& soup)
 {
   if (values.empty() || values.missing)
     return {};
