@@ -1,0 +1,82 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <selvedge/collapse_log.h>
+#include <selvedge/simplify_soup.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace selvedge {
+namespace {
+
+/// For every vertex the smallest number, in the log, of one with equal coordinates.
+std::vector<Index> smallest_numbers(const std::vector<Point_3>& points, const Log_numbering& numbering)
+{
+  std::map<std::array<double, 3>, Index> smallest; // compares doubles, so that the zeros are one
+  const auto place = [&](Index v) { return std::array{points[v].x(), points[v].y(), points[v].z()}; };
+  for (Index v = 0; v < points.size(); ++v) {
+    const auto [entry, is_new] = smallest.emplace(place(v), numbering.number(v));
+    entry->second = std::min(entry->second, numbering.number(v));
+  }
+  std::vector<Index> result;
+  result.reserve(points.size());
+  for (Index v = 0; v < points.size(); ++v)
+    result.push_back(smallest.at(place(v)));
+  return result;
+}
+
+Log_header with_limits(Log_header header, const Simplify_options& options)
+{
+  header.normal_change = options.max_normal_change;
+  header.aspect_ratio = options.min_aspect_ratio;
+  header.border_turn = options.max_border_turn;
+  header.seam_turn = options.max_seam_turn;
+  header.border_drift = options.max_border_drift;
+  return header;
+}
+
+} // namespace
+
+Reduction_log::Reduction_log(std::ostream& stream, Log_header header, const Log_numbering& numbering,
+                             const Prepared_soup& prepared, const Simplify_options& options)
+  : m_writer(stream, with_limits(std::move(header), options)), m_numbering(numbering), m_prepared(prepared)
+{
+  const std::vector<Index> smallest = smallest_numbers(prepared.soup.points, numbering);
+  std::map<Index, std::vector<Index>> groups;
+  for (Index v = 0; v < smallest.size(); ++v)
+    if (smallest[v] != numbering.number(v))
+      groups[smallest[v]].push_back(numbering.number(v));
+  for (auto& [first, others] : groups) {
+    Log_step step;
+    step.kind = Log_step::Kind::weld;
+    step.group = std::move(others);
+    step.group.insert(step.group.begin(), first);
+    m_writer.write(step);
+  }
+}
+
+void Reduction_log::add_collapse(std::size_t removed, std::size_t kept)
+{
+  Log_step step;
+  step.removed = m_numbering.number(Index(removed));
+  step.kept = m_numbering.number(Index(kept));
+  m_writer.write(step);
+  ++m_collapses;
+}
+
+void Reduction_log::finish(const Simplified_soup& result)
+{
+  const std::vector<Index> smallest = smallest_numbers(m_prepared.soup.points, m_numbering);
+  Sha256 sha256;
+  for (const Index_triple& corners : result.corners) {
+    const auto number = [&](Index corner) {
+      return std::to_string(smallest[m_prepared.soup.triangles[corner / 3][corner % 3]]);
+    };
+    sha256.add(number(corners[0]) + ' ' + number(corners[1]) + ' ' + number(corners[2]) + '\n');
+  }
+  m_writer.write(Log_result{m_collapses, result.corners.size(), sha256.digest()});
+}
+
+} // namespace selvedge

@@ -1,0 +1,282 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <selvedge/collapse_log.h>
+
+#include <selvedge/Error.h>
+
+#include <charconv>
+#include <cmath>
+#include <istream>
+#include <ostream>
+#include <utility>
+
+namespace selvedge {
+namespace {
+
+constexpr std::string_view s_first_line = "selvedge-log 1";
+
+/// The limits by their names.
+template <class Header>
+auto limits(Header& header)
+{
+  return std::array{std::make_pair("normal_change", &header.normal_change), std::make_pair("aspect_ratio", &header.aspect_ratio),
+                    std::make_pair("border_turn", &header.border_turn), std::make_pair("seam_turn", &header.seam_turn),
+                    std::make_pair("border_drift", &header.border_drift)};
+}
+
+template <class Number>
+std::string text_of(Number number)
+{
+  char text[32];
+  return {text, std::to_chars(std::begin(text), std::end(text), number).ptr};
+}
+
+std::string text_of_digest(const std::string& digest) { return digest.empty() ? "-" : digest; }
+
+} // namespace
+
+Log_numbering::Log_numbering(const Triangle_soup& original, bool is_stl) : m_vertex_count(original.points.size())
+{
+  if (!is_stl)
+    return;
+  m_numbers.assign(original.points.size(), 0);
+  for (const Index_triple& triangle : original.triangles)
+    m_vertices.insert(m_vertices.end(), triangle.begin(), triangle.end());
+  for (std::size_t number = m_vertices.size(); number-- > 0;)
+    m_numbers[m_vertices[number]] = Index(number);
+}
+
+Log_writer::Log_writer(std::ostream& stream, const Log_header& header) : m_stream(stream)
+{
+  m_stream << s_first_line << "\ninput " << text_of(header.vertices) << ' ' << text_of(header.triangles) << ' '
+           << text_of_digest(header.sha256) << "\nrounding " << (header.is_rounded_to_float32 ? "float32" : "none") << '\n';
+  for (const auto& [name, value] : limits(header))
+    if (*value)
+      m_stream << "limit " << name << ' ' << text_of(**value) << '\n';
+}
+
+void Log_writer::write(const Log_step& step)
+{
+  if (step.kind == Log_step::Kind::weld) {
+    std::string line = "w";
+    for (const Index vertex : step.group)
+      line += ' ' + text_of(vertex);
+    m_stream << line << '\n';
+    return;
+  }
+  std::string line = step.kind == Log_step::Kind::snap ? "s " : "c ";
+  line += text_of(step.removed) + ' ' + text_of(step.kept);
+  if (step.place) {
+    for (const double coordinate : *step.place)
+      line += ' ' + text_of(coordinate);
+    if (step.is_removed_first)
+      line += " removed";
+  }
+  m_stream << line << '\n';
+}
+
+void Log_writer::write(const Log_result& result)
+{
+  m_stream << "result " << text_of(result.collapses) << ' ' << text_of(result.triangles) << ' '
+           << text_of_digest(result.sha256) << '\n';
+}
+
+class Log_reader::Implementation
+{
+public:
+  Implementation(std::istream& stream, const std::string& name) : m_stream(stream), m_name(name) {}
+
+  void read_header()
+  {
+    if (!next_line() || m_words.size() != 2 || m_words[0] != "selvedge-log")
+      fail("this is no log of collapses: it does not begin with '" + std::string(s_first_line) + "'");
+    if (m_words[1] != "1")
+      fail("the log has version " + std::string(m_words[1]) + ", and this program knows only version 1");
+    if (!next_line() || m_words[0] != "input")
+      fail("the second line is 'input VERTICES TRIANGLES SHA256'");
+    expect_words(4, 4, "input VERTICES TRIANGLES SHA256");
+    header.vertices = number<std::size_t>(1);
+    header.triangles = number<std::size_t>(2);
+    header.sha256 = digest(3);
+    bool is_rounding_known = false;
+    while (next_line()) {
+      if (m_words[0] == "rounding" && !is_rounding_known) {
+        expect_words(2, 2, "rounding none|float32");
+        if (m_words[1] != "none" && m_words[1] != "float32")
+          fail("rounding is 'none' or 'float32'");
+        header.is_rounded_to_float32 = m_words[1] == "float32";
+        is_rounding_known = true;
+      } else if (m_words[0] == "limit") {
+        expect_words(3, 3, "limit NAME NUMBER");
+        read_limit();
+      } else {
+        m_is_line_pending = true;
+        return;
+      }
+    }
+  }
+
+  bool read(Log_step& step)
+  {
+    if (m_is_over)
+      return false;
+    if (!std::exchange(m_is_line_pending, false) && !next_line())
+      fail("the log ends without its 'result' line; it is not complete");
+    step.line = m_line_number;
+    step.place.reset();
+    step.is_removed_first = false;
+    step.group.clear();
+    if (m_words[0] == "c") {
+      read_collapse(step);
+    } else if (m_words[0] == "s" || m_words[0] == "w") {
+      const bool is_snap = m_words[0] == "s";
+      if (m_stage > (is_snap ? 0 : 1))
+        fail("snaps come first, then welds, then collapses");
+      m_stage = is_snap ? 0 : 1;
+      step.kind = is_snap ? Log_step::Kind::snap : Log_step::Kind::weld;
+      if (is_snap) {
+        expect_words(3, 3, "s MOVED KEPT");
+        step.removed = vertex(1);
+        step.kept = vertex(2);
+      } else {
+        for (std::size_t i = 1; i < m_words.size(); ++i)
+          step.group.push_back(vertex(i));
+      }
+    } else if (m_words[0] == "result") {
+      expect_words(4, 4, "result COLLAPSES TRIANGLES SHA256");
+      result = {number<std::size_t>(1), number<std::size_t>(2), digest(3)};
+      m_is_over = true;
+      if (next_line())
+        fail("nothing comes after the 'result' line");
+      return false;
+    } else {
+      fail("a line begins with '" + std::string(m_words[0].substr(0, 20)) + "', which this version does not know here");
+    }
+    return true;
+  }
+
+  Log_header header;
+  Log_result result;
+
+private:
+  [[noreturn]] void fail(const std::string& message) const
+  {
+    throw Input_error(m_name + ", line " + std::to_string(m_line_number) + ": " + message);
+  }
+
+  bool next_line()
+  {
+    while (std::getline(m_stream, m_line)) {
+      ++m_line_number;
+      if (!m_line.empty() && m_line.back() == '\r')
+        m_line.pop_back();
+      m_words.clear();
+      for (std::size_t first = m_line.find_first_not_of(' '); first != std::string::npos;) {
+        const std::size_t beyond = std::min(m_line.find(' ', first), m_line.size());
+        m_words.push_back(std::string_view(m_line).substr(first, beyond - first));
+        first = m_line.find_first_not_of(' ', beyond);
+      }
+      if (!m_words.empty() && m_words[0][0] != '#')
+        return true;
+    }
+    if (m_stream.bad())
+      fail("cannot be read on");
+    return false;
+  }
+
+  void expect_words(std::size_t least, std::size_t most, const char* form) const
+  {
+    if (m_words.size() < least || m_words.size() > most)
+      fail(std::string("the line does not read '") + form + "'");
+  }
+
+  template <class Number>
+  Number number(std::size_t word) const
+  {
+    Number value{};
+    const char* const end = m_words[word].data() + m_words[word].size();
+    const auto [stop, error] = std::from_chars(m_words[word].data(), end, value);
+    if (error != std::errc() || stop != end || !std::isfinite(double(value)))
+      fail("'" + std::string(m_words[word].substr(0, 40)) + "' is not a number that fits here");
+    return value;
+  }
+
+  Index vertex(std::size_t word) const
+  {
+    const Index value = number<Index>(word);
+    if (value >= header.vertices)
+      fail("there is no vertex " + std::to_string(value) + "; they are numbered from 0 to " +
+           std::to_string(header.vertices) + " - 1");
+    return value;
+  }
+
+  std::string digest(std::size_t word) const
+  {
+    std::string text(m_words[word]);
+    if (text == "-")
+      return {};
+    for (char& c : text)
+      if (c >= 'A' && c <= 'F')
+        c = char(c - 'A' + 'a');
+    if (text.size() != 64 || text.find_first_not_of("0123456789abcdef") != std::string::npos)
+      fail("a SHA-256 is written in 64 hexadecimal digits, or '-' when unknown");
+    return text;
+  }
+
+  void read_limit()
+  {
+    for (const auto& [name, value] : limits(header)) {
+      if (m_words[1] != name)
+        continue;
+      if (*value)
+        fail(std::string("the limit ") + name + " is declared twice");
+      *value = number<double>(2);
+      if (**value < 0)
+        fail("a limit is not negative");
+      return;
+    }
+    fail("there is no limit called '" + std::string(m_words[1].substr(0, 20)) + "'");
+  }
+
+  void read_collapse(Log_step& step)
+  {
+    m_stage = 2;
+    step.kind = Log_step::Kind::collapse;
+    if (m_words.size() != 3 && m_words.size() != 6 && m_words.size() != 7)
+      fail("the line does not read 'c REMOVED KEPT [X Y Z [FIRST]]'");
+    step.removed = vertex(1);
+    step.kept = vertex(2);
+    if (m_words.size() == 3)
+      return;
+    step.place = {number<double>(3), number<double>(4), number<double>(5)};
+    if (m_words.size() == 7) {
+      if (m_words[6] != "removed" && m_words[6] != "kept")
+        fail("what moves first is 'removed' or 'kept'");
+      step.is_removed_first = m_words[6] == "removed";
+    }
+  }
+
+  std::istream& m_stream;
+  std::string m_name;
+  std::string m_line;
+  std::vector<std::string_view> m_words;
+  std::size_t m_line_number = 0;
+  int m_stage = 0; // 0 snaps, 1 welds, 2 collapses
+  bool m_is_line_pending = false;
+  bool m_is_over = false;
+};
+
+Log_reader::Log_reader(std::istream& stream, const std::string& name)
+  : m_implementation(std::make_unique<Implementation>(stream, name))
+{
+  m_implementation->read_header();
+}
+
+Log_reader::~Log_reader() = default;
+
+const Log_header& Log_reader::header() const { return m_implementation->header; }
+bool Log_reader::read(Log_step& step) { return m_implementation->read(step); }
+const Log_result& Log_reader::result() const { return m_implementation->result; }
+
+} // namespace selvedge

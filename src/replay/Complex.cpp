@@ -1,0 +1,289 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "Complex.h"
+
+#include <selvedge/mesh/selection.h>
+
+#include <algorithm>
+
+namespace selvedge::reference {
+namespace {
+
+std::size_t next(std::size_t k) { return (k + 1) % 3; }
+
+} // namespace
+
+std::vector<Index> first_at_position(const std::vector<Point_3>& points)
+{
+  std::map<Coordinates, Index> first; // compares doubles, so that the zeros are one
+  std::vector<Index> result;
+  result.reserve(points.size());
+  for (Index v = 0; v < points.size(); ++v)
+    result.push_back(first.emplace(Coordinates{points[v].x(), points[v].y(), points[v].z()}, v).first->second);
+  return result;
+}
+
+Complex::Complex(const Triangle_soup& soup)
+  : m_soup(soup), m_position_of_vertex(first_at_position(soup.points)), m_faces_at(soup.points.size()),
+    m_alive(soup.triangles.size())
+{
+  for (const Point_3& p : soup.points)
+    m_points.push_back({p.x(), p.y(), p.z()});
+  for (Index f = 0; f < soup.triangles.size(); ++f) {
+    Face face;
+    for (Index k = 0; k < 3; ++k) {
+      face.positions[k] = m_position_of_vertex[soup.triangles[f][k]];
+      face.corners[k] = 3 * f + k;
+      m_faces_at[face.positions[k]].push_back(f);
+    }
+    m_faces.push_back(face);
+  }
+}
+
+std::array<Place, 3> Complex::triangle(Index face) const
+{
+  const Index_triple& p = m_faces[face].positions;
+  return {place(p[0]), place(p[1]), place(p[2])};
+}
+
+std::size_t Complex::slot(Index face, Index position) const
+{
+  const Index_triple& p = m_faces[face].positions;
+  return std::size_t(std::find(p.begin(), p.end(), position) - p.begin());
+}
+
+bool Complex::has(Index face, Index position) const { return slot(face, position) < 3; }
+
+std::array<Index, 2> Complex::opposite_side(Index face, Index position) const
+{
+  const Index_triple& p = m_faces[face].positions;
+  const std::size_t k = slot(face, position);
+  return {p[next(k)], p[next(next(k))]};
+}
+
+std::vector<Complex::Edge> Complex::edges_at(Index position) const
+{
+  std::vector<Edge> edges;
+  const auto edge_to = [&](Index neighbour) -> Edge& {
+    for (Edge& edge : edges)
+      if (edge.neighbour == neighbour)
+        return edge;
+    edges.push_back({neighbour});
+    return edges.back();
+  };
+  for (const Index f : m_faces_at[position]) {
+    const std::size_t k = slot(f, position), before = next(next(k));
+    Edge& out = edge_to(m_faces[f].positions[next(k)]);
+    ++out.outgoing;
+    out.is_seam = out.is_seam || m_faces[f].is_seam[k];
+    Edge& in = edge_to(m_faces[f].positions[before]);
+    ++in.incoming;
+    in.is_seam = in.is_seam || m_faces[f].is_seam[before];
+  }
+  return edges;
+}
+
+
+bool Complex::is_one_fan(Index position) const
+{
+  const std::vector<Index>& faces = m_faces_at[position];
+  const std::vector<Edge> edges = edges_at(position);
+  if (faces.empty())
+    return false;
+  std::vector<Index> waiting(faces.begin() + 1, faces.end()), reached{faces.front()};
+  for (std::size_t i = 0; i < reached.size(); ++i)
+    for (const Index neighbour : opposite_side(reached[i], position)) {
+      const auto is_this = [&](const Edge& edge) { return edge.neighbour == neighbour; };
+      if (std::find_if(edges.begin(), edges.end(), is_this)->is_border())
+        continue;
+      const auto beyond =
+        std::stable_partition(waiting.begin(), waiting.end(), [&](Index f) { return !has(f, neighbour); });
+      reached.insert(reached.end(), beyond, waiting.end());
+      waiting.erase(beyond, waiting.end());
+    }
+  return waiting.empty();
+}
+
+bool Complex::is_seam_between(Index a, Index b) const
+{
+  // By value, for files that write a number twice.
+  const auto differ = [&](const auto& values) {
+    return !values.empty() &&
+           values.values[values.of_triangle[a / 3][a % 3]] != values.values[values.of_triangle[b / 3][b % 3]];
+  };
+  const auto differ_in = [&](const Triangle_labels& labels) {
+    return !labels.empty() && labels.of_triangle[a / 3] != labels.of_triangle[b / 3];
+  };
+  return vertex_of(a) != vertex_of(b) || differ(m_soup.uvs) || differ(m_soup.normals) || differ_in(m_soup.groups) ||
+         differ_in(m_soup.objects) || differ_in(m_soup.materials);
+}
+
+void Complex::find_seams()
+{
+  m_has_seams = true;
+  for (Index f = 0; f < m_faces.size(); ++f)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index from = m_faces[f].positions[k], to = m_faces[f].positions[next(k)];
+      std::size_t count = 0;
+      Index other = f;
+      for (const Index g : m_faces_at[from])
+        if (g != f && has(g, to)) {
+          ++count;
+          other = g;
+        }
+      // Where not just two faces meet that run along it in opposite ways, it is a border.
+      if (count == 1 && m_faces[other].positions[next(slot(other, to))] == from)
+        m_faces[f].is_seam[k] =
+          is_seam_between(m_faces[f].corners[k], m_faces[other].corners[slot(other, from)]) ||
+          is_seam_between(m_faces[f].corners[next(k)], m_faces[other].corners[slot(other, to)]);
+    }
+}
+
+void Complex::snap(Index moved, Index kept)
+{
+  for (const Index f : m_faces_at[moved]) {
+    m_faces[f].positions[slot(f, moved)] = kept;
+    m_faces_at[kept].push_back(f);
+  }
+  m_faces_at[moved].clear();
+  for (Index& position : m_position_of_vertex)
+    if (position == moved)
+      position = kept;
+}
+
+std::vector<Index> Complex::collapse(Index removed, Index kept)
+{
+  std::vector<Index> contracted, moving;
+  for (const Index f : m_faces_at[removed])
+    (has(f, kept) ? contracted : moving).push_back(f);
+  carry_corners(contracted, moving, removed, kept);
+  carry_passed(edges_at(removed), removed, kept);
+  carry_seams(contracted, removed, kept);
+  for (const Index f : contracted) {
+    for (const Index p : m_faces[f].positions) {
+      std::vector<Index>& faces = m_faces_at[p];
+      faces.erase(std::find(faces.begin(), faces.end(), f));
+    }
+    m_faces[f].is_alive = false;
+    --m_alive;
+  }
+  for (const Index f : moving) {
+    m_faces[f].positions[slot(f, removed)] = kept;
+    m_faces_at[kept].push_back(f);
+  }
+  m_faces_at[removed].clear();
+  return contracted;
+}
+
+// From a contracted face, across edges at `removed` that are no seams, as far as that goes. Where both contracted
+// faces would serve, the one that runs from `removed` to `kept` does.
+void Complex::carry_corners(const std::vector<Index>& contracted, std::vector<Index> moving, Index removed, Index kept)
+{
+  std::vector<Index> sources = contracted;
+  std::stable_partition(sources.begin(), sources.end(),
+                        [&](Index f) { return m_faces[f].positions[next(slot(f, removed))] == kept; });
+  std::vector<std::pair<Index, Index>> carried; // faces, and the corner that theirs at `removed` becomes
+  for (const Index source : sources) {
+    const Index corner = m_faces[source].corners[slot(source, kept)];
+    std::vector<Index> reached{source};
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+      const Index f = reached[i];
+      const auto sides = opposite_side(f, removed);
+      const std::size_t at = slot(f, removed);
+      const auto is_next = [&](Index g) {
+        // Neighbours run along their common edge in opposite ways.
+        const auto others = opposite_side(g, removed);
+        return (others[1] == sides[0] && !m_faces[f].is_seam[at]) ||
+               (others[0] == sides[1] && !m_faces[f].is_seam[next(next(at))]);
+      };
+      const auto beyond = std::stable_partition(moving.begin(), moving.end(), [&](Index g) { return !is_next(g); });
+      for (auto it = beyond; it != moving.end(); ++it) {
+        carried.emplace_back(*it, corner);
+        reached.push_back(*it);
+      }
+      moving.erase(beyond, moving.end());
+    }
+  }
+  for (const auto& [f, corner] : carried)
+    m_faces[f].corners[slot(f, removed)] = corner;
+}
+
+// Where a contracted face was, its two other edges are one, and a seam if one of them was.
+void Complex::carry_seams(const std::vector<Index>& contracted, Index removed, Index kept)
+{
+  for (const Index f : contracted) {
+    const auto& positions = m_faces[f].positions;
+    const Index apex = *std::find_if(positions.begin(), positions.end(),
+                                     [&](Index p) { return p != removed && p != kept; });
+    bool is_seam = false;
+    for (std::size_t k = 0; k < 3; ++k)
+      is_seam = is_seam || (m_faces[f].is_seam[k] && (positions[k] == apex || positions[next(k)] == apex));
+    if (!is_seam)
+      continue;
+    for (const Index g : m_faces_at[apex])
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Index from = m_faces[g].positions[k], to = m_faces[g].positions[next(k)];
+        if ((from == apex && (to == removed || to == kept)) || (to == apex && (from == removed || from == kept)))
+          m_faces[g].is_seam[k] = true;
+      }
+  }
+}
+
+void Complex::carry_passed(const std::vector<Edge>& edges, Index removed, Index kept)
+{
+  const auto take = [&](Index a, Index b, std::vector<Coordinates>& points) {
+    const auto found = m_passed.find(std::minmax(a, b));
+    if (found == m_passed.end())
+      return;
+    points.insert(points.end(), found->second.begin(), found->second.end());
+    m_passed.erase(found);
+  };
+  std::vector<Coordinates> along;
+  bool is_along_line = false;
+  for (const Edge& edge : edges)
+    if (edge.neighbour == kept && edge.is_line()) {
+      is_along_line = true;
+      along.push_back(m_points[removed]);
+    }
+  take(removed, kept, along);
+  for (const Edge& edge : edges) {
+    if (edge.neighbour == kept || !edge.is_line())
+      continue;
+    std::vector<Coordinates> points;
+    take(removed, edge.neighbour, points);
+    take(kept, edge.neighbour, points);
+    if (is_along_line)
+      points.insert(points.end(), along.begin(), along.end());
+    if (!points.empty())
+      m_passed[std::minmax(kept, edge.neighbour)] = std::move(points);
+  }
+}
+
+const std::vector<Coordinates>* Complex::passed(Index a, Index b) const
+{
+  const auto found = m_passed.find(std::minmax(a, b));
+  return found == m_passed.end() ? nullptr : &found->second;
+}
+
+Triangle_soup Complex::result() const
+{
+  Triangle_soup moved = m_soup;
+  for (Index v = 0; v < moved.points.size(); ++v) {
+    // Bits stay, down to the sign of a zero, where nothing has moved.
+    const Coordinates& now = m_points[m_position_of_vertex[v]];
+    const Point_3 place(now[0], now[1], now[2]);
+    if (moved.points[v] != place)
+      moved.points[v] = place;
+  }
+  std::vector<Index> triangles;
+  std::vector<Index_triple> corners;
+  for (Index f = 0; f < m_faces.size(); ++f)
+    if (m_faces[f].is_alive) {
+      triangles.push_back(f);
+      corners.push_back(m_faces[f].corners);
+    }
+  return selected(moved, triangles, corners);
+}
+
+} // namespace selvedge::reference

@@ -1,0 +1,106 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SRC_REPLAY_COMPLEX_H
+#define SELVEDGE_SRC_REPLAY_COMPLEX_H
+
+#include "contact.h"
+
+#include <selvedge/mesh/Triangle_soup.h>
+
+#include <array>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace selvedge::reference {
+
+/// Triangles over positions, each of which knows its faces. No halfedges: what is a border, a fan or a seam is counted
+/// when it is asked for.
+class Complex
+{
+public:
+  struct Face
+  {
+    Index_triple positions;
+    Index_triple corners;               // of the soup, 3 × triangle + place in it
+    std::array<bool, 3> is_seam{};      // side k runs from corner k to the next
+    bool is_alive = true;
+  };
+
+  /// What the faces at a position say of the edge to a neighbour.
+  struct Edge
+  {
+    Index neighbour;
+    int outgoing = 0, incoming = 0; // faces that run along it away from the position, and to it
+    bool is_seam = false;
+
+    bool is_border() const { return outgoing != 1 || incoming != 1; }
+    bool is_line() const { return is_seam || is_border(); }
+  };
+
+  explicit Complex(const Triangle_soup& soup);
+
+  /// Where a vertex of the soup is now, or was when it went.
+  Index position(Index vertex) const { return m_position_of_vertex[vertex]; }
+  Place place(Index position) const { return {position, m_points[position]}; }
+  const Coordinates& point(Index position) const { return m_points[position]; }
+  std::array<Place, 3> triangle(Index face) const;
+
+  std::size_t face_count() const { return m_alive; }
+  std::size_t size() const { return m_faces.size(); }
+  const Face& face(Index f) const { return m_faces[f]; }
+  const std::vector<Index>& faces_at(Index position) const { return m_faces_at[position]; }
+  bool has(Index face, Index position) const;
+
+  /// The other two corners of a face, in its order, which begins after `position`.
+  std::array<Index, 2> opposite_side(Index face, Index position) const;
+
+  std::vector<Edge> edges_at(Index position) const;
+
+  /// Whether the faces at a position hang together across edges of two faces each.
+  bool is_one_fan(Index position) const;
+
+  /// Marks the edges across which a vertex number, a label or a value of the soup's corners changes.
+  void find_seams();
+  bool has_seams() const { return m_has_seams; }
+
+  void move(Index position, const Coordinates& point) { m_points[position] = point; }
+
+  /// All vertices and faces at one position go to the other, where there is no edge between.
+  void snap(Index moved, Index kept);
+
+  /// All faces at one position go to the other; those that have both are gone, and returned. Corners get what hangs on
+  /// `kept`, on their side of the seams.
+  std::vector<Index> collapse(Index removed, Index kept);
+
+  /// Points of lines that an edge has replaced.
+  const std::vector<Coordinates>* passed(Index a, Index b) const;
+
+  /// The soup of the faces left.
+  Triangle_soup result() const;
+
+private:
+  bool is_seam_between(Index corner_a, Index corner_b) const;
+  Index vertex_of(Index corner) const { return m_soup.triangles[corner / 3][corner % 3]; }
+  std::size_t slot(Index face, Index position) const;
+  void carry_corners(const std::vector<Index>& contracted, std::vector<Index> moving, Index removed, Index kept);
+  void carry_seams(const std::vector<Index>& contracted, Index removed, Index kept);
+  void carry_passed(const std::vector<Edge>& edges, Index removed, Index kept);
+
+  const Triangle_soup& m_soup;
+  std::vector<Index> m_position_of_vertex;
+  std::vector<Coordinates> m_points; // by position
+  std::vector<Face> m_faces;
+  std::vector<std::vector<Index>> m_faces_at;
+  std::size_t m_alive = 0;
+  bool m_has_seams = false;
+  std::map<std::pair<Index, Index>, std::vector<Coordinates>> m_passed;
+};
+
+/// For every vertex the smallest number of one with equal coordinates (−0 is 0).
+std::vector<Index> first_at_position(const std::vector<Point_3>& points);
+
+} // namespace selvedge::reference
+
+#endif // SELVEDGE_SRC_REPLAY_COMPLEX_H

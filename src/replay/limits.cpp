@@ -1,0 +1,144 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "limits.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace selvedge::reference {
+namespace {
+
+// Of what is compared: programs that add in another order do not differ about a limit.
+constexpr double s_tolerance = 1e-9;
+constexpr double s_degree = 3.14159265358979323846 / 180;
+
+using Vector = Coordinates;
+
+Vector difference(const Vector& u, const Vector& v) { return {u[0] - v[0], u[1] - v[1], u[2] - v[2]}; }
+double dot(const Vector& u, const Vector& v) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; }
+double length(const Vector& v) { return std::sqrt(dot(v, v)); }
+Vector cross(const Vector& u, const Vector& v)
+{
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+bool is_angle_within(const Vector& u, const Vector& v, double degrees)
+{
+  return degrees >= 180 || dot(u, v) >= (std::cos(degrees * s_degree) - s_tolerance) * length(u) * length(v);
+}
+
+double distance_to_segment(const Vector& p, const Vector& a, const Vector& b)
+{
+  const Vector along = difference(b, a), to_p = difference(p, a);
+  const double square = dot(along, along);
+  const double share = square > 0 ? std::clamp(dot(to_p, along) / square, 0.0, 1.0) : 0;
+  return length({to_p[0] - share * along[0], to_p[1] - share * along[1], to_p[2] - share * along[2]});
+}
+
+double aspect_ratio(const Vector& a, const Vector& b, const Vector& c)
+{
+  const double longest = std::max({length(difference(a, b)), length(difference(b, c)), length(difference(c, a))});
+  return longest > 0 ? 2 / std::sqrt(3.0) * length(cross(difference(b, a), difference(c, a))) / (longest * longest) : 0;
+}
+
+} // namespace
+
+void Limits::set_size(const Coordinates& low, const Coordinates& high) { m_diagonal = length(difference(high, low)); }
+
+std::optional<Violation_kind> Limits::judge(const Complex& complex, Index removed, Index kept, const Coordinates& place,
+                                            bool is_kept_still) const
+{
+  if (m_header.border_turn || m_header.seam_turn || m_header.border_drift) {
+    if (const auto kind = judge_line(complex, removed, kept, place))
+      return kind;
+    if (!is_kept_still)
+      if (const auto kind = judge_line(complex, kept, removed, place))
+        return kind;
+  }
+  return judge_shapes(complex, removed, kept, place, is_kept_still);
+}
+
+std::optional<Violation_kind> Limits::judge_line(const Complex& complex, Index mover, Index other,
+                                                 const Coordinates& place) const
+{
+  if (place == complex.point(mover))
+    return std::nullopt;
+  std::vector<Complex::Edge> lines = complex.edges_at(mover);
+  lines.erase(std::remove_if(lines.begin(), lines.end(), [](const Complex::Edge& edge) { return !edge.is_line(); }),
+              lines.end());
+  if (lines.empty())
+    return std::nullopt;
+  const auto ahead =
+    std::find_if(lines.begin(), lines.end(), [&](const Complex::Edge& edge) { return edge.neighbour == other; });
+  if (ahead == lines.end() || lines.size() != 2)
+    return Violation_kind::line;
+  const Complex::Edge& behind = lines[ahead == lines.begin() ? 1 : 0];
+  if (behind.is_border() != ahead->is_border())
+    return Violation_kind::line;
+  const Coordinates &m = complex.point(mover), &u = complex.point(behind.neighbour);
+  const auto& turn = ahead->is_border() ? m_header.border_turn : m_header.seam_turn;
+  if (turn && !is_angle_within(difference(m, u), difference(place, m), *turn))
+    return ahead->is_border() ? Violation_kind::border_turn : Violation_kind::seam_turn;
+  if (!m_header.border_drift)
+    return std::nullopt;
+  const double most = *m_header.border_drift * m_diagonal * (1 + s_tolerance);
+  const auto is_far = [&](const Coordinates& p) { return distance_to_segment(p, u, place) > most; };
+  if (is_far(m))
+    return Violation_kind::border_drift;
+  for (const Index neighbour : {behind.neighbour, other})
+    if (const auto* passed = complex.passed(mover, neighbour))
+      if (std::any_of(passed->begin(), passed->end(), is_far))
+        return Violation_kind::border_drift;
+  return std::nullopt;
+}
+
+std::optional<Violation_kind> Limits::judge_shapes(const Complex& complex, Index removed, Index kept,
+                                                   const Coordinates& place, bool is_kept_still) const
+{
+  double least_before = 1, least_after = 1;
+  bool is_turned = false;
+  const auto add = [&](Index mover, Index other) {
+    for (const Index f : complex.faces_at(mover)) {
+      if (complex.has(f, other))
+        continue;
+      const auto [p, q] = complex.opposite_side(f, mover);
+      const Coordinates &m = complex.point(mover), &a = complex.point(p), &b = complex.point(q);
+      least_before = std::min(least_before, aspect_ratio(m, a, b));
+      least_after = std::min(least_after, aspect_ratio(place, a, b));
+      const Vector before = cross(difference(a, m), difference(b, m));
+      const Vector after = cross(difference(a, place), difference(b, place));
+      if (m_header.normal_change && length(before) > 0)
+        is_turned = is_turned || !(length(after) > 0) || !is_angle_within(before, after, *m_header.normal_change);
+    }
+  };
+  add(removed, kept);
+  if (!is_kept_still)
+    add(kept, removed);
+  if (is_turned)
+    return Violation_kind::normal_change;
+  if (m_header.aspect_ratio && least_after < *m_header.aspect_ratio * (1 - s_tolerance) &&
+      least_after <= least_before * (1 - s_tolerance))
+    return Violation_kind::aspect_ratio;
+  return std::nullopt;
+}
+
+const char* Limits::message(Violation_kind kind)
+{
+  switch (kind) {
+  case Violation_kind::line:
+    return "what moves is on a border or seam, and leaves it, or is a corner or an end of it";
+  case Violation_kind::border_turn:
+    return "the border turns there by more than the log allows";
+  case Violation_kind::seam_turn:
+    return "the seam turns there by more than the log allows";
+  case Violation_kind::border_drift:
+    return "the border or seam goes further away than the log allows";
+  case Violation_kind::normal_change:
+    return "the normal of a triangle changes by more than the log allows";
+  default:
+    return "a triangle gets thinner than the log allows, and than it was";
+  }
+}
+
+} // namespace selvedge::reference

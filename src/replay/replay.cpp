@@ -1,0 +1,624 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <selvedge/replay.h>
+
+#include "Box_tree.h"
+#include "Complex.h"
+#include "contact.h"
+#include "limits.h"
+
+#include <selvedge/Error.h>
+#include <selvedge/mesh/rounding.h>
+#include <selvedge/mesh/selection.h>
+#include <selvedge/verify.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <optional>
+#include <set>
+#include <unordered_map>
+#include <utility>
+
+namespace selvedge {
+
+const char* name(Violation_kind kind)
+{
+  static constexpr const char* s_names[] = {"no_edge",     "locked",    "link",         "degenerate",    "intersection",
+                                            "tunnelling",  "line",      "border_turn",  "seam_turn",     "border_drift",
+                                            "normal_change", "aspect_ratio", "result"};
+  return s_names[std::size_t(kind)];
+}
+
+namespace reference {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start)
+{
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// What keeps two faces of a mesh from being as they should be; f == g for a face without an area.
+class Offences
+{
+public:
+  void add(Index f, Index g)
+  {
+    m_partners[f].insert(g);
+    m_partners[g].insert(f);
+  }
+  bool has(Index f, Index g) const
+  {
+    const auto found = m_partners.find(f);
+    return found != m_partners.end() && found->second.count(g) > 0;
+  }
+  bool has(Index f) const { return m_partners.count(f) > 0; }
+  void remove(Index f)
+  {
+    const auto found = m_partners.find(f);
+    if (found == m_partners.end())
+      return;
+    for (const Index g : found->second)
+      if (g != f) {
+        const auto other = m_partners.find(g);
+        other->second.erase(f);
+        if (other->second.empty())
+          m_partners.erase(other);
+      }
+    m_partners.erase(found);
+  }
+
+private:
+  std::unordered_map<Index, std::set<Index>> m_partners;
+};
+
+/// The original as the log says that it was taken: rounded, and without triangles that have two corners at one position.
+struct Start
+{
+  Triangle_soup soup;
+  std::vector<Index> numbers; // of its triangles in the original
+  std::vector<char> is_locked; // by position
+  Offences offences;
+};
+
+void leave_out_needless(Start& start)
+{
+  const std::vector<Index> first = first_at_position(start.soup.points);
+  std::vector<Index> kept, numbers;
+  for (Index t = 0; t < start.soup.triangles.size(); ++t) {
+    const auto& [a, b, c] = start.soup.triangles[t];
+    if (first[a] == first[b] || first[b] == first[c] || first[c] == first[a])
+      continue;
+    kept.push_back(t);
+    numbers.push_back(start.numbers[t]);
+  }
+  keep_triangles(start.soup, kept);
+  start.numbers = std::move(numbers);
+}
+
+Start prepare(const Triangle_soup& original, bool is_rounded)
+{
+  Start start;
+  start.soup = original;
+  for (Index t = 0; t < original.triangles.size(); ++t)
+    start.numbers.push_back(t);
+  leave_out_needless(start);
+  const std::vector<Index> before = first_at_position(start.soup.points);
+  if (is_rounded) {
+    round_to_float32(start.soup);
+    leave_out_needless(start);
+  }
+  const std::vector<Index> first = first_at_position(start.soup.points);
+  std::vector<char> is_frozen(start.soup.triangles.size(), false);
+  for (const Offending_pair& pair : offending_pairs(start.soup)) {
+    is_frozen[pair.first] = is_frozen[pair.second] = true;
+    start.offences.add(pair.first, pair.second);
+  }
+  // What only rounding has brought to one position was never one.
+  std::vector<char> is_merged(first.size(), false);
+  for (Index v = 0; v < first.size(); ++v)
+    if (before[v] != before[first[v]])
+      is_merged[first[v]] = true;
+  start.is_locked.assign(first.size(), false);
+  for (Index t = 0; t < start.soup.triangles.size(); ++t) {
+    for (const Index v : start.soup.triangles[t])
+      is_frozen[t] = is_frozen[t] || is_merged[first[v]];
+    for (const Index v : start.soup.triangles[t])
+      start.is_locked[first[v]] = start.is_locked[first[v]] || is_frozen[t];
+  }
+  return start;
+}
+
+/// One motion of what is at a position: to another, with which it merges, or to a place that is none.
+struct Motion
+{
+  Index mover;
+  Place target;
+};
+
+class Replay
+{
+public:
+  Replay(const Triangle_soup& original, bool is_stl, Log_reader& log, const Replay_options& options)
+    : m_numbering(original, is_stl), m_log(log), m_options(options), m_start(prepare(original, log.header().is_rounded_to_float32)),
+      m_complex(m_start.soup), m_limits(log.header())
+  {
+    m_boxes.resize(m_complex.size());
+    for (Index f = 0; f < m_boxes.size(); ++f)
+      m_boxes[f] = box_of(m_complex.triangle(f));
+    build_tree();
+  }
+
+  Replay_verdict run()
+  {
+    m_verdict.header = m_log.header();
+    const Clock::time_point start = Clock::now();
+    Log_step step;
+    while (m_log.read(step)) {
+      if (step.kind == Log_step::Kind::weld) {
+        check_weld(step);
+        continue;
+      }
+      ++m_verdict.steps;
+      take(step);
+      if ((!m_verdict.violations.empty() && !m_options.is_all_wanted))
+        break;
+      m_verdict.is_stopped =
+        m_options.should_stop && m_verdict.steps % 256 == 0 && m_options.should_stop(m_verdict.steps);
+      if (m_verdict.is_stopped)
+        break;
+    }
+    if (!m_verdict.is_stopped && (m_verdict.violations.empty() || m_options.is_all_wanted))
+      judge_result();
+    m_verdict.soup = m_complex.result();
+    m_verdict.seconds_steps = seconds_since(start);
+    m_verdict.pairs_judged = m_statistics.pairs;
+    m_verdict.pairs_judged_in_rationals = m_statistics.exact;
+    return std::move(m_verdict);
+  }
+
+private:
+  static Box box_of(const std::array<Place, 3>& triangle)
+  {
+    Box box;
+    for (const Place& corner : triangle)
+      box.add(corner.at);
+    return box;
+  }
+
+  void build_tree()
+  {
+    std::vector<Index> faces;
+    for (Index f = 0; f < m_boxes.size(); ++f)
+      if (m_complex.face(f).is_alive)
+        faces.push_back(f);
+    m_tree.build(faces, m_boxes);
+    m_faces_in_tree = faces.size();
+  }
+
+  void check_weld(const Log_step& step) const
+  {
+    for (const Index number : step.group)
+      if (position(number) != position(step.group.front()))
+        throw Input_error("line " + std::to_string(step.line) + " of the log: vertices " +
+                          std::to_string(step.group.front()) + " and " + std::to_string(number) +
+                          " are welded there, but they are not at one position");
+  }
+
+  Index position(Index number) const { return m_complex.position(m_numbering.vertex(number)); }
+
+  void take(const Log_step& step)
+  {
+    m_step = &step;
+    m_is_bad = false;
+    const bool is_snap = step.kind == Log_step::Kind::snap;
+    if (!is_snap)
+      begin_collapses();
+    m_verdict.collapses += !is_snap;
+    Index removed = position(step.removed), kept = position(step.kept);
+    if (!is_possible(is_snap, removed, kept))
+      return;
+    if (is_snap) {
+      judge_lock(removed);
+      judge({removed, m_complex.place(kept)});
+      apply(removed, kept, true);
+      return;
+    }
+    const std::optional<Coordinates> place = place_of(step, removed, kept);
+    if (!place) {
+      judge_lock(removed);
+      judge_link(removed, kept);
+      judge({removed, m_complex.place(kept)});
+      judge_limits(removed, kept, m_complex.point(kept), true);
+    } else {
+      judge_lock(removed);
+      judge_lock(kept);
+      judge_link(removed, kept);
+      judge_limits_before_motion(removed, kept, *place);
+      // The one that goes first stands at the place when the other comes.
+      const bool is_at_removed = *place == m_complex.point(removed);
+      const Index first = step.is_removed_first ? removed : kept, second = step.is_removed_first ? kept : removed;
+      if (is_at_removed) {
+        judge({kept, m_complex.place(removed)});
+      } else {
+        judge({first, {no_position(), *place}});
+        shift(first, *place);
+        judge({second, m_complex.place(first)});
+      }
+      shift(kept, *place);
+      report_pending_limit(removed, kept);
+    }
+    apply(removed, kept, false);
+  }
+
+  static constexpr Index no_position() { return Index(-1); }
+
+  /// A place worth the name: not where KEPT is anyhow.
+  std::optional<Coordinates> place_of(const Log_step& step, Index /*removed*/, Index kept) const
+  {
+    if (!step.place || *step.place == m_complex.point(kept))
+      return std::nullopt;
+    return step.place;
+  }
+
+  /// What is only known once vertices no longer snap.
+  void begin_collapses()
+  {
+    if (m_complex.has_seams())
+      return;
+    m_complex.find_seams();
+    Box box;
+    for (Index f = 0; f < m_complex.size(); ++f)
+      box.add(m_boxes[f]);
+    m_limits.set_size(box.low, box.high);
+  }
+
+  // What is wrong ---------------------------------------------------------------------------------------------------
+
+  void report(Violation_kind kind, const std::string& message, const std::vector<Index>& faces = {},
+              const std::string& point = {}, const std::string& scene = {})
+  {
+    if (m_is_bad)
+      return;
+    m_is_bad = true;
+    Violation violation;
+    violation.kind = kind;
+    violation.step = m_verdict.steps;
+    violation.line = m_step->line;
+    violation.removed = m_step->removed;
+    violation.kept = m_step->kept;
+    for (const Index f : faces)
+      violation.triangles.push_back(m_start.numbers[f]);
+    violation.message = message;
+    violation.point = point;
+    violation.scene = scene;
+    m_verdict.violations.push_back(std::move(violation));
+  }
+
+  bool is_possible(bool is_snap, Index removed, Index kept)
+  {
+    if (m_complex.faces_at(removed).empty() || m_complex.faces_at(kept).empty()) {
+      const Index gone = m_complex.faces_at(removed).empty() ? m_step->removed : m_step->kept;
+      report(Violation_kind::no_edge, "vertex " + std::to_string(gone) + " belongs to no triangle any more");
+      return false;
+    }
+    if (removed == kept) {
+      report(Violation_kind::no_edge, "both are at one position");
+      return false;
+    }
+    const auto& faces = m_complex.faces_at(removed);
+    const bool is_edge = std::any_of(faces.begin(), faces.end(), [&](Index f) { return m_complex.has(f, kept); });
+    if (is_edge == is_snap) {
+      report(Violation_kind::no_edge, is_snap ? "an edge joins the two" : "no edge joins the two");
+      return false;
+    }
+    return true;
+  }
+
+  void judge_lock(Index mover)
+  {
+    if (m_start.is_locked[mover])
+      report(Violation_kind::locked, "what moves belongs to a triangle that offends in the original", m_complex.faces_at(mover));
+    else if (m_step->kind == Log_step::Kind::collapse && !m_complex.is_one_fan(mover))
+      report(Violation_kind::locked, "what moves holds several sheets together", m_complex.faces_at(mover));
+  }
+
+  void judge_link(Index removed, Index kept)
+  {
+    const std::vector<Complex::Edge> at_removed = m_complex.edges_at(removed), at_kept = m_complex.edges_at(kept);
+    const auto edge_to = [](const std::vector<Complex::Edge>& edges, Index neighbour) {
+      const auto found = std::find_if(edges.begin(), edges.end(),
+                                      [&](const Complex::Edge& edge) { return edge.neighbour == neighbour; });
+      return found == edges.end() ? nullptr : &*found;
+    };
+    std::set<Index> apexes;
+    for (const Index f : m_complex.faces_at(removed))
+      if (m_complex.has(f, kept))
+        for (const Index p : m_complex.face(f).positions)
+          if (p != removed && p != kept)
+            apexes.insert(p);
+    for (const Complex::Edge& edge : at_removed) {
+      const Complex::Edge* const other = edge_to(at_kept, edge.neighbour);
+      if (!other)
+        continue;
+      if (apexes.count(edge.neighbour) == 0)
+        return report(Violation_kind::link, "both have an edge to a third vertex, and no triangle with it");
+      if (edge.is_border() && other->is_border())
+        return report(Violation_kind::link, "a triangle with two border edges would go");
+    }
+    const auto is_on_border = [](const std::vector<Complex::Edge>& edges) {
+      return std::any_of(edges.begin(), edges.end(), [](const Complex::Edge& edge) { return edge.is_border(); });
+    };
+    if (is_on_border(at_removed) && is_on_border(at_kept) && !edge_to(at_removed, kept)->is_border())
+      report(Violation_kind::link, "both are on a border, and their edge is not");
+  }
+
+  // Contacts ----------------------------------------------------------------------------------------------------------
+
+  void judge(const Motion& motion)
+  {
+    if (m_is_bad)
+      return;
+    const Place m = m_complex.place(motion.mover);
+    struct Moving
+    {
+      Index face;
+      Sweep sweep;
+      Box box;
+      std::array<Place, 3> after;
+    };
+    std::vector<Moving> moving;
+    std::vector<std::pair<Index, Standing>> sides; // of all faces at m, opposite to it
+    Box box;
+    box.add(m.at);
+    box.add(motion.target.at);
+    for (const Index f : m_complex.faces_at(motion.mover)) {
+      const auto [p, q] = m_complex.opposite_side(f, motion.mover);
+      const Place a = m_complex.place(p), b = m_complex.place(q);
+      sides.push_back({f, {{a, b, b}, 2}});
+      if (p == motion.target.id || q == motion.target.id)
+        continue;
+      Box around = box;
+      around.low = m.at;
+      around.high = m.at;
+      around.add(motion.target.at);
+      around.add(a.at);
+      around.add(b.at);
+      moving.push_back({f, Sweep(m, motion.target, a, b, m_statistics), around, {motion.target, a, b}});
+    }
+    for (const Moving& face : moving)
+      box.add(face.box);
+    for (const Moving& face : moving)
+      if (!m_offences.has(face.face, face.face) && face.sweep.degenerates())
+        return report(Violation_kind::degenerate, "a triangle has no area at some time on the way", {face.face}, {},
+                      scene(m, motion.target, face.after, nullptr));
+
+    m_standing.clear();
+    m_tree.visit(box, [&](Index f) {
+      if (!m_complex.has(f, motion.mover))
+        m_standing.push_back(f);
+    });
+    // First what is wrong at the end, which is easier to see, then what was on the way.
+    for (const Moving& face : moving) {
+      const Box end = box_of(face.after);
+      for (const Index f : m_standing)
+        if (end.overlaps(m_boxes[f]) && !m_offences.has(face.face, f) &&
+            do_meet(face.after, m_complex.triangle(f), m_statistics))
+          return report_meeting(Violation_kind::intersection, motion, face.face, face.after, f, m_complex.triangle(f),
+                                meeting_point(face.after, m_complex.triangle(f)));
+      for (const Moving& other : moving)
+        if (other.face < face.face && !m_offences.has(face.face, other.face) &&
+            do_meet(face.after, other.after, m_statistics))
+          return report_meeting(Violation_kind::intersection, motion, face.face, face.after, other.face, other.after,
+                                meeting_point(face.after, other.after));
+    }
+    for (const Moving& face : moving) {
+      for (const Index f : m_standing) {
+        if (!face.box.overlaps(m_boxes[f]) || m_offences.has(face.face, f))
+          continue;
+        const Standing standing{m_complex.triangle(f), 3};
+        if (face.sweep.touches(standing))
+          return report_meeting(Violation_kind::tunnelling, motion, face.face, face.after, f, standing.corners,
+                                face.sweep.contact(standing));
+      }
+      for (const auto& [f, side] : sides)
+        if (f != face.face && !m_offences.has(face.face, f) && face.sweep.touches(side))
+          return report_meeting(Violation_kind::tunnelling, motion, face.face, face.after, f, m_complex.triangle(f),
+                                face.sweep.contact(side));
+    }
+  }
+
+  void report_meeting(Violation_kind kind, const Motion& motion, Index f, const std::array<Place, 3>& after, Index g,
+                      const std::array<Place, 3>& other, const std::optional<std::string>& point)
+  {
+    const std::string both =
+      "triangles " + std::to_string(m_start.numbers[f] + 1) + " and " + std::to_string(m_start.numbers[g] + 1);
+    report(kind,
+           both + (kind == Violation_kind::intersection ? " intersect afterwards"
+                                                        : " are apart afterwards, but meet on the way"),
+           {f, g}, point.value_or(""), scene(m_complex.place(motion.mover), motion.target, after, &other));
+  }
+
+  static std::string scene(const Place& m, const Place& t, const std::array<Place, 3>& after,
+                           const std::array<Place, 3>* other)
+  {
+    std::string text = "# What moves, before and after; what it meets; the way of the vertex.\n";
+    std::size_t vertices = 0;
+    const auto add = [&](const char* object, const char* element, const std::vector<Place>& places) {
+      text += std::string("o ") + object + '\n';
+      std::string numbers;
+      for (const Place& place : places) {
+        text += 'v';
+        for (const double coordinate : place.at) {
+          char digits[32];
+          text += ' ' + std::string(digits, std::to_chars(digits, digits + sizeof digits, coordinate).ptr);
+        }
+        text += '\n';
+        numbers += ' ' + std::to_string(++vertices);
+      }
+      text += element + numbers + '\n';
+    };
+    add("before", "f", {m, after[1], after[2]});
+    add("after", "f", {after[0], after[1], after[2]});
+    if (other)
+      add("other", "f", {(*other)[0], (*other)[1], (*other)[2]});
+    add("way", "l", {m, t});
+    return text;
+  }
+
+  // Limits ------------------------------------------------------------------------------------------------------------
+
+  void judge_limits(Index removed, Index kept, const Coordinates& place, bool is_kept_still)
+  {
+    if (m_is_bad || !m_options.are_limits_judged)
+      return;
+    if (const auto kind = m_limits.judge(m_complex, removed, kept, place, is_kept_still))
+      report(*kind, Limits::message(*kind), m_complex.faces_at(removed));
+  }
+
+  // Limits compare with what was before the first of two motions, and are told after both.
+  void judge_limits_before_motion(Index removed, Index kept, const Coordinates& place)
+  {
+    m_pending_limit.reset();
+    if (!m_is_bad && m_options.are_limits_judged)
+      m_pending_limit = m_limits.judge(m_complex, removed, kept, place, false);
+  }
+  void report_pending_limit(Index removed, Index /*kept*/)
+  {
+    if (m_pending_limit)
+      report(*m_pending_limit, Limits::message(*m_pending_limit), m_complex.faces_at(removed));
+  }
+
+  // What changes ------------------------------------------------------------------------------------------------------
+
+  void shift(Index position, const Coordinates& place)
+  {
+    m_complex.move(position, place);
+    refit(m_complex.faces_at(position));
+  }
+
+  void refit(const std::vector<Index>& faces)
+  {
+    for (const Index f : faces) {
+      m_boxes[f] = box_of(m_complex.triangle(f));
+      m_tree.set(f, m_boxes[f]);
+    }
+  }
+
+  void apply(Index removed, Index kept, bool is_snap)
+  {
+    if (m_is_bad && !m_options.is_all_wanted)
+      return;
+    const std::vector<Index> changed = m_complex.faces_at(removed);
+    if (is_snap) {
+      m_complex.snap(removed, kept);
+    } else {
+      for (const Index f : m_complex.collapse(removed, kept)) {
+        m_offences.remove(f);
+        m_boxes[f] = Box();
+        m_tree.set(f, Box());
+      }
+    }
+    refit(m_complex.faces_at(kept));
+    const auto& faces = m_complex.faces_at(kept);
+    if (m_is_bad || std::any_of(faces.begin(), faces.end(), [&](Index f) { return m_offences.has(f); }))
+      find_offences(faces);
+    if (2 * m_complex.face_count() < m_faces_in_tree)
+      build_tree();
+  }
+
+  void find_offences(const std::vector<Index>& faces)
+  {
+    for (const Index f : faces)
+      m_offences.remove(f);
+    for (const Index f : faces) {
+      if (is_degenerate(m_complex.triangle(f)))
+        m_offences.add(f, f);
+      m_tree.visit(m_boxes[f], [&](Index g) {
+        if (g != f && do_meet(m_complex.triangle(f), m_complex.triangle(g), m_statistics))
+          m_offences.add(f, g);
+      });
+    }
+  }
+
+  // The end -----------------------------------------------------------------------------------------------------------
+
+  void judge_result()
+  {
+    const Log_result& stated = m_log.result();
+    m_verdict.is_result_stated = !stated.sha256.empty();
+    std::string message;
+    if (stated.collapses != m_verdict.collapses)
+      message = "the log has " + std::to_string(m_verdict.collapses) + " collapses, and says " + std::to_string(stated.collapses);
+    else if (stated.triangles != m_complex.face_count())
+      message = std::to_string(m_complex.face_count()) + " triangles are left, and the log says " +
+                std::to_string(stated.triangles);
+    else if (!stated.sha256.empty() && stated.sha256 != digest())
+      message = "the triangles left are not those that the log's digest stands for";
+    if (message.empty())
+      return;
+    Violation violation;
+    violation.message = message;
+    m_verdict.violations.push_back(std::move(violation));
+  }
+
+  std::string digest() const
+  {
+    std::vector<Index> smallest(m_start.soup.points.size(), Index(-1)); // by position
+    for (Index number = 0; number < m_numbering.size(); ++number) {
+      Index& first = smallest[position(number)];
+      first = std::min(first, number);
+    }
+    Sha256 sha256;
+    for (Index f = 0; f < m_complex.size(); ++f) {
+      if (!m_complex.face(f).is_alive)
+        continue;
+      const Index_triple& p = m_complex.face(f).positions;
+      sha256.add(std::to_string(smallest[p[0]]) + ' ' + std::to_string(smallest[p[1]]) + ' ' +
+                 std::to_string(smallest[p[2]]) + '\n');
+    }
+    return sha256.digest();
+  }
+
+  const Log_numbering m_numbering;
+  Log_reader& m_log;
+  const Replay_options& m_options;
+  Start m_start;
+  Offences& m_offences = m_start.offences;
+  Complex m_complex;
+  Limits m_limits;
+  std::vector<Box> m_boxes; // by face
+  Box_tree m_tree;
+  std::size_t m_faces_in_tree = 0;
+  Contact_statistics m_statistics;
+  Replay_verdict m_verdict;
+
+  const Log_step* m_step = nullptr; // the one at hand, and what is known of it
+  bool m_is_bad = false;
+  std::optional<Violation_kind> m_pending_limit;
+  std::vector<Index> m_standing;
+};
+
+} // namespace
+} // namespace reference
+
+Replay_verdict replay(const Triangle_soup& original, bool is_stl, Log_reader& log, const Replay_options& options)
+{
+  const std::size_t vertices = is_stl ? 3 * original.triangles.size() : original.points.size();
+  const Log_header& header = log.header();
+  if (header.vertices != vertices || header.triangles != original.triangles.size())
+    throw Input_error("the log is of a mesh of " + std::to_string(header.vertices) + " vertices and " +
+                      std::to_string(header.triangles) + " triangles; this one has " + std::to_string(vertices) + " and " +
+                      std::to_string(original.triangles.size()) + "; give the original that the log was made from");
+  const auto start = reference::Clock::now();
+  reference::Replay run(original, is_stl, log, options);
+  const double seconds_prepare = reference::seconds_since(start);
+  Replay_verdict verdict = run.run();
+  verdict.seconds_prepare = seconds_prepare;
+  return verdict;
+}
+
+} // namespace selvedge

@@ -1,0 +1,53 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_TEST_SUPPORT_LOGGED_REDUCTION_H
+#define SELVEDGE_TEST_SUPPORT_LOGGED_REDUCTION_H
+
+#include <selvedge/collapse_log.h>
+#include <selvedge/replay.h>
+#include <selvedge/simplify_soup.h>
+
+#include <sstream>
+#include <string>
+
+namespace selvedge::test {
+
+struct Logged_reduction
+{
+  Triangle_soup original;
+  Simplified_soup simplified;
+  std::string log;
+};
+
+inline Logged_reduction reduce_and_log(const Triangle_soup& soup, Simplify_options options,
+                                       const Prepare_options& prepare_options = {}, bool is_stl = false)
+{
+  Logged_reduction result;
+  result.original = soup;
+  const Log_numbering numbering(soup, is_stl);
+  Log_header header;
+  header.vertices = numbering.size();
+  header.triangles = soup.triangles.size();
+  header.is_rounded_to_float32 = prepare_options.round_to_float32;
+  const Prepared_soup prepared = prepare(soup, prepare_options);
+  std::ostringstream stream;
+  Reduction_log log(stream, header, numbering, prepared, options);
+  options.on_collapse = [&](std::size_t removed, std::size_t kept) { log.add_collapse(removed, kept); };
+  result.simplified = simplify_soup(prepared, options);
+  log.finish(result.simplified);
+  result.log = stream.str();
+  return result;
+}
+
+inline Replay_verdict replay_text(const Triangle_soup& original, const std::string& log,
+                                  const Replay_options& options = {}, bool is_stl = false)
+{
+  std::istringstream stream(log);
+  Log_reader reader(stream, "log");
+  return replay(original, is_stl, reader, options);
+}
+
+} // namespace selvedge::test
+
+#endif // SELVEDGE_TEST_SUPPORT_LOGGED_REDUCTION_H
