@@ -9,7 +9,8 @@ packages=(
   g++ cmake ninja-build
   libcgal-dev           # the geometry
   libcli11-dev          # options of the app
-  nlohmann-json3-dev    # reports of the app
+  libtinygltf-dev       # glTF documents
+  nlohmann-json3-dev    # glTF documents, reports of the app
   libgtest-dev          # tests
   libeigen3-dev         # tests: the Garland-Heckbert policies of CGAL, beside which ours must work
 )

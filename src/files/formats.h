@@ -16,10 +16,18 @@ Mesh_file read_off(std::string_view contents, const std::string& name);
 Mesh_file read_ply(std::string_view contents, const std::string& name);
 Mesh_file read_stl(std::string_view contents, const std::string& name);
 
+/// `folder` is where buffers in files of their own are looked for; null when there is none.
+Mesh_file read_gltf(std::string_view contents, Mesh_format format, const std::string& name,
+                    const std::filesystem::path* folder);
+
 void write_obj(Byte_writer& out, const Triangle_soup& soup, const Write_options& options);
 void write_off(Byte_writer& out, const Triangle_soup& soup, const Write_options& options);
 void write_ply(Byte_writer& out, const Triangle_soup& soup, const Write_options& options);
 void write_stl(Byte_writer& out, const Triangle_soup& soup, const Write_options& options);
+void write_gltf(Byte_writer& out, const Triangle_soup& soup, Mesh_format format);
+
+/// What of this scene only glTF files hold.
+const std::vector<std::string>& only_in_gltf(const Gltf_scene& scene);
 
 /// Whether an OBJ file of this soup holds this attribute of its vertices: a colour, or else a weight.
 bool is_in_obj(const Triangle_soup& soup, const Attribute& attribute);

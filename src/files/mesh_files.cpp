@@ -5,6 +5,7 @@
 #include <selvedge/mesh/mesh_files.h>
 #include <selvedge/mesh/rounding.h>
 
+#include "files/columns.h"
 #include "files/formats.h"
 
 #include <algorithm>
@@ -46,6 +47,11 @@ std::string read_contents(const std::filesystem::path& path)
   return contents;
 }
 
+bool is_gltf(Mesh_format format)
+{
+  return format == Mesh_format::glb || format == Mesh_format::gltf;
+}
+
 void check_writable(const Triangle_soup& soup, Mesh_format format, const Write_options& options)
 {
   const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
@@ -54,11 +60,33 @@ void check_writable(const Triangle_soup& soup, Mesh_format format, const Write_o
       throw Argument_error("a comment for a mesh file holds a control character or is more than one line");
   for (const Point_3& point : soup.points)
     for (int axis = 0; axis < 3; ++axis)
-      if (!std::isfinite(point[axis]) || (stores_float32(format) && !is_float32(point[axis])))
+      if (!std::isfinite(point[axis]) || (needs_float32(soup, format) && !is_float32(point[axis])))
         throw Argument_error("vertex " + std::to_string(&point - soup.points.data()) +
                              " (counted from 0) has a coordinate that " +
                              (std::isfinite(point[axis]) ? "is no 32-bit float; call round_to_float32 first"
                                                          : "is not finite"));
+}
+
+std::vector<std::string> not_carried_by_gltf(const Triangle_soup& soup)
+{
+  std::vector<std::string> names;
+  if (soup.scene)
+    return names; // it came from there
+  if (!soup.objects.empty())
+    names.push_back("objects");
+  if (!soup.smoothing_groups.empty())
+    names.push_back("smoothing groups");
+  if (!soup.material_libraries.empty())
+    names.push_back("material libraries");
+  const std::vector<files::Column> colours = files::find_colours(soup.vertex_attributes);
+  for (const Attribute& attribute : soup.vertex_attributes)
+    if (std::none_of(colours.begin(), colours.end(), [&](const auto& colour) { return colour.attribute == &attribute; }))
+      names.push_back("vertex attribute '" + attribute.name + "'");
+  for (const Attribute& attribute : soup.triangle_attributes)
+    names.push_back("face attribute '" + attribute.name + "'");
+  if (!soup.header_comments.empty())
+    names.push_back("comments of the header");
+  return names;
 }
 
 } // namespace
@@ -76,13 +104,22 @@ Mesh_format mesh_format(const std::filesystem::path& path)
     return Mesh_format::ply;
   if (extension == ".stl")
     return Mesh_format::stl;
+  if (extension == ".glb")
+    return Mesh_format::glb;
+  if (extension == ".gltf")
+    return Mesh_format::gltf;
   throw Input_error(path.string() +
-                    ": the name does not end in .obj, .off, .ply or .stl; rename or convert the file");
+                    ": the name does not end in .obj, .off, .ply, .stl, .glb or .gltf; rename or convert the file");
 }
 
 bool stores_float32(Mesh_format format)
 {
-  return format == Mesh_format::stl;
+  return format == Mesh_format::stl || is_gltf(format);
+}
+
+bool needs_float32(const Triangle_soup& soup, Mesh_format format)
+{
+  return stores_float32(format) && !(is_gltf(format) && soup.scene);
 }
 
 std::vector<std::string> describe(const Read_notes& notes)
@@ -95,6 +132,8 @@ std::vector<std::string> describe(const Read_notes& notes)
   say("faces of more than three corners, cut into triangles", notes.polygons_cut);
   say("faces of fewer than three corners, skipped", notes.fewer_than_three);
   say("faces that name a vertex more than once, kept", notes.repeated_corner);
+  for (const auto& [what, count] : notes.remarks)
+    say(what, count);
   for (const auto& [name, count] : notes.ignored)
     say("not carried, " + name, count);
   return sentences;
@@ -103,7 +142,10 @@ std::vector<std::string> describe(const Read_notes& notes)
 Mesh_file read_mesh(const std::filesystem::path& path)
 {
   const Mesh_format format = mesh_format(path);
-  return read_mesh(read_contents(path), format, path.string());
+  const std::string contents = read_contents(path);
+  if (const std::filesystem::path folder = path.parent_path(); is_gltf(format) && !contents.empty())
+    return files::read_gltf(contents, format, path.string(), &folder);
+  return read_mesh(contents, format, path.string());
 }
 
 Mesh_file read_mesh(std::string_view contents, Mesh_format format, const std::string& name)
@@ -117,6 +159,9 @@ Mesh_file read_mesh(std::string_view contents, Mesh_format format, const std::st
     return files::read_off(contents, name);
   case Mesh_format::ply:
     return files::read_ply(contents, name);
+  case Mesh_format::glb:
+  case Mesh_format::gltf:
+    return files::read_gltf(contents, format, name, nullptr);
   case Mesh_format::stl:
     break;
   }
@@ -137,11 +182,16 @@ void write_mesh(const std::filesystem::path& path, const Triangle_soup& soup, co
     return files::write_ply(out, soup, options);
   case Mesh_format::stl:
     return files::write_stl(out, soup, options);
+  case Mesh_format::glb:
+  case Mesh_format::gltf:
+    return files::write_gltf(out, soup, format);
   }
 }
 
 std::vector<std::string> not_carried(const Triangle_soup& soup, Mesh_format format)
 {
+  if (is_gltf(format))
+    return not_carried_by_gltf(soup);
   const bool is_obj = format == Mesh_format::obj, is_ply = format == Mesh_format::ply;
   std::vector<std::string> names;
   const auto say = [&names](bool is_lost, const std::string& name) {
@@ -167,6 +217,9 @@ std::vector<std::string> not_carried(const Triangle_soup& soup, Mesh_format form
     say(!soup.header_comments.empty(), "comments of the header");
   }
   say(format == Mesh_format::stl && !soup.points.empty(), "vertex numbers");
+  if (soup.scene)
+    for (const std::string& name : files::only_in_gltf(*soup.scene))
+      say(true, name);
   return names;
 }
 

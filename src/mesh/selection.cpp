@@ -140,6 +140,9 @@ Triangle_soup selected(const Triangle_soup& soup, const std::vector<Index>& tria
   result.smoothing_groups = selected(soup.smoothing_groups, triangles);
   result.material_libraries = soup.material_libraries;
   result.header_comments = soup.header_comments;
+  result.scene = soup.scene;
+  if (soup.scene)
+    result.scene_vertices = rows(soup.scene_vertices, vertices);
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -60,6 +61,9 @@ struct Attribute
   std::vector<unsigned char> rows; ///< one after another, each `components` numbers in the machine's byte order
 };
 
+/// What a glTF file says beyond its triangles; opaque.
+struct Gltf_scene;
+
 /// A mesh as a file holds it: vertices, triangles that name three of them, and what hangs on both.
 ///
 /// Nothing is assumed of the triangles: a vertex may be unused, several may lie at one position, a triangle may
@@ -97,6 +101,11 @@ struct Triangle_soup
 
   /// What the header of a PLY file says in `comment` and `obj_info`, each with its keyword.
   std::vector<std::string> header_comments;
+
+  /// The glTF file that this was read from, and for every vertex which of its vertices it is; else none, and empty. A new
+  /// glTF file is made of both: see mesh_files.h.
+  std::shared_ptr<const Gltf_scene> scene;
+  std::vector<Index> scene_vertices;
 };
 
 } // namespace selvedge

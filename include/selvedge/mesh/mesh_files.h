@@ -42,16 +42,20 @@ namespace selvedge {
 /// **Complexity.** Linear in the size of the file, except for polygons: quadratic in the number of corners
 /// of each as a rule, cubic at worst.
 
-enum class Mesh_format { obj, off, ply, stl };
+enum class Mesh_format { obj, off, ply, stl, glb, gltf };
 
-/// The format that a path's extension names (`.obj`, `.off`, `.ply`, `.stl`, in any case).
+/// The format that a path's extension names (`.obj`, `.off`, `.ply`, `.stl`, `.glb`, `.gltf`, in any case).
 /// Throws `Input_error` when it names none of them.
 Mesh_format mesh_format(const std::filesystem::path& path);
 
-/// Whether every file of this format holds its positions as 32-bit floats, as STL does: what is written there
+/// Whether every file of this format holds its positions as 32-bit floats, as STL and glTF do: what is written there
 /// must be rounded before it is judged (`round_to_float32`). PLY holds floats when that loses nothing, else
 /// doubles.
 bool stores_float32(Mesh_format format);
+
+/// Whether positions of this soup must be 32-bit floats to be written in this format: where it stores those, unless
+/// the soup goes from glTF to glTF, which has them already, though its positions in the scene are doubles.
+bool needs_float32(const Triangle_soup& soup, Mesh_format format);
 
 /// What the author of a file may want to know about how it was read.
 struct Read_notes
@@ -59,6 +63,9 @@ struct Read_notes
   std::size_t polygons_cut = 0;     ///< Faces of more than three corners, each cut into triangles.
   std::size_t repeated_corner = 0;  ///< Faces that name a vertex more than once; kept.
   std::size_t fewer_than_three = 0; ///< Faces of fewer than three corners; skipped.
+
+  /// What was taken otherwise than it stands in the file, and how often.
+  std::map<std::string, std::size_t> remarks;
 
   /// What the soup does not hold, by name, and how often it stands in the file.
   std::map<std::string, std::size_t> ignored;

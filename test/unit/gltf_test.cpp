@@ -1,0 +1,726 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// glTF files: what is carried, bit for bit, and what is refused.
+
+#include "support/Temporary_folder.h"
+
+#include <selvedge/Error.h>
+#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/mesh/selection.h>
+#include <selvedge/simplify_soup.h>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <random>
+#include <set>
+#include <sstream>
+
+using namespace selvedge;
+using selvedge::test::Temporary_folder;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr unsigned seed = 20261121;
+constexpr int side = 14; // vertices along a sheet
+
+template <class Number>
+void put(std::string& bytes, Number number)
+{
+  bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+}
+
+template <class Number>
+Number get(const std::string& bytes, std::size_t at)
+{
+  Number number;
+  std::memcpy(&number, bytes.data() + at, sizeof number);
+  return number;
+}
+
+struct Document
+{
+  Json json;
+  std::string bytes;
+};
+
+std::string to_glb(Document document)
+{
+  document.json["buffers"] = {{{"byteLength", document.bytes.size()}, {"name", "all"}}};
+  std::string json = document.json.dump();
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  document.bytes.resize((document.bytes.size() + 3) / 4 * 4, '\0');
+  std::string glb = "glTF";
+  put(glb, std::uint32_t(2));
+  put(glb, std::uint32_t(28 + json.size() + document.bytes.size()));
+  put(glb, std::uint32_t(json.size()));
+  glb += "JSON" + json;
+  put(glb, std::uint32_t(document.bytes.size()));
+  return glb + std::string("BIN\0", 4) + document.bytes;
+}
+
+Document from_glb(const std::string& glb)
+{
+  const std::size_t size = get<std::uint32_t>(glb, 12);
+  return {Json::parse(glb.substr(20, size)), glb.substr(28 + size, get<std::uint32_t>(glb, 20 + size))};
+}
+
+std::string contents(const std::filesystem::path& path)
+{
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+std::size_t add_view(Document& document, const std::string& bytes, std::size_t stride = 0)
+{
+  document.bytes.resize((document.bytes.size() + 3) / 4 * 4, '\xee');
+  Json view = {{"buffer", 0}, {"byteOffset", document.bytes.size()}, {"byteLength", bytes.size()}};
+  if (stride != 0)
+    view["byteStride"] = stride;
+  document.bytes += bytes;
+  document.json["bufferViews"].push_back(view);
+  return document.json["bufferViews"].size() - 1;
+}
+
+std::size_t add_accessor(Document& document, const std::string& bytes, std::size_t count, int component_type,
+                         const char* type, bool is_normalized = false, std::size_t stride = 0)
+{
+  Json accessor = {{"bufferView", add_view(document, bytes, stride)}, {"componentType", component_type}, {"count", count}, {"type", type}};
+  if (is_normalized)
+    accessor["normalized"] = true;
+  document.json["accessors"].push_back(accessor);
+  return document.json["accessors"].size() - 1;
+}
+
+/// Rows of any numbers, as a column of an accessor.
+template <class Number, class Value>
+std::size_t add_rows(Document& document, std::size_t count, std::size_t components, int component_type, const Value& value,
+                     bool is_normalized = false)
+{
+  const std::size_t stride = (components * sizeof(Number) + 3) / 4 * 4;
+  std::string bytes;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t k = 0; k < components; ++k)
+      put(bytes, Number(value(i, k)));
+    bytes.resize((i + 1) * stride, '\xdd');
+  }
+  const char* const types[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
+  return add_accessor(document, bytes, count, component_type, types[components - 1], is_normalized,
+                      stride == components * sizeof(Number) ? 0 : stride);
+}
+
+void set_bounds(Document& document, std::size_t accessor, std::size_t count, const std::function<float(std::size_t, std::size_t)>& value)
+{
+  for (std::size_t k = 0; k < 3; ++k) {
+    float low = value(0, k), high = low;
+    for (std::size_t i = 0; i < count; ++i) {
+      low = std::min(low, value(i, k));
+      high = std::max(high, value(i, k));
+    }
+    document.json["accessors"][accessor]["min"].push_back(low);
+    document.json["accessors"][accessor]["max"].push_back(high);
+  }
+}
+
+/// Two sheets, a wavy one of two materials and a flat one, with everything on them, in four nodes.
+Document everything()
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> real(0, 1);
+  Document document;
+  Json& json = document.json;
+  json = {{"asset", {{"version", "2.0"}, {"generator", "hand"}}}, {"scene", 0}, {"extras", {{"studio", {1, 2.5, "x"}}}}};
+  constexpr std::size_t count = side * side;
+  std::vector<std::array<float, 3>> points;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float u = float(i % side), v = float(i / side);
+    points.push_back({u * 0.1f + 0.01f * real(random), v * 0.1f + 0.01f * real(random), 0.01f * real(random)});
+  }
+  const auto position = [&](std::size_t i, std::size_t k) { return points[i][k]; };
+  Json attributes;
+  attributes["POSITION"] = add_rows<float>(document, count, 3, 5126, position);
+  set_bounds(document, attributes["POSITION"], count, position);
+  attributes["NORMAL"] = add_rows<float>(document, count, 3, 5126, [](std::size_t i, std::size_t k) {
+    const double a = 0.001 * double(i);
+    return k == 0 ? std::sin(a) : k == 1 ? 0 : std::cos(a);
+  });
+  attributes["TANGENT"] = add_rows<float>(document, count, 4, 5126, [](std::size_t i, std::size_t k) {
+    const double a = 0.001 * double(i);
+    return k == 0 ? std::cos(a) : k == 1 ? 0 : k == 2 ? -std::sin(a) : 1;
+  });
+  attributes["TEXCOORD_0"] = add_rows<float>(document, count, 2, 5126, [](std::size_t i, std::size_t k) {
+    return (k == 0 ? double(i % side) : double(i / side)) / side + 1e-3;
+  });
+  attributes["TEXCOORD_1"] = add_rows<std::uint16_t>(document, count, 2, 5123, [&](std::size_t, std::size_t) { return random(); }, true);
+  attributes["COLOR_0"] = add_rows<std::uint8_t>(document, count, 3, 5121, [&](std::size_t, std::size_t) { return random(); }, true);
+  attributes["_ID"] = add_rows<float>(document, count, 1, 5126, [](std::size_t i, std::size_t) { return i; });
+  const auto indices = [&](int first_row, int last_row, int type) {
+    std::string bytes;
+    std::size_t size = 0;
+    for (int y = first_row; y < last_row; ++y)
+      for (int x = 0; x + 1 < side; ++x)
+        for (const int corner : {y * side + x, y * side + x + 1, (y + 1) * side + x, (y + 1) * side + x, y * side + x + 1, (y + 1) * side + x + 1}) {
+          if (type == 5125)
+            put(bytes, std::uint32_t(corner));
+          else if (type == 5123)
+            put(bytes, std::uint16_t(corner));
+          else
+            put(bytes, std::uint8_t(corner));
+          ++size;
+        }
+    return add_accessor(document, bytes, size, type, "SCALAR");
+  };
+  // A target whose shape stands in sparse rows, as exporters do it.
+  std::string rows, values;
+  for (const int row : {3, 17, 40}) {
+    put(rows, std::uint16_t(row));
+    for (int k = 0; k < 3; ++k)
+      put(values, 0.25f * float(row + k));
+  }
+  const std::size_t rows_view = add_view(document, rows), values_view = add_view(document, values);
+  json["accessors"].push_back({{"componentType", 5126}, {"count", count}, {"type", "VEC3"}, {"name", "bulge"},
+                               {"sparse", {{"count", 3}, {"indices", {{"bufferView", rows_view}, {"componentType", 5123}}}, {"values", {{"bufferView", values_view}}}}},
+                               {"min", {0, 0, 0}}, {"max", {10, 10.25, 10.5}}});
+  const Json targets = {{{"POSITION", json["accessors"].size() - 1}}};
+  json["meshes"].push_back({{"name", "coat"}, {"weights", {0.5}}, {"extras", {{"targetNames", {"bulge"}}}}});
+  json["meshes"][0]["primitives"] = {
+    {{"attributes", attributes}, {"indices", indices(0, side / 2, 5125)}, {"material", 0}, {"targets", targets}, {"extras", "front"}},
+    {{"attributes", attributes}, {"indices", indices(side / 2, side - 1, 5123)}, {"material", 1}, {"targets", targets}}};
+  json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", attributes["POSITION"]}}}, {"mode", 0}});
+  // Another mesh, with a skin.
+  Json skinned;
+  const auto high = [&](std::size_t i, std::size_t k) { return points[i][k] + (k == 2 ? 0.125f : 0.f); };
+  skinned["POSITION"] = add_rows<float>(document, count, 3, 5126, high);
+  set_bounds(document, skinned["POSITION"], count, high);
+  skinned["_ID"] = attributes["_ID"];
+  skinned["JOINTS_0"] = add_rows<std::uint8_t>(document, count, 4, 5121, [](std::size_t i, std::size_t k) { return k == 1 ? i % 2 : 0; });
+  skinned["WEIGHTS_0"] = add_rows<std::uint8_t>(document, count, 4, 5121, [](std::size_t i, std::size_t k) {
+    return k == 0 ? 255 - int(i % 2 * (i % 200)) : k == 1 ? int(i % 2 * (i % 200)) : 0; }, true);
+  json["meshes"].push_back({{"name", "arm"}, {"primitives", {{{"attributes", skinned}, {"indices", indices(0, side - 1, 5121)}}}}});
+  json["materials"] = {{{"name", "denim"}, {"pbrMetallicRoughness", {{"baseColorFactor", {0.1, 0.2, 0.3, 1.0}}, {"baseColorTexture", {{"index", 0}}}}}, {"extras", {{"id", 7}}}},
+                       {{"name", "silk"}, {"doubleSided", true}}};
+  json["images"] = {{{"bufferView", add_view(document, "\x89PNG\r\n\x1a\n not really")}, {"mimeType", "image/png"}, {"name", "weave"}},
+                    {{"uri", "there%20is/none.png"}}};
+  json["textures"] = {{{"source", 0}}, {{"source", 1}}};
+  std::string matrices, times, moves;
+  for (int joint = 0; joint < 2; ++joint)
+    for (int i = 0; i < 16; ++i)
+      put(matrices, i % 5 == 0 ? 1.f : 0.f);
+  for (int i = 0; i < 2; ++i) {
+    put(times, float(i));
+    for (int k = 0; k < 3; ++k)
+      put(moves, float(i + k));
+  }
+  json["skins"] = {{{"inverseBindMatrices", add_accessor(document, matrices, 2, 5126, "MAT4")}, {"joints", {4, 5}}}};
+  const std::size_t input = add_accessor(document, times, 2, 5126, "SCALAR");
+  json["accessors"][input]["min"] = {0};
+  json["accessors"][input]["max"] = {1};
+  json["animations"] = {{{"samplers", {{{"input", input}, {"output", add_accessor(document, moves, 2, 5126, "VEC3")}}}},
+                         {"channels", {{{"sampler", 0}, {"target", {{"node", 4}, {"path", "translation"}}}}}}}};
+  json["nodes"] = {{{"name", "root"}, {"translation", {10.1, 20.2, 30.3}}, {"children", {1, 2, 3, 4}}, {"extras", {{"key", {true, nullptr}}}}},
+                   {{"name", "left"}, {"mesh", 0}, {"rotation", {0.0, 0.6, 0.0, 0.8}}, {"scale", {1.5, 2.0, 0.7}}, {"translation", {-3.3, 0.1, 0.2}}},
+                   {{"name", "right"}, {"mesh", 0}, {"matrix", {-1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 5.5, 0.25, 0.125, 1.0}}},
+                   {{"name", "arm"}, {"mesh", 1}, {"skin", 0}, {"translation", {100.0, 0.0, 0.0}}},
+                   {{"name", "shoulder"}, {"children", {5}}},
+                   {{"name", "elbow"}}};
+  json["scenes"] = {{{"nodes", {0}}, {"name", "fitting"}}};
+  return document;
+}
+
+/// The rows of an accessor, read with other code than the library's.
+std::vector<std::string> rows_of(const Document& document, std::size_t number)
+{
+  const Json& accessor = document.json["accessors"][number];
+  const std::map<std::string, std::size_t> components = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}};
+  const std::map<int, std::size_t> sizes = {{5121, 1}, {5123, 2}, {5125, 4}, {5126, 4}};
+  const std::size_t size = components.at(accessor["type"]) * sizes.at(accessor["componentType"]);
+  std::vector<std::string> rows(accessor["count"].get<std::size_t>(), std::string(size, '\0'));
+  if (accessor.contains("bufferView")) {
+    const Json& view = document.json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+    const std::size_t stride = view.value("byteStride", size);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      rows[i] = document.bytes.substr(view["byteOffset"].get<std::size_t>() + accessor.value("byteOffset", std::size_t(0)) + i * stride, size);
+  }
+  if (accessor.contains("sparse")) {
+    const Json& sparse = accessor["sparse"];
+    const auto begin = [&](const char* part) {
+      return document.json["bufferViews"][sparse[part]["bufferView"].get<std::size_t>()]["byteOffset"].get<std::size_t>();
+    };
+    for (std::size_t i = 0; i < sparse["count"]; ++i)
+      rows[get<std::uint16_t>(document.bytes, begin("indices") + 2 * i)] = document.bytes.substr(begin("values") + i * size, size);
+  }
+  return rows;
+}
+
+std::vector<std::size_t> indices_of(const Document& document, const Json& primitive)
+{
+  std::vector<std::size_t> result;
+  for (const std::string& row : rows_of(document, primitive["indices"])) {
+    std::size_t index = 0;
+    for (std::size_t k = 0; k < row.size(); ++k)
+      index |= std::size_t(static_cast<unsigned char>(row[k])) << 8 * k;
+    result.push_back(index);
+  }
+  return result;
+}
+
+/// Every vertex of a primitive has, in every attribute and target, the bits of the vertex of the same _ID in the other.
+void expect_rows_of(const Document& after, const Json& primitive, const Document& before, const Json& original)
+{
+  ASSERT_EQ(primitive["attributes"].size(), original["attributes"].size());
+  const std::vector<std::string> ids = rows_of(after, primitive["attributes"]["_ID"]);
+  const auto expect_same = [&](std::size_t accessor, std::size_t from) {
+    for (const char* key : {"componentType", "type", "normalized", "name", "extras"})
+      ASSERT_EQ(after.json["accessors"][accessor].value(key, Json()), before.json["accessors"][from].value(key, Json()));
+    const std::vector<std::string> rows = rows_of(after, accessor), expected = rows_of(before, from);
+    ASSERT_EQ(rows.size(), ids.size());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      ASSERT_EQ(rows[i], expected.at(std::size_t(get<float>(ids[i], 0)))) << "row " << i;
+  };
+  for (const auto& [name, accessor] : original["attributes"].items())
+    expect_same(primitive["attributes"][name], accessor);
+  ASSERT_EQ(primitive.value("targets", Json()).size(), original.value("targets", Json()).size());
+  for (std::size_t k = 0; k < original.value("targets", Json()).size(); ++k)
+    for (const auto& [name, accessor] : original["targets"][k].items())
+      expect_same(primitive["targets"][k][name], accessor);
+  for (const std::size_t index : indices_of(after, primitive))
+    ASSERT_LT(index, ids.size());
+}
+
+/// What is not about vertices and triangles says the same.
+void expect_same_rest(const Document& after, const Document& before)
+{
+  for (const char* key : {"asset", "scene", "scenes", "extras", "materials", "images", "textures", "skins", "animations"})
+    EXPECT_EQ(after.json[key], before.json[key]) << key;
+  const auto view = [](const Document& document, std::size_t number) {
+    const Json& json = document.json["bufferViews"][number];
+    return document.bytes.substr(json["byteOffset"], json["byteLength"]);
+  };
+  const std::size_t image = before.json["images"][0]["bufferView"];
+  EXPECT_EQ(view(after, image), view(before, image));
+  for (const std::size_t accessor : {before.json["skins"][0]["inverseBindMatrices"], before.json["animations"][0]["samplers"][0]["input"],
+                                     before.json["animations"][0]["samplers"][0]["output"]})
+    EXPECT_EQ(rows_of(after, accessor), rows_of(before, accessor));
+  // The node that shared its mesh has its own now.
+  Json nodes = after.json["nodes"];
+  EXPECT_EQ(nodes[2]["mesh"], 2);
+  nodes[2]["mesh"] = 0;
+  EXPECT_EQ(nodes, before.json["nodes"]);
+  ASSERT_EQ(after.json["meshes"].size(), 3u);
+  // Points are as they were.
+  for (const std::size_t mesh : {0, 2})
+    EXPECT_EQ(rows_of(after, after.json["meshes"][mesh]["primitives"][2]["attributes"]["POSITION"]),
+              rows_of(before, before.json["meshes"][0]["primitives"][2]["attributes"]["POSITION"]));
+}
+
+void expect_everything_kept(const Document& after, const Document& before)
+{
+  expect_same_rest(after, before);
+  const std::map<std::size_t, std::size_t> from = {{0, 0}, {1, 1}, {2, 0}};
+  for (const auto& [mesh, original] : from) {
+    Json rest = after.json["meshes"][mesh], rest_before = before.json["meshes"][original];
+    for (std::size_t p = 0; p < rest["primitives"].size(); ++p) {
+      if (rest["primitives"][p].contains("indices"))
+        expect_rows_of(after, rest["primitives"][p], before, rest_before["primitives"][p]);
+      for (const char* key : {"attributes", "indices", "targets"}) {
+        rest["primitives"][p].erase(key);
+        rest_before["primitives"][p].erase(key);
+      }
+    }
+    EXPECT_EQ(rest, rest_before);
+  }
+}
+
+void write_bytes(const std::filesystem::path& path, const std::string& bytes)
+{
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+Simplified_soup reduce(const Triangle_soup& soup, double ratio)
+{
+  Simplify_options options;
+  options.ratio = ratio;
+  return simplify_soup(prepare(soup), options);
+}
+
+Mesh_file read_glb(const Document& document)
+{
+  return read_mesh(to_glb(document), Mesh_format::glb, "test");
+}
+
+void expect_refused(const Document& document, const std::string& word)
+{
+  try {
+    read_glb(document);
+    FAIL() << "not refused: " << word;
+  } catch (const Input_error& error) {
+    EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+  }
+}
+
+/// One triangle at (0,0,0), (1,0,0), (0,1,0) in one node.
+Document one_triangle()
+{
+  Document document;
+  document.json = {{"asset", {{"version", "2.0"}}}, {"scenes", {{{"nodes", {0}}}}}, {"nodes", {{{"mesh", 0}}}}};
+  const auto position = [](std::size_t i, std::size_t k) { return float(i == k + 1); };
+  const std::size_t accessor = add_rows<float>(document, 3, 3, 5126, position);
+  set_bounds(document, accessor, 3, position);
+  document.json["meshes"] = {{{"primitives", {{{"attributes", {{"POSITION", accessor}}}}}}}};
+  return document;
+}
+
+} // namespace
+
+TEST(Gltf, RoundTripKeepsEverything)
+{
+  const Temporary_folder folder;
+  const Document before = everything();
+  const Mesh_file file = read_glb(before);
+  EXPECT_EQ(file.soup.triangles.size(), 3u * 2 * (side - 1) * (side - 1));
+  write_mesh(folder / "a.glb", file.soup);
+  const Document after = from_glb(contents(folder / "a.glb"));
+  expect_everything_kept(after, before);
+  for (std::size_t p = 0; p < 2; ++p)
+    EXPECT_EQ(indices_of(after, after.json["meshes"][0]["primitives"][p]).size(),
+              indices_of(before, before.json["meshes"][0]["primitives"][p]).size());
+  const Mesh_file again = read_mesh(folder / "a.glb");
+  EXPECT_EQ(again.soup.triangles.size(), file.soup.triangles.size());
+  EXPECT_EQ(again.soup.groups.names, file.soup.groups.names);
+  EXPECT_EQ(again.soup.materials.of_triangle, file.soup.materials.of_triangle);
+  for (std::size_t t = 0; t < file.soup.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      ASSERT_EQ(again.soup.points[again.soup.triangles[t][k]], file.soup.points[file.soup.triangles[t][k]]);
+  write_mesh(folder / "b.glb", again.soup);
+  EXPECT_EQ(contents(folder / "a.glb"), contents(folder / "b.glb"));
+}
+
+TEST(Gltf, ReducedKeepsTheBitsOfEverySurvivingVertex)
+{
+  const Temporary_folder folder;
+  const Document before = everything();
+  const Mesh_file file = read_glb(before);
+  const Simplified_soup reduced = reduce(file.soup, 0.4);
+  ASSERT_LT(reduced.soup.triangles.size(), file.soup.triangles.size() / 2);
+  EXPECT_FALSE(needs_float32(reduced.soup, Mesh_format::glb));
+  EXPECT_TRUE(needs_float32(reduced.soup, Mesh_format::stl));
+  write_mesh(folder / "a.glb", reduced.soup);
+  const Document after = from_glb(contents(folder / "a.glb"));
+  expect_everything_kept(after, before);
+  // What was judged is what stands in the file.
+  const Mesh_file again = read_mesh(folder / "a.glb");
+  ASSERT_EQ(again.soup.triangles.size(), reduced.soup.triangles.size());
+  std::multiset<std::array<Point_3, 3>> judged, written;
+  for (const Index_triple& t : reduced.soup.triangles)
+    judged.insert({reduced.soup.points[t[0]], reduced.soup.points[t[1]], reduced.soup.points[t[2]]});
+  for (const Index_triple& t : again.soup.triangles)
+    written.insert({again.soup.points[t[0]], again.soup.points[t[1]], again.soup.points[t[2]]});
+  EXPECT_TRUE(judged == written);
+  EXPECT_TRUE(not_carried(reduced.soup, Mesh_format::glb).empty());
+  write_mesh(folder / "all.glb", file.soup);
+  EXPECT_LT(after.bytes.size(), from_glb(contents(folder / "all.glb")).bytes.size() * 2 / 3) << "vertices that are gone are still in the file";
+}
+
+TEST(Gltf, TextFormHoldsTheSame)
+{
+  const Temporary_folder folder;
+  const Document before = everything();
+  const Mesh_file file = read_glb(before);
+  write_mesh(folder / "a.gltf", file.soup);
+  const Mesh_file again = read_mesh(folder / "a.gltf");
+  EXPECT_EQ(again.soup.points, file.soup.points);
+  EXPECT_EQ(again.soup.triangles, file.soup.triangles);
+  write_mesh(folder / "a.glb", again.soup);
+  expect_everything_kept(from_glb(contents(folder / "a.glb")), before);
+}
+
+TEST(Gltf, BuffersInFilesOfTheirOwnAreRead)
+{
+  const Temporary_folder folder;
+  Document document = everything();
+  document.json["buffers"] = {{{"byteLength", document.bytes.size()}, {"uri", "the%20buffer.bin"}}};
+  write_bytes(folder / "a.gltf", document.json.dump());
+  write_bytes(folder / "the buffer.bin", document.bytes);
+  EXPECT_EQ(read_mesh(folder / "a.gltf").soup.points, read_glb(everything()).soup.points);
+  std::filesystem::remove(folder / "the buffer.bin");
+  EXPECT_THROW(read_mesh(folder / "a.gltf"), Input_error);
+}
+
+TEST(Gltf, WorldPositionsAreTheDocumentedFormula)
+{
+  const Document document = everything();
+  const Mesh_file file = read_glb(document);
+  const std::vector<std::string> rows = rows_of(document, document.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"]);
+  // (0, 0.6, 0, 0.8), by hand, entry by entry.
+  const double y = 0.6, w = 0.8;
+  const double m00 = (1 - 2 * (y * y + 0)) * 1.5, m02 = 2 * (0 + y * w) * 0.7, m11 = (1 - 2 * 0.0) * 2.0, m20 = 2 * (0 - y * w) * 1.5,
+               m22 = (1 - 2 * (0 + y * y)) * 0.7;
+  const double tx = -3.3 + 10.1, ty = 0.1 + 20.2, tz = 0.2 + 30.3;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double px = get<float>(rows[i], 0), py = get<float>(rows[i], 4), pz = get<float>(rows[i], 8);
+    EXPECT_EQ(file.soup.points[i], Point_3(m00 * px + m02 * pz + tx, m11 * py + ty, m20 * px + m22 * pz + tz));
+    EXPECT_EQ(file.soup.points[i + rows.size()], Point_3(-px + (5.5 + 10.1), py + (0.25 + 20.2), pz + (0.125 + 30.3)));
+    // A skinned mesh is where its vertices are, wherever its node is.
+    EXPECT_EQ(file.soup.points[i + 2 * rows.size()], Point_3(px, py, double(float(get<float>(rows[i], 8) + 0.125f))));
+  }
+}
+
+TEST(Gltf, MirroredNodesFaceTheSameWay)
+{
+  const Mesh_file file = read_glb(everything());
+  // All sheets look to +z in their own node; left is turned by 73.74 degrees, right is mirrored in x.
+  for (std::size_t t = 0; t < file.soup.triangles.size(); ++t) {
+    const auto& [a, b, c] = file.soup.triangles[t];
+    const auto normal = CGAL::cross_product(file.soup.points[b] - file.soup.points[a], file.soup.points[c] - file.soup.points[a]);
+    EXPECT_GT(normal.z(), 0);
+    if (!file.soup.normals.empty() && file.soup.normals.of_triangle[t][0] != file.soup.normals.missing) {
+      const auto& n = file.soup.normals.values[file.soup.normals.of_triangle[t][0]];
+      EXPECT_GT(n[0] * normal.x() + n[1] * normal.y() + n[2] * normal.z(), 0);
+      EXPECT_NEAR(n[0] * n[0] + n[1] * n[1] + n[2] * n[2], 1, 1e-6);
+    }
+  }
+}
+
+TEST(Gltf, GroupsMaterialsAndNotes)
+{
+  const Mesh_file file = read_glb(everything());
+  EXPECT_EQ(file.soup.groups.names, (std::vector<std::string>{"left/0", "left/1", "right/0", "right/1", "arm"}));
+  EXPECT_EQ(file.soup.materials.names, (std::vector<std::string>{"denim", "silk", ""}));
+  const std::vector<std::string> notes = describe(file.notes);
+  const auto says = [&](const std::string& word) {
+    return std::any_of(notes.begin(), notes.end(), [&](const std::string& note) { return note.find(word) != std::string::npos; });
+  };
+  for (const char* word : {"several nodes share", "bind pose", "morph targets", "points or lines", "sparse", "files of their own"})
+    EXPECT_TRUE(says(word)) << word;
+}
+
+TEST(Gltf, LayersInDifferentNodesSeeEachOther)
+{
+  // Two triangles that cross each other only through the transform of one node.
+  Document document = one_triangle();
+  document.json["nodes"] = {{{"mesh", 0}}, {{"mesh", 0}, {"rotation", {1.0, 0.0, 0.0, 0.0}}, {"translation", {0.1, 0.3, 0.0}}}};
+  document.json["scenes"][0]["nodes"] = {0, 1};
+  EXPECT_FALSE(offending_pairs(read_glb(document).soup).empty());
+  document.json["nodes"][1]["translation"] = {0.1, 0.3, 0.1};
+  EXPECT_TRUE(offending_pairs(read_glb(document).soup).empty());
+}
+
+TEST(Gltf, StripsAndFansBecomeTriangles)
+{
+  Document document = one_triangle();
+  const auto corners = [](std::size_t i, std::size_t k) { return k == 0 ? float(i / 2) : k == 1 ? float(i % 2) : 0.f; };
+  document.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = add_rows<float>(document, 5, 3, 5126, corners);
+  document.json["meshes"][0]["primitives"][0]["mode"] = 5;
+  using Triangles = std::vector<Index_triple>;
+  EXPECT_EQ(read_glb(document).soup.triangles, (Triangles{{0, 1, 2}, {1, 3, 2}, {2, 3, 4}}));
+  document.json["meshes"][0]["primitives"][0]["mode"] = 6;
+  EXPECT_EQ(read_glb(document).soup.triangles, (Triangles{{1, 2, 0}, {2, 3, 0}, {3, 4, 0}}));
+  const Temporary_folder folder;
+  write_mesh(folder / "a.glb", read_glb(document).soup);
+  EXPECT_FALSE(from_glb(contents(folder / "a.glb")).json["meshes"][0]["primitives"][0].contains("mode"));
+  EXPECT_EQ(read_mesh(folder / "a.glb").soup.triangles, (Triangles{{1, 2, 0}, {2, 3, 0}, {3, 4, 0}}));
+}
+
+TEST(Gltf, VerticesWithoutIndicesAreOneWhereTheyAgree)
+{
+  Document document = one_triangle();
+  Json& primitive = document.json["meshes"][0]["primitives"][0];
+  const float places[][2] = {{0, 0}, {1, 0}, {0, 1}, {0, 1}, {1, 0}, {1, 1}};
+  primitive["attributes"]["POSITION"] =
+    add_rows<float>(document, 6, 3, 5126, [&](std::size_t i, std::size_t k) { return k < 2 ? places[i][k] : 0.f; });
+  EXPECT_EQ(read_glb(document).soup.triangles, (std::vector<Index_triple>{{0, 1, 2}, {2, 1, 5}}));
+  primitive["attributes"]["_SIDE"] = add_rows<float>(document, 6, 1, 5126, [](std::size_t i, std::size_t) { return i / 3; });
+  EXPECT_EQ(read_glb(document).soup.triangles, (std::vector<Index_triple>{{0, 1, 2}, {3, 4, 5}}));
+}
+
+TEST(Gltf, PrimitivesThatAreGoneLeaveAValidFile)
+{
+  const Temporary_folder folder;
+  const Mesh_file file = read_glb(everything());
+  std::vector<Index> triangles;
+  std::vector<Index_triple> corners;
+  for (Index t = 0; t < file.soup.triangles.size(); ++t)
+    if (file.soup.groups.of_triangle[t] == 0) {
+      triangles.push_back(t);
+      corners.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    }
+  write_mesh(folder / "a.glb", selected(file.soup, triangles, corners));
+  const Mesh_file again = read_mesh(folder / "a.glb");
+  EXPECT_EQ(again.soup.triangles.size(), triangles.size());
+  const Document after = from_glb(contents(folder / "a.glb"));
+  EXPECT_FALSE(after.json["nodes"][3].contains("mesh"));
+  EXPECT_FALSE(after.json["nodes"][3].contains("skin"));
+  EXPECT_EQ(after.json["nodes"][2]["mesh"], 1);
+}
+
+TEST(Gltf, PositionsThatTheFileDoesNotHaveAreRefused)
+{
+  const Temporary_folder folder;
+  Triangle_soup soup = read_glb(everything()).soup;
+  const Point_3 own = soup.points[5], other = soup.points[6], mirrored = soup.points[side * side + 6];
+  soup.points[5] = other; // of the same node: its local coordinates are known
+  write_mesh(folder / "a.glb", soup);
+  EXPECT_EQ(read_mesh(folder / "a.glb").soup.points[5], other);
+  soup.points[5] = mirrored; // of another node
+  EXPECT_THROW(write_mesh(folder / "a.glb", soup), Argument_error);
+  soup.points[5] = Point_3(own.x() + 1, own.y(), own.z());
+  EXPECT_THROW(write_mesh(folder / "a.glb", soup), Argument_error);
+}
+
+TEST(Gltf, NewFileFromAnotherFormat)
+{
+  const Temporary_folder folder;
+  const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.5\nvt 0 0\nvt 1 0\nvt 0.25 1\nvt 0.5 0.75\nvn 0 0 1\n"
+                          "g body\nusemtl denim\nf 1/1/1 2/2/1 3/3/1\nusemtl silk\nf 3/4/1 2/2/1 4/1/1\n"
+                          "g sleeve\nf 1 4 2\n";
+  const Mesh_file file = read_mesh(obj, Mesh_format::obj, "test");
+  EXPECT_TRUE(needs_float32(file.soup, Mesh_format::glb));
+  write_mesh(folder / "a.glb", file.soup);
+  const Mesh_file again = read_mesh(folder / "a.glb");
+  ASSERT_EQ(again.soup.triangles.size(), 3u);
+  EXPECT_EQ(again.soup.groups.names, (std::vector<std::string>{"body/0", "body/1", "sleeve"}));
+  EXPECT_EQ(again.soup.materials.names, (std::vector<std::string>{"denim", "silk"}));
+  for (std::size_t t = 0; t < 3; ++t) {
+    EXPECT_EQ(again.soup.materials.names[again.soup.materials.of_triangle[t]], file.soup.materials.names[file.soup.materials.of_triangle[t]]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(again.soup.points[again.soup.triangles[t][k]], file.soup.points[file.soup.triangles[t][k]]);
+      if (t < 2) {
+        EXPECT_EQ(again.soup.uvs.values[again.soup.uvs.of_triangle[t][k]], file.soup.uvs.values[file.soup.uvs.of_triangle[t][k]]);
+        EXPECT_EQ(again.soup.normals.values[again.soup.normals.of_triangle[t][k]], (std::array<double, 3>{0, 0, 1}));
+      } else {
+        EXPECT_EQ(again.soup.uvs.of_triangle[t][k], again.soup.uvs.missing);
+      }
+    }
+  }
+  Triangle_soup fine = file.soup;
+  fine.points[0] = Point_3(0.1, 0, 0);
+  EXPECT_THROW(write_mesh(folder / "b.glb", fine), Argument_error);
+  EXPECT_FALSE(std::filesystem::exists(folder / "b.glb"));
+}
+
+TEST(Gltf, OtherFormatsHoldWorldPositions)
+{
+  const Temporary_folder folder;
+  const Mesh_file file = read_glb(everything());
+  for (const char* name : {"a.obj", "a.ply"}) {
+    write_mesh(folder / name, file.soup);
+    const Mesh_file again = read_mesh(folder / name);
+    EXPECT_EQ(again.soup.points, file.soup.points) << name;
+    EXPECT_EQ(again.soup.triangles, file.soup.triangles) << name;
+    EXPECT_FALSE(again.soup.uvs.empty()) << name;
+    const std::vector<std::string> lost = not_carried(file.soup, mesh_format(name));
+    for (const char* what : {"skins", "morph targets", "animations", "images", "nodes and their transforms"})
+      EXPECT_EQ(std::count(lost.begin(), lost.end(), what), 1) << what;
+  }
+}
+
+TEST(Gltf, RefusesWhatItCannotRead)
+{
+  for (const char* extension : {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization", "EXT_mesh_gpu_instancing"})
+    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+      Document document = one_triangle();
+      document.json[list] = {extension};
+      expect_refused(document, extension);
+    }
+  Document unknown = one_triangle();
+  unknown.json["extensionsUsed"] = {"ACME_unknown"};
+  EXPECT_NO_THROW(read_glb(unknown));
+  unknown.json["extensionsRequired"] = {"KHR_texture_transform"};
+  EXPECT_NO_THROW(read_glb(unknown));
+  unknown.json["extensionsRequired"] = {"ACME_unknown"};
+  expect_refused(unknown, "ACME_unknown");
+}
+
+TEST(Gltf, RefusesWhatIsBroken)
+{
+  EXPECT_NO_THROW(read_glb(one_triangle()));
+  const auto refused = [](const std::string& word, const std::function<void(Json&)>& change) {
+    SCOPED_TRACE(word);
+    Document document = one_triangle();
+    change(document.json);
+    expect_refused(document, word);
+  };
+  refused("version", [](Json& json) { json["asset"]["version"] = "1.0"; });
+  refused("no triangles", [](Json& json) { json["nodes"][0].erase("mesh"); });
+  refused("no triangles", [](Json& json) { json["meshes"][0]["primitives"][0]["mode"] = 1; });
+  refused("mesh 7", [](Json& json) { json["nodes"][0]["mesh"] = 7; });
+  refused("node 9", [](Json& json) { json["scenes"][0]["nodes"] = {9}; });
+  refused("twice", [](Json& json) { json["nodes"][0]["children"] = {0}; });
+  refused("twice", [](Json& json) { json["scenes"][0]["nodes"] = {0, 0}; });
+  refused("scene is number", [](Json& json) { json["scene"] = 3; });
+  refused("wrong length", [](Json& json) { json["nodes"][0]["scale"] = {1, 2}; });
+  refused("last row", [](Json& json) { json["nodes"][0]["matrix"] = std::vector<double>(16, 1); });
+  refused("finite", [](Json& json) { json["nodes"][0]["scale"] = {1e308, 1e308, 1e308}; json["nodes"][0]["rotation"] = {1e9, 0, 0, 1}; });
+  refused("accessor", [](Json& json) { json["accessors"][0]["count"] = 4000000000u; });
+  refused("accessor", [](Json& json) { json["accessors"][0]["byteOffset"] = 4; });
+  refused("buffer view", [](Json& json) { json["bufferViews"][0]["byteLength"] = 1000; });
+  refused("32-bit floats", [](Json& json) { json["accessors"][0]["componentType"] = 5125; });
+  refused("multiple of three", [](Json& json) { json["accessors"][0]["count"] = 2; });
+  refused("accessor", [](Json& json) { json["accessors"][0]["count"] = 0; });
+  refused("nowhere", [](Json& json) { json["accessors"][0].erase("bufferView"); });
+  refused("rows", [](Json& json) { json["accessors"].push_back(json["accessors"][0]); json["accessors"][1]["count"] = 2;
+    json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = 1; });
+  refused("material", [](Json& json) { json["meshes"][0]["primitives"][0]["material"] = 3; });
+  refused("levels", [](Json& json) { Json deep = 1; for (int i = 0; i < 200; ++i) deep = Json::array({deep}); json["extras"] = deep; });
+}
+
+// Whatever becomes of the bytes of a file, it is read or refused.
+TEST(Gltf, DamagedFilesAreReadOrRefused)
+{
+  const std::string glb = to_glb(everything());
+  std::mt19937 random(seed);
+#ifdef NDEBUG
+  constexpr int rounds = 1500;
+#else
+  constexpr int rounds = 300;
+#endif
+  const Temporary_folder folder;
+  const std::size_t json_end = 20 + get<std::uint32_t>(glb, 12);
+  std::size_t read = 0, refused = 0;
+  for (int round = 0; round < rounds; ++round) {
+    SCOPED_TRACE("seed " + std::to_string(seed) + ", round " + std::to_string(round));
+    std::string damaged = glb;
+    const auto at = [&] { return random() % (random() % 8 == 0 ? glb.size() : json_end); };
+    switch (random() % 4) {
+    case 0:
+      damaged.resize(at());
+      break;
+    case 1:
+      damaged[at()] = char(random());
+      break;
+    case 2: // a digit, which keeps the document's grammar
+      for (std::size_t i = 20 + random() % (json_end - 20); i < json_end; ++i)
+        if (damaged[i] >= '0' && damaged[i] <= '9') {
+          damaged[i] = char('0' + random() % 10);
+          break;
+        }
+      break;
+    default: // a name or a value of another kind
+      for (std::size_t i = 20 + random() % (json_end - 20); i + 1 < json_end; ++i)
+        if (damaged[i] == ':') {
+          damaged[i + 1] = "[{\"-9tfn"[random() % 8];
+          break;
+        }
+    }
+    try {
+      const Mesh_file file = read_mesh(damaged, Mesh_format::glb, "damaged");
+      ++read;
+      write_mesh(folder / "a.glb", file.soup);
+      EXPECT_EQ(read_mesh(folder / "a.glb").soup.triangles.size(), file.soup.triangles.size());
+    } catch (const Input_error&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(read, 0u);
+  EXPECT_GT(refused, 0u);
+}
