@@ -4,11 +4,18 @@
 #include <selvedge/simplify_soup.h>
 
 #include <selvedge/Error.h>
+#include <selvedge/mesh/Parts.h>
 #include <selvedge/mesh/Working_mesh.h>
 #include <selvedge/mesh/selection.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <iterator>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -44,21 +51,187 @@ void refuse_unless_embedded(const Triangle_soup& soup)
                       describe(pairs.front()) + "; repair it, or do without strict to have them left as they are");
 }
 
+// Puts points and triangles of an obstacle behind those of a soup, and takes them away again.
+void append(Triangle_soup& soup, const Triangle_soup& obstacle)
+{
+  const Index offset = Index(soup.points.size());
+  soup.points.insert(soup.points.end(), obstacle.points.begin(), obstacle.points.end());
+  for (const auto& [a, b, c] : obstacle.triangles)
+    soup.triangles.push_back({a + offset, b + offset, c + offset});
+}
+void take_away(Triangle_soup& soup, const Triangle_soup& obstacle)
+{
+  soup.points.erase(soup.points.end() - obstacle.points.size(), soup.points.end());
+  soup.triangles.resize(soup.triangles.size() - obstacle.triangles.size());
+}
+
+Triangle_soup geometry_of_both(const Triangle_soup& soup, const Triangle_soup& obstacle)
+{
+  Triangle_soup both;
+  both.points = soup.points;
+  both.triangles = soup.triangles;
+  append(both, obstacle);
+  return both;
+}
+
+template <class Number>
+double number_at(const unsigned char* bytes)
+{
+  Number number;
+  std::memcpy(&number, bytes, sizeof number);
+  return double(number);
+}
+
+double first_component(const Attribute& attribute, std::size_t row)
+{
+  const unsigned char* const bytes = attribute.rows.data() + row * row_size(attribute);
+  switch (attribute.type) {
+  case Attribute::Type::int8:
+    return number_at<std::int8_t>(bytes);
+  case Attribute::Type::uint8:
+    return number_at<std::uint8_t>(bytes);
+  case Attribute::Type::int16:
+    return number_at<std::int16_t>(bytes);
+  case Attribute::Type::uint16:
+    return number_at<std::uint16_t>(bytes);
+  case Attribute::Type::int32:
+    return number_at<std::int32_t>(bytes);
+  case Attribute::Type::uint32:
+    return number_at<std::uint32_t>(bytes);
+  case Attribute::Type::float32:
+    return number_at<float>(bytes);
+  default:
+    return number_at<double>(bytes);
+  }
+}
+
+// The first components of an attribute's rows, as shares of the largest; 1 where there is no number.
+std::vector<double> vertex_weights(const Triangle_soup& soup, const std::string& name)
+{
+  const auto found = std::find_if(soup.vertex_attributes.begin(), soup.vertex_attributes.end(),
+                                  [&](const Attribute& attribute) { return attribute.name == name; });
+  if (found == soup.vertex_attributes.end()) {
+    std::string known;
+    for (const Attribute& attribute : soup.vertex_attributes)
+      known += (known.empty() ? "" : ", ") + attribute.name;
+    throw Argument_error("no attribute of vertices is called '" + name + "'; " +
+                         (known.empty() ? "the mesh has none" : "known are: " + known));
+  }
+  std::vector<double> weights;
+  double largest = 0;
+  for (std::size_t v = 0; v < soup.points.size(); ++v) {
+    weights.push_back(first_component(*found, v));
+    if (weights.back() < 0 || std::isinf(weights.back()))
+      throw Argument_error("the weight '" + name + "' of vertex " + std::to_string(v + 1) +
+                           " is not a finite number of at least 0");
+    largest = std::max(largest, weights.back()); // NaN is never larger
+  }
+  for (double& weight : weights)
+    weight = std::isnan(weight) || largest == 0 ? 1 : weight / largest;
+  return weights;
+}
+
+/// One reduction of a soup, with what is to be known of it on the way.
+class Soup_reduction
+{
+public:
+  Soup_reduction(const Prepared_soup& prepared, const Simplify_options& options, const Simplify_intent& intent)
+    : m_options(options), m_start(Clock::now()),
+      m_working(prepared.soup, prepared.positions, frozen(prepared, intent), prepared.obstacle),
+      m_simplification(m_working.mesh(), m_options, constraints(prepared.soup, intent), m_working)
+  {
+    m_seconds_weld = seconds_since(m_start);
+  }
+
+  Simplified_soup run() { return state(m_simplification.run()); }
+
+  /// The states in which runs to some ratios, in descending order, would end.
+  std::vector<Simplified_soup> run(const std::vector<double>& ratios)
+  {
+    std::vector<Simplified_soup> levels;
+    m_simplification.run(ratios, [&](const Simplify_report& report) { levels.push_back(state(report)); });
+    return levels;
+  }
+
+private:
+  static std::vector<char> frozen(const Prepared_soup& prepared, const Simplify_intent& intent)
+  {
+    std::vector<char> is_frozen = prepared.is_frozen;
+    for (const auto* names : {&intent.locked, &intent.kept})
+      for (const std::string& name : *names) {
+        const std::vector<char> is_named = triangles_named(prepared.soup, name);
+        std::transform(is_named.begin(), is_named.end(), is_frozen.begin(), is_frozen.begin(), std::logical_or<char>());
+      }
+    return is_frozen;
+  }
+
+  const Simplify_constraints<Working_mesh::Mesh>& constraints(const Triangle_soup& soup, const Simplify_intent& intent)
+  {
+    auto& constraints = m_working.constraints();
+    const auto add_share = [&](const std::string& name, double ratio) {
+      const std::vector<char> is_named = triangles_named(soup, name);
+      constraints.shares.push_back({{}, ratio});
+      for (Index t = 0; t < is_named.size(); ++t)
+        if (is_named[t])
+          constraints.shares.back().faces.emplace_back(t);
+    };
+    for (const Simplify_intent::Part_ratio& part : intent.ratios)
+      add_share(part.name, part.ratio);
+    for (const std::string& name : intent.kept)
+      add_share(name, 1);
+    if (!intent.weights.empty())
+      m_working.weigh(vertex_weights(soup, intent.weights));
+    if (m_options.uv_weight > 0)
+      m_working.measure_uvs();
+    m_working.count_refusals(part_kinds(soup));
+    return constraints;
+  }
+
+  Simplified_soup state(const Simplify_report& report) const
+  {
+    const Clock::time_point start = Clock::now();
+    Simplified_soup result;
+    Working_mesh::Result left = m_working.result();
+    result.soup = std::move(left.soup);
+    result.triangles = std::move(left.triangles);
+    result.corners = std::move(left.corners);
+    result.welding = m_working.notes();
+    result.report = report;
+    result.refused_by_part = m_working.refused_by_part();
+    result.seconds_weld = m_seconds_weld + seconds_since(start);
+    return result;
+  }
+
+  Simplify_options m_options;
+  Clock::time_point m_start;
+  Working_mesh m_working;
+  internal::Simplification<Working_mesh::Mesh, Working_mesh> m_simplification;
+  double m_seconds_weld;
+};
+
 } // namespace
 
-Prepared_soup prepare(Triangle_soup input, const Prepare_options& options)
+Prepared_soup prepare(Triangle_soup input, const Prepare_options& options, const Triangle_soup& obstacle)
 {
   if (input.triangles.empty())
     throw Input_error("the mesh has no triangles");
   if (options.is_strict)
-    refuse_unless_embedded(input);
+    refuse_unless_embedded(obstacle.triangles.empty() ? input : geometry_of_both(input, obstacle));
 
   Prepared_soup prepared;
   prepared.soup = std::move(input);
   Triangle_soup& soup = prepared.soup;
 
   Clock::time_point start = Clock::now();
-  prepared.positions = number_positions(soup.points);
+  prepared.obstacle.points = obstacle.points;
+  {
+    std::vector<Point_3> points = soup.points;
+    points.insert(points.end(), obstacle.points.begin(), obstacle.points.end());
+    prepared.positions = number_positions(points);
+    const std::vector<Index> positions(prepared.positions.begin() + soup.points.size(), prepared.positions.end());
+    std::copy_if(obstacle.triangles.begin(), obstacle.triangles.end(), std::back_inserter(prepared.obstacle.triangles),
+                 [&](const Index_triple& v) { return !has_two_corners_at_one_position(v, positions); });
+  }
   const auto leave_out = [&](const std::vector<Index>& positions) {
     std::vector<Index> kept;
     for (Index t = 0; t < soup.triangles.size(); ++t)
@@ -82,6 +255,7 @@ Prepared_soup prepare(Triangle_soup input, const Prepare_options& options)
       positions_after = number_positions(soup.points);
       prepared.left_out_by_rounding = leave_out(positions_after);
       unrounded.triangles = soup.triangles;
+      append(unrounded, prepared.obstacle);
       prepared.seconds_weld = seconds_since(start);
       start = Clock::now();
       pairs_before = offending_pairs(unrounded);
@@ -94,6 +268,8 @@ Prepared_soup prepare(Triangle_soup input, const Prepare_options& options)
     throw Input_error("every triangle of the mesh has two corners at one position; there is nothing to reduce");
 
   start = Clock::now();
+  const std::size_t own_triangles = soup.triangles.size();
+  append(soup, prepared.obstacle);
   prepared.offending_pairs = offending_pairs(soup);
   prepared.is_frozen.assign(soup.triangles.size(), false);
   for (const Offending_pair& pair : prepared.offending_pairs) {
@@ -109,36 +285,69 @@ Prepared_soup prepare(Triangle_soup input, const Prepare_options& options)
     for (Index v = 0; v < positions_after.size(); ++v)
       if (prepared.positions[v] != prepared.positions[positions_after[v]])
         is_merged[v] = is_merged[positions_after[v]] = true;
-    for (Index t = 0; t < soup.triangles.size(); ++t)
+    for (Index t = 0; t < own_triangles; ++t)
       for (const Index v : soup.triangles[t])
         prepared.is_frozen[t] |= is_merged[v];
   }
-  prepared.frozen_faces = std::count(prepared.is_frozen.begin(), prepared.is_frozen.end(), true);
+  prepared.frozen_faces = std::count(prepared.is_frozen.begin(), prepared.is_frozen.begin() + own_triangles, true);
+  std::fill(prepared.is_frozen.begin() + own_triangles, prepared.is_frozen.end(), true);
   prepared.seconds_check += seconds_since(start);
 
   start = Clock::now();
   prepared.snapping = snap_borders(soup, prepared.positions, prepared.is_frozen, options.weld_distance);
   prepared.seconds_snap = seconds_since(start);
+  take_away(soup, prepared.obstacle);
   return prepared;
 }
 
-Simplified_soup simplify_soup(const Prepared_soup& prepared, const Simplify_options& options)
+Simplified_soup simplify_soup(const Prepared_soup& prepared, const Simplify_options& options,
+                              const Simplify_intent& intent)
 {
-  Simplified_soup result;
-  Clock::time_point start = Clock::now();
-  Working_mesh working(prepared.soup, prepared.positions, prepared.is_frozen);
-  result.welding = working.notes();
-  result.seconds_weld = seconds_since(start);
+  return Soup_reduction(prepared, options, intent).run();
+}
 
-  result.report = simplify(working.mesh(), options, working.constraints(), working);
+std::vector<Simplified_soup> simplify_lods(const Prepared_soup& prepared, const Simplify_options& options,
+                                           const std::vector<double>& ratios, const Simplify_intent& intent)
+{
+  if (options.faces)
+    throw Argument_error("levels of detail are ratios; a number of faces cannot be asked for as well");
+  std::vector<Simplified_soup> levels(ratios.size());
+  Simplify_options to_level = options;
+  if (!intent.ratios.empty()) {
+    for (std::size_t i = 0; i < ratios.size(); ++i) {
+      to_level.ratio = ratios[i];
+      levels[i] = simplify_soup(prepared, to_level, intent);
+    }
+    return levels;
+  }
+  std::vector<std::size_t> order(ratios.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return ratios[i] > ratios[j]; });
+  std::vector<double> descending;
+  for (const std::size_t i : order)
+    descending.push_back(ratios[i]);
+  if (descending.empty())
+    return levels;
+  to_level.ratio = descending.back();
+  std::vector<Simplified_soup> states = Soup_reduction(prepared, to_level, intent).run(descending);
+  for (std::size_t i = 0; i < order.size(); ++i)
+    levels[order[i]] = std::move(states[i]);
+  return levels;
+}
 
-  start = Clock::now();
-  Working_mesh::Result left = working.result();
-  result.soup = std::move(left.soup);
-  result.triangles = std::move(left.triangles);
-  result.corners = std::move(left.corners);
-  result.seconds_weld += seconds_since(start);
-  return result;
+Verification verify(const Simplified_soup& result, const Prepared_soup& original)
+{
+  if (original.obstacle.triangles.empty())
+    return verify(result.soup, original.soup, original.offending_pairs);
+  const Triangle_soup both = geometry_of_both(result.soup, original.obstacle);
+  Verification verification;
+  verification.pairs = offending_pairs(both);
+  verification.new_pairs = new_pairs(both, verification.pairs, geometry_of_both(original.soup, original.obstacle),
+                                     original.offending_pairs);
+  verification.pieces = pieces(result.soup);
+  verification.topology_differences = topology_differences(verification.pieces, pieces(original.soup));
+  verification.distances = distances(result.soup, original.soup);
+  return verification;
 }
 
 } // namespace selvedge

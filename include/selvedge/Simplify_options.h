@@ -56,6 +56,14 @@ struct Simplify_options
   /// Whether layers are kept from piercing each other. Without, everything else stays the same: a control.
   bool check_intersections = true;
 
+  /// Whether triangles of the texture are kept from turning over, where a mesh has texture coordinates. Without,
+  /// everything else stays the same: a control.
+  bool check_uv_orientation = true;
+
+  /// How much a texture that swims counts in the cost, at least 0, against the same distance of the surface itself: the
+  /// displacement of the texture in the plane of the texture, in units of the mesh. 0 turns it off.
+  double uv_weight = 0.1;
+
   /// What the cells of the index aim at, at least 1.
   std::size_t faces_per_cluster = 100;
 

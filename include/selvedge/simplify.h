@@ -9,6 +9,8 @@
 #include <selvedge/Surface_mesh_simplification/Aspect_ratio_filter.h>
 #include <selvedge/Surface_mesh_simplification/Border_filter.h>
 #include <selvedge/Surface_mesh_simplification/Error_filter.h>
+#include <selvedge/Surface_mesh_simplification/Face_targets.h>
+#include <selvedge/Surface_mesh_simplification/Halfedge_filter.h>
 #include <selvedge/Surface_mesh_simplification/Halfedge_placement.h>
 #include <selvedge/Surface_mesh_simplification/Intersection_filter.h>
 #include <selvedge/Surface_mesh_simplification/Normal_change_filter.h>
@@ -19,6 +21,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <type_traits>
@@ -26,24 +29,64 @@
 
 namespace selvedge {
 
-/// Watches nothing. A model of what `simplify` accepts as an observer.
+/// Watches nothing, and has nothing that hangs on the mesh. What `simplify` accepts as an observer derives from this and
+/// has functions of its own in place of some of these.
+///
+/// In all of them the source of `moving` goes to its target and merges with it; the rule is a `Border_rule`, which knows
+/// what is a line now.
 struct No_observer
 {
-  /// Before the source of `moving` goes to its target and merges with it.
-  template <class Halfedge>
-  void before_collapse(const Halfedge& /*moving*/)
+  template <class Halfedge, class Rule>
+  void before_collapse(const Halfedge& /*moving*/, const Rule&)
   {}
+
+  /// The motion was refused; one count is 1, the others are 0.
+  template <class Halfedge>
+  void on_refused(const Halfedge& /*moving*/, const Refusals&)
+  {}
+
+  /// Does every triangle of the texture keep its orientation?
+  template <class Halfedge, class Rule>
+  bool keeps_uv_orientation(const Halfedge& /*moving*/, const Rule&) const
+  {
+    return true;
+  }
+
+  /// How far the texture is displaced, as area × squared length.
+  template <class Halfedge>
+  double uv_cost(const Halfedge& /*moving*/) const
+  {
+    return 0;
+  }
 };
 
-/// What of a mesh `simplify` must leave as it is.
+/// What `simplify` must know of single elements of a mesh.
 template <class TriangleMesh>
 struct Simplify_constraints
 {
+  using Face = typename boost::graph_traits<TriangleMesh>::face_descriptor;
+
   /// Vertices that do not move. Others may move onto them.
   std::vector<typename boost::graph_traits<TriangleMesh>::vertex_descriptor> locked_vertices;
 
   /// Edges inside the mesh that are to be kept as borders are: seams.
   std::vector<typename boost::graph_traits<TriangleMesh>::edge_descriptor> line_edges;
+
+  /// For every vertex, in the order of `vertices(mesh)`, a factor of at least 0 for what it costs to move it; or nothing.
+  std::vector<double> vertex_weights;
+
+  /// Faces that have a ratio of their own, in [0, 1]; the target of the options is for all others. Once a share has
+  /// reached its target, no collapse takes a further face of it, while others go on until all have reached theirs. A face in
+  /// several shares counts in the last of them.
+  struct Share
+  {
+    std::vector<Face> faces;
+    double ratio;
+  };
+  std::vector<Share> shares;
+
+  /// Faces of which no target and no count of the report knows: obstacles. Lock their vertices.
+  std::vector<Face> uncounted_faces;
 };
 
 namespace internal {
@@ -54,38 +97,114 @@ template <class TriangleMesh, class Observer>
 class Simplification
 {
   using Rule = Border_rule<TriangleMesh>;
-  using Cost = Quadric_cost<TriangleMesh, Rule>;
+  using Targets = Face_targets<TriangleMesh>;
+  using Quadrics = Quadric_cost<TriangleMesh, Rule>;
+
+  /// What the quadrics say, and what the texture adds; none for edges between faces that do not count.
+  class Cost
+  {
+  public:
+    using Update_tag = CGAL::Tag_true;
+
+    Cost(const Quadrics& quadrics, const Targets& targets, const Observer& observer, double uv_weight)
+      : m_quadrics(quadrics), m_targets(targets), m_observer(&observer), m_uv_weight(uv_weight)
+    {}
+
+    template <class VertexPointMap, class GeomTraits>
+    void initialize(const TriangleMesh& mesh, const VertexPointMap& points, const GeomTraits& traits) const
+    {
+      m_quadrics.initialize(mesh, points, traits);
+    }
+
+    template <class Profile, class Point>
+    Optional<typename Profile::FT> operator()(const Profile& profile, const Optional<Point>& placement) const
+    {
+      if (!placement || !m_targets.is_counted(profile.v0_v1()))
+        return {};
+      return typename Profile::FT(cost_at(profile, *placement));
+    }
+
+    template <class Profile, class Point>
+    double cost_at(const Profile& profile, const Point& point) const
+    {
+      const double cost = m_quadrics.cost_at(profile, point);
+      return m_uv_weight > 0 ? cost + m_uv_weight * m_observer->uv_cost(moving_halfedge(profile, point)) : cost;
+    }
+
+    template <class Profile, class Vertex>
+    void update_after_collapse(const Profile& profile, const Vertex& kept) const
+    {
+      m_quadrics.update_after_collapse(profile, kept);
+    }
+
+  private:
+    Quadrics m_quadrics;
+    Targets m_targets;
+    const Observer* m_observer;
+    double m_uv_weight;
+  };
+
+  struct Is_uv_orientation_kept
+  {
+    const Observer* observer; // none: not asked
+    Rule rule;
+
+    template <class Halfedge>
+    bool operator()(const Halfedge& moving) const
+    {
+      return !observer || observer->keeps_uv_orientation(moving, rule);
+    }
+  };
+
   using Border = Border_filter<Rule>;
-  using Error = Error_filter<Cost, Border>;
+  using Target = Halfedge_filter<Targets, Border>;
+  using Error = Error_filter<Quadrics, Target>;
   using Aspect_ratio = Aspect_ratio_filter<Error>;
   using Normal_change = Normal_change_filter<Aspect_ratio>;
-  using Intersection = Intersection_filter<TriangleMesh, Normal_change>;
+  using Uv = Halfedge_filter<Is_uv_orientation_kept, Normal_change>;
+  using Intersection = Intersection_filter<TriangleMesh, Uv>;
 
 public:
   Simplification(TriangleMesh& mesh, const Simplify_options& options, const Simplify_constraints<TriangleMesh>& constraints,
                  Observer& observer)
-    : m_mesh(mesh), m_options(options), m_observer(observer), m_diagonal(diagonal(mesh)), m_rule(make_rule(constraints)),
-      m_cost(mesh, options.cost, m_rule), m_border(m_rule), m_error(max_error(), m_cost, m_border),
-      m_aspect_ratio(options.min_aspect_ratio, m_error), m_normal_change(options.max_normal_change, m_aspect_ratio)
+    : m_start(Clock::now()), m_mesh(mesh), m_options(options), m_observer(observer), m_diagonal(diagonal(mesh)),
+      m_rule(make_rule(constraints)), m_targets(make_targets(constraints)), m_quadrics(mesh, options.cost, m_rule),
+      m_border(m_rule), m_target(m_targets, m_border), m_error(max_error(), m_quadrics, m_target),
+      m_aspect_ratio(options.min_aspect_ratio, m_error), m_normal_change(options.max_normal_change, m_aspect_ratio),
+      m_uv({options.check_uv_orientation ? &observer : nullptr, m_rule}, m_normal_change)
   {
-    m_report.faces_input = face_count(mesh);
-    m_report.faces_target = face_target();
+    if (!(options.uv_weight >= 0))
+      throw Argument_error("the weight of the texture is at least 0");
+    m_quadrics.weigh(constraints.vertex_weights);
+    m_report.faces_input = m_targets.total().faces;
     const Clock::time_point start = Clock::now();
     if (options.check_intersections)
-      m_intersection.emplace(mesh, m_normal_change, Clustered_AABB_tree(options.faces_per_cluster));
+      m_intersection.emplace(mesh, m_uv, Clustered_AABB_tree(options.faces_per_cluster));
     m_report.seconds_index = seconds_since(start);
   }
 
-  Simplify_report run()
+  Simplify_report run() { return run({}, [](const Simplify_report&) {}); }
+
+  /// Calls `on_level(report)` for each of some ratios, from the largest to the smallest, in the state in which a run to
+  /// that ratio alone would have ended, and goes on to the target.
+  template <class On_level>
+  Simplify_report run(const std::vector<double>& ratios, const On_level& on_level)
   {
-    const Clock::time_point start = Clock::now();
+    for (const double ratio : ratios)
+      m_levels.push_back(Face_ratio_stop::face_target(ratio, m_targets.share(0).faces));
+    m_on_level = on_level;
+    pass_levels();
+
     const auto filter = [this](const auto& profile, const auto& placement) {
-      const auto accepted =
-        m_intersection ? (*m_intersection)(profile, placement) : m_normal_change(profile, placement);
-      m_accepted += bool(accepted);
+      const auto accepted = m_intersection ? (*m_intersection)(profile, placement) : m_uv(profile, placement);
+      if (accepted)
+        ++m_accepted;
+      else
+        report_refusal(moving_halfedge(profile, *placement));
       return accepted;
     };
-    const Halfedge_placement<TriangleMesh, Cost, Rule> directions(m_cost, m_rule);
+    const Cost costs(m_quadrics, m_targets, m_observer, m_options.uv_weight);
+    const Halfedge_placement<TriangleMesh, Cost, Rule> directions(costs, m_rule);
     const Filtered_halfedge_placement placement(m_mesh, directions, filter);
     // CGAL's loop forgets an edge that was refused until its neighbourhood changes, though the layer that blocked it may have
     // moved away, and though its second direction may do. A new pass asks again: at the end, and sooner when so many are
@@ -93,38 +212,37 @@ public:
     std::size_t forgotten_before = 0;
     double dearest = 0;
     const auto forgotten = [&] { return refusals().intersection - forgotten_before; };
-    const Pass_stop is_pass_over([&](double cost) {
+    const Function_stop is_pass_over([&](double cost) {
       if (cost < dearest || forgotten() * s_forgotten_share < face_count(m_mesh))
         return false;
       dearest = s_dearer * (std::max)(cost, (std::numeric_limits<double>::min)());
       return true;
     });
-    const Any_stop stop(Face_count_stop(m_report.faces_target), Hook_stop([this](std::size_t faces) {
+    const Any_stop stop(Function_stop([this](double) { return m_targets.is_reached(); }),
+                        Hook_stop([this](std::size_t) {
+                          const auto total = m_targets.total();
                           m_report.is_stopped = m_options.should_stop &&
-                                                m_options.should_stop({m_report.faces_input, m_report.faces_target, faces});
+                                                m_options.should_stop({m_report.faces_input, total.target, total.faces});
                           return m_report.is_stopped;
                         }),
                         is_pass_over);
-    while (face_count(m_mesh) > m_report.faces_target && !m_report.is_stopped) {
+    while (!m_targets.is_reached() && !m_report.is_stopped) {
       const std::size_t collapses_before = m_report.collapses;
-      const Refusals refused_before = refusals();
+      m_refused_before_pass = refusals();
       const double dearest_before = dearest;
       const std::size_t turned_before = placement.turned();
       forgotten_before += forgotten();
+      ++m_report.passes;
       CGAL::Surface_mesh_simplification::edge_collapse(
         m_mesh, stop,
-        CGAL::parameters::get_cost(m_cost).get_placement(placement).visitor(Visitor<decltype(placement)>(*this, placement)));
-      ++m_report.passes;
-      m_report.refused_in_last_pass = difference(refusals(), refused_before);
+        CGAL::parameters::get_cost(costs).get_placement(placement).visitor(Visitor<decltype(placement)>(*this, placement)));
       if (m_report.collapses == collapses_before && dearest == dearest_before &&
           placement.turned() == turned_before)
         break;
     }
-    m_report.faces_output = face_count(m_mesh);
-    m_report.refused = refusals();
-    m_report.seconds_reduce = m_report.seconds_index + seconds_since(start);
-    report_intersections();
-    return m_report;
+    while (m_next_level < m_levels.size())
+      pass_level();
+    return report();
   }
 
 private:
@@ -136,10 +254,10 @@ private:
   static constexpr double s_dearer = 4;
 
   template <class Function>
-  class Pass_stop
+  class Function_stop
   {
   public:
-    explicit Pass_stop(const Function& is_over) : m_is_over(is_over) {}
+    explicit Function_stop(const Function& is_over) : m_is_over(is_over) {}
 
     template <class FT, class Profile>
     bool operator()(const FT& cost, const Profile&, std::size_t, std::size_t) const
@@ -185,7 +303,8 @@ private:
   template <class Profile, class Point>
   void before_collapse(const Profile& profile, const Point& placement)
   {
-    m_observer.before_collapse(is_v0_moved(profile, placement) ? profile.v0_v1() : profile.v1_v0());
+    m_observer.before_collapse(moving_halfedge(profile, placement), m_rule);
+    m_targets.before_collapse(profile.v0_v1());
     m_rule.before_collapse(profile, placement);
     if (m_intersection)
       m_intersection->visitor().OnCollapsing(profile, Optional<Point>(placement));
@@ -198,6 +317,30 @@ private:
     m_rule.after_collapse(kept);
     if (m_intersection)
       m_intersection->visitor().OnCollapsed(0, kept);
+    pass_levels();
+  }
+
+  // Levels that are reached. Each is a snapshot: nothing of what follows depends on it.
+  void pass_levels()
+  {
+    while (m_next_level < m_levels.size() && m_targets.share(0).faces <= m_levels[m_next_level])
+      pass_level();
+  }
+  void pass_level()
+  {
+    const std::size_t target = m_targets.share(0).target;
+    m_targets.set_target(0, m_levels[m_next_level++]);
+    m_on_level(report());
+    m_targets.set_target(0, target);
+  }
+
+  template <class Halfedge>
+  void report_refusal(const Halfedge& moving)
+  {
+    Refusals now = refusals();
+    now.by_loop = 0; // what was accepted before this
+    m_observer.on_refused(moving, now - m_refused_until_now);
+    m_refused_until_now = now;
   }
 
   Rule make_rule(const Simplify_constraints<TriangleMesh>& constraints) const
@@ -223,12 +366,22 @@ private:
     return *m_options.max_error * m_diagonal;
   }
 
-  std::size_t face_target() const
+  Targets make_targets(const Simplify_constraints<TriangleMesh>& constraints) const
   {
-    std::size_t target = m_options.faces.value_or(0);
-    if (m_options.ratio)
-      target = (std::max)(target, Face_ratio_stop(*m_options.ratio, m_mesh).target());
-    return target;
+    Targets targets(m_mesh);
+    for (const auto& share : constraints.shares) {
+      const std::size_t number = targets.add_share();
+      for (const auto face : share.faces)
+        targets.assign(face, number);
+    }
+    for (const auto face : constraints.uncounted_faces)
+      targets.leave_out(face);
+    for (std::size_t i = 0; i < constraints.shares.size(); ++i)
+      targets.set_target(i + 1, Face_ratio_stop::face_target(constraints.shares[i].ratio, targets.share(i + 1).faces));
+    const std::size_t by_ratio =
+      m_options.ratio ? Face_ratio_stop::face_target(*m_options.ratio, targets.share(0).faces) : 0;
+    targets.set_target(0, (std::max)(m_options.faces.value_or(0), by_ratio));
+    return targets;
   }
 
   static double diagonal(const TriangleMesh& mesh)
@@ -244,35 +397,36 @@ private:
   {
     Refusals result;
     result.border = m_border.refusals();
+    result.target = m_target.refusals();
     result.error = m_error.refusals();
     result.aspect_ratio = m_aspect_ratio.refusals();
     result.normal_change = m_normal_change.refusals();
+    result.uv = m_uv.refusals();
     result.intersection = m_intersection ? m_intersection->refusals() : 0;
     // What passed the last filter and was not collapsed; a stop comes before the filters.
     result.by_loop = m_accepted - m_report.collapses;
     return result;
   }
 
-  static Refusals difference(const Refusals& a, const Refusals& b)
+  Simplify_report report() const
   {
-    return {a.border - b.border,
-            a.error - b.error,
-            a.aspect_ratio - b.aspect_ratio,
-            a.normal_change - b.normal_change,
-            a.intersection - b.intersection,
-            a.by_loop - b.by_loop};
-  }
-
-  void report_intersections()
-  {
-    if (!m_intersection)
-      return;
-    const auto& guard = m_intersection->statistics();
-    const auto& index = m_intersection->index().statistics();
-    m_report.intersections = {guard.motions_judged,   guard.stars_clear_by_view, guard.sweeps_tested,
+    Simplify_report report = m_report;
+    const auto total = m_targets.total();
+    report.faces_output = total.faces;
+    report.faces_target = total.target;
+    report.faces_to_go = m_targets.total_excess();
+    report.refused = refusals();
+    report.refused_in_last_pass = report.refused - m_refused_before_pass;
+    report.seconds_reduce = seconds_since(m_start);
+    if (m_intersection) {
+      const auto& guard = m_intersection->statistics();
+      const auto& index = m_intersection->index().statistics();
+      report.intersections = {guard.motions_judged,   guard.stars_clear_by_view, guard.sweeps_tested,
                               guard.refused_by_link,  guard.refused_by_star,     guard.refused_by_sweep,
                               index.clusters,         index.queries,             index.visits,
                               index.cluster_rebuilds, index.top_rebuilds};
+    }
+    return report;
   }
 
   static double seconds_since(Clock::time_point start)
@@ -280,19 +434,28 @@ private:
     return std::chrono::duration<double>(Clock::now() - start).count();
   }
 
+  Clock::time_point m_start;
   TriangleMesh& m_mesh;
   const Simplify_options& m_options;
   Observer& m_observer;
   double m_diagonal;
   Rule m_rule;
-  Cost m_cost;
+  Targets m_targets;
+  Quadrics m_quadrics;
   Border m_border;
+  Target m_target;
   Error m_error;
   Aspect_ratio m_aspect_ratio;
   Normal_change m_normal_change;
+  Uv m_uv;
   std::optional<Intersection> m_intersection;
   Simplify_report m_report;
   std::size_t m_accepted = 0;
+  Refusals m_refused_before_pass;
+  Refusals m_refused_until_now;
+  std::vector<std::size_t> m_levels; // face counts of share 0
+  std::size_t m_next_level = 0;
+  std::function<void(const Simplify_report&)> m_on_level;
 };
 
 } // namespace internal

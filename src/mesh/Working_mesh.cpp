@@ -3,6 +3,10 @@
 
 #include <selvedge/mesh/Working_mesh.h>
 
+#include <selvedge/mesh/texture.h>
+
+#include <CGAL/Kernel/global_functions.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -11,6 +15,7 @@
 #include <stdexcept>
 #include <tuple>
 #include <unordered_set>
+#include <utility>
 
 namespace selvedge {
 namespace {
@@ -151,13 +156,15 @@ std::vector<Index> number_positions(const std::vector<Point_3>& points)
 }
 
 Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& positions,
-                           const std::vector<char>& is_frozen)
+                           const std::vector<char>& is_frozen, const Triangle_soup& obstacle)
   : m_soup(soup)
 {
-  const Index corner_count = Index(3 * soup.triangles.size());
+  const Index own_vertices = Index(soup.points.size());
+  const Index own_corners = Index(3 * soup.triangles.size());
+  const Index corner_count = own_corners + Index(3 * obstacle.triangles.size());
   std::vector<Index_triple> triangles; // of positions
   std::vector<char> is_used(soup.points.size(), false);
-  triangles.reserve(soup.triangles.size());
+  triangles.reserve(corner_count / 3);
   m_corners.reserve(soup.triangles.size());
   for (const Index_triple& v : soup.triangles) {
     const Corner first = Corner(3 * triangles.size());
@@ -170,17 +177,21 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
     m_notes.unused_vertices += !is_used[v];
     m_notes.welded_vertices += is_used[v] && positions[v] != v && is_used[positions[v]];
   }
+  for (const auto& [a, b, c] : obstacle.triangles) {
+    m_constraints.uncounted_faces.push_back(Mesh::Face_index(Index(triangles.size())));
+    triangles.push_back({positions[own_vertices + a], positions[own_vertices + b], positions[own_vertices + c]});
+  }
 
   const Sewing sewing(triangles, m_notes);
   const auto vertex = [&](Corner corner) { return Mesh::Vertex_index(sewing.vertex(corner)); };
   m_mesh.reserve(sewing.vertex_count(), corner_count / 2 + 1, Index(triangles.size()));
   std::vector<Index> position_of_vertex;
-  std::vector<Index> vertices_at(soup.points.size(), 0); // how many, by position
+  std::vector<Index> vertices_at(positions.size(), 0); // how many, by position
   for (Corner corner = 0; corner < corner_count; ++corner) {
     if (sewing.vertex(corner) != m_mesh.number_of_vertices())
       continue; // vertices are numbered by their first corners
     const Index position = triangles[corner / 3][corner % 3];
-    m_mesh.add_vertex(soup.points[position]);
+    m_mesh.add_vertex(position < own_vertices ? soup.points[position] : obstacle.points[position - own_vertices]);
     position_of_vertex.push_back(position);
     ++vertices_at[position];
   }
@@ -200,9 +211,9 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
     if (is_locked[v])
       m_constraints.locked_vertices.push_back(Mesh::Vertex_index(v));
 
-  for (Index side = 0; side < corner_count; ++side) {
+  for (Index side = 0; side < own_corners; ++side) {
     const Index mate = sewing.mate(side), end = Sewing::next(side);
-    if (mate != s_none && side < mate && (is_line(side, Sewing::next(mate)) || is_line(end, mate)))
+    if (mate < own_corners && side < mate && (is_line(side, Sewing::next(mate)) || is_line(end, mate)))
       m_constraints.line_edges.push_back(m_mesh.edge(m_mesh.halfedge(vertex(side), vertex(end))));
   }
   m_notes.seam_edges = m_constraints.line_edges.size();
@@ -221,42 +232,196 @@ bool Working_mesh::is_line(Corner a, Corner b) const
          differ_in_label(m_soup.objects) || differ_in_label(m_soup.materials);
 }
 
-Working_mesh::Corner* Working_mesh::find_corner(Mesh::Face_index face, Mesh::Vertex_index vertex)
+std::size_t Working_mesh::place_in(Mesh::Face_index face, Mesh::Vertex_index vertex) const
 {
   // By position, which no two corners of a face share, and which a corner has in the soup as in the mesh.
-  for (Corner& corner : m_corners[face])
-    if (m_soup.points[vertex_of(corner)] == m_mesh.point(vertex))
-      return &corner;
-  return nullptr;
+  const Index_triple& corners = m_corners[face];
+  std::size_t place = 0;
+  while (place < 3 && m_soup.points[vertex_of(corners[place])] != m_mesh.point(vertex))
+    ++place;
+  return place;
 }
 
-void Working_mesh::before_collapse(Mesh::Halfedge_index moving)
+// Calls function(face, place, corner) for each face that a motion changes: its corner at that place becomes `corner`.
+template <class Function>
+void Working_mesh::for_each_changed_face(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule,
+                                         const Function& function) const
 {
   const Mesh::Vertex_index mover = m_mesh.source(moving), target = m_mesh.target(moving);
-  const Mesh::Halfedge_index back = m_mesh.opposite(moving);
-  // From a contracted face, away from the other, up to the next line. Where there is no line, the first walk goes all the
-  // way round, and the second ends at once: the corners that it finds are those of the target already.
-  const auto carry = [&](Mesh::Halfedge_index from, Mesh::Halfedge_index other, auto&& across) {
+  // From a contracted face, away from the other, up to the next line of the rule, which knows more lines than corners
+  // show: sides may become equal. Is there none?
+  const auto goes_all_the_way = [&](Mesh::Halfedge_index from, Mesh::Halfedge_index other, const auto& across) {
     if (m_mesh.is_border(from))
-      return;
-    const Corner carried = *find_corner(m_mesh.face(from), target);
-    Corner previous = *find_corner(m_mesh.face(from), mover);
+      return false;
+    const Corner carried = corner_at(m_mesh.face(from), target);
     for (Mesh::Halfedge_index h = across(from); m_mesh.face(h) != m_mesh.face(other); h = across(h)) {
-      Corner* const corner = m_mesh.is_border(h) ? nullptr : find_corner(m_mesh.face(h), mover);
-      if (!corner || is_line(previous, *corner))
-        return;
-      previous = *corner;
-      *corner = carried;
+      if (rule.is_line(m_mesh.edge(h)))
+        return false;
+      function(m_mesh.face(h), place_in(m_mesh.face(h), mover), carried);
     }
+    return true;
   };
-  carry(moving, back, [this](Mesh::Halfedge_index h) { return m_mesh.opposite(m_mesh.prev(h)); });
-  carry(back, moving, [this](Mesh::Halfedge_index h) { return m_mesh.opposite(m_mesh.next(h)); });
+  const Mesh::Halfedge_index back = m_mesh.opposite(moving);
+  if (!goes_all_the_way(moving, back, [this](Mesh::Halfedge_index h) { return m_mesh.opposite(m_mesh.prev(h)); }))
+    goes_all_the_way(back, moving, [this](Mesh::Halfedge_index h) { return m_mesh.opposite(m_mesh.next(h)); });
+}
+
+void Working_mesh::before_collapse(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule)
+{
+  for_each_moved_wedge(moving, [this](Corner from, Corner to) {
+    m_uv_quadrics[m_wedges[to]] += m_uv_quadrics[m_wedges[from]];
+  });
+  for_each_changed_face(moving, rule, [this](Mesh::Face_index face, std::size_t place, Corner corner) {
+    m_corners[face][place] = corner;
+  });
+}
+
+void Working_mesh::on_refused(Mesh::Halfedge_index moving, const Refusals& refusals)
+{
+  const Mesh::Face_index face = m_mesh.face(m_mesh.is_border(moving) ? m_mesh.opposite(moving) : moving);
+  if (!is_own(face))
+    return;
+  for (std::size_t kind = 0; kind < m_kinds.size(); ++kind)
+    m_refused[kind][m_kinds[kind].of_triangle[face]] += refusals;
+}
+
+void Working_mesh::count_refusals(std::vector<Part_kind> kinds)
+{
+  m_kinds = std::move(kinds);
+  m_refused.clear();
+  for (const Part_kind& kind : m_kinds)
+    m_refused.emplace_back(kind.count);
+}
+
+void Working_mesh::weigh(const std::vector<double>& weights)
+{
+  m_constraints.vertex_weights.assign(m_mesh.number_of_vertices(), 0);
+  for (const Mesh::Halfedge_index h : m_mesh.halfedges()) {
+    if (m_mesh.is_border(h) || !is_own(m_mesh.face(h)))
+      continue;
+    double& weight = m_constraints.vertex_weights[m_mesh.target(h)];
+    weight = (std::max)(weight, weights[vertex_of(corner_at(m_mesh.face(h), m_mesh.target(h)))]);
+  }
+}
+
+bool Working_mesh::keeps_uv_orientation(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule) const
+{
+  if (m_soup.uvs.empty())
+    return true;
+  const auto orientation = [this](const Index_triple& corners) {
+    const auto point = [&](std::size_t k) { return Kernel::Point_2(uv_of(corners[k])[0], uv_of(corners[k])[1]); };
+    return CGAL::orientation(point(0), point(1), point(2));
+  };
+  bool is_kept = true;
+  for_each_changed_face(moving, rule, [&](Mesh::Face_index face, std::size_t place, Corner corner) {
+    Index_triple corners = m_corners[face];
+    const CGAL::Orientation before = orientation(corners);
+    corners[place] = corner;
+    is_kept = is_kept && (before == CGAL::COLLINEAR || orientation(corners) == before);
+  });
+  return is_kept;
+}
+
+Uv_quadric::Vector Working_mesh::relative(const Point_3& point) const
+{
+  return {point.x() - m_origin[0], point.y() - m_origin[1], point.z() - m_origin[2]};
+}
+
+Working_mesh::Uv Working_mesh::relative(const Uv& uv) const
+{
+  return {(uv[0] - m_uv_origin[0]) * m_uv_unit, (uv[1] - m_uv_origin[1]) * m_uv_unit};
+}
+
+void Working_mesh::measure_uvs()
+{
+  if (m_soup.uvs.empty())
+    return;
+  m_uv_unit = uv_unit(m_soup);
+  if (!(m_uv_unit > 0))
+    return;
+  const Point_3& origin = m_soup.points[m_soup.triangles[0][0]];
+  m_origin = {origin.x(), origin.y(), origin.z()};
+  m_uv_origin = uv_of(0);
+
+  number_wedges();
+  for (const Mesh::Halfedge_index h : m_mesh.halfedges()) {
+    if (m_mesh.is_border(h) || !is_own(m_mesh.face(h)))
+      continue;
+    const Index t = m_mesh.face(h);
+    const auto& [a, b, c] = m_soup.triangles[t];
+    const Mesh::Vertex_index v = m_mesh.target(h);
+    m_uv_quadrics[m_wedges[corner_at(m_mesh.face(h), v)]].add_triangle(
+      {relative(m_soup.points[a]), relative(m_soup.points[b]), relative(m_soup.points[c])},
+      {relative(uv_of(3 * t)), relative(uv_of(3 * t + 1)), relative(uv_of(3 * t + 2))},
+      m_constraints.vertex_weights.empty() ? 1 : m_constraints.vertex_weights[v]);
+  }
+}
+
+void Working_mesh::number_wedges()
+{
+  m_wedges.assign(3 * m_corners.size(), s_none);
+  Index count = 0;
+  for (const Mesh::Halfedge_index first : m_mesh.halfedges()) {
+    const Mesh::Vertex_index vertex = m_mesh.target(first);
+    // From a face around the vertex, until all round or at a line.
+    const auto number = [&](const auto& across) {
+      for (Mesh::Halfedge_index h = first; !m_mesh.is_border(h) && is_own(m_mesh.face(h));) {
+        m_wedges[corner_at(m_mesh.face(h), vertex)] = count;
+        const Mesh::Halfedge_index beyond = across(h);
+        if (m_mesh.is_border(beyond) || !is_own(m_mesh.face(beyond)) ||
+            m_wedges[corner_at(m_mesh.face(beyond), vertex)] != s_none)
+          return;
+        const Mesh::Halfedge_index shared = m_mesh.opposite(beyond) == m_mesh.next(h) ? m_mesh.next(h) : h;
+        for (const Mesh::Vertex_index end : {m_mesh.source(shared), m_mesh.target(shared)})
+          if (is_line(corner_at(m_mesh.face(h), end), corner_at(m_mesh.face(beyond), end)))
+            return;
+        h = beyond;
+      }
+    };
+    if (m_mesh.is_border(first) || !is_own(m_mesh.face(first)) ||
+        m_wedges[corner_at(m_mesh.face(first), vertex)] != s_none)
+      continue;
+    number([this](Mesh::Halfedge_index h) { return m_mesh.opposite(m_mesh.next(h)); });
+    number([this](Mesh::Halfedge_index h) { return m_mesh.prev(m_mesh.opposite(h)); });
+    ++count;
+  }
+  m_uv_quadrics.assign(count, {});
+}
+
+// Calls function(from, to) with the corners at both ends of a motion, once for each side of the lines.
+template <class Function>
+void Working_mesh::for_each_moved_wedge(Mesh::Halfedge_index moving, const Function& function) const
+{
+  if (m_uv_quadrics.empty())
+    return;
+  Index done = s_none;
+  for (const Mesh::Halfedge_index h : {moving, m_mesh.opposite(moving)}) {
+    if (m_mesh.is_border(h) || !is_own(m_mesh.face(h)))
+      continue;
+    const Corner from = corner_at(m_mesh.face(h), m_mesh.source(moving));
+    if (m_wedges[from] != done)
+      function(from, corner_at(m_mesh.face(h), m_mesh.target(moving)));
+    done = m_wedges[from];
+  }
+}
+
+double Working_mesh::uv_cost(Mesh::Halfedge_index moving) const
+{
+  double cost = 0;
+  for_each_moved_wedge(moving, [&](Corner from, Corner to) {
+    const Uv_quadric::Vector x = relative(m_mesh.point(m_mesh.target(moving)));
+    const Uv s = relative(uv_of(to));
+    cost += m_uv_quadrics[m_wedges[from]](x, s) + m_uv_quadrics[m_wedges[to]](x, s);
+  });
+  return cost;
 }
 
 Working_mesh::Result Working_mesh::result() const
 {
   Result result;
   for (const Mesh::Face_index face : m_mesh.faces()) {
+    if (!is_own(face))
+      break; // the obstacle's come last
     result.triangles.push_back(face);
     result.corners.push_back(m_corners[face]);
   }

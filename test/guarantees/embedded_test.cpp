@@ -17,13 +17,15 @@ namespace selvedge::test {
 namespace {
 
 // Judges the whole mesh before every collapse, which is after the one before it.
-struct Judging_observer
+struct Judging_observer : No_observer
 {
+  explicit Judging_observer(const Mesh* mesh_) : mesh(mesh_) {}
+
   const Mesh* mesh;
   std::size_t judged = 0;
   std::size_t violations = 0;
 
-  void before_collapse(Mesh::Halfedge_index)
+  void before_collapse(Mesh::Halfedge_index, const Border_rule<Mesh>&)
   {
     ++judged;
     violations += !is_embedded(soup_of(*mesh));

@@ -15,6 +15,8 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <utility>
+#include <vector>
 
 namespace selvedge {
 
@@ -61,6 +63,13 @@ public:
     for (int i = 0; i < 3; ++i)
       m_b[i] += other.m_b[i];
     m_c += other.m_c;
+    return *this;
+  }
+
+  Quadric& operator*=(double factor)
+  {
+    for (double* const number : {&m_xx, &m_xy, &m_xz, &m_yy, &m_yz, &m_zz, &m_b[0], &m_b[1], &m_b[2], &m_c})
+      *number *= factor;
     return *this;
   }
 
@@ -134,6 +143,10 @@ public:
     : m_state(std::make_shared<State>(mesh, options, edge_is_line))
   {}
 
+  /// Multiplies the quadric of every vertex, in the order of `vertices(mesh)`, by a factor of at least 0. To be called
+  /// before the first run.
+  void weigh(std::vector<double> weights) { m_state->weights = std::move(weights); }
+
   /// Computes the quadrics, the first time; called by the loop.
   template <class VertexPointMap, class GeomTraits>
   void initialize(const TriangleMesh& mesh, const VertexPointMap& points, const GeomTraits&) const
@@ -148,6 +161,13 @@ public:
       m_state->origin[i] = 0.5 * box.min(i) + 0.5 * box.max(i);
     for (const auto face : faces(mesh))
       add_face(halfedge(face, mesh), mesh, points);
+    if (m_state->weights.empty())
+      return;
+    auto weight = m_state->weights.begin();
+    for (const Vertex v : vertices(mesh)) {
+      Quadric weighted = get(m_state->quadrics, v);
+      put(m_state->quadrics, v, weighted *= *weight++);
+    }
   }
 
   /// The cost of merging the ends of the profile's edge at `placement`, in units of area × squared length; none
@@ -206,6 +226,7 @@ private:
     Quadric_cost_options options;
     EdgeIsLineMap edge_is_line;
     Quadric_map quadrics;
+    std::vector<double> weights; // by vertex; empty when all are 1
     Quadric::Vector origin{0, 0, 0};
     bool is_initialised = false;
   };

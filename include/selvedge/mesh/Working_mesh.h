@@ -4,6 +4,8 @@
 #ifndef SELVEDGE_MESH_WORKING_MESH_H
 #define SELVEDGE_MESH_WORKING_MESH_H
 
+#include <selvedge/Surface_mesh_simplification/Uv_quadric.h>
+#include <selvedge/mesh/Parts.h>
 #include <selvedge/mesh/Triangle_soup.h>
 #include <selvedge/mesh/Welding_notes.h>
 #include <selvedge/mesh/selection.h>
@@ -25,25 +27,45 @@ namespace selvedge {
 /// Every face knows for each of its corners which corner of the soup it now is. A collapse gives a moved corner that of
 /// the vertex it merges with, in the contracted face on the same side of the lines, so every attribute of the
 /// result is one of the input's at that position and on that side.
-class Working_mesh
+///
+/// An obstacle may lie beside the soup: triangles that are in the mesh, do not change, and are not in the result.
+class Working_mesh : public No_observer
 {
 public:
   using Mesh = CGAL::Surface_mesh<Point_3>;
 
   /// `positions[v]` numbers the position of vertex v: what is equal is welded. `is_frozen[t]`: the vertices of
-  /// triangle t do not move.
+  /// triangle t do not move. In both, as in the faces of the mesh, vertices and triangles of the obstacle follow those of
+  /// the soup; of the obstacle only these count, and all its triangles are frozen.
   ///
   /// **Preconditions** No triangle has two corners at one position. The soup outlives the mesh.
   ///
   /// **Complexity** O(n log n).
-  Working_mesh(const Triangle_soup& soup, const std::vector<Index>& positions, const std::vector<char>& is_frozen);
+  Working_mesh(const Triangle_soup& soup, const std::vector<Index>& positions, const std::vector<char>& is_frozen,
+               const Triangle_soup& obstacle = {});
 
   Mesh& mesh() { return m_mesh; }
-  const Simplify_constraints<Mesh>& constraints() const { return m_constraints; }
+  Simplify_constraints<Mesh>& constraints() { return m_constraints; }
   const Welding_notes& notes() const { return m_notes; }
 
-  /// Moves corners; called by `simplify`, as an observer.
-  void before_collapse(Mesh::Halfedge_index moving);
+  /// Weighs vertices by numbers that the vertices of the soup have; where several are sewn, by the largest of theirs.
+  void weigh(const std::vector<double>& weights);
+
+  /// From now on `uv_cost` says how far the texture is displaced; it is 0 before, and where there is no texture. Weights
+  /// that are to count are set before.
+  void measure_uvs();
+
+  /// From now on refusals are counted by the parts of the soup to which the moving vertex belongs.
+  void count_refusals(std::vector<Part_kind> kinds);
+
+  /// What was refused so far, for each kind and each of its parts.
+  const std::vector<std::vector<Refusals>>& refused_by_part() const { return m_refused; }
+
+  // Called by `simplify`, as an observer.
+  void before_collapse(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule);
+  void on_refused(Mesh::Halfedge_index moving, const Refusals& refusals);
+  bool keeps_uv_orientation(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule) const;
+  double uv_cost(Mesh::Halfedge_index moving) const;
 
   /// What is left: which triangles of the soup, in their order, and which of its corners each now has.
   struct Result
@@ -56,16 +78,44 @@ public:
 
 private:
   using Corner = Index; // 3 × triangle + place in it
+  using Uv = Uv_quadric::Uv;
 
   Index vertex_of(Corner corner) const { return m_soup.triangles[corner / 3][corner % 3]; }
-  Corner* find_corner(Mesh::Face_index face, Mesh::Vertex_index vertex);
+  const Uv& uv_of(Corner corner) const { return m_soup.uvs.values[m_soup.uvs.of_triangle[corner / 3][corner % 3]]; }
+  bool is_own(Mesh::Face_index face) const { return std::size_t(face) < m_corners.size(); }
   bool is_line(Corner a, Corner b) const;
+
+  /// The place in a face of its corner at a vertex, or 3.
+  std::size_t place_in(Mesh::Face_index face, Mesh::Vertex_index vertex) const;
+  Corner corner_at(Mesh::Face_index face, Mesh::Vertex_index vertex) const
+  {
+    return m_corners[face][place_in(face, vertex)];
+  }
+
+  template <class Function>
+  void for_each_changed_face(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule, const Function& function) const;
+  template <class Function>
+  void for_each_moved_wedge(Mesh::Halfedge_index moving, const Function& function) const;
+
+  void number_wedges();
+  Uv_quadric::Vector relative(const Point_3& point) const;
+  Uv relative(const Uv& uv) const;
 
   const Triangle_soup& m_soup;
   Mesh m_mesh;
   std::vector<Index_triple> m_corners;          // by face, which has the number of its triangle
   Simplify_constraints<Mesh> m_constraints;
   Welding_notes m_notes;
+
+  // The texture at each wedge: the corners at a vertex between two lines.
+  std::vector<Index> m_wedges; // by corner of the soup
+  std::vector<Uv_quadric> m_uv_quadrics;
+  Uv_quadric::Vector m_origin{};
+  Uv m_uv_origin{};
+  double m_uv_unit = 0; // in units of the mesh
+
+  std::vector<Part_kind> m_kinds;
+  std::vector<std::vector<Refusals>> m_refused;
 };
 
 /// Numbers positions: vertices with equal coordinates (−0 is 0) get the number of the first of them.

@@ -21,6 +21,13 @@ bool is_v1_moved(const Profile& profile, const Point& placement)
   return placement != profile.p1();
 }
 
+/// The halfedge along which a vertex moves when the placement is an end of the edge.
+template <class Profile, class Point>
+auto moving_halfedge(const Profile& profile, const Point& placement)
+{
+  return is_v0_moved(profile, placement) ? profile.v0_v1() : profile.v1_v0();
+}
+
 /// Calls `is_fine(before, after, a, b)` for every face (v, a, b), counter-clockwise, that a collapse changes but
 /// keeps, where `before` is the position of v, `after` that of the merged vertex; stops at the first false.
 ///

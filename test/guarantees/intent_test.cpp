@@ -1,0 +1,290 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "support/meshes.h"
+#include "support/reduction.h"
+#include "support/soups.h"
+
+#include <selvedge/Error.h>
+#include <selvedge/part_report.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace selvedge::test {
+namespace {
+
+// A wavy sheet of two groups, left and right, sewn along a line.
+Triangle_soup two_groups(Index size = 30)
+{
+  Triangle_soup soup = mapped(sheet(size, size), [](const Point_3& p) {
+    return Point_3(p.x(), p.y(), std::sin(0.3 * p.x()) * std::cos(0.4 * p.y()));
+  });
+  soup.groups.names = {"sleeve left", "body"};
+  for (const auto& [a, b, c] : soup.triangles)
+    soup.groups.of_triangle.push_back(soup.points[a].x() + soup.points[b].x() + soup.points[c].x() > 1.5 * size);
+  return soup;
+}
+
+using Position = std::array<double, 3>;
+
+std::vector<std::array<Position, 3>> faces_of(const Triangle_soup& soup, Index group)
+{
+  std::vector<std::array<Position, 3>> faces;
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    if (soup.groups.of_triangle[t] != group)
+      continue;
+    std::array<Position, 3>& face = faces.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point_3& p = soup.points[soup.triangles[t][k]];
+      face[k] = {p.x(), p.y(), p.z()};
+    }
+  }
+  return faces;
+}
+
+Simplify_intent locked(const std::string& name)
+{
+  Simplify_intent intent;
+  intent.locked = {name};
+  return intent;
+}
+
+Simplify_intent kept(const std::string& name)
+{
+  Simplify_intent intent;
+  intent.kept = {name};
+  return intent;
+}
+
+TEST(Intent, NoVertexOfALockedGroupMoves)
+{
+  const Prepared_soup prepared = prepare(two_groups());
+  const Simplified_soup result = simplify_soup(prepared, to_ratio(0.6), locked("body"));
+  EXPECT_EQ(faces_of(result.soup, 1), faces_of(prepared.soup, 1));
+  EXPECT_TRUE(result.report.is_reached());
+  EXPECT_TRUE(verify(result, prepared).accepted());
+
+  // Its faces count for the target, the others give way the more. The control: without the lock both give way.
+  EXPECT_LE(result.soup.triangles.size(), std::size_t(std::llround(0.6 * double(prepared.soup.triangles.size()))));
+  EXPECT_NE(faces_of(simplify_soup(prepared, to_ratio(0.6)).soup, 1), faces_of(prepared.soup, 1));
+}
+
+TEST(Intent, NoFaceOfAKeptGroupChangesAndTheTargetIsForTheOthers)
+{
+  const Prepared_soup prepared = prepare(two_groups());
+  const Simplified_soup result = simplify_soup(prepared, to_ratio(0.4), kept("body"));
+  EXPECT_EQ(faces_of(result.soup, 1), faces_of(prepared.soup, 1));
+  const std::size_t others = faces_of(prepared.soup, 0).size();
+  EXPECT_EQ(result.report.faces_target, faces_of(prepared.soup, 1).size() + std::size_t(std::llround(0.4 * double(others))));
+  EXPECT_TRUE(result.report.is_reached());
+  EXPECT_LE(faces_of(result.soup, 0).size(), 0.4 * double(others) + 0.5);
+}
+
+TEST(Intent, AGroupKeepsItsOwnRatioAndTheOthersGoOn)
+{
+  const Prepared_soup prepared = prepare(two_groups());
+  for (const auto& [own, rest] : {std::pair(0.8, 0.3), std::pair(0.25, 0.7), std::pair(1.0, 0.4)}) {
+    SCOPED_TRACE(own);
+    Simplify_intent intent;
+    intent.ratios = {{"body", own}};
+    const Simplified_soup result = simplify_soup(prepared, to_ratio(rest), intent);
+    for (const auto& [group, ratio] : {std::pair(Index(1), own), std::pair(Index(0), rest)}) {
+      const double target = ratio * double(faces_of(prepared.soup, group).size());
+      // The last collapse may take one face more than asked for.
+      EXPECT_NEAR(double(faces_of(result.soup, group).size()), target, 1.5) << group;
+    }
+    EXPECT_TRUE(result.report.is_reached());
+    EXPECT_TRUE(verify(result, prepared).accepted());
+  }
+}
+
+TEST(Intent, EveryPartNamedMustReachItsRatio)
+{
+  const Prepared_soup prepared = prepare(two_groups());
+  Simplify_intent intent = locked("body");
+  intent.ratios = {{"body", 0.5}};
+  const Simplified_soup result = simplify_soup(prepared, to_ratio(0.1), intent);
+  EXPECT_FALSE(result.report.is_reached());
+  EXPECT_NE(result.report.outcome(), "reached");
+}
+
+TEST(Intent, APartIsCalledByItsGroupsItsObjectOrItsMaterial)
+{
+  Triangle_soup soup = two_groups(8);
+  soup.objects = {std::vector<Index>(soup.triangles.size(), 0), {"jacket"}};
+  soup.materials = {std::vector<Index>(soup.triangles.size(), 0), {"denim", "not used"}};
+  for (const char* const name : {"sleeve left", "sleeve", "left", "body", "jacket", "denim"}) {
+    SCOPED_TRACE(name);
+    const std::vector<char> named = triangles_named(soup, name);
+    EXPECT_GT(std::count(named.begin(), named.end(), true), 0);
+  }
+  const std::vector<char> body = triangles_named(soup, "body");
+  EXPECT_EQ(std::size_t(std::count(body.begin(), body.end(), true)), faces_of(soup, 1).size());
+}
+
+TEST(Intent, AnUnknownNameIsRefusedAndTheKnownOnesAreListed)
+{
+  const Prepared_soup prepared = prepare(two_groups(8));
+  Simplify_intent unknown_ratio, unknown_weights;
+  unknown_ratio.ratios = {{"collar", 0.5}};
+  unknown_weights.weights = "paint";
+  for (const Simplify_intent& intent : {locked("collar"), kept("collar"), unknown_ratio}) {
+    try {
+      simplify_soup(prepared, to_ratio(0.5), intent);
+      ADD_FAILURE() << "no refusal";
+    } catch (const Argument_error& error) {
+      EXPECT_NE(std::string(error.what()).find("body, sleeve left"), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_THROW(simplify_soup(prepared, to_ratio(0.5), unknown_weights), Argument_error);
+  EXPECT_THROW(triangles_named(prepared.soup, ""), Argument_error);
+}
+
+void paint(Triangle_soup& soup, double left, double right)
+{
+  Attribute column{"paint", Attribute::Type::float64, 1, false, {}};
+  for (const Point_3& p : soup.points) {
+    const double value = p.x() < 15 ? left : right;
+    const std::size_t place = column.rows.size();
+    column.rows.resize(place + sizeof value);
+    std::memcpy(&column.rows[place], &value, sizeof value);
+  }
+  soup.vertex_attributes = {column};
+}
+
+TEST(Intent, PaintedWeightsSayWhereFacesAreKept)
+{
+  const auto faces_left = [](double left, double right) {
+    Triangle_soup soup = two_groups();
+    paint(soup, left, right);
+    Simplify_intent intent;
+    intent.weights = "paint";
+    const Simplified_soup result = simplify_soup(prepare(std::move(soup)), to_ratio(0.3), intent);
+    return double(faces_of(result.soup, 0).size()) / double(result.soup.triangles.size());
+  };
+  const double even = faces_left(1, 1); // the control
+  EXPECT_GT(faces_left(1, 0.01), even + 0.1);
+  EXPECT_LT(faces_left(0.01, 1), even - 0.1);
+  EXPECT_EQ(faces_left(7, 7), even); // only what is larger than what matters
+  EXPECT_EQ(faces_left(0, 0), even);
+  EXPECT_THROW(faces_left(-1, 1), Argument_error);
+}
+
+// A flat sheet close under the wavy one, and one that only touches nothing because it lies there.
+Triangle_soup body_below(double gap)
+{
+  return mapped(sheet(10, 10), [&](const Point_3& p) {
+    const double x = 3 * p.x(), y = 3 * p.y();
+    return Point_3(x, y, std::sin(0.3 * x) * std::cos(0.4 * y) - gap);
+  });
+}
+
+TEST(Intent, AnObstacleIsSeenNeverChangedAndNotInTheOutput)
+{
+  Triangle_soup cloth = two_groups(), body = body_below(0.5);
+  ASSERT_TRUE(is_embedded(joined(cloth, body)));
+  const Prepared_soup prepared = prepare(cloth, {}, body);
+  EXPECT_TRUE(prepared.offending_pairs.empty());
+  const Simplified_soup result = simplify_soup(prepared, without_limits(to_ratio(0.02)));
+  EXPECT_GT(result.report.refused.intersection, 0u);
+  EXPECT_EQ(result.report.faces_input, cloth.triangles.size());
+  EXPECT_EQ(result.report.faces_output, result.soup.triangles.size());
+  EXPECT_LT(result.soup.triangles.size(), cloth.triangles.size() / 2);
+  EXPECT_TRUE(is_embedded(joined(result.soup, body)));
+  EXPECT_TRUE(verify(result, prepared).accepted());
+
+  // The control: who does not see it goes through it, and the judge who does says so.
+  const Simplified_soup blind = simplify_soup(prepare(cloth), without_limits(to_ratio(0.02)));
+  EXPECT_FALSE(is_embedded(joined(blind.soup, body)));
+  EXPECT_FALSE(verify(blind, prepared).accepted());
+}
+
+TEST(Intent, PairsThatOffendBetweenGarmentAndObstacleAreFrozen)
+{
+  const Triangle_soup cloth = two_groups();
+  Triangle_soup pin = soup({{10.3, 10.2, -5}, {10.6, 10.2, 5}, {10.3, 10.6, 5}}, {{0, 1, 2}});
+  const Prepared_soup prepared = prepare(cloth, {}, pin);
+  ASSERT_FALSE(prepared.offending_pairs.empty());
+  EXPECT_GT(prepared.frozen_faces, 0u);
+  const Simplified_soup result = simplify_soup(prepared, to_ratio(0.3));
+  const Verification verification = verify(result, prepared);
+  EXPECT_EQ(verification.pairs.size(), prepared.offending_pairs.size());
+  EXPECT_TRUE(verification.accepted());
+
+  Prepare_options strict;
+  strict.is_strict = true;
+  EXPECT_THROW(prepare(cloth, strict, pin), Input_error);
+  EXPECT_NO_THROW(prepare(cloth, strict));
+}
+
+TEST(Intent, AnObstacleStaysExactWhereTheOutputIsRounded)
+{
+  Prepare_options options;
+  options.round_to_float32 = true;
+  const Triangle_soup body = body_below(0.5);
+  const Prepared_soup prepared = prepare(two_groups(), options, body);
+  EXPECT_GT(prepared.rounding.coordinates, 0u);
+  EXPECT_EQ(prepared.obstacle.points, body.points);
+  EXPECT_EQ(prepared.obstacle.triangles, body.triangles);
+  EXPECT_TRUE(verify(simplify_soup(prepared, to_ratio(0.3)), prepared).accepted());
+}
+
+TEST(Report, CountsFacesAndRefusalsOfEveryPieceAndGroup)
+{
+  const Prepared_soup prepared = prepare(garment("jacket", 6000));
+  const Simplified_soup result = simplify_soup(prepared, to_ratio(0.2));
+  const std::vector<Part_report> parts = part_reports(result, prepared);
+  std::set<Part_kind::Name> kinds;
+  for (const Part_report& part : parts)
+    kinds.insert(part.kind);
+  EXPECT_TRUE(kinds.count(Part_kind::Name::piece));
+  EXPECT_TRUE(kinds.count(Part_kind::Name::group));
+  for (const Part_kind::Name kind : kinds) {
+    SCOPED_TRACE(name(kind));
+    std::size_t faces_input = 0, faces_output = 0, parts_of_kind = 0;
+    Refusals refused;
+    for (const Part_report& part : parts) {
+      if (part.kind != kind)
+        continue;
+      ++parts_of_kind;
+      faces_input += part.faces_input;
+      faces_output += part.faces_output;
+      refused += part.refused;
+      EXPECT_TRUE(part.uv_deviation);
+      EXPECT_GE(part.distance.maximum, part.distance.root_mean_square);
+    }
+    EXPECT_GT(parts_of_kind, 1u);
+    EXPECT_EQ(faces_input, prepared.soup.triangles.size());
+    EXPECT_EQ(faces_output, result.soup.triangles.size());
+    EXPECT_EQ(refused.border, result.report.refused.border);
+    EXPECT_EQ(refused.aspect_ratio, result.report.refused.aspect_ratio);
+    EXPECT_EQ(refused.intersection, result.report.refused.intersection);
+  }
+}
+
+TEST(Report, APartThatDidNotChangeIsNowhereAway)
+{
+  const Prepared_soup prepared = prepare(two_groups());
+  const Simplified_soup result = simplify_soup(prepared, to_ratio(0.2), kept("body"));
+  for (const Part_report& part : part_reports(result, prepared)) {
+    if (part.name == "body") {
+      EXPECT_EQ(part.distance.maximum, 0);
+      EXPECT_EQ(part.faces_input, part.faces_output);
+    } else {
+      EXPECT_GT(part.distance.maximum, 0);
+      EXPECT_LT(part.faces_output, part.faces_input);
+    }
+    EXPECT_FALSE(part.uv_deviation);
+  }
+}
+
+} // namespace
+} // namespace selvedge::test

@@ -1,0 +1,101 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "support/meshes.h"
+#include "support/reduction.h"
+
+#include <selvedge/Error.h>
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace selvedge::test {
+namespace {
+
+void expect_same(const Simplified_soup& level, const Simplified_soup& alone)
+{
+  EXPECT_EQ(level.soup.points, alone.soup.points);
+  EXPECT_EQ(level.soup.triangles, alone.soup.triangles);
+  EXPECT_EQ(level.triangles, alone.triangles);
+  EXPECT_EQ(level.corners, alone.corners);
+  EXPECT_EQ(level.report.faces_input, alone.report.faces_input);
+  EXPECT_EQ(level.report.faces_target, alone.report.faces_target);
+  EXPECT_EQ(level.report.faces_output, alone.report.faces_output);
+  EXPECT_EQ(level.report.faces_to_go, alone.report.faces_to_go);
+  EXPECT_EQ(level.report.collapses, alone.report.collapses);
+  EXPECT_EQ(level.report.passes, alone.report.passes);
+  EXPECT_EQ(level.report.refused.intersection, alone.report.refused.intersection);
+  EXPECT_EQ(level.report.outcome(), alone.report.outcome());
+}
+
+// 0.02 is out of reach; 1 is there from the start; two are the same, and they come in no order.
+const std::vector<double> ratios{0.25, 0.5, 0.02, 1, 0.5, 0.1};
+
+TEST(Lods, EachLevelIsWhatARunToItAloneGives)
+{
+  for (const char* const name : {"jacket", "skirt"}) {
+    SCOPED_TRACE(name);
+    const Prepared_soup prepared = prepare(garment(name, 6000));
+    const std::vector<Simplified_soup> levels = simplify_lods(prepared, {}, ratios);
+    ASSERT_EQ(levels.size(), ratios.size());
+    for (std::size_t i = 0; i < ratios.size(); ++i) {
+      SCOPED_TRACE(ratios[i]);
+      expect_same(levels[i], simplify_soup(prepared, to_ratio(ratios[i])));
+      EXPECT_TRUE(verify(levels[i], prepared).accepted());
+    }
+    EXPECT_FALSE(levels[2].report.is_reached());
+    EXPECT_TRUE(levels[1].report.is_reached());
+    EXPECT_EQ(levels[3].soup.triangles, prepared.soup.triangles);
+  }
+}
+
+TEST(Lods, ControlARunFromLevelToLevelIsNotTheSame)
+{
+  const Prepared_soup prepared = prepare(garment("jacket", 6000));
+  const Simplified_soup half = simplify_soup(prepared, to_ratio(0.5));
+  const Simplified_soup chained = simplify_soup(prepare(half.soup), to_ratio(0.2));
+  EXPECT_NE(chained.soup.points, simplify_soup(prepared, to_ratio(0.1)).soup.points);
+}
+
+TEST(Lods, SoTheyAreWherePartsHaveRatiosOfTheirOwn)
+{
+  Triangle_soup soup = garment("jacket", 4000);
+  ASSERT_FALSE(soup.groups.empty());
+  Simplify_intent intent;
+  intent.ratios = {{soup.groups.names[soup.groups.of_triangle[0]], 0.7}};
+  const Prepared_soup prepared = prepare(std::move(soup));
+  const std::vector<Simplified_soup> levels = simplify_lods(prepared, {}, {0.5, 0.2}, intent);
+  expect_same(levels[0], simplify_soup(prepared, to_ratio(0.5), intent));
+  expect_same(levels[1], simplify_soup(prepared, to_ratio(0.2), intent));
+}
+
+TEST(Lods, AnInterruptedRunKeepsTheLevelsThatItHasPassed)
+{
+  const Prepared_soup prepared = prepare(garment("jacket", 6000));
+  Simplify_options options;
+  options.should_stop = [](const Simplify_progress& progress) { return 4 * progress.faces < 3 * progress.faces_input; };
+  const std::vector<Simplified_soup> levels = simplify_lods(prepared, options, {0.9, 0.1});
+  EXPECT_TRUE(levels[0].report.is_reached());
+  EXPECT_FALSE(levels[0].report.is_stopped);
+  EXPECT_FALSE(levels[1].report.is_reached());
+  EXPECT_EQ(levels[1].report.outcome(), "stopped");
+  expect_same(levels[0], simplify_soup(prepared, to_ratio(0.9)));
+}
+
+TEST(Lods, NoLevelIsAskedForAndNothingIsDone)
+{
+  EXPECT_TRUE(simplify_lods(prepare(flat_grid(200)), {}, {}).empty());
+}
+
+TEST(Lods, ARatioOutOfRangeAndANumberOfFacesAreRefused)
+{
+  const Prepared_soup prepared = prepare(flat_grid(200));
+  EXPECT_THROW(simplify_lods(prepared, {}, {0.5, 1.5}), Argument_error);
+  Simplify_options options;
+  options.faces = 10;
+  EXPECT_THROW(simplify_lods(prepared, options, {0.5}), Argument_error);
+}
+
+} // namespace
+} // namespace selvedge::test
