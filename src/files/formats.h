@@ -26,6 +26,9 @@ void write_ply(Byte_writer& out, const Triangle_soup& soup, const Write_options&
 void write_stl(Byte_writer& out, const Triangle_soup& soup, const Write_options& options);
 void write_gltf(Byte_writer& out, const Triangle_soup& soup, Mesh_format format);
 
+/// For a soup with a scene; see mesh_files.h.
+std::vector<Index> transforms_of_vertices(const Triangle_soup& soup);
+
 /// What of this scene only glTF files hold.
 const std::vector<std::string>& only_in_gltf(const Gltf_scene& scene);
 

@@ -105,6 +105,7 @@ Matrix local_matrix(const tinygltf::Node& node)
   return result;
 }
 
+/// See mesh_files.h for the formula.
 Matrix product(const Matrix& a, const Matrix& b)
 {
   Matrix result;

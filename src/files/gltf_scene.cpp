@@ -6,6 +6,8 @@
 #include "files/Binary_reader.h"
 #include "files/formats.h"
 
+#include <map>
+
 namespace selvedge::files {
 
 std::size_t component_size(int component_type)
@@ -48,6 +50,21 @@ double component(const Gltf_scene::Column& column, std::size_t row, std::size_t 
 const std::vector<std::string>& only_in_gltf(const Gltf_scene& scene)
 {
   return scene.only_in_gltf;
+}
+
+std::vector<Index> transforms_of_vertices(const Triangle_soup& soup)
+{
+  const Gltf_scene& scene = *soup.scene;
+  std::map<Gltf_scene::Matrix, Index> numbers;
+  std::vector<Index> of_scene_vertex;
+  for (const Gltf_scene::Instance& instance : scene.instances)
+    of_scene_vertex.resize(of_scene_vertex.size() + scene.blocks[instance.block].size,
+                           numbers.emplace(instance.to_world, Index(numbers.size())).first->second);
+  std::vector<Index> result;
+  result.reserve(soup.points.size());
+  for (const Index v : soup.scene_vertices)
+    result.push_back(of_scene_vertex[v]);
+  return result;
 }
 
 Point_3 world_position(const Gltf_scene::Matrix& to_world, const Gltf_scene::Column& positions, std::size_t row)

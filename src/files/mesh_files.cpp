@@ -122,6 +122,11 @@ bool needs_float32(const Triangle_soup& soup, Mesh_format format)
   return stores_float32(format) && !(is_gltf(format) && soup.scene);
 }
 
+std::vector<Index> transforms_of_vertices(const Triangle_soup& soup)
+{
+  return soup.scene ? files::transforms_of_vertices(soup) : std::vector<Index>();
+}
+
 std::vector<std::string> describe(const Read_notes& notes)
 {
   std::vector<std::string> sentences;

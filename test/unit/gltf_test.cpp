@@ -193,9 +193,8 @@ Document everything()
   const Json targets = {{{"POSITION", json["accessors"].size() - 1}}};
   json["meshes"].push_back({{"name", "coat"}, {"weights", {0.5}}, {"extras", {{"targetNames", {"bulge"}}}}});
   json["meshes"][0]["primitives"] = {
-    {{"attributes", attributes}, {"indices", indices(0, side / 2, 5125)}, {"material", 0}, {"targets", targets}, {"extras", "front"}},
+    {{"attributes", attributes}, {"indices", indices(0, side / 2, 5125)}, {"material", 0}, {"targets", targets}, {"extras", {{"side", "front"}}}},
     {{"attributes", attributes}, {"indices", indices(side / 2, side - 1, 5123)}, {"material", 1}, {"targets", targets}}};
-  json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", attributes["POSITION"]}}}, {"mode", 0}});
   // Another mesh, with a skin.
   Json skinned;
   const auto high = [&](std::size_t i, std::size_t k) { return points[i][k] + (k == 2 ? 0.125f : 0.f); };
@@ -206,9 +205,16 @@ Document everything()
   skinned["WEIGHTS_0"] = add_rows<std::uint8_t>(document, count, 4, 5121, [](std::size_t i, std::size_t k) {
     return k == 0 ? 255 - int(i % 2 * (i % 200)) : k == 1 ? int(i % 2 * (i % 200)) : 0; }, true);
   json["meshes"].push_back({{"name", "arm"}, {"primitives", {{{"attributes", skinned}, {"indices", indices(0, side - 1, 5121)}}}}});
+  json["meshes"].push_back({{"name", "marks"}, {"primitives", {{{"attributes", {{"POSITION", attributes["POSITION"]}}}, {"mode", 0}}}}});
   json["materials"] = {{{"name", "denim"}, {"pbrMetallicRoughness", {{"baseColorFactor", {0.1, 0.2, 0.3, 1.0}}, {"baseColorTexture", {{"index", 0}}}}}, {"extras", {{"id", 7}}}},
                        {{"name", "silk"}, {"doubleSided", true}}};
-  json["images"] = {{{"bufferView", add_view(document, "\x89PNG\r\n\x1a\n not really")}, {"mimeType", "image/png"}, {"name", "weave"}},
+  const unsigned char pixel[] = {0x89, 'P',  'N',  'G',  0x0d, 0x0a, 0x1a, 0x0a, 0,    0,    0,    13,   'I',  'H',  'D',  'R',  0,
+                                 0,    0,    1,    0,    0,    0,    1,    8,    6,    0,    0,    0,    0x1f, 0x15, 0xc4, 0x89, 0,
+                                 0,    0,    13,   'I',  'D',  'A',  'T',  0x78, 0x9c, 0x63, 0x60, 0x60, 0x60, 0xf8, 0x0f, 0,    1,
+                                 4,    1,    0,    0x5f, 0xe5, 0xc3, 0x4b, 0,    0,    0,    0,    'I',  'E',  'N',  'D',  0xae, 0x42,
+                                 0x60, 0x82};
+  const std::string png(pixel, pixel + sizeof pixel);
+  json["images"] = {{{"bufferView", add_view(document, png)}, {"mimeType", "image/png"}, {"name", "weave"}},
                     {{"uri", "there%20is/none.png"}}};
   json["textures"] = {{{"source", 0}}, {{"source", 1}}};
   std::string matrices, times, moves;
@@ -231,8 +237,9 @@ Document everything()
                    {{"name", "right"}, {"mesh", 0}, {"matrix", {-1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 5.5, 0.25, 0.125, 1.0}}},
                    {{"name", "arm"}, {"mesh", 1}, {"skin", 0}, {"translation", {100.0, 0.0, 0.0}}},
                    {{"name", "shoulder"}, {"children", {5}}},
-                   {{"name", "elbow"}}};
-  json["scenes"] = {{{"nodes", {0}}, {"name", "fitting"}}};
+                   {{"name", "elbow"}},
+                   {{"name", "marks"}, {"mesh", 2}}};
+  json["scenes"] = {{{"nodes", {0, 6}}, {"name", "fitting"}}};
   return document;
 }
 
@@ -312,20 +319,20 @@ void expect_same_rest(const Document& after, const Document& before)
     EXPECT_EQ(rows_of(after, accessor), rows_of(before, accessor));
   // The node that shared its mesh has its own now.
   Json nodes = after.json["nodes"];
-  EXPECT_EQ(nodes[2]["mesh"], 2);
+  EXPECT_EQ(nodes[2]["mesh"], 3);
   nodes[2]["mesh"] = 0;
   EXPECT_EQ(nodes, before.json["nodes"]);
-  ASSERT_EQ(after.json["meshes"].size(), 3u);
+  ASSERT_EQ(after.json["meshes"].size(), 4u);
   // Points are as they were.
-  for (const std::size_t mesh : {0, 2})
-    EXPECT_EQ(rows_of(after, after.json["meshes"][mesh]["primitives"][2]["attributes"]["POSITION"]),
-              rows_of(before, before.json["meshes"][0]["primitives"][2]["attributes"]["POSITION"]));
+  EXPECT_EQ(after.json["meshes"][2], before.json["meshes"][2]);
+  const std::size_t marks = before.json["meshes"][2]["primitives"][0]["attributes"]["POSITION"];
+  EXPECT_EQ(rows_of(after, marks), rows_of(before, marks));
 }
 
 void expect_everything_kept(const Document& after, const Document& before)
 {
   expect_same_rest(after, before);
-  const std::map<std::size_t, std::size_t> from = {{0, 0}, {1, 1}, {2, 0}};
+  const std::map<std::size_t, std::size_t> from = {{0, 0}, {1, 1}, {3, 0}};
   for (const auto& [mesh, original] : from) {
     Json rest = after.json["meshes"][mesh], rest_before = before.json["meshes"][original];
     for (std::size_t p = 0; p < rest["primitives"].size(); ++p) {
@@ -560,7 +567,8 @@ TEST(Gltf, PrimitivesThatAreGoneLeaveAValidFile)
   const Document after = from_glb(contents(folder / "a.glb"));
   EXPECT_FALSE(after.json["nodes"][3].contains("mesh"));
   EXPECT_FALSE(after.json["nodes"][3].contains("skin"));
-  EXPECT_EQ(after.json["nodes"][2]["mesh"], 1);
+  EXPECT_FALSE(after.json["nodes"][2].contains("mesh"));
+  EXPECT_EQ(after.json["nodes"][6]["mesh"], 1) << "the points have moved up";
 }
 
 TEST(Gltf, PositionsThatTheFileDoesNotHaveAreRefused)
@@ -571,6 +579,9 @@ TEST(Gltf, PositionsThatTheFileDoesNotHaveAreRefused)
   soup.points[5] = other; // of the same node: its local coordinates are known
   write_mesh(folder / "a.glb", soup);
   EXPECT_EQ(read_mesh(folder / "a.glb").soup.points[5], other);
+  const std::vector<Index> transforms = transforms_of_vertices(soup);
+  EXPECT_EQ(transforms[5], transforms[6]);
+  EXPECT_NE(transforms[5], transforms[side * side + 6]);
   soup.points[5] = mirrored; // of another node
   EXPECT_THROW(write_mesh(folder / "a.glb", soup), Argument_error);
   soup.points[5] = Point_3(own.x() + 1, own.y(), own.z());

@@ -39,6 +39,25 @@ namespace selvedge {
 /// of fewer than three corners are skipped and counted. Faces that name a vertex twice are kept: a soup may
 /// hold degenerate triangles.
 ///
+/// **Scenes.** The position of a vertex of a glTF file, which is what is reduced and judged, is its world position in
+/// doubles:
+///
+///     ((G_0 x + G_1 y) + G_2 z) + G_3        for each row G of the global matrix of its node
+///
+/// with (x, y, z) the 32-bit floats of the file. The global matrix is the product P L of the parent's and the node's own,
+/// its entries (P_0 L_0 + P_1 L_1) + P_2 L_2, and + P_3 in the last column; at a root, P is the identity. L is `matrix`, or
+/// from `translation` t, `rotation` (x, y, z, w) and `scale` s the matrix with the columns R_j s_j and t, where R has
+/// 1 − 2 (y y + z z), 2 (x y − z w), 2 (x z + y w) as its first row, and so on, not normalised. Every operation is
+/// rounded to double, in this order. A skinned mesh is taken in its bind pose, that is with the identity for G: its node
+/// does not move it, as the format says. Morph targets are carried along and not guarded, animations likewise. Nodes that
+/// mirror have their triangles turned over, so that outside is outside.
+///
+/// Written to glTF again, every vertex has its rows of every accessor of its primitive and of its morph targets bit for
+/// bit, so that its world position is the same double. All else in the document stays as it is, images byte for byte,
+/// addresses of files unchanged, and numbers of accessors and buffer views too; but a mesh that several nodes share is one
+/// for each from then on, accessors of triangles are written in full and without gaps, and all buffers are one. Primitives of
+/// points or lines and meshes outside the scene stay as they are. Primitives and meshes without a triangle left are gone.
+///
 /// **Complexity.** Linear in the size of the file, except for polygons: quadratic in the number of corners
 /// of each as a rule, cubic at worst.
 
@@ -56,6 +75,10 @@ bool stores_float32(Mesh_format format);
 /// Whether positions of this soup must be 32-bit floats to be written in this format: where it stores those, unless
 /// the soup goes from glTF to glTF, which has them already, though its positions in the scene are doubles.
 bool needs_float32(const Triangle_soup& soup, Mesh_format format);
+
+/// For every vertex of a soup from a glTF file the number of the transform that it is under; empty for any other soup.
+/// A vertex may be given the position of another only under the same transform, for else the file cannot hold it.
+std::vector<Index> transforms_of_vertices(const Triangle_soup& soup);
 
 /// What the author of a file may want to know about how it was read.
 struct Read_notes
@@ -96,6 +119,14 @@ struct Mesh_file
 /// - STL: ascii and binary. Corners of identical coordinates (−0 equals 0) are one vertex, which has the
 ///   coordinates of the first of them; vertices are numbered by their first corner.
 ///
+/// - GLB, glTF 2.0: all triangles of the scene (strips and fans too) as one soup in world space; see **Scenes** below.
+///   A group is a primitive in a node, named after the node, or after the mesh where the node has no name; a material
+///   is one of the file. Texture coordinates are those of TEXCOORD_0, the second taken from 1 since it points down
+///   there, normals are turned with their nodes, COLOR_0 is a colour, and other attributes are carried where all
+///   vertices have them in the same form. Vertices without indices are one where they agree in every attribute.
+///   Buffers are in the file, in data addresses, or in files relative to its folder (none when read from memory).
+///   Refused, by name: compressed and quantised meshes, instances by extension, unknown extensions that the file requires.
+///
 /// Vertices in messages are counted as the format does: from 1 in OBJ, from 0 elsewhere.
 /// Throws `Input_error`.
 Mesh_file read_mesh(const std::filesystem::path& path);
@@ -132,8 +163,15 @@ struct Write_options
 /// - PLY: texture coordinates stand at the vertices (`s t`) when they have the numbers of the vertices, else at the
 ///   faces (`texcoord`). Attributes of several components become as many properties, `name_0`, `name_1`, ...
 ///
+/// - GLB, glTF: a soup that was read from glTF goes back into its document, see **Scenes**. Any other becomes a new one:
+///   a node and a mesh for each group, a primitive for each material in it (by name alone), vertices split where
+///   corners differ in texture coordinates or normals; these and colours that are no integers are rounded to 32-bit
+///   floats. Triangles are ordered by group and material. `.gltf` files hold their buffer in a data address, so that a
+///   mesh is one file.
+///
 /// Preconditions, checked (`Argument_error`): coordinates are finite, and 32-bit floats when the format
-/// stores those; labels in an OBJ begin and end with no blank, do not end in a backslash, and are one line;
+/// stores those (`needs_float32`); a soup of a glTF file has its groups, `scene_vertices`, and positions, each of them that
+/// of some vertex of the file under the same transform; labels in an OBJ begin and end with no blank, do not end in a backslash, and are one line;
 /// names of attributes in a PLY hold no blanks and do not end in a backslash.
 void write_mesh(const std::filesystem::path& path, const Triangle_soup& soup,
                 const Write_options& options = {});
