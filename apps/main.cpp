@@ -51,9 +51,10 @@ Exit_code run(int argc, char** argv)
     CLI::App* const command = app.add_subcommand(name, description);
     return Command{command, declare(*command)};
   };
-  const std::array<Command, 3> commands{
+  const std::array<Command, 4> commands{
       add("simplify", "Reduce a mesh, judge the result, and write it.", add_simplify),
       add("verify", "Judge a mesh, or a result against its original.", add_verify),
+      add("replay", "Judge a reduction step by step, by its log.", add_replay),
       add("generate", "Make a layered garment or a hard scene, embedded by construction.", add_generate)};
 
   try {

@@ -19,6 +19,7 @@ using Action = std::function<Exit_code()>;
 /// Each declares the options of its subcommand and returns what carries it out.
 Action add_simplify(CLI::App& command);
 Action add_verify(CLI::App& command);
+Action add_replay(CLI::App& command);
 Action add_generate(CLI::App& command);
 
 /// Accepts a number in [least, most]; unlike CLI::Range no NaN.

@@ -9,6 +9,7 @@ packages=(
   g++ cmake ninja-build
   libcgal-dev           # the geometry
   libcli11-dev          # options of the app
+  libssl-dev            # SHA-256, for logs of collapses
   libtinygltf-dev       # glTF documents
   nlohmann-json3-dev    # glTF documents, reports of the app
   libgtest-dev          # tests

@@ -184,6 +184,7 @@ private:
     if (m_options.uv_weight > 0)
       m_working.measure_uvs();
     m_working.count_refusals(part_kinds(soup));
+    m_working.tell(m_options.on_collapse);
     return constraints;
   }
 

@@ -69,6 +69,10 @@ struct Simplify_options
 
   Quadric_cost_options cost;
 
+  /// Told of every collapse of a soup, before it: a vertex of the soup at the position that goes, and one at that to
+  /// which it goes; what a log (collapse_log.h) holds. It may be empty.
+  std::function<void(std::size_t removed, std::size_t kept)> on_collapse;
+
   /// Asked now and then; when it returns true, the reduction ends with the mesh as it is. It may be empty.
   std::function<bool(const Simplify_progress&)> should_stop;
 };

@@ -43,6 +43,13 @@ Reduction_log::Reduction_log(std::ostream& stream, Log_header header, const Log_
                              const Prepared_soup& prepared, const Simplify_options& options)
   : m_writer(stream, with_limits(std::move(header), options)), m_numbering(numbering), m_prepared(prepared)
 {
+  for (const auto& [from, to] : prepared.snapping.snaps) {
+    Log_step step;
+    step.kind = Log_step::Kind::snap;
+    step.removed = numbering.number(from);
+    step.kept = numbering.number(to);
+    m_writer.write(step);
+  }
   const std::vector<Index> smallest = smallest_numbers(prepared.soup.points, numbering);
   std::map<Index, std::vector<Index>> groups;
   for (Index v = 0; v < smallest.size(); ++v)

@@ -268,6 +268,10 @@ void Working_mesh::for_each_changed_face(Mesh::Halfedge_index moving, const Bord
 
 void Working_mesh::before_collapse(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule)
 {
+  if (m_listener) {
+    const Mesh::Face_index face = m_mesh.face(m_mesh.is_border(moving) ? m_mesh.opposite(moving) : moving);
+    m_listener(vertex_of(corner_at(face, m_mesh.source(moving))), vertex_of(corner_at(face, m_mesh.target(moving))));
+  }
   for_each_moved_wedge(moving, [this](Corner from, Corner to) {
     m_uv_quadrics[m_wedges[to]] += m_uv_quadrics[m_wedges[from]];
   });

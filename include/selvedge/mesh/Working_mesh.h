@@ -14,6 +14,8 @@
 #include <CGAL/Surface_mesh.h>
 
 #include <cstddef>
+#include <functional>
+#include <utility>
 #include <vector>
 
 namespace selvedge {
@@ -61,6 +63,9 @@ public:
   /// What was refused so far, for each kind and each of its parts.
   const std::vector<std::vector<Refusals>>& refused_by_part() const { return m_refused; }
 
+  /// Who is told of every collapse, as `Simplify_options::on_collapse` is.
+  void tell(std::function<void(std::size_t removed, std::size_t kept)> listener) { m_listener = std::move(listener); }
+
   // Called by `simplify`, as an observer.
   void before_collapse(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule);
   void on_refused(Mesh::Halfedge_index moving, const Refusals& refusals);
@@ -106,6 +111,7 @@ private:
   std::vector<Index_triple> m_corners;          // by face, which has the number of its triangle
   Simplify_constraints<Mesh> m_constraints;
   Welding_notes m_notes;
+  std::function<void(std::size_t removed, std::size_t kept)> m_listener;
 
   // The texture at each wedge: the corners at a vertex between two lines.
   std::vector<Index> m_wedges; // by corner of the soup
