@@ -62,7 +62,7 @@ Action add_generate(CLI::App& command)
   const auto request = std::make_shared<Request>();
   Generate_options& options = request->options;
   command.add_option("NAME", request->name, "What to make; --list names all there is")->type_name("");
-  command.add_option("-o,--output", request->output, "Where it goes: .obj, .off, .ply or .stl")
+  command.add_option("-o,--output", request->output, "Where it goes: .obj, .off, .ply, .stl, .glb or .gltf")
       ->type_name("FILE");
   command.add_flag("--list", request->is_list, "Name all that can be made");
   command.add_option("--faces", options.faces, "Faces, within 2 %")

@@ -112,7 +112,7 @@ Exit_code run(const Request& request)
 Action add_verify(CLI::App& command)
 {
   const auto request = std::make_shared<Request>();
-  command.add_option("MESH", request->mesh, "Mesh to judge: .obj, .off, .ply or .stl")
+  command.add_option("MESH", request->mesh, "Mesh to judge: .obj, .off, .ply, .stl, .glb or .gltf")
       ->required()
       ->type_name("");
   command.add_option("--against", request->original, "The original that MESH was made from")

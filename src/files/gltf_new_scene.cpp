@@ -22,13 +22,16 @@ constexpr Gltf_scene::Matrix s_identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1
 template <class Number>
 void append_little_endian(std::string& rows, Number number)
 {
-  std::conditional_t<sizeof number == 4, std::uint32_t, std::conditional_t<sizeof number == 2, std::uint16_t, std::uint8_t>> bits;
+  std::conditional_t<sizeof number == 4, std::uint32_t,
+                     std::conditional_t<sizeof number == 2, std::uint16_t, std::uint8_t>>
+      bits;
   std::memcpy(&bits, &number, sizeof bits);
   for (std::size_t i = 0; i < sizeof bits; ++i)
     rows += static_cast<char>(bits >> (8 * i) & 0xff);
 }
 
-Gltf_scene::Column column(const std::string& name, int component_type, std::size_t components, bool is_normalized = false)
+Gltf_scene::Column column(const std::string& name, int component_type, std::size_t components,
+                          bool is_normalized = false)
 {
   Gltf_scene::Column result;
   result.name = name;
@@ -42,11 +45,41 @@ Gltf_scene::Column column(const std::string& name, int component_type, std::size
   return result;
 }
 
+/// Rows as they will be written, and for each the first like it: some files write a row at every corner that
+/// has it.
+template <std::size_t dimension>
+struct Rows
+{
+  using Row = std::array<float, dimension>;
+
+  template <class Round>
+  Rows(const Corner_values<dimension>& values, const Round& round)
+  {
+    std::map<Row, Index> first;
+    for (const auto& value : values.values) {
+      rows.push_back(round(value));
+      numbers.push_back(first.emplace(rows.back(), Index(numbers.size())).first->second);
+    }
+  }
+
+  std::vector<Row> rows;
+  std::vector<Index> numbers;
+};
+
 class New_scene
 {
 public:
   explicit New_scene(const Triangle_soup& soup)
-    : m_soup(soup), m_scene(std::make_shared<Gltf_scene>()), m_colours(find_colours(soup.vertex_attributes))
+      : m_soup(soup), m_scene(std::make_shared<Gltf_scene>()),
+        m_colours(find_colours(soup.vertex_attributes)),
+        // The second coordinate points down here, up elsewhere.
+        m_uvs(soup.uvs,
+              [](const auto& uv) {
+                return std::array<float, 2>{float(uv[0]), float(1 - uv[1])};
+              }),
+        m_normals(soup.normals, [](const auto& n) {
+          return std::array<float, 3>{float(n[0]), float(n[1]), float(n[2])};
+        })
   {
   }
 
@@ -91,8 +124,9 @@ private:
   {
     const Kind kind = {m_soup.groups.empty() ? 0 : m_soup.groups.of_triangle[t], has_value(m_soup.uvs, t),
                        has_value(m_soup.normals, t)};
-    return {kind, m_soup.triangles[t][corner], kind.has_uvs ? m_soup.uvs.of_triangle[t][corner] : 0,
-            kind.has_normals ? m_soup.normals.of_triangle[t][corner] : 0};
+    return {kind, m_soup.triangles[t][corner],
+            kind.has_uvs ? m_uvs.numbers[m_soup.uvs.of_triangle[t][corner]] : 0,
+            kind.has_normals ? m_normals.numbers[m_soup.normals.of_triangle[t][corner]] : 0};
   }
 
   void number_vertices()
@@ -113,7 +147,7 @@ private:
       Index_triple& triangle = m_result.triangles.emplace_back();
       for (std::size_t corner = 0; corner < 3; ++corner)
         triangle[corner] =
-          Index(std::lower_bound(vertices.begin(), vertices.end(), vertex(t, corner)) - vertices.begin());
+            Index(std::lower_bound(vertices.begin(), vertices.end(), vertex(t, corner)) - vertices.begin());
     }
     m_result.scene_vertices.resize(vertices.size());
     std::iota(m_result.scene_vertices.begin(), m_result.scene_vertices.end(), Index(0));
@@ -122,7 +156,8 @@ private:
   void begin_block(const Kind& kind)
   {
     m_kinds.push_back(kind);
-    m_scene->instances.push_back({Index(m_scene->blocks.size()), Index(m_result.points.size()), s_identity, false});
+    m_scene->instances.push_back(
+        {Index(m_scene->blocks.size()), Index(m_result.points.size()), s_identity, false});
     std::vector<Gltf_scene::Column>& columns = m_scene->blocks.emplace_back().attributes;
     columns.push_back(column("POSITION", type_float32, 3));
     if (kind.has_normals)
@@ -159,13 +194,14 @@ private:
     };
     put(point.x(), point.y(), point.z());
     if (v.kind.has_normals)
-      std::apply(put, m_soup.normals.values[v.normal]);
+      std::apply(put, m_normals.rows[v.normal]);
     if (v.kind.has_uvs)
-      put(m_soup.uvs.values[v.uv][0], 1 - m_soup.uvs.values[v.uv][1]); // down here, up elsewhere
+      std::apply(put, m_uvs.rows[v.uv]);
     for (const Column& colour : m_colours)
       if (next->component_type == type_float32)
         // Vertices without a colour are white, as are those of a whole mesh without.
-        append_little_endian(next->rows, static_cast<float>(std::isfinite(colour.real(v.vertex)) ? colour.real(v.vertex) : 1));
+        append_little_endian(
+            next->rows, static_cast<float>(std::isfinite(colour.real(v.vertex)) ? colour.real(v.vertex) : 1));
       else
         colour.with(v.vertex, [&](auto number) {
           if constexpr (sizeof number <= 2)
@@ -176,18 +212,22 @@ private:
   void make_document()
   {
     Json& document = m_scene->document;
-    document = {{"asset", {{"version", "2.0"}, {"generator", "Selvedge"}}}, {"scene", 0}, {"scenes", {{{"nodes", Json::array()}}}}};
+    document = {{"asset", {{"version", "2.0"}, {"generator", "Selvedge"}}},
+                {"scene", 0},
+                {"scenes", {{{"nodes", Json::array()}}}}};
     document["nodes"] = document["meshes"] = Json::array();
     // Materials are numbered as they are in the soup, apart from the one that stands for none.
     std::vector<int> materials;
-    for (const std::string& name : m_soup.materials.empty() ? std::vector<std::string>() : m_soup.materials.names) {
+    for (const std::string& name :
+         m_soup.materials.empty() ? std::vector<std::string>() : m_soup.materials.names) {
       materials.push_back(name.empty() ? -1 : int(document["materials"].size()));
       if (!name.empty())
         document["materials"].push_back({{"name", name}});
     }
     std::map<std::pair<Kind, int>, Index> parts;
     const auto part_of = [&](std::size_t t) {
-      return std::make_pair(vertex(t, 0).kind, m_soup.materials.empty() ? -1 : materials[m_soup.materials.of_triangle[t]]);
+      return std::make_pair(vertex(t, 0).kind,
+                            m_soup.materials.empty() ? -1 : materials[m_soup.materials.of_triangle[t]]);
     };
     for (std::size_t t = 0; t < m_soup.triangles.size(); ++t)
       parts.emplace(part_of(t), 0);
@@ -207,7 +247,8 @@ private:
       Json& primitives = meshes.back()["primitives"];
       number = Index(m_scene->parts.size());
       const Index instance = Index(std::lower_bound(m_kinds.begin(), m_kinds.end(), kind) - m_kinds.begin());
-      m_scene->parts.push_back({Index(meshes.size() - 1), Index(primitives.size()), instance, 0, Json::object()});
+      m_scene->parts.push_back(
+          {Index(meshes.size() - 1), Index(primitives.size()), instance, 0, Json::object()});
       m_result.groups.names.push_back(std::to_string(number));
       primitives.push_back({{"attributes", Json::object()}});
       if (material >= 0)
@@ -222,6 +263,8 @@ private:
   Triangle_soup m_result;
   std::vector<Kind> m_kinds; // of instances, in order
   std::vector<Column> m_colours;
+  Rows<2> m_uvs;
+  Rows<3> m_normals;
 };
 
 } // namespace

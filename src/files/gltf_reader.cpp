@@ -42,7 +42,8 @@ bool buffer_exists(const std::string& name, void* user)
 {
   const Buffer_sources& sources = *static_cast<const Buffer_sources*>(user);
   std::error_code error;
-  return name == s_embedded_buffer || (sources.folder && std::filesystem::is_regular_file(*sources.folder / name, error));
+  return name == s_embedded_buffer ||
+         (sources.folder && std::filesystem::is_regular_file(*sources.folder / name, error));
 }
 
 bool read_buffer(std::vector<unsigned char>* bytes, std::string* message, const std::string& name, void* user)
@@ -137,7 +138,8 @@ std::array<double, 3> world_normal(const Matrix& m, bool is_mirrored, const std:
   std::array<double, 3> result;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto &a = m[(i + 1) % 3], &b = m[(i + 2) % 3];
-    result[i] = (a[1] * b[2] - a[2] * b[1]) * n[0] + (a[2] * b[0] - a[0] * b[2]) * n[1] + (a[0] * b[1] - a[1] * b[0]) * n[2];
+    result[i] = (a[1] * b[2] - a[2] * b[1]) * n[0] + (a[2] * b[0] - a[0] * b[2]) * n[1] +
+                (a[0] * b[1] - a[1] * b[0]) * n[2];
   }
   const double length = std::sqrt(result[0] * result[0] + result[1] * result[1] + result[2] * result[2]);
   for (double& coordinate : result)
@@ -148,8 +150,9 @@ std::array<double, 3> world_normal(const Matrix& m, bool is_mirrored, const std:
 class Gltf_reader
 {
 public:
-  Gltf_reader(std::string_view contents, Mesh_format format, const std::string& name, const std::filesystem::path* folder)
-    : m_contents(contents), m_name(name), m_folder(folder)
+  Gltf_reader(std::string_view contents, Mesh_format format, const std::string& name,
+              const std::filesystem::path* folder)
+      : m_contents(contents), m_name(name), m_folder(folder)
   {
     m_file.format = format;
   }
@@ -222,18 +225,24 @@ private:
     if (!document().is_object())
       fail("its JSON is not an object; export the file again");
     const Json& asset = member(document(), "asset");
-    if (!asset.is_object() || !asset.value("version", Json()).is_string() || asset["version"].get<std::string>().substr(0, 2) != "2.")
+    if (!asset.is_object() || !asset.value("version", Json()).is_string() ||
+        asset["version"].get<std::string>().substr(0, 2) != "2.")
       fail("this is not glTF of version 2; export it as glTF 2.0");
   }
 
   void refuse_extensions()
   {
     const std::map<std::string, std::string> refused = {
-      {"KHR_draco_mesh_compression", "its meshes are compressed with KHR_draco_mesh_compression; export it without compression"},
-      {"EXT_meshopt_compression", "its buffers are compressed with EXT_meshopt_compression; export it without compression"},
-      {"KHR_meshopt_compression", "its buffers are compressed with KHR_meshopt_compression; export it without compression"},
-      {"KHR_mesh_quantization", "its vertices are quantised with KHR_mesh_quantization; export it without quantisation"},
-      {"EXT_mesh_gpu_instancing", "it places meshes with EXT_mesh_gpu_instancing; export it with one node for each"}};
+        {"KHR_draco_mesh_compression",
+         "its meshes are compressed with KHR_draco_mesh_compression; export it without compression"},
+        {"EXT_meshopt_compression",
+         "its buffers are compressed with EXT_meshopt_compression; export it without compression"},
+        {"KHR_meshopt_compression",
+         "its buffers are compressed with KHR_meshopt_compression; export it without compression"},
+        {"KHR_mesh_quantization",
+         "its vertices are quantised with KHR_mesh_quantization; export it without quantisation"},
+        {"EXT_mesh_gpu_instancing",
+         "it places meshes with EXT_mesh_gpu_instancing; export it with one node for each"}};
     for (const char* list : {"extensionsRequired", "extensionsUsed"})
       for (const Json& extension : member(document(), list)) {
         if (!extension.is_string())
@@ -241,9 +250,12 @@ private:
         const std::string name = extension;
         if (const auto found = refused.find(name); found != refused.end())
           fail(found->second);
-        const auto begins_with = [&](std::string_view prefix) { return name.compare(0, prefix.size(), prefix) == 0; };
-        if (list == std::string_view("extensionsRequired") && !begins_with("KHR_materials_") && !begins_with("KHR_texture_") &&
-            !begins_with("EXT_texture_") && !begins_with("MSFT_texture_") && !begins_with("KHR_lights_") && !begins_with("KHR_xmp"))
+        const auto begins_with = [&](std::string_view prefix) {
+          return name.compare(0, prefix.size(), prefix) == 0;
+        };
+        if (list == std::string_view("extensionsRequired") && !begins_with("KHR_materials_") &&
+            !begins_with("KHR_texture_") && !begins_with("EXT_texture_") && !begins_with("MSFT_texture_") &&
+            !begins_with("KHR_lights_") && !begins_with("KHR_xmp"))
           fail("it requires the extension " + name + ", which is not known here; export it without");
       }
   }
@@ -251,22 +263,25 @@ private:
   void load()
   {
     Json reduced;
-    for (const char* name : {"asset", "buffers", "bufferViews", "accessors", "meshes", "nodes", "scenes", "scene"})
+    for (const char* name :
+         {"asset", "buffers", "bufferViews", "accessors", "meshes", "nodes", "scenes", "scene"})
       if (document().contains(name))
         reduced[name] = without_extensions(document()[name]);
     Buffer_sources sources{m_embedded, m_folder};
-    if (const Json& buffers = member(reduced, "buffers"); m_file.format == Mesh_format::glb && buffers.is_array() &&
-                                                          !buffers.empty() && buffers[0].is_object() && !buffers[0].contains("uri")) {
+    if (const Json& buffers = member(reduced, "buffers");
+        m_file.format == Mesh_format::glb && buffers.is_array() && !buffers.empty() &&
+        buffers[0].is_object() && !buffers[0].contains("uri")) {
       reduced["buffers"][0]["uri"] = s_embedded_buffer;
       // The chunk may be longer, by its padding.
       sources.embedded = m_embedded.substr(0, buffers[0].value("byteLength", std::size_t(0)));
     }
     const std::string text = reduced.dump();
     tinygltf::TinyGLTF loader;
-    loader.SetFsCallbacks(
-      {buffer_exists, [](const std::string& name, void*) { return name; }, read_buffer, tinygltf::WriteWholeFile, &sources});
+    loader.SetFsCallbacks({buffer_exists, [](const std::string& name, void*) { return name; }, read_buffer,
+                           tinygltf::WriteWholeFile, &sources});
     std::string error, warning;
-    const bool is_loaded = loader.LoadASCIIFromString(&m_model, &error, &warning, text.data(), unsigned(text.size()), "");
+    const bool is_loaded =
+        loader.LoadASCIIFromString(&m_model, &error, &warning, text.data(), unsigned(text.size()), "");
     if (!is_loaded || !error.empty()) {
       std::replace(error.begin(), error.end(), '\n', ' ');
       error.erase(error.find_last_not_of(" .") + 1);
@@ -278,7 +293,9 @@ private:
   // What tinygltf lets pass: lists out of step with the document, and transforms that are none.
   void check_lists()
   {
-    const auto is_whole = [](const Json& list, std::size_t size) { return list.is_array() && list.size() == size; };
+    const auto is_whole = [](const Json& list, std::size_t size) {
+      return list.is_array() && list.size() == size;
+    };
     bool is_in_step = true;
     is_in_step &= is_whole(member(document(), "meshes"), m_model.meshes.size());
     is_in_step &= is_whole(member(document(), "nodes"), m_model.nodes.size());
@@ -288,8 +305,8 @@ private:
       const Json& primitives = member(document()["meshes"][m], "primitives");
       is_in_step &= is_whole(primitives, m_model.meshes[m].primitives.size());
       for (std::size_t p = 0; p < m_model.meshes[m].primitives.size() && is_in_step; ++p)
-        is_in_step &= primitives[p].is_object() &&
-                      is_whole(member(primitives[p], "targets"), m_model.meshes[m].primitives[p].targets.size());
+        is_in_step &= primitives[p].is_object() && is_whole(member(primitives[p], "targets"),
+                                                            m_model.meshes[m].primitives[p].targets.size());
     }
     if (!is_in_step)
       fail("not a valid glTF file (a list holds something that does not belong there); export it again");
@@ -297,14 +314,16 @@ private:
       const tinygltf::Node& node = m_model.nodes[n];
       const Json& json = document()["nodes"][n];
       const auto has_size = [&](const char* name, const std::vector<double>& values, std::size_t size) {
-        return json.contains(name) && (!node.matrix.empty() && &values != &node.matrix ? false : values.size() != size);
+        return json.contains(name) &&
+               (!node.matrix.empty() && &values != &node.matrix ? false : values.size() != size);
       };
       if (has_size("matrix", node.matrix, 16) || has_size("translation", node.translation, 3) ||
           has_size("rotation", node.rotation, 4) || has_size("scale", node.scale, 3))
         fail("node " + std::to_string(n) + " has a transform of the wrong length; correct it");
       if (!node.matrix.empty() &&
           (node.matrix[3] != 0 || node.matrix[7] != 0 || node.matrix[11] != 0 || node.matrix[15] != 1))
-        fail("node " + std::to_string(n) + " has a matrix whose last row is not 0 0 0 1; apply the transform to the mesh");
+        fail("node " + std::to_string(n) +
+             " has a matrix whose last row is not 0 0 0 1; apply the transform to the mesh");
     }
   }
 
@@ -327,8 +346,8 @@ private:
     } else {
       const std::size_t scene = m_model.defaultScene < 0 ? 0 : std::size_t(m_model.defaultScene);
       if (scene >= m_model.scenes.size())
-        fail("its scene is number " + std::to_string(scene) + ", but there are only " + std::to_string(m_model.scenes.size()) +
-             "; correct it");
+        fail("its scene is number " + std::to_string(scene) + ", but there are only " +
+             std::to_string(m_model.scenes.size()) + "; correct it");
       stack = m_model.scenes[scene].nodes;
     }
     const auto enter = [&](int n, const Matrix& parent) {
@@ -368,7 +387,8 @@ private:
       if (mesh == -1)
         continue;
       if (mesh < 0 || std::size_t(mesh) >= m_model.meshes.size())
-        fail("node " + std::to_string(n) + " names mesh " + std::to_string(mesh) + ", which is not there; correct it");
+        fail("node " + std::to_string(n) + " names mesh " + std::to_string(mesh) +
+             ", which is not there; correct it");
       if (m_is_in_scene[n])
         ++in_scene[mesh];
       else
@@ -422,7 +442,8 @@ private:
     const bool is_skinned = node.skin != -1;
     if (is_skinned)
       remark("skinned meshes, taken in their bind pose");
-    const std::size_t parts = std::count_if(primitives.begin(), primitives.end(), [&](const auto& p) { return is_reducible(p); });
+    const std::size_t parts =
+        std::count_if(primitives.begin(), primitives.end(), [&](const auto& p) { return is_reducible(p); });
     const Matrix& to_world = is_skinned ? s_identity : m_to_world[n];
     std::map<Index, Index> instance_of_block;
     for (Index p = 0; p < primitives.size(); ++p) {
@@ -471,13 +492,14 @@ private:
 
   Index block_of(Index mesh, const tinygltf::Primitive& primitive)
   {
-    const auto [it, is_new] = m_block_numbers.emplace(std::make_tuple(mesh, primitive.attributes, primitive.targets),
-                                                      Index(m_scene->blocks.size()));
+    const auto [it, is_new] = m_block_numbers.emplace(
+        std::make_tuple(mesh, primitive.attributes, primitive.targets), Index(m_scene->blocks.size()));
     if (!is_new)
       return it->second;
     Gltf_scene::Block& block = m_scene->blocks.emplace_back();
     const int position = primitive.attributes.at("POSITION");
-    if (position < 0 || std::size_t(position) >= m_model.accessors.size() || m_model.accessors[position].bufferView < 0)
+    if (position < 0 || std::size_t(position) >= m_model.accessors.size() ||
+        m_model.accessors[position].bufferView < 0)
       fail(m_place + ": its positions are nowhere in the file; export it again");
     if (m_model.accessors[position].count >= std::numeric_limits<Index>::max())
       fail(m_place + ": it has more than 4294967294 vertices; split it");
@@ -507,7 +529,8 @@ private:
       fail(m_place + ": buffer view " + std::to_string(number) + " is not there; export the file again");
     const tinygltf::BufferView& range = m_model.bufferViews[number];
     if (range.buffer < 0 || std::size_t(range.buffer) >= m_model.buffers.size())
-      fail("buffer view " + std::to_string(number) + " names a buffer that is not there; export the file again");
+      fail("buffer view " + std::to_string(number) +
+           " names a buffer that is not there; export the file again");
     const std::vector<unsigned char>& bytes = m_model.buffers[range.buffer].data;
     if (range.byteOffset > bytes.size() || range.byteLength > bytes.size() - range.byteOffset)
       fail("buffer view " + std::to_string(number) + " ends beyond its buffer; export the file again");
@@ -515,14 +538,17 @@ private:
   }
 
   // The rows in a buffer view, one after the other.
-  std::string rows(int number, std::size_t offset, std::size_t row_size, std::size_t count, bool may_have_gaps = false)
+  std::string rows(int number, std::size_t offset, std::size_t row_size, std::size_t count,
+                   bool may_have_gaps = false)
   {
     const std::string_view bytes = view(number);
-    const std::size_t gap = may_have_gaps ? m_model.bufferViews[number].byteStride : 0, stride = gap == 0 ? row_size : gap;
+    const std::size_t gap = may_have_gaps ? m_model.bufferViews[number].byteStride : 0,
+                      stride = gap == 0 ? row_size : gap;
     // No product overflows: the count is at most that of bytes.
     if (count == 0 || count > bytes.size() || offset > bytes.size() || row_size > bytes.size() - offset ||
         (count - 1) * stride > bytes.size() - offset - row_size)
-      fail(m_place + ": an accessor has no rows or reaches beyond buffer view " + std::to_string(number) + "; export the file again");
+      fail(m_place + ": an accessor has no rows or reaches beyond buffer view " + std::to_string(number) +
+           "; export the file again");
     std::string result;
     result.reserve(count * row_size);
     for (std::size_t i = 0; i < count; ++i)
@@ -533,11 +559,12 @@ private:
   Column read_column(int number, const std::string& name, std::size_t count)
   {
     if (number < 0 || std::size_t(number) >= m_model.accessors.size())
-      fail(m_place + ": " + name + " names accessor " + std::to_string(number) + ", which is not there; export the file again");
+      fail(m_place + ": " + name + " names accessor " + std::to_string(number) +
+           ", which is not there; export the file again");
     const tinygltf::Accessor& accessor = m_model.accessors[number];
     if (accessor.count != count)
-      fail(m_place + ": " + name + " has " + std::to_string(accessor.count) + " rows for " + std::to_string(count) +
-           " vertices; export the file again");
+      fail(m_place + ": " + name + " has " + std::to_string(accessor.count) + " rows for " +
+           std::to_string(count) + " vertices; export the file again");
     Column column;
     column.name = name;
     column.component_type = accessor.componentType;
@@ -574,7 +601,8 @@ private:
       for (std::size_t i = 0; i < count; ++i)
         for (std::size_t k = 0; k < column.components; ++k)
           if (!std::isfinite(component(column, i, k)))
-            fail(m_place + ": " + name + " of vertex " + std::to_string(i) + " is not finite; remove or repair it");
+            fail(m_place + ": " + name + " of vertex " + std::to_string(i) +
+                 " is not finite; remove or repair it");
     return column;
   }
 
@@ -586,19 +614,24 @@ private:
     indices.component_type = sparse.indices.componentType;
     indices.row_size = component_size(indices.component_type);
     if (sparse.count < 1 || sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0 ||
-        (indices.component_type != type_uint8 && indices.component_type != type_uint16 && indices.component_type != type_uint32))
+        (indices.component_type != type_uint8 && indices.component_type != type_uint16 &&
+         indices.component_type != type_uint32))
       fail(m_place + ": the sparse part of " + column.name + " is not valid; export the file again");
     indices.rows = rows(sparse.indices.bufferView, sparse.indices.byteOffset, indices.row_size, sparse.count);
-    const std::string values = rows(sparse.values.bufferView, sparse.values.byteOffset, column.row_size, sparse.count);
+    const std::string values =
+        rows(sparse.values.bufferView, sparse.values.byteOffset, column.row_size, sparse.count);
     for (std::size_t i = 0; i < std::size_t(sparse.count); ++i) {
       const double row = component(indices, i, 0);
       if (row >= double(count))
-        fail(m_place + ": the sparse part of " + column.name + " names a vertex that is not there; export the file again");
-      column.rows.replace(std::size_t(row) * column.row_size, column.row_size, values, i * column.row_size, column.row_size);
+        fail(m_place + ": the sparse part of " + column.name +
+             " names a vertex that is not there; export the file again");
+      column.rows.replace(std::size_t(row) * column.row_size, column.row_size, values, i * column.row_size,
+                          column.row_size);
     }
   }
 
-  // The numbers of accessors and buffer views that only the triangles of the soup need, and the bytes of all others.
+  // The numbers of accessors and buffer views that only the triangles of the soup need, and the bytes of all
+  // others.
   void set_free()
   {
     for (const Json& animation : member(document(), "animations"))
@@ -621,7 +654,8 @@ private:
     }
     for (const Json& image : member(document(), "images")) {
       kept.insert(image.value("bufferView", -1));
-      if (image.contains("uri") && image["uri"].is_string() && image["uri"].get<std::string>().compare(0, 5, "data:") != 0)
+      if (image.contains("uri") && image["uri"].is_string() &&
+          image["uri"].get<std::string>().compare(0, 5, "data:") != 0)
         remark("images in files of their own, whose addresses are kept");
     }
     m_scene->views.resize(m_model.bufferViews.size());
@@ -667,8 +701,10 @@ private:
     const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
       if (instance.is_mirrored)
         std::swap(b, c);
-      const Index_triple triangle = {instance.first + corners[a], instance.first + corners[b], instance.first + corners[c]};
-      const bool is_repeated = triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0];
+      const Index_triple triangle = {instance.first + corners[a], instance.first + corners[b],
+                                     instance.first + corners[c]};
+      const bool is_repeated =
+          triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0];
       if (is_repeated && primitive.mode != TINYGLTF_MODE_TRIANGLES)
         return; // they stitch a strip together
       m_file.notes.repeated_corner += is_repeated;
@@ -678,7 +714,8 @@ private:
     switch (primitive.mode) {
     case TINYGLTF_MODE_TRIANGLES:
       if (size % 3 != 0)
-        fail("a primitive's corners are not a multiple of three (" + std::to_string(size) + "); export the file again");
+        fail("a primitive's corners are not a multiple of three (" + std::to_string(size) +
+             "); export the file again");
       for (std::size_t i = 0; i + 2 < size; i += 3)
         add(i, i + 1, i + 2);
       break;
@@ -700,10 +737,12 @@ private:
     std::vector<Index> result;
     if (primitive.indices >= 0) {
       m_place = "an index accessor";
-      const Column indices = read_column(primitive.indices, "indices", m_model.accessors[primitive.indices].count);
-      if (indices.components != 1 || indices.component_type == type_float32 || indices.component_type == type_int8 ||
-          indices.component_type == type_int16)
-        fail("accessor " + std::to_string(primitive.indices) + " does not hold indices; export the file again");
+      const Column indices =
+          read_column(primitive.indices, "indices", m_model.accessors[primitive.indices].count);
+      if (indices.components != 1 || indices.component_type == type_float32 ||
+          indices.component_type == type_int8 || indices.component_type == type_int16)
+        fail("accessor " + std::to_string(primitive.indices) +
+             " does not hold indices; export the file again");
       part.index_type = indices.component_type;
       part.index_json = indices.accessor;
       const std::size_t count = indices.rows.size() / indices.row_size;
@@ -742,7 +781,8 @@ private:
     std::set<std::string> taken;
     for (std::size_t i = 0; i < materials.size(); ++i) {
       const std::string name = materials[i].value("name", "");
-      soup().materials.names.push_back(as_label(name.empty() ? "material " + std::to_string(i) : name, taken));
+      soup().materials.names.push_back(
+          as_label(name.empty() ? "material " + std::to_string(i) : name, taken));
     }
     if (std::any_of(m_sources.begin(), m_sources.end(), has_none))
       soup().materials.names.emplace_back(); // the name of none
@@ -803,32 +843,37 @@ private:
       const Index instance = m_scene->parts[soup().groups.of_triangle[t]].instance;
       Index_triple& corners = result.of_triangle.emplace_back(soup().triangles[t]);
       for (Index& corner : corners)
-        corner = first[instance] == s_none ? *result.missing : corner - m_scene->instances[instance].first + first[instance];
+        corner = first[instance] == s_none ? *result.missing
+                                           : corner - m_scene->instances[instance].first + first[instance];
     }
   }
 
   void add_uvs()
   {
     // Elsewhere the second coordinate points up, here it points down.
-    set_corner_values(soup().uvs, "TEXCOORD_0", [](const Gltf_scene::Instance&, const Column& column, Index row) {
-      return std::array<double, 2>{fraction(column, row, 0), 1 - fraction(column, row, 1)};
-    });
+    set_corner_values(soup().uvs, "TEXCOORD_0",
+                      [](const Gltf_scene::Instance&, const Column& column, Index row) {
+                        return std::array<double, 2>{fraction(column, row, 0), 1 - fraction(column, row, 1)};
+                      });
   }
 
   void add_normals()
   {
-    set_corner_values(soup().normals, "NORMAL", [](const Gltf_scene::Instance& instance, const Column& column, Index row) {
-      return world_normal(instance.to_world, instance.is_mirrored,
-                          {component(column, row, 0), component(column, row, 1), component(column, row, 2)});
-    });
+    set_corner_values(soup().normals, "NORMAL",
+                      [](const Gltf_scene::Instance& instance, const Column& column, Index row) {
+                        return world_normal(instance.to_world, instance.is_mirrored,
+                                            {component(column, row, 0), component(column, row, 1),
+                                             component(column, row, 2)});
+                      });
   }
 
   // Further attributes that all vertices have, in the same form.
   void add_attributes()
   {
     const std::map<int, Attribute::Type> types = {
-      {type_int8, Attribute::Type::int8},     {type_uint8, Attribute::Type::uint8},   {type_int16, Attribute::Type::int16},
-      {type_uint16, Attribute::Type::uint16}, {type_uint32, Attribute::Type::uint32}, {type_float32, Attribute::Type::float32}};
+        {type_int8, Attribute::Type::int8},     {type_uint8, Attribute::Type::uint8},
+        {type_int16, Attribute::Type::int16},   {type_uint16, Attribute::Type::uint16},
+        {type_uint32, Attribute::Type::uint32}, {type_float32, Attribute::Type::float32}};
     std::set<std::string> names;
     for (const Gltf_scene::Block& block : m_scene->blocks)
       for (const Column& column : block.attributes)
@@ -842,7 +887,8 @@ private:
         const Column* const column = find(m_scene->blocks[instance.block], name);
         const auto is_normalized = [](const Column& c) { return c.accessor.value("normalized", false); };
         first = first ? first : column;
-        is_common = column && column->component_type == first->component_type && column->components == first->components &&
+        is_common = column && column->component_type == first->component_type &&
+                    column->components == first->components &&
                     is_normalized(*column) == is_normalized(*first) &&
                     column->row_size == column->components * component_size(column->component_type);
         if (!is_common)
@@ -880,9 +926,11 @@ private:
   {
     std::vector<std::string>& names = m_scene->only_in_gltf;
     names.push_back("nodes and their transforms");
-    if (std::any_of(m_scene->blocks.begin(), m_scene->blocks.end(), [](const auto& block) { return !block.targets.empty(); }))
+    if (std::any_of(m_scene->blocks.begin(), m_scene->blocks.end(),
+                    [](const auto& block) { return !block.targets.empty(); }))
       names.push_back("morph targets");
-    for (const char* key : {"materials", "textures", "images", "skins", "animations", "cameras", "extensions"})
+    for (const char* key :
+         {"materials", "textures", "images", "skins", "animations", "cameras", "extensions"})
       if (!member(document(), key).empty())
         names.push_back(key == std::string_view("materials") ? "properties of materials" : key);
   }
@@ -897,7 +945,8 @@ private:
   std::vector<Matrix> m_to_world;
   std::vector<const tinygltf::Primitive*> m_sources; // of parts
   std::set<std::string> m_group_names;
-  std::map<std::tuple<Index, std::map<std::string, int>, std::vector<std::map<std::string, int>>>, Index> m_block_numbers;
+  std::map<std::tuple<Index, std::map<std::string, int>, std::vector<std::map<std::string, int>>>, Index>
+      m_block_numbers;
   std::vector<char> m_is_free_accessor;
   std::set<int> m_kept_accessors;
   std::string m_place; // for messages
@@ -905,7 +954,8 @@ private:
 
 } // namespace
 
-Mesh_file read_gltf(std::string_view contents, Mesh_format format, const std::string& name, const std::filesystem::path* folder)
+Mesh_file read_gltf(std::string_view contents, Mesh_format format, const std::string& name,
+                    const std::filesystem::path* folder)
 {
   try {
     return Gltf_reader(contents, format, name, folder).read();

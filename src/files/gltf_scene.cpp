@@ -30,7 +30,8 @@ std::size_t component_size(int component_type)
 double component(const Gltf_scene::Column& column, std::size_t row, std::size_t place)
 {
   const std::size_t size = component_size(column.component_type);
-  Binary_reader bytes(std::string_view(column.rows).substr(row * column.row_size + place * size, size), false);
+  Binary_reader bytes(std::string_view(column.rows).substr(row * column.row_size + place * size, size),
+                      false);
   switch (column.component_type) {
   case type_int8:
     return bytes.take<std::int8_t>();
@@ -67,10 +68,14 @@ std::vector<Index> transforms_of_vertices(const Triangle_soup& soup)
   return result;
 }
 
-Point_3 world_position(const Gltf_scene::Matrix& to_world, const Gltf_scene::Column& positions, std::size_t row)
+Point_3 world_position(const Gltf_scene::Matrix& to_world, const Gltf_scene::Column& positions,
+                       std::size_t row)
 {
-  const double x = component(positions, row, 0), y = component(positions, row, 1), z = component(positions, row, 2);
-  const auto coordinate = [&](const std::array<double, 4>& m) { return m[0] * x + m[1] * y + m[2] * z + m[3]; };
+  const double x = component(positions, row, 0), y = component(positions, row, 1),
+               z = component(positions, row, 2);
+  const auto coordinate = [&](const std::array<double, 4>& m) {
+    return m[0] * x + m[1] * y + m[2] * z + m[3];
+  };
   return {coordinate(to_world[0]), coordinate(to_world[1]), coordinate(to_world[2])};
 }
 

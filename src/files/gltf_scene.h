@@ -14,8 +14,9 @@
 
 namespace selvedge {
 
-/// A glTF document without the vertices and indices of the triangles that stand in a soup, and these apart, as their
-/// bytes. Whatever else the document says, it says unchanged, numbers of accessors and buffer views included.
+/// A glTF document without the vertices and indices of the triangles that stand in a soup, and these apart,
+/// as their bytes. Whatever else the document says, it says unchanged, numbers of accessors and buffer views
+/// included.
 struct Gltf_scene
 {
   using Json = nlohmann::ordered_json;
@@ -24,8 +25,8 @@ struct Gltf_scene
   /// The rows of an accessor, without gaps and with its sparse values in place.
   struct Column
   {
-    std::string name;        ///< "POSITION"
-    Json accessor;           ///< what the document says about it, apart from where its bytes are
+    std::string name; ///< "POSITION"
+    Json accessor;    ///< what the document says about it, apart from where its bytes are
     int component_type = 0;
     std::size_t components = 0;
     std::size_t row_size = 0;
@@ -55,7 +56,7 @@ struct Gltf_scene
     Index mesh = 0;
     Index primitive = 0;
     Index instance = 0;
-    int index_type = 0; ///< component type of the indices, 0 when there are none
+    int index_type = 0;               ///< component type of the indices, 0 when there are none
     Json index_json = Json::object(); ///< what the document says about their accessor, likewise
   };
 
@@ -71,7 +72,14 @@ struct Gltf_scene
 
 namespace files {
 
-enum Component_type { type_int8 = 5120, type_uint8, type_int16, type_uint16, type_uint32 = 5125, type_float32 };
+enum Component_type {
+  type_int8 = 5120,
+  type_uint8,
+  type_int16,
+  type_uint16,
+  type_uint32 = 5125,
+  type_float32
+};
 
 /// Zero for types that the format does not know.
 std::size_t component_size(int component_type);
@@ -80,10 +88,11 @@ std::size_t component_size(int component_type);
 double component(const Gltf_scene::Column& column, std::size_t row, std::size_t place);
 
 /// ((m0 x + m1 y) + m2 z) + m3 in doubles, for each row m of the matrix.
-Point_3 world_position(const Gltf_scene::Matrix& to_world, const Gltf_scene::Column& positions, std::size_t row);
+Point_3 world_position(const Gltf_scene::Matrix& to_world, const Gltf_scene::Column& positions,
+                       std::size_t row);
 
-/// The same triangles with a new document, one node for each group, whose vertices are split where corners differ in
-/// texture coordinates or normals. Positions are 32-bit floats.
+/// The same triangles with a new document, one node for each group, whose vertices are split where corners
+/// differ in texture coordinates or normals. Positions are 32-bit floats.
 Triangle_soup with_gltf_scene(const Triangle_soup& soup);
 
 } // namespace files

@@ -41,9 +41,9 @@ class Gltf_writer
 {
 public:
   Gltf_writer(const Triangle_soup& soup, const Gltf_scene& scene)
-    : m_soup(soup), m_scene(scene), m_document(scene.document), m_views(scene.views),
-      m_free_accessors(scene.free_accessors.rbegin(), scene.free_accessors.rend()),
-      m_free_views(scene.free_views.rbegin(), scene.free_views.rend())
+      : m_soup(soup), m_scene(scene), m_document(scene.document), m_views(scene.views),
+        m_free_accessors(scene.free_accessors.rbegin(), scene.free_accessors.rend()),
+        m_free_views(scene.free_views.rbegin(), scene.free_views.rend())
   {
     check();
   }
@@ -77,12 +77,16 @@ public:
   }
 
 private:
-  const Gltf_scene::Block& block(const Gltf_scene::Instance& instance) const { return m_scene.blocks[instance.block]; }
+  const Gltf_scene::Block& block(const Gltf_scene::Instance& instance) const
+  {
+    return m_scene.blocks[instance.block];
+  }
 
   std::size_t instance_of(Index scene_vertex) const
   {
-    const auto beyond = std::upper_bound(m_scene.instances.begin(), m_scene.instances.end(), scene_vertex,
-                                         [](Index v, const Gltf_scene::Instance& instance) { return v < instance.first; });
+    const auto beyond =
+        std::upper_bound(m_scene.instances.begin(), m_scene.instances.end(), scene_vertex,
+                         [](Index v, const Gltf_scene::Instance& instance) { return v < instance.first; });
     return std::size_t(beyond - m_scene.instances.begin()) - 1;
   }
 
@@ -98,7 +102,8 @@ private:
     for (const Index v : m_soup.scene_vertices)
       if (v >= last.first + block(last).size)
         refuse("it names vertex " + std::to_string(v) + ", which is not there");
-    if (m_soup.groups.of_triangle.size() != m_soup.triangles.size() || m_soup.groups.names.size() != m_scene.parts.size())
+    if (m_soup.groups.of_triangle.size() != m_soup.triangles.size() ||
+        m_soup.groups.names.size() != m_scene.parts.size())
       refuse("its groups are not the primitives of the file");
     for (std::size_t t = 0; t < m_soup.triangles.size(); ++t)
       for (const Index v : m_soup.triangles[t])
@@ -106,8 +111,8 @@ private:
           refuse("triangle " + std::to_string(t) + " has a vertex of another primitive");
   }
 
-  // Where the vertex lies in its node: where the file says, or where it says of another vertex under the same transform
-  // that lies where this one lies now.
+  // Where the vertex lies in its node: where the file says, or where it says of another vertex under the same
+  // transform that lies where this one lies now.
   std::string_view local_position(Index vertex)
   {
     const Index scene_vertex = m_soup.scene_vertices[vertex];
@@ -123,14 +128,16 @@ private:
       for (const Gltf_scene::Instance& instance : m_scene.instances)
         for (Index i = 0; i < block(instance).size; ++i) {
           const Point_3 p = world_position(instance.to_world, block(instance).attributes.front(), i);
-          m_positions->emplace(std::make_tuple(instance.to_world, p.x(), p.y(), p.z()), position(instance, i));
+          m_positions->emplace(std::make_tuple(instance.to_world, p.x(), p.y(), p.z()),
+                               position(instance, i));
         }
     }
     const auto found = m_positions->find({own.to_world, point.x(), point.y(), point.z()});
     if (found == m_positions->end())
-      throw Argument_error("vertex " + std::to_string(vertex) +
-                           " (counted from 0) does not lie where its glTF file has a vertex under the same transform, so "
-                           "its 32-bit coordinates are not known");
+      throw Argument_error(
+          "vertex " + std::to_string(vertex) +
+          " (counted from 0) does not lie where its glTF file has a vertex under the same transform, so "
+          "its 32-bit coordinates are not known");
     return found->second;
   }
 
@@ -157,12 +164,15 @@ private:
         continue;
       const Gltf_scene::Instance& instance = m_scene.instances[i];
       const auto put = [&](const Column& column, bool is_position) {
-        Column left = {column.name, column.accessor, column.component_type, column.components, column.row_size, {}};
+        Column left = {column.name,       column.accessor, column.component_type,
+                       column.components, column.row_size, {}};
         left.rows.reserve(vertices[i].size() * column.row_size);
         for (const Index v : vertices[i])
-          left.rows.append(is_position ? local_position(v)
-                                       : std::string_view(column.rows).substr(
-                                           (m_soup.scene_vertices[v] - instance.first) * column.row_size, column.row_size));
+          left.rows.append(is_position
+                               ? local_position(v)
+                               : std::string_view(column.rows)
+                                     .substr((m_soup.scene_vertices[v] - instance.first) * column.row_size,
+                                             column.row_size));
         return put_accessor(left, vertices[i].size(), s_vertices);
       };
       for (const Column& column : block(instance).attributes)
@@ -200,7 +210,9 @@ private:
           primitive["targets"][k][name] = accessor;
       // The largest value of a type is no index.
       const std::size_t size = m_sizes[part.instance];
-      const int type = part.index_type != 0 ? part.index_type : size < 0xffff ? int(type_uint16) : int(type_uint32);
+      const int type = part.index_type != 0 ? part.index_type
+                       : size < 0xffff      ? int(type_uint16)
+                                            : int(type_uint32);
       Column column = {"indices", part.index_json, type, 1, component_size(type), {}};
       column.accessor["type"] = "SCALAR";
       column.accessor["componentType"] = type;
@@ -287,7 +299,8 @@ private:
   void fill_free()
   {
     for (const Index number : m_free_accessors)
-      m_document["accessors"][number] = {{"componentType", int(type_uint8)}, {"count", 1}, {"type", "SCALAR"}};
+      m_document["accessors"][number] = {
+          {"componentType", int(type_uint8)}, {"count", 1}, {"type", "SCALAR"}};
     for (const Index number : m_free_views) {
       m_document["bufferViews"][number] = {{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 1}};
       m_views[number].assign(1, '\0');
@@ -348,7 +361,8 @@ private:
   std::vector<std::vector<Json>> m_targets;
   std::vector<std::size_t> m_sizes;
   std::vector<const Gltf_scene::Part*> m_empty;
-  std::optional<std::map<std::tuple<Gltf_scene::Matrix, double, double, double>, std::string_view>> m_positions;
+  std::optional<std::map<std::tuple<Gltf_scene::Matrix, double, double, double>, std::string_view>>
+      m_positions;
 };
 
 } // namespace

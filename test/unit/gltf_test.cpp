@@ -94,7 +94,10 @@ std::size_t add_view(Document& document, const std::string& bytes, std::size_t s
 std::size_t add_accessor(Document& document, const std::string& bytes, std::size_t count, int component_type,
                          const char* type, bool is_normalized = false, std::size_t stride = 0)
 {
-  Json accessor = {{"bufferView", add_view(document, bytes, stride)}, {"componentType", component_type}, {"count", count}, {"type", type}};
+  Json accessor = {{"bufferView", add_view(document, bytes, stride)},
+                   {"componentType", component_type},
+                   {"count", count},
+                   {"type", type}};
   if (is_normalized)
     accessor["normalized"] = true;
   document.json["accessors"].push_back(accessor);
@@ -103,8 +106,8 @@ std::size_t add_accessor(Document& document, const std::string& bytes, std::size
 
 /// Rows of any numbers, as a column of an accessor.
 template <class Number, class Value>
-std::size_t add_rows(Document& document, std::size_t count, std::size_t components, int component_type, const Value& value,
-                     bool is_normalized = false)
+std::size_t add_rows(Document& document, std::size_t count, std::size_t components, int component_type,
+                     const Value& value, bool is_normalized = false)
 {
   const std::size_t stride = (components * sizeof(Number) + 3) / 4 * 4;
   std::string bytes;
@@ -118,7 +121,8 @@ std::size_t add_rows(Document& document, std::size_t count, std::size_t componen
                       stride == components * sizeof(Number) ? 0 : stride);
 }
 
-void set_bounds(Document& document, std::size_t accessor, std::size_t count, const std::function<float(std::size_t, std::size_t)>& value)
+void set_bounds(Document& document, std::size_t accessor, std::size_t count,
+                const std::function<float(std::size_t, std::size_t)>& value)
 {
   for (std::size_t k = 0; k < 3; ++k) {
     float low = value(0, k), high = low;
@@ -138,12 +142,15 @@ Document everything()
   std::uniform_real_distribution<float> real(0, 1);
   Document document;
   Json& json = document.json;
-  json = {{"asset", {{"version", "2.0"}, {"generator", "hand"}}}, {"scene", 0}, {"extras", {{"studio", {1, 2.5, "x"}}}}};
+  json = {{"asset", {{"version", "2.0"}, {"generator", "hand"}}},
+          {"scene", 0},
+          {"extras", {{"studio", {1, 2.5, "x"}}}}};
   constexpr std::size_t count = side * side;
   std::vector<std::array<float, 3>> points;
   for (std::size_t i = 0; i < count; ++i) {
     const float u = float(i % side), v = float(i / side);
-    points.push_back({u * 0.1f + 0.01f * real(random), v * 0.1f + 0.01f * real(random), 0.01f * real(random)});
+    points.push_back(
+        {u * 0.1f + 0.01f * real(random), v * 0.1f + 0.01f * real(random), 0.01f * real(random)});
   }
   const auto position = [&](std::size_t i, std::size_t k) { return points[i][k]; };
   Json attributes;
@@ -160,15 +167,18 @@ Document everything()
   attributes["TEXCOORD_0"] = add_rows<float>(document, count, 2, 5126, [](std::size_t i, std::size_t k) {
     return (k == 0 ? double(i % side) : double(i / side)) / side + 1e-3;
   });
-  attributes["TEXCOORD_1"] = add_rows<std::uint16_t>(document, count, 2, 5123, [&](std::size_t, std::size_t) { return random(); }, true);
-  attributes["COLOR_0"] = add_rows<std::uint8_t>(document, count, 3, 5121, [&](std::size_t, std::size_t) { return random(); }, true);
+  attributes["TEXCOORD_1"] = add_rows<std::uint16_t>(
+      document, count, 2, 5123, [&](std::size_t, std::size_t) { return random(); }, true);
+  attributes["COLOR_0"] = add_rows<std::uint8_t>(
+      document, count, 3, 5121, [&](std::size_t, std::size_t) { return random(); }, true);
   attributes["_ID"] = add_rows<float>(document, count, 1, 5126, [](std::size_t i, std::size_t) { return i; });
   const auto indices = [&](int first_row, int last_row, int type) {
     std::string bytes;
     std::size_t size = 0;
     for (int y = first_row; y < last_row; ++y)
       for (int x = 0; x + 1 < side; ++x)
-        for (const int corner : {y * side + x, y * side + x + 1, (y + 1) * side + x, (y + 1) * side + x, y * side + x + 1, (y + 1) * side + x + 1}) {
+        for (const int corner : {y * side + x, y * side + x + 1, (y + 1) * side + x, (y + 1) * side + x,
+                                 y * side + x + 1, (y + 1) * side + x + 1}) {
           if (type == 5125)
             put(bytes, std::uint32_t(corner));
           else if (type == 5123)
@@ -187,32 +197,57 @@ Document everything()
       put(values, 0.25f * float(row + k));
   }
   const std::size_t rows_view = add_view(document, rows), values_view = add_view(document, values);
-  json["accessors"].push_back({{"componentType", 5126}, {"count", count}, {"type", "VEC3"}, {"name", "bulge"},
-                               {"sparse", {{"count", 3}, {"indices", {{"bufferView", rows_view}, {"componentType", 5123}}}, {"values", {{"bufferView", values_view}}}}},
-                               {"min", {0, 0, 0}}, {"max", {10, 10.25, 10.5}}});
+  json["accessors"].push_back({{"componentType", 5126},
+                               {"count", count},
+                               {"type", "VEC3"},
+                               {"name", "bulge"},
+                               {"sparse",
+                                {{"count", 3},
+                                 {"indices", {{"bufferView", rows_view}, {"componentType", 5123}}},
+                                 {"values", {{"bufferView", values_view}}}}},
+                               {"min", {0, 0, 0}},
+                               {"max", {10, 10.25, 10.5}}});
   const Json targets = {{{"POSITION", json["accessors"].size() - 1}}};
   json["meshes"].push_back({{"name", "coat"}, {"weights", {0.5}}, {"extras", {{"targetNames", {"bulge"}}}}});
-  json["meshes"][0]["primitives"] = {
-    {{"attributes", attributes}, {"indices", indices(0, side / 2, 5125)}, {"material", 0}, {"targets", targets}, {"extras", {{"side", "front"}}}},
-    {{"attributes", attributes}, {"indices", indices(side / 2, side - 1, 5123)}, {"material", 1}, {"targets", targets}}};
+  json["meshes"][0]["primitives"] = {{{"attributes", attributes},
+                                      {"indices", indices(0, side / 2, 5125)},
+                                      {"material", 0},
+                                      {"targets", targets},
+                                      {"extras", {{"side", "front"}}}},
+                                     {{"attributes", attributes},
+                                      {"indices", indices(side / 2, side - 1, 5123)},
+                                      {"material", 1},
+                                      {"targets", targets}}};
   // Another mesh, with a skin.
   Json skinned;
   const auto high = [&](std::size_t i, std::size_t k) { return points[i][k] + (k == 2 ? 0.125f : 0.f); };
   skinned["POSITION"] = add_rows<float>(document, count, 3, 5126, high);
   set_bounds(document, skinned["POSITION"], count, high);
   skinned["_ID"] = attributes["_ID"];
-  skinned["JOINTS_0"] = add_rows<std::uint8_t>(document, count, 4, 5121, [](std::size_t i, std::size_t k) { return k == 1 ? i % 2 : 0; });
-  skinned["WEIGHTS_0"] = add_rows<std::uint8_t>(document, count, 4, 5121, [](std::size_t i, std::size_t k) {
-    return k == 0 ? 255 - int(i % 2 * (i % 200)) : k == 1 ? int(i % 2 * (i % 200)) : 0; }, true);
-  json["meshes"].push_back({{"name", "arm"}, {"primitives", {{{"attributes", skinned}, {"indices", indices(0, side - 1, 5121)}}}}});
-  json["meshes"].push_back({{"name", "marks"}, {"primitives", {{{"attributes", {{"POSITION", attributes["POSITION"]}}}, {"mode", 0}}}}});
-  json["materials"] = {{{"name", "denim"}, {"pbrMetallicRoughness", {{"baseColorFactor", {0.1, 0.2, 0.3, 1.0}}, {"baseColorTexture", {{"index", 0}}}}}, {"extras", {{"id", 7}}}},
+  skinned["JOINTS_0"] = add_rows<std::uint8_t>(
+      document, count, 4, 5121, [](std::size_t i, std::size_t k) { return k == 1 ? i % 2 : 0; });
+  skinned["WEIGHTS_0"] = add_rows<std::uint8_t>(
+      document, count, 4, 5121,
+      [](std::size_t i, std::size_t k) {
+        return k == 0 ? 255 - int(i % 2 * (i % 200)) : k == 1 ? int(i % 2 * (i % 200)) : 0;
+      },
+      true);
+  json["meshes"].push_back(
+      {{"name", "arm"},
+       {"primitives", {{{"attributes", skinned}, {"indices", indices(0, side - 1, 5121)}}}}});
+  json["meshes"].push_back(
+      {{"name", "marks"},
+       {"primitives", {{{"attributes", {{"POSITION", attributes["POSITION"]}}}, {"mode", 0}}}}});
+  json["materials"] = {{{"name", "denim"},
+                        {"pbrMetallicRoughness",
+                         {{"baseColorFactor", {0.1, 0.2, 0.3, 1.0}}, {"baseColorTexture", {{"index", 0}}}}},
+                        {"extras", {{"id", 7}}}},
                        {{"name", "silk"}, {"doubleSided", true}}};
-  const unsigned char pixel[] = {0x89, 'P',  'N',  'G',  0x0d, 0x0a, 0x1a, 0x0a, 0,    0,    0,    13,   'I',  'H',  'D',  'R',  0,
-                                 0,    0,    1,    0,    0,    0,    1,    8,    6,    0,    0,    0,    0x1f, 0x15, 0xc4, 0x89, 0,
-                                 0,    0,    13,   'I',  'D',  'A',  'T',  0x78, 0x9c, 0x63, 0x60, 0x60, 0x60, 0xf8, 0x0f, 0,    1,
-                                 4,    1,    0,    0x5f, 0xe5, 0xc3, 0x4b, 0,    0,    0,    0,    'I',  'E',  'N',  'D',  0xae, 0x42,
-                                 0x60, 0x82};
+  const unsigned char pixel[] = {
+      0x89, 'P',  'N',  'G',  0x0d, 0x0a, 0x1a, 0x0a, 0,    0,    0,    13,   'I',  'H',  'D',  'R', 0, 0,
+      0,    1,    0,    0,    0,    1,    8,    6,    0,    0,    0,    0x1f, 0x15, 0xc4, 0x89, 0,   0, 0,
+      13,   'I',  'D',  'A',  'T',  0x78, 0x9c, 0x63, 0x60, 0x60, 0x60, 0xf8, 0x0f, 0,    1,    4,   1, 0,
+      0x5f, 0xe5, 0xc3, 0x4b, 0,    0,    0,    0,    'I',  'E',  'N',  'D',  0xae, 0x42, 0x60, 0x82};
   const std::string png(pixel, pixel + sizeof pixel);
   json["images"] = {{{"bufferView", add_view(document, png)}, {"mimeType", "image/png"}, {"name", "weave"}},
                     {{"uri", "there%20is/none.png"}}};
@@ -226,19 +261,31 @@ Document everything()
     for (int k = 0; k < 3; ++k)
       put(moves, float(i + k));
   }
-  json["skins"] = {{{"inverseBindMatrices", add_accessor(document, matrices, 2, 5126, "MAT4")}, {"joints", {4, 5}}}};
+  json["skins"] = {
+      {{"inverseBindMatrices", add_accessor(document, matrices, 2, 5126, "MAT4")}, {"joints", {4, 5}}}};
   const std::size_t input = add_accessor(document, times, 2, 5126, "SCALAR");
   json["accessors"][input]["min"] = {0};
   json["accessors"][input]["max"] = {1};
-  json["animations"] = {{{"samplers", {{{"input", input}, {"output", add_accessor(document, moves, 2, 5126, "VEC3")}}}},
-                         {"channels", {{{"sampler", 0}, {"target", {{"node", 4}, {"path", "translation"}}}}}}}};
-  json["nodes"] = {{{"name", "root"}, {"translation", {10.1, 20.2, 30.3}}, {"children", {1, 2, 3, 4}}, {"extras", {{"key", {true, nullptr}}}}},
-                   {{"name", "left"}, {"mesh", 0}, {"rotation", {0.0, 0.6, 0.0, 0.8}}, {"scale", {1.5, 2.0, 0.7}}, {"translation", {-3.3, 0.1, 0.2}}},
-                   {{"name", "right"}, {"mesh", 0}, {"matrix", {-1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 5.5, 0.25, 0.125, 1.0}}},
-                   {{"name", "arm"}, {"mesh", 1}, {"skin", 0}, {"translation", {100.0, 0.0, 0.0}}},
-                   {{"name", "shoulder"}, {"children", {5}}},
-                   {{"name", "elbow"}},
-                   {{"name", "marks"}, {"mesh", 2}}};
+  json["animations"] = {
+      {{"samplers", {{{"input", input}, {"output", add_accessor(document, moves, 2, 5126, "VEC3")}}}},
+       {"channels", {{{"sampler", 0}, {"target", {{"node", 4}, {"path", "translation"}}}}}}}};
+  json["nodes"] = {
+      {{"name", "root"},
+       {"translation", {10.1, 20.2, 30.3}},
+       {"children", {1, 2, 3, 4}},
+       {"extras", {{"key", {true, nullptr}}}}},
+      {{"name", "left"},
+       {"mesh", 0},
+       {"rotation", {0.0, 0.6, 0.0, 0.8}},
+       {"scale", {1.5, 2.0, 0.7}},
+       {"translation", {-3.3, 0.1, 0.2}}},
+      {{"name", "right"},
+       {"mesh", 0},
+       {"matrix", {-1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 5.5, 0.25, 0.125, 1.0}}},
+      {{"name", "arm"}, {"mesh", 1}, {"skin", 0}, {"translation", {100.0, 0.0, 0.0}}},
+      {{"name", "shoulder"}, {"children", {5}}},
+      {{"name", "elbow"}},
+      {{"name", "marks"}, {"mesh", 2}}};
   json["scenes"] = {{{"nodes", {0, 6}}, {"name", "fitting"}}};
   return document;
 }
@@ -247,7 +294,8 @@ Document everything()
 std::vector<std::string> rows_of(const Document& document, std::size_t number)
 {
   const Json& accessor = document.json["accessors"][number];
-  const std::map<std::string, std::size_t> components = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}};
+  const std::map<std::string, std::size_t> components = {
+      {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}};
   const std::map<int, std::size_t> sizes = {{5121, 1}, {5123, 2}, {5125, 4}, {5126, 4}};
   const std::size_t size = components.at(accessor["type"]) * sizes.at(accessor["componentType"]);
   std::vector<std::string> rows(accessor["count"].get<std::size_t>(), std::string(size, '\0'));
@@ -255,15 +303,19 @@ std::vector<std::string> rows_of(const Document& document, std::size_t number)
     const Json& view = document.json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
     const std::size_t stride = view.value("byteStride", size);
     for (std::size_t i = 0; i < rows.size(); ++i)
-      rows[i] = document.bytes.substr(view["byteOffset"].get<std::size_t>() + accessor.value("byteOffset", std::size_t(0)) + i * stride, size);
+      rows[i] = document.bytes.substr(view["byteOffset"].get<std::size_t>() +
+                                          accessor.value("byteOffset", std::size_t(0)) + i * stride,
+                                      size);
   }
   if (accessor.contains("sparse")) {
     const Json& sparse = accessor["sparse"];
     const auto begin = [&](const char* part) {
-      return document.json["bufferViews"][sparse[part]["bufferView"].get<std::size_t>()]["byteOffset"].get<std::size_t>();
+      return document.json["bufferViews"][sparse[part]["bufferView"].get<std::size_t>()]["byteOffset"]
+          .get<std::size_t>();
     };
     for (std::size_t i = 0; i < sparse["count"]; ++i)
-      rows[get<std::uint16_t>(document.bytes, begin("indices") + 2 * i)] = document.bytes.substr(begin("values") + i * size, size);
+      rows[get<std::uint16_t>(document.bytes, begin("indices") + 2 * i)] =
+          document.bytes.substr(begin("values") + i * size, size);
   }
   return rows;
 }
@@ -280,14 +332,17 @@ std::vector<std::size_t> indices_of(const Document& document, const Json& primit
   return result;
 }
 
-/// Every vertex of a primitive has, in every attribute and target, the bits of the vertex of the same _ID in the other.
-void expect_rows_of(const Document& after, const Json& primitive, const Document& before, const Json& original)
+/// Every vertex of a primitive has, in every attribute and target, the bits of the vertex of the same _ID in
+/// the other.
+void expect_rows_of(const Document& after, const Json& primitive, const Document& before,
+                    const Json& original)
 {
   ASSERT_EQ(primitive["attributes"].size(), original["attributes"].size());
   const std::vector<std::string> ids = rows_of(after, primitive["attributes"]["_ID"]);
   const auto expect_same = [&](std::size_t accessor, std::size_t from) {
     for (const char* key : {"componentType", "type", "normalized", "name", "extras"})
-      ASSERT_EQ(after.json["accessors"][accessor].value(key, Json()), before.json["accessors"][from].value(key, Json()));
+      ASSERT_EQ(after.json["accessors"][accessor].value(key, Json()),
+                before.json["accessors"][from].value(key, Json()));
     const std::vector<std::string> rows = rows_of(after, accessor), expected = rows_of(before, from);
     ASSERT_EQ(rows.size(), ids.size());
     for (std::size_t i = 0; i < rows.size(); ++i)
@@ -306,7 +361,8 @@ void expect_rows_of(const Document& after, const Json& primitive, const Document
 /// What is not about vertices and triangles says the same.
 void expect_same_rest(const Document& after, const Document& before)
 {
-  for (const char* key : {"asset", "scene", "scenes", "extras", "materials", "images", "textures", "skins", "animations"})
+  for (const char* key :
+       {"asset", "scene", "scenes", "extras", "materials", "images", "textures", "skins", "animations"})
     EXPECT_EQ(after.json[key], before.json[key]) << key;
   const auto view = [](const Document& document, std::size_t number) {
     const Json& json = document.json["bufferViews"][number];
@@ -314,8 +370,9 @@ void expect_same_rest(const Document& after, const Document& before)
   };
   const std::size_t image = before.json["images"][0]["bufferView"];
   EXPECT_EQ(view(after, image), view(before, image));
-  for (const std::size_t accessor : {before.json["skins"][0]["inverseBindMatrices"], before.json["animations"][0]["samplers"][0]["input"],
-                                     before.json["animations"][0]["samplers"][0]["output"]})
+  for (const std::size_t accessor :
+       {before.json["skins"][0]["inverseBindMatrices"], before.json["animations"][0]["samplers"][0]["input"],
+        before.json["animations"][0]["samplers"][0]["output"]})
     EXPECT_EQ(rows_of(after, accessor), rows_of(before, accessor));
   // The node that shared its mesh has its own now.
   Json nodes = after.json["nodes"];
@@ -379,7 +436,8 @@ void expect_refused(const Document& document, const std::string& word)
 Document one_triangle()
 {
   Document document;
-  document.json = {{"asset", {{"version", "2.0"}}}, {"scenes", {{{"nodes", {0}}}}}, {"nodes", {{{"mesh", 0}}}}};
+  document.json = {
+      {"asset", {{"version", "2.0"}}}, {"scenes", {{{"nodes", {0}}}}}, {"nodes", {{{"mesh", 0}}}}};
   const auto position = [](std::size_t i, std::size_t k) { return float(i == k + 1); };
   const std::size_t accessor = add_rows<float>(document, 3, 3, 5126, position);
   set_bounds(document, accessor, 3, position);
@@ -435,7 +493,8 @@ TEST(Gltf, ReducedKeepsTheBitsOfEverySurvivingVertex)
   EXPECT_TRUE(judged == written);
   EXPECT_TRUE(not_carried(reduced.soup, Mesh_format::glb).empty());
   write_mesh(folder / "all.glb", file.soup);
-  EXPECT_LT(after.bytes.size(), from_glb(contents(folder / "all.glb")).bytes.size() * 2 / 3) << "vertices that are gone are still in the file";
+  EXPECT_LT(after.bytes.size(), from_glb(contents(folder / "all.glb")).bytes.size() * 2 / 3)
+      << "vertices that are gone are still in the file";
 }
 
 TEST(Gltf, TextFormHoldsTheSame)
@@ -467,18 +526,22 @@ TEST(Gltf, WorldPositionsAreTheDocumentedFormula)
 {
   const Document document = everything();
   const Mesh_file file = read_glb(document);
-  const std::vector<std::string> rows = rows_of(document, document.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"]);
+  const std::vector<std::string> rows =
+      rows_of(document, document.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"]);
   // (0, 0.6, 0, 0.8), by hand, entry by entry.
   const double y = 0.6, w = 0.8;
-  const double m00 = (1 - 2 * (y * y + 0)) * 1.5, m02 = 2 * (0 + y * w) * 0.7, m11 = (1 - 2 * 0.0) * 2.0, m20 = 2 * (0 - y * w) * 1.5,
-               m22 = (1 - 2 * (0 + y * y)) * 0.7;
+  const double m00 = (1 - 2 * (y * y + 0)) * 1.5, m02 = 2 * (0 + y * w) * 0.7, m11 = (1 - 2 * 0.0) * 2.0,
+               m20 = 2 * (0 - y * w) * 1.5, m22 = (1 - 2 * (0 + y * y)) * 0.7;
   const double tx = -3.3 + 10.1, ty = 0.1 + 20.2, tz = 0.2 + 30.3;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double px = get<float>(rows[i], 0), py = get<float>(rows[i], 4), pz = get<float>(rows[i], 8);
-    EXPECT_EQ(file.soup.points[i], Point_3(m00 * px + m02 * pz + tx, m11 * py + ty, m20 * px + m22 * pz + tz));
-    EXPECT_EQ(file.soup.points[i + rows.size()], Point_3(-px + (5.5 + 10.1), py + (0.25 + 20.2), pz + (0.125 + 30.3)));
+    EXPECT_EQ(file.soup.points[i],
+              Point_3(m00 * px + m02 * pz + tx, m11 * py + ty, m20 * px + m22 * pz + tz));
+    EXPECT_EQ(file.soup.points[i + rows.size()],
+              Point_3(-px + (5.5 + 10.1), py + (0.25 + 20.2), pz + (0.125 + 30.3)));
     // A skinned mesh is where its vertices are, wherever its node is.
-    EXPECT_EQ(file.soup.points[i + 2 * rows.size()], Point_3(px, py, double(float(get<float>(rows[i], 8) + 0.125f))));
+    EXPECT_EQ(file.soup.points[i + 2 * rows.size()],
+              Point_3(px, py, double(float(get<float>(rows[i], 8) + 0.125f))));
   }
 }
 
@@ -488,7 +551,8 @@ TEST(Gltf, MirroredNodesFaceTheSameWay)
   // All sheets look to +z in their own node; left is turned by 73.74 degrees, right is mirrored in x.
   for (std::size_t t = 0; t < file.soup.triangles.size(); ++t) {
     const auto& [a, b, c] = file.soup.triangles[t];
-    const auto normal = CGAL::cross_product(file.soup.points[b] - file.soup.points[a], file.soup.points[c] - file.soup.points[a]);
+    const auto normal = CGAL::cross_product(file.soup.points[b] - file.soup.points[a],
+                                            file.soup.points[c] - file.soup.points[a]);
     EXPECT_GT(normal.z(), 0);
     if (!file.soup.normals.empty() && file.soup.normals.of_triangle[t][0] != file.soup.normals.missing) {
       const auto& n = file.soup.normals.values[file.soup.normals.of_triangle[t][0]];
@@ -501,13 +565,16 @@ TEST(Gltf, MirroredNodesFaceTheSameWay)
 TEST(Gltf, GroupsMaterialsAndNotes)
 {
   const Mesh_file file = read_glb(everything());
-  EXPECT_EQ(file.soup.groups.names, (std::vector<std::string>{"left/0", "left/1", "right/0", "right/1", "arm"}));
+  EXPECT_EQ(file.soup.groups.names,
+            (std::vector<std::string>{"left/0", "left/1", "right/0", "right/1", "arm"}));
   EXPECT_EQ(file.soup.materials.names, (std::vector<std::string>{"denim", "silk", ""}));
   const std::vector<std::string> notes = describe(file.notes);
   const auto says = [&](const std::string& word) {
-    return std::any_of(notes.begin(), notes.end(), [&](const std::string& note) { return note.find(word) != std::string::npos; });
+    return std::any_of(notes.begin(), notes.end(),
+                       [&](const std::string& note) { return note.find(word) != std::string::npos; });
   };
-  for (const char* word : {"several nodes share", "bind pose", "morph targets", "points or lines", "sparse", "files of their own"})
+  for (const char* word : {"several nodes share", "bind pose", "morph targets", "points or lines", "sparse",
+                           "files of their own"})
     EXPECT_TRUE(says(word)) << word;
 }
 
@@ -515,7 +582,8 @@ TEST(Gltf, LayersInDifferentNodesSeeEachOther)
 {
   // Two triangles that cross each other only through the transform of one node.
   Document document = one_triangle();
-  document.json["nodes"] = {{{"mesh", 0}}, {{"mesh", 0}, {"rotation", {1.0, 0.0, 0.0, 0.0}}, {"translation", {0.1, 0.3, 0.0}}}};
+  document.json["nodes"] = {
+      {{"mesh", 0}}, {{"mesh", 0}, {"rotation", {1.0, 0.0, 0.0, 0.0}}, {"translation", {0.1, 0.3, 0.0}}}};
   document.json["scenes"][0]["nodes"] = {0, 1};
   EXPECT_FALSE(offending_pairs(read_glb(document).soup).empty());
   document.json["nodes"][1]["translation"] = {0.1, 0.3, 0.1};
@@ -525,8 +593,11 @@ TEST(Gltf, LayersInDifferentNodesSeeEachOther)
 TEST(Gltf, StripsAndFansBecomeTriangles)
 {
   Document document = one_triangle();
-  const auto corners = [](std::size_t i, std::size_t k) { return k == 0 ? float(i / 2) : k == 1 ? float(i % 2) : 0.f; };
-  document.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = add_rows<float>(document, 5, 3, 5126, corners);
+  const auto corners = [](std::size_t i, std::size_t k) {
+    return k == 0 ? float(i / 2) : k == 1 ? float(i % 2) : 0.f;
+  };
+  document.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] =
+      add_rows<float>(document, 5, 3, 5126, corners);
   document.json["meshes"][0]["primitives"][0]["mode"] = 5;
   using Triangles = std::vector<Index_triple>;
   EXPECT_EQ(read_glb(document).soup.triangles, (Triangles{{0, 1, 2}, {1, 3, 2}, {2, 3, 4}}));
@@ -543,10 +614,11 @@ TEST(Gltf, VerticesWithoutIndicesAreOneWhereTheyAgree)
   Document document = one_triangle();
   Json& primitive = document.json["meshes"][0]["primitives"][0];
   const float places[][2] = {{0, 0}, {1, 0}, {0, 1}, {0, 1}, {1, 0}, {1, 1}};
-  primitive["attributes"]["POSITION"] =
-    add_rows<float>(document, 6, 3, 5126, [&](std::size_t i, std::size_t k) { return k < 2 ? places[i][k] : 0.f; });
+  primitive["attributes"]["POSITION"] = add_rows<float>(
+      document, 6, 3, 5126, [&](std::size_t i, std::size_t k) { return k < 2 ? places[i][k] : 0.f; });
   EXPECT_EQ(read_glb(document).soup.triangles, (std::vector<Index_triple>{{0, 1, 2}, {2, 1, 5}}));
-  primitive["attributes"]["_SIDE"] = add_rows<float>(document, 6, 1, 5126, [](std::size_t i, std::size_t) { return i / 3; });
+  primitive["attributes"]["_SIDE"] =
+      add_rows<float>(document, 6, 1, 5126, [](std::size_t i, std::size_t) { return i / 3; });
   EXPECT_EQ(read_glb(document).soup.triangles, (std::vector<Index_triple>{{0, 1, 2}, {3, 4, 5}}));
 }
 
@@ -591,9 +663,10 @@ TEST(Gltf, PositionsThatTheFileDoesNotHaveAreRefused)
 TEST(Gltf, NewFileFromAnotherFormat)
 {
   const Temporary_folder folder;
-  const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.5\nvt 0 0\nvt 1 0\nvt 0.25 1\nvt 0.5 0.75\nvn 0 0 1\n"
-                          "g body\nusemtl denim\nf 1/1/1 2/2/1 3/3/1\nusemtl silk\nf 3/4/1 2/2/1 4/1/1\n"
-                          "g sleeve\nf 1 4 2\n";
+  const std::string obj =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.5\nvt 0 0\nvt 1 0\nvt 0.25 1\nvt 0.5 0.75\nvn 0 0 1\n"
+      "g body\nusemtl denim\nf 1/1/1 2/2/1 3/3/1\nusemtl silk\nf 3/4/1 2/2/1 4/1/1\n"
+      "g sleeve\nf 1 4 2\n";
   const Mesh_file file = read_mesh(obj, Mesh_format::obj, "test");
   EXPECT_TRUE(needs_float32(file.soup, Mesh_format::glb));
   write_mesh(folder / "a.glb", file.soup);
@@ -602,12 +675,15 @@ TEST(Gltf, NewFileFromAnotherFormat)
   EXPECT_EQ(again.soup.groups.names, (std::vector<std::string>{"body/0", "body/1", "sleeve"}));
   EXPECT_EQ(again.soup.materials.names, (std::vector<std::string>{"denim", "silk"}));
   for (std::size_t t = 0; t < 3; ++t) {
-    EXPECT_EQ(again.soup.materials.names[again.soup.materials.of_triangle[t]], file.soup.materials.names[file.soup.materials.of_triangle[t]]);
+    EXPECT_EQ(again.soup.materials.names[again.soup.materials.of_triangle[t]],
+              file.soup.materials.names[file.soup.materials.of_triangle[t]]);
     for (std::size_t k = 0; k < 3; ++k) {
       EXPECT_EQ(again.soup.points[again.soup.triangles[t][k]], file.soup.points[file.soup.triangles[t][k]]);
       if (t < 2) {
-        EXPECT_EQ(again.soup.uvs.values[again.soup.uvs.of_triangle[t][k]], file.soup.uvs.values[file.soup.uvs.of_triangle[t][k]]);
-        EXPECT_EQ(again.soup.normals.values[again.soup.normals.of_triangle[t][k]], (std::array<double, 3>{0, 0, 1}));
+        EXPECT_EQ(again.soup.uvs.values[again.soup.uvs.of_triangle[t][k]],
+                  file.soup.uvs.values[file.soup.uvs.of_triangle[t][k]]);
+        EXPECT_EQ(again.soup.normals.values[again.soup.normals.of_triangle[t][k]],
+                  (std::array<double, 3>{0, 0, 1}));
       } else {
         EXPECT_EQ(again.soup.uvs.of_triangle[t][k], again.soup.uvs.missing);
       }
@@ -617,6 +693,20 @@ TEST(Gltf, NewFileFromAnotherFormat)
   fine.points[0] = Point_3(0.1, 0, 0);
   EXPECT_THROW(write_mesh(folder / "b.glb", fine), Argument_error);
   EXPECT_FALSE(std::filesystem::exists(folder / "b.glb"));
+}
+
+TEST(Gltf, NewFileSplitsVerticesOnlyWhereCornersDiffer)
+{
+  // Some exporters write texture coordinates for every corner, the same ones again and again.
+  const Temporary_folder folder;
+  const std::string obj =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.5\nvt 0 0\nvt 1 0\nvt 0 1\nvt 0 1\nvt 1 0\nvt 1 1\nvt 0.5 0.5\n";
+  write_mesh(folder / "a.glb",
+             read_mesh(obj + "f 1/1 2/2 3/3\nf 3/4 2/5 4/6\n", Mesh_format::obj, "test").soup);
+  EXPECT_EQ(read_mesh(folder / "a.glb").soup.points.size(), 4u);
+  write_mesh(folder / "a.glb",
+             read_mesh(obj + "f 1/1 2/2 3/3\nf 3/7 2/5 4/6\n", Mesh_format::obj, "test").soup);
+  EXPECT_EQ(read_mesh(folder / "a.glb").soup.points.size(), 5u);
 }
 
 TEST(Gltf, OtherFormatsHoldWorldPositions)
@@ -637,7 +727,8 @@ TEST(Gltf, OtherFormatsHoldWorldPositions)
 
 TEST(Gltf, RefusesWhatItCannotRead)
 {
-  for (const char* extension : {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization", "EXT_mesh_gpu_instancing"})
+  for (const char* extension : {"KHR_draco_mesh_compression", "EXT_meshopt_compression",
+                                "KHR_mesh_quantization", "EXT_mesh_gpu_instancing"})
     for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
       Document document = one_triangle();
       document.json[list] = {extension};
@@ -671,7 +762,10 @@ TEST(Gltf, RefusesWhatIsBroken)
   refused("scene is number", [](Json& json) { json["scene"] = 3; });
   refused("wrong length", [](Json& json) { json["nodes"][0]["scale"] = {1, 2}; });
   refused("last row", [](Json& json) { json["nodes"][0]["matrix"] = std::vector<double>(16, 1); });
-  refused("finite", [](Json& json) { json["nodes"][0]["scale"] = {1e308, 1e308, 1e308}; json["nodes"][0]["rotation"] = {1e9, 0, 0, 1}; });
+  refused("finite", [](Json& json) {
+    json["nodes"][0]["scale"] = {1e308, 1e308, 1e308};
+    json["nodes"][0]["rotation"] = {1e9, 0, 0, 1};
+  });
   refused("accessor", [](Json& json) { json["accessors"][0]["count"] = 4000000000u; });
   refused("accessor", [](Json& json) { json["accessors"][0]["byteOffset"] = 4; });
   refused("buffer view", [](Json& json) { json["bufferViews"][0]["byteLength"] = 1000; });
@@ -679,10 +773,18 @@ TEST(Gltf, RefusesWhatIsBroken)
   refused("multiple of three", [](Json& json) { json["accessors"][0]["count"] = 2; });
   refused("accessor", [](Json& json) { json["accessors"][0]["count"] = 0; });
   refused("nowhere", [](Json& json) { json["accessors"][0].erase("bufferView"); });
-  refused("rows", [](Json& json) { json["accessors"].push_back(json["accessors"][0]); json["accessors"][1]["count"] = 2;
-    json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = 1; });
+  refused("rows", [](Json& json) {
+    json["accessors"].push_back(json["accessors"][0]);
+    json["accessors"][1]["count"] = 2;
+    json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = 1;
+  });
   refused("material", [](Json& json) { json["meshes"][0]["primitives"][0]["material"] = 3; });
-  refused("levels", [](Json& json) { Json deep = 1; for (int i = 0; i < 200; ++i) deep = Json::array({deep}); json["extras"] = deep; });
+  refused("levels", [](Json& json) {
+    Json deep = 1;
+    for (int i = 0; i < 200; ++i)
+      deep = Json::array({deep});
+    json["extras"] = deep;
+  });
 }
 
 // Whatever becomes of the bytes of a file, it is read or refused.
