@@ -105,6 +105,19 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
                        {"misoriented_edges", welding.misoriented_edges},
                        {"unwelded_positions", welding.unwelded_positions},
                        {"left_out_faces", prepared.left_out_faces}};
+  const Snapping_notes& snap = prepared.snapping;
+  report["snap"] = {{"border_vertices", snap.border_vertices},
+                    {"partnered", snap.partnered},
+                    {"sewn", snap.sewn},
+                    {"left_ambiguous", snap.left_ambiguous},
+                    {"left_frozen", snap.left_frozen},
+                    {"left_unmanifold", snap.left_unmanifold},
+                    {"left_folding", snap.left_folding},
+                    {"left_blocked", snap.left_blocked},
+                    {"near_without_edge", snap.near_without_edge},
+                    {"motions", snap.snaps.size()},
+                    {"seam_edges", snap.seam_edges},
+                    {"largest_distance", snap.largest_distance}};
   report["rounding"] = {{"coordinates", prepared.rounding.coordinates},
                         {"vertices", prepared.rounding.vertices},
                         {"pairs", prepared.pairs_by_rounding},

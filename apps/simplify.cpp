@@ -39,6 +39,8 @@ struct Request
   std::string report;
   Simplify_options options;
   bool is_unguarded = false;
+  double weld_distance = 0;
+  bool is_sewn = false;
   bool is_strict = false;
   bool is_target_required = false;
   bool is_quiet = false;
@@ -61,6 +63,8 @@ Json options_json(const Request& request)
           {"intersection_check", options.check_intersections},
           {"stabiliser", options.cost.stabiliser},
           {"border_weight", options.cost.border_weight},
+          {"weld", request.weld_distance},
+          {"sewn", request.is_sewn},
           {"strict", request.is_strict}};
 }
 
@@ -110,6 +114,7 @@ private:
     Prepare_options options;
     options.round_to_float32 = stores_float32(mesh_format(m_request.output));
     options.is_strict = m_request.is_strict;
+    options.weld_distance = m_request.weld_distance;
     try {
       return prepare(std::move(file.soup), options);
     } catch (const Input_error& error) {
@@ -132,6 +137,7 @@ private:
     Simplified_soup result = simplify_soup(prepared, options);
     m_seconds["weld"] = prepared.seconds_weld + result.seconds_weld;
     m_seconds["check"] = prepared.seconds_check;
+    m_seconds["snap"] = prepared.seconds_snap;
     m_seconds["index"] = result.report.seconds_index;
     m_seconds["reduce"] = result.report.seconds_reduce;
     return result;
@@ -153,7 +159,9 @@ private:
     const Clock::time_point start = Clock::now();
     if (m_outcome.is_written()) {
       m_bar.begin("writing");
-      write_output(m_request.output, result.soup, m_request.is_ascii);
+      // Numbers of vertices are all that this changes: the verdict on positions stands.
+      write_output(m_request.output, m_request.is_sewn ? joined_at_positions(result.soup) : result.soup,
+                   m_request.is_ascii);
     }
     m_seconds["write"] = seconds_since(start);
     m_bar.clear();
@@ -188,7 +196,7 @@ private:
     add_reduction(m_report, prepared, result);
     add_verification(m_report, verification, true);
     m_report["seconds"] = Json::object();
-    for (const char* phase : {"read", "weld", "check", "index", "reduce", "verify", "write"})
+    for (const char* phase : {"read", "weld", "check", "snap", "index", "reduce", "verify", "write"})
       m_report["seconds"][phase] = m_seconds[phase];
     m_report["memory"] = {{"peak_bytes", peak_memory_bytes()}};
     m_report["exit_code"] = int(m_outcome.exit_code());
@@ -212,6 +220,8 @@ private:
     if (prepared.rounding.coordinates > 0)
       std::cout << "  rounded to 32-bit floats, as this format stores no more: "
                 << counted(prepared.rounding.coordinates, "coordinate") << '\n';
+    if (m_request.weld_distance > 0)
+      print_snapping(prepared.snapping);
     for (const std::string& what : dropped)
       std::cout << "  not in the output, whose format has no place for it: " << what << '\n';
 
@@ -239,6 +249,24 @@ private:
               << with_digits(verification.distances->original_to_result.maximum)
               << " at most, of the diagonal\n"
               << (m_outcome.is_written() ? "written: " : "NOT written: ") << m_request.output << std::endl;
+  }
+
+  static void print_snapping(const Snapping_notes& notes)
+  {
+    std::cout << "  seams closed: " << with_commas(notes.sewn) << " of "
+              << with_commas(notes.partnered) << " border vertices with a partner, "
+              << counted(notes.seam_edges, "edge") << ", the widest gap "
+              << with_digits(notes.largest_distance) << '\n';
+    const auto print = [](std::size_t count, const char* why) {
+      if (count > 0)
+        std::cout << "  not closed: " << with_commas(count) << " border vertices, " << why << '\n';
+    };
+    print(notes.left_blocked, "since another part of the mesh lies in the gap");
+    print(notes.left_folding, "since a face would degenerate or fold over");
+    print(notes.left_unmanifold, "since more than two faces would meet at an edge");
+    print(notes.left_frozen, "since they belong to frozen faces");
+    print(notes.left_ambiguous, "whose partners have nearer ones");
+    print(notes.near_without_edge, "near another border, but without an edge that could be sewn");
   }
 
   void complain(const std::string& message)
@@ -318,6 +346,19 @@ Action add_simplify(CLI::App& command)
                 "Let layers pierce each other: a control. Exit code 1, since nothing is vouched for")
       ->group(limits);
 
+  const char* const seams = "Seams";
+  command
+      .add_option("--weld", request->weld_distance,
+                  "Close seams whose two sides lie within this length, in the unit of the file")
+      ->check(in_range(0))
+      ->type_name("EPS")
+      ->group(seams);
+  command
+      .add_flag("--sewn", request->is_sewn,
+                "Leave pieces that meet joined, with common vertices where attributes allow; else they come out "
+                "separate, as they went in")
+      ->group(seams);
+
   const char* const tuning = "Tuning";
   command.add_option("--cluster-size", options.faces_per_cluster, "Faces per cluster of the index")
       ->check(in_range(1))
@@ -354,7 +395,8 @@ Action add_simplify(CLI::App& command)
       "  selvedge simplify jacket.obj -o small.obj --ratio 0.3\n"
       "  selvedge simplify jacket.obj -o small.ply --faces 20000 --report small.json\n"
       "  selvedge simplify jacket.obj -o jacket.obj --error 0.0005      as far as 0.05 % of the size allows\n"
-      "  selvedge simplify jacket.obj -o small.obj --ratio 0.1 --require-target || echo missed\n\n"
+      "  selvedge simplify jacket.obj -o small.obj --ratio 0.1 --require-target || echo missed\n"
+      "  selvedge simplify draped.obj -o small.obj --ratio 0.3 --weld 0.0001    close seams that gape by a hair\n\n"
       "The result is always judged before it is written. A target that cannot be reached is no failure: the\n"
       "file is written, and summary and report say what held it back. Ctrl-C writes what was reached.");
   return [request] {

@@ -36,6 +36,46 @@ TEST(App_simplify, ReducesVerifiesAndSaysSo)
   EXPECT_EQ(folder.files(), 2u);
 }
 
+// Two squares of eight triangles side by side, with a gap of 0.001.
+std::string two_squares()
+{
+  std::string text;
+  for (const double left : {0.0, 2.001}) {
+    for (int y = 0; y <= 2; ++y)
+      for (int x = 0; x <= 2; ++x)
+        text += "v " + std::to_string(left + x) + ' ' + std::to_string(y) + " 0\n";
+    for (int y = 0; y < 2; ++y)
+      for (int x = 0; x < 2; ++x) {
+        const int a = (left > 0 ? 10 : 1) + 3 * y + x;
+        text += "f " + std::to_string(a) + ' ' + std::to_string(a + 1) + ' ' + std::to_string(a + 4) + ' ' +
+                std::to_string(a + 3) + '\n';
+      }
+  }
+  return text;
+}
+
+TEST(App_simplify, ClosesSeamsAndLeavesThemSewnWhenAsked)
+{
+  const Workspace folder;
+  write_text(folder / "in.obj", two_squares());
+  const auto pieces_left = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"simplify", folder / "in.obj", "-o", folder / "out.obj", "--ratio", "1"});
+    const App_result result = run_app(options);
+    EXPECT_EQ(result.code, 0) << result.err;
+    const bool is_closed = result.out.find("seams closed: 6 of 6") != std::string::npos;
+    EXPECT_EQ(is_closed, options.size() > 6 && options[6] == "--weld") << result.out;
+    const Triangle_soup soup = read_mesh(folder / "out.obj").soup;
+    EXPECT_EQ(positions(soup).size(), is_closed ? 15u : 18u);
+    return pieces(soup).size();
+  };
+  EXPECT_EQ(pieces_left({}), 2u);
+  EXPECT_EQ(pieces_left({"--weld", "0.01"}), 2u) << "separate again, as they came";
+  EXPECT_EQ(pieces_left({"--weld", "0.01", "--sewn"}), 1u);
+  EXPECT_EQ(pieces_left({"--sewn"}), 2u) << "they do not meet";
+  expect_refused({"simplify", folder / "in.obj", "-o", folder / "o.obj", "--ratio", "1", "--weld", "-1"}, 2,
+                 "at least 0");
+}
+
 TEST(App_simplify, GoesThroughEveryFormat)
 {
   const Workspace folder;
