@@ -5,8 +5,11 @@
 
 #include "text.h"
 
+#include <selvedge/part_report.h>
+
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include <sys/resource.h>
@@ -19,6 +22,23 @@ constexpr std::size_t pairs_named = 100;
 Json to_json(const Distance& distance)
 {
   return {{"rms", distance.root_mean_square}, {"max", distance.maximum}};
+}
+
+Json to_json(const Refusals& refused)
+{
+  return {{"border", refused.border},
+          {"target", refused.target},
+          {"error", refused.error},
+          {"aspect_ratio", refused.aspect_ratio},
+          {"normal_change", refused.normal_change},
+          {"uv", refused.uv},
+          {"intersection", refused.intersection},
+          {"by_loop", refused.by_loop}};
+}
+
+Json to_json(const std::optional<Uv_deviation>& deviation)
+{
+  return deviation ? Json{{"mean", deviation->mean}, {"max", deviation->maximum}} : Json(nullptr);
 }
 
 Json first_of(const std::vector<Offending_pair>& pairs)
@@ -78,12 +98,7 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
   report["target"] = {{"reached", done.is_reached()}, {"outcome", done.outcome()}};
   report["collapses"] = done.collapses;
   report["passes"] = done.passes;
-  report["refused"] = {{"border", done.refused.border},
-                       {"error", done.refused.error},
-                       {"aspect_ratio", done.refused.aspect_ratio},
-                       {"normal_change", done.refused.normal_change},
-                       {"intersection", done.refused.intersection},
-                       {"by_loop", done.refused.by_loop}};
+  report["refused"] = to_json(done.refused);
   report["frozen"] = {{"faces", prepared.frozen_faces}};
   const Intersection_statistics& index = done.intersections;
   report["index"] = {{"clusters", index.clusters},
@@ -144,6 +159,24 @@ void add_verification(Json& report, const Verification& verification, bool has_o
     report["distance"] = {{"original_to_result", to_json(verification.distances->original_to_result)},
                           {"result_to_original", to_json(verification.distances->result_to_original)},
                           {"diagonal", verification.distances->diagonal}};
+}
+
+void add_parts(Json& report, const Prepared_soup& prepared, const Simplified_soup& result)
+{
+  Json list = Json::array();
+  for (const Part_report& part : part_reports(result, prepared)) {
+    Json refused = to_json(part.refused);
+    refused.erase("by_loop"); // known of all together only
+    list.push_back({{"kind", name(part.kind)},
+                    {"name", part.name},
+                    {"first_triangle", part.first_triangle + 1},
+                    {"faces", {{"input", part.faces_input}, {"output", part.faces_output}}},
+                    {"refused", std::move(refused)},
+                    {"distance", to_json(part.distance)},
+                    {"uv", to_json(part.uv_deviation)}});
+  }
+  report["parts"] = std::move(list);
+  report["uv"] = to_json(uv_deviation(result, prepared));
 }
 
 std::size_t peak_memory_bytes()

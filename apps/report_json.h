@@ -29,6 +29,9 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
 /// Sets `verified`, `pieces`, and `topology` and `distance` where there is an original.
 void add_verification(Json& report, const Verification& verification, bool has_original);
 
+/// Sets `parts`, and `uv` where there is a texture.
+void add_parts(Json& report, const Prepared_soup& prepared, const Simplified_soup& result);
+
 std::size_t peak_memory_bytes();
 
 /// What is written, ending in a line break. Names that are no UTF-8 are mended, infinite numbers are null.

@@ -14,13 +14,17 @@
 #include <selvedge/simplify_soup.h>
 #include <selvedge/verify.h>
 
+#include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <iostream>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 namespace selvedge::app {
 namespace {
@@ -37,7 +41,11 @@ struct Request
   std::string input;
   std::string output;
   std::string report;
+  std::vector<std::string> ratios; // "R" or "PART=R"
+  std::vector<double> lods;
+  std::string obstacle;
   Simplify_options options;
+  Simplify_intent intent;
   bool is_unguarded = false;
   double weld_distance = 0;
   bool is_sewn = false;
@@ -47,9 +55,48 @@ struct Request
   bool is_ascii = false;
 };
 
+constexpr std::string_view level_mark = "{lod}";
+
+/// Where each level goes: its number, from 1, in place of the mark. The name as it is without levels.
+std::vector<std::string> outputs(const Request& request)
+{
+  if (request.lods.empty())
+    return {request.output};
+  const std::size_t place = request.output.find(level_mark);
+  if (place == std::string::npos)
+    throw Argument_error("with --lods the output's name must hold {lod}, as in 'jacket_{lod}.obj'");
+  std::vector<std::string> names;
+  for (std::size_t level = 1; level <= request.lods.size(); ++level)
+    names.push_back(std::string(request.output).replace(place, level_mark.size(), std::to_string(level)));
+  return names;
+}
+
+double ratio_in(const std::string& text)
+{
+  double ratio = -1;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), ratio);
+  if (error != std::errc() || end != text.data() + text.size() || !(ratio >= 0 && ratio <= 1))
+    throw Argument_error("--ratio: '" + text + "' is no number from 0 to 1");
+  return ratio;
+}
+
+void read_ratios(Request& request)
+{
+  for (const std::string& text : request.ratios)
+    if (const std::size_t equals = text.rfind('='); equals != std::string::npos)
+      request.intent.ratios.push_back({text.substr(0, equals), ratio_in(text.substr(equals + 1))});
+    else if (request.options.ratio)
+      throw Argument_error("--ratio: a second ratio without a part's name: '" + text + "'");
+    else
+      request.options.ratio = ratio_in(text);
+}
+
 Json options_json(const Request& request)
 {
   const Simplify_options& options = request.options;
+  Json part_ratios = Json::array();
+  for (const Simplify_intent::Part_ratio& part : request.intent.ratios)
+    part_ratios.push_back({{"part", part.name}, {"ratio", part.ratio}});
   const auto optional = [](const auto& value) { return value ? Json(*value) : Json(nullptr); };
   return {{"ratio", optional(options.ratio)},
           {"faces", optional(options.faces)},
@@ -63,6 +110,13 @@ Json options_json(const Request& request)
           {"intersection_check", options.check_intersections},
           {"stabiliser", options.cost.stabiliser},
           {"border_weight", options.cost.border_weight},
+          {"uv_weight", options.uv_weight},
+          {"part_ratios", part_ratios},
+          {"lods", request.lods},
+          {"lock", request.intent.locked},
+          {"keep", request.intent.kept},
+          {"weights", request.intent.weights.empty() ? Json(nullptr) : Json(request.intent.weights)},
+          {"obstacle", request.obstacle.empty() ? Json(nullptr) : Json(request.obstacle)},
           {"weld", request.weld_distance},
           {"sewn", request.is_sewn},
           {"strict", request.is_strict}};
@@ -71,18 +125,31 @@ Json options_json(const Request& request)
 /// What can be refused before any work is.
 void check(const Request& request)
 {
-  if (!request.options.ratio && !request.options.faces && !request.options.max_error)
-    throw Argument_error("say how far to reduce: --ratio, --faces or --error");
-  output_format(request.output);
-  if (!request.report.empty()) {
-    if (is_same_file(request.report, request.output) || is_same_file(request.report, request.input))
+  if (!request.options.ratio && !request.options.faces && !request.options.max_error &&
+      request.intent.ratios.empty() && request.lods.empty())
+    throw Argument_error("say how far to reduce: --ratio, --faces, --error or --lods");
+  if (!request.lods.empty() && (request.options.ratio || request.options.faces))
+    throw Argument_error("--lods says how far to reduce; --ratio R and --faces say it again");
+  for (const std::string& output : outputs(request)) {
+    output_format(output);
+    if (!request.report.empty() &&
+        (is_same_file(request.report, output) || is_same_file(request.report, request.input)))
       throw Argument_error("--report names the same file as a mesh: " + request.report);
-    require_writable(request.report);
+    require_writable(output);
   }
-  require_writable(request.output);
+  if (!request.report.empty())
+    require_writable(request.report);
 }
 
-/// One reduction, from file to file.
+/// A result, where it goes, and what the judge says of it.
+struct Level
+{
+  std::string output;
+  Simplified_soup result;
+  Verification verification;
+};
+
+/// One reduction, from file to file, or to several.
 class Reduction
 {
 public:
@@ -91,13 +158,15 @@ public:
   Exit_code run()
   {
     m_report["input"] = nullptr;
-    Prepared_soup prepared = read_and_prepare();
-    const std::optional<Simplified_soup> result = reduce(prepared);
-    if (!result)
+    const Prepared_soup prepared = read_and_prepare();
+    if (is_interrupted()) {
+      complain("interrupted before the reduction began; nothing was written");
       return exit_interrupted;
-    const Verification verification = judge(*result, prepared);
-    write(*result, verification);
-    report(prepared, *result, verification);
+    }
+    std::vector<Level> levels = reduce(prepared);
+    judge(levels, prepared);
+    write(levels);
+    report(prepared, levels);
     return m_outcome.exit_code();
   }
 
@@ -109,92 +178,124 @@ private:
     Mesh_file file = read_mesh(m_request.input);
     m_seconds["read"] = seconds_since(start);
     m_report["input"] = input_json(m_request.input, file);
+    const Triangle_soup obstacle = m_request.obstacle.empty() ? Triangle_soup() : read_mesh(m_request.obstacle).soup;
 
     m_bar.begin("judging the input");
     Prepare_options options;
-    options.round_to_float32 = stores_float32(mesh_format(m_request.output));
+    options.round_to_float32 = needs_float32(file.soup, mesh_format(m_request.output));
     options.is_strict = m_request.is_strict;
     options.weld_distance = m_request.weld_distance;
     try {
-      return prepare(std::move(file.soup), options);
+      return prepare(std::move(file.soup), options, obstacle);
     } catch (const Input_error& error) {
       throw Input_error(m_request.input + ": " + error.what());
     }
   }
 
-  std::optional<Simplified_soup> reduce(const Prepared_soup& prepared)
+  std::vector<Level> reduce(const Prepared_soup& prepared)
   {
-    if (is_interrupted()) {
-      complain("interrupted before the reduction began; nothing was written");
-      return std::nullopt;
-    }
     m_bar.begin("sewing and indexing");
     Simplify_options options = m_request.options;
     options.should_stop = [this](const Simplify_progress& progress) {
       m_bar.update(progress);
       return is_interrupted();
     };
-    Simplified_soup result = simplify_soup(prepared, options);
-    m_seconds["weld"] = prepared.seconds_weld + result.seconds_weld;
+    std::vector<Simplified_soup> results;
+    if (m_request.lods.empty())
+      results.push_back(simplify_soup(prepared, options, m_request.intent));
+    else
+      results = simplify_lods(prepared, options, m_request.lods, m_request.intent);
     m_seconds["check"] = prepared.seconds_check;
     m_seconds["snap"] = prepared.seconds_snap;
-    m_seconds["index"] = result.report.seconds_index;
-    m_seconds["reduce"] = result.report.seconds_reduce;
-    return result;
+    m_seconds["weld"] = prepared.seconds_weld;
+    const std::vector<std::string> names = outputs(m_request);
+    std::vector<Level> levels;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      // Of levels on one way the last has the time of all.
+      m_seconds["weld"] = std::max(m_seconds["weld"], prepared.seconds_weld + results[i].seconds_weld);
+      m_seconds["index"] = std::max(m_seconds["index"], results[i].report.seconds_index);
+      m_seconds["reduce"] = std::max(m_seconds["reduce"], results[i].report.seconds_reduce);
+      levels.push_back({names[i], std::move(results[i]), {}});
+    }
+    return levels;
   }
 
-  Verification judge(const Simplified_soup& result, const Prepared_soup& prepared)
+  void judge(std::vector<Level>& levels, const Prepared_soup& prepared)
   {
-    m_bar.begin("judging the result");
+    m_bar.begin(levels.size() == 1 ? "judging the result" : "judging the results");
     const Clock::time_point start = Clock::now();
-    Verification verification = verify(result.soup, prepared.soup, prepared.offending_pairs);
+    m_outcome.is_guarded = m_request.options.check_intersections;
+    m_outcome.is_target_required = m_request.is_target_required;
+    for (Level& level : levels) {
+      level.verification = verify(level.result, prepared);
+      m_outcome.is_accepted &= level.verification.accepted();
+      m_outcome.is_interrupted |= level.result.report.is_stopped;
+      m_outcome.is_reached &= level.result.report.is_reached();
+    }
     m_seconds["verify"] = seconds_since(start);
-    m_outcome = {m_request.options.check_intersections, verification.accepted(), result.report.is_stopped,
-                 result.report.is_reached(), m_request.is_target_required};
-    return verification;
   }
 
-  void write(const Simplified_soup& result, const Verification& verification)
+  void write(const std::vector<Level>& levels)
   {
     const Clock::time_point start = Clock::now();
     if (m_outcome.is_written()) {
       m_bar.begin("writing");
-      // Numbers of vertices are all that this changes: the verdict on positions stands.
-      write_output(m_request.output, m_request.is_sewn ? joined_at_positions(result.soup) : result.soup,
-                   m_request.is_ascii);
+      // Numbers of vertices are all that joining changes: the verdict on positions stands.
+      for (const auto& [output, result, verification] : levels)
+        write_output(output, m_request.is_sewn ? joined_at_positions(result.soup) : result.soup, m_request.is_ascii);
     }
     m_seconds["write"] = seconds_since(start);
     m_bar.clear();
-    if (!m_outcome.is_written())
-      complain("THE RESULT IS WRONG and was not written: " +
-               counted(verification.new_pairs.size(), "new offending pair") +
-               (verification.same_topology() ? "" : ", topology changed") +
-               "; this is a bug in selvedge, please report it with the input and the options");
-    else if (!m_outcome.is_guarded)
-      complain("not verified: the intersection check was off (" +
-               counted(verification.new_pairs.size(), "new offending pair") + "); written all the same");
-    else if (m_outcome.is_interrupted)
-      complain("interrupted at " + counted(result.soup.triangles.size(), "face") +
-               "; these are verified and written");
-    else if (m_outcome.exit_code() != exit_done)
-      complain("the target of " + counted(result.report.faces_target, "face") + " was missed, " +
-               with_commas(result.soup.triangles.size()) + " are left (held back by " +
-               result.report.outcome() + "); written all the same");
+    for (const Level& level : levels)
+      complain_of(level);
   }
 
-  void report(const Prepared_soup& prepared, const Simplified_soup& result, const Verification& verification)
+  void complain_of(const Level& level)
+  {
+    const auto& [output, result, verification] = level;
+    const std::string where = m_request.lods.empty() ? "" : output + ": ";
+    if (!m_outcome.is_written()) {
+      if (!verification.accepted())
+        complain(where + "THE RESULT IS WRONG and was not written: " +
+                 counted(verification.new_pairs.size(), "new offending pair") +
+                 (verification.same_topology() ? "" : ", topology changed") +
+                 "; this is a bug in selvedge, please report it with the input and the options");
+    } else if (!m_outcome.is_guarded) {
+      complain(where + "not verified: the intersection check was off (" +
+               counted(verification.new_pairs.size(), "new offending pair") + "); written all the same");
+    } else if (result.report.is_stopped) {
+      complain(where + "interrupted at " + counted(result.soup.triangles.size(), "face") +
+               "; these are verified and written");
+    } else if (m_request.is_target_required && !result.report.is_reached()) {
+      complain(where + "the target of " + counted(result.report.faces_target, "face") + " was missed, " +
+               with_commas(result.soup.triangles.size()) + " are left (held back by " +
+               result.report.outcome() + "); written all the same");
+    }
+  }
+
+  void report(const Prepared_soup& prepared, const std::vector<Level>& levels)
   {
     const Mesh_format format = mesh_format(m_request.output);
     const std::vector<std::string> dropped = not_carried(prepared.soup, format);
-    if (!m_request.is_quiet)
-      print_summary(prepared, result, verification, dropped);
+    if (!m_request.is_quiet) {
+      print_input(prepared, dropped);
+      for (const Level& level : levels)
+        print_summary(prepared, level);
+    }
     if (m_request.report.empty())
       return;
-    m_report["output"] = {
-        {"path", m_request.output}, {"written", m_outcome.is_written()}, {"not_carried", dropped}};
-    m_report["options"] = options_json(m_request);
-    add_reduction(m_report, prepared, result);
-    add_verification(m_report, verification, true);
+    const auto add_level = [&](Json& json, const Level& level) {
+      json["output"] = {{"path", level.output}, {"written", m_outcome.is_written()}, {"not_carried", dropped}};
+      if (&json == &m_report)
+        json["options"] = options_json(m_request);
+      add_reduction(json, prepared, level.result);
+      add_verification(json, level.verification, true);
+      add_parts(json, prepared, level.result);
+    };
+    add_level(m_report, levels.back());
+    for (const Level& level : levels)
+      if (!m_request.lods.empty())
+        add_level(m_report["lods"].emplace_back(Json::object()), level);
     m_report["seconds"] = Json::object();
     for (const char* phase : {"read", "weld", "check", "snap", "index", "reduce", "verify", "write"})
       m_report["seconds"][phase] = m_seconds[phase];
@@ -203,11 +304,8 @@ private:
     write_file(m_request.report, to_text(m_report));
   }
 
-  void print_summary(const Prepared_soup& prepared, const Simplified_soup& result,
-                     const Verification& verification, const std::vector<std::string>& dropped)
+  void print_input(const Prepared_soup& prepared, const std::vector<std::string>& dropped)
   {
-    const Simplify_report& done = result.report;
-    const std::size_t faces = result.soup.triangles.size();
     std::cout << m_request.input << ": " << counted(prepared.soup.triangles.size(), "face");
     if (!prepared.offending_pairs.empty())
       std::cout << ", " << counted(prepared.offending_pairs.size(), "offending pair") << ", "
@@ -224,11 +322,18 @@ private:
       print_snapping(prepared.snapping);
     for (const std::string& what : dropped)
       std::cout << "  not in the output, whose format has no place for it: " << what << '\n';
+  }
 
+  void print_summary(const Prepared_soup& prepared, const Level& level)
+  {
+    const auto& [output, result, verification] = level;
+    const Simplify_report& done = result.report;
+    const std::size_t faces = result.soup.triangles.size();
     std::cout << "reduced to " << counted(faces, "face") << " ("
               << with_digits(100.0 * double(faces) / double(prepared.soup.triangles.size())) << " %) in "
               << with_digits(done.seconds_reduce) << " s: ";
-    if (m_request.options.ratio || m_request.options.faces)
+    if (m_request.options.ratio || m_request.options.faces || !m_request.lods.empty() ||
+        !m_request.intent.ratios.empty())
       std::cout << "target " << with_commas(done.faces_target)
                 << (done.is_reached() ? " reached" : " not reached (" + done.outcome() + ")");
     else
@@ -236,8 +341,10 @@ private:
     std::cout << "\nrefused: border " << with_commas(done.refused.border) << ", error "
               << with_commas(done.refused.error) << ", aspect ratio "
               << with_commas(done.refused.aspect_ratio) << ", normal change "
-              << with_commas(done.refused.normal_change) << ", intersection "
-              << with_commas(done.refused.intersection) << ", other " << with_commas(done.refused.by_loop);
+              << with_commas(done.refused.normal_change) << ", texture " << with_commas(done.refused.uv)
+              << ", intersection "
+              << with_commas(done.refused.intersection) << ", other "
+              << with_commas(done.refused.target + done.refused.by_loop);
     std::cout << "\njudged: ";
     if (verification.embedded())
       std::cout << "embedded";
@@ -248,7 +355,7 @@ private:
               << with_digits(verification.distances->original_to_result.root_mean_square) << " RMS, "
               << with_digits(verification.distances->original_to_result.maximum)
               << " at most, of the diagonal\n"
-              << (m_outcome.is_written() ? "written: " : "NOT written: ") << m_request.output << std::endl;
+              << (m_outcome.is_written() ? "written: " : "NOT written: ") << output << std::endl;
   }
 
   static void print_snapping(const Snapping_notes& notes)
@@ -288,25 +395,56 @@ Action add_simplify(CLI::App& command)
 {
   const auto request = std::make_shared<Request>();
   Simplify_options& options = request->options;
-  command.add_option("IN", request->input, "Mesh to reduce: .obj, .off, .ply or .stl")
+  command.add_option("IN", request->input, "Mesh to reduce: .obj, .off, .ply, .stl, .glb or .gltf")
       ->required()
       ->type_name("");
   command.add_option("-o,--output", request->output, "Where the result goes; may be IN")
       ->required()
       ->type_name("FILE");
 
-  command.add_option("--ratio", options.ratio, "Share of the faces to keep, 0 to 1")
-      ->check(in_range(0, 1))
-      ->type_name("R")
-      ->group("How far (with several, whichever is met first)");
+  const char* const how_far = "How far (with several, whichever is met first)";
+  command
+      .add_option("--ratio", request->ratios,
+                  "Share of the faces to keep, 0 to 1; PART=R for a group, object or material alone: it stops "
+                  "there, and the plain R is for all others. May be given for several")
+      ->type_name("[PART=]R")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group(how_far);
   command.add_option("--faces", options.faces, "Faces to keep")
       ->check(in_range(0))
       ->type_name("N")
-      ->group("How far (with several, whichever is met first)");
+      ->group(how_far);
   command.add_option("--error", options.max_error, "Largest error of a collapse, as a share of the diagonal")
       ->check(in_range(0))
       ->type_name("E")
-      ->group("How far (with several, whichever is met first)");
+      ->group(how_far);
+
+  command
+      .add_option("--lods", request->lods,
+                  "Levels of detail in one run, each as a run to it alone: -o 'jacket_{lod}.obj' names them by number")
+      ->delimiter(',')
+      ->check(in_range(0, 1))
+      ->type_name("R,R,...")
+      ->group(how_far);
+
+  const char* const parts = "Parts, by the names of groups, objects and materials";
+  command.add_option("--lock", request->intent.locked, "Vertices of these do not move; their faces count for the target")
+      ->type_name("PART ...")
+      ->group(parts);
+  command.add_option("--keep", request->intent.kept, "No face of these changes; the target is for the others")
+      ->type_name("PART ...")
+      ->group(parts);
+  command
+      .add_option("--weights", request->intent.weights,
+                  "Vertex attribute that says how dear each vertex is, as a share of the largest")
+      ->type_name("NAME")
+      ->group(parts);
+  command
+      .add_option("--obstacle", request->obstacle,
+                  "Mesh that nothing may pierce: never changed, not in the output, not counted")
+      ->type_name("FILE")
+      ->group(parts);
 
   const char* const limits = "What a collapse may not do";
   command
@@ -371,6 +509,12 @@ Action add_simplify(CLI::App& command)
       ->type_name("W")
       ->capture_default_str()
       ->group(tuning);
+  command
+      .add_option("--uv-weight", options.uv_weight, "Weight of a texture that swims, against the surface; 0: none")
+      ->check(in_range(0))
+      ->type_name("W")
+      ->capture_default_str()
+      ->group(tuning);
   command.add_option("--border-weight", options.cost.border_weight, "Weight of borders in the cost")
       ->check(in_range(0))
       ->type_name("W")
@@ -395,12 +539,15 @@ Action add_simplify(CLI::App& command)
       "  selvedge simplify jacket.obj -o small.obj --ratio 0.3\n"
       "  selvedge simplify jacket.obj -o small.ply --faces 20000 --report small.json\n"
       "  selvedge simplify jacket.obj -o jacket.obj --error 0.0005      as far as 0.05 % of the size allows\n"
+      "  selvedge simplify jacket.obj -o 'jacket_{lod}.obj' --lods 0.5,0.25,0.1\n"
+      "  selvedge simplify jacket.obj -o small.obj --ratio 0.2 --ratio collar=0.8 --keep logo --obstacle body.obj\n"
       "  selvedge simplify jacket.obj -o small.obj --ratio 0.1 --require-target || echo missed\n"
       "  selvedge simplify draped.obj -o small.obj --ratio 0.3 --weld 0.0001    close seams that gape by a hair\n\n"
       "The result is always judged before it is written. A target that cannot be reached is no failure: the\n"
       "file is written, and summary and report say what held it back. Ctrl-C writes what was reached.");
   return [request] {
     request->options.check_intersections = !request->is_unguarded;
+    read_ratios(*request);
     check(*request);
     watch_for_interruption();
     return Reduction(*request).run();
