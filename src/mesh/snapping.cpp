@@ -27,7 +27,7 @@ namespace {
 constexpr Index s_none = std::numeric_limits<Index>::max();
 
 /// Why two partners stay apart.
-enum class Obstacle { rival, frozen, unmanifold, folding, blocked };
+enum class Obstacle { rival, frozen, foreign, unmanifold, folding, blocked };
 
 /// One run of `snap_borders`. A *site* is a position on a border; sites are numbered as their positions are.
 template <class FaceIndex>
@@ -35,7 +35,7 @@ class Border_snapping
 {
 public:
   Border_snapping(const Triangle_soup& soup, const std::vector<Index>& positions,
-                  const std::vector<char>& is_frozen, double distance)
+                  const std::vector<char>& is_frozen, double distance, const std::vector<Index>& transforms)
       : m_points(soup.points), m_distance(distance), m_moved_to(soup.points.size(), s_none)
   {
     m_triangles.reserve(soup.triangles.size());
@@ -43,6 +43,8 @@ public:
       m_triangles.push_back({positions[v[0]], positions[v[1]], positions[v[2]]});
     find_borders();
     gather_faces(is_frozen);
+    if (!transforms.empty())
+      gather_transforms(soup, transforms);
   }
 
   Snapping_notes run()
@@ -80,6 +82,7 @@ private:
     std::vector<Index> faces;
     std::vector<Index> next; // sites, along the border with the surface on the left
     std::vector<Index> previous;
+    std::optional<Index> transform;
     bool is_frozen = false;
     bool is_near = false; // to another border
     bool is_partnered = false;
@@ -149,6 +152,19 @@ private:
         }
   }
 
+  void gather_transforms(const Triangle_soup& soup, const std::vector<Index>& transforms)
+  {
+    for (Site& site : m_sites)
+      for (const Index face : site.faces)
+        for (std::size_t k = 0; k < 3; ++k) {
+          if (m_triangles[face][k] != site.position)
+            continue;
+          const Index transform = transforms[soup.triangles[face][k]];
+          site.is_frozen |= site.transform.value_or(transform) != transform;
+          site.transform = transform;
+        }
+  }
+
   void drop_sewn_sides()
   {
     const std::size_t before = m_sides.size();
@@ -201,11 +217,17 @@ private:
         site.is_partnered = true;
         if (site.is_frozen || m_sites[j].is_frozen)
           return;
+        if (site.transform != m_sites[j].transform) {
+          if (site.obstacle == Obstacle::frozen)
+            site.obstacle = Obstacle::foreign;
+          return;
+        }
         const Pair pair{distance(site, m_sites[j]), (std::min)(i, j), (std::max)(i, j)};
         if (nearest[i].low == s_none || pair < nearest[i])
           nearest[i] = pair;
       });
-      if (nearest[i].low != s_none && site.obstacle == Obstacle::frozen)
+      if (nearest[i].low != s_none &&
+          (site.obstacle == Obstacle::frozen || site.obstacle == Obstacle::foreign))
         site.obstacle = Obstacle::rival;
     }
     std::vector<Pair> pairs;
@@ -363,6 +385,7 @@ private:
       ++(site.is_joined                          ? m_notes.sewn
          : site.obstacle == Obstacle::rival      ? m_notes.left_ambiguous
          : site.obstacle == Obstacle::frozen     ? m_notes.left_frozen
+         : site.obstacle == Obstacle::foreign    ? m_notes.left_foreign
          : site.obstacle == Obstacle::unmanifold ? m_notes.left_unmanifold
          : site.obstacle == Obstacle::folding    ? m_notes.left_folding
                                                  : m_notes.left_blocked);
@@ -401,13 +424,14 @@ private:
 
 template <class FaceIndex>
 Snapping_notes snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
-                            const std::vector<char>& is_frozen, double distance)
+                            const std::vector<char>& is_frozen, double distance,
+                            const std::vector<Index>& transforms)
 {
   if (!(std::isfinite(distance) && distance >= 0))
     throw Argument_error("the weld distance must be a finite number, 0 or larger");
   if (distance == 0)
     return {};
-  Border_snapping<FaceIndex> snapping(soup, positions, is_frozen, distance);
+  Border_snapping<FaceIndex> snapping(soup, positions, is_frozen, distance, transforms);
   Snapping_notes notes = snapping.run();
 
   const std::vector<Point_3> points = soup.points;
@@ -424,9 +448,11 @@ Snapping_notes snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
 }
 
 template Snapping_notes snap_borders<Clustered_AABB_tree>(Triangle_soup&, std::vector<Index>&,
-                                                          const std::vector<char>&, double);
+                                                          const std::vector<char>&, double,
+                                                          const std::vector<Index>&);
 template Snapping_notes snap_borders<Brute_force_index>(Triangle_soup&, std::vector<Index>&,
-                                                        const std::vector<char>&, double);
+                                                        const std::vector<char>&, double,
+                                                        const std::vector<Index>&);
 
 Triangle_soup joined_at_positions(const Triangle_soup& soup)
 {

@@ -124,8 +124,8 @@ std::size_t expect_partners_kept(const Prepared_soup& prepared, const Simplified
 
 std::size_t left(const Snapping_notes& notes)
 {
-  return notes.left_ambiguous + notes.left_frozen + notes.left_unmanifold + notes.left_folding +
-         notes.left_blocked;
+  return notes.left_ambiguous + notes.left_frozen + notes.left_foreign + notes.left_unmanifold +
+         notes.left_folding + notes.left_blocked;
 }
 
 std::vector<std::pair<std::string, Triangle_soup>> garments()

@@ -124,6 +124,21 @@ TEST(Snapping_rules, FrozenVerticesDoNotSnap)
   EXPECT_EQ(result.notes.seam_edges, 1u);
 }
 
+TEST(Snapping_rules, OnlyUnderOneTransform)
+{
+  Triangle_soup soup = two_sheets();
+  std::vector<Index> positions = number_positions(soup.points);
+  const std::vector<char> is_frozen(soup.triangles.size(), false);
+  std::vector<Index> transforms(soup.points.size(), 7);
+  std::fill(transforms.begin() + 16, transforms.end(), Index(8));
+  const Snapping_notes apart = snap_borders(soup, positions, is_frozen, s_distance, transforms);
+  EXPECT_EQ(apart.left_foreign, 8u);
+  EXPECT_TRUE(apart.snaps.empty());
+  EXPECT_EQ(soup.points, two_sheets().points);
+  std::fill(transforms.begin() + 16, transforms.end(), Index(7));
+  EXPECT_EQ(snap_borders(soup, positions, is_frozen, s_distance, transforms).sewn, 8u);
+}
+
 TEST(Snapping_rules, WhatLiesInTheGapIsNotPassed)
 {
   // A sheet that hangs in the gap, between two of the partners.

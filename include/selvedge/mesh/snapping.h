@@ -29,6 +29,7 @@ struct Snapping_notes
   /// Partnered and left as they were, by reason; with `sewn` they make up `partnered`.
   std::size_t left_ambiguous = 0;  ///< every partner has a nearer one, or went with another
   std::size_t left_frozen = 0;     ///< they, or all partners, belong to frozen faces
+  std::size_t left_foreign = 0;    ///< all partners are under other transforms
   std::size_t left_unmanifold = 0; ///< an edge would get a third face, or two that run along it the same way
   std::size_t left_folding = 0;    ///< the faces that move would degenerate or run into each other
   std::size_t left_blocked = 0;    ///< the faces that move would run into others
@@ -66,7 +67,8 @@ struct Snapping_notes
 /// 5. *Deterministic*: what is found depends neither on the index nor on the build.
 ///
 /// `positions[v]` is the number of the first vertex at the position of v, before and after. `is_frozen` holds
-/// for each triangle whether its vertices stand still.
+/// for each triangle whether its vertices stand still. `transforms`, empty or one number per vertex, says who
+/// may share a position: vertices with different numbers are not joined, and positions that have several stay.
 ///
 /// **Preconditions** No triangle has two corners at one position. All triangles of offending pairs are
 /// frozen. Throws `Argument_error` unless `distance` is finite and not negative; at 0 there is nothing to do.
@@ -77,7 +79,8 @@ struct Snapping_notes
 /// `distance`, for each round; rounds are about as many as pieces that meet in one corner.
 template <class FaceIndex = Clustered_AABB_tree>
 Snapping_notes snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
-                            const std::vector<char>& is_frozen, double distance);
+                            const std::vector<char>& is_frozen, double distance,
+                            const std::vector<Index>& transforms = {});
 
 /// Gives all vertices at one position one number, so that pieces that meet there hang together; vertices
 /// whose attributes differ keep their own. Of several, the first stays; those no longer used are dropped.
