@@ -45,6 +45,13 @@ struct No_observer
   void on_refused(const Halfedge& /*moving*/, const Refusals&)
   {}
 
+  /// Does every piece keep its topology, where pieces are finer than the mesh? Asked of what the rule allows.
+  template <class Halfedge, class Rule>
+  bool keeps_pieces(const Halfedge& /*moving*/, const Rule&) const
+  {
+    return true;
+  }
+
   /// Does every triangle of the texture keep its orientation?
   template <class Halfedge, class Rule>
   bool keeps_uv_orientation(const Halfedge& /*moving*/, const Rule&) const
@@ -156,7 +163,20 @@ class Simplification
     }
   };
 
-  using Border = Border_filter<Rule>;
+  struct Are_pieces_kept
+  {
+    const Observer* observer;
+    Rule rule;
+
+    template <class Halfedge>
+    bool operator()(const Halfedge& moving) const
+    {
+      return observer->keeps_pieces(moving, rule);
+    }
+  };
+
+  using Line = Border_filter<Rule>;
+  using Border = Halfedge_filter<Are_pieces_kept, Line>;
   using Target = Halfedge_filter<Targets, Border>;
   using Error = Error_filter<Quadrics, Target>;
   using Aspect_ratio = Aspect_ratio_filter<Error>;
@@ -169,7 +189,7 @@ public:
                  Observer& observer)
     : m_start(Clock::now()), m_mesh(mesh), m_options(options), m_observer(observer), m_diagonal(diagonal(mesh)),
       m_rule(make_rule(constraints)), m_targets(make_targets(constraints)), m_quadrics(mesh, options.cost, m_rule),
-      m_border(m_rule), m_target(m_targets, m_border), m_error(max_error(), m_quadrics, m_target),
+      m_line(m_rule), m_border({&observer, m_rule}, m_line), m_target(m_targets, m_border), m_error(max_error(), m_quadrics, m_target),
       m_aspect_ratio(options.min_aspect_ratio, m_error), m_normal_change(options.max_normal_change, m_aspect_ratio),
       m_uv({options.check_uv_orientation ? &observer : nullptr, m_rule}, m_normal_change)
   {
@@ -396,7 +416,7 @@ private:
   Refusals refusals() const
   {
     Refusals result;
-    result.border = m_border.refusals();
+    result.border = m_line.refusals() + m_border.refusals();
     result.target = m_target.refusals();
     result.error = m_error.refusals();
     result.aspect_ratio = m_aspect_ratio.refusals();
@@ -442,6 +462,7 @@ private:
   Rule m_rule;
   Targets m_targets;
   Quadrics m_quadrics;
+  Line m_line;
   Border m_border;
   Target m_target;
   Error m_error;

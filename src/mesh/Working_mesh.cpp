@@ -308,6 +308,26 @@ void Working_mesh::weigh(const std::vector<double>& weights)
   }
 }
 
+bool Working_mesh::keeps_pieces(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule) const
+{
+  // By their numbers, the vertices of a line are open (each side has its own) or closed. Runs of open ones are boundary loops
+  // of pieces or stretches of them, so none may vanish, and no two may meet.
+  const auto is_open_at_end = [this](Mesh::Halfedge_index h) {
+    const Mesh::Face_index side = m_mesh.face(h), other_side = m_mesh.face(m_mesh.opposite(h));
+    if (!m_mesh.is_valid(side) || !m_mesh.is_valid(other_side) || !is_own(side) || !is_own(other_side))
+      return true;
+    return vertex_of(corner_at(side, m_mesh.target(h))) != vertex_of(corner_at(other_side, m_mesh.target(h)));
+  };
+  const Mesh::Halfedge_index back = m_mesh.opposite(moving);
+  if (!rule.is_line(m_mesh.edge(moving)))
+    return true;
+  const bool is_open_ahead = is_open_at_end(moving), is_open = is_open_at_end(back);
+  for (const Mesh::Halfedge_index h : m_mesh.halfedges_around_target(back))
+    if (h != back && rule.is_line(m_mesh.edge(h)) && is_open_at_end(m_mesh.opposite(h)) == is_open_ahead)
+      return is_open == is_open_ahead;
+  return true;
+}
+
 bool Working_mesh::keeps_uv_orientation(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule) const
 {
   if (m_soup.uvs.empty())

@@ -69,6 +69,7 @@ public:
   // Called by `simplify`, as an observer.
   void before_collapse(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule);
   void on_refused(Mesh::Halfedge_index moving, const Refusals& refusals);
+  bool keeps_pieces(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule) const;
   bool keeps_uv_orientation(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule) const;
   double uv_cost(Mesh::Halfedge_index moving) const;
 
