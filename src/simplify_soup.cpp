@@ -6,6 +6,7 @@
 #include <selvedge/Error.h>
 #include <selvedge/mesh/Parts.h>
 #include <selvedge/mesh/Working_mesh.h>
+#include <selvedge/mesh/mesh_files.h>
 #include <selvedge/mesh/selection.h>
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include <functional>
 #include <iterator>
 #include <numeric>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -295,7 +297,10 @@ Prepared_soup prepare(Triangle_soup input, const Prepare_options& options, const
   prepared.seconds_check += seconds_since(start);
 
   start = Clock::now();
-  prepared.snapping = snap_borders(soup, prepared.positions, prepared.is_frozen, options.weld_distance);
+  std::vector<Index> transforms = transforms_of_vertices(soup);
+  if (!transforms.empty()) // no node has the positions of an obstacle
+    transforms.resize(soup.points.size(), std::numeric_limits<Index>::max());
+  prepared.snapping = snap_borders(soup, prepared.positions, prepared.is_frozen, options.weld_distance, transforms);
   prepared.seconds_snap = seconds_since(start);
   take_away(soup, prepared.obstacle);
   return prepared;
