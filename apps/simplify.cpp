@@ -10,6 +10,7 @@
 #include "text.h"
 
 #include <selvedge/Error.h>
+#include <selvedge/collapse_log.h>
 #include <selvedge/mesh/mesh_files.h>
 #include <selvedge/simplify_soup.h>
 #include <selvedge/verify.h>
@@ -20,6 +21,8 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <optional>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -41,6 +44,7 @@ struct Request
   std::string input;
   std::string output;
   std::string report;
+  std::string log;
   std::vector<std::string> ratios; // "R" or "PART=R"
   std::vector<double> lods;
   std::string obstacle;
@@ -139,6 +143,14 @@ void check(const Request& request)
   }
   if (!request.report.empty())
     require_writable(request.report);
+  if (request.log.empty())
+    return;
+  if (!request.lods.empty())
+    throw Argument_error("--log writes down one reduction, and --lods asks for several");
+  for (const std::string& other : {request.output, request.input, request.report})
+    if (!other.empty() && is_same_file(request.log, other))
+      throw Argument_error("--log names the same file as something else: " + request.log);
+  require_writable(request.log);
 }
 
 /// A result, where it goes, and what the judge says of it.
@@ -178,6 +190,13 @@ private:
     Mesh_file file = read_mesh(m_request.input);
     m_seconds["read"] = seconds_since(start);
     m_report["input"] = input_json(m_request.input, file);
+    if (!m_request.log.empty()) {
+      m_numbering.emplace(file.soup, file.format == Mesh_format::stl);
+      m_log_header.vertices = m_numbering->size();
+      m_log_header.triangles = file.soup.triangles.size();
+      m_log_header.sha256 = sha256_of_file(m_request.input);
+      m_log_header.is_rounded_to_float32 = needs_float32(file.soup, mesh_format(m_request.output));
+    }
     const Triangle_soup obstacle = m_request.obstacle.empty() ? Triangle_soup() : read_mesh(m_request.obstacle).soup;
 
     m_bar.begin("judging the input");
@@ -200,11 +219,18 @@ private:
       m_bar.update(progress);
       return is_interrupted();
     };
+    std::optional<Reduction_log> log;
+    if (!m_request.log.empty()) {
+      log.emplace(m_log, m_log_header, *m_numbering, prepared, options);
+      options.on_collapse = [&log](std::size_t removed, std::size_t kept) { log->add_collapse(removed, kept); };
+    }
     std::vector<Simplified_soup> results;
     if (m_request.lods.empty())
       results.push_back(simplify_soup(prepared, options, m_request.intent));
     else
       results = simplify_lods(prepared, options, m_request.lods, m_request.intent);
+    if (log)
+      log->finish(results.back());
     m_seconds["check"] = prepared.seconds_check;
     m_seconds["snap"] = prepared.seconds_snap;
     m_seconds["weld"] = prepared.seconds_weld;
@@ -244,6 +270,9 @@ private:
       for (const auto& [output, result, verification] : levels)
         write_output(output, m_request.is_sewn ? joined_at_positions(result.soup) : result.soup, m_request.is_ascii);
     }
+    // Also of a result that was refused: the log is what shows why.
+    if (!m_request.log.empty())
+      write_file(m_request.log, m_log.str());
     m_seconds["write"] = seconds_since(start);
     m_bar.clear();
     for (const Level& level : levels)
@@ -386,6 +415,9 @@ private:
   Progress_bar m_bar;
   Outcome m_outcome;
   Json m_report = new_report("simplify");
+  std::optional<Log_numbering> m_numbering; // these three only where a log is wanted
+  Log_header m_log_header;
+  std::ostringstream m_log;
   std::map<std::string, double> m_seconds;
 };
 
@@ -529,6 +561,9 @@ Action add_simplify(CLI::App& command)
   command.add_flag("--require-target", request->is_target_required, "Exit code 1 when the target is missed")
       ->group(conduct);
   command.add_option("--report", request->report, "Write a report as JSON")
+      ->type_name("FILE")
+      ->group(conduct);
+  command.add_option("--log", request->log, "Write down every collapse, for `selvedge replay`")
       ->type_name("FILE")
       ->group(conduct);
   command.add_flag("--quiet", request->is_quiet, "No summary and no progress bar")->group(conduct);
