@@ -35,7 +35,8 @@ namespace selvedge {
 ///     c REMOVED KEPT [X Y Z [FIRST]]         any number of them
 ///     result COLLAPSES TRIANGLES SHA256
 ///
-/// - *Vertices* are 0-based numbers of the input file: in OBJ, OFF and PLY the order of its vertices, used or not. In STL,
+/// - *Vertices* are 0-based numbers of the input file: in OBJ, OFF and PLY the order of its vertices, used or not; in glTF
+///   that in which `read_mesh` finds them, by nodes, then primitives. In STL,
 ///   which has no vertices, 3 × triangle + corner, any of those at one position.
 /// - *input*: vertices of the file (in STL three for each triangle), triangles after polygons were cut as
 ///   `read_mesh` cuts them, and the SHA-256 of the file's bytes, in 64 hexadecimal digits, or `-` for unknown.
