@@ -35,7 +35,8 @@ struct Request
 void require_same_file(const Request& request, const Log_header& header)
 {
   if (!header.sha256.empty() && header.sha256 != sha256_of_file(request.original))
-    throw Input_error(request.original + ": is not the file that the log was made from; its SHA-256 is another");
+    throw Input_error(request.original +
+                      ": is not the file that the log was made from; its SHA-256 is another");
 }
 
 void print(const Violation& violation)
@@ -135,19 +136,24 @@ Action add_replay(CLI::App& command)
 {
   const auto request = std::make_shared<Request>();
   command.add_option("ORIGINAL", request->original, "The mesh that was reduced")->required()->type_name("");
-  command.add_option("LOG", request->log, "What was done to it: a log of collapses")->required()->type_name("");
-  command.add_option("-o,--output", request->output, "Where the mesh goes that the steps lead to")->type_name("FILE");
+  command.add_option("LOG", request->log, "What was done to it: a log of collapses")
+      ->required()
+      ->type_name("");
+  command.add_option("-o,--output", request->output, "Where the mesh goes that the steps lead to")
+      ->type_name("FILE");
   command.add_flag("--no-limits", request->is_free_of_limits,
                    "Judge links and geometry alone, not angles, shapes and lines");
   command.add_flag("--all", request->is_all_wanted, "Go on after a bad step, and list them all");
-  command.add_option("--scene", request->scene, "Write the first violation's faces as an OBJ file")->type_name("FILE");
+  command.add_option("--scene", request->scene, "Write the first violation's faces as an OBJ file")
+      ->type_name("FILE");
   command.add_flag("--ascii", request->is_ascii, "Write PLY and STL as text");
   command.footer(
       "Examples:\n"
       "  selvedge simplify jacket.obj -o small.obj --ratio 0.3 --log jacket.log\n"
       "  selvedge replay jacket.obj jacket.log -o again.obj && cmp small.obj again.obj\n"
       "  selvedge replay jacket.obj of_my_own_program.log --no-limits --all\n\n"
-      "Exit code 0 when every step is accepted and the result is what the log says, 1 when not. The log's format\n"
+      "Exit code 0 when every step is accepted and the result is what the log says, 1 when not. The log's "
+      "format\n"
       "is documented in collapse_log.h, and how to write one in docs/validate_your_simplifier.md.");
   return [request] { return run(*request); };
 }

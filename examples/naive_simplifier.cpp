@@ -1,8 +1,9 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// naive_simplifier in.obj ratio > out.log: shortest edges first, in floats, and nothing looks out for other layers.
-// Stands for the program that you want to have judged; docs/validate_your_simplifier.md does it with this one.
+// naive_simplifier in.obj ratio > out.log: shortest edges first, in floats, and nothing looks out for other
+// layers. Stands for the program that you want to have judged; docs/validate_your_simplifier.md does it with
+// this one.
 
 #include <algorithm>
 #include <array>

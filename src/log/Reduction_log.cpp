@@ -41,7 +41,7 @@ Log_header with_limits(Log_header header, const Simplify_options& options)
 
 Reduction_log::Reduction_log(std::ostream& stream, Log_header header, const Log_numbering& numbering,
                              const Prepared_soup& prepared, const Simplify_options& options)
-  : m_writer(stream, with_limits(std::move(header), options)), m_numbering(numbering), m_prepared(prepared)
+    : m_writer(stream, with_limits(std::move(header), options)), m_numbering(numbering), m_prepared(prepared)
 {
   for (const auto& [from, to] : prepared.snapping.snaps) {
     Log_step step;

@@ -20,8 +20,10 @@ constexpr std::string_view s_first_line = "selvedge-log 1";
 template <class Header>
 auto limits(Header& header)
 {
-  return std::array{std::make_pair("normal_change", &header.normal_change), std::make_pair("aspect_ratio", &header.aspect_ratio),
-                    std::make_pair("border_turn", &header.border_turn), std::make_pair("seam_turn", &header.seam_turn),
+  return std::array{std::make_pair("normal_change", &header.normal_change),
+                    std::make_pair("aspect_ratio", &header.aspect_ratio),
+                    std::make_pair("border_turn", &header.border_turn),
+                    std::make_pair("seam_turn", &header.seam_turn),
                     std::make_pair("border_drift", &header.border_drift)};
 }
 
@@ -32,11 +34,15 @@ std::string text_of(Number number)
   return {text, std::to_chars(std::begin(text), std::end(text), number).ptr};
 }
 
-std::string text_of_digest(const std::string& digest) { return digest.empty() ? "-" : digest; }
+std::string text_of_digest(const std::string& digest)
+{
+  return digest.empty() ? "-" : digest;
+}
 
 } // namespace
 
-Log_numbering::Log_numbering(const Triangle_soup& original, bool is_stl) : m_vertex_count(original.points.size())
+Log_numbering::Log_numbering(const Triangle_soup& original, bool is_stl)
+    : m_vertex_count(original.points.size())
 {
   if (!is_stl)
     return;
@@ -49,8 +55,9 @@ Log_numbering::Log_numbering(const Triangle_soup& original, bool is_stl) : m_ver
 
 Log_writer::Log_writer(std::ostream& stream, const Log_header& header) : m_stream(stream)
 {
-  m_stream << s_first_line << "\ninput " << text_of(header.vertices) << ' ' << text_of(header.triangles) << ' '
-           << text_of_digest(header.sha256) << "\nrounding " << (header.is_rounded_to_float32 ? "float32" : "none") << '\n';
+  m_stream << s_first_line << "\ninput " << text_of(header.vertices) << ' ' << text_of(header.triangles)
+           << ' ' << text_of_digest(header.sha256) << "\nrounding "
+           << (header.is_rounded_to_float32 ? "float32" : "none") << '\n';
   for (const auto& [name, value] : limits(header))
     if (*value)
       m_stream << "limit " << name << ' ' << text_of(**value) << '\n';
@@ -151,7 +158,8 @@ public:
         fail("nothing comes after the 'result' line");
       return false;
     } else {
-      fail("a line begins with '" + std::string(m_words[0].substr(0, 20)) + "', which this version does not know here");
+      fail("a line begins with '" + std::string(m_words[0].substr(0, 20)) +
+           "', which this version does not know here");
     }
     return true;
   }
@@ -268,15 +276,24 @@ private:
 };
 
 Log_reader::Log_reader(std::istream& stream, const std::string& name)
-  : m_implementation(std::make_unique<Implementation>(stream, name))
+    : m_implementation(std::make_unique<Implementation>(stream, name))
 {
   m_implementation->read_header();
 }
 
 Log_reader::~Log_reader() = default;
 
-const Log_header& Log_reader::header() const { return m_implementation->header; }
-bool Log_reader::read(Log_step& step) { return m_implementation->read(step); }
-const Log_result& Log_reader::result() const { return m_implementation->result; }
+const Log_header& Log_reader::header() const
+{
+  return m_implementation->header;
+}
+bool Log_reader::read(Log_step& step)
+{
+  return m_implementation->read(step);
+}
+const Log_result& Log_reader::result() const
+{
+  return m_implementation->result;
+}
 
 } // namespace selvedge

@@ -48,8 +48,8 @@ private:
   static constexpr double s_infinity = std::numeric_limits<double>::infinity();
 };
 
-/// The boxes of the faces in a balanced binary tree, kept exact at every change; built anew, by whoever owns it, when
-/// half of the faces are gone.
+/// The boxes of the faces in a balanced binary tree, kept exact at every change; built anew, by whoever owns
+/// it, when half of the faces are gone.
 class Box_tree
 {
 public:
@@ -120,8 +120,9 @@ private:
         axis = k;
     const std::size_t middle = first + (beyond - first + 1) / 2;
     const auto centre = [&](Index face) { return boxes[face].low[axis] / 2 + boxes[face].high[axis] / 2; };
-    std::nth_element(order.begin() + std::ptrdiff_t(first), order.begin() + std::ptrdiff_t(middle) - (middle == beyond),
-                     order.begin() + std::ptrdiff_t(beyond), [&](Index a, Index b) { return centre(a) < centre(b); });
+    std::nth_element(
+        order.begin() + std::ptrdiff_t(first), order.begin() + std::ptrdiff_t(middle) - (middle == beyond),
+        order.begin() + std::ptrdiff_t(beyond), [&](Index a, Index b) { return centre(a) < centre(b); });
     place(order, boxes, first, middle, 2 * node);
     place(order, boxes, middle, beyond, 2 * node + 1);
   }

@@ -10,7 +10,10 @@
 namespace selvedge::reference {
 namespace {
 
-std::size_t next(std::size_t k) { return (k + 1) % 3; }
+std::size_t next(std::size_t k)
+{
+  return (k + 1) % 3;
+}
 
 } // namespace
 
@@ -20,13 +23,14 @@ std::vector<Index> first_at_position(const std::vector<Point_3>& points)
   std::vector<Index> result;
   result.reserve(points.size());
   for (Index v = 0; v < points.size(); ++v)
-    result.push_back(first.emplace(Coordinates{points[v].x(), points[v].y(), points[v].z()}, v).first->second);
+    result.push_back(
+        first.emplace(Coordinates{points[v].x(), points[v].y(), points[v].z()}, v).first->second);
   return result;
 }
 
 Complex::Complex(const Triangle_soup& soup)
-  : m_soup(soup), m_position_of_vertex(first_at_position(soup.points)), m_faces_at(soup.points.size()),
-    m_alive(soup.triangles.size())
+    : m_soup(soup), m_position_of_vertex(first_at_position(soup.points)), m_faces_at(soup.points.size()),
+      m_alive(soup.triangles.size())
 {
   for (const Point_3& p : soup.points)
     m_points.push_back({p.x(), p.y(), p.z()});
@@ -53,7 +57,10 @@ std::size_t Complex::slot(Index face, Index position) const
   return std::size_t(std::find(p.begin(), p.end(), position) - p.begin());
 }
 
-bool Complex::has(Index face, Index position) const { return slot(face, position) < 3; }
+bool Complex::has(Index face, Index position) const
+{
+  return slot(face, position) < 3;
+}
 
 std::array<Index, 2> Complex::opposite_side(Index face, Index position) const
 {
@@ -84,7 +91,6 @@ std::vector<Complex::Edge> Complex::edges_at(Index position) const
   return edges;
 }
 
-
 bool Complex::is_one_fan(Index position) const
 {
   const std::vector<Index>& faces = m_faces_at[position];
@@ -98,7 +104,7 @@ bool Complex::is_one_fan(Index position) const
       if (std::find_if(edges.begin(), edges.end(), is_this)->is_border())
         continue;
       const auto beyond =
-        std::stable_partition(waiting.begin(), waiting.end(), [&](Index f) { return !has(f, neighbour); });
+          std::stable_partition(waiting.begin(), waiting.end(), [&](Index f) { return !has(f, neighbour); });
       reached.insert(reached.end(), beyond, waiting.end());
       waiting.erase(beyond, waiting.end());
     }
@@ -115,8 +121,8 @@ bool Complex::is_seam_between(Index a, Index b) const
   const auto differ_in = [&](const Triangle_labels& labels) {
     return !labels.empty() && labels.of_triangle[a / 3] != labels.of_triangle[b / 3];
   };
-  return vertex_of(a) != vertex_of(b) || differ(m_soup.uvs) || differ(m_soup.normals) || differ_in(m_soup.groups) ||
-         differ_in(m_soup.objects) || differ_in(m_soup.materials);
+  return vertex_of(a) != vertex_of(b) || differ(m_soup.uvs) || differ(m_soup.normals) ||
+         differ_in(m_soup.groups) || differ_in(m_soup.objects) || differ_in(m_soup.materials);
 }
 
 void Complex::find_seams()
@@ -135,8 +141,8 @@ void Complex::find_seams()
       // Where not just two faces meet that run along it in opposite ways, it is a border.
       if (count == 1 && m_faces[other].positions[next(slot(other, to))] == from)
         m_faces[f].is_seam[k] =
-          is_seam_between(m_faces[f].corners[k], m_faces[other].corners[slot(other, from)]) ||
-          is_seam_between(m_faces[f].corners[next(k)], m_faces[other].corners[slot(other, to)]);
+            is_seam_between(m_faces[f].corners[k], m_faces[other].corners[slot(other, from)]) ||
+            is_seam_between(m_faces[f].corners[next(k)], m_faces[other].corners[slot(other, to)]);
     }
 }
 
@@ -176,9 +182,10 @@ std::vector<Index> Complex::collapse(Index removed, Index kept)
   return contracted;
 }
 
-// From a contracted face, across edges at `removed` that are no seams, as far as that goes. Where both contracted
-// faces would serve, the one that runs from `removed` to `kept` does.
-void Complex::carry_corners(const std::vector<Index>& contracted, std::vector<Index> moving, Index removed, Index kept)
+// From a contracted face, across edges at `removed` that are no seams, as far as that goes. Where both
+// contracted faces would serve, the one that runs from `removed` to `kept` does.
+void Complex::carry_corners(const std::vector<Index>& contracted, std::vector<Index> moving, Index removed,
+                            Index kept)
 {
   std::vector<Index> sources = contracted;
   std::stable_partition(sources.begin(), sources.end(),
@@ -197,7 +204,8 @@ void Complex::carry_corners(const std::vector<Index>& contracted, std::vector<In
         return (others[1] == sides[0] && !m_faces[f].is_seam[at]) ||
                (others[0] == sides[1] && !m_faces[f].is_seam[next(next(at))]);
       };
-      const auto beyond = std::stable_partition(moving.begin(), moving.end(), [&](Index g) { return !is_next(g); });
+      const auto beyond =
+          std::stable_partition(moving.begin(), moving.end(), [&](Index g) { return !is_next(g); });
       for (auto it = beyond; it != moving.end(); ++it) {
         carried.emplace_back(*it, corner);
         reached.push_back(*it);
@@ -214,8 +222,8 @@ void Complex::carry_seams(const std::vector<Index>& contracted, Index removed, I
 {
   for (const Index f : contracted) {
     const auto& positions = m_faces[f].positions;
-    const Index apex = *std::find_if(positions.begin(), positions.end(),
-                                     [&](Index p) { return p != removed && p != kept; });
+    const Index apex =
+        *std::find_if(positions.begin(), positions.end(), [&](Index p) { return p != removed && p != kept; });
     bool is_seam = false;
     for (std::size_t k = 0; k < 3; ++k)
       is_seam = is_seam || (m_faces[f].is_seam[k] && (positions[k] == apex || positions[next(k)] == apex));
@@ -224,7 +232,8 @@ void Complex::carry_seams(const std::vector<Index>& contracted, Index removed, I
     for (const Index g : m_faces_at[apex])
       for (std::size_t k = 0; k < 3; ++k) {
         const Index from = m_faces[g].positions[k], to = m_faces[g].positions[next(k)];
-        if ((from == apex && (to == removed || to == kept)) || (to == apex && (from == removed || from == kept)))
+        if ((from == apex && (to == removed || to == kept)) ||
+            (to == apex && (from == removed || from == kept)))
           m_faces[g].is_seam[k] = true;
       }
   }

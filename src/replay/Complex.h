@@ -15,16 +15,16 @@
 
 namespace selvedge::reference {
 
-/// Triangles over positions, each of which knows its faces. No halfedges: what is a border, a fan or a seam is counted
-/// when it is asked for.
+/// Triangles over positions, each of which knows its faces. No halfedges: what is a border, a fan or a seam
+/// is counted when it is asked for.
 class Complex
 {
 public:
   struct Face
   {
     Index_triple positions;
-    Index_triple corners;               // of the soup, 3 × triangle + place in it
-    std::array<bool, 3> is_seam{};      // side k runs from corner k to the next
+    Index_triple corners;          // of the soup, 3 × triangle + place in it
+    std::array<bool, 3> is_seam{}; // side k runs from corner k to the next
     bool is_alive = true;
   };
 
@@ -70,8 +70,8 @@ public:
   /// All vertices and faces at one position go to the other, where there is no edge between.
   void snap(Index moved, Index kept);
 
-  /// All faces at one position go to the other; those that have both are gone, and returned. Corners get what hangs on
-  /// `kept`, on their side of the seams.
+  /// All faces at one position go to the other; those that have both are gone, and returned. Corners get what
+  /// hangs on `kept`, on their side of the seams.
   std::vector<Index> collapse(Index removed, Index kept);
 
   /// Points of lines that an edge has replaced.
@@ -84,7 +84,8 @@ private:
   bool is_seam_between(Index corner_a, Index corner_b) const;
   Index vertex_of(Index corner) const { return m_soup.triangles[corner / 3][corner % 3]; }
   std::size_t slot(Index face, Index position) const;
-  void carry_corners(const std::vector<Index>& contracted, std::vector<Index> moving, Index removed, Index kept);
+  void carry_corners(const std::vector<Index>& contracted, std::vector<Index> moving, Index removed,
+                     Index kept);
   void carry_seams(const std::vector<Index>& contracted, Index removed, Index kept);
   void carry_passed(const std::vector<Edge>& edges, Index removed, Index kept);
 

@@ -13,23 +13,36 @@
 namespace selvedge::reference {
 namespace {
 
-// The slow way ------------------------------------------------------------------------------------------------------
+// The slow way
+// ------------------------------------------------------------------------------------------------------
 
 using Number = CGAL::Exact_rational;
 using Vector = std::array<Number, 3>;
 
-Vector exact(const Place& place) { return {Number(place.at[0]), Number(place.at[1]), Number(place.at[2])}; }
+Vector exact(const Place& place)
+{
+  return {Number(place.at[0]), Number(place.at[1]), Number(place.at[2])};
+}
 
-Vector difference(const Vector& u, const Vector& v) { return {u[0] - v[0], u[1] - v[1], u[2] - v[2]}; }
+Vector difference(const Vector& u, const Vector& v)
+{
+  return {u[0] - v[0], u[1] - v[1], u[2] - v[2]};
+}
 
-Number dot(const Vector& u, const Vector& v) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; }
+Number dot(const Vector& u, const Vector& v)
+{
+  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
 
 Vector cross(const Vector& u, const Vector& v)
 {
   return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 
-bool is_zero(const Vector& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
+bool is_zero(const Vector& v)
+{
+  return v[0] == 0 && v[1] == 0 && v[2] == 0;
+}
 
 Vector normal(const Vector& p, const Vector& q, const Vector& r)
 {
@@ -69,7 +82,10 @@ Polygon cut(const Polygon& polygon, const Half_space& half_space)
   return result;
 }
 
-Vector opposite(const Vector& v) { return {-v[0], -v[1], -v[2]}; }
+Vector opposite(const Vector& v)
+{
+  return {-v[0], -v[1], -v[2]};
+}
 
 /// The hull of some points as unions of intersections of half-spaces.
 std::vector<std::vector<Half_space>> hull(const std::vector<Vector>& points)
@@ -149,21 +165,25 @@ std::optional<std::string> point_beyond_shared(const std::vector<Vector>& solid,
   return std::nullopt;
 }
 
-// The fast way ------------------------------------------------------------------------------------------------------
+// The fast way
+// ------------------------------------------------------------------------------------------------------
 
 /// The sign of orientation(p, q, r, s), or 0 where doubles do not tell.
 ///
-/// The bound is that of stage A in J. R. Shewchuk, Adaptive precision floating-point arithmetic, 1997: (7 + 56ε)ε of the
-/// permanent, with ε = 2^-53. What he leaves to the reader, underflow, is the addend: every difference is below 1e91
-/// in size, so what six products lose below the smallest double stays below 1e-220 in the end.
-int certain_orientation(const Coordinates& p, const Coordinates& q, const Coordinates& r, const Coordinates& s)
+/// The bound is that of stage A in J. R. Shewchuk, Adaptive precision floating-point arithmetic, 1997: (7 +
+/// 56ε)ε of the permanent, with ε = 2^-53. What he leaves to the reader, underflow, is the addend: every
+/// difference is below 1e91 in size, so what six products lose below the smallest double stays below 1e-220
+/// in the end.
+int certain_orientation(const Coordinates& p, const Coordinates& q, const Coordinates& r,
+                        const Coordinates& s)
 {
   constexpr double largest = 1e90;
   const double ax = p[0] - s[0], ay = p[1] - s[1], az = p[2] - s[2];
   const double bx = q[0] - s[0], by = q[1] - s[1], bz = q[2] - s[2];
   const double cx = r[0] - s[0], cy = r[1] - s[1], cz = r[2] - s[2];
   const double bxcy = bx * cy, cxby = cx * by, cxay = cx * ay, axcy = ax * cy, axby = ax * by, bxay = bx * ay;
-  // So that a positive sign means that s is on the side of the plane pqr from which they turn counter-clockwise.
+  // So that a positive sign means that s is on the side of the plane pqr from which they turn
+  // counter-clockwise.
   const double determinant = -(az * (bxcy - cxby) + bz * (cxay - axcy) + cz * (axby - bxay));
   const double permanent = (std::fabs(bxcy) + std::fabs(cxby)) * std::fabs(az) +
                            (std::fabs(cxay) + std::fabs(axcy)) * std::fabs(bz) +
@@ -201,7 +221,8 @@ Crossing crossing(const Place& p, const Place& q, const Place& x, const Place& y
   const int side_p = certain_orientation(x, y, z, p), side_q = certain_orientation(x, y, z, q);
   if (side_p * side_q > 0)
     return Crossing::none;
-  const int xy = certain_orientation(p, q, x, y), yz = certain_orientation(p, q, y, z), zx = certain_orientation(p, q, z, x);
+  const int xy = certain_orientation(p, q, x, y), yz = certain_orientation(p, q, y, z),
+            zx = certain_orientation(p, q, z, x);
   // On different sides of two edges: the line of the edge passes by.
   if (xy * yz < 0 || yz * zx < 0 || zx * xy < 0)
     return Crossing::none;
@@ -211,7 +232,7 @@ Crossing crossing(const Place& p, const Place& q, const Place& x, const Place& y
 } // namespace
 
 Sweep::Sweep(const Place& m, const Place& t, const Place& a, const Place& b, Contact_statistics& statistics)
-  : m_corners{m, t, a, b}, m_volume(certain_orientation(m, t, a, b)), m_statistics(statistics)
+    : m_corners{m, t, a, b}, m_volume(certain_orientation(m, t, a, b)), m_statistics(statistics)
 {
   if (m_volume == 0)
     m_volume = exact_orientation(m, t, a, b);
@@ -221,7 +242,8 @@ bool Sweep::degenerates() const
 {
   if (m_volume != 0)
     return false;
-  const Vector m = exact(m_corners[0]), t = exact(m_corners[1]), a = exact(m_corners[2]), b = exact(m_corners[3]);
+  const Vector m = exact(m_corners[0]), t = exact(m_corners[1]), a = exact(m_corners[2]),
+               b = exact(m_corners[3]);
   // The normal goes in a straight line from the one to the other, and both are parallel.
   return dot(normal(m, a, b), normal(t, a, b)) <= 0;
 }
@@ -251,10 +273,12 @@ Sweep::Answer Sweep::fast_answer(const Standing& standing) const
       return Answer::clear;
   }
   // ... then those of the four faces of the swept tetrahedron; sides[k][i] is that of corner i.
-  static constexpr int s_facets[4][4] = {{0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}, {1, 3, 2, 0}}; // the last is opposite
+  static constexpr int s_facets[4][4] = {
+      {0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}, {1, 3, 2, 0}}; // the last is opposite
   int sides[4][3] = {};
   for (int k = 0; k < 4; ++k) {
-    const Place &x = m_corners[s_facets[k][0]], &y = m_corners[s_facets[k][1]], &z = m_corners[s_facets[k][2]];
+    const Place &x = m_corners[s_facets[k][0]], &y = m_corners[s_facets[k][1]],
+                &z = m_corners[s_facets[k][2]];
     bool is_apart = true;
     for (std::size_t i = 0; i < size; ++i) {
       if (is_shared[i]) {
@@ -296,7 +320,8 @@ Sweep::Answer Sweep::fast_answer(const Standing& standing) const
   // The moving vertex, meeting the inside of the face that stands still.
   if (size == 3 && add(crossing(m, t, f[0], f[1], f[2])))
     return Answer::touching;
-  // What shares an edge can also fold flat onto it: v passes through the plane of the standing face on the side where that is.
+  // What shares an edge can also fold flat onto it: v passes through the plane of the standing face on the
+  // side where that is.
   if (size == 3 && is_one_of(a, f, 3) && is_one_of(b, f, 3)) {
     const Place& r = f[is_shared[0] ? is_shared[1] ? 2 : 1 : 0];
     const int at_start = certain_orientation(a, b, r, m), at_end = certain_orientation(a, b, r, t);
@@ -304,7 +329,8 @@ Sweep::Answer Sweep::fast_answer(const Standing& standing) const
       return Answer::clear;
     if (at_start == 0 || at_end == 0)
       return Answer::unsure;
-    // At that time o(a,b,v,t) has the sign of o(a,b,m,t), and that of o(a,b,r,t) just when v is on the side of r.
+    // At that time o(a,b,v,t) has the sign of o(a,b,m,t), and that of o(a,b,r,t) just when v is on the side
+    // of r.
     return m_volume == 0 ? Answer::unsure : m_volume == at_end ? Answer::touching : Answer::clear;
   }
   return is_unsure ? Answer::unsure : Answer::clear;
@@ -329,8 +355,8 @@ std::optional<std::string> Sweep::contact(const Standing& standing) const
     if (is_one_of(standing.corners[i], &m_corners[1], 3))
       shared.push_back(polygon.back());
   }
-  return point_beyond_shared({exact(m_corners[0]), exact(m_corners[1]), exact(m_corners[2]), exact(m_corners[3])}, polygon,
-                             shared);
+  return point_beyond_shared(
+      {exact(m_corners[0]), exact(m_corners[1]), exact(m_corners[2]), exact(m_corners[3])}, polygon, shared);
 }
 
 bool is_degenerate(const std::array<Place, 3>& triangle)

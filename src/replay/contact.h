@@ -11,13 +11,14 @@
 #include <optional>
 #include <string>
 
-/// Contacts of a moving triangle, asked by time: what can touch first, and where. Shares no code with the filter that
-/// judges collapses, nor its case distinctions.
+/// Contacts of a moving triangle, asked by time: what can touch first, and where. Shares no code with the
+/// filter that judges collapses, nor its case distinctions.
 ///
-/// Two ways to every answer. The fast one looks for the first contact of two things that were clear of each other: a
-/// first contact is one of a vertex with a face or of an edge with an edge, so a few signs of determinants tell, in doubles
-/// with a proved bound on the error. Where one of them is not certain, and for every contact that is reported, the slow
-/// one cuts the standing triangle by the swept tetrahedron in rational numbers and looks at what is left.
+/// Two ways to every answer. The fast one looks for the first contact of two things that were clear of each
+/// other: a first contact is one of a vertex with a face or of an edge with an edge, so a few signs of
+/// determinants tell, in doubles with a proved bound on the error. Where one of them is not certain, and for
+/// every contact that is reported, the slow one cuts the standing triangle by the swept tetrahedron in
+/// rational numbers and looks at what is left.
 namespace selvedge::reference {
 
 using Coordinates = std::array<double, 3>;
@@ -52,13 +53,14 @@ public:
   /// Whether the triangle has no area at some time in [0, 1].
   bool degenerates() const;
 
-  /// Whether at some time the triangle and `standing` meet beyond the positions that they share, t among them.
+  /// Whether at some time the triangle and `standing` meet beyond the positions that they share, t among
+  /// them.
   ///
   /// **Precondition** At time 0 they do not; `standing` does not have m.
   bool touches(const Standing& standing) const;
 
-  /// The same by the slow way, without the precondition on time 0: a point of contact as rational numbers; none when
-  /// there is no contact.
+  /// The same by the slow way, without the precondition on time 0: a point of contact as rational numbers;
+  /// none when there is no contact.
   std::optional<std::string> contact(const Standing& standing) const;
 
 private:

@@ -15,9 +15,18 @@ constexpr double s_degree = 3.14159265358979323846 / 180;
 
 using Vector = Coordinates;
 
-Vector difference(const Vector& u, const Vector& v) { return {u[0] - v[0], u[1] - v[1], u[2] - v[2]}; }
-double dot(const Vector& u, const Vector& v) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; }
-double length(const Vector& v) { return std::sqrt(dot(v, v)); }
+Vector difference(const Vector& u, const Vector& v)
+{
+  return {u[0] - v[0], u[1] - v[1], u[2] - v[2]};
+}
+double dot(const Vector& u, const Vector& v)
+{
+  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
+double length(const Vector& v)
+{
+  return std::sqrt(dot(v, v));
+}
 Vector cross(const Vector& u, const Vector& v)
 {
   return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
@@ -38,16 +47,22 @@ double distance_to_segment(const Vector& p, const Vector& a, const Vector& b)
 
 double aspect_ratio(const Vector& a, const Vector& b, const Vector& c)
 {
-  const double longest = std::max({length(difference(a, b)), length(difference(b, c)), length(difference(c, a))});
-  return longest > 0 ? 2 / std::sqrt(3.0) * length(cross(difference(b, a), difference(c, a))) / (longest * longest) : 0;
+  const double longest =
+      std::max({length(difference(a, b)), length(difference(b, c)), length(difference(c, a))});
+  return longest > 0
+             ? 2 / std::sqrt(3.0) * length(cross(difference(b, a), difference(c, a))) / (longest * longest)
+             : 0;
 }
 
 } // namespace
 
-void Limits::set_size(const Coordinates& low, const Coordinates& high) { m_diagonal = length(difference(high, low)); }
+void Limits::set_size(const Coordinates& low, const Coordinates& high)
+{
+  m_diagonal = length(difference(high, low));
+}
 
-std::optional<Violation_kind> Limits::judge(const Complex& complex, Index removed, Index kept, const Coordinates& place,
-                                            bool is_kept_still) const
+std::optional<Violation_kind> Limits::judge(const Complex& complex, Index removed, Index kept,
+                                            const Coordinates& place, bool is_kept_still) const
 {
   if (m_header.border_turn || m_header.seam_turn || m_header.border_drift) {
     if (const auto kind = judge_line(complex, removed, kept, place))
@@ -65,12 +80,13 @@ std::optional<Violation_kind> Limits::judge_line(const Complex& complex, Index m
   if (place == complex.point(mover))
     return std::nullopt;
   std::vector<Complex::Edge> lines = complex.edges_at(mover);
-  lines.erase(std::remove_if(lines.begin(), lines.end(), [](const Complex::Edge& edge) { return !edge.is_line(); }),
-              lines.end());
+  lines.erase(
+      std::remove_if(lines.begin(), lines.end(), [](const Complex::Edge& edge) { return !edge.is_line(); }),
+      lines.end());
   if (lines.empty())
     return std::nullopt;
-  const auto ahead =
-    std::find_if(lines.begin(), lines.end(), [&](const Complex::Edge& edge) { return edge.neighbour == other; });
+  const auto ahead = std::find_if(lines.begin(), lines.end(),
+                                  [&](const Complex::Edge& edge) { return edge.neighbour == other; });
   if (ahead == lines.end() || lines.size() != 2)
     return Violation_kind::line;
   const Complex::Edge& behind = lines[ahead == lines.begin() ? 1 : 0];
@@ -109,7 +125,8 @@ std::optional<Violation_kind> Limits::judge_shapes(const Complex& complex, Index
       const Vector before = cross(difference(a, m), difference(b, m));
       const Vector after = cross(difference(a, place), difference(b, place));
       if (m_header.normal_change && length(before) > 0)
-        is_turned = is_turned || !(length(after) > 0) || !is_angle_within(before, after, *m_header.normal_change);
+        is_turned =
+            is_turned || !(length(after) > 0) || !is_angle_within(before, after, *m_header.normal_change);
     }
   };
   add(removed, kept);

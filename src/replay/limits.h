@@ -23,15 +23,16 @@ public:
   void set_size(const Coordinates& low, const Coordinates& high);
 
   /// The first limit that is not kept when `removed` and `kept` merge at `place`.
-  std::optional<Violation_kind> judge(const Complex& complex, Index removed, Index kept, const Coordinates& place,
-                                      bool is_kept_still) const;
+  std::optional<Violation_kind> judge(const Complex& complex, Index removed, Index kept,
+                                      const Coordinates& place, bool is_kept_still) const;
 
   static const char* message(Violation_kind kind);
 
 private:
-  std::optional<Violation_kind> judge_line(const Complex& complex, Index mover, Index other, const Coordinates& place) const;
-  std::optional<Violation_kind> judge_shapes(const Complex& complex, Index removed, Index kept, const Coordinates& place,
-                                             bool is_kept_still) const;
+  std::optional<Violation_kind> judge_line(const Complex& complex, Index mover, Index other,
+                                           const Coordinates& place) const;
+  std::optional<Violation_kind> judge_shapes(const Complex& complex, Index removed, Index kept,
+                                             const Coordinates& place, bool is_kept_still) const;
 
   Log_header m_header;
   double m_diagonal = 0;

@@ -25,9 +25,9 @@ namespace selvedge {
 
 const char* name(Violation_kind kind)
 {
-  static constexpr const char* s_names[] = {"no_edge",     "locked",    "link",         "degenerate",    "intersection",
-                                            "tunnelling",  "line",      "border_turn",  "seam_turn",     "border_drift",
-                                            "normal_change", "aspect_ratio", "result"};
+  static constexpr const char* s_names[] = {
+      "no_edge",     "locked",    "link",         "degenerate",    "intersection", "tunnelling", "line",
+      "border_turn", "seam_turn", "border_drift", "normal_change", "aspect_ratio", "result"};
   return s_names[std::size_t(kind)];
 }
 
@@ -75,11 +75,12 @@ private:
   std::unordered_map<Index, std::set<Index>> m_partners;
 };
 
-/// The original as the log says that it was taken: rounded, and without triangles that have two corners at one position.
+/// The original as the log says that it was taken: rounded, and without triangles that have two corners at
+/// one position.
 struct Start
 {
   Triangle_soup soup;
-  std::vector<Index> numbers; // of its triangles in the original
+  std::vector<Index> numbers;  // of its triangles in the original
   std::vector<char> is_locked; // by position
   Offences offences;
 };
@@ -143,8 +144,9 @@ class Replay
 {
 public:
   Replay(const Triangle_soup& original, bool is_stl, Log_reader& log, const Replay_options& options)
-    : m_numbering(original, is_stl), m_log(log), m_options(options), m_start(prepare(original, log.header().is_rounded_to_float32)),
-      m_complex(m_start.soup), m_limits(log.header())
+      : m_numbering(original, is_stl), m_log(log), m_options(options),
+        m_start(prepare(original, log.header().is_rounded_to_float32)), m_complex(m_start.soup),
+        m_limits(log.header())
   {
     m_boxes.resize(m_complex.size());
     for (Index f = 0; f < m_boxes.size(); ++f)
@@ -167,7 +169,7 @@ public:
       if ((!m_verdict.violations.empty() && !m_options.is_all_wanted))
         break;
       m_verdict.is_stopped =
-        m_options.should_stop && m_verdict.steps % 256 == 0 && m_options.should_stop(m_verdict.steps);
+          m_options.should_stop && m_verdict.steps % 256 == 0 && m_options.should_stop(m_verdict.steps);
       if (m_verdict.is_stopped)
         break;
     }
@@ -240,7 +242,8 @@ private:
       judge_limits_before_motion(removed, kept, *place);
       // The one that goes first stands at the place when the other comes.
       const bool is_at_removed = *place == m_complex.point(removed);
-      const Index first = step.is_removed_first ? removed : kept, second = step.is_removed_first ? kept : removed;
+      const Index first = step.is_removed_first ? removed : kept,
+                  second = step.is_removed_first ? kept : removed;
       if (is_at_removed) {
         judge({kept, m_complex.place(removed)});
       } else {
@@ -276,7 +279,8 @@ private:
     m_limits.set_size(box.low, box.high);
   }
 
-  // What is wrong ---------------------------------------------------------------------------------------------------
+  // What is wrong
+  // ---------------------------------------------------------------------------------------------------
 
   void report(Violation_kind kind, const std::string& message, const std::vector<Index>& faces = {},
               const std::string& point = {}, const std::string& scene = {})
@@ -310,7 +314,8 @@ private:
       return false;
     }
     const auto& faces = m_complex.faces_at(removed);
-    const bool is_edge = std::any_of(faces.begin(), faces.end(), [&](Index f) { return m_complex.has(f, kept); });
+    const bool is_edge =
+        std::any_of(faces.begin(), faces.end(), [&](Index f) { return m_complex.has(f, kept); });
     if (is_edge == is_snap) {
       report(Violation_kind::no_edge, is_snap ? "an edge joins the two" : "no edge joins the two");
       return false;
@@ -321,14 +326,16 @@ private:
   void judge_lock(Index mover)
   {
     if (m_start.is_locked[mover])
-      report(Violation_kind::locked, "what moves belongs to a triangle that offends in the original", m_complex.faces_at(mover));
+      report(Violation_kind::locked, "what moves belongs to a triangle that offends in the original",
+             m_complex.faces_at(mover));
     else if (m_step->kind == Log_step::Kind::collapse && !m_complex.is_one_fan(mover))
       report(Violation_kind::locked, "what moves holds several sheets together", m_complex.faces_at(mover));
   }
 
   void judge_link(Index removed, Index kept)
   {
-    const std::vector<Complex::Edge> at_removed = m_complex.edges_at(removed), at_kept = m_complex.edges_at(kept);
+    const std::vector<Complex::Edge> at_removed = m_complex.edges_at(removed),
+                                     at_kept = m_complex.edges_at(kept);
     const auto edge_to = [](const std::vector<Complex::Edge>& edges, Index neighbour) {
       const auto found = std::find_if(edges.begin(), edges.end(),
                                       [&](const Complex::Edge& edge) { return edge.neighbour == neighbour; });
@@ -350,13 +357,15 @@ private:
         return report(Violation_kind::link, "a triangle with two border edges would go");
     }
     const auto is_on_border = [](const std::vector<Complex::Edge>& edges) {
-      return std::any_of(edges.begin(), edges.end(), [](const Complex::Edge& edge) { return edge.is_border(); });
+      return std::any_of(edges.begin(), edges.end(),
+                         [](const Complex::Edge& edge) { return edge.is_border(); });
     };
     if (is_on_border(at_removed) && is_on_border(at_kept) && !edge_to(at_removed, kept)->is_border())
       report(Violation_kind::link, "both are on a border, and their edge is not");
   }
 
-  // Contacts ----------------------------------------------------------------------------------------------------------
+  // Contacts
+  // ----------------------------------------------------------------------------------------------------------
 
   void judge(const Motion& motion)
   {
@@ -393,8 +402,8 @@ private:
       box.add(face.box);
     for (const Moving& face : moving)
       if (!m_offences.has(face.face, face.face) && face.sweep.degenerates())
-        return report(Violation_kind::degenerate, "a triangle has no area at some time on the way", {face.face}, {},
-                      scene(m, motion.target, face.after, nullptr));
+        return report(Violation_kind::degenerate, "a triangle has no area at some time on the way",
+                      {face.face}, {}, scene(m, motion.target, face.after, nullptr));
 
     m_standing.clear();
     m_tree.visit(box, [&](Index f) {
@@ -407,13 +416,13 @@ private:
       for (const Index f : m_standing)
         if (end.overlaps(m_boxes[f]) && !m_offences.has(face.face, f) &&
             do_meet(face.after, m_complex.triangle(f), m_statistics))
-          return report_meeting(Violation_kind::intersection, motion, face.face, face.after, f, m_complex.triangle(f),
-                                meeting_point(face.after, m_complex.triangle(f)));
+          return report_meeting(Violation_kind::intersection, motion, face.face, face.after, f,
+                                m_complex.triangle(f), meeting_point(face.after, m_complex.triangle(f)));
       for (const Moving& other : moving)
         if (other.face < face.face && !m_offences.has(face.face, other.face) &&
             do_meet(face.after, other.after, m_statistics))
-          return report_meeting(Violation_kind::intersection, motion, face.face, face.after, other.face, other.after,
-                                meeting_point(face.after, other.after));
+          return report_meeting(Violation_kind::intersection, motion, face.face, face.after, other.face,
+                                other.after, meeting_point(face.after, other.after));
     }
     for (const Moving& face : moving) {
       for (const Index f : m_standing) {
@@ -421,21 +430,21 @@ private:
           continue;
         const Standing standing{m_complex.triangle(f), 3};
         if (face.sweep.touches(standing))
-          return report_meeting(Violation_kind::tunnelling, motion, face.face, face.after, f, standing.corners,
-                                face.sweep.contact(standing));
+          return report_meeting(Violation_kind::tunnelling, motion, face.face, face.after, f,
+                                standing.corners, face.sweep.contact(standing));
       }
       for (const auto& [f, side] : sides)
         if (f != face.face && !m_offences.has(face.face, f) && face.sweep.touches(side))
-          return report_meeting(Violation_kind::tunnelling, motion, face.face, face.after, f, m_complex.triangle(f),
-                                face.sweep.contact(side));
+          return report_meeting(Violation_kind::tunnelling, motion, face.face, face.after, f,
+                                m_complex.triangle(f), face.sweep.contact(side));
     }
   }
 
-  void report_meeting(Violation_kind kind, const Motion& motion, Index f, const std::array<Place, 3>& after, Index g,
-                      const std::array<Place, 3>& other, const std::optional<std::string>& point)
+  void report_meeting(Violation_kind kind, const Motion& motion, Index f, const std::array<Place, 3>& after,
+                      Index g, const std::array<Place, 3>& other, const std::optional<std::string>& point)
   {
-    const std::string both =
-      "triangles " + std::to_string(m_start.numbers[f] + 1) + " and " + std::to_string(m_start.numbers[g] + 1);
+    const std::string both = "triangles " + std::to_string(m_start.numbers[f] + 1) + " and " +
+                             std::to_string(m_start.numbers[g] + 1);
     report(kind,
            both + (kind == Violation_kind::intersection ? " intersect afterwards"
                                                         : " are apart afterwards, but meet on the way"),
@@ -469,7 +478,8 @@ private:
     return text;
   }
 
-  // Limits ------------------------------------------------------------------------------------------------------------
+  // Limits
+  // ------------------------------------------------------------------------------------------------------------
 
   void judge_limits(Index removed, Index kept, const Coordinates& place, bool is_kept_still)
   {
@@ -492,7 +502,8 @@ private:
       report(*m_pending_limit, Limits::message(*m_pending_limit), m_complex.faces_at(removed));
   }
 
-  // What changes ------------------------------------------------------------------------------------------------------
+  // What changes
+  // ------------------------------------------------------------------------------------------------------
 
   void shift(Index position, const Coordinates& place)
   {
@@ -544,7 +555,8 @@ private:
     }
   }
 
-  // The end -----------------------------------------------------------------------------------------------------------
+  // The end
+  // -----------------------------------------------------------------------------------------------------------
 
   void judge_result()
   {
@@ -552,7 +564,8 @@ private:
     m_verdict.is_result_stated = !stated.sha256.empty();
     std::string message;
     if (stated.collapses != m_verdict.collapses)
-      message = "the log has " + std::to_string(m_verdict.collapses) + " collapses, and says " + std::to_string(stated.collapses);
+      message = "the log has " + std::to_string(m_verdict.collapses) + " collapses, and says " +
+                std::to_string(stated.collapses);
     else if (stated.triangles != m_complex.face_count())
       message = std::to_string(m_complex.face_count()) + " triangles are left, and the log says " +
                 std::to_string(stated.triangles);
@@ -605,14 +618,16 @@ private:
 } // namespace
 } // namespace reference
 
-Replay_verdict replay(const Triangle_soup& original, bool is_stl, Log_reader& log, const Replay_options& options)
+Replay_verdict replay(const Triangle_soup& original, bool is_stl, Log_reader& log,
+                      const Replay_options& options)
 {
   const std::size_t vertices = is_stl ? 3 * original.triangles.size() : original.points.size();
   const Log_header& header = log.header();
   if (header.vertices != vertices || header.triangles != original.triangles.size())
     throw Input_error("the log is of a mesh of " + std::to_string(header.vertices) + " vertices and " +
-                      std::to_string(header.triangles) + " triangles; this one has " + std::to_string(vertices) + " and " +
-                      std::to_string(original.triangles.size()) + "; give the original that the log was made from");
+                      std::to_string(header.triangles) + " triangles; this one has " +
+                      std::to_string(vertices) + " and " + std::to_string(original.triangles.size()) +
+                      "; give the original that the log was made from");
   const auto start = reference::Clock::now();
   reference::Replay run(original, is_stl, log, options);
   const double seconds_prepare = reference::seconds_since(start);

@@ -20,7 +20,10 @@ using Number = CGAL::Gmpq;
 using Exact_point = oracle::Point<Number>;
 using reference::Place;
 
-Exact_point exact(const Place& place) { return {Number(place.at[0]), Number(place.at[1]), Number(place.at[2])}; }
+Exact_point exact(const Place& place)
+{
+  return {Number(place.at[0]), Number(place.at[1]), Number(place.at[2])};
+}
 
 struct Counts
 {
@@ -28,9 +31,12 @@ struct Counts
 };
 
 // `height` scales one axis: small, it makes layers that are nearly flat.
-void compare(std::mt19937& random, double height, bool is_on_grid, Counts& counts, reference::Contact_statistics& statistics)
+void compare(std::mt19937& random, double height, bool is_on_grid, Counts& counts,
+             reference::Contact_statistics& statistics)
 {
-  const auto coordinate = [&] { return is_on_grid ? double(random() % 4) : double(random() % 100000) / 30000; };
+  const auto coordinate = [&] {
+    return is_on_grid ? double(random() % 4) : double(random() % 100000) / 30000;
+  };
   std::vector<Place> places;
   const auto some_place = [&] {
     const reference::Coordinates at{coordinate(), coordinate(), height * coordinate()};
@@ -59,8 +65,8 @@ void compare(std::mt19937& random, double height, bool is_on_grid, Counts& count
   const reference::Sweep sweep(m, t, a, b, statistics);
   if (sweep.degenerates() || oracle::meets_beyond<Number>({exact(m), exact(a), exact(b)}, standing, shared))
     return;
-  const bool is_touching =
-    !oracle::is_sweep_clear<Number>(exact(m), exact(t), exact(a), exact(b), {standing[0], standing[1], standing[2]});
+  const bool is_touching = !oracle::is_sweep_clear<Number>(exact(m), exact(t), exact(a), exact(b),
+                                                           {standing[0], standing[1], standing[2]});
   ++counts.cases;
   counts.touching += is_touching;
   ASSERT_EQ(sweep.touches({f, 3}), is_touching);
@@ -90,7 +96,8 @@ TEST(Contact, BothWaysAgreeWithLinearProgramming)
   reference::Contact_statistics statistics;
   for (const bool is_on_grid : {true, false})
     for (const double height : {1.0, 1e-9, 0.0}) {
-      SCOPED_TRACE("seed 5, " + std::string(is_on_grid ? "grid" : "random") + ", height " + std::to_string(height));
+      SCOPED_TRACE("seed 5, " + std::string(is_on_grid ? "grid" : "random") + ", height " +
+                   std::to_string(height));
       Counts counts;
       for (int i = 0; i < s_cases / (is_on_grid ? 1 : 4) && !HasFatalFailure(); ++i)
         compare(random, height, is_on_grid, counts, statistics);

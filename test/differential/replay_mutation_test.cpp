@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Logs with one thing changed, judged by the replay and by a slow oracle that asks linear programs over rationals about
-// every pair: the same step is refused for the same reason, or only the result is another.
+// Logs with one thing changed, judged by the replay and by a slow oracle that asks linear programs over
+// rationals about every pair: the same step is refused for the same reason, or only the result is another.
 
 #include "support/Exact_oracle.h"
 #include "support/logged_reduction.h"
@@ -38,7 +38,8 @@ public:
   {
     std::map<std::array<double, 3>, Index> first;
     for (Index v = 0; v < m_points.size(); ++v)
-      m_position.push_back(first.emplace(std::array{m_points[v].x(), m_points[v].y(), m_points[v].z()}, v).first->second);
+      m_position.push_back(
+          first.emplace(std::array{m_points[v].x(), m_points[v].y(), m_points[v].z()}, v).first->second);
     for (const Index_triple& t : soup.triangles)
       m_triangles.push_back({m_position[t[0]], m_position[t[1]], m_position[t[2]]});
     m_start = m_triangles;
@@ -125,9 +126,10 @@ private:
     }
     for (std::size_t i = 0; i < after.size(); ++i) {
       for (const Index_triple& f : others)
-        if (CGAL::do_overlap(box_of({t, moving[i][0] == m ? t : moving[i][0], moving[i][1] == m ? t : moving[i][1]}) +
-                               box_of(moving[i]),
-                             box_of(f)) &&
+        if (CGAL::do_overlap(
+                box_of({t, moving[i][0] == m ? t : moving[i][0], moving[i][1] == m ? t : moving[i][1]}) +
+                    box_of(moving[i]),
+                box_of(f)) &&
             do_meet(after[i], exact(f)))
           return Violation_kind::intersection;
       for (std::size_t j = 0; j < i; ++j)
@@ -204,8 +206,8 @@ private:
   {
     const std::set<Index> at_m = neighbours(m), at_t = neighbours(t);
     for (const Index v : at_m) {
-      const bool is_apex =
-        std::any_of(contracted.begin(), contracted.end(), [&](const Index_triple& f) { return has(f, v) && v != t; });
+      const bool is_apex = std::any_of(contracted.begin(), contracted.end(),
+                                       [&](const Index_triple& f) { return has(f, v) && v != t; });
       if (at_t.count(v) > 0 && !is_apex)
         return false;
       if (is_apex && is_border(m, v) && is_border(t, v))
@@ -354,7 +356,8 @@ TEST(Mutation, OfLogsIsJudgedAsTheOracleDoes)
 {
   Mutations::counts.clear();
   unsigned seed = 1;
-  for (const Triangle_soup& scene : {sheets(160, 2, 2e-3), nested_spheres(110, 1, 1e-2), folded_cloth(120, 2, 2e-3)}) {
+  for (const Triangle_soup& scene :
+       {sheets(160, 2, 2e-3), nested_spheres(110, 1, 1e-2), folded_cloth(120, 2, 2e-3)}) {
     // In few bits, which keeps the rationals of the oracle short.
     const Triangle_soup soup = mapped(scene, [](const Point_3& p) {
       const auto rounded = [](double x) { return std::round(x * 65536) / 65536; };
@@ -389,11 +392,13 @@ TEST(Mutation, ATunnellingCollapsePutIntoALog)
   Triangle_soup bare; // without labels, which the sheet does not have
   bare.points = scene.soup.points;
   bare.triangles = scene.soup.triangles;
-  const Triangle_soup soup = joined(bare, mapped(sheet(3, 3), [](const Point_3& p) { return Point_3(p.x() + 9, p.y(), p.z()); }));
+  const Triangle_soup soup =
+      joined(bare, mapped(sheet(3, 3), [](const Point_3& p) { return Point_3(p.x() + 9, p.y(), p.z()); }));
   const Index offset = Index(scene.soup.points.size());
   Mutations mutations(soup, "selvedge-log 1\ninput " + std::to_string(soup.points.size()) + ' ' +
-                              std::to_string(soup.triangles.size()) + " -\nc " + std::to_string(offset + 5) + ' ' +
-                              std::to_string(offset + 6) + "\nresult 1 " + std::to_string(soup.triangles.size() - 2) + " -\n");
+                                std::to_string(soup.triangles.size()) + " -\nc " +
+                                std::to_string(offset + 5) + ' ' + std::to_string(offset + 6) +
+                                "\nresult 1 " + std::to_string(soup.triangles.size() - 2) + " -\n");
   Mutations::counts.clear();
   std::vector<Step> steps = mutations.steps();
   mutations.compare(steps);

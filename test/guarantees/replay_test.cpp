@@ -35,12 +35,13 @@ bool are_same_bits(const Triangle_soup& a, const Triangle_soup& b)
   return true;
 }
 
-void expect_accepted(const Triangle_soup& soup, const Simplify_options& options, const Prepare_options& prepare_options = {},
-                     bool is_stl = false)
+void expect_accepted(const Triangle_soup& soup, const Simplify_options& options,
+                     const Prepare_options& prepare_options = {}, bool is_stl = false)
 {
   const Logged_reduction reduction = reduce_and_log(soup, options, prepare_options, is_stl);
   const Replay_verdict verdict = replay_text(soup, reduction.log, {}, is_stl);
-  EXPECT_TRUE(verdict.is_accepted()) << verdict.violations.front().step << ": " << verdict.violations.front().message;
+  EXPECT_TRUE(verdict.is_accepted()) << verdict.violations.front().step << ": "
+                                     << verdict.violations.front().message;
   EXPECT_TRUE(verdict.is_result_stated);
   EXPECT_EQ(verdict.collapses, reduction.simplified.report.collapses);
   EXPECT_GT(verdict.collapses, 10u);
@@ -126,7 +127,9 @@ TEST(Replay, UnguardedReductionIsRefusedAtItsFirstBadStep)
   if (first.violations.front().kind == Violation_kind::intersection) {
     Replay_options options;
     options.is_all_wanted = true;
-    const auto replayed = [&](const std::string& text) { return replay_text(soup, text + "result 0 0 -\n", options).soup; };
+    const auto replayed = [&](const std::string& text) {
+      return replay_text(soup, text + "result 0 0 -\n", options).soup;
+    };
     EXPECT_FALSE(is_embedded(replayed(prefix)));
     EXPECT_TRUE(is_embedded(replayed(prefix.substr(0, prefix.rfind('c')))));
   }
@@ -134,8 +137,8 @@ TEST(Replay, UnguardedReductionIsRefusedAtItsFirstBadStep)
 
 std::string head_of(const Triangle_soup& soup, const std::string& limits = {})
 {
-  return "selvedge-log 1\ninput " + std::to_string(soup.points.size()) + ' ' + std::to_string(soup.triangles.size()) +
-         " -\n" + limits;
+  return "selvedge-log 1\ninput " + std::to_string(soup.points.size()) + ' ' +
+         std::to_string(soup.triangles.size()) + " -\n" + limits;
 }
 
 Violation_kind kind_of_first(const Triangle_soup& soup, const std::string& log)
@@ -162,12 +165,16 @@ TEST(Replay, RefusesWhatTheDeclaredLimitsForbid)
   // A strip whose border turns by 20° at vertex 1.
   Triangle_soup strip;
   const double angle = 20 * 3.14159265358979 / 180;
-  strip.points = {{0, 0, 0}, {1, 0, 0}, {1 + std::cos(angle), -std::sin(angle), 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}};
+  strip.points = {{0, 0, 0}, {1, 0, 0}, {1 + std::cos(angle), -std::sin(angle), 0},
+                  {0, 1, 0}, {1, 1, 0}, {2, 1, 0}};
   strip.triangles = {{0, 1, 3}, {1, 4, 3}, {1, 2, 4}, {2, 5, 4}};
   const std::string collapse = "c 1 2\nresult 1 3 -\n";
-  EXPECT_EQ(kind_of_first(strip, head_of(strip, "limit border_turn 8\n") + collapse), Violation_kind::border_turn);
-  EXPECT_EQ(kind_of_first(strip, head_of(strip, "limit border_drift 0.01\n") + collapse), Violation_kind::border_drift);
-  EXPECT_EQ(kind_of_first(strip, head_of(strip, "limit border_turn 30\n") + "c 1 4\nresult 1 2 -\n"), Violation_kind::link);
+  EXPECT_EQ(kind_of_first(strip, head_of(strip, "limit border_turn 8\n") + collapse),
+            Violation_kind::border_turn);
+  EXPECT_EQ(kind_of_first(strip, head_of(strip, "limit border_drift 0.01\n") + collapse),
+            Violation_kind::border_drift);
+  EXPECT_EQ(kind_of_first(strip, head_of(strip, "limit border_turn 30\n") + "c 1 4\nresult 1 2 -\n"),
+            Violation_kind::link);
   EXPECT_TRUE(replay_text(strip, head_of(strip, "limit border_turn 30\n") + collapse).is_accepted());
   Replay_options free;
   free.are_limits_judged = false;
@@ -177,8 +184,10 @@ TEST(Replay, RefusesWhatTheDeclaredLimitsForbid)
   Triangle_soup bump = sheet(4, 4);
   bump.points[12] = Point_3(2, 2, 2);
   const std::string flatten = "c 12 13\nresult 1 30 -\n";
-  EXPECT_EQ(kind_of_first(bump, head_of(bump, "limit normal_change 45\n") + flatten), Violation_kind::normal_change);
-  EXPECT_EQ(kind_of_first(bump, head_of(bump, "limit aspect_ratio 0.9\n") + flatten), Violation_kind::aspect_ratio);
+  EXPECT_EQ(kind_of_first(bump, head_of(bump, "limit normal_change 45\n") + flatten),
+            Violation_kind::normal_change);
+  EXPECT_EQ(kind_of_first(bump, head_of(bump, "limit aspect_ratio 0.9\n") + flatten),
+            Violation_kind::aspect_ratio);
 }
 
 TEST(Replay, RefusesAFoldAndAClosedLink)
@@ -186,8 +195,10 @@ TEST(Replay, RefusesAFoldAndAClosedLink)
   // Vertex 12 of a flat sheet, moved two edges away by way of a vertex that is none of its neighbours.
   const Triangle_soup flat = sheet(4, 4);
   EXPECT_EQ(kind_of_first(flat, head_of(flat) + "c 12 14\nresult 1 30 -\n"), Violation_kind::no_edge);
-  EXPECT_EQ(kind_of_first(flat, head_of(flat) + "c 12 13 4 4 0\nresult 1 30 -\n"), Violation_kind::degenerate);
-  EXPECT_EQ(kind_of_first(flat, head_of(flat) + "c 12 13\nc 12 13\nresult 1 30 -\n"), Violation_kind::no_edge);
+  EXPECT_EQ(kind_of_first(flat, head_of(flat) + "c 12 13 4 4 0\nresult 1 30 -\n"),
+            Violation_kind::degenerate);
+  EXPECT_EQ(kind_of_first(flat, head_of(flat) + "c 12 13\nc 12 13\nresult 1 30 -\n"),
+            Violation_kind::no_edge);
   EXPECT_EQ(kind_of_first(flat, head_of(flat) + "c 12 13\nresult 1 29 -\n"), Violation_kind::result);
 }
 
@@ -199,9 +210,11 @@ TEST(Replay, JudgesPlacesThatAreNoVertices)
     const Replay_verdict verdict = replay_text(flat, head_of(flat) + step);
     ASSERT_TRUE(verdict.is_accepted()) << verdict.violations.front().message;
     EXPECT_TRUE(is_embedded(verdict.soup));
-    EXPECT_EQ(std::count(verdict.soup.points.begin(), verdict.soup.points.end(), Point_3(2.5, 2.125, 0.25)), 1);
+    EXPECT_EQ(std::count(verdict.soup.points.begin(), verdict.soup.points.end(), Point_3(2.5, 2.125, 0.25)),
+              1);
   }
-  EXPECT_TRUE(replay_text(flat, head_of(flat) + "c 12 13 2 2 0\nresult 1 30 -\n").is_accepted()) << "where 12 is";
+  EXPECT_TRUE(replay_text(flat, head_of(flat) + "c 12 13 2 2 0\nresult 1 30 -\n").is_accepted())
+      << "where 12 is";
 }
 
 TEST(Replay, FrozenFacesDoNotMove)
@@ -219,9 +232,10 @@ TEST(Log, WhatIsNoLogIsRefusedWithItsLine)
   const Triangle_soup flat = sheet(4, 4);
   const std::string head = head_of(flat);
   for (const std::string& text :
-       {std::string(), std::string("solid\n"), std::string("selvedge-log 2\n"), head, head + "c 1\n", head + "c 1 99\nresult 0 0 -\n",
-        head + "c 1 -1\n", head + "c 1 2 3\n", head + "c 12 13 1 2 nan\n", head + "q\n", head + "result 0 32 zz\n",
-        head + "limit speed 3\n", head + "limit seam_turn 3\nlimit seam_turn 3\n", head + "c 12 13\ns 1 2\n",
+       {std::string(), std::string("solid\n"), std::string("selvedge-log 2\n"), head, head + "c 1\n",
+        head + "c 1 99\nresult 0 0 -\n", head + "c 1 -1\n", head + "c 1 2 3\n", head + "c 12 13 1 2 nan\n",
+        head + "q\n", head + "result 0 32 zz\n", head + "limit speed 3\n",
+        head + "limit seam_turn 3\nlimit seam_turn 3\n", head + "c 12 13\ns 1 2\n",
         head + "w 1 2\nresult 0 32 -\n", head + "result 0 32 -\nc 12 13\n"}) {
     SCOPED_TRACE(text);
     EXPECT_THROW(replay_text(flat, text), Input_error);
