@@ -456,6 +456,8 @@ template Snapping_notes snap_borders<Brute_force_index>(Triangle_soup&, std::vec
 
 Triangle_soup joined_at_positions(const Triangle_soup& soup)
 {
+  if (soup.scene)
+    return soup; // its vertices are rows of accessors, with more to them than can be compared here
   const std::vector<Index> positions = number_positions(soup.points);
   const auto have_same_attributes = [&](Index v, Index w) {
     return std::all_of(soup.vertex_attributes.begin(), soup.vertex_attributes.end(),

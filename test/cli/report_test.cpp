@@ -57,6 +57,8 @@ TEST(App_report, HasExactlyTheDocumentedKeys)
   std::set<std::string> keys;
   collect_keys(report_of(folder, in, folder / "out.obj", {"--ratio", "0.6"}), "", keys);
   EXPECT_FALSE(keys.empty());
+  EXPECT_EQ(keys.count("lods"), 0u);
+  keys.insert("lods"); // documented as there with --lods only
   EXPECT_EQ(keys, documented_keys("simplify"));
 
   keys.clear();

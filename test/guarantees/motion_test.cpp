@@ -72,6 +72,7 @@ TEST(Motion, OrderOfLayersIsKept)
   options.faces = 8000;
   options.layers = 2;
   options.gap = 1e-4;
+  options.seed = 3; // layers that are reduced alike stay apart by themselves; these are not
   const Triangle_soup sheets = generate("sheets", options);
   ASSERT_EQ(sheets.groups.names.size(), 2u);
 

@@ -85,7 +85,8 @@ Snapping_notes snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
 /// Gives all vertices at one position one number, so that pieces that meet there hang together; vertices
 /// whose attributes differ keep their own. Of several, the first stays; those no longer used are dropped.
 ///
-/// Neither the triangles nor their order nor any coordinate changes, except that −0 may become 0.
+/// Neither the triangles nor their order nor any coordinate changes, except that −0 may become 0. A soup that is a glTF
+/// scene stays as it is: its vertices are rows of accessors.
 Triangle_soup joined_at_positions(const Triangle_soup& soup);
 
 } // namespace selvedge
