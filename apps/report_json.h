@@ -23,7 +23,8 @@ Json new_report(const std::string& command);
 
 Json input_json(const std::filesystem::path& path, const Mesh_file& file);
 
-/// Sets `faces`, `target`, `collapses`, `passes`, `refused`, `frozen`, `index`, `welding`, `snap` and `rounding`.
+/// Sets `faces`, `target`, `collapses`, `passes`, `refused`, `frozen`, `index`, `welding`, `snap` and
+/// `rounding`.
 void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified_soup& result);
 
 /// Sets `verified`, `pieces`, and `topology` and `distance` where there is an original.

@@ -197,7 +197,8 @@ private:
       m_log_header.sha256 = sha256_of_file(m_request.input);
       m_log_header.is_rounded_to_float32 = needs_float32(file.soup, mesh_format(m_request.output));
     }
-    const Triangle_soup obstacle = m_request.obstacle.empty() ? Triangle_soup() : read_mesh(m_request.obstacle).soup;
+    const Triangle_soup obstacle =
+        m_request.obstacle.empty() ? Triangle_soup() : read_mesh(m_request.obstacle).soup;
 
     m_bar.begin("judging the input");
     Prepare_options options;
@@ -222,7 +223,9 @@ private:
     std::optional<Reduction_log> log;
     if (!m_request.log.empty()) {
       log.emplace(m_log, m_log_header, *m_numbering, prepared, options);
-      options.on_collapse = [&log](std::size_t removed, std::size_t kept) { log->add_collapse(removed, kept); };
+      options.on_collapse = [&log](std::size_t removed, std::size_t kept) {
+        log->add_collapse(removed, kept);
+      };
     }
     std::vector<Simplified_soup> results;
     if (m_request.lods.empty())
@@ -268,7 +271,8 @@ private:
       m_bar.begin("writing");
       // Numbers of vertices are all that joining changes: the verdict on positions stands.
       for (const auto& [output, result, verification] : levels)
-        write_output(output, m_request.is_sewn ? joined_at_positions(result.soup) : result.soup, m_request.is_ascii);
+        write_output(output, m_request.is_sewn ? joined_at_positions(result.soup) : result.soup,
+                     m_request.is_ascii);
     }
     // Also of a result that was refused: the log is what shows why.
     if (!m_request.log.empty())
@@ -314,7 +318,8 @@ private:
     if (m_request.report.empty())
       return;
     const auto add_level = [&](Json& json, const Level& level) {
-      json["output"] = {{"path", level.output}, {"written", m_outcome.is_written()}, {"not_carried", dropped}};
+      json["output"] = {
+          {"path", level.output}, {"written", m_outcome.is_written()}, {"not_carried", dropped}};
       if (&json == &m_report)
         json["options"] = options_json(m_request);
       add_reduction(json, prepared, level.result);
@@ -371,8 +376,7 @@ private:
               << with_commas(done.refused.error) << ", aspect ratio "
               << with_commas(done.refused.aspect_ratio) << ", normal change "
               << with_commas(done.refused.normal_change) << ", texture " << with_commas(done.refused.uv)
-              << ", intersection "
-              << with_commas(done.refused.intersection) << ", other "
+              << ", intersection " << with_commas(done.refused.intersection) << ", other "
               << with_commas(done.refused.target + done.refused.by_loop);
     std::cout << "\njudged: ";
     if (verification.embedded())
@@ -389,10 +393,9 @@ private:
 
   static void print_snapping(const Snapping_notes& notes)
   {
-    std::cout << "  seams closed: " << with_commas(notes.sewn) << " of "
-              << with_commas(notes.partnered) << " border vertices with a partner, "
-              << counted(notes.seam_edges, "edge") << ", the widest gap "
-              << with_digits(notes.largest_distance) << '\n';
+    std::cout << "  seams closed: " << with_commas(notes.sewn) << " of " << with_commas(notes.partnered)
+              << " border vertices with a partner, " << counted(notes.seam_edges, "edge")
+              << ", the widest gap " << with_digits(notes.largest_distance) << '\n';
     const auto print = [](std::size_t count, const char* why) {
       if (count > 0)
         std::cout << "  not closed: " << with_commas(count) << " border vertices, " << why << '\n';
@@ -436,9 +439,10 @@ Action add_simplify(CLI::App& command)
 
   const char* const how_far = "How far (with several, whichever is met first)";
   command
-      .add_option("--ratio", request->ratios,
-                  "Share of the faces to keep, 0 to 1; PART=R for a group, object or material alone: it stops "
-                  "there, and the plain R is for all others. May be given for several")
+      .add_option(
+          "--ratio", request->ratios,
+          "Share of the faces to keep, 0 to 1; PART=R for a group, object or material alone: it stops "
+          "there, and the plain R is for all others. May be given for several")
       ->type_name("[PART=]R")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
@@ -454,17 +458,21 @@ Action add_simplify(CLI::App& command)
 
   command
       .add_option("--lods", request->lods,
-                  "Levels of detail in one run, each as a run to it alone: -o 'jacket_{lod}.obj' names them by number")
+                  "Levels of detail in one run, each as a run to it alone: -o 'jacket_{lod}.obj' names them "
+                  "by number")
       ->delimiter(',')
       ->check(in_range(0, 1))
       ->type_name("R,R,...")
       ->group(how_far);
 
   const char* const parts = "Parts, by the names of groups, objects and materials";
-  command.add_option("--lock", request->intent.locked, "Vertices of these do not move; their faces count for the target")
+  command
+      .add_option("--lock", request->intent.locked,
+                  "Vertices of these do not move; their faces count for the target")
       ->type_name("PART ...")
       ->group(parts);
-  command.add_option("--keep", request->intent.kept, "No face of these changes; the target is for the others")
+  command
+      .add_option("--keep", request->intent.kept, "No face of these changes; the target is for the others")
       ->type_name("PART ...")
       ->group(parts);
   command
@@ -524,9 +532,10 @@ Action add_simplify(CLI::App& command)
       ->type_name("EPS")
       ->group(seams);
   command
-      .add_flag("--sewn", request->is_sewn,
-                "Leave pieces that meet joined, with common vertices where attributes allow; else they come out "
-                "separate, as they went in")
+      .add_flag(
+          "--sewn", request->is_sewn,
+          "Leave pieces that meet joined, with common vertices where attributes allow; else they come out "
+          "separate, as they went in")
       ->group(seams);
 
   const char* const tuning = "Tuning";
@@ -542,7 +551,8 @@ Action add_simplify(CLI::App& command)
       ->capture_default_str()
       ->group(tuning);
   command
-      .add_option("--uv-weight", options.uv_weight, "Weight of a texture that swims, against the surface; 0: none")
+      .add_option("--uv-weight", options.uv_weight,
+                  "Weight of a texture that swims, against the surface; 0: none")
       ->check(in_range(0))
       ->type_name("W")
       ->capture_default_str()
@@ -575,9 +585,11 @@ Action add_simplify(CLI::App& command)
       "  selvedge simplify jacket.obj -o small.ply --faces 20000 --report small.json\n"
       "  selvedge simplify jacket.obj -o jacket.obj --error 0.0005      as far as 0.05 % of the size allows\n"
       "  selvedge simplify jacket.obj -o 'jacket_{lod}.obj' --lods 0.5,0.25,0.1\n"
-      "  selvedge simplify jacket.obj -o small.obj --ratio 0.2 --ratio collar=0.8 --keep logo --obstacle body.obj\n"
+      "  selvedge simplify jacket.obj -o small.obj --ratio 0.2 --ratio collar=0.8 --keep logo --obstacle "
+      "body.obj\n"
       "  selvedge simplify jacket.obj -o small.obj --ratio 0.1 --require-target || echo missed\n"
-      "  selvedge simplify draped.obj -o small.obj --ratio 0.3 --weld 0.0001    close seams that gape by a hair\n\n"
+      "  selvedge simplify draped.obj -o small.obj --ratio 0.3 --weld 0.0001    close seams that gape by a "
+      "hair\n\n"
       "The result is always judged before it is written. A target that cannot be reached is no failure: the\n"
       "file is written, and summary and report say what held it back. Ctrl-C writes what was reached.");
   return [request] {

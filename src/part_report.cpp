@@ -71,7 +71,8 @@ std::vector<Index> charts_of(const Triangle_soup& soup)
   std::vector<Index> charts;
   for (Index t = 0; t < soup.triangles.size(); ++t)
     charts.push_back(
-      numbers.emplace(std::make_pair(pieces[t], root(soup.uvs.of_triangle[t][0])), Index(numbers.size())).first->second);
+        numbers.emplace(std::make_pair(pieces[t], root(soup.uvs.of_triangle[t][0])), Index(numbers.size()))
+            .first->second);
   return charts;
 }
 
@@ -97,7 +98,9 @@ public:
     const std::array<Uv, 3>& uv = m_uvs[place - m_triangles.begin()];
     const Kernel::Vector_3 normal = CGAL::cross_product(t[1] - t[0], t[2] - t[0]);
     const double area = normal.squared_length();
-    const auto share = [&](int i, int j) { return normal * CGAL::cross_product(t[i] - point, t[j] - point) / area; };
+    const auto share = [&](int i, int j) {
+      return normal * CGAL::cross_product(t[i] - point, t[j] - point) / area;
+    };
     const double a = share(1, 2), b = share(2, 0), c = 1 - a - b;
     return {a * uv[0][0] + b * uv[1][0] + c * uv[2][0], a * uv[0][1] + b * uv[1][1] + c * uv[2][1]};
   }
@@ -111,8 +114,8 @@ private:
   CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> m_tree;
 };
 
-// For each triangle of the original, how far the texture at its centre has swum, as a share of the diagonal; empty when there is
-// no texture.
+// For each triangle of the original, how far the texture at its centre has swum, as a share of the diagonal;
+// empty when there is no texture.
 std::vector<double> uv_displacements(const Simplified_soup& result, const Prepared_soup& prepared)
 {
   const Triangle_soup& original = prepared.soup;
@@ -123,7 +126,8 @@ std::vector<double> uv_displacements(const Simplified_soup& result, const Prepar
   const std::vector<Index> charts_of_original = charts_of(original);
   std::map<Index, Chart> charts;
   for (Index i = 0; i < result.triangles.size(); ++i)
-    charts[charts_of_original[result.triangles[i]]].insert(triangle_of(result.soup, i), uvs_of(result.soup, i));
+    charts[charts_of_original[result.triangles[i]]].insert(triangle_of(result.soup, i),
+                                                           uvs_of(result.soup, i));
   for (auto& [number, chart] : charts)
     chart.build();
 
@@ -135,7 +139,8 @@ std::vector<double> uv_displacements(const Simplified_soup& result, const Prepar
     const auto [a, b, c] = uvs_of(original, t);
     const Triangle_3 triangle = triangle_of(original, t);
     const Uv now = chart->second.uv_near(CGAL::centroid(triangle[0], triangle[1], triangle[2]));
-    displacements[t] = unit * std::hypot(now[0] - (a[0] + b[0] + c[0]) / 3, now[1] - (a[1] + b[1] + c[1]) / 3);
+    displacements[t] =
+        unit * std::hypot(now[0] - (a[0] + b[0] + c[0]) / 3, now[1] - (a[1] + b[1] + c[1]) / 3);
   }
   return displacements;
 }
@@ -208,8 +213,12 @@ std::vector<Part_report> part_reports(const Simplified_soup& result, const Prepa
     for (const Index part : parts) {
       if (triangles_before[part].empty())
         continue;
-      Part_report report{kind.name, kind.names.empty() ? "" : kind.names[part], triangles_before[part].front(),
-                         triangles_before[part].size(), triangles_after[part].size(), result.refused_by_part[k][part],
+      Part_report report{kind.name,
+                         kind.names.empty() ? "" : kind.names[part],
+                         triangles_before[part].front(),
+                         triangles_before[part].size(),
+                         triangles_after[part].size(),
+                         result.refused_by_part[k][part],
                          distance(only(geometry_before, triangles_before[part]),
                                   only(geometry_after, triangles_after[part])),
                          deviation_of(displacements, original.soup, triangles_before[part])};

@@ -16,8 +16,8 @@
 #include <cstring>
 #include <functional>
 #include <iterator>
-#include <numeric>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -49,8 +49,9 @@ void refuse_unless_embedded(const Triangle_soup& soup)
 {
   const std::vector<Offending_pair> pairs = offending_pairs(soup);
   if (!pairs.empty())
-    throw Input_error("the mesh is not embedded: " + std::to_string(pairs.size()) + " offending pairs of triangles, the first: " +
-                      describe(pairs.front()) + "; repair it, or do without strict to have them left as they are");
+    throw Input_error("the mesh is not embedded: " + std::to_string(pairs.size()) +
+                      " offending pairs of triangles, the first: " + describe(pairs.front()) +
+                      "; repair it, or do without strict to have them left as they are");
 }
 
 // Puts points and triangles of an obstacle behind those of a soup, and takes them away again.
@@ -137,10 +138,11 @@ std::vector<double> vertex_weights(const Triangle_soup& soup, const std::string&
 class Soup_reduction
 {
 public:
-  Soup_reduction(const Prepared_soup& prepared, const Simplify_options& options, const Simplify_intent& intent)
-    : m_options(options), m_start(Clock::now()),
-      m_working(prepared.soup, prepared.positions, frozen(prepared, intent), prepared.obstacle),
-      m_simplification(m_working.mesh(), m_options, constraints(prepared.soup, intent), m_working)
+  Soup_reduction(const Prepared_soup& prepared, const Simplify_options& options,
+                 const Simplify_intent& intent)
+      : m_options(options), m_start(Clock::now()),
+        m_working(prepared.soup, prepared.positions, frozen(prepared, intent), prepared.obstacle),
+        m_simplification(m_working.mesh(), m_options, constraints(prepared.soup, intent), m_working)
   {
     m_seconds_weld = seconds_since(m_start);
   }
@@ -162,12 +164,14 @@ private:
     for (const auto* names : {&intent.locked, &intent.kept})
       for (const std::string& name : *names) {
         const std::vector<char> is_named = triangles_named(prepared.soup, name);
-        std::transform(is_named.begin(), is_named.end(), is_frozen.begin(), is_frozen.begin(), std::logical_or<char>());
+        std::transform(is_named.begin(), is_named.end(), is_frozen.begin(), is_frozen.begin(),
+                       std::logical_or<char>());
       }
     return is_frozen;
   }
 
-  const Simplify_constraints<Working_mesh::Mesh>& constraints(const Triangle_soup& soup, const Simplify_intent& intent)
+  const Simplify_constraints<Working_mesh::Mesh>& constraints(const Triangle_soup& soup,
+                                                              const Simplify_intent& intent)
   {
     auto& constraints = m_working.constraints();
     const auto add_share = [&](const std::string& name, double ratio) {
@@ -231,8 +235,10 @@ Prepared_soup prepare(Triangle_soup input, const Prepare_options& options, const
     std::vector<Point_3> points = soup.points;
     points.insert(points.end(), obstacle.points.begin(), obstacle.points.end());
     prepared.positions = number_positions(points);
-    const std::vector<Index> positions(prepared.positions.begin() + soup.points.size(), prepared.positions.end());
-    std::copy_if(obstacle.triangles.begin(), obstacle.triangles.end(), std::back_inserter(prepared.obstacle.triangles),
+    const std::vector<Index> positions(prepared.positions.begin() + soup.points.size(),
+                                       prepared.positions.end());
+    std::copy_if(obstacle.triangles.begin(), obstacle.triangles.end(),
+                 std::back_inserter(prepared.obstacle.triangles),
                  [&](const Index_triple& v) { return !has_two_corners_at_one_position(v, positions); });
   }
   const auto leave_out = [&](const std::vector<Index>& positions) {
@@ -268,7 +274,8 @@ Prepared_soup prepare(Triangle_soup input, const Prepare_options& options, const
   }
   prepared.seconds_weld += seconds_since(start);
   if (soup.triangles.empty())
-    throw Input_error("every triangle of the mesh has two corners at one position; there is nothing to reduce");
+    throw Input_error(
+        "every triangle of the mesh has two corners at one position; there is nothing to reduce");
 
   start = Clock::now();
   const std::size_t own_triangles = soup.triangles.size();
@@ -278,10 +285,10 @@ Prepared_soup prepare(Triangle_soup input, const Prepare_options& options, const
   for (const Offending_pair& pair : prepared.offending_pairs) {
     prepared.is_frozen[pair.first] = prepared.is_frozen[pair.second] = true;
     if (prepared.rounding.coordinates > 0)
-      prepared.pairs_by_rounding +=
-        !std::binary_search(pairs_before.begin(), pairs_before.end(), pair, [](const auto& a, const auto& b) {
-          return std::make_pair(a.first, a.second) < std::make_pair(b.first, b.second);
-        });
+      prepared.pairs_by_rounding += !std::binary_search(
+          pairs_before.begin(), pairs_before.end(), pair, [](const auto& a, const auto& b) {
+            return std::make_pair(a.first, a.second) < std::make_pair(b.first, b.second);
+          });
   }
   if (!positions_after.empty()) {
     std::vector<char> is_merged(soup.points.size(), false);
@@ -292,7 +299,8 @@ Prepared_soup prepare(Triangle_soup input, const Prepare_options& options, const
       for (const Index v : soup.triangles[t])
         prepared.is_frozen[t] |= is_merged[v];
   }
-  prepared.frozen_faces = std::count(prepared.is_frozen.begin(), prepared.is_frozen.begin() + own_triangles, true);
+  prepared.frozen_faces =
+      std::count(prepared.is_frozen.begin(), prepared.is_frozen.begin() + own_triangles, true);
   std::fill(prepared.is_frozen.begin() + own_triangles, prepared.is_frozen.end(), true);
   prepared.seconds_check += seconds_since(start);
 
@@ -300,7 +308,8 @@ Prepared_soup prepare(Triangle_soup input, const Prepare_options& options, const
   std::vector<Index> transforms = transforms_of_vertices(soup);
   if (!transforms.empty()) // no node has the positions of an obstacle
     transforms.resize(soup.points.size(), std::numeric_limits<Index>::max());
-  prepared.snapping = snap_borders(soup, prepared.positions, prepared.is_frozen, options.weld_distance, transforms);
+  prepared.snapping =
+      snap_borders(soup, prepared.positions, prepared.is_frozen, options.weld_distance, transforms);
   prepared.seconds_snap = seconds_since(start);
   take_away(soup, prepared.obstacle);
   return prepared;
@@ -328,7 +337,8 @@ std::vector<Simplified_soup> simplify_lods(const Prepared_soup& prepared, const 
   }
   std::vector<std::size_t> order(ratios.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return ratios[i] > ratios[j]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t i, std::size_t j) { return ratios[i] > ratios[j]; });
   std::vector<double> descending;
   for (const std::size_t i : order)
     descending.push_back(ratios[i]);
@@ -348,8 +358,8 @@ Verification verify(const Simplified_soup& result, const Prepared_soup& original
   const Triangle_soup both = geometry_of_both(result.soup, original.obstacle);
   Verification verification;
   verification.pairs = offending_pairs(both);
-  verification.new_pairs = new_pairs(both, verification.pairs, geometry_of_both(original.soup, original.obstacle),
-                                     original.offending_pairs);
+  verification.new_pairs = new_pairs(
+      both, verification.pairs, geometry_of_both(original.soup, original.obstacle), original.offending_pairs);
   verification.pieces = pieces(result.soup);
   verification.topology_differences = topology_differences(verification.pieces, pieces(original.soup));
   verification.distances = distances(result.soup, original.soup);

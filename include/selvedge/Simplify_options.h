@@ -22,8 +22,8 @@ struct Simplify_progress
 
 /// What `simplify` is asked to do. Values outside the ranges given throw `Argument_error`.
 ///
-/// The target is the largest of the face counts that `ratio` and `faces` name; with neither it is no face at all,
-/// and the limits decide.
+/// The target is the largest of the face counts that `ratio` and `faces` name; with neither it is no face at
+/// all, and the limits decide.
 struct Simplify_options
 {
   /// Faces to keep, as a share of the input's, in [0, 1].
@@ -32,8 +32,9 @@ struct Simplify_options
   /// Faces to keep.
   std::optional<std::size_t> faces;
 
-  /// The largest error of a collapse, as a share of the diagonal of the bounding box, at least 0: the root mean square
-  /// distance, weighted by area, of the merged vertex to the planes of the original faces that it stands for.
+  /// The largest error of a collapse, as a share of the diagonal of the bounding box, at least 0: the root
+  /// mean square distance, weighted by area, of the merged vertex to the planes of the original faces that it
+  /// stands for.
   std::optional<double> max_error;
 
   /// The largest change of a face's normal in one collapse, in degrees from 0 to 180.
@@ -45,23 +46,24 @@ struct Simplify_options
   /// The largest turn of a border at a vertex that leaves it, in degrees from 0 to 180.
   double max_border_turn = 8;
 
-  /// The same for a line inside the surface: a sewn seam, a texture seam, a border between groups. There is no outline to
-  /// fray there, and such lines are often bent: with 8° they would keep most of their vertices.
+  /// The same for a line inside the surface: a sewn seam, a texture seam, a border between groups. There is
+  /// no outline to fray there, and such lines are often bent: with 8° they would keep most of their vertices.
   double max_seam_turn = 60;
 
-  /// The largest distance of an original border or seam vertex to the segment that replaced it, as a share of the
-  /// diagonal, at least 0.
+  /// The largest distance of an original border or seam vertex to the segment that replaced it, as a share of
+  /// the diagonal, at least 0.
   double max_border_drift = 0.002;
 
   /// Whether layers are kept from piercing each other. Without, everything else stays the same: a control.
   bool check_intersections = true;
 
-  /// Whether triangles of the texture are kept from turning over, where a mesh has texture coordinates. Without,
-  /// everything else stays the same: a control.
+  /// Whether triangles of the texture are kept from turning over, where a mesh has texture coordinates.
+  /// Without, everything else stays the same: a control.
   bool check_uv_orientation = true;
 
-  /// How much a texture that swims counts in the cost, at least 0, against the same distance of the surface itself: the
-  /// displacement of the texture in the plane of the texture, in units of the mesh. 0 turns it off.
+  /// How much a texture that swims counts in the cost, at least 0, against the same distance of the surface
+  /// itself: the displacement of the texture in the plane of the texture, in units of the mesh. 0 turns it
+  /// off.
   double uv_weight = 0.1;
 
   /// What the cells of the index aim at, at least 1.
@@ -69,8 +71,8 @@ struct Simplify_options
 
   Quadric_cost_options cost;
 
-  /// Told of every collapse of a soup, before it: a vertex of the soup at the position that goes, and one at that to
-  /// which it goes; what a log (collapse_log.h) holds. It may be empty.
+  /// Told of every collapse of a soup, before it: a vertex of the soup at the position that goes, and one at
+  /// that to which it goes; what a log (collapse_log.h) holds. It may be empty.
   std::function<void(std::size_t removed, std::size_t kept)> on_collapse;
 
   /// Asked now and then; when it returns true, the reduction ends with the mesh as it is. It may be empty.

@@ -13,18 +13,18 @@
 
 namespace selvedge {
 
-/// How often which rule refused a direction of an edge that the loop considered. Cheap rules come first, and each
-/// counts only what those before it had accepted. An edge counts again when it is considered again.
+/// How often which rule refused a direction of an edge that the loop considered. Cheap rules come first, and
+/// each counts only what those before it had accepted. An edge counts again when it is considered again.
 struct Refusals
 {
-  std::size_t border = 0;        ///< borders, seams, locked vertices
-  std::size_t target = 0;        ///< a face would go of which enough have gone; see `Simplify_constraints::shares`
-  std::size_t error = 0;         ///< `Simplify_options::max_error`
+  std::size_t border = 0; ///< borders, seams, locked vertices
+  std::size_t target = 0; ///< a face would go of which enough have gone; see `Simplify_constraints::shares`
+  std::size_t error = 0;  ///< `Simplify_options::max_error`
   std::size_t aspect_ratio = 0;
   std::size_t normal_change = 0;
-  std::size_t uv = 0;            ///< a texture triangle would turn over
+  std::size_t uv = 0; ///< a texture triangle would turn over
   std::size_t intersection = 0;
-  std::size_t by_loop = 0;       ///< accepted by all rules, refused by a geometric test of CGAL's loop
+  std::size_t by_loop = 0; ///< accepted by all rules, refused by a geometric test of CGAL's loop
 
   Refusals& operator+=(const Refusals& other)
   {
@@ -72,7 +72,8 @@ struct Simplify_report
   std::size_t faces_output = 0;
   std::size_t faces_to_go = 0; ///< by which shares exceed their targets at the end
   std::size_t collapses = 0;
-  std::size_t passes = 0; ///< of CGAL's loop; another one begins while edges refused before have become possible
+  std::size_t passes =
+      0; ///< of CGAL's loop; another one begins while edges refused before have become possible
   bool is_stopped = false; ///< by `Simplify_options::should_stop`
   Refusals refused;
   Intersection_statistics intersections;
@@ -92,15 +93,14 @@ struct Simplify_report
     if (is_stopped)
       return "stopped";
     const Refusals& last = refused_in_last_pass;
-    const std::pair<std::size_t, const char*> rules[] = {
-      {last.border, "border"},
-      {last.target, "target"},
-      {last.error, "error"},
-      {last.aspect_ratio, "aspect_ratio"},
-      {last.normal_change, "normal_change"},
-      {last.uv, "uv"},
-      {last.intersection, "intersection"},
-      {last.by_loop, "by_loop"}};
+    const std::pair<std::size_t, const char*> rules[] = {{last.border, "border"},
+                                                         {last.target, "target"},
+                                                         {last.error, "error"},
+                                                         {last.aspect_ratio, "aspect_ratio"},
+                                                         {last.normal_change, "normal_change"},
+                                                         {last.uv, "uv"},
+                                                         {last.intersection, "intersection"},
+                                                         {last.by_loop, "by_loop"}};
     const auto most = std::max_element(std::begin(rules), std::end(rules),
                                        [](const auto& a, const auto& b) { return a.first < b.first; });
     return most->first > 0 ? most->second : "topology";

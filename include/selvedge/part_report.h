@@ -14,12 +14,13 @@
 
 namespace selvedge {
 
-/// How far a texture has swum: for the centre of each triangle of the original, the distance in the plane of the texture
-/// between its texture coordinates and those of the nearest point of the result on the same chart, in units in which the texture
-/// is as large as the surface; as shares of the diagonal of the original.
+/// How far a texture has swum: for the centre of each triangle of the original, the distance in the plane of
+/// the texture between its texture coordinates and those of the nearest point of the result on the same
+/// chart, in units in which the texture is as large as the surface; as shares of the diagonal of the
+/// original.
 struct Uv_deviation
 {
-  double mean;    ///< weighted by area
+  double mean; ///< weighted by area
   double maximum;
 };
 
@@ -36,12 +37,14 @@ struct Part_report
   Index first_triangle; ///< of the original
   std::size_t faces_input = 0;
   std::size_t faces_output = 0;
-  Refusals refused;     ///< to its vertices
-  Distance distance;    ///< from its original vertices to what is left of it, as shares of the diagonal of the original
+  Refusals refused;  ///< to its vertices
+  Distance distance; ///< from its original vertices to what is left of it, as shares of the diagonal of the
+                     ///< original
   std::optional<Uv_deviation> uv_deviation;
 };
 
-/// One for each piece, group, object and material that has triangles, by kinds; of the pieces only the largest hundred.
+/// One for each piece, group, object and material that has triangles, by kinds; of the pieces only the
+/// largest hundred.
 std::vector<Part_report> part_reports(const Simplified_soup& result, const Prepared_soup& original);
 
 } // namespace selvedge

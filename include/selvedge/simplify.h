@@ -29,21 +29,23 @@
 
 namespace selvedge {
 
-/// Watches nothing, and has nothing that hangs on the mesh. What `simplify` accepts as an observer derives from this and
-/// has functions of its own in place of some of these.
+/// Watches nothing, and has nothing that hangs on the mesh. What `simplify` accepts as an observer derives
+/// from this and has functions of its own in place of some of these.
 ///
-/// In all of them the source of `moving` goes to its target and merges with it; the rule is a `Border_rule`, which knows
-/// what is a line now.
+/// In all of them the source of `moving` goes to its target and merges with it; the rule is a `Border_rule`,
+/// which knows what is a line now.
 struct No_observer
 {
   template <class Halfedge, class Rule>
   void before_collapse(const Halfedge& /*moving*/, const Rule&)
-  {}
+  {
+  }
 
   /// The motion was refused; one count is 1, the others are 0.
   template <class Halfedge>
   void on_refused(const Halfedge& /*moving*/, const Refusals&)
-  {}
+  {
+  }
 
   /// Does every piece keep its topology, where pieces are finer than the mesh? Asked of what the rule allows.
   template <class Halfedge, class Rule>
@@ -79,12 +81,13 @@ struct Simplify_constraints
   /// Edges inside the mesh that are to be kept as borders are: seams.
   std::vector<typename boost::graph_traits<TriangleMesh>::edge_descriptor> line_edges;
 
-  /// For every vertex, in the order of `vertices(mesh)`, a factor of at least 0 for what it costs to move it; or nothing.
+  /// For every vertex, in the order of `vertices(mesh)`, a factor of at least 0 for what it costs to move it;
+  /// or nothing.
   std::vector<double> vertex_weights;
 
-  /// Faces that have a ratio of their own, in [0, 1]; the target of the options is for all others. Once a share has
-  /// reached its target, no collapse takes a further face of it, while others go on until all have reached theirs. A face in
-  /// several shares counts in the last of them.
+  /// Faces that have a ratio of their own, in [0, 1]; the target of the options is for all others. Once a
+  /// share has reached its target, no collapse takes a further face of it, while others go on until all have
+  /// reached theirs. A face in several shares counts in the last of them.
   struct Share
   {
     std::vector<Face> faces;
@@ -98,8 +101,8 @@ struct Simplify_constraints
 
 namespace internal {
 
-/// Everything that one reduction is made of: the rule for borders, the cost, the chain of filters, and a visitor that
-/// tells them of each collapse.
+/// Everything that one reduction is made of: the rule for borders, the cost, the chain of filters, and a
+/// visitor that tells them of each collapse.
 template <class TriangleMesh, class Observer>
 class Simplification
 {
@@ -114,8 +117,9 @@ class Simplification
     using Update_tag = CGAL::Tag_true;
 
     Cost(const Quadrics& quadrics, const Targets& targets, const Observer& observer, double uv_weight)
-      : m_quadrics(quadrics), m_targets(targets), m_observer(&observer), m_uv_weight(uv_weight)
-    {}
+        : m_quadrics(quadrics), m_targets(targets), m_observer(&observer), m_uv_weight(uv_weight)
+    {
+    }
 
     template <class VertexPointMap, class GeomTraits>
     void initialize(const TriangleMesh& mesh, const VertexPointMap& points, const GeomTraits& traits) const
@@ -135,7 +139,8 @@ class Simplification
     double cost_at(const Profile& profile, const Point& point) const
     {
       const double cost = m_quadrics.cost_at(profile, point);
-      return m_uv_weight > 0 ? cost + m_uv_weight * m_observer->uv_cost(moving_halfedge(profile, point)) : cost;
+      return m_uv_weight > 0 ? cost + m_uv_weight * m_observer->uv_cost(moving_halfedge(profile, point))
+                             : cost;
     }
 
     template <class Profile, class Vertex>
@@ -185,13 +190,15 @@ class Simplification
   using Intersection = Intersection_filter<TriangleMesh, Uv>;
 
 public:
-  Simplification(TriangleMesh& mesh, const Simplify_options& options, const Simplify_constraints<TriangleMesh>& constraints,
-                 Observer& observer)
-    : m_start(Clock::now()), m_mesh(mesh), m_options(options), m_observer(observer), m_diagonal(diagonal(mesh)),
-      m_rule(make_rule(constraints)), m_targets(make_targets(constraints)), m_quadrics(mesh, options.cost, m_rule),
-      m_line(m_rule), m_border({&observer, m_rule}, m_line), m_target(m_targets, m_border), m_error(max_error(), m_quadrics, m_target),
-      m_aspect_ratio(options.min_aspect_ratio, m_error), m_normal_change(options.max_normal_change, m_aspect_ratio),
-      m_uv({options.check_uv_orientation ? &observer : nullptr, m_rule}, m_normal_change)
+  Simplification(TriangleMesh& mesh, const Simplify_options& options,
+                 const Simplify_constraints<TriangleMesh>& constraints, Observer& observer)
+      : m_start(Clock::now()), m_mesh(mesh), m_options(options), m_observer(observer),
+        m_diagonal(diagonal(mesh)), m_rule(make_rule(constraints)), m_targets(make_targets(constraints)),
+        m_quadrics(mesh, options.cost, m_rule), m_line(m_rule), m_border({&observer, m_rule}, m_line),
+        m_target(m_targets, m_border), m_error(max_error(), m_quadrics, m_target),
+        m_aspect_ratio(options.min_aspect_ratio, m_error),
+        m_normal_change(options.max_normal_change, m_aspect_ratio),
+        m_uv({options.check_uv_orientation ? &observer : nullptr, m_rule}, m_normal_change)
   {
     if (!(options.uv_weight >= 0))
       throw Argument_error("the weight of the texture is at least 0");
@@ -203,10 +210,13 @@ public:
     m_report.seconds_index = seconds_since(start);
   }
 
-  Simplify_report run() { return run({}, [](const Simplify_report&) {}); }
+  Simplify_report run()
+  {
+    return run({}, [](const Simplify_report&) {});
+  }
 
-  /// Calls `on_level(report)` for each of some ratios, from the largest to the smallest, in the state in which a run to
-  /// that ratio alone would have ended, and goes on to the target.
+  /// Calls `on_level(report)` for each of some ratios, from the largest to the smallest, in the state in
+  /// which a run to that ratio alone would have ended, and goes on to the target.
   template <class On_level>
   Simplify_report run(const std::vector<double>& ratios, const On_level& on_level)
   {
@@ -226,9 +236,9 @@ public:
     const Cost costs(m_quadrics, m_targets, m_observer, m_options.uv_weight);
     const Halfedge_placement<TriangleMesh, Cost, Rule> directions(costs, m_rule);
     const Filtered_halfedge_placement placement(m_mesh, directions, filter);
-    // CGAL's loop forgets an edge that was refused until its neighbourhood changes, though the layer that blocked it may have
-    // moved away, and though its second direction may do. A new pass asks again: at the end, and sooner when so many are
-    // forgotten that the loop is about to pay much more elsewhere.
+    // CGAL's loop forgets an edge that was refused until its neighbourhood changes, though the layer that
+    // blocked it may have moved away, and though its second direction may do. A new pass asks again: at the
+    // end, and sooner when so many are forgotten that the loop is about to pay much more elsewhere.
     std::size_t forgotten_before = 0;
     double dearest = 0;
     const auto forgotten = [&] { return refusals().intersection - forgotten_before; };
@@ -238,14 +248,14 @@ public:
       dearest = s_dearer * (std::max)(cost, (std::numeric_limits<double>::min)());
       return true;
     });
-    const Any_stop stop(Function_stop([this](double) { return m_targets.is_reached(); }),
-                        Hook_stop([this](std::size_t) {
-                          const auto total = m_targets.total();
-                          m_report.is_stopped = m_options.should_stop &&
-                                                m_options.should_stop({m_report.faces_input, total.target, total.faces});
-                          return m_report.is_stopped;
-                        }),
-                        is_pass_over);
+    const Any_stop stop(
+        Function_stop([this](double) { return m_targets.is_reached(); }), Hook_stop([this](std::size_t) {
+          const auto total = m_targets.total();
+          m_report.is_stopped = m_options.should_stop &&
+                                m_options.should_stop({m_report.faces_input, total.target, total.faces});
+          return m_report.is_stopped;
+        }),
+        is_pass_over);
     while (!m_targets.is_reached() && !m_report.is_stopped) {
       const std::size_t collapses_before = m_report.collapses;
       m_refused_before_pass = refusals();
@@ -254,8 +264,9 @@ public:
       forgotten_before += forgotten();
       ++m_report.passes;
       CGAL::Surface_mesh_simplification::edge_collapse(
-        m_mesh, stop,
-        CGAL::parameters::get_cost(costs).get_placement(placement).visitor(Visitor<decltype(placement)>(*this, placement)));
+          m_mesh, stop,
+          CGAL::parameters::get_cost(costs).get_placement(placement).visitor(
+              Visitor<decltype(placement)>(*this, placement)));
       if (m_report.collapses == collapses_before && dearest == dearest_before &&
           placement.turned() == turned_before)
         break;
@@ -268,8 +279,8 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
 
-  // A pass ends early when one edge is forgotten for so many faces, and costs have grown by such a factor since the last
-  // time.
+  // A pass ends early when one edge is forgotten for so many faces, and costs have grown by such a factor
+  // since the last time.
   static constexpr std::size_t s_forgotten_share = 4;
   static constexpr double s_dearer = 4;
 
@@ -294,8 +305,9 @@ private:
   {
   public:
     Visitor(Simplification& simplification, const Placement& placement)
-      : m_simplification(&simplification), m_placement(placement)
-    {}
+        : m_simplification(&simplification), m_placement(placement)
+    {
+    }
 
     void OnStarted(TriangleMesh&) { m_placement.on_started(); }
     template <class Profile, class OptionalCost, class Size>
@@ -397,9 +409,10 @@ private:
     for (const auto face : constraints.uncounted_faces)
       targets.leave_out(face);
     for (std::size_t i = 0; i < constraints.shares.size(); ++i)
-      targets.set_target(i + 1, Face_ratio_stop::face_target(constraints.shares[i].ratio, targets.share(i + 1).faces));
+      targets.set_target(
+          i + 1, Face_ratio_stop::face_target(constraints.shares[i].ratio, targets.share(i + 1).faces));
     const std::size_t by_ratio =
-      m_options.ratio ? Face_ratio_stop::face_target(*m_options.ratio, targets.share(0).faces) : 0;
+        m_options.ratio ? Face_ratio_stop::face_target(*m_options.ratio, targets.share(0).faces) : 0;
     targets.set_target(0, (std::max)(m_options.faces.value_or(0), by_ratio));
     return targets;
   }
@@ -409,8 +422,9 @@ private:
     CGAL::Bbox_3 box;
     for (const auto v : vertices(mesh))
       box += get(get(CGAL::vertex_point, mesh), v).bbox();
-    return box.xmin() <= box.xmax() ? std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin())
-                                    : 0;
+    return box.xmin() <= box.xmax()
+               ? std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin())
+               : 0;
   }
 
   Refusals refusals() const
@@ -441,10 +455,10 @@ private:
     if (m_intersection) {
       const auto& guard = m_intersection->statistics();
       const auto& index = m_intersection->index().statistics();
-      report.intersections = {guard.motions_judged,   guard.stars_clear_by_view, guard.sweeps_tested,
-                              guard.refused_by_link,  guard.refused_by_star,     guard.refused_by_sweep,
-                              index.clusters,         index.queries,             index.visits,
-                              index.cluster_rebuilds, index.top_rebuilds};
+      report.intersections = {
+          guard.motions_judged,  guard.stars_clear_by_view, guard.sweeps_tested, guard.refused_by_link,
+          guard.refused_by_star, guard.refused_by_sweep,    index.clusters,      index.queries,
+          index.visits,          index.cluster_rebuilds,    index.top_rebuilds};
     }
     return report;
   }
@@ -481,11 +495,11 @@ private:
 
 } // namespace internal
 
-/// Reduces a triangle mesh by halfedge collapses until a target is reached or no collapse is allowed any more,
-/// without letting anything touch or pass through anything.
+/// Reduces a triangle mesh by halfedge collapses until a target is reached or no collapse is allowed any
+/// more, without letting anything touch or pass through anything.
 ///
-/// **Guarantees** for an embedded mesh (every face a proper triangle, no two with the same three positions, any two
-/// meeting exactly in the positions that they share, and the edge between two of them):
+/// **Guarantees** for an embedded mesh (every face a proper triangle, no two with the same three positions,
+/// any two meeting exactly in the positions that they share, and the edge between two of them):
 /// 1. *Embedded*: it is embedded after every collapse, so also at the end, however that came.
 /// 2. *Motion*: on the way nothing passes through anything; the order of layers is kept.
 /// 3. *Topology*: components, boundary loops and Euler characteristic are kept.
@@ -493,28 +507,32 @@ private:
 /// 5. *Stop*: the target is reached, or the report says what refused how often.
 /// 6. *Determinism*: the same mesh and options give the same result.
 ///
-/// For a mesh that is not embedded, lock the vertices of every face of an offending pair: then the offending pairs
-/// of the result are those of the input, and between all other faces the guarantees hold. (The function for soups below
-/// does that.)
+/// For a mesh that is not embedded, lock the vertices of every face of an offending pair: then the offending
+/// pairs of the result are those of the input, and between all other faces the guarantees hold. (The function
+/// for soups below does that.)
 ///
-/// **Preconditions** the caller must ensure: the faces are triangles; `TriangleMesh` is a mutable face graph whose points
-/// are of a kernel with exact predicates. Checked at run time: options in range, no edge of length zero
+/// **Preconditions** the caller must ensure: the faces are triangles; `TriangleMesh` is a mutable face graph
+/// whose points are of a kernel with exact predicates. Checked at run time: options in range, no edge of
+/// length zero
 /// (`Argument_error`).
 ///
-/// **Exactness** Everything about intersections, by exact predicates alone; everything about quality, in floating
-/// point.
+/// **Exactness** Everything about intersections, by exact predicates alone; everything about quality, in
+/// floating point.
 ///
 /// **Complexity** O(n log n) for n faces as a rule; with layers very close, more.
 ///
 /// For `CGAL::Surface_mesh` the removed elements stay as garbage: `mesh.collect_garbage()` removes them.
 ///
-/// **Reference** Derichs, Misiak, Fuhrmann: Intersection-free mesh decimation for high resolution cloth models.
+/// **Reference** Derichs, Misiak, Fuhrmann: Intersection-free mesh decimation for high resolution cloth
+/// models.
 template <class TriangleMesh, class Observer = No_observer>
 Simplify_report simplify(TriangleMesh& mesh, const Simplify_options& options,
-                         const Simplify_constraints<TriangleMesh>& constraints = {}, Observer&& observer = Observer())
+                         const Simplify_constraints<TriangleMesh>& constraints = {},
+                         Observer&& observer = Observer())
 {
-  return internal::Simplification<TriangleMesh, std::remove_reference_t<Observer>>(mesh, options, constraints, observer)
-    .run();
+  return internal::Simplification<TriangleMesh, std::remove_reference_t<Observer>>(mesh, options, constraints,
+                                                                                   observer)
+      .run();
 }
 
 } // namespace selvedge

@@ -27,22 +27,25 @@ struct Prepare_options
   /// Refuse an input that is not embedded (`Input_error`), instead of freezing what offends.
   bool is_strict = false;
 
-  /// Close seams whose two sides lie within this distance, in the unit of the coordinates: finite, at least 0. Vertices
-  /// then have the coordinates of their partners, bit for bit; see snapping.h.
+  /// Close seams whose two sides lie within this distance, in the unit of the coordinates: finite, at least
+  /// 0. Vertices then have the coordinates of their partners, bit for bit; see snapping.h.
   double weld_distance = 0;
 };
 
-/// A soup that has been rounded and judged: what `simplify_soup` reduces, and what its result is to be judged against.
+/// A soup that has been rounded and judged: what `simplify_soup` reduces, and what its result is to be judged
+/// against.
 struct Prepared_soup
 {
-  /// The input, rounded and snapped where that was asked for, without the triangles that have two corners at one position.
+  /// The input, rounded and snapped where that was asked for, without the triangles that have two corners at
+  /// one position.
   Triangle_soup soup;
 
-  /// What lies beside it and stays as it is: points and triangles, without those that have two corners at one position.
-  /// Where vertices and triangles are numbered below, its own follow those of `soup`.
+  /// What lies beside it and stays as it is: points and triangles, without those that have two corners at one
+  /// position. Where vertices and triangles are numbered below, its own follow those of `soup`.
   Triangle_soup obstacle;
 
-  /// For every vertex the first vertex at its position. What only rounding has made equal counts as different.
+  /// For every vertex the first vertex at its position. What only rounding has made equal counts as
+  /// different.
   std::vector<Index> positions;
 
   /// What keeps `soup` and `obstacle` together from being embedded; found exactly.
@@ -51,9 +54,9 @@ struct Prepared_soup
   /// Those among them that rounding has made; a number apart from the input's own defects.
   std::size_t pairs_by_rounding = 0;
 
-  /// For every triangle: does it belong to an offending pair, or touch another only because of rounding? Its vertices
-  /// will not move, so that every offending pair stays as it is and none is added.
-  /// So do all triangles of the obstacle.
+  /// For every triangle: does it belong to an offending pair, or touch another only because of rounding? Its
+  /// vertices will not move, so that every offending pair stays as it is and none is added. So do all
+  /// triangles of the obstacle.
   std::vector<char> is_frozen;
   std::size_t frozen_faces = 0; ///< of `soup`
 
@@ -70,26 +73,30 @@ struct Prepared_soup
 
 /// Rounds, finds what coincides, judges, freezes, and snaps, in this order.
 ///
-/// Throws `Input_error` when the input has no triangle, when a coordinate overflows in rounding, and, if strict, when it
-/// is not embedded: the message says how many pairs offend and names the first, by triangle numbers of the input.
+/// Throws `Input_error` when the input has no triangle, when a coordinate overflows in rounding, and, if
+/// strict, when it is not embedded: the message says how many pairs offend and names the first, by triangle
+/// numbers of the input.
 ///
-/// An `obstacle`, a body under the clothes, say, is seen by everything and never changed, not even rounded. Pairs that
-/// offend between it and the input are frozen like others.
-Prepared_soup prepare(Triangle_soup input, const Prepare_options& options = {}, const Triangle_soup& obstacle = {});
+/// An `obstacle`, a body under the clothes, say, is seen by everything and never changed, not even rounded.
+/// Pairs that offend between it and the input are frozen like others.
+Prepared_soup prepare(Triangle_soup input, const Prepare_options& options = {},
+                      const Triangle_soup& obstacle = {});
 
-/// What the user wants of single parts of a soup. Names are those of groups, objects and materials; one that the
-/// soup does not have throws `Argument_error`, and the message lists those that it has.
+/// What the user wants of single parts of a soup. Names are those of groups, objects and materials; one that
+/// the soup does not have throws `Argument_error`, and the message lists those that it has.
 struct Simplify_intent
 {
-  /// Parts whose vertices do not move. Their faces count for the target like all others, which so must give way the more.
+  /// Parts whose vertices do not move. Their faces count for the target like all others, which so must give
+  /// way the more.
   std::vector<std::string> locked;
 
-  /// Parts no face of which changes, and which have no part in the target: it is for the others. Everything sees them.
+  /// Parts no face of which changes, and which have no part in the target: it is for the others. Everything
+  /// sees them.
   std::vector<std::string> kept;
 
-  /// Parts with a ratio of their own, in [0, 1], of their own faces. Once such a part has reached it, no further face
-  /// of it goes, and others go on; the target of the options is for all faces of no such part. A triangle of several is
-  /// of the one named last.
+  /// Parts with a ratio of their own, in [0, 1], of their own faces. Once such a part has reached it, no
+  /// further face of it goes, and others go on; the target of the options is for all faces of no such part. A
+  /// triangle of several is of the one named last.
   struct Part_ratio
   {
     std::string name;
@@ -97,8 +104,8 @@ struct Simplify_intent
   };
   std::vector<Part_ratio> ratios;
 
-  /// The vertex attribute whose first component says how dear each vertex is, as a share of the largest: numbers of at
-  /// least 0, or `Argument_error` is thrown. Empty: all are alike.
+  /// The vertex attribute whose first component says how dear each vertex is, as a share of the largest:
+  /// numbers of at least 0, or `Argument_error` is thrown. Empty: all are alike.
   std::string weights;
 };
 
@@ -122,29 +129,33 @@ struct Simplified_soup
 };
 
 /// Reduces a soup as `simplify` of simplify.h does a mesh, with all its guarantees, and:
-/// 1. *Embedded*: the offending pairs of the result are among those of the input, so there are none when the input has
+/// 1. *Embedded*: the offending pairs of the result are among those of the input, so there are none when the
+/// input has
 ///    none.
-/// 2. *Attributes*: every corner of the result has the vertex number, texture coordinate and group that some corner
+/// 2. *Attributes*: every corner of the result has the vertex number, texture coordinate and group that some
+/// corner
 ///    of the input has at the same position on the same side; coordinates are the same bits.
-/// 3. *Seams*: coincident borders of pieces are sewn before and separate after the reduction, and coincide at every
+/// 3. *Seams*: coincident borders of pieces are sewn before and separate after the reduction, and coincide at
+/// every
 ///    vertex; texture seams and borders between groups are kept like them.
 /// 4. *Texture*: no triangle of the texture turns over.
 /// 5. The triangles left are in the order of the input, each with its first corner first.
 Simplified_soup simplify_soup(const Prepared_soup& prepared, const Simplify_options& options,
                               const Simplify_intent& intent = {});
 
-/// Levels of detail: for each of `ratios`, which take the place of the option, exactly what `simplify_soup` gives for it
-/// alone, but for the seconds.
+/// Levels of detail: for each of `ratios`, which take the place of the option, exactly what `simplify_soup`
+/// gives for it alone, but for the seconds.
 ///
 /// They come from one reduction, which is looked at on its way. Where parts have ratios of their own, what is
 /// reduced depends on how far all others have come, and each level is a reduction of its own.
 ///
 /// Throws `Argument_error` when the options name a number of faces as well.
 std::vector<Simplified_soup> simplify_lods(const Prepared_soup& prepared, const Simplify_options& options,
-                                           const std::vector<double>& ratios, const Simplify_intent& intent = {});
+                                           const std::vector<double>& ratios,
+                                           const Simplify_intent& intent = {});
 
-/// The judge's verdict on a result, in which the obstacle, unchanged, has its part: pairs are of both, their triangles
-/// numbered on; pieces, topology and distances are those of the result alone.
+/// The judge's verdict on a result, in which the obstacle, unchanged, has its part: pairs are of both, their
+/// triangles numbered on; pieces, topology and distances are those of the result alone.
 Verification verify(const Simplified_soup& result, const Prepared_soup& original);
 
 } // namespace selvedge

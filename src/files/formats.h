@@ -36,7 +36,8 @@ const std::vector<std::string>& only_in_gltf(const Gltf_scene& scene);
 bool is_in_obj(const Triangle_soup& soup, const Attribute& attribute);
 
 /// The normal of every vertex, as PLY has them; empty when there are none, or a vertex has several.
-std::vector<std::array<double, 3>> values_of_vertices(const Corner_values<3>& values, const Triangle_soup& soup);
+std::vector<std::array<double, 3>> values_of_vertices(const Corner_values<3>& values,
+                                                      const Triangle_soup& soup);
 
 } // namespace selvedge::files
 

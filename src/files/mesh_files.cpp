@@ -80,7 +80,8 @@ std::vector<std::string> not_carried_by_gltf(const Triangle_soup& soup)
     names.push_back("material libraries");
   const std::vector<files::Column> colours = files::find_colours(soup.vertex_attributes);
   for (const Attribute& attribute : soup.vertex_attributes)
-    if (std::none_of(colours.begin(), colours.end(), [&](const auto& colour) { return colour.attribute == &attribute; }))
+    if (std::none_of(colours.begin(), colours.end(),
+                     [&](const auto& colour) { return colour.attribute == &attribute; }))
       names.push_back("vertex attribute '" + attribute.name + "'");
   for (const Attribute& attribute : soup.triangle_attributes)
     names.push_back("face attribute '" + attribute.name + "'");
@@ -108,8 +109,9 @@ Mesh_format mesh_format(const std::filesystem::path& path)
     return Mesh_format::glb;
   if (extension == ".gltf")
     return Mesh_format::gltf;
-  throw Input_error(path.string() +
-                    ": the name does not end in .obj, .off, .ply, .stl, .glb or .gltf; rename or convert the file");
+  throw Input_error(
+      path.string() +
+      ": the name does not end in .obj, .off, .ply, .stl, .glb or .gltf; rename or convert the file");
 }
 
 bool stores_float32(Mesh_format format)
@@ -228,7 +230,8 @@ std::vector<std::string> not_carried(const Triangle_soup& soup, Mesh_format form
   return names;
 }
 
-std::vector<std::string> missing_material_libraries(const std::filesystem::path& path, const Triangle_soup& soup)
+std::vector<std::string> missing_material_libraries(const std::filesystem::path& path,
+                                                    const Triangle_soup& soup)
 {
   const auto is_there = [folder = path.parent_path()](const std::string& name) {
     std::error_code error;

@@ -46,8 +46,9 @@ public:
   {
     const double size = 1 / static_cast<double>(m_tiles);
     const double margin = 0.01;
-    m_soup.uvs.values.push_back({(static_cast<double>(m_tile % m_tiles) + margin + (1 - 2 * margin) * u) * size,
-                          (static_cast<double>(m_tile / m_tiles) + margin + (1 - 2 * margin) * v) * size});
+    m_soup.uvs.values.push_back(
+        {(static_cast<double>(m_tile % m_tiles) + margin + (1 - 2 * margin) * u) * size,
+         (static_cast<double>(m_tile / m_tiles) + margin + (1 - 2 * margin) * v) * size});
     return static_cast<Index>(m_soup.uvs.values.size() - 1);
   }
 

@@ -22,13 +22,13 @@ namespace {
 
 constexpr Index s_none = std::numeric_limits<Index>::max();
 
-/// Which sides of triangles are sewn together, and which corners so become one vertex. Side 3i+k runs from corner
-/// 3i+k to the next corner of triangle i.
+/// Which sides of triangles are sewn together, and which corners so become one vertex. Side 3i+k runs from
+/// corner 3i+k to the next corner of triangle i.
 class Sewing
 {
 public:
   Sewing(const std::vector<Index_triple>& triangles, Welding_notes& notes)
-    : m_triangles(triangles), m_mates(3 * triangles.size(), s_none)
+      : m_triangles(triangles), m_mates(3 * triangles.size(), s_none)
   {
     sew(notes);
     number_vertices();
@@ -47,8 +47,8 @@ public:
 private:
   Index position(Index corner) const { return m_triangles[corner / 3][corner % 3]; }
 
-  // Two sides make an edge when they are all that lies there, run opposite ways, and belong to different triangles
-  // of positions.
+  // Two sides make an edge when they are all that lies there, run opposite ways, and belong to different
+  // triangles of positions.
   void sew(Welding_notes& notes)
   {
     struct Side
@@ -106,8 +106,8 @@ private:
     }
   }
 
-  // A halfedge mesh cannot hold two edges between the same two vertices, which unsewn sides of one place may ask for.
-  // Tearing all that is sewn at their ends gives them ends of their own.
+  // A halfedge mesh cannot hold two edges between the same two vertices, which unsewn sides of one place may
+  // ask for. Tearing all that is sewn at their ends gives them ends of their own.
   bool tear_parallel_edges()
   {
     std::unordered_set<Index> torn;
@@ -145,19 +145,22 @@ std::vector<Index> number_positions(const std::vector<Point_3>& points)
 {
   std::vector<Index> sorted(points.size());
   std::iota(sorted.begin(), sorted.end(), Index(0));
-  const auto coordinates = [&](Index v) { return std::make_tuple(points[v].x(), points[v].y(), points[v].z()); };
+  const auto coordinates = [&](Index v) {
+    return std::make_tuple(points[v].x(), points[v].y(), points[v].z());
+  };
   std::sort(sorted.begin(), sorted.end(), [&](Index a, Index b) {
     return std::make_pair(coordinates(a), a) < std::make_pair(coordinates(b), b);
   });
   std::vector<Index> numbers(points.size());
   for (std::size_t i = 0; i < sorted.size(); ++i)
-    numbers[sorted[i]] = i > 0 && coordinates(sorted[i]) == coordinates(sorted[i - 1]) ? numbers[sorted[i - 1]] : sorted[i];
+    numbers[sorted[i]] =
+        i > 0 && coordinates(sorted[i]) == coordinates(sorted[i - 1]) ? numbers[sorted[i - 1]] : sorted[i];
   return numbers;
 }
 
 Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& positions,
                            const std::vector<char>& is_frozen, const Triangle_soup& obstacle)
-  : m_soup(soup)
+    : m_soup(soup)
 {
   const Index own_vertices = Index(soup.points.size());
   const Index own_corners = Index(3 * soup.triangles.size());
@@ -179,7 +182,8 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
   }
   for (const auto& [a, b, c] : obstacle.triangles) {
     m_constraints.uncounted_faces.push_back(Mesh::Face_index(Index(triangles.size())));
-    triangles.push_back({positions[own_vertices + a], positions[own_vertices + b], positions[own_vertices + c]});
+    triangles.push_back(
+        {positions[own_vertices + a], positions[own_vertices + b], positions[own_vertices + c]});
   }
 
   const Sewing sewing(triangles, m_notes);
@@ -191,12 +195,13 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
     if (sewing.vertex(corner) != m_mesh.number_of_vertices())
       continue; // vertices are numbered by their first corners
     const Index position = triangles[corner / 3][corner % 3];
-    m_mesh.add_vertex(position < own_vertices ? soup.points[position] : obstacle.points[position - own_vertices]);
+    m_mesh.add_vertex(position < own_vertices ? soup.points[position]
+                                              : obstacle.points[position - own_vertices]);
     position_of_vertex.push_back(position);
     ++vertices_at[position];
   }
   m_notes.unwelded_positions =
-    std::count_if(vertices_at.begin(), vertices_at.end(), [](Index count) { return count > 1; });
+      std::count_if(vertices_at.begin(), vertices_at.end(), [](Index count) { return count > 1; });
 
   std::vector<char> is_locked(m_mesh.number_of_vertices(), false);
   for (Index v = 0; v < is_locked.size(); ++v)
@@ -223,13 +228,15 @@ bool Working_mesh::is_line(Corner a, Corner b) const
 {
   // By value, for files that write a number twice.
   const auto differ = [&](const auto& corners) {
-    return !corners.empty() && corners.values[corners.of_triangle[a / 3][a % 3]] != corners.values[corners.of_triangle[b / 3][b % 3]];
+    return !corners.empty() && corners.values[corners.of_triangle[a / 3][a % 3]] !=
+                                   corners.values[corners.of_triangle[b / 3][b % 3]];
   };
   const auto differ_in_label = [&](const Triangle_labels& labels) {
     return !labels.empty() && labels.of_triangle[a / 3] != labels.of_triangle[b / 3];
   };
-  return vertex_of(a) != vertex_of(b) || differ(m_soup.uvs) || differ(m_soup.normals) || differ_in_label(m_soup.groups) ||
-         differ_in_label(m_soup.objects) || differ_in_label(m_soup.materials);
+  return vertex_of(a) != vertex_of(b) || differ(m_soup.uvs) || differ(m_soup.normals) ||
+         differ_in_label(m_soup.groups) || differ_in_label(m_soup.objects) ||
+         differ_in_label(m_soup.materials);
 }
 
 std::size_t Working_mesh::place_in(Mesh::Face_index face, Mesh::Vertex_index vertex) const
@@ -242,15 +249,17 @@ std::size_t Working_mesh::place_in(Mesh::Face_index face, Mesh::Vertex_index ver
   return place;
 }
 
-// Calls function(face, place, corner) for each face that a motion changes: its corner at that place becomes `corner`.
+// Calls function(face, place, corner) for each face that a motion changes: its corner at that place becomes
+// `corner`.
 template <class Function>
 void Working_mesh::for_each_changed_face(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule,
                                          const Function& function) const
 {
   const Mesh::Vertex_index mover = m_mesh.source(moving), target = m_mesh.target(moving);
-  // From a contracted face, away from the other, up to the next line of the rule, which knows more lines than corners
-  // show: sides may become equal. Is there none?
-  const auto goes_all_the_way = [&](Mesh::Halfedge_index from, Mesh::Halfedge_index other, const auto& across) {
+  // From a contracted face, away from the other, up to the next line of the rule, which knows more lines than
+  // corners show: sides may become equal. Is there none?
+  const auto goes_all_the_way = [&](Mesh::Halfedge_index from, Mesh::Halfedge_index other,
+                                    const auto& across) {
     if (m_mesh.is_border(from))
       return false;
     const Corner carried = corner_at(m_mesh.face(from), target);
@@ -262,15 +271,18 @@ void Working_mesh::for_each_changed_face(Mesh::Halfedge_index moving, const Bord
     return true;
   };
   const Mesh::Halfedge_index back = m_mesh.opposite(moving);
-  if (!goes_all_the_way(moving, back, [this](Mesh::Halfedge_index h) { return m_mesh.opposite(m_mesh.prev(h)); }))
-    goes_all_the_way(back, moving, [this](Mesh::Halfedge_index h) { return m_mesh.opposite(m_mesh.next(h)); });
+  if (!goes_all_the_way(moving, back,
+                        [this](Mesh::Halfedge_index h) { return m_mesh.opposite(m_mesh.prev(h)); }))
+    goes_all_the_way(back, moving,
+                     [this](Mesh::Halfedge_index h) { return m_mesh.opposite(m_mesh.next(h)); });
 }
 
 void Working_mesh::before_collapse(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule)
 {
   if (m_listener) {
     const Mesh::Face_index face = m_mesh.face(m_mesh.is_border(moving) ? m_mesh.opposite(moving) : moving);
-    m_listener(vertex_of(corner_at(face, m_mesh.source(moving))), vertex_of(corner_at(face, m_mesh.target(moving))));
+    m_listener(vertex_of(corner_at(face, m_mesh.source(moving))),
+               vertex_of(corner_at(face, m_mesh.target(moving))));
   }
   for_each_moved_wedge(moving, [this](Corner from, Corner to) {
     m_uv_quadrics[m_wedges[to]] += m_uv_quadrics[m_wedges[from]];
@@ -310,8 +322,8 @@ void Working_mesh::weigh(const std::vector<double>& weights)
 
 bool Working_mesh::keeps_pieces(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule) const
 {
-  // By their numbers, the vertices of a line are open (each side has its own) or closed. Runs of open ones are boundary loops
-  // of pieces or stretches of them, so none may vanish, and no two may meet.
+  // By their numbers, the vertices of a line are open (each side has its own) or closed. Runs of open ones
+  // are boundary loops of pieces or stretches of them, so none may vanish, and no two may meet.
   const auto is_open_at_end = [this](Mesh::Halfedge_index h) {
     const Mesh::Face_index side = m_mesh.face(h), other_side = m_mesh.face(m_mesh.opposite(h));
     if (!m_mesh.is_valid(side) || !m_mesh.is_valid(other_side) || !is_own(side) || !is_own(other_side))
@@ -333,7 +345,9 @@ bool Working_mesh::keeps_uv_orientation(Mesh::Halfedge_index moving, const Borde
   if (m_soup.uvs.empty())
     return true;
   const auto orientation = [this](const Index_triple& corners) {
-    const auto point = [&](std::size_t k) { return Kernel::Point_2(uv_of(corners[k])[0], uv_of(corners[k])[1]); };
+    const auto point = [&](std::size_t k) {
+      return Kernel::Point_2(uv_of(corners[k])[0], uv_of(corners[k])[1]);
+    };
     return CGAL::orientation(point(0), point(1), point(2));
   };
   bool is_kept = true;
@@ -375,9 +389,9 @@ void Working_mesh::measure_uvs()
     const auto& [a, b, c] = m_soup.triangles[t];
     const Mesh::Vertex_index v = m_mesh.target(h);
     m_uv_quadrics[m_wedges[corner_at(m_mesh.face(h), v)]].add_triangle(
-      {relative(m_soup.points[a]), relative(m_soup.points[b]), relative(m_soup.points[c])},
-      {relative(uv_of(3 * t)), relative(uv_of(3 * t + 1)), relative(uv_of(3 * t + 2))},
-      m_constraints.vertex_weights.empty() ? 1 : m_constraints.vertex_weights[v]);
+        {relative(m_soup.points[a]), relative(m_soup.points[b]), relative(m_soup.points[c])},
+        {relative(uv_of(3 * t)), relative(uv_of(3 * t + 1)), relative(uv_of(3 * t + 2))},
+        m_constraints.vertex_weights.empty() ? 1 : m_constraints.vertex_weights[v]);
   }
 }
 

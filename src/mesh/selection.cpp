@@ -12,8 +12,8 @@ namespace {
 
 constexpr Index s_none = std::numeric_limits<Index>::max();
 
-// Renumbers what triangles refer to so that only what is used remains, in its order. Returns the old numbers of what
-// remains.
+// Renumbers what triangles refer to so that only what is used remains, in its order. Returns the old numbers
+// of what remains.
 std::vector<Index> keep_used(std::vector<Index_triple>& triangles, std::size_t size)
 {
   std::vector<Index> numbers(size, s_none), kept;
@@ -47,15 +47,17 @@ std::vector<Attribute> rows(const std::vector<Attribute>& from, const std::vecto
   for (const Attribute& attribute : from) {
     const std::size_t size = row_size(attribute);
     Attribute& column = result.emplace_back(
-      Attribute{attribute.name, attribute.type, attribute.components, attribute.is_normalized, {}});
+        Attribute{attribute.name, attribute.type, attribute.components, attribute.is_normalized, {}});
     column.rows.reserve(kept.size() * size);
     for (const Index i : kept)
-      column.rows.insert(column.rows.end(), attribute.rows.begin() + i * size, attribute.rows.begin() + (i + 1) * size);
+      column.rows.insert(column.rows.end(), attribute.rows.begin() + i * size,
+                         attribute.rows.begin() + (i + 1) * size);
   }
   return result;
 }
 
-std::vector<Index_triple> at_corners(const std::vector<Index_triple>& from, const std::vector<Index_triple>& corners)
+std::vector<Index_triple> at_corners(const std::vector<Index_triple>& from,
+                                     const std::vector<Index_triple>& corners)
 {
   std::vector<Index_triple> result;
   result.reserve(corners.size());
@@ -65,7 +67,8 @@ std::vector<Index_triple> at_corners(const std::vector<Index_triple>& from, cons
 }
 
 template <std::size_t dimension>
-Corner_values<dimension> selected(const Corner_values<dimension>& from, const std::vector<Index_triple>& corners)
+Corner_values<dimension> selected(const Corner_values<dimension>& from,
+                                  const std::vector<Index_triple>& corners)
 {
   Corner_values<dimension> result;
   if (from.empty())

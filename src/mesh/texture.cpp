@@ -18,7 +18,8 @@ double uv_unit(const Triangle_soup& soup)
     const auto uv = [&](std::size_t k) -> const std::array<double, 2>& {
       return soup.uvs.values[soup.uvs.of_triangle[t][k]];
     };
-    const double twice = (uv(1)[0] - uv(0)[0]) * (uv(2)[1] - uv(0)[1]) - (uv(1)[1] - uv(0)[1]) * (uv(2)[0] - uv(0)[0]);
+    const double twice =
+        (uv(1)[0] - uv(0)[0]) * (uv(2)[1] - uv(0)[1]) - (uv(1)[1] - uv(0)[1]) * (uv(2)[0] - uv(0)[0]);
     if (twice == 0)
       continue; // no texture there
     const auto& [a, b, c] = soup.triangles[t];

@@ -59,7 +59,8 @@ TEST(App_simplify, ClosesSeamsAndLeavesThemSewnWhenAsked)
   const Workspace folder;
   write_text(folder / "in.obj", two_squares());
   const auto pieces_left = [&](std::vector<std::string> options) {
-    options.insert(options.begin(), {"simplify", folder / "in.obj", "-o", folder / "out.obj", "--ratio", "1"});
+    options.insert(options.begin(),
+                   {"simplify", folder / "in.obj", "-o", folder / "out.obj", "--ratio", "1"});
     const App_result result = run_app(options);
     EXPECT_EQ(result.code, 0) << result.err;
     const bool is_closed = result.out.find("seams closed: 6 of 6") != std::string::npos;

@@ -74,7 +74,8 @@ private:
 };
 
 class Index_in_use : public testing::TestWithParam<std::size_t>
-{};
+{
+};
 
 INSTANTIATE_TEST_SUITE_P(Index, Index_in_use, testing::Values(1, 20, 100, 100000));
 

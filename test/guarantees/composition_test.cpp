@@ -1,7 +1,8 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// G10: the filter guards placements that are no vertices, after every collapse; filters work alone and stacked.
+// G10: the filter guards placements that are no vertices, after every collapse; filters work alone and
+// stacked.
 
 #include "support/meshes.h"
 #include "support/reduction.h"
@@ -30,7 +31,10 @@ Mesh mesh_of(const Triangle_soup& soup)
   return Working_mesh(prepared.soup, prepared.positions, prepared.is_frozen).mesh();
 }
 
-Mesh close_layers() { return mesh_of(sheets(1600, 4, 1e-3)); }
+Mesh close_layers()
+{
+  return mesh_of(sheets(1600, 4, 1e-3));
+}
 
 // Judges the mesh at every collapse.
 template <class Visitor>
@@ -38,8 +42,9 @@ class Judging_visitor : public Visitor
 {
 public:
   Judging_visitor(const Visitor& visitor, const Mesh& mesh, std::size_t& collapses, std::size_t& violations)
-    : Visitor(visitor), m_mesh(&mesh), m_collapses(&collapses), m_violations(&violations)
-  {}
+      : Visitor(visitor), m_mesh(&mesh), m_collapses(&collapses), m_violations(&violations)
+  {
+  }
 
   template <class Profile, class Vertex>
   void OnCollapsed(const Profile& profile, const Vertex& kept)
@@ -55,7 +60,8 @@ private:
   std::size_t* m_violations;
 };
 
-// With any placement, points of doubles that are no vertices among them: two motions, judged one after the other.
+// With any placement, points of doubles that are no vertices among them: two motions, judged one after the
+// other.
 template <class Cost, class Placement>
 void expect_guarded(const Cost& cost, const Placement& placement)
 {
@@ -65,7 +71,7 @@ void expect_guarded(const Cost& cost, const Placement& placement)
   std::size_t collapses = 0, violations = 0;
   SMS::edge_collapse(mesh, stop,
                      CGAL::parameters::get_cost(cost).get_placement(placement).filter(filter).visitor(
-                       Judging_visitor(filter.visitor(), mesh, collapses, violations)));
+                         Judging_visitor(filter.visitor(), mesh, collapses, violations)));
   EXPECT_GT(collapses, 50u);
   EXPECT_GT(filter.refusals(), 0u);
   EXPECT_EQ(violations, 0u);
@@ -83,13 +89,17 @@ TEST(Composition, TheSameLayersPierceEachOtherUnguarded)
   EXPECT_FALSE(is_embedded(soup_of(mesh)));
 }
 
-TEST(Composition, GuardsMidpoints) { expect_guarded(SMS::Edge_length_cost<Mesh>(), SMS::Midpoint_placement<Mesh>()); }
+TEST(Composition, GuardsMidpoints)
+{
+  expect_guarded(SMS::Edge_length_cost<Mesh>(), SMS::Midpoint_placement<Mesh>());
+}
 
 TEST(Composition, AGuardIsNotTooStrictWhereNothingIsNear)
 {
   Mesh mesh = mesh_of(nested_spheres(2000, 1, 1e-2));
   const Intersection_filter<Mesh> filter(mesh);
-  SMS::edge_collapse(mesh, Face_ratio_stop(0.1, mesh), CGAL::parameters::filter(filter).visitor(filter.visitor()));
+  SMS::edge_collapse(mesh, Face_ratio_stop(0.1, mesh),
+                     CGAL::parameters::filter(filter).visitor(filter.visitor()));
   EXPECT_LE(mesh.number_of_faces(), 200u);
   EXPECT_LE(filter.refusals(), 20u);
 }

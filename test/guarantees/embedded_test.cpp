@@ -113,7 +113,8 @@ TEST(Embedded, FrozenPairsStayAsTheyAreAndNoneIsAdded)
 {
   // Two wavy sheets, one moved into the other.
   Triangle_soup upper = sheets(3000, 1, 1e-3), lower = upper;
-  upper = mapped(upper, [](const Point_3& p) { return Point_3(p.x() + 0.013, p.y() + 0.007, p.z() + 0.002); });
+  upper =
+      mapped(upper, [](const Point_3& p) { return Point_3(p.x() + 0.013, p.y() + 0.007, p.z() + 0.002); });
   Triangle_soup both;
   both.points = lower.points;
   both.triangles = lower.triangles;
@@ -136,7 +137,8 @@ TEST(Embedded, StrictRefusesWhatIsNotAndNamesTheFirstPair)
     prepare(crossing(), options);
     FAIL() << "accepted";
   } catch (const Input_error& error) {
-    EXPECT_NE(std::string(error.what()).find("triangles 1 and 2 intersect"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("triangles 1 and 2 intersect"), std::string::npos)
+        << error.what();
   }
   EXPECT_THROW(prepare(duplicate(), options), Input_error);
   EXPECT_THROW(prepare(collinear_triangle(), options), Input_error);
@@ -146,9 +148,9 @@ TEST(Embedded, StrictRefusesWhatIsNotAndNamesTheFirstPair)
 TEST(Embedded, DefectsAreFrozenNotSpread)
 {
   for (const Triangle_soup& defective :
-       {bowtie(), book(), vertex_touching_face(), edge_touching_edge(), crossing(), coplanar_overlap(), coplanar_inside(),
-        duplicate(), opposite_duplicate(), t_junction(), folded_over(), collinear_triangle(), moebius_band(),
-        fan_of_three()}) {
+       {bowtie(), book(), vertex_touching_face(), edge_touching_edge(), crossing(), coplanar_overlap(),
+        coplanar_inside(), duplicate(), opposite_duplicate(), t_junction(), folded_over(),
+        collinear_triangle(), moebius_band(), fan_of_three()}) {
     const Reduction reduction = reduce(joined(sheet(6, 6, 50), defective), without_limits(to_ratio(0.01)));
     EXPECT_TRUE(reduction.verification.new_pairs.empty());
     EXPECT_EQ(reduction.verification.pairs.size(), reduction.prepared.offending_pairs.size());
@@ -158,11 +160,13 @@ TEST(Embedded, DefectsAreFrozenNotSpread)
 }
 
 class Real_garment : public testing::TestWithParam<const char*>
-{};
+{
+};
 
 INSTANTIATE_TEST_SUITE_P(Embedded, Real_garment,
                          testing::Values("garments/dress_14_pieces_uv.obj", "garments/multilayer_skirt.obj",
-                                         "garments/avatar_in_suit_uv.obj", "garments/multilayer_skirt_as_found.obj"));
+                                         "garments/avatar_in_suit_uv.obj",
+                                         "garments/multilayer_skirt_as_found.obj"));
 
 TEST_P(Real_garment, GetsNoNewPair)
 {
@@ -174,7 +178,8 @@ TEST_P(Real_garment, GetsNoNewPair)
   EXPECT_TRUE(reduction.verification.accepted());
   EXPECT_TRUE(reduction.simplified.report.is_reached());
   EXPECT_EQ(reduction.verification.pairs.size(), reduction.prepared.offending_pairs.size());
-  EXPECT_FALSE(reduce(original, without_check(to_ratio(0.3))).verification.new_pairs.empty()) << "the control";
+  EXPECT_FALSE(reduce(original, without_check(to_ratio(0.3))).verification.new_pairs.empty())
+      << "the control";
 }
 
 } // namespace

@@ -56,7 +56,8 @@ std::string first_offence(const Triangle_soup& soup)
 bool same_bytes(const Triangle_soup& a, const Triangle_soup& b)
 {
   return a.points == b.points && a.triangles == b.triangles && a.uvs.values == b.uvs.values &&
-         a.uvs.of_triangle == b.uvs.of_triangle && a.groups.of_triangle == b.groups.of_triangle && a.groups.names == b.groups.names;
+         a.uvs.of_triangle == b.uvs.of_triangle && a.groups.of_triangle == b.groups.of_triangle &&
+         a.groups.names == b.groups.names;
 }
 
 class Every_scene : public testing::TestWithParam<Scene_description>
@@ -249,8 +250,8 @@ TEST(Generator, LayersAreAsCloseAsAsked)
     Triangle_soup soup = generate(name, options);
     std::vector<char> moved(soup.points.size());
     const std::string layer = soup.groups.names[soup.groups.of_triangle.front()] == "sheet_0" ? "sheet_0"
-                              : name == std::string("nested")                    ? "sphere_0"
-                                                                                 : "lining_front";
+                              : name == std::string("nested")                                 ? "sphere_0"
+                                                              : "lining_front";
     for (std::size_t k = 0; k < soup.triangles.size(); ++k)
       if (soup.groups.names[soup.groups.of_triangle[k]] == layer)
         for (const Index v : soup.triangles[k])

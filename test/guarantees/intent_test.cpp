@@ -29,7 +29,8 @@ Triangle_soup two_groups(Index size = 30)
   });
   soup.groups.names = {"sleeve left", "body"};
   for (const auto& [a, b, c] : soup.triangles)
-    soup.groups.of_triangle.push_back(soup.points[a].x() + soup.points[b].x() + soup.points[c].x() > 1.5 * size);
+    soup.groups.of_triangle.push_back(soup.points[a].x() + soup.points[b].x() + soup.points[c].x() >
+                                      1.5 * size);
   return soup;
 }
 
@@ -72,8 +73,10 @@ TEST(Intent, NoVertexOfALockedGroupMoves)
   EXPECT_TRUE(result.report.is_reached());
   EXPECT_TRUE(verify(result, prepared).accepted());
 
-  // Its faces count for the target, the others give way the more. The control: without the lock both give way.
-  EXPECT_LE(result.soup.triangles.size(), std::size_t(std::llround(0.6 * double(prepared.soup.triangles.size()))));
+  // Its faces count for the target, the others give way the more. The control: without the lock both give
+  // way.
+  EXPECT_LE(result.soup.triangles.size(),
+            std::size_t(std::llround(0.6 * double(prepared.soup.triangles.size()))));
   EXPECT_NE(faces_of(simplify_soup(prepared, to_ratio(0.6)).soup, 1), faces_of(prepared.soup, 1));
 }
 
@@ -83,7 +86,8 @@ TEST(Intent, NoFaceOfAKeptGroupChangesAndTheTargetIsForTheOthers)
   const Simplified_soup result = simplify_soup(prepared, to_ratio(0.4), kept("body"));
   EXPECT_EQ(faces_of(result.soup, 1), faces_of(prepared.soup, 1));
   const std::size_t others = faces_of(prepared.soup, 0).size();
-  EXPECT_EQ(result.report.faces_target, faces_of(prepared.soup, 1).size() + std::size_t(std::llround(0.4 * double(others))));
+  EXPECT_EQ(result.report.faces_target,
+            faces_of(prepared.soup, 1).size() + std::size_t(std::llround(0.4 * double(others))));
   EXPECT_TRUE(result.report.is_reached());
   EXPECT_LE(faces_of(result.soup, 0).size(), 0.4 * double(others) + 0.5);
 }

@@ -74,7 +74,9 @@ TEST(Lods, AnInterruptedRunKeepsTheLevelsThatItHasPassed)
 {
   const Prepared_soup prepared = prepare(garment("jacket", 6000));
   Simplify_options options;
-  options.should_stop = [](const Simplify_progress& progress) { return 4 * progress.faces < 3 * progress.faces_input; };
+  options.should_stop = [](const Simplify_progress& progress) {
+    return 4 * progress.faces < 3 * progress.faces_input;
+  };
   const std::vector<Simplified_soup> levels = simplify_lods(prepared, options, {0.9, 0.1});
   EXPECT_TRUE(levels[0].report.is_reached());
   EXPECT_FALSE(levels[0].report.is_stopped);

@@ -84,7 +84,8 @@ TEST(Motion, OrderOfLayersIsKept)
         result.triangles.push_back(soup.triangles[t]);
     return result;
   };
-  // On which side of the other layer, seen along z, the triangles of a layer have their centres: +1 or -1 when all agree.
+  // On which side of the other layer, seen along z, the triangles of a layer have their centres: +1 or -1
+  // when all agree.
   const auto signs = [](const Triangle_soup& below, const Triangle_soup& above) {
     int sum = 0, count = 0;
     for (const Index_triple& t : below.triangles) {

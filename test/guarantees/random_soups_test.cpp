@@ -12,8 +12,8 @@
 namespace selvedge::test {
 namespace {
 
-// Layers on an integer grid: they touch, fold, overlap; triangles are missing, doubled, turned over; vertices are shared or
-// not, so that pieces hang together by edges, by single vertices, or only by position.
+// Layers on an integer grid: they touch, fold, overlap; triangles are missing, doubled, turned over; vertices
+// are shared or not, so that pieces hang together by edges, by single vertices, or only by position.
 Triangle_soup random_soup(std::mt19937& random)
 {
   Triangle_soup soup;

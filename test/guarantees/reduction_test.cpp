@@ -19,11 +19,15 @@ namespace {
 
 using Coordinates = std::tuple<double, double, double>;
 
-Coordinates coordinates(const Point_3& p) { return {p.x(), p.y(), p.z()}; }
+Coordinates coordinates(const Point_3& p)
+{
+  return {p.x(), p.y(), p.z()};
+}
 
 TEST(Topology, OfEveryPieceIsKept)
 {
-  for (const Triangle_soup& soup : {skirt(6000), sheets(3000, 3, 1e-4), nested_spheres(3000, 3, 1e-3), sewn_pieces(2000)}) {
+  for (const Triangle_soup& soup :
+       {skirt(6000), sheets(3000, 3, 1e-4), nested_spheres(3000, 3, 1e-3), sewn_pieces(2000)}) {
     const Reduction reduction = reduce(soup, without_limits(to_ratio(0.02)));
     EXPECT_TRUE(reduction.verification.same_topology());
     EXPECT_LT(reduction.simplified.soup.triangles.size(), soup.triangles.size() / 4);
@@ -65,7 +69,8 @@ TEST(Seams, CoincidentBordersCoincideAtEveryVertexAfterwards)
   };
   ASSERT_GT(sewn_edges(garment), 100);
   const Reduction reduction = reduce(garment, to_ratio(0.1));
-  EXPECT_GE(reduction.simplified.welding.seam_edges, std::size_t(sewn_edges(garment))) << "texture seams count, too";
+  EXPECT_GE(reduction.simplified.welding.seam_edges, std::size_t(sewn_edges(garment)))
+      << "texture seams count, too";
   EXPECT_GT(sewn_edges(reduction.simplified.soup), 10);
   EXPECT_LT(sewn_edges(reduction.simplified.soup), sewn_edges(garment) / 2);
   EXPECT_LE(open_edges(reduction.simplified.soup), open_edges(garment)) << "a seam has come apart";
@@ -78,7 +83,8 @@ TEST(Seams, StraightBordersStayWhereTheyAre)
   EXPECT_LT(result.triangles.size(), 20u);
   for (const auto& [a, b] : border_edges(result)) {
     const Point_3 &p = result.points[a], &q = result.points[b];
-    const bool is_on_one_side = (p.x() == q.x() && (p.x() == 0 || p.x() == 20)) || (p.y() == q.y() && (p.y() == 0 || p.y() == 20));
+    const bool is_on_one_side =
+        (p.x() == q.x() && (p.x() == 0 || p.x() == 20)) || (p.y() == q.y() && (p.y() == 0 || p.y() == 20));
     EXPECT_TRUE(is_on_one_side);
   }
 }
@@ -128,7 +134,9 @@ TEST(Seams, DriftIsBounded)
     for (Index i = 0; i <= 24; ++i) {
       double nearest = 1e300;
       for (const auto& [a, b] : edges)
-        nearest = std::min(nearest, CGAL::squared_distance(original.points[i], Kernel::Segment_3(result.points[a], result.points[b])));
+        nearest =
+            std::min(nearest, CGAL::squared_distance(original.points[i],
+                                                     Kernel::Segment_3(result.points[a], result.points[b])));
       EXPECT_LE(std::sqrt(nearest), drift * reduction.verification.distances->diagonal * (1 + 1e-12));
     }
     EXPECT_LT(edges.size(), edges_before) << "a looser bound should let the border lose more";
@@ -145,7 +153,8 @@ std::set<Corner> corners(const Triangle_soup& soup)
   for (std::size_t t = 0; t < soup.triangles.size(); ++t)
     for (int k = 0; k < 3; ++k) {
       const auto& uv = soup.uvs.values[soup.uvs.of_triangle[t][k]];
-      result.insert({coordinates(soup.points[soup.triangles[t][k]]), uv[0], uv[1], soup.groups.names[soup.groups.of_triangle[t]]});
+      result.insert({coordinates(soup.points[soup.triangles[t][k]]), uv[0], uv[1],
+                     soup.groups.names[soup.groups.of_triangle[t]]});
     }
   return result;
 }
@@ -296,9 +305,9 @@ TEST(Prepare, RoundingIsCountedApartFromTheInputsOwnDefects)
 {
   // Two sheets so close that floats cannot tell them apart, and one pair that crosses by itself.
   const double gap = 1e-12;
-  Triangle_soup input = joined(joined(sheet(2, 2, 1), sheet(2, 2, 1 + gap)), mapped(crossing(), [](const Point_3& p) {
-                                 return Point_3(p.x() + 100, p.y(), p.z());
-                               }));
+  Triangle_soup input =
+      joined(joined(sheet(2, 2, 1), sheet(2, 2, 1 + gap)),
+             mapped(crossing(), [](const Point_3& p) { return Point_3(p.x() + 100, p.y(), p.z()); }));
   EXPECT_EQ(prepare(input).offending_pairs.size(), 1u);
   Prepare_options options;
   options.round_to_float32 = true;

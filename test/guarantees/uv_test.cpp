@@ -33,7 +33,8 @@ std::size_t turned_over(const Reduction& reduction)
 {
   std::size_t turned = 0;
   for (Index i = 0; i < reduction.simplified.triangles.size(); ++i) {
-    const CGAL::Orientation before = uv_orientation(reduction.prepared.soup, reduction.simplified.triangles[i]);
+    const CGAL::Orientation before =
+        uv_orientation(reduction.prepared.soup, reduction.simplified.triangles[i]);
     turned += before != CGAL::COLLINEAR && uv_orientation(reduction.simplified.soup, i) != before;
   }
   return turned;
@@ -113,7 +114,8 @@ TEST(Uv, AnAffineTextureCostsNothing)
     return simplify_soup(prepare(input), options).triangles;
   };
   soup.uvs = {};
-  EXPECT_EQ(triangles_left(soup, 0), triangles_left(soup, 100)) << "the weight matters where there is no texture";
+  EXPECT_EQ(triangles_left(soup, 0), triangles_left(soup, 100))
+      << "the weight matters where there is no texture";
 
   Uv_quadric quadric;
   const auto uv = [](const Uv_quadric::Vector& x) {

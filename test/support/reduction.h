@@ -53,7 +53,7 @@ inline Reduction reduce(Triangle_soup soup, const Simplify_options& options)
   reduction.prepared = prepare(std::move(soup));
   reduction.simplified = simplify_soup(reduction.prepared, options);
   reduction.verification =
-    verify(reduction.simplified.soup, reduction.prepared.soup, reduction.prepared.offending_pairs);
+      verify(reduction.simplified.soup, reduction.prepared.soup, reduction.prepared.offending_pairs);
   return reduction;
 }
 

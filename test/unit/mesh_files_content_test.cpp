@@ -53,7 +53,8 @@ TEST(ObjTextureCoordinates, FollowTheCorners)
   const Mesh_file file = read_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
                                   "vt 0.25\nvt 0.5 1\nvt 1 1 0\nvt 0 0.5\nvn 0 0 1\n"
                                   "f 1/4/1 2/3/1 3/2/1 4/1/1\nf 1/-1 2/-2 3/-4\n");
-  EXPECT_EQ(file.soup.uvs.values, (std::vector<std::array<double, 2>>{{0.25, 0}, {0.5, 1}, {1, 1}, {0, 0.5}}));
+  EXPECT_EQ(file.soup.uvs.values,
+            (std::vector<std::array<double, 2>>{{0.25, 0}, {0.5, 1}, {1, 1}, {0, 0.5}}));
   EXPECT_EQ(file.soup.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}}));
   EXPECT_EQ(file.soup.uvs.of_triangle, (Triangles{{3, 2, 1}, {3, 1, 0}, {3, 2, 0}}));
 }
@@ -80,7 +81,8 @@ TEST(ObjLabels, AreNamesAsTheyStandInTheFile)
 {
   const Triangle_soup soup =
       read_obj("mtllib my wool.mtl\r\nmtllib a.mtl b.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n"
-               "o  body  left\nusemtl wool (2) #3\ns 1\nf 1 2 3\ns off\ng a \\\n b\nf 1 2 3\ng\nf 1 2 3\n").soup;
+               "o  body  left\nusemtl wool (2) #3\ns 1\nf 1 2 3\ns off\ng a \\\n b\nf 1 2 3\ng\nf 1 2 3\n")
+          .soup;
   EXPECT_EQ(soup.material_libraries, (std::vector<std::string>{"my wool.mtl", "a.mtl b.mtl"}));
   const auto expect = [](const Triangle_labels& labels, const std::vector<std::string>& of_triangle) {
     std::vector<std::string> found;

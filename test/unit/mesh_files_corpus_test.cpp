@@ -237,12 +237,14 @@ const std::vector<Entry>& corpus()
        ":12: the value 256 is not of the type uchar"},
       {"PlyTextureCoordinateNotFinite", ply,
        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-       "property float s\nproperty float t\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+       "property float s\nproperty float t\nelement face 1\nproperty list uchar int "
+       "vertex_indices\nend_header\n"
        "0 0 0 0 0\n4 0 0 inf 0\n0 4 0 7 0\n3 0 1 2\n",
        ":13: vertex 1 has a texture coordinate that is not finite"},
       {"PlyTextureCoordinatesNotTwoToACorner", ply,
        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-       "element face 1\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\nend_header\n" +
+       "element face 1\nproperty list uchar int vertex_indices\nproperty list uchar float "
+       "texcoord\nend_header\n" +
            ply_points + "3 0 1 2 5 0 0 1 0 1\n",
        "", 3, 1, "not carried, texture coordinates of faces, not two to a corner: 1"},
       {"PlyIndexTooLarge", ply, ply_header("ascii", "3", "1") + ply_points + "3 0 1 3\n",

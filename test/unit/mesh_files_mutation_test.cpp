@@ -69,7 +69,8 @@ std::string valid_file(const Form& form)
   std::ifstream stream(path, std::ios::binary);
   std::string contents(std::istreambuf_iterator<char>(stream), {});
   if (form.format == Mesh_format::obj)
-    contents += "f 1/1 2/2 4/4 3/3\nf 1//1 2 \\\n 3 4 5\nl 1 2\nmtllib a b.mtl\nv 1 2 3 0.5\nv 1 2 3 1 0 0.5 1\n";
+    contents +=
+        "f 1/1 2/2 4/4 3/3\nf 1//1 2 \\\n 3 4 5\nl 1 2\nmtllib a b.mtl\nv 1 2 3 0.5\nv 1 2 3 1 0 0.5 1\n";
   return contents;
 }
 
@@ -125,7 +126,8 @@ void expect_sound(const Triangle_soup& soup)
   expect_sound_values(soup.normals);
   for (const auto& uv : soup.uvs.values)
     ASSERT_TRUE(std::isfinite(uv[0]) && std::isfinite(uv[1]));
-  for (const Triangle_labels* labels : {&soup.groups, &soup.objects, &soup.materials, &soup.smoothing_groups}) {
+  for (const Triangle_labels* labels :
+       {&soup.groups, &soup.objects, &soup.materials, &soup.smoothing_groups}) {
     ASSERT_TRUE(labels->empty() || labels->of_triangle.size() == soup.triangles.size());
     for (const Index label : labels->of_triangle)
       ASSERT_LT(label, labels->names.size());

@@ -19,7 +19,10 @@ using Id = Clustered_AABB_tree::Id;
 class Random_boxes
 {
 public:
-  Random_boxes(unsigned seed, double origin, double extent) : m_random(seed), m_origin(origin), m_extent(extent) {}
+  Random_boxes(unsigned seed, double origin, double extent)
+      : m_random(seed), m_origin(origin), m_extent(extent)
+  {
+  }
 
   double number() { return double(m_random()) / double(std::mt19937::max()); }
   Id index(std::size_t size) { return Id(m_random() % size); }
@@ -63,7 +66,8 @@ void expect_same_but_for_rounding(const Clustered_AABB_tree& index, const Brute_
 }
 
 class Spatial_index : public testing::TestWithParam<std::tuple<int, double, double>>
-{};
+{
+};
 
 TEST_P(Spatial_index, NeverMissesABoxWhileBoxesComeChangeAndGo)
 {
@@ -107,10 +111,10 @@ TEST_P(Spatial_index, NeverMissesABoxWhileBoxesComeChangeAndGo)
 }
 
 INSTANTIATE_TEST_SUITE_P(
-  Sizes, Spatial_index,
-  testing::Combine(testing::Values(1, 10, 100, 100000),
-                   // Far from the origin and huge, where float has next to no digits left, and tiny.
-                   testing::Values(0.0, 1e7, -1e30), testing::Values(1.0, 1e-9, 1e300)));
+    Sizes, Spatial_index,
+    testing::Combine(testing::Values(1, 10, 100, 100000),
+                     // Far from the origin and huge, where float has next to no digits left, and tiny.
+                     testing::Values(0.0, 1e7, -1e30), testing::Values(1.0, 1e-9, 1e300)));
 
 TEST(SpatialIndex, FindsWhatFloatsCannotTellApart)
 {
@@ -141,7 +145,10 @@ TEST(SpatialIndex, MovesWithItsContent)
   EXPECT_EQ(overlapping(second, CGAL::Bbox_3(0, 0, 0, 1, 1, 1)), (std::multiset<Id>{0, 1}));
 }
 
-TEST(SpatialIndex, RefusesEmptyClusters) { EXPECT_THROW(Clustered_AABB_tree(0), selvedge::Argument_error); }
+TEST(SpatialIndex, RefusesEmptyClusters)
+{
+  EXPECT_THROW(Clustered_AABB_tree(0), selvedge::Argument_error);
+}
 
 TEST(SpatialIndex, HoldsAboutAsManyFacesPerClusterAsAskedFor)
 {

@@ -17,14 +17,14 @@
 
 namespace selvedge {
 
-/// The aspect ratio of a triangle: its height over its longest edge, scaled so that the equilateral triangle has 1
-/// and a degenerate one 0. In floating point.
+/// The aspect ratio of a triangle: its height over its longest edge, scaled so that the equilateral triangle
+/// has 1 and a degenerate one 0. In floating point.
 template <class Point>
 double aspect_ratio(const Point& a, const Point& b, const Point& c)
 {
-  const double longest = std::max({CGAL::to_double(CGAL::squared_distance(a, b)),
-                                   CGAL::to_double(CGAL::squared_distance(b, c)),
-                                   CGAL::to_double(CGAL::squared_distance(c, a))});
+  const double longest =
+      std::max({CGAL::to_double(CGAL::squared_distance(a, b)), CGAL::to_double(CGAL::squared_distance(b, c)),
+                CGAL::to_double(CGAL::squared_distance(c, a))});
   if (!(longest > 0))
     return 0;
   // Twice the area is height × longest edge.
@@ -45,7 +45,7 @@ class Aspect_ratio_filter : public internal::Filter_base<Aspect_ratio_filter<Bas
 public:
   /// `min_aspect_ratio` lies in [0, 1], or `Argument_error` is thrown; 0 accepts everything.
   explicit Aspect_ratio_filter(double min_aspect_ratio = 0.2, const BaseFilter& base = {})
-    : internal::Filter_base<Aspect_ratio_filter, BaseFilter>(base), m_min_aspect_ratio(min_aspect_ratio)
+      : internal::Filter_base<Aspect_ratio_filter, BaseFilter>(base), m_min_aspect_ratio(min_aspect_ratio)
   {
     if (!(min_aspect_ratio >= 0 && min_aspect_ratio <= 1))
       throw Argument_error("the least aspect ratio lies between 0 and 1, that of the equilateral triangle");
@@ -56,11 +56,11 @@ public:
   {
     double least_before = 1, least_after = 1;
     internal::all_of_changed_faces(
-      profile, placement, [&](const Point& before, const Point& after, const Point& a, const Point& b) {
-        least_before = (std::min)(least_before, aspect_ratio(before, a, b));
-        least_after = (std::min)(least_after, aspect_ratio(after, a, b));
-        return true;
-      });
+        profile, placement, [&](const Point& before, const Point& after, const Point& a, const Point& b) {
+          least_before = (std::min)(least_before, aspect_ratio(before, a, b));
+          least_after = (std::min)(least_after, aspect_ratio(after, a, b));
+          return true;
+        });
     return least_after >= m_min_aspect_ratio || least_after > least_before;
   }
 

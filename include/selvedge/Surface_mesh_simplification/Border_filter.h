@@ -13,15 +13,16 @@ namespace selvedge {
 
 /// Refuses a placement that a `Border_rule` does not allow.
 ///
-/// A model of CGAL's concept `PlacementFilter`, usable with any placement. Pass `Border_visitor` of the same rule
-/// to the loop: marks of seams, locks and drift follow the collapses through it.
+/// A model of CGAL's concept `PlacementFilter`, usable with any placement. Pass `Border_visitor` of the same
+/// rule to the loop: marks of seams, locks and drift follow the collapses through it.
 template <class Rule, class BaseFilter = No_filter>
 class Border_filter : public internal::Filter_base<Border_filter<Rule, BaseFilter>, BaseFilter>
 {
 public:
   explicit Border_filter(const Rule& rule, const BaseFilter& base = {})
-    : internal::Filter_base<Border_filter, BaseFilter>(base), m_rule(rule)
-  {}
+      : internal::Filter_base<Border_filter, BaseFilter>(base), m_rule(rule)
+  {
+  }
 
   template <class Profile, class Point>
   bool accepts(const Profile& profile, const Point& placement) const
@@ -33,7 +34,8 @@ private:
   Rule m_rule;
 };
 
-/// Keeps a `Border_rule` true while edges collapse: a model of CGAL's concept `EdgeCollapseSimplificationVisitor`.
+/// Keeps a `Border_rule` true while edges collapse: a model of CGAL's concept
+/// `EdgeCollapseSimplificationVisitor`.
 template <class TriangleMesh, class Rule = Border_rule<TriangleMesh>>
 class Border_visitor : public CGAL::Surface_mesh_simplification::Edge_collapse_visitor_base<TriangleMesh>
 {

@@ -33,24 +33,27 @@ struct Border_rule_options
   /// The same for a marked edge inside the mesh, where there is surface on both sides and no outline to fray.
   double max_seam_turn = 60;
 
-  /// The largest distance, in units of the mesh, from an original vertex of a line to the segment that replaced it.
+  /// The largest distance, in units of the mesh, from an original vertex of a line to the segment that
+  /// replaced it.
   double max_drift = std::numeric_limits<double>::infinity();
 };
 
-/// Knows the *lines* of a mesh, its borders and the edges marked as lines (seams), and which motions of vertices
-/// respect them. What `Border_filter` and `Halfedge_placement` ask, and what `Border_visitor` keeps true.
+/// Knows the *lines* of a mesh, its borders and the edges marked as lines (seams), and which motions of
+/// vertices respect them. What `Border_filter` and `Halfedge_placement` ask, and what `Border_visitor` keeps
+/// true.
 ///
 /// **Guarantees** for a mesh reduced by halfedge collapses that `allows` accepts:
 /// 1. A locked vertex stays where it is.
-/// 2. A vertex on a line moves only along it, to the next vertex of the same line, and only where the line turns by
-///    at most `max_border_turn` or `max_seam_turn`. Corners, ends of lines, and vertices where more than two line edges or lines of both kinds
-///    meet never move. No collapse takes the last face between three lines.
+/// 2. A vertex on a line moves only along it, to the next vertex of the same line, and only where the line
+/// turns by
+///    at most `max_border_turn` or `max_seam_turn`. Corners, ends of lines, and vertices where more than two
+///    line edges or lines of both kinds meet never move. No collapse takes the last face between three lines.
 /// 3. Every original vertex of a line lies within `max_drift` of the segment that replaced it.
 ///
 /// **Preconditions** The mesh outlives the rule. Marks and locks are set before the first collapse.
 ///
-/// **Exactness** Which vertex may move along which edge is combinatorial; angle and drift are compared in floating
-/// point, as limits of quality: no statement about intersections rests on them.
+/// **Exactness** Which vertex may move along which edge is combinatorial; angle and drift are compared in
+/// floating point, as limits of quality: no statement about intersections rests on them.
 ///
 /// Copies share one state.
 ///
@@ -71,12 +74,14 @@ public:
 
   /// Throws `Argument_error` when an option is out of its range.
   explicit Border_rule(const TriangleMesh& mesh, const Border_rule_options& options = {})
-    : Border_rule(mesh, get(CGAL::vertex_point, mesh), options)
-  {}
+      : Border_rule(mesh, get(CGAL::vertex_point, mesh), options)
+  {
+  }
 
   Border_rule(const TriangleMesh& mesh, const VertexPointMap& points, const Border_rule_options& options = {})
-    : m_state(std::make_shared<State>(mesh, points, options))
-  {}
+      : m_state(std::make_shared<State>(mesh, points, options))
+  {
+  }
 
   /// Makes an inner edge a line.
   void mark(Edge e)
@@ -96,7 +101,8 @@ public:
   bool is_line(Edge e) const
   {
     const Halfedge h = halfedge(e, m_state->mesh);
-    return get(m_state->marks, e) || is_border(h, m_state->mesh) || is_border(opposite(h, m_state->mesh), m_state->mesh);
+    return get(m_state->marks, e) || is_border(h, m_state->mesh) ||
+           is_border(opposite(h, m_state->mesh), m_state->mesh);
   }
   friend bool get(const Border_rule& rule, Edge e) { return rule.is_line(e); }
 
@@ -116,9 +122,9 @@ public:
 
   /// May the ends of the profile's edge merge at `placement`, wherever that is?
   ///
-  /// When it is neither end: inner vertices may go anywhere; where one end is bound, the placement must be that
-  /// end; where both are, the edge must be a line, and the line turn by at most the angle at every place that the
-  /// merged vertex changes.
+  /// When it is neither end: inner vertices may go anywhere; where one end is bound, the placement must be
+  /// that end; where both are, the edge must be a line, and the line turn by at most the angle at every place
+  /// that the merged vertex changes.
   template <class Profile>
   bool allows(const Profile& profile, const Point& placement) const
   {
@@ -178,11 +184,11 @@ private:
   struct State
   {
     State(const TriangleMesh& mesh_, const VertexPointMap& points_, const Border_rule_options& options)
-      : mesh(mesh_), points(points_), min_border_cosine(std::cos(options.max_border_turn * CGAL_PI / 180)),
-        min_seam_cosine(std::cos(options.max_seam_turn * CGAL_PI / 180)),
-        max_squared_drift(options.max_drift * options.max_drift),
-        freedoms(get(CGAL::dynamic_vertex_property_t<Freedom>(), mesh_)),
-        marks(get(CGAL::dynamic_edge_property_t<unsigned char>(), mesh_))
+        : mesh(mesh_), points(points_), min_border_cosine(std::cos(options.max_border_turn * CGAL_PI / 180)),
+          min_seam_cosine(std::cos(options.max_seam_turn * CGAL_PI / 180)),
+          max_squared_drift(options.max_drift * options.max_drift),
+          freedoms(get(CGAL::dynamic_vertex_property_t<Freedom>(), mesh_)),
+          marks(get(CGAL::dynamic_edge_property_t<unsigned char>(), mesh_))
     {
       for (const double turn : {options.max_border_turn, options.max_seam_turn})
         if (!(turn >= 0 && turn <= 180))
@@ -206,13 +212,14 @@ private:
     double min_seam_cosine;
     double max_squared_drift;
     typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<Freedom>>::const_type freedoms;
-    typename boost::property_map<TriangleMesh, CGAL::dynamic_edge_property_t<unsigned char>>::const_type marks;
+    typename boost::property_map<TriangleMesh, CGAL::dynamic_edge_property_t<unsigned char>>::const_type
+        marks;
     boost::unordered_map<Edge, std::vector<Point>> passed; // original line vertices that an edge has replaced
     Pending_collapse pending;
   };
 
-  // The other line edge at the source of the line edge `h`, pointing away from it; none when the source is an end, a
-  // junction, or a place where a border becomes a marked edge.
+  // The other line edge at the source of the line edge `h`, pointing away from it; none when the source is an
+  // end, a junction, or a place where a border becomes a marked edge.
   std::optional<Halfedge> line_behind(Halfedge h) const
   {
     const TriangleMesh& mesh = m_state->mesh;
@@ -234,7 +241,8 @@ private:
   {
     const TriangleMesh& mesh = m_state->mesh;
     for (const Halfedge side : {h, opposite(h, mesh)})
-      if (!is_border(side, mesh) && is_line(edge(next(side, mesh), mesh)) && is_line(edge(prev(side, mesh), mesh)))
+      if (!is_border(side, mesh) && is_line(edge(next(side, mesh), mesh)) &&
+          is_line(edge(prev(side, mesh), mesh)))
         return true;
     return false;
   }

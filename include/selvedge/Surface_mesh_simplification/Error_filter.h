@@ -8,8 +8,9 @@
 
 namespace selvedge {
 
-/// Refuses a collapse whose error is larger than a limit, where the error is what `Cost::error_at(profile, point)` says,
-/// as `Quadric_cost` has it: the root mean square distance to the original planes gathered so far.
+/// Refuses a collapse whose error is larger than a limit, where the error is what `Cost::error_at(profile,
+/// point)` says, as `Quadric_cost` has it: the root mean square distance to the original planes gathered so
+/// far.
 ///
 /// A model of CGAL's concept `PlacementFilter`, usable with any placement.
 ///
@@ -20,8 +21,9 @@ class Error_filter : public internal::Filter_base<Error_filter<Cost, BaseFilter>
 public:
   /// `max_error` is a length in units of the mesh.
   Error_filter(double max_error, const Cost& cost, const BaseFilter& base = {})
-    : internal::Filter_base<Error_filter, BaseFilter>(base), m_max_error(max_error), m_cost(cost)
-  {}
+      : internal::Filter_base<Error_filter, BaseFilter>(base), m_max_error(max_error), m_cost(cost)
+  {
+  }
 
   template <class Profile, class Point>
   bool accepts(const Profile& profile, const Point& placement) const

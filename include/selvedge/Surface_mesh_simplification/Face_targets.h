@@ -20,8 +20,8 @@ namespace selvedge {
 
 /// How many faces are to be left, of all together or of several shares of the mesh apart.
 ///
-/// Every face belongs to one share: at first to share 0, whose target is 0. A share that has reached its target
-/// loses no further face. Faces can also be left uncounted.
+/// Every face belongs to one share: at first to share 0, whose target is 0. A share that has reached its
+/// target loses no further face. Faces can also be left uncounted.
 ///
 /// A predicate for `Halfedge_filter`, a stop, and a visitor's state in one. Copies share one state.
 ///
@@ -121,12 +121,14 @@ private:
   struct State
   {
     explicit State(const TriangleMesh& mesh_)
-      : mesh(mesh_), share_of(get(CGAL::dynamic_face_property_t<std::uint32_t>(), mesh_)),
-        shares{{internal::face_count(mesh_), 0}}
-    {}
+        : mesh(mesh_), share_of(get(CGAL::dynamic_face_property_t<std::uint32_t>(), mesh_)),
+          shares{{internal::face_count(mesh_), 0}}
+    {
+    }
 
     const TriangleMesh& mesh;
-    typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<std::uint32_t>>::const_type share_of;
+    typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<std::uint32_t>>::const_type
+        share_of;
     std::vector<Share> shares;
   };
 

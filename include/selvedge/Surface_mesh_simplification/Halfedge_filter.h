@@ -11,18 +11,19 @@
 
 namespace selvedge {
 
-/// Refuses a collapse for which a predicate on the halfedge along which a vertex moves, `bool(halfedge)`, is false:
-/// for rules about what hangs on a mesh rather than on its geometry.
+/// Refuses a collapse for which a predicate on the halfedge along which a vertex moves, `bool(halfedge)`, is
+/// false: for rules about what hangs on a mesh rather than on its geometry.
 ///
-/// A model of CGAL's concept `PlacementFilter`, for placements at an end of the edge, as `Halfedge_placement` chooses
-/// them. The source of the halfedge is the vertex that moves.
+/// A model of CGAL's concept `PlacementFilter`, for placements at an end of the edge, as `Halfedge_placement`
+/// chooses them. The source of the halfedge is the vertex that moves.
 template <class Predicate, class BaseFilter = No_filter>
 class Halfedge_filter : public internal::Filter_base<Halfedge_filter<Predicate, BaseFilter>, BaseFilter>
 {
 public:
   explicit Halfedge_filter(Predicate predicate, const BaseFilter& base = {})
-    : internal::Filter_base<Halfedge_filter, BaseFilter>(base), m_predicate(std::move(predicate))
-  {}
+      : internal::Filter_base<Halfedge_filter, BaseFilter>(base), m_predicate(std::move(predicate))
+  {
+  }
 
   template <class Profile, class Point>
   bool accepts(const Profile& profile, const Point& placement) const

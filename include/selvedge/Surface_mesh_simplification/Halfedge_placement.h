@@ -28,8 +28,8 @@ struct No_border_rule
   }
 };
 
-/// Places the merged vertex at one end of its edge: of the two directions those that the rule allows, of these the
-/// cheaper. Where it allows neither, the cheaper, for a filter to refuse and count.
+/// Places the merged vertex at one end of its edge: of the two directions those that the rule allows, of
+/// these the cheaper. Where it allows neither, the cheaper, for a filter to refuse and count.
 ///
 /// With this placement every vertex of the result is a vertex of the input, bit for bit.
 ///
@@ -75,16 +75,18 @@ private:
 
 /// Decorates a `Halfedge_placement` so that an edge gets its second direction when filters refuse the first.
 ///
-/// CGAL's loop takes an edge from its queue once, asks for one placement, and drops the edge when a filter refuses
-/// that. This decorator asks the filter itself, for one direction and then the other, and answers with the one that
-/// passed, or none. The same filter need not be given to the loop. The second direction is tried when its turn has come:
-/// at once when it costs no more than what has been selected before; otherwise the edge is *turned*, its cost is
-/// from now on that of its second direction, and when the loop comes to it again, in a run of its own or because
-/// of a change nearby, it comes in that order. (Taking dear directions of cheap edges at once spoils what the order is for:
-/// on a scanned bunny the mean error at 30 % grows by half.)
+/// CGAL's loop takes an edge from its queue once, asks for one placement, and drops the edge when a filter
+/// refuses that. This decorator asks the filter itself, for one direction and then the other, and answers
+/// with the one that passed, or none. The same filter need not be given to the loop. The second direction is
+/// tried when its turn has come: at once when it costs no more than what has been selected before; otherwise
+/// the edge is *turned*, its cost is from now on that of its second direction, and when the loop comes to it
+/// again, in a run of its own or because of a change nearby, it comes in that order. (Taking dear directions
+/// of cheap edges at once spoils what the order is for: on a scanned bunny the mean error at 30 % grows by
+/// half.)
 ///
-/// A model of CGAL's concept `GetPlacement`. Give the loop its `visitor` as well: it tells the selection of an edge,
-/// when the question is asked in earnest, from the mere computing of a cost, for which the filters would be far too dear.
+/// A model of CGAL's concept `GetPlacement`. Give the loop its `visitor` as well: it tells the selection of
+/// an edge, when the question is asked in earnest, from the mere computing of a cost, for which the filters
+/// would be far too dear.
 ///
 /// **Preconditions** The mesh outlives the placement. Copies share one state.
 template <class Placement, class Filter = No_filter>
@@ -98,11 +100,13 @@ class Filtered_halfedge_placement
   struct State
   {
     explicit State(const Triangle_mesh& mesh_)
-      : mesh(mesh_), is_turned(get(CGAL::dynamic_edge_property_t<unsigned char>(), mesh_))
-    {}
+        : mesh(mesh_), is_turned(get(CGAL::dynamic_edge_property_t<unsigned char>(), mesh_))
+    {
+    }
 
     const Triangle_mesh& mesh;
-    typename boost::property_map<Triangle_mesh, CGAL::dynamic_edge_property_t<unsigned char>>::const_type is_turned;
+    typename boost::property_map<Triangle_mesh, CGAL::dynamic_edge_property_t<unsigned char>>::const_type
+        is_turned;
     bool is_deciding = false;
     double reached_cost = 0;
     std::size_t turned = 0;
@@ -111,9 +115,11 @@ class Filtered_halfedge_placement
 public:
   using TM = Triangle_mesh;
 
-  Filtered_halfedge_placement(const Triangle_mesh& mesh, const Placement& placement, const Filter& filter = {})
-    : m_placement(placement), m_filter(filter), m_state(std::make_shared<State>(mesh))
-  {}
+  Filtered_halfedge_placement(const Triangle_mesh& mesh, const Placement& placement,
+                              const Filter& filter = {})
+      : m_placement(placement), m_filter(filter), m_state(std::make_shared<State>(mesh))
+  {
+  }
 
   template <class Profile>
   internal::Optional<typename Profile::Point> operator()(const Profile& profile) const
@@ -129,7 +135,8 @@ public:
       return is_turned ? second : first;
 
     state.is_deciding = false;
-    state.reached_cost = (std::max)(state.reached_cost, m_placement.cost_at(profile, is_turned ? *second : *first));
+    state.reached_cost =
+        (std::max)(state.reached_cost, m_placement.cost_at(profile, is_turned ? *second : *first));
     if (const Result accepted = m_filter(profile, first))
       return accepted;
     if (m_placement.cost_at(profile, *second) <= state.reached_cost)

@@ -18,43 +18,44 @@ namespace selvedge {
 
 /// Refuses a collapse in which anything would touch or pass through anything: the exact filter.
 ///
-/// A model of CGAL's concept `PlacementFilter`, usable with any placement and cost. Give the loop both the filter and
-/// its visitor:
+/// A model of CGAL's concept `PlacementFilter`, usable with any placement and cost. Give the loop both the
+/// filter and its visitor:
 /// ```
 /// selvedge::Intersection_filter<Mesh> filter(mesh);
 /// edge_collapse(mesh, stop, CGAL::parameters::filter(filter).visitor(filter.visitor()));
 /// ```
 ///
-/// **Guarantees** when the mesh is embedded at the start, that is, all its faces are proper triangles, no two have
-/// the same three positions, and any two meet exactly in the positions (none, one, or two and the edge between
-/// them) that they share:
+/// **Guarantees** when the mesh is embedded at the start, that is, all its faces are proper triangles, no two
+/// have the same three positions, and any two meet exactly in the positions (none, one, or two and the edge
+/// between them) that they share:
 /// 1. *Embedded*: it is so after every collapse.
-/// 2. *Motion*: between two collapses nothing passes through anything. A merged vertex at one end of the edge means
-///    that the other moves there on a straight line; one elsewhere means two such motions, one after the other, in
-///    whichever order is free.
+/// 2. *Motion*: between two collapses nothing passes through anything. A merged vertex at one end of the edge
+/// means
+///    that the other moves there on a straight line; one elsewhere means two such motions, one after the
+///    other, in whichever order is free.
 /// 3. A vertex that shares its position with another vertex does not move; others may move to where it is.
 ///
-/// **Preconditions** the caller must ensure: the mesh outlives the filter, and between its construction and the end
-/// of the loop changes by the loop alone, with the visitor attached. Checked, in every build: no edge has
-/// length zero, which CGAL's loop would collapse without asking (`Argument_error`).
+/// **Preconditions** the caller must ensure: the mesh outlives the filter, and between its construction and
+/// the end of the loop changes by the loop alone, with the visitor attached. Checked, in every build: no edge
+/// has length zero, which CGAL's loop would collapse without asking (`Argument_error`).
 ///
 /// **Not promised** for a mesh that is not embedded at the start; see `simplify` for what can be done there.
 ///
 /// **Exactness** Decided by the predicates of `GeomTraits`, which must be exact, as
 /// `Exact_predicates_inexact_constructions_kernel` has them. No tolerance, no construction.
 ///
-/// **Complexity** One query of the index for the box of the star that moves, then a constant number of predicates for
-/// each pair of a moving face and a face whose box meets its sweep.
+/// **Complexity** One query of the index for the box of the star that moves, then a constant number of
+/// predicates for each pair of a moving face and a face whose box meets its sweep.
 ///
-/// **Reference** Derichs, Misiak, Fuhrmann: Intersection-free mesh decimation for high resolution cloth models,
-/// section 4; Gumhold, Borodin, Klein: Intersection free simplification.
+/// **Reference** Derichs, Misiak, Fuhrmann: Intersection-free mesh decimation for high resolution cloth
+/// models, section 4; Gumhold, Borodin, Klein: Intersection free simplification.
 template <class TriangleMesh, class BaseFilter = No_filter, class FaceIndex = Clustered_AABB_tree,
           class VertexPointMap = typename boost::property_map<TriangleMesh, CGAL::vertex_point_t>::const_type,
-          class GeomTraits =
-            typename CGAL::Kernel_traits<typename boost::property_traits<VertexPointMap>::value_type>::Kernel>
+          class GeomTraits = typename CGAL::Kernel_traits<
+              typename boost::property_traits<VertexPointMap>::value_type>::Kernel>
 class Intersection_filter
-  : public internal::Filter_base<Intersection_filter<TriangleMesh, BaseFilter, FaceIndex, VertexPointMap, GeomTraits>,
-                                 BaseFilter>
+    : public internal::Filter_base<
+          Intersection_filter<TriangleMesh, BaseFilter, FaceIndex, VertexPointMap, GeomTraits>, BaseFilter>
 {
   using Guard = internal::Intersection_guard<TriangleMesh, VertexPointMap, GeomTraits, FaceIndex>;
 
@@ -85,16 +86,19 @@ public:
   };
 
   /// `index` is empty; an index made with another cluster size, say.
-  explicit Intersection_filter(const TriangleMesh& mesh, const BaseFilter& base = {}, FaceIndex index = FaceIndex())
-    : Intersection_filter(mesh, base, std::move(index), get(CGAL::vertex_point, mesh))
-  {}
+  explicit Intersection_filter(const TriangleMesh& mesh, const BaseFilter& base = {},
+                               FaceIndex index = FaceIndex())
+      : Intersection_filter(mesh, base, std::move(index), get(CGAL::vertex_point, mesh))
+  {
+  }
 
   /// With a vertex point map that is not the mesh's own.
-  Intersection_filter(const TriangleMesh& mesh, const BaseFilter& base, FaceIndex index, const VertexPointMap& points,
-                      const GeomTraits& traits = {})
-    : internal::Filter_base<Intersection_filter, BaseFilter>(base),
-      m_guard(std::make_shared<Guard>(mesh, points, traits, std::move(index)))
-  {}
+  Intersection_filter(const TriangleMesh& mesh, const BaseFilter& base, FaceIndex index,
+                      const VertexPointMap& points, const GeomTraits& traits = {})
+      : internal::Filter_base<Intersection_filter, BaseFilter>(base),
+        m_guard(std::make_shared<Guard>(mesh, points, traits, std::move(index)))
+  {
+  }
 
   Visitor visitor() const { return Visitor(m_guard); }
 

@@ -30,8 +30,8 @@ class Normal_change_filter : public internal::Filter_base<Normal_change_filter<B
 public:
   /// `max_change` is an angle in degrees from 0 to 180, or `Argument_error` is thrown.
   explicit Normal_change_filter(double max_change = 45, const BaseFilter& base = {})
-    : internal::Filter_base<Normal_change_filter, BaseFilter>(base),
-      m_min_cosine(max_change == 180 ? -2 : std::cos(max_change * CGAL_PI / 180))
+      : internal::Filter_base<Normal_change_filter, BaseFilter>(base),
+        m_min_cosine(max_change == 180 ? -2 : std::cos(max_change * CGAL_PI / 180))
   {
     if (!(max_change >= 0 && max_change <= 180))
       throw Argument_error("the change allowed to a normal is an angle between 0 and 180 degrees");
@@ -41,16 +41,16 @@ public:
   bool accepts(const Profile& profile, const Point& placement) const
   {
     return internal::all_of_changed_faces(
-      profile, placement, [this](const Point& before, const Point& after, const Point& a, const Point& b) {
-        const auto normal_before = CGAL::cross_product(a - before, b - before);
-        const auto normal_after = CGAL::cross_product(a - after, b - after);
-        const double length_before = std::sqrt(CGAL::to_double(normal_before.squared_length()));
-        const double length_after = std::sqrt(CGAL::to_double(normal_after.squared_length()));
-        if (!(length_before > 0))
-          return true;
-        return length_after > 0 &&
-               CGAL::to_double(normal_before * normal_after) >= m_min_cosine * length_before * length_after;
-      });
+        profile, placement, [this](const Point& before, const Point& after, const Point& a, const Point& b) {
+          const auto normal_before = CGAL::cross_product(a - before, b - before);
+          const auto normal_after = CGAL::cross_product(a - after, b - after);
+          const double length_before = std::sqrt(CGAL::to_double(normal_before.squared_length()));
+          const double length_after = std::sqrt(CGAL::to_double(normal_after.squared_length()));
+          if (!(length_before > 0))
+            return true;
+          return length_after > 0 &&
+                 CGAL::to_double(normal_before * normal_after) >= m_min_cosine * length_before * length_after;
+        });
   }
 
 private:

@@ -6,8 +6,8 @@
 
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
 
-#include <CGAL/Dynamic_property_map.h>
 #include <CGAL/Bbox_3.h>
+#include <CGAL/Dynamic_property_map.h>
 #include <CGAL/boost/graph/iterator.h>
 #include <CGAL/tags.h>
 
@@ -93,12 +93,13 @@ private:
 /// How much of what a `Quadric_cost` weighs. Both numbers are ratios, at least 0.
 struct Quadric_cost_options
 {
-  /// Weight of the plane that stands on a border edge, per squared length of the edge; a face plane weighs its area.
+  /// Weight of the plane that stands on a border edge, per squared length of the edge; a face plane weighs
+  /// its area.
   double border_weight = 1;
 
-  /// Weight of the squared distance to the original vertices themselves, per area. On flat cloth every collapse
-  /// costs nothing by its planes alone, and this decides: the nearer merge first, and triangles stay round. Small
-  /// enough not to outweigh the planes where there is a shape to keep.
+  /// Weight of the squared distance to the original vertices themselves, per area. On flat cloth every
+  /// collapse costs nothing by its planes alone, and this decides: the nearer merge first, and triangles stay
+  /// round. Small enough not to outweigh the planes where there is a shape to keep.
   double stabiliser = 1e-5;
 };
 
@@ -112,17 +113,18 @@ struct No_line_map
   }
 };
 
-/// The cost of a collapse by accumulated quadrics: area-weighted planes of the faces, planes that stand on border
-/// edges, and a small pull to the original vertices.
+/// The cost of a collapse by accumulated quadrics: area-weighted planes of the faces, planes that stand on
+/// border edges, and a small pull to the original vertices.
 ///
-/// A model of CGAL's concept `GetCost`, usable with any placement. The quadrics belong to the mesh it was made
-/// for: copies share them, and a second run on the same mesh goes on with what the first has accumulated.
+/// A model of CGAL's concept `GetCost`, usable with any placement. The quadrics belong to the mesh it was
+/// made for: copies share them, and a second run on the same mesh goes on with what the first has
+/// accumulated.
 ///
 /// **Preconditions** The mesh outlives the policy. `EdgeIsLineMap` is a readable property map from edges to
 /// `bool`: edges inside the mesh that are to be kept as borders are.
 ///
-/// **Exactness** Floating point; the cost orders the collapses and decides nothing else. Coordinates are taken
-/// relative to the centre of the mesh, so that a mesh far from the origin loses nothing.
+/// **Exactness** Floating point; the cost orders the collapses and decides nothing else. Coordinates are
+/// taken relative to the centre of the mesh, so that a mesh far from the origin loses nothing.
 ///
 /// **Reference** Garland, Heckbert: Surface simplification using quadric error metrics, sections 3 to 6;
 /// Derichs, Misiak, Fuhrmann, section 3.
@@ -132,7 +134,8 @@ class Quadric_cost
   using Graph_traits = boost::graph_traits<TriangleMesh>;
   using Vertex = typename Graph_traits::vertex_descriptor;
   using Halfedge = typename Graph_traits::halfedge_descriptor;
-  using Quadric_map = typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<Quadric>>::const_type;
+  using Quadric_map =
+      typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<Quadric>>::const_type;
 
 public:
   /// Asks CGAL's loop to call `initialize` and `update_after_collapse`.
@@ -140,11 +143,12 @@ public:
 
   explicit Quadric_cost(const TriangleMesh& mesh, const Quadric_cost_options& options = {},
                         const EdgeIsLineMap& edge_is_line = {})
-    : m_state(std::make_shared<State>(mesh, options, edge_is_line))
-  {}
+      : m_state(std::make_shared<State>(mesh, options, edge_is_line))
+  {
+  }
 
-  /// Multiplies the quadric of every vertex, in the order of `vertices(mesh)`, by a factor of at least 0. To be called
-  /// before the first run.
+  /// Multiplies the quadric of every vertex, in the order of `vertices(mesh)`, by a factor of at least 0. To
+  /// be called before the first run.
   void weigh(std::vector<double> weights) { m_state->weights = std::move(weights); }
 
   /// Computes the quadrics, the first time; called by the loop.
@@ -170,8 +174,8 @@ public:
     }
   }
 
-  /// The cost of merging the ends of the profile's edge at `placement`, in units of area × squared length; none
-  /// when there is no placement.
+  /// The cost of merging the ends of the profile's edge at `placement`, in units of area × squared length;
+  /// none when there is no placement.
   template <class Profile, class Point>
   internal::Optional<typename Profile::FT> operator()(const Profile& profile,
                                                       const internal::Optional<Point>& placement) const
@@ -190,12 +194,13 @@ public:
     return (std::max)(0.0, sum); // cancellation may leave a little less than nothing
   }
 
-  /// The root mean square distance of `point` to the planes gathered at both ends of the edge, weighted by area.
+  /// The root mean square distance of `point` to the planes gathered at both ends of the edge, weighted by
+  /// area.
   template <class Profile, class Point>
   double error_at(const Profile& profile, const Point& point) const
   {
     const double weight =
-      get(m_state->quadrics, profile.v0()).trace() + get(m_state->quadrics, profile.v1()).trace();
+        get(m_state->quadrics, profile.v0()).trace() + get(m_state->quadrics, profile.v1()).trace();
     return weight > 0 ? std::sqrt(cost_at(profile, point) / weight) : 0;
   }
 
@@ -212,9 +217,10 @@ private:
   struct State
   {
     State(const TriangleMesh& mesh, const Quadric_cost_options& options_, const EdgeIsLineMap& edge_is_line_)
-      : options(options_), edge_is_line(edge_is_line_),
-        quadrics(get(CGAL::dynamic_vertex_property_t<Quadric>(), mesh))
-    {}
+        : options(options_), edge_is_line(edge_is_line_),
+          quadrics(get(CGAL::dynamic_vertex_property_t<Quadric>(), mesh))
+    {
+    }
 
     template <class Point>
     Quadric::Vector vector(const Point& p) const

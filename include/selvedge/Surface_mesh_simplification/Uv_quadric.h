@@ -10,8 +10,9 @@
 
 namespace selvedge {
 
-/// How far a texture is displaced, summed over triangles: for a point x with the texture coordinates s, the sum of
-/// weight × |Gx + d − s|², where Gx + d are the texture coordinates that a triangle gives to x in its plane.
+/// How far a texture is displaced, summed over triangles: for a point x with the texture coordinates s, the
+/// sum of weight × |Gx + d − s|², where Gx + d are the texture coordinates that a triangle gives to x in its
+/// plane.
 ///
 /// Zero for any x and s that continue the texture as it is, so on flat cloth with its pattern as texture.
 ///
@@ -24,8 +25,8 @@ public:
   using Vector = std::array<double, 3>;
   using Uv = std::array<double, 2>;
 
-  /// Adds a triangle, weighted by its area times `weight`; less where it is thin, for then it says little about what lies
-  /// beside it. A degenerate one adds nothing.
+  /// Adds a triangle, weighted by its area times `weight`; less where it is thin, for then it says little
+  /// about what lies beside it. A degenerate one adds nothing.
   void add_triangle(const std::array<Vector, 3>& x, const std::array<Uv, 3>& s, double weight)
   {
     const Vector e = difference(x[1], x[0]), f = difference(x[2], x[0]), g = difference(x[2], x[1]);
@@ -89,7 +90,10 @@ public:
 
 private:
   static double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-  static Vector difference(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+  static Vector difference(const Vector& a, const Vector& b)
+  {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+  }
   static Vector cross(const Vector& a, const Vector& b)
   {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};

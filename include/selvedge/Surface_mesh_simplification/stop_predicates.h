@@ -17,8 +17,8 @@ namespace selvedge {
 
 /// Stops when the mesh has at most a given number of faces.
 ///
-/// A model of CGAL's concept `StopPredicate`. A collapse removes two faces, or one at a border, so the result may
-/// have one face fewer than asked for.
+/// A model of CGAL's concept `StopPredicate`. A collapse removes two faces, or one at a border, so the result
+/// may have one face fewer than asked for.
 class Face_count_stop
 {
 public:
@@ -46,8 +46,9 @@ public:
   /// `ratio` lies in [0, 1], or `Argument_error` is thrown; the target is ratio × faces, rounded to nearest.
   template <class TriangleMesh>
   Face_ratio_stop(double ratio, const TriangleMesh& mesh)
-    : Face_count_stop(face_target(ratio, internal::face_count(mesh)))
-  {}
+      : Face_count_stop(face_target(ratio, internal::face_count(mesh)))
+  {
+  }
 
   /// The number of faces that a ratio of a number of faces means.
   static std::size_t face_target(double ratio, std::size_t faces)
@@ -78,18 +79,22 @@ private:
 
 /// Stops when a function of the caller returns true: to cancel, or to show progress.
 ///
-/// A model of CGAL's concept `StopPredicate`. The function is given the number of faces that the mesh has now. It
-/// is asked before every 256th collapse that is considered; a visitor could not end the loop, and an exception
-/// would leave the mesh between two states.
+/// A model of CGAL's concept `StopPredicate`. The function is given the number of faces that the mesh has
+/// now. It is asked before every 256th collapse that is considered; a visitor could not end the loop, and an
+/// exception would leave the mesh between two states.
 class Hook_stop
 {
 public:
-  explicit Hook_stop(std::function<bool(std::size_t faces)> should_stop) : m_should_stop(std::move(should_stop)) {}
+  explicit Hook_stop(std::function<bool(std::size_t faces)> should_stop)
+      : m_should_stop(std::move(should_stop))
+  {
+  }
 
   template <class FT, class Profile>
   bool operator()(const FT&, const Profile& profile, std::size_t, std::size_t) const
   {
-    return m_should_stop && m_calls++ % 256 == 0 && m_should_stop(internal::face_count(profile.surface_mesh()));
+    return m_should_stop && m_calls++ % 256 == 0 &&
+           m_should_stop(internal::face_count(profile.surface_mesh()));
   }
 
 private:
@@ -109,7 +114,8 @@ public:
   template <class FT, class Profile>
   bool operator()(const FT& cost, const Profile& profile, std::size_t initial, std::size_t current) const
   {
-    return std::apply([&](const auto&... stop) { return (stop(cost, profile, initial, current) || ...); }, m_stops);
+    return std::apply([&](const auto&... stop) { return (stop(cost, profile, initial, current) || ...); },
+                      m_stops);
   }
 
 private:

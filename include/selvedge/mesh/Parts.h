@@ -11,8 +11,9 @@
 
 namespace selvedge {
 
-/// The parts of a soup that a user may speak of: its pieces, each by a number, and its groups, objects and materials, each by
-/// its name in the file. Every triangle belongs to one piece, and to one of each other kind that the file has.
+/// The parts of a soup that a user may speak of: its pieces, each by a number, and its groups, objects and
+/// materials, each by its name in the file. Every triangle belongs to one piece, and to one of each other
+/// kind that the file has.
 struct Part_kind
 {
   enum class Name : unsigned char { piece, group, object, material };
@@ -31,8 +32,8 @@ const char* name(Part_kind::Name kind);
 /// **Complexity** Linear, as good as.
 std::vector<Part_kind> part_kinds(const Triangle_soup& soup);
 
-/// The triangles of the groups, objects and materials of a name, as one flag per triangle. A line `g sleeve left` names a
-/// triangle "sleeve left", "sleeve" and "left".
+/// The triangles of the groups, objects and materials of a name, as one flag per triangle. A line `g sleeve
+/// left` names a triangle "sleeve left", "sleeve" and "left".
 ///
 /// Throws `Argument_error` that lists the known names when there is no such triangle.
 std::vector<char> triangles_named(const Triangle_soup& soup, const std::string& name);

@@ -24,8 +24,8 @@ using Point_3 = Kernel::Point_3;
 using Index = std::uint32_t;
 using Index_triple = std::array<Index, 3>;
 
-/// A name for every triangle: its group, its material. Both are empty when the file says none; the empty name is that of
-/// triangles for which alone it says none.
+/// A name for every triangle: its group, its material. Both are empty when the file says none; the empty name
+/// is that of triangles for which alone it says none.
 struct Triangle_labels
 {
   std::vector<Index> of_triangle; ///< indices into `names`
@@ -42,8 +42,8 @@ struct Corner_values
   std::vector<std::array<double, dimension>> values;
   std::vector<Index_triple> of_triangle; ///< for every triangle three indices into `values`
 
-  /// The value that stands for none, in a file that has some but not at every triangle: at all corners of a triangle or at
-  /// none. It is finite, and like no other value.
+  /// The value that stands for none, in a file that has some but not at every triangle: at all corners of a
+  /// triangle or at none. It is finite, and like no other value.
   std::optional<Index> missing = std::nullopt;
 
   bool empty() const { return of_triangle.empty(); }
@@ -58,7 +58,8 @@ struct Attribute
   Type type = Type::float64;
   std::uint32_t components = 1; ///< numbers in a row
   bool is_normalized = false;   ///< integers stand for fractions of their largest value, as glTF says it
-  std::vector<unsigned char> rows; ///< one after another, each `components` numbers in the machine's byte order
+  std::vector<unsigned char>
+      rows; ///< one after another, each `components` numbers in the machine's byte order
 };
 
 /// What a glTF file says beyond its triangles; opaque.
@@ -66,8 +67,8 @@ struct Gltf_scene;
 
 /// A mesh as a file holds it: vertices, triangles that name three of them, and what hangs on both.
 ///
-/// Nothing is assumed of the triangles: a vertex may be unused, several may lie at one position, a triangle may
-/// be degenerate, doubled or cross another, more than two may share an edge. Two triangles belong to one
+/// Nothing is assumed of the triangles: a vertex may be unused, several may lie at one position, a triangle
+/// may be degenerate, doubled or cross another, more than two may share an edge. Two triangles belong to one
 /// *piece* when a chain of triangles joins them in which neighbours share a vertex number.
 ///
 /// **Preconditions** of every function that takes a soup: coordinates are finite; indices are in range; each
@@ -90,9 +91,9 @@ struct Triangle_soup
   Triangle_labels materials;
   Triangle_labels smoothing_groups;
 
-  /// Whatever else the file keeps for its vertices and its triangles. A colour is the columns `red`, `green`, `blue` and,
-  /// where there is one, `alpha`, of one component each; floats are fractions, integers are marked as normalized. A number
-  /// that a file has for some vertices only is NaN at the others.
+  /// Whatever else the file keeps for its vertices and its triangles. A colour is the columns `red`, `green`,
+  /// `blue` and, where there is one, `alpha`, of one component each; floats are fractions, integers are
+  /// marked as normalized. A number that a file has for some vertices only is NaN at the others.
   std::vector<Attribute> vertex_attributes;
   std::vector<Attribute> triangle_attributes;
 
@@ -102,8 +103,8 @@ struct Triangle_soup
   /// What the header of a PLY file says in `comment` and `obj_info`, each with its keyword.
   std::vector<std::string> header_comments;
 
-  /// The glTF file that this was read from, and for every vertex which of its vertices it is; else none, and empty. A new
-  /// glTF file is made of both: see mesh_files.h.
+  /// The glTF file that this was read from, and for every vertex which of its vertices it is; else none, and
+  /// empty. A new glTF file is made of both: see mesh_files.h.
   std::shared_ptr<const Gltf_scene> scene;
   std::vector<Index> scene_vertices;
 };

@@ -22,39 +22,42 @@ namespace selvedge {
 
 /// A soup as one mesh in which coincident borders are sewn: what `simplify` works on, and the way back.
 ///
-/// Vertices at one position become one vertex when that keeps every edge manifold and oriented; where it does not, they
-/// stay apart, as twins, which never move. Edges across which a vertex number, a texture coordinate or a group
-/// changes are lines: vertices move along them only, and both sides move together, so that no gap can open.
+/// Vertices at one position become one vertex when that keeps every edge manifold and oriented; where it does
+/// not, they stay apart, as twins, which never move. Edges across which a vertex number, a texture coordinate
+/// or a group changes are lines: vertices move along them only, and both sides move together, so that no gap
+/// can open.
 ///
-/// Every face knows for each of its corners which corner of the soup it now is. A collapse gives a moved corner that of
-/// the vertex it merges with, in the contracted face on the same side of the lines, so every attribute of the
-/// result is one of the input's at that position and on that side.
+/// Every face knows for each of its corners which corner of the soup it now is. A collapse gives a moved
+/// corner that of the vertex it merges with, in the contracted face on the same side of the lines, so every
+/// attribute of the result is one of the input's at that position and on that side.
 ///
-/// An obstacle may lie beside the soup: triangles that are in the mesh, do not change, and are not in the result.
+/// An obstacle may lie beside the soup: triangles that are in the mesh, do not change, and are not in the
+/// result.
 class Working_mesh : public No_observer
 {
 public:
   using Mesh = CGAL::Surface_mesh<Point_3>;
 
-  /// `positions[v]` numbers the position of vertex v: what is equal is welded. `is_frozen[t]`: the vertices of
-  /// triangle t do not move. In both, as in the faces of the mesh, vertices and triangles of the obstacle follow those of
-  /// the soup; of the obstacle only these count, and all its triangles are frozen.
+  /// `positions[v]` numbers the position of vertex v: what is equal is welded. `is_frozen[t]`: the vertices
+  /// of triangle t do not move. In both, as in the faces of the mesh, vertices and triangles of the obstacle
+  /// follow those of the soup; of the obstacle only these count, and all its triangles are frozen.
   ///
   /// **Preconditions** No triangle has two corners at one position. The soup outlives the mesh.
   ///
   /// **Complexity** O(n log n).
-  Working_mesh(const Triangle_soup& soup, const std::vector<Index>& positions, const std::vector<char>& is_frozen,
-               const Triangle_soup& obstacle = {});
+  Working_mesh(const Triangle_soup& soup, const std::vector<Index>& positions,
+               const std::vector<char>& is_frozen, const Triangle_soup& obstacle = {});
 
   Mesh& mesh() { return m_mesh; }
   Simplify_constraints<Mesh>& constraints() { return m_constraints; }
   const Welding_notes& notes() const { return m_notes; }
 
-  /// Weighs vertices by numbers that the vertices of the soup have; where several are sewn, by the largest of theirs.
+  /// Weighs vertices by numbers that the vertices of the soup have; where several are sewn, by the largest of
+  /// theirs.
   void weigh(const std::vector<double>& weights);
 
-  /// From now on `uv_cost` says how far the texture is displaced; it is 0 before, and where there is no texture. Weights
-  /// that are to count are set before.
+  /// From now on `uv_cost` says how far the texture is displaced; it is 0 before, and where there is no
+  /// texture. Weights that are to count are set before.
   void measure_uvs();
 
   /// From now on refusals are counted by the parts of the soup to which the moving vertex belongs.
@@ -64,7 +67,10 @@ public:
   const std::vector<std::vector<Refusals>>& refused_by_part() const { return m_refused; }
 
   /// Who is told of every collapse, as `Simplify_options::on_collapse` is.
-  void tell(std::function<void(std::size_t removed, std::size_t kept)> listener) { m_listener = std::move(listener); }
+  void tell(std::function<void(std::size_t removed, std::size_t kept)> listener)
+  {
+    m_listener = std::move(listener);
+  }
 
   // Called by `simplify`, as an observer.
   void before_collapse(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule);
@@ -87,7 +93,10 @@ private:
   using Uv = Uv_quadric::Uv;
 
   Index vertex_of(Corner corner) const { return m_soup.triangles[corner / 3][corner % 3]; }
-  const Uv& uv_of(Corner corner) const { return m_soup.uvs.values[m_soup.uvs.of_triangle[corner / 3][corner % 3]]; }
+  const Uv& uv_of(Corner corner) const
+  {
+    return m_soup.uvs.values[m_soup.uvs.of_triangle[corner / 3][corner % 3]];
+  }
   bool is_own(Mesh::Face_index face) const { return std::size_t(face) < m_corners.size(); }
   bool is_line(Corner a, Corner b) const;
 
@@ -99,7 +108,8 @@ private:
   }
 
   template <class Function>
-  void for_each_changed_face(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule, const Function& function) const;
+  void for_each_changed_face(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule,
+                             const Function& function) const;
   template <class Function>
   void for_each_moved_wedge(Mesh::Halfedge_index moving, const Function& function) const;
 
@@ -109,7 +119,7 @@ private:
 
   const Triangle_soup& m_soup;
   Mesh m_mesh;
-  std::vector<Index_triple> m_corners;          // by face, which has the number of its triangle
+  std::vector<Index_triple> m_corners; // by face, which has the number of its triangle
   Simplify_constraints<Mesh> m_constraints;
   Welding_notes m_notes;
   std::function<void(std::size_t removed, std::size_t kept)> m_listener;

@@ -39,24 +39,26 @@ namespace selvedge {
 /// of fewer than three corners are skipped and counted. Faces that name a vertex twice are kept: a soup may
 /// hold degenerate triangles.
 ///
-/// **Scenes.** The position of a vertex of a glTF file, which is what is reduced and judged, is its world position in
-/// doubles:
+/// **Scenes.** The position of a vertex of a glTF file, which is what is reduced and judged, is its world
+/// position in doubles:
 ///
 ///     ((G_0 x + G_1 y) + G_2 z) + G_3        for each row G of the global matrix of its node
 ///
-/// with (x, y, z) the 32-bit floats of the file. The global matrix is the product P L of the parent's and the node's own,
-/// its entries (P_0 L_0 + P_1 L_1) + P_2 L_2, and + P_3 in the last column; at a root, P is the identity. L is `matrix`, or
-/// from `translation` t, `rotation` (x, y, z, w) and `scale` s the matrix with the columns R_j s_j and t, where R has
-/// 1 − 2 (y y + z z), 2 (x y − z w), 2 (x z + y w) as its first row, and so on, not normalised. Every operation is
-/// rounded to double, in this order. A skinned mesh is taken in its bind pose, that is with the identity for G: its node
-/// does not move it, as the format says. Morph targets are carried along and not guarded, animations likewise. Nodes that
-/// mirror have their triangles turned over, so that outside is outside.
+/// with (x, y, z) the 32-bit floats of the file. The global matrix is the product P L of the parent's and the
+/// node's own, its entries (P_0 L_0 + P_1 L_1) + P_2 L_2, and + P_3 in the last column; at a root, P is the
+/// identity. L is `matrix`, or from `translation` t, `rotation` (x, y, z, w) and `scale` s the matrix with
+/// the columns R_j s_j and t, where R has 1 − 2 (y y + z z), 2 (x y − z w), 2 (x z + y w) as its first row,
+/// and so on, not normalised. Every operation is rounded to double, in this order. A skinned mesh is taken in
+/// its bind pose, that is with the identity for G: its node does not move it, as the format says. Morph
+/// targets are carried along and not guarded, animations likewise. Nodes that mirror have their triangles
+/// turned over, so that outside is outside.
 ///
-/// Written to glTF again, every vertex has its rows of every accessor of its primitive and of its morph targets bit for
-/// bit, so that its world position is the same double. All else in the document stays as it is, images byte for byte,
-/// addresses of files unchanged, and numbers of accessors and buffer views too; but a mesh that several nodes share is one
-/// for each from then on, accessors of triangles are written in full and without gaps, and all buffers are one. Primitives of
-/// points or lines and meshes outside the scene stay as they are. Primitives and meshes without a triangle left are gone.
+/// Written to glTF again, every vertex has its rows of every accessor of its primitive and of its morph
+/// targets bit for bit, so that its world position is the same double. All else in the document stays as it
+/// is, images byte for byte, addresses of files unchanged, and numbers of accessors and buffer views too; but
+/// a mesh that several nodes share is one for each from then on, accessors of triangles are written in full
+/// and without gaps, and all buffers are one. Primitives of points or lines and meshes outside the scene stay
+/// as they are. Primitives and meshes without a triangle left are gone.
 ///
 /// **Complexity.** Linear in the size of the file, except for polygons: quadratic in the number of corners
 /// of each as a rule, cubic at worst.
@@ -67,17 +69,19 @@ enum class Mesh_format { obj, off, ply, stl, glb, gltf };
 /// Throws `Input_error` when it names none of them.
 Mesh_format mesh_format(const std::filesystem::path& path);
 
-/// Whether every file of this format holds its positions as 32-bit floats, as STL and glTF do: what is written there
-/// must be rounded before it is judged (`round_to_float32`). PLY holds floats when that loses nothing, else
-/// doubles.
+/// Whether every file of this format holds its positions as 32-bit floats, as STL and glTF do: what is
+/// written there must be rounded before it is judged (`round_to_float32`). PLY holds floats when that loses
+/// nothing, else doubles.
 bool stores_float32(Mesh_format format);
 
-/// Whether positions of this soup must be 32-bit floats to be written in this format: where it stores those, unless
-/// the soup goes from glTF to glTF, which has them already, though its positions in the scene are doubles.
+/// Whether positions of this soup must be 32-bit floats to be written in this format: where it stores those,
+/// unless the soup goes from glTF to glTF, which has them already, though its positions in the scene are
+/// doubles.
 bool needs_float32(const Triangle_soup& soup, Mesh_format format);
 
-/// For every vertex of a soup from a glTF file the number of the transform that it is under; empty for any other soup.
-/// A vertex may be given the position of another only under the same transform, for else the file cannot hold it.
+/// For every vertex of a soup from a glTF file the number of the transform that it is under; empty for any
+/// other soup. A vertex may be given the position of another only under the same transform, for else the file
+/// cannot hold it.
 std::vector<Index> transforms_of_vertices(const Triangle_soup& soup);
 
 /// What the author of a file may want to know about how it was read.
@@ -107,25 +111,29 @@ struct Mesh_file
 /// Reads a mesh; its extension says the format.
 ///
 /// - OBJ: `v` with a weight (attribute `w`) or a colour (`red`, `green`, `blue`, `alpha`), `vt` of one or two
-///   numbers (the second is 0 when there is none; a third that is not 0 is noted), `vn`, `f` with absolute and
-///   relative indices, `o`, `g`, `usemtl`, `s`, `mtllib`. A label of a triangle is the whole text of the latest
-///   such statement above it without blanks at its ends (a `g` of several names is one label), and empty above
-///   the first. A backslash at the end of a line, outside comments, counts as a blank.
+///   numbers (the second is 0 when there is none; a third that is not 0 is noted), `vn`, `f` with absolute
+///   and relative indices, `o`, `g`, `usemtl`, `s`, `mtllib`. A label of a triangle is the whole text of the
+///   latest such statement above it without blanks at its ends (a `g` of several names is one label), and
+///   empty above the first. A backslash at the end of a line, outside comments, counts as a blank.
 /// - OFF: one vertex or face to a line; further columns are ignored.
-/// - PLY: ascii and both binary kinds; elements in any order. Of vertices, `nx ny nz` are normals, `s t`, `u v` or
+/// - PLY: ascii and both binary kinds; elements in any order. Of vertices, `nx ny nz` are normals, `s t`, `u
+/// v` or
 ///   `texture_u texture_v` texture coordinates; of faces, a list `texcoord` of two numbers per corner is,
-///   in place of those. All other numbers are attributes of the type that the header says; a number in text that is
-///   not of it is refused. Other lists and other elements are noted. Triangles of a polygon have its attributes.
+///   in place of those. All other numbers are attributes of the type that the header says; a number in text
+///   that is not of it is refused. Other lists and other elements are noted. Triangles of a polygon have its
+///   attributes.
 /// - STL: ascii and binary. Corners of identical coordinates (−0 equals 0) are one vertex, which has the
 ///   coordinates of the first of them; vertices are numbered by their first corner.
 ///
-/// - GLB, glTF 2.0: all triangles of the scene (strips and fans too) as one soup in world space; see **Scenes** below.
-///   A group is a primitive in a node, named after the node, or after the mesh where the node has no name; a material
-///   is one of the file. Texture coordinates are those of TEXCOORD_0, the second taken from 1 since it points down
-///   there, normals are turned with their nodes, COLOR_0 is a colour, and other attributes are carried where all
-///   vertices have them in the same form. Vertices without indices are one where they agree in every attribute.
-///   Buffers are in the file, in data addresses, or in files relative to its folder (none when read from memory).
-///   Refused, by name: compressed and quantised meshes, instances by extension, unknown extensions that the file requires.
+/// - GLB, glTF 2.0: all triangles of the scene (strips and fans too) as one soup in world space; see
+/// **Scenes** below.
+///   A group is a primitive in a node, named after the node, or after the mesh where the node has no name; a
+///   material is one of the file. Texture coordinates are those of TEXCOORD_0, the second taken from 1 since
+///   it points down there, normals are turned with their nodes, COLOR_0 is a colour, and other attributes are
+///   carried where all vertices have them in the same form. Vertices without indices are one where they agree
+///   in every attribute. Buffers are in the file, in data addresses, or in files relative to its folder (none
+///   when read from memory). Refused, by name: compressed and quantised meshes, instances by extension,
+///   unknown extensions that the file requires.
 ///
 /// Vertices in messages are counted as the format does: from 1 in OBJ, from 0 elsewhere.
 /// Throws `Input_error`.
@@ -153,26 +161,29 @@ struct Write_options
 /// untouched, and `Output_error` is thrown. A symbolic link is followed (one that leads nowhere is
 /// replaced); what is neither a file nor a link to one (a device, a pipe) is written to directly.
 ///
-/// OBJ and OFF hold the shortest decimals that read back as the same doubles. PLY positions, normals and texture
-/// coordinates are `float` when every one of them is, else `double`.
+/// OBJ and OFF hold the shortest decimals that read back as the same doubles. PLY positions, normals and
+/// texture coordinates are `float` when every one of them is, else `double`.
 ///
 /// - OBJ: statements stand before the first face to which they apply, where several do in the order `o`, `g`,
 ///   `usemtl`, `s`; behind an `o` the others are repeated, which some readers forget there. Colours of a PLY
 ///   file's integers become fractions. `mtllib` stays as it is, also when the file goes to another folder:
 ///   `missing_material_libraries` says what then has to be copied there.
-/// - PLY: texture coordinates stand at the vertices (`s t`) when they have the numbers of the vertices, else at the
+/// - PLY: texture coordinates stand at the vertices (`s t`) when they have the numbers of the vertices, else
+/// at the
 ///   faces (`texcoord`). Attributes of several components become as many properties, `name_0`, `name_1`, ...
 ///
-/// - GLB, glTF: a soup that was read from glTF goes back into its document, see **Scenes**. Any other becomes a new one:
-///   a node and a mesh for each group, a primitive for each material in it (by name alone), vertices split where
-///   corners differ in texture coordinates or normals; these and colours that are no integers are rounded to 32-bit
-///   floats. Triangles are ordered by group and material. `.gltf` files hold their buffer in a data address, so that a
-///   mesh is one file.
+/// - GLB, glTF: a soup that was read from glTF goes back into its document, see **Scenes**. Any other becomes
+/// a new one:
+///   a node and a mesh for each group, a primitive for each material in it (by name alone), vertices split
+///   where corners differ in texture coordinates or normals; these and colours that are no integers are
+///   rounded to 32-bit floats. Triangles are ordered by group and material. `.gltf` files hold their buffer
+///   in a data address, so that a mesh is one file.
 ///
 /// Preconditions, checked (`Argument_error`): coordinates are finite, and 32-bit floats when the format
-/// stores those (`needs_float32`); a soup of a glTF file has its groups, `scene_vertices`, and positions, each of them that
-/// of some vertex of the file under the same transform; labels in an OBJ begin and end with no blank, do not end in a backslash, and are one line;
-/// names of attributes in a PLY hold no blanks and do not end in a backslash.
+/// stores those (`needs_float32`); a soup of a glTF file has its groups, `scene_vertices`, and positions,
+/// each of them that of some vertex of the file under the same transform; labels in an OBJ begin and end with
+/// no blank, do not end in a backslash, and are one line; names of attributes in a PLY hold no blanks and do
+/// not end in a backslash.
 void write_mesh(const std::filesystem::path& path, const Triangle_soup& soup,
                 const Write_options& options = {});
 
@@ -180,7 +191,8 @@ void write_mesh(const std::filesystem::path& path, const Triangle_soup& soup,
 std::vector<std::string> not_carried(const Triangle_soup& soup, Mesh_format format);
 
 /// The files that an OBJ at `path` names as its material libraries and that are not there.
-std::vector<std::string> missing_material_libraries(const std::filesystem::path& path, const Triangle_soup& soup);
+std::vector<std::string> missing_material_libraries(const std::filesystem::path& path,
+                                                    const Triangle_soup& soup);
 
 /// Writes any file as `write_mesh` does: whole or not at all. Throws `Output_error`.
 void write_file(const std::filesystem::path& path, std::string_view contents);

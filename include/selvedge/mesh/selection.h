@@ -10,18 +10,18 @@
 
 namespace selvedge {
 
-/// A soup made of corners of another: triangle i has the labels and attributes of `triangles[i]`, and its corners are
-/// `corners[i]`, each 3 × triangle + place in it, with all that hangs on them.
+/// A soup made of corners of another: triangle i has the labels and attributes of `triangles[i]`, and its
+/// corners are `corners[i]`, each 3 × triangle + place in it, with all that hangs on them.
 ///
-/// Of vertices, texture coordinates and normals those still used are left, in their order; every number is copied bit for
-/// bit. The names of labels stay as they are, used or not.
+/// Of vertices, texture coordinates and normals those still used are left, in their order; every number is
+/// copied bit for bit. The names of labels stay as they are, used or not.
 ///
 /// **Complexity** Linear.
 Triangle_soup selected(const Triangle_soup& soup, const std::vector<Index>& triangles,
                        const std::vector<Index_triple>& corners);
 
-/// Leaves only some triangles of a soup, in the order given, with all that hangs on them; vertices and values keep their
-/// numbers, used or not.
+/// Leaves only some triangles of a soup, in the order given, with all that hangs on them; vertices and values
+/// keep their numbers, used or not.
 void keep_triangles(Triangle_soup& soup, const std::vector<Index>& triangles);
 
 /// The bytes of one row of an attribute.

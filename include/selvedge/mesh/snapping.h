@@ -68,7 +68,8 @@ struct Snapping_notes
 ///
 /// `positions[v]` is the number of the first vertex at the position of v, before and after. `is_frozen` holds
 /// for each triangle whether its vertices stand still. `transforms`, empty or one number per vertex, says who
-/// may share a position: vertices with different numbers are not joined, and positions that have several stay.
+/// may share a position: vertices with different numbers are not joined, and positions that have several
+/// stay.
 ///
 /// **Preconditions** No triangle has two corners at one position. All triangles of offending pairs are
 /// frozen. Throws `Argument_error` unless `distance` is finite and not negative; at 0 there is nothing to do.
@@ -85,8 +86,8 @@ Snapping_notes snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
 /// Gives all vertices at one position one number, so that pieces that meet there hang together; vertices
 /// whose attributes differ keep their own. Of several, the first stays; those no longer used are dropped.
 ///
-/// Neither the triangles nor their order nor any coordinate changes, except that −0 may become 0. A soup that is a glTF
-/// scene stays as it is: its vertices are rows of accessors.
+/// Neither the triangles nor their order nor any coordinate changes, except that −0 may become 0. A soup that
+/// is a glTF scene stays as it is: its vertices are rows of accessors.
 Triangle_soup joined_at_positions(const Triangle_soup& soup);
 
 } // namespace selvedge

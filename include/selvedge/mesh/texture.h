@@ -8,8 +8,8 @@
 
 namespace selvedge {
 
-/// The length on the surface that one unit of the texture stands for: that with which the triangles of the texture have, all
-/// in all, the area of the surface. 0 when they have none.
+/// The length on the surface that one unit of the texture stands for: that with which the triangles of the
+/// texture have, all in all, the area of the surface. 0 when they have none.
 double uv_unit(const Triangle_soup& soup);
 
 } // namespace selvedge

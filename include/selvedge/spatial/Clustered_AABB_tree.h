@@ -21,8 +21,8 @@ namespace selvedge {
 
 /// Finds the faces whose bounding boxes overlap a box, while faces come, change and go.
 ///
-/// Faces are put into the cells of a uniform grid by the centres of their boxes; the non-empty cells live in a
-/// hash map. Each is a *cluster* with a `CGAL::AABB_tree` of its own, and the boxes of the clusters are in
+/// Faces are put into the cells of a uniform grid by the centres of their boxes; the non-empty cells live in
+/// a hash map. Each is a *cluster* with a `CGAL::AABB_tree` of its own, and the boxes of the clusters are in
 /// another. A face that grows stays in its cluster; what grows is the cluster's box. So a change touches one
 /// small tree and, now and then, the small tree over the clusters.
 ///
@@ -31,17 +31,17 @@ namespace selvedge {
 /// 2. The order of visits depends on the sequence of calls alone, not on addresses or on the platform.
 ///
 /// **Preconditions** Boxes are finite and not empty. Faces are numbered 0 … n−1; the numbers are those of the
-/// caller, and what lies behind a number is of no concern here: boxes are stored, never computed anew, so that
-/// a face that is gone from the mesh is not read.
+/// caller, and what lies behind a number is of no concern here: boxes are stored, never computed anew, so
+/// that a face that is gone from the mesh is not read.
 ///
 /// **Exactness** Boxes are kept as floats, through a monotone map that can only add overlaps.
 ///
 /// **Complexity** Building is O(n log c) with c faces per cluster; a query is logarithmic in the number of
-/// clusters and of the faces of each cluster that it meets; a change is amortised O(log c). About 75 bytes per
-/// face.
+/// clusters and of the faces of each cluster that it meets; a change is amortised O(log c). About 75 bytes
+/// per face.
 ///
-/// **Reference** Derichs, Misiak, Fuhrmann: Intersection-free mesh decimation for high resolution cloth models,
-/// section 4.2 and figure 9 (there 100 faces per cluster were best).
+/// **Reference** Derichs, Misiak, Fuhrmann: Intersection-free mesh decimation for high resolution cloth
+/// models, section 4.2 and figure 9 (there 100 faces per cluster were best).
 class Clustered_AABB_tree
 {
 public:
@@ -59,14 +59,15 @@ public:
 
   /// `faces_per_cluster` ≥ 1 is what the cell size aims at. Throws `Argument_error` when it is 0.
   explicit Clustered_AABB_tree(std::size_t faces_per_cluster = 100)
-    : m_faces_per_cluster(faces_per_cluster), m_cluster_table(std::make_unique<internal::Box_table>()),
-      m_face_table(std::make_unique<internal::Box_table>()), m_top(m_cluster_table.get())
+      : m_faces_per_cluster(faces_per_cluster), m_cluster_table(std::make_unique<internal::Box_table>()),
+        m_face_table(std::make_unique<internal::Box_table>()), m_top(m_cluster_table.get())
   {
     if (faces_per_cluster == 0)
       throw Argument_error("a cluster needs at least one face; give a cluster size of 1 or more");
   }
 
-  /// Replaces the content by `faces`, where the box of face `faces[i]` is `box_of(faces[i])`, a `CGAL::Bbox_3`.
+  /// Replaces the content by `faces`, where the box of face `faces[i]` is `box_of(faces[i])`, a
+  /// `CGAL::Bbox_3`.
   template <class BoxOf>
   void build(const std::vector<Id>& faces, const BoxOf& box_of)
   {
@@ -162,8 +163,8 @@ private:
     return result;
   }
 
-  // The cell size at which a non-empty cell holds as many faces as asked for: faces lie on surfaces, so the number
-  // goes with the square of the size, which a few rounds of measuring settle.
+  // The cell size at which a non-empty cell holds as many faces as asked for: faces lie on surfaces, so the
+  // number goes with the square of the size, which a few rounds of measuring settle.
   float cell_size(const std::vector<Id>& faces) const
   {
     internal::Monotone_box domain = internal::Monotone_box::empty();
@@ -179,7 +180,8 @@ private:
       for (const Id face : faces)
         ++cells[cell(m_face_table->boxes[face], size)];
       const float faces_per_cell = float(faces.size()) / float(cells.size());
-      size = std::clamp(size * std::sqrt(float(m_faces_per_cluster) / faces_per_cell), extent * 1e-6f, extent);
+      size =
+          std::clamp(size * std::sqrt(float(m_faces_per_cluster) / faces_per_cell), extent * 1e-6f, extent);
     }
     return size;
   }

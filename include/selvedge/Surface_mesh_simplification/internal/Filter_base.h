@@ -21,8 +21,8 @@ struct No_filter
 
 namespace internal {
 
-/// What all filters share: ask the base filter first, then the derived class, and count what the latter refuses.
-/// CGAL's loop copies its filter, so the count stands behind a pointer.
+/// What all filters share: ask the base filter first, then the derived class, and count what the latter
+/// refuses. CGAL's loop copies its filter, so the count stands behind a pointer.
 template <class Derived, class BaseFilter>
 class Filter_base
 {

@@ -44,18 +44,18 @@ public:
   struct Statistics
   {
     std::size_t motions_judged = 0;
-    std::size_t sweeps_tested = 0;      ///< pairs of a sweep and a stationary face, past their boxes
+    std::size_t sweeps_tested = 0;       ///< pairs of a sweep and a stationary face, past their boxes
     std::size_t stars_clear_by_view = 0; ///< stars that one view settled
-    std::size_t refused_by_link = 0;    ///< condition 0
-    std::size_t refused_by_star = 0;    ///< condition 2
-    std::size_t refused_by_sweep = 0;   ///< condition 1
+    std::size_t refused_by_link = 0;     ///< condition 0
+    std::size_t refused_by_star = 0;     ///< condition 2
+    std::size_t refused_by_sweep = 0;    ///< condition 1
   };
 
   Intersection_guard(const TriangleMesh& mesh, const VertexPointMap& points, const GeomTraits& traits,
                      FaceIndex&& empty_index)
-    : m_mesh(mesh), m_points(points), m_traits(traits), m_index(std::move(empty_index)),
-      m_ids(get(CGAL::dynamic_face_property_t<Id>(), mesh)),
-      m_twins(get(CGAL::dynamic_vertex_property_t<std::uint32_t>(), mesh))
+      : m_mesh(mesh), m_points(points), m_traits(traits), m_index(std::move(empty_index)),
+        m_ids(get(CGAL::dynamic_face_property_t<Id>(), mesh)),
+        m_twins(get(CGAL::dynamic_vertex_property_t<std::uint32_t>(), mesh))
   {
     find_twins();
     m_faces.reserve(num_faces(mesh));
@@ -194,8 +194,9 @@ private:
       }
       return true;
     };
-    if (!has_twin(target) ? !are_neighbours_allowed(target)
-                          : !std::all_of(twin_class(target).begin(), twin_class(target).end(), are_neighbours_allowed))
+    if (!has_twin(target)
+            ? !are_neighbours_allowed(target)
+            : !std::all_of(twin_class(target).begin(), twin_class(target).end(), are_neighbours_allowed))
       return false;
     return is_edge_border || !is_mover_on_border || !is_target_on_border;
   }
@@ -212,7 +213,8 @@ private:
       const Vertex a = target(next(h, m_mesh), m_mesh);
       const Vertex b = source(h, m_mesh);
       const bool is_contracted = motion.target && (a == *motion.target || b == *motion.target);
-      (is_contracted ? m_star.contracted : m_star.moving).push_back({place_of(a, motion), place_of(b, motion)});
+      (is_contracted ? m_star.contracted : m_star.moving)
+          .push_back({place_of(a, motion), place_of(b, motion)});
     }
   }
 
@@ -233,7 +235,8 @@ private:
       }
     }
     // A place that is no neighbour's must be no position of the mesh at all, or two would become one.
-    return motion.target || std::none_of(m_stationary.begin(), m_stationary.end(), [&](const Stationary_face& face) {
+    return motion.target ||
+           std::none_of(m_stationary.begin(), m_stationary.end(), [&](const Stationary_face& face) {
              return std::find(face.points.begin(), face.points.end(), motion.place) != face.points.end();
            });
   }
@@ -286,7 +289,8 @@ private:
   CGAL::Bbox_3 face_box(Face face) const
   {
     const std::array<Vertex, 3> corners = face_corners(face);
-    return get(m_points, corners[0]).bbox() + get(m_points, corners[1]).bbox() + get(m_points, corners[2]).bbox();
+    return get(m_points, corners[0]).bbox() + get(m_points, corners[1]).bbox() +
+           get(m_points, corners[2]).bbox();
   }
 
   void find_twins()
@@ -329,7 +333,8 @@ private:
   FaceIndex m_index;
   typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<Id>>::const_type m_ids;
   std::vector<Face> m_faces;
-  typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<std::uint32_t>>::const_type m_twins;
+  typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<std::uint32_t>>::const_type
+      m_twins;
   std::vector<std::vector<Vertex>> m_twin_classes;
   Vertex m_target{};
   Statistics m_statistics;

@@ -28,10 +28,12 @@ auto moving_halfedge(const Profile& profile, const Point& placement)
   return is_v0_moved(profile, placement) ? profile.v0_v1() : profile.v1_v0();
 }
 
-/// Calls `is_fine(before, after, a, b)` for every face (v, a, b), counter-clockwise, that a collapse changes but
-/// keeps, where `before` is the position of v, `after` that of the merged vertex; stops at the first false.
+/// Calls `is_fine(before, after, a, b)` for every face (v, a, b), counter-clockwise, that a collapse changes
+/// but keeps, where `before` is the position of v, `after` that of the merged vertex; stops at the first
+/// false.
 ///
-/// Walks halfedges rather than `Profile::triangles()`, which gathers the faces of both ends into vectors first.
+/// Walks halfedges rather than `Profile::triangles()`, which gathers the faces of both ends into vectors
+/// first.
 template <class Profile, class Point, class Predicate>
 bool all_of_changed_faces(const Profile& profile, const Point& placement, Predicate&& is_fine)
 {

@@ -49,8 +49,8 @@ private:
   Id m_id;
 };
 
-/// A model of `AABBTraits` over boxes in a table: all that building and traversing a tree takes. It is a kernel
-/// only because `AABB_tree` names, though never makes, a search tree for distance queries.
+/// A model of `AABBTraits` over boxes in a table: all that building and traversing a tree takes. It is a
+/// kernel only because `AABB_tree` names, though never makes, a search tree for distance queries.
 class Box_tree_traits : public CGAL::Exact_predicates_inexact_constructions_kernel
 {
 public:
@@ -98,9 +98,9 @@ private:
   const Box_table* m_table;
 };
 
-/// A set of numbered boxes in a `CGAL::AABB_tree` that may change: the tree can neither remove nor refit, so a
-/// box that outgrew the one it was put in with moves to a list scanned linearly, and the tree is made anew when
-/// that list is long.
+/// A set of numbered boxes in a `CGAL::AABB_tree` that may change: the tree can neither remove nor refit, so
+/// a box that outgrew the one it was put in with moves to a list scanned linearly, and the tree is made anew
+/// when that list is long.
 class Box_tree
 {
 public:
@@ -172,7 +172,8 @@ public:
 private:
   using Tree = CGAL::AABB_tree<Box_tree_traits>;
 
-  // A tree is stale when a quarter of its members stand in the list, or when half of its leaves are no members.
+  // A tree is stale when a quarter of its members stand in the list, or when half of its leaves are no
+  // members.
   bool rebuild_if_stale(Box_table& table)
   {
     constexpr std::size_t least = 8;

@@ -15,9 +15,9 @@ namespace internal {
 
 /// An axis-aligned box of floats, half the size of a `CGAL::Bbox_3`.
 ///
-/// Boxes of doubles become boxes of floats through one map x ↦ float(x − origin) per axis, whose every step is
-/// monotone, whatever the rounding mode. Overlap is a conjunction of ≤ between bounds, and a monotone map keeps
-/// every ≤. So two boxes that overlapped still do: the map can add overlaps, never lose one.
+/// Boxes of doubles become boxes of floats through one map x ↦ float(x − origin) per axis, whose every step
+/// is monotone, whatever the rounding mode. Overlap is a conjunction of ≤ between bounds, and a monotone map
+/// keeps every ≤. So two boxes that overlapped still do: the map can add overlaps, never lose one.
 struct Monotone_box
 {
   std::array<float, 3> lower;
@@ -80,8 +80,8 @@ public:
   {
     Monotone_box result;
     for (int axis = 0; axis < 3; ++axis) {
-      result.lower[axis] = to_float((box.min)(axis) - m_origin[axis]);
-      result.upper[axis] = to_float((box.max)(axis) - m_origin[axis]);
+      result.lower[axis] = to_float((box.min)(axis)-m_origin[axis]);
+      result.upper[axis] = to_float((box.max)(axis)-m_origin[axis]);
     }
     return result;
   }
