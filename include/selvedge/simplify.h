@@ -200,8 +200,8 @@ public:
         m_normal_change(options.max_normal_change, m_aspect_ratio),
         m_uv({options.check_uv_orientation ? &observer : nullptr, m_rule}, m_normal_change)
   {
-    if (!(options.uv_weight >= 0))
-      throw Argument_error("the weight of the texture is at least 0");
+    if (!(options.uv_weight >= 0 && std::isfinite(options.uv_weight)))
+      throw Argument_error("the weight of the texture is at least 0, and finite");
     m_quadrics.weigh(constraints.vertex_weights);
     m_report.faces_input = m_targets.total().faces;
     const Clock::time_point start = Clock::now();

@@ -8,8 +8,10 @@
 #include "support/reduction.h"
 
 #include <selvedge/Surface_mesh_simplification/Aspect_ratio_filter.h>
+#include <selvedge/Surface_mesh_simplification/Halfedge_placement.h>
 #include <selvedge/Surface_mesh_simplification/Intersection_filter.h>
 #include <selvedge/Surface_mesh_simplification/Normal_change_filter.h>
+#include <selvedge/Surface_mesh_simplification/Quadric_cost.h>
 #include <selvedge/Surface_mesh_simplification/stop_predicates.h>
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_length_cost.h>
@@ -102,6 +104,36 @@ TEST(Composition, AGuardIsNotTooStrictWhereNothingIsNear)
                      CGAL::parameters::filter(filter).visitor(filter.visitor()));
   EXPECT_LE(mesh.number_of_faces(), 200u);
   EXPECT_LE(filter.refusals(), 20u);
+}
+
+// A run that stops after a selection must not leave the placement deciding when the next one computes its
+// first costs.
+TEST(Composition, ComputingCostsAsksNoFilter)
+{
+  struct Counting_filter
+  {
+    std::size_t* questions;
+    internal::Optional<Point_3>
+    operator()(const SMS::Edge_profile<Mesh, Mesh::Property_map<Mesh::Vertex_index, Point_3>, Kernel>&,
+               const internal::Optional<Point_3>& point) const
+    {
+      ++*questions;
+      return point;
+    }
+  };
+  Mesh mesh = mesh_of(nested_spheres(300, 1, 1e-2));
+  std::size_t questions = 0;
+  const Quadric_cost<Mesh> cost(mesh);
+  const Halfedge_placement<Mesh, Quadric_cost<Mesh>> directions(cost);
+  const Filtered_halfedge_placement placement(mesh, directions, Counting_filter{&questions});
+  for (int run = 0; run < 3; ++run) // each stops at its first selection
+    SMS::edge_collapse(
+        mesh, Face_ratio_stop(1, mesh),
+        CGAL::parameters::get_cost(cost).get_placement(placement).visitor(placement.visitor()));
+  EXPECT_EQ(questions, 0u);
+  SMS::edge_collapse(mesh, Face_ratio_stop(0.5, mesh),
+                     CGAL::parameters::get_cost(cost).get_placement(placement).visitor(placement.visitor()));
+  EXPECT_GT(questions, 50u);
 }
 
 TEST(Composition, FiltersWorkAloneAndStacked)

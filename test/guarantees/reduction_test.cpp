@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 #include <tuple>
@@ -282,6 +283,8 @@ TEST(Refusal, OptionsOutOfRange)
   expect_refused([](Simplify_options& o) { o.max_seam_turn = std::nan(""); });
   expect_refused([](Simplify_options& o) { o.max_border_drift = -1; });
   expect_refused([](Simplify_options& o) { o.faces_per_cluster = 0; });
+  expect_refused([](Simplify_options& o) { o.uv_weight = -1; });
+  expect_refused([](Simplify_options& o) { o.uv_weight = std::numeric_limits<double>::infinity(); });
 }
 
 TEST(Refusal, NothingToReduce)

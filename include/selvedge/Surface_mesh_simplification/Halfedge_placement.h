@@ -147,7 +147,11 @@ public:
   }
 
   /// The start of a run, the selection of an edge, the end of a collapse; to be called by the loop's visitor.
-  void on_started() const { m_state->reached_cost = 0; }
+  void on_started() const
+  {
+    m_state->is_deciding = false; // the last run may have stopped between a selection and its question
+    m_state->reached_cost = 0;
+  }
   void on_selected() const { m_state->is_deciding = true; }
   void on_collapsed(Vertex kept) const
   {
