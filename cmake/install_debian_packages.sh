@@ -10,6 +10,7 @@ packages=(
   libcgal-dev           # the geometry
   libcli11-dev          # options of the app
   libssl-dev            # SHA-256, for logs of collapses
+  libtbb-dev            # threads
   libtinygltf-dev       # glTF documents
   nlohmann-json3-dev    # glTF documents, reports of the app
   libgtest-dev          # tests

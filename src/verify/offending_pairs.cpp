@@ -1,13 +1,17 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include "verify/Triangle_tree.h"
+
 #include <selvedge/verify.h>
 
-#include <CGAL/box_intersection_d.h>
 #include <CGAL/intersections.h>
 
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
-#include <numeric>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -18,109 +22,14 @@ namespace {
 using Segment_3 = Kernel::Segment_3;
 using Triangle_3 = Kernel::Triangle_3;
 
-/// Where the vertices lie, by rank: along each axis, and as whole positions.
-///
-/// Boxes of ranks are as exact as boxes of doubles, at every scale, and take half the space.
-struct Vertex_ranks
-{
-  explicit Vertex_ranks(const std::vector<Point_3>& points) : position(points.size())
-  {
-    std::vector<Index> order(points.size());
-    std::iota(order.begin(), order.end(), Index(0));
-    // Stable, and x last: the order ends up lexicographic, with the vertices of one position side by side.
-    for (const int axis : {2, 1, 0}) {
-      std::stable_sort(order.begin(), order.end(),
-                       [&](Index v, Index w) { return points[v][axis] < points[w][axis]; });
-      along[axis].resize(points.size());
-      distinct[axis] =
-          rank(order, along[axis], [&](Index v, Index w) { return points[v][axis] == points[w][axis]; });
-    }
-    rank(order, position, [&](Index v, Index w) { return points[v] == points[w]; });
-  }
-
-  std::array<std::vector<Index>, 3> along;
-  std::array<std::size_t, 3> distinct;
-  std::vector<Index> position;
-
-private:
-  /// Numbers runs of equal elements, and says how many there are.
-  template <class Equal>
-  static std::size_t rank(const std::vector<Index>& order, std::vector<Index>& ranks, Equal equal)
-  {
-    for (std::size_t i = 1; i < order.size(); ++i)
-      ranks[order[i]] = ranks[order[i - 1]] + !equal(order[i - 1], order[i]);
-    return order.empty() ? 0 : std::size_t(ranks[order.back()]) + 1;
-  }
-};
-
-/// The box of a triangle in ranks, as `CGAL::box_self_intersection_d` wants it.
-class Rank_box
-{
-public:
-  using NT = Index;
-  using ID = Index;
-
-  Rank_box(const Vertex_ranks& ranks, const Index_triple& corners, Index triangle) : m_triangle(triangle)
-  {
-    const auto& [a, b, c] = corners;
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::vector<Index>& along = ranks.along[axis];
-      std::tie(m_low[axis], m_high[axis]) = std::minmax({along[a], along[b], along[c]});
-    }
-  }
-
-  static int dimension() { return 3; }
-  NT min_coord(int axis) const { return m_low[axis]; }
-  NT max_coord(int axis) const { return m_high[axis]; }
-  ID id() const { return m_triangle; }
-
-  void reorder_axes(const std::array<int, 3>& axes)
-  {
-    const std::array<Index, 3> low = m_low, high = m_high;
-    m_low = {low[axes[0]], low[axes[1]], low[axes[2]]};
-    m_high = {high[axes[0]], high[axes[1]], high[axes[2]]};
-  }
-
-private:
-  std::array<Index, 3> m_low, m_high;
-  Index m_triangle;
-};
-
-/// The boxes of all triangles, with their axes in the order that suits CGAL's traversal.
-std::vector<Rank_box> rank_boxes(const Triangle_soup& soup, const Vertex_ranks& ranks)
-{
-  std::vector<Rank_box> boxes;
-  boxes.reserve(soup.triangles.size());
-  // How much of each axis a box takes up, summed over all.
-  std::array<double, 3> extent = {};
-  for (Index i = 0; i < soup.triangles.size(); ++i) {
-    boxes.emplace_back(ranks, soup.triangles[i], i);
-    for (int axis = 0; axis < 3; ++axis)
-      extent[axis] += (1.0 + boxes[i].max_coord(axis) - boxes[i].min_coord(axis)) / ranks.distinct[axis];
-  }
-  // CGAL divides along axis 2 first and scans along axis 0: that is where the boxes should be short. A sheet
-  // across either of these two axes costs several times as much.
-  std::array<int, 3> axes = {0, 1, 2};
-  std::sort(axes.begin(), axes.end(), [&](int a, int b) { return extent[a] < extent[b]; });
-  for (Rank_box& box : boxes)
-    box.reorder_axes({axes[1], axes[2], axes[0]});
-  return boxes;
-}
-
-struct Corner
-{
-  Index position;
-  const Point_3* point;
-};
-
 /// A triangle by its distinct positions.
 struct Face
 {
-  std::array<Corner, 3> corners;
-  int size = 0;
+  std::array<const Point_3*, 3> corners;
+  int size = 3;
   bool degenerate = false;
 
-  const Point_3& operator[](int i) const { return *corners[i].point; }
+  const Point_3& operator[](int i) const { return *corners[i]; }
 };
 
 /// Brings the positions that two faces share to the front of both, in one order, and counts them.
@@ -129,7 +38,7 @@ int align(Face& s, Face& t)
   int shared = 0;
   for (int i = 0; i < s.size; ++i)
     for (int j = shared; j < t.size; ++j)
-      if (s.corners[i].position == t.corners[j].position) {
+      if (s.corners[i] == t.corners[j] || s[i] == t[j]) {
         std::swap(s.corners[i], s.corners[shared]);
         std::swap(t.corners[j], t.corners[shared]);
         ++shared;
@@ -241,41 +150,43 @@ bool degenerate_meets(const Face& s, const Face& t, int shared)
 class Judge
 {
 public:
-  explicit Judge(const Triangle_soup& soup)
-      : m_soup(soup), m_ranks(soup.points), m_degenerate(soup.triangles.size())
+  explicit Judge(const Triangle_soup& soup) : m_soup(soup), m_degenerate(soup.triangles.size())
   {
-    for (Index i = 0; i < soup.triangles.size(); ++i) {
-      const auto& [a, b, c] = soup.triangles[i];
-      m_degenerate[i] = CGAL::collinear(soup.points[a], soup.points[b], soup.points[c]);
-    }
+    const tbb::blocked_range<std::size_t> all(0, soup.triangles.size(), 4096);
+    tbb::parallel_for(all, [&](const tbb::blocked_range<std::size_t>& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+        const auto& [a, b, c] = soup.triangles[i];
+        m_degenerate[i] = CGAL::collinear(soup.points[a], soup.points[b], soup.points[c]);
+      }
+    });
   }
 
-  /// Hands every offending pair to `report`, in no particular order.
+  /// Hands every offending pair to `report`, in no particular order, and concurrently.
   template <class Report>
-  void judge(Report report) const
+  void judge(const Report& report) const
   {
     for (Index i = 0; i < m_soup.triangles.size(); ++i)
       if (m_degenerate[i])
         report(Offending_pair{i, i, Offence::degenerate});
-    std::vector<Rank_box> boxes = rank_boxes(m_soup, m_ranks);
-    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Rank_box& a, const Rank_box& b) {
-      if (const std::optional<Offence> offence = judge(a.id(), b.id()))
-        report(Offending_pair{std::min(a.id(), b.id()), std::max(a.id(), b.id()), *offence});
+    Triangle_tree(m_soup.points, m_soup.triangles).for_each_pair([&](Index a, Index b) {
+      if (const std::optional<Offence> offence = judge(a, b))
+        report(Offending_pair{std::min(a, b), std::max(a, b), *offence});
     });
   }
 
 private:
   Face face(Index triangle) const
   {
-    Face face;
-    for (const Index vertex : m_soup.triangles[triangle]) {
-      const Corner corner = {m_ranks.position[vertex], &m_soup.points[vertex]};
-      const auto end = face.corners.begin() + face.size;
-      if (std::none_of(face.corners.begin(), end,
-                       [&](const Corner& c) { return c.position == corner.position; }))
-        face.corners[face.size++] = corner;
-    }
+    const auto& [a, b, c] = m_soup.triangles[triangle];
+    Face face{{&m_soup.points[a], &m_soup.points[b], &m_soup.points[c]}};
     face.degenerate = m_degenerate[triangle];
+    if (face.degenerate) {
+      const auto have_one_position = [](const Point_3* p, const Point_3* q) { return *p == *q; };
+      const auto begin = face.corners.begin();
+      if (have_one_position(begin[0], begin[2]))
+        --face.size;
+      face.size = int(std::unique(begin, begin + face.size, have_one_position) - begin);
+    }
     return face;
   }
 
@@ -294,16 +205,18 @@ private:
   }
 
   const Triangle_soup& m_soup;
-  Vertex_ranks m_ranks;
-  std::vector<bool> m_degenerate;
+  std::vector<char> m_degenerate;
 };
 
 } // namespace
 
 std::vector<Offending_pair> offending_pairs(const Triangle_soup& soup)
 {
+  tbb::enumerable_thread_specific<std::vector<Offending_pair>> found;
+  Judge(soup).judge([&](const Offending_pair& pair) { found.local().push_back(pair); });
   std::vector<Offending_pair> pairs;
-  Judge(soup).judge([&](const Offending_pair& pair) { pairs.push_back(pair); });
+  for (const std::vector<Offending_pair>& some : found)
+    pairs.insert(pairs.end(), some.begin(), some.end());
   std::sort(pairs.begin(), pairs.end(), [](const Offending_pair& a, const Offending_pair& b) {
     return std::tie(a.first, a.second) < std::tie(b.first, b.second);
   });
@@ -312,7 +225,7 @@ std::vector<Offending_pair> offending_pairs(const Triangle_soup& soup)
 
 bool is_embedded(const Triangle_soup& soup)
 {
-  // The one way out of CGAL's traversal.
+  // The one way out of the traversal, whoever finds it.
   struct Found
   {
   };

@@ -1,0 +1,179 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SRC_VERIFY_TRIANGLE_TREE_H
+#define SELVEDGE_SRC_VERIFY_TRIANGLE_TREE_H
+
+#include <selvedge/mesh/Triangle_soup.h>
+
+#include <oneapi/tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace selvedge {
+
+/// A point with a number, to be sorted.
+struct Numbered_point
+{
+  std::array<double, 3> coordinates;
+  Index number;
+};
+
+/// Sorts points so that neighbours in the order are neighbours in space: in `parts` equal shares, a power of
+/// two, by halves along the widest axis. The order depends on nothing but the points.
+void sort_by_halves(std::vector<Numbered_point>& points, std::size_t parts);
+
+/// The boxes of triangles in a balanced binary tree. Built, and asked for pairs, by as many threads as oneTBB
+/// grants; the answers do not depend on them.
+class Triangle_tree
+{
+public:
+  /// Both must outlive the tree.
+  Triangle_tree(const std::vector<Point_3>& points, const std::vector<Index_triple>& triangles);
+
+  /// Calls `function(i, j)` for each pair of triangles whose boxes meet, once, in no particular order, and
+  /// concurrently.
+  template <class Function>
+  void for_each_pair(const Function& function) const
+  {
+    pairs_within(1, m_triangles.size(), function);
+  }
+
+  /// Calls `function(i)` for triangles whose boxes are nearer to a point than the root of `squared_bound`,
+  /// which the function is to lower, nearest boxes first.
+  template <class Function>
+  void approach(const Point_3& query, const double& squared_bound, const Function& function) const
+  {
+    if (!m_triangles.empty())
+      approach(query, squared_bound, function, 1, squared_distance(query, m_nodes[1]));
+  }
+
+private:
+  struct Box
+  {
+    std::array<double, 3> low{s_infinity, s_infinity, s_infinity};
+    std::array<double, 3> high{-s_infinity, -s_infinity, -s_infinity};
+
+    void add(const Box& other)
+    {
+      for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = (std::min)(low[axis], other.low[axis]);
+        high[axis] = (std::max)(high[axis], other.high[axis]);
+      }
+    }
+  };
+
+  static constexpr double s_infinity = std::numeric_limits<double>::infinity();
+  static constexpr std::size_t s_leaf_size = 4;
+  static constexpr std::size_t s_task_size = 4096; // triangles below which another task does not pay
+
+  static bool overlap(const Box& a, const Box& b)
+  {
+    // Without branches, which would be mispredicted.
+    return (a.low[0] <= b.high[0]) & (b.low[0] <= a.high[0]) & (a.low[1] <= b.high[1]) &
+           (b.low[1] <= a.high[1]) & (a.low[2] <= b.high[2]) & (b.low[2] <= a.high[2]);
+  }
+
+  static double squared_distance(const Point_3& query, const Box& box)
+  {
+    double distance = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double gap = (std::max)({box.low[axis] - query[axis], 0.0, query[axis] - box.high[axis]});
+      distance += gap * gap;
+    }
+    return distance;
+  }
+
+  std::size_t leaves() const { return m_nodes.size() / 2; }
+  std::size_t first_of(std::size_t leaf) const { return m_triangles.size() * leaf / leaves(); }
+
+  template <class Function>
+  void for_each_in(std::size_t node, const Function& function) const
+  {
+    const std::size_t leaf = node - leaves(), beyond = first_of(leaf + 1);
+    for (std::size_t i = first_of(leaf); i < beyond; ++i)
+      function(i);
+  }
+
+  template <class Function>
+  void pairs_within(std::size_t node, std::size_t size, const Function& function) const
+  {
+    if (node >= leaves()) {
+      for_each_in(node, [&](std::size_t i) {
+        for (std::size_t j = first_of(node - leaves()); j < i; ++j)
+          if (overlap(m_boxes[i], m_boxes[j]))
+            function(m_triangles[i], m_triangles[j]);
+      });
+      return;
+    }
+    const std::size_t left = 2 * node, right = 2 * node + 1;
+    in_turn_or_parallel(
+        size, [&] { pairs_within(left, size / 2, function); },
+        [&] { pairs_within(right, size / 2, function); },
+        [&] { pairs_between(left, right, size / 2, function); });
+  }
+
+  // Nodes of one level.
+  template <class Function>
+  void pairs_between(std::size_t a, std::size_t b, std::size_t size, const Function& function) const
+  {
+    if (!overlap(m_nodes[a], m_nodes[b]))
+      return;
+    if (a >= leaves()) {
+      for_each_in(a, [&](std::size_t i) {
+        if (overlap(m_boxes[i], m_nodes[b]))
+          for_each_in(b, [&](std::size_t j) {
+            if (overlap(m_boxes[i], m_boxes[j]))
+              function(m_triangles[i], m_triangles[j]);
+          });
+      });
+      return;
+    }
+    const auto children = [&](std::size_t i, std::size_t j) {
+      return [&, i, j] { pairs_between(2 * a + i, 2 * b + j, size / 2, function); };
+    };
+    in_turn_or_parallel(size, children(0, 0), children(0, 1), children(1, 0), children(1, 1));
+  }
+
+  template <class... Tasks>
+  static void in_turn_or_parallel(std::size_t size, const Tasks&... tasks)
+  {
+    if (size < s_task_size)
+      (tasks(), ...);
+    else
+      tbb::parallel_invoke(tasks...);
+  }
+
+  template <class Function>
+  void approach(const Point_3& query, const double& squared_bound, const Function& function, std::size_t node,
+                double distance) const
+  {
+    while (node < leaves()) {
+      if (!(distance < squared_bound))
+        return;
+      const double left = squared_distance(query, m_nodes[2 * node]);
+      const double right = squared_distance(query, m_nodes[2 * node + 1]);
+      const std::size_t nearer = right < left;
+      approach(query, squared_bound, function, 2 * node + nearer, (std::min)(left, right));
+      node = 2 * node + !nearer;
+      distance = (std::max)(left, right);
+    }
+    if (distance < squared_bound)
+      for_each_in(node, [&](std::size_t i) {
+        if (squared_distance(query, m_boxes[i]) < squared_bound)
+          function(m_triangles[i]);
+      });
+  }
+
+  std::vector<Index> m_triangles; // in the order of the leaves, each of which has an equal share
+  std::vector<Box> m_boxes;       // of these
+  std::vector<Box> m_nodes;       // node k has the children 2k and 2k + 1, all leaves are on the last level
+};
+
+} // namespace selvedge
+
+#endif // SELVEDGE_SRC_VERIFY_TRIANGLE_TREE_H
