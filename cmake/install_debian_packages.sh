@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # Installs what Selvedge is built from, on Debian 12 or later; does nothing where all of it is there already.
+# With the argument "benchmark" also the peers that the benchmark programs measure.
 set -euo pipefail
 
 packages=(
@@ -16,6 +17,9 @@ packages=(
   libgtest-dev          # tests
   libeigen3-dev         # tests: the Garland-Heckbert policies of CGAL, beside which ours must work
 )
+if [[ "${1:-}" == benchmark ]]; then
+  packages+=(libopenmesh-dev libmeshoptimizer-dev)
+fi
 
 is_installed() { [[ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" == installed ]]; }
 

@@ -4,6 +4,8 @@
 #ifndef SELVEDGE_BENCHMARK_TABLE_H
 #define SELVEDGE_BENCHMARK_TABLE_H
 
+#include <cmath>
+#include <cstdio>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -11,6 +13,16 @@
 namespace selvedge::benchmark {
 
 using Row = std::vector<std::string>;
+
+/// A number in a cell.
+inline std::string text(double number)
+{
+  if (std::isnan(number))
+    return "-";
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, "%.3g", number);
+  return buffer;
+}
 
 /// Printed as markdown row by row, since rows take their time, and kept as CSV. Cells hold neither commas nor
 /// quotes nor bars, and the first of a row is not empty.

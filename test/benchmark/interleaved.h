@@ -4,11 +4,14 @@
 #ifndef SELVEDGE_BENCHMARK_INTERLEAVED_H
 #define SELVEDGE_BENCHMARK_INTERLEAVED_H
 
+#include "Table.h"
+
 #include <selvedge/simplify_soup.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace selvedge::benchmark {
@@ -33,27 +36,41 @@ struct Sample
   }
 };
 
+inline std::string spread(const Sample& sample)
+{
+  return text(sample.least()) + " to " + text(sample.most());
+}
+
 inline double seconds_per_1000(const Simplify_report& report)
 {
   return 1000 * report.seconds_reduce / static_cast<double>(report.collapses);
 }
 
-/// Each of these reductions in turn, `runs` times, every other time backwards: what slows the machine down
-/// for a while, slows all of them down. `on_first` is called with the first result of each.
+/// `measure(which, run)` of each of so many programs in turn, `runs` times, every other time backwards: what
+/// slows the machine down for a while, slows all of them down.
+template <class Function>
+std::vector<Sample> interleaved(std::size_t count, int runs, const Function& measure)
+{
+  std::vector<Sample> samples(count);
+  for (int run = 0; run < runs; ++run)
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t which = run % 2 == 0 ? i : count - 1 - i;
+      samples[which].values.push_back(measure(which, run));
+    }
+  return samples;
+}
+
+/// These reductions so; `on_first` is called with the first result of each.
 template <class Function>
 std::vector<Sample> interleaved(const Prepared_soup& prepared, const std::vector<Simplify_options>& all,
                                 int runs, const Function& on_first)
 {
-  std::vector<Sample> seconds(all.size());
-  for (int run = 0; run < runs; ++run)
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      const std::size_t which = run % 2 == 0 ? i : all.size() - 1 - i;
-      const Simplified_soup result = simplify_soup(prepared, all[which]);
-      if (run == 0)
-        on_first(which, result);
-      seconds[which].values.push_back(seconds_per_1000(result.report));
-    }
-  return seconds;
+  return interleaved(all.size(), runs, [&](std::size_t which, int run) {
+    const Simplified_soup result = simplify_soup(prepared, all[which]);
+    if (run == 0)
+      on_first(which, result);
+    return seconds_per_1000(result.report);
+  });
 }
 
 } // namespace selvedge::benchmark

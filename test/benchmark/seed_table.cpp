@@ -5,11 +5,11 @@
 // resolution cloth models*, for any meshes: what the intersection filter costs in time and error, what it
 // prevents, and how its time depends on the cluster size. The seed is that paper.
 
+#include "Mesh.h"
 #include "Table.h"
 #include "interleaved.h"
 #include "line_plot.h"
 
-#include <selvedge/generate.h>
 #include <selvedge/mesh/mesh_files.h>
 #include <selvedge/simplify_soup.h>
 #include <selvedge/verify.h>
@@ -17,16 +17,10 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
-#include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <exception>
-#include <filesystem>
 #include <iostream>
 #include <string>
-#include <system_error>
 #include <vector>
 
 namespace {
@@ -37,44 +31,6 @@ using namespace selvedge::benchmark;
 constexpr double ratio_of_seed = 0.3;
 constexpr std::size_t cluster_size_of_seed = 100;
 const std::vector<std::size_t> cluster_sizes{10, 25, 50, cluster_size_of_seed, 200, 500, 1000};
-
-std::string text(double number)
-{
-  if (std::isnan(number))
-    return "-";
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, "%.3g", number);
-  return buffer;
-}
-
-std::string spread(const Sample& sample)
-{
-  return text(sample.least()) + " to " + text(sample.most());
-}
-
-struct Mesh
-{
-  std::string name; // nothing in it that CSV, markdown or SVG would have to escape
-  Prepared_soup prepared;
-};
-
-/// A file, or what `generate` makes: SCENE:FACES.
-Mesh mesh(const std::string& argument)
-{
-  std::string name = std::filesystem::path(argument).stem().string();
-  std::replace_if(
-      name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c) && c != '-' && c != ':'; },
-      '_');
-  const std::size_t colon = argument.rfind(':');
-  if (colon == std::string::npos || std::filesystem::exists(argument))
-    return {name, prepare(read_mesh(argument).soup)};
-  Generate_options options;
-  const char* const end = argument.data() + argument.size();
-  if (const auto [stop, error] = std::from_chars(argument.data() + colon + 1, end, options.faces);
-      error != std::errc() || stop != end)
-    throw CLI::ValidationError(argument + " is neither a file nor SCENE:FACES");
-  return {name, prepare(generate(argument.substr(0, colon), options))};
-}
 
 Simplify_options reduction(bool is_guarded, std::size_t cluster_size = cluster_size_of_seed)
 {
