@@ -8,6 +8,7 @@
 #include "report_json.h"
 #include "subcommands.h"
 #include "text.h"
+#include "threads.h"
 
 #include <selvedge/Error.h>
 #include <selvedge/collapse_log.h>
@@ -57,6 +58,7 @@ struct Request
   bool is_target_required = false;
   bool is_quiet = false;
   bool is_ascii = false;
+  std::optional<std::size_t> threads;
 };
 
 constexpr std::string_view level_mark = "{lod}";
@@ -123,6 +125,7 @@ Json options_json(const Request& request)
           {"obstacle", request.obstacle.empty() ? Json(nullptr) : Json(request.obstacle)},
           {"weld", request.weld_distance},
           {"sewn", request.is_sewn},
+          {"threads", optional(request.threads)},
           {"strict", request.is_strict}};
 }
 
@@ -317,6 +320,7 @@ private:
     }
     if (m_request.report.empty())
       return;
+    double seconds_parts = 0;
     const auto add_level = [&](Json& json, const Level& level) {
       json["output"] = {
           {"path", level.output}, {"written", m_outcome.is_written()}, {"not_carried", dropped}};
@@ -324,14 +328,17 @@ private:
         json["options"] = options_json(m_request);
       add_reduction(json, prepared, level.result);
       add_verification(json, level.verification, true);
+      const Clock::time_point start = Clock::now();
       add_parts(json, prepared, level.result);
+      seconds_parts += seconds_since(start);
     };
     add_level(m_report, levels.back());
     for (const Level& level : levels)
       if (!m_request.lods.empty())
         add_level(m_report["lods"].emplace_back(Json::object()), level);
+    m_seconds["parts"] = seconds_parts;
     m_report["seconds"] = Json::object();
-    for (const char* phase : {"read", "weld", "check", "snap", "index", "reduce", "verify", "write"})
+    for (const char* phase : {"read", "weld", "check", "snap", "index", "reduce", "verify", "write", "parts"})
       m_report["seconds"][phase] = m_seconds[phase];
     m_report["memory"] = {{"peak_bytes", peak_memory_bytes()}};
     m_report["exit_code"] = int(m_outcome.exit_code());
@@ -570,6 +577,7 @@ Action add_simplify(CLI::App& command)
       ->group(conduct);
   command.add_flag("--require-target", request->is_target_required, "Exit code 1 when the target is missed")
       ->group(conduct);
+  Thread_limit::add_option(command, request->threads)->group(conduct);
   command.add_option("--report", request->report, "Write a report as JSON")
       ->type_name("FILE")
       ->group(conduct);
@@ -597,6 +605,7 @@ Action add_simplify(CLI::App& command)
     read_ratios(*request);
     check(*request);
     watch_for_interruption();
+    const Thread_limit limit(request->threads);
     return Reduction(*request).run();
   };
 }

@@ -142,9 +142,9 @@ public:
                  const Simplify_intent& intent)
       : m_options(options), m_start(Clock::now()),
         m_working(prepared.soup, prepared.positions, frozen(prepared, intent), prepared.obstacle),
+        m_seconds_weld(seconds_since(m_start)),
         m_simplification(m_working.mesh(), m_options, constraints(prepared.soup, intent), m_working)
   {
-    m_seconds_weld = seconds_since(m_start);
   }
 
   Simplified_soup run() { return state(m_simplification.run()); }
@@ -212,8 +212,8 @@ private:
   Simplify_options m_options;
   Clock::time_point m_start;
   Working_mesh m_working;
-  internal::Simplification<Working_mesh::Mesh, Working_mesh> m_simplification;
   double m_seconds_weld;
+  internal::Simplification<Working_mesh::Mesh, Working_mesh> m_simplification;
 };
 
 } // namespace

@@ -115,6 +115,20 @@ TEST(App_simplify, GivesTheSameBytesEachTime)
   EXPECT_EQ(contents_of(folder / "a.ply"), contents_of(folder / "b.ply"));
 }
 
+TEST(App_simplify, ThreadsDoNotChangeTheResult)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("jacket", "in.obj", 20000), out = folder / "out.obj";
+  std::string bytes;
+  for (const char* threads : {"1", "2", "7"}) {
+    const App_result result = run_app({"simplify", in, "-o", out, "--ratio", "0.5", "--threads", threads});
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_TRUE(bytes.empty() || contents_of(out) == bytes) << threads;
+    bytes = contents_of(out);
+  }
+  EXPECT_NE(bytes, "");
+}
+
 TEST(App_simplify, MayReplaceItsInput)
 {
   const Workspace folder;
