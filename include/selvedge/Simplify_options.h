@@ -20,6 +20,13 @@ struct Simplify_progress
   std::size_t faces; ///< now
 };
 
+/// Which loop takes edges from a queue and collapses them.
+enum class Collapse_loop
+{
+  own, ///< `selvedge::edge_collapse`
+  cgal ///< `CGAL::Surface_mesh_simplification::edge_collapse`, in as many passes as it takes: the reference
+};
+
 /// What `simplify` is asked to do. Values outside the ranges given throw `Argument_error`.
 ///
 /// The target is the largest of the face counts that `ratio` and `faces` name; with neither it is no face at
@@ -65,6 +72,9 @@ struct Simplify_options
   /// itself: the displacement of the texture in the plane of the texture, in units of the mesh. 0 turns it
   /// off.
   double uv_weight = 0.1;
+
+  /// Both loops give the guarantees; the own one is faster.
+  Collapse_loop loop = Collapse_loop::own;
 
   /// What the cells of the index aim at, at least 1.
   std::size_t faces_per_cluster = 100;

@@ -16,6 +16,7 @@
 #include <selvedge/Surface_mesh_simplification/Normal_change_filter.h>
 #include <selvedge/Surface_mesh_simplification/Quadric_cost.h>
 #include <selvedge/Surface_mesh_simplification/stop_predicates.h>
+#include <selvedge/edge_collapse.h>
 
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
@@ -143,6 +144,11 @@ class Simplification
                              : cost;
     }
 
+    bool reaches_neighbours(typename boost::graph_traits<TriangleMesh>::vertex_descriptor kept) const
+    {
+      return m_quadrics.reaches_neighbours(kept);
+    }
+
     template <class Profile, class Vertex>
     void update_after_collapse(const Profile& profile, const Vertex& kept) const
     {
@@ -225,52 +231,29 @@ public:
     m_on_level = on_level;
     pass_levels();
 
-    const auto filter = [this](const auto& profile, const auto& placement) {
-      const auto accepted = m_intersection ? (*m_intersection)(profile, placement) : m_uv(profile, placement);
-      if (accepted)
-        ++m_accepted;
-      else
-        report_refusal(moving_halfedge(profile, *placement));
-      return accepted;
-    };
     const Cost costs(m_quadrics, m_targets, m_observer, m_options.uv_weight);
-    const Halfedge_placement<TriangleMesh, Cost, Rule> directions(costs, m_rule);
-    const Filtered_halfedge_placement placement(m_mesh, directions, filter);
-    // CGAL's loop forgets an edge that was refused until its neighbourhood changes, though the layer that
-    // blocked it may have moved away, and though its second direction may do. A new pass asks again: at the
-    // end, and sooner when so many are forgotten that the loop is about to pay much more elsewhere.
-    std::size_t forgotten_before = 0;
-    double dearest = 0;
-    const auto forgotten = [&] { return refusals().intersection - forgotten_before; };
-    const Function_stop is_pass_over([&](double cost) {
-      if (cost < dearest || forgotten() * s_forgotten_share < face_count(m_mesh))
+    const Directions directions(costs, m_rule);
+    // Until a pass finds that nothing more is possible; the report tells what refused in that.
+    const auto run_passes = [&](auto run_pass) {
+      bool is_promising = true;
+      while (is_promising && !m_targets.is_reached() && !m_report.is_stopped) {
+        const std::size_t collapses_before = m_report.collapses;
+        m_refused_before_pass = refusals();
+        ++m_report.passes;
+        is_promising = run_pass() || m_report.collapses > collapses_before;
+      }
+    };
+    if (m_options.loop == Collapse_loop::own)
+      run_passes([&] {
+        selvedge::edge_collapse(m_mesh, is_over(),
+                                CGAL::parameters::get_cost(costs)
+                                    .get_placement(directions)
+                                    .filter(Filter{this})
+                                    .visitor(Visitor(*this)));
         return false;
-      dearest = s_dearer * (std::max)(cost, (std::numeric_limits<double>::min)());
-      return true;
-    });
-    const Any_stop stop(
-        Function_stop([this](double) { return m_targets.is_reached(); }), Hook_stop([this](std::size_t) {
-          const auto total = m_targets.total();
-          m_report.is_stopped = m_options.should_stop &&
-                                m_options.should_stop({m_report.faces_input, total.target, total.faces});
-          return m_report.is_stopped;
-        }),
-        is_pass_over);
-    while (!m_targets.is_reached() && !m_report.is_stopped) {
-      const std::size_t collapses_before = m_report.collapses;
-      m_refused_before_pass = refusals();
-      const double dearest_before = dearest;
-      const std::size_t turned_before = placement.turned();
-      forgotten_before += forgotten();
-      ++m_report.passes;
-      CGAL::Surface_mesh_simplification::edge_collapse(
-          m_mesh, stop,
-          CGAL::parameters::get_cost(costs).get_placement(placement).visitor(
-              Visitor<decltype(placement)>(*this, placement)));
-      if (m_report.collapses == collapses_before && dearest == dearest_before &&
-          placement.turned() == turned_before)
-        break;
-    }
+      });
+    else
+      run_passes(Cgal_pass(*this, costs, directions));
     while (m_next_level < m_levels.size())
       pass_level();
     return report();
@@ -279,10 +262,24 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
 
-  // A pass ends early when one edge is forgotten for so many faces, and costs have grown by such a factor
-  // since the last time.
-  static constexpr std::size_t s_forgotten_share = 4;
-  static constexpr double s_dearer = 4;
+  using Directions = Halfedge_placement<TriangleMesh, Cost, Rule>;
+
+  struct Filter
+  {
+    Simplification* simplification;
+
+    template <class Profile, class Point>
+    Optional<Point> operator()(const Profile& profile, const Optional<Point>& placement) const
+    {
+      return simplification->filtered(profile, placement);
+    }
+
+    const std::vector<typename Intersection::Face>& blockers() const
+    {
+      static const std::vector<typename Intersection::Face> none;
+      return simplification->m_intersection ? simplification->m_intersection->blockers() : none;
+    }
+  };
 
   template <class Function>
   class Function_stop
@@ -300,37 +297,123 @@ private:
     Function m_is_over;
   };
 
-  template <class Placement>
-  class Visitor : public CGAL::Surface_mesh_simplification::Edge_collapse_visitor_base<TriangleMesh>
+  // The stop of either loop: the target, or somebody's wish.
+  auto is_over()
   {
-  public:
-    Visitor(Simplification& simplification, const Placement& placement)
-        : m_simplification(&simplification), m_placement(placement)
-    {
-    }
+    return Any_stop(
+        Function_stop([this](double) { return m_targets.is_reached(); }), Hook_stop([this](std::size_t) {
+          const auto total = m_targets.total();
+          m_report.is_stopped = m_options.should_stop &&
+                                m_options.should_stop({m_report.faces_input, total.target, total.faces});
+          return m_report.is_stopped;
+        }));
+  }
 
-    void OnStarted(TriangleMesh&) { m_placement.on_started(); }
-    template <class Profile, class OptionalCost, class Size>
-    void OnSelected(const Profile&, const OptionalCost&, Size, Size)
-    {
-      m_placement.on_selected();
-    }
+  struct Visitor : No_visitor
+  {
+    explicit Visitor(Simplification& simplification_) : simplification(&simplification_) {}
+
     template <class Profile, class OptionalPoint>
     void OnCollapsing(const Profile& profile, const OptionalPoint& placement)
     {
-      m_simplification->before_collapse(profile, *placement);
+      simplification->before_collapse(profile, *placement);
     }
     template <class Profile, class Vertex>
     void OnCollapsed(const Profile&, const Vertex& kept)
     {
-      m_simplification->after_collapse(kept);
-      m_placement.on_collapsed(kept);
+      simplification->after_collapse(kept);
+    }
+
+    Simplification* simplification;
+  };
+
+  /// A pass of CGAL's loop. It forgets an edge that was refused until its neighbourhood changes, though the
+  /// layer that blocked it may have moved away, and though its second direction may do. A new pass asks
+  /// again: at the end, and sooner when so many are forgotten that the loop is about to pay much more
+  /// elsewhere.
+  class Cgal_pass
+  {
+    using Placement = Filtered_halfedge_placement<Directions, Filter>;
+
+  public:
+    Cgal_pass(Simplification& simplification, const Cost& costs, const Directions& directions)
+        : m_simplification(&simplification), m_costs(costs),
+          m_placement(simplification.m_mesh, directions, Filter{&simplification})
+    {
+    }
+
+    /// Whether another pass might do what this could not.
+    bool operator()()
+    {
+      const std::size_t turned_before = m_placement.turned();
+      const double dearest_before = m_dearest;
+      m_forgotten_before += forgotten();
+      const Any_stop stop(m_simplification->is_over(),
+                          Function_stop([this](double cost) { return is_over_at(cost); }));
+      CGAL::Surface_mesh_simplification::edge_collapse(
+          m_simplification->m_mesh, stop,
+          CGAL::parameters::get_cost(m_costs)
+              .get_placement(m_placement)
+              .visitor(Turning_visitor(*m_simplification, m_placement)));
+      return m_dearest != dearest_before || m_placement.turned() != turned_before;
     }
 
   private:
+    // A pass ends early when one edge is forgotten for so many faces, and costs have grown by such a factor
+    // since the last time.
+    static constexpr std::size_t s_forgotten_share = 4;
+    static constexpr double s_dearer = 4;
+
+    struct Turning_visitor : Visitor
+    {
+      Turning_visitor(Simplification& simplification_, const Placement& placement_)
+          : Visitor(simplification_), placement(placement_)
+      {
+      }
+
+      void OnStarted(TriangleMesh&) { placement.on_started(); }
+      template <class Profile, class OptionalCost, class Size>
+      void OnSelected(const Profile&, const OptionalCost&, Size, Size)
+      {
+        placement.on_selected();
+      }
+      template <class Profile, class Vertex>
+      void OnCollapsed(const Profile& profile, const Vertex& kept)
+      {
+        Visitor::OnCollapsed(profile, kept);
+        placement.on_collapsed(kept);
+      }
+
+      Placement placement;
+    };
+
+    std::size_t forgotten() const { return m_simplification->refusals().intersection - m_forgotten_before; }
+
+    bool is_over_at(double cost)
+    {
+      if (cost < m_dearest || forgotten() * s_forgotten_share < face_count(m_simplification->m_mesh))
+        return false;
+      m_dearest = s_dearer * (std::max)(cost, (std::numeric_limits<double>::min)());
+      return true;
+    }
+
     Simplification* m_simplification;
+    Cost m_costs;
     Placement m_placement;
+    std::size_t m_forgotten_before = 0;
+    double m_dearest = 0;
   };
+
+  template <class Profile, class Point>
+  Optional<Point> filtered(const Profile& profile, const Optional<Point>& placement)
+  {
+    const auto accepted = m_intersection ? (*m_intersection)(profile, placement) : m_uv(profile, placement);
+    if (accepted)
+      ++m_accepted;
+    else
+      report_refusal(moving_halfedge(profile, *placement));
+    return accepted;
+  }
 
   template <class Profile, class Point>
   void before_collapse(const Profile& profile, const Point& placement)

@@ -120,6 +120,9 @@ public:
     return behind && !is_cut_off(h) && may_straighten(*behind, h, get(state.points, target(h, state.mesh)));
   }
 
+  /// Can the collapse that left `kept` have changed what `may_move` says of edges that do not end there?
+  bool reaches_neighbours(Vertex kept) const { return get(m_state->freedoms, kept) != Freedom::free; }
+
   /// May the ends of the profile's edge merge at `placement`, wherever that is?
   ///
   /// When it is neither end: inner vertices may go anywhere; where one end is bound, the placement must be

@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_HALFEDGE_PLACEMENT_H
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_HALFEDGE_PLACEMENT_H
 
+#include <selvedge/Surface_mesh_simplification/collapse_locality.h>
 #include <selvedge/Surface_mesh_simplification/internal/Filter_base.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
 
@@ -26,6 +27,12 @@ struct No_border_rule
   {
     return true;
   }
+
+  template <class Vertex>
+  bool reaches_neighbours(const Vertex&) const
+  {
+    return false;
+  }
 };
 
 /// Places the merged vertex at one end of its edge: of the two directions those that the rule allows, of
@@ -34,7 +41,7 @@ struct No_border_rule
 /// With this placement every vertex of the result is a vertex of the input, bit for bit.
 ///
 /// A model of CGAL's concept `GetPlacement`. `Cost` has `cost_at(profile, point)`, as `Quadric_cost` has;
-/// `Rule` has `may_move(halfedge)`, as `Border_rule` has.
+/// `Rule` has `may_move(halfedge)` and `reaches_neighbours(vertex)`, as `Border_rule` has.
 ///
 /// **Reference** Derichs, Misiak, Fuhrmann, section 3 and figure 4.
 template <class TriangleMesh, class Cost, class Rule = No_border_rule>
@@ -49,6 +56,22 @@ public:
   internal::Optional<typename Profile::Point> operator()(const Profile& profile) const
   {
     return is_v0_target_first(profile) ? profile.p0() : profile.p1();
+  }
+
+  /// The other end, where the rule allows it: for a loop that comes back to an edge when its first placement
+  /// was refused, as `selvedge::edge_collapse` does.
+  template <class Profile>
+  internal::Optional<typename Profile::Point> second(const Profile& profile) const
+  {
+    if (is_v0_target_first(profile))
+      return m_rule.may_move(profile.v0_v1()) ? profile.p1() : internal::Optional<typename Profile::Point>();
+    return m_rule.may_move(profile.v1_v0()) ? profile.p0() : internal::Optional<typename Profile::Point>();
+  }
+
+  /// See `Collapse_locality`.
+  bool reaches_neighbours(typename boost::graph_traits<TriangleMesh>::vertex_descriptor kept) const
+  {
+    return Collapse_locality<Cost>::reaches_neighbours(m_cost, kept) || m_rule.reaches_neighbours(kept);
   }
 
   /// Is the first choice to move v1 onto v0?

@@ -60,6 +60,7 @@ class Intersection_filter
   using Guard = internal::Intersection_guard<TriangleMesh, VertexPointMap, GeomTraits, FaceIndex>;
 
 public:
+  using Face = typename boost::graph_traits<TriangleMesh>::face_descriptor;
   using Statistics = typename Guard::Statistics;
 
   /// Keeps the filter's index true while edges collapse.
@@ -107,6 +108,10 @@ public:
   {
     return m_guard->is_clear(profile, placement);
   }
+
+  /// The faces because of which the last placement was refused, or no longer accepted on one of two ways,
+  /// that this filter judged; none where what lies around the edge alone decided.
+  auto& blockers() const { return m_guard->blockers(); }
 
   const Statistics& statistics() const { return m_guard->statistics(); }
   const FaceIndex& index() const { return m_guard->index(); }

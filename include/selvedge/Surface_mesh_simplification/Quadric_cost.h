@@ -204,6 +204,9 @@ public:
     return weight > 0 ? std::sqrt(cost_at(profile, point) / weight) : 0;
   }
 
+  /// No: see `Collapse_locality`.
+  bool reaches_neighbours(Vertex /*kept*/) const { return false; }
+
   /// Gives the merged vertex the sum of both; called by the loop.
   template <class Profile>
   void update_after_collapse(const Profile& profile, Vertex kept) const

@@ -15,8 +15,6 @@
 #include <CGAL/boost/graph/iterator.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 
-#include <boost/unordered_map.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -74,6 +72,7 @@ public:
   template <class Profile>
   bool is_clear(const Profile& profile, const Point& placement)
   {
+    m_blockers.clear();
     if (!is_v0_moved(profile, placement))
       return is_motion_clear({profile.v1(), profile.v0(), placement, false});
     if (!is_v1_moved(profile, placement))
@@ -111,6 +110,7 @@ public:
 
   bool has_twin(Vertex v) const { return get(m_twins, v) != 0; }
 
+  const std::vector<Face>& blockers() const { return m_blockers; }
   const Statistics& statistics() const { return m_statistics; }
   const FaceIndex& index() const { return m_index; }
 
@@ -127,6 +127,7 @@ private:
   /// A face that stands still, its corners as the motion sees them.
   struct Stationary_face
   {
+    Face face;
     std::array<Point, 3> points;
     CGAL::Bbox_3 box;
   };
@@ -230,15 +231,21 @@ private:
         if (!CGAL::do_overlap(sweep_box, face.box))
           continue;
         ++m_statistics.sweeps_tested;
-        if (!sweep.is_clear(face.points[0], face.points[1], face.points[2]))
+        if (!sweep.is_clear(face.points[0], face.points[1], face.points[2])) {
+          m_blockers.push_back(face.face);
           return false;
+        }
       }
     }
     // A place that is no neighbour's must be no position of the mesh at all, or two would become one.
-    return motion.target ||
-           std::none_of(m_stationary.begin(), m_stationary.end(), [&](const Stationary_face& face) {
-             return std::find(face.points.begin(), face.points.end(), motion.place) != face.points.end();
-           });
+    if (motion.target)
+      return true;
+    for (const Stationary_face& face : m_stationary)
+      if (std::find(face.points.begin(), face.points.end(), motion.place) != face.points.end()) {
+        m_blockers.push_back(face.face);
+        return false;
+      }
+    return true;
   }
 
   void gather_stationary_faces(const Motion& motion)
@@ -251,19 +258,20 @@ private:
       const std::array<Vertex, 3> corners = face_corners(m_faces[id]);
       // A neighbour that is judged away from where it stands brings its faces along, below.
       if (!contains(corners, motion.mover) && !(motion.is_target_moved && contains(corners, *motion.target)))
-        push_stationary(corners, motion);
+        push_stationary(m_faces[id], corners, motion);
     });
     if (!motion.is_target_moved)
       return;
     for (const Halfedge h : CGAL::halfedges_around_target(halfedge(*motion.target, m_mesh), m_mesh))
       if (!is_border(h, m_mesh))
         if (const auto corners = face_corners(face(h, m_mesh)); !contains(corners, motion.mover))
-          push_stationary(corners, motion);
+          push_stationary(face(h, m_mesh), corners, motion);
   }
 
-  void push_stationary(const std::array<Vertex, 3>& corners, const Motion& motion)
+  void push_stationary(Face of_mesh, const std::array<Vertex, 3>& corners, const Motion& motion)
   {
     Stationary_face face;
+    face.face = of_mesh;
     for (std::size_t i = 0; i < 3; ++i)
       face.points[i] = place_of(corners[i], motion);
     face.box = face.points[0].bbox() + face.points[1].bbox() + face.points[2].bbox();
@@ -337,6 +345,7 @@ private:
       m_twins;
   std::vector<std::vector<Vertex>> m_twin_classes;
   Vertex m_target{};
+  std::vector<Face> m_blockers; // of the last placement judged
   Statistics m_statistics;
 
   // Buffers, kept so that judging allocates nothing.

@@ -1,0 +1,388 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_EDGE_COLLAPSE_H
+#define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_EDGE_COLLAPSE_H
+
+#include <selvedge/Surface_mesh_simplification/collapse_locality.h>
+#include <selvedge/Surface_mesh_simplification/internal/Edge_queue.h>
+#include <selvedge/Surface_mesh_simplification/internal/Lazy_edge_profile.h>
+#include <selvedge/Surface_mesh_simplification/internal/Waiting_edges.h>
+#include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
+#include <selvedge/Surface_mesh_simplification/internal/collapse_geometry.h>
+
+#include <CGAL/Dynamic_property_map.h>
+#include <CGAL/Surface_mesh_simplification/Edge_collapse_visitor_base.h>
+#include <CGAL/boost/graph/Euler_operations.h>
+#include <CGAL/boost/graph/helpers.h>
+#include <CGAL/boost/graph/iterator.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace selvedge {
+namespace internal {
+
+/// A visitor that does nothing.
+struct No_visitor
+{
+  template <class TriangleMesh>
+  void OnStarted(TriangleMesh&)
+  {
+  }
+  template <class TriangleMesh>
+  void OnFinished(TriangleMesh&)
+  {
+  }
+  template <class Profile>
+  void OnStopConditionReached(const Profile&)
+  {
+  }
+  template <class Profile, class OptionalCost>
+  void OnCollected(const Profile&, const OptionalCost&)
+  {
+  }
+  template <class Profile, class OptionalCost, class Size>
+  void OnSelected(const Profile&, const OptionalCost&, Size, Size)
+  {
+  }
+  template <class Profile, class OptionalPoint>
+  void OnCollapsing(const Profile&, const OptionalPoint&)
+  {
+  }
+  template <class Profile, class Vertex>
+  void OnCollapsed(const Profile&, const Vertex&)
+  {
+  }
+  template <class Profile>
+  void OnNonCollapsable(const Profile&)
+  {
+  }
+};
+
+/// The edge map for meshes without constrained edges.
+struct No_constrained_edges
+{
+  template <class Edge>
+  friend bool get(const No_constrained_edges&, const Edge&)
+  {
+    return false;
+  }
+};
+
+template <class Cost, class = void>
+struct Is_updated : std::false_type
+{
+};
+template <class Cost>
+struct Is_updated<Cost, std::void_t<typename Cost::Update_tag>> : std::bool_constant<Cost::Update_tag::value>
+{
+};
+
+template <class Filter, class = void>
+struct Has_blockers : std::false_type
+{
+};
+template <class Filter>
+struct Has_blockers<Filter, std::void_t<decltype(std::declval<const Filter&>().blockers())>> : std::true_type
+{
+};
+
+template <class Placement, class Profile, class = void>
+struct Has_second : std::false_type
+{
+};
+template <class Placement, class Profile>
+struct Has_second<
+    Placement, Profile,
+    std::void_t<decltype(std::declval<const Placement&>().second(std::declval<const Profile&>()))>>
+    : std::true_type
+{
+};
+
+/// The loop behind `selvedge::edge_collapse`.
+template <class TriangleMesh, class GeomTraits, class Stop, class VertexPointMap, class HalfedgeIndexMap,
+          class EdgeIsConstrainedMap, class Cost, class Placement, class Filter, class Visitor>
+class Edge_collapse
+{
+  using Graph_traits = boost::graph_traits<TriangleMesh>;
+  using Vertex = typename Graph_traits::vertex_descriptor;
+  using Halfedge = typename Graph_traits::halfedge_descriptor;
+  using Edge = typename Graph_traits::edge_descriptor;
+  using Face = typename Graph_traits::face_descriptor;
+  using Profile = Lazy_edge_profile<TriangleMesh, VertexPointMap, GeomTraits>;
+  using Cgal_visitor =
+      CGAL::Surface_mesh_simplification::Edge_collapse_visitor_base<TriangleMesh, VertexPointMap, GeomTraits>;
+  using FT = typename GeomTraits::FT;
+  using Optional_cost = Optional<FT>;
+  using Optional_point = Optional<typename Profile::Point>;
+  using Queue = Edge_queue<FT>;
+  using Id = typename Queue::Id;
+
+  // An edge that is out of the queue, or in it for its second placement, is *stale*: what happens nearby may
+  // make its first placement possible again.
+  enum class State : unsigned char { gone, first, second };
+
+public:
+  Edge_collapse(TriangleMesh& mesh, const GeomTraits& traits, const Stop& stop, const VertexPointMap& points,
+                const HalfedgeIndexMap& numbers, const EdgeIsConstrainedMap& is_constrained, const Cost& cost,
+                const Placement& placement, const Filter& filter, const Visitor& visitor)
+      : m_mesh(mesh), m_traits(traits), m_stop(stop), m_points(points), m_numbers(numbers),
+        m_is_constrained(is_constrained), m_cost(cost), m_placement(placement), m_filter(filter),
+        m_visitor(visitor), m_halfedges(num_edges(mesh)), m_states(num_edges(mesh), State::gone),
+        m_queue(num_edges(mesh)), m_waiting(mesh),
+        m_has_stale_edges(get(CGAL::dynamic_vertex_property_t<unsigned char>(), mesh))
+  {
+  }
+
+  std::size_t run()
+  {
+    m_visitor.OnStarted(m_mesh);
+    if constexpr (Is_updated<Cost>::value)
+      m_cost.initialize(m_mesh, m_points, m_traits);
+    collect();
+    while (!m_queue.is_empty() && try_cheapest())
+      ;
+    m_visitor.OnFinished(m_mesh);
+    return m_initial_edges - m_edges;
+  }
+
+private:
+  void collect()
+  {
+    std::vector<typename Queue::Entry> entries;
+    entries.reserve(num_edges(m_mesh));
+    for (const Vertex v : vertices(m_mesh))
+      put(m_has_stale_edges, v, false);
+    for (const Edge e : edges(m_mesh)) {
+      const Halfedge h = halfedge(e, m_mesh);
+      m_halfedges[id(h)] = h;
+      m_states[id(h)] = State::first;
+      ++m_edges;
+      if (get(m_is_constrained, e))
+        continue;
+      const Profile of_edge = profile(h);
+      const Optional_cost cost = cost_of(of_edge, m_placement(of_edge));
+      if (cost)
+        entries.push_back({*cost, id(h)});
+      m_visitor.OnCollected(of_edge, cost);
+    }
+    m_initial_edges = m_edges;
+    m_queue.push_all(std::move(entries));
+  }
+
+  // Whether the loop goes on.
+  bool try_cheapest()
+  {
+    const auto [cost, edge_id] = m_queue.pop();
+    const Profile of_edge = profile(m_halfedges[edge_id]);
+    m_visitor.OnSelected(of_edge, Optional_cost(cost), m_initial_edges, m_edges);
+    if (m_stop(cost, of_edge, m_initial_edges, m_edges)) {
+      m_visitor.OnStopConditionReached(of_edge);
+      return false;
+    }
+    if (!is_topology_kept(of_edge)) {
+      m_visitor.OnNonCollapsable(of_edge);
+      mark_stale(of_edge);
+      return true;
+    }
+    const Optional_point placement = placement_of(of_edge, m_states[edge_id]);
+    if (placement && m_filter(of_edge, placement)) {
+      collapse(of_edge, edge_id, placement);
+      return true;
+    }
+    m_visitor.OnNonCollapsable(of_edge);
+    mark_stale(of_edge);
+    if constexpr (Has_blockers<Filter>::value)
+      for (const Face face : m_filter.blockers())
+        m_waiting.add(face, edge_id);
+    if constexpr (Has_second<Placement, Profile>::value) {
+      if (m_states[edge_id] == State::first) {
+        m_states[edge_id] = State::second;
+        if (const Optional_cost second = cost_of(of_edge, placement_of(of_edge, State::second)))
+          m_queue.set(edge_id, *second);
+      }
+    }
+    return true;
+  }
+
+  void collapse(const Profile& of_edge, Id edge_id, const Optional_point& placement)
+  {
+    if constexpr (std::is_convertible_v<const Visitor*, const Cgal_visitor*>)
+      of_edge.full(); // it will be asked for when the edge is gone
+    m_visitor.OnCollapsing(of_edge, placement);
+    forget(edge_id);
+    if (of_edge.left_face_exists())
+      forget(of_edge.vL_v0(), of_edge.v1_vL());
+    if (of_edge.right_face_exists())
+      forget(of_edge.vR_v1(), of_edge.v0_vR());
+    if constexpr (Has_blockers<Filter>::value) {
+      if (is_v0_moved(of_edge, *placement))
+        m_waiting.release_around(of_edge.v0());
+      if (is_v1_moved(of_edge, *placement))
+        m_waiting.release_around(of_edge.v1());
+    }
+    Vertex kept;
+    if constexpr (std::is_same_v<EdgeIsConstrainedMap, No_constrained_edges>)
+      kept = CGAL::Euler::collapse_edge(edge(of_edge.v0_v1(), m_mesh), m_mesh);
+    else
+      kept = CGAL::Euler::collapse_edge(edge(of_edge.v0_v1(), m_mesh), m_mesh, m_is_constrained);
+    put(m_points, kept, *placement);
+    m_visitor.OnCollapsed(of_edge, kept);
+    if constexpr (Is_updated<Cost>::value)
+      m_cost.update_after_collapse(of_edge, kept);
+    refresh_around(kept);
+  }
+
+  // An edge that is going.
+  void forget(Id edge_id)
+  {
+    m_queue.erase(edge_id);
+    m_states[edge_id] = State::gone;
+    --m_edges;
+  }
+  // The edge of a vanishing face that goes with it; the other is constrained when this one is.
+  void forget(Halfedge h, Halfedge other) { forget(id(get(m_is_constrained, edge(h, m_mesh)) ? other : h)); }
+
+  void refresh_around(Vertex kept)
+  {
+    const bool is_wide = Collapse_locality<Cost>::reaches_neighbours(m_cost, kept) ||
+                         Collapse_locality<Placement>::reaches_neighbours(m_placement, kept);
+    for (const Halfedge h : CGAL::halfedges_around_target(halfedge(kept, m_mesh), m_mesh)) {
+      refresh(h);
+      const Vertex neighbour = source(h, m_mesh);
+      if (!is_wide && !get(m_has_stale_edges, neighbour))
+        continue;
+      for (const Halfedge g : CGAL::halfedges_around_target(opposite(h, m_mesh), m_mesh))
+        if (g != opposite(h, m_mesh) && (is_wide || is_stale(id(g))))
+          refresh(g);
+      put(m_has_stale_edges, neighbour, false);
+    }
+    put(m_has_stale_edges, kept, false);
+    if constexpr (Has_blockers<Filter>::value)
+      m_waiting.take_released([this](Id edge_id) {
+        if (m_states[edge_id] != State::gone && is_stale(edge_id))
+          refresh(m_halfedges[edge_id]);
+      });
+  }
+
+  bool is_stale(Id edge_id) const { return m_states[edge_id] == State::second || !m_queue.contains(edge_id); }
+
+  // Puts an edge where its first placement belongs.
+  void refresh(Halfedge h)
+  {
+    const Id edge_id = id(h);
+    if (get(m_is_constrained, edge(h, m_mesh)))
+      return;
+    m_states[edge_id] = State::first;
+    const Profile of_edge = profile(m_halfedges[edge_id]);
+    if (const Optional_cost cost = cost_of(of_edge, m_placement(of_edge)))
+      m_queue.set(edge_id, *cost);
+    else
+      m_queue.erase(edge_id);
+  }
+
+  void mark_stale(const Profile& of_edge)
+  {
+    put(m_has_stale_edges, of_edge.v0(), true);
+    put(m_has_stale_edges, of_edge.v1(), true);
+  }
+
+  Optional_cost cost_of(const Profile& of_edge, const Optional_point& placement) const
+  {
+    const Optional_cost cost = m_cost(of_edge, placement);
+    return cost && *cost == *cost ? cost : Optional_cost();
+  }
+
+  Optional_point placement_of(const Profile& of_edge, State state) const
+  {
+    if constexpr (Has_second<Placement, Profile>::value)
+      if (state == State::second)
+        return m_placement.second(of_edge);
+    return m_placement(of_edge);
+  }
+
+  // The link condition: a neighbour of both ends is the third corner of a face at the edge. And no piece of
+  // the surface may lose its last faces, no two stretches of a border may meet.
+  bool is_topology_kept(const Profile& of_edge)
+  {
+    const auto is_outside = [this](Halfedge h) { return is_border(opposite(h, m_mesh), m_mesh); };
+    if (!of_edge.left_face_exists() && !of_edge.right_face_exists())
+      return false;
+    if (of_edge.left_face_exists() && is_outside(of_edge.v1_vL()) && is_outside(of_edge.vL_v0()))
+      return false;
+    if (of_edge.right_face_exists() && is_outside(of_edge.vR_v1()) && is_outside(of_edge.v0_vR()))
+      return false;
+
+    m_neighbours.clear();
+    bool is_v0_on_border = false, is_v1_on_border = false;
+    for (const Halfedge h : CGAL::halfedges_around_target(of_edge.v1_v0(), m_mesh)) {
+      is_v0_on_border = is_v0_on_border || is_border(h, m_mesh);
+      if (h != of_edge.v1_v0())
+        m_neighbours.push_back(source(h, m_mesh));
+    }
+    for (const Halfedge h : CGAL::halfedges_around_target(of_edge.v0_v1(), m_mesh)) {
+      is_v1_on_border = is_v1_on_border || is_border(h, m_mesh);
+      const Vertex v = source(h, m_mesh);
+      if (h != of_edge.v0_v1() &&
+          std::find(m_neighbours.begin(), m_neighbours.end(), v) != m_neighbours.end() &&
+          !(of_edge.left_face_exists() && v == of_edge.vL()) &&
+          !(of_edge.right_face_exists() && v == of_edge.vR()))
+        return false;
+    }
+    if (!std::is_same_v<EdgeIsConstrainedMap, No_constrained_edges> && is_at_constrained(of_edge.v0_v1()) &&
+        is_at_constrained(of_edge.v1_v0()))
+      return false;
+    for (const Halfedge h : {of_edge.v0_v1(), of_edge.v1_v0()})
+      if (is_border(h, m_mesh)) {
+        const Halfedge second = next(h, m_mesh), third = next(second, m_mesh);
+        return !(next(third, m_mesh) == h && is_border(second, m_mesh) && is_border(third, m_mesh));
+      }
+    if (is_v0_on_border && is_v1_on_border)
+      return false;
+    const bool is_two_faces =
+        next(of_edge.v0_v1(), m_mesh) == opposite(prev(of_edge.v1_v0(), m_mesh), m_mesh) &&
+        prev(of_edge.v0_v1(), m_mesh) == opposite(next(of_edge.v1_v0(), m_mesh), m_mesh);
+    return !is_two_faces && !CGAL::is_tetrahedron(of_edge.v0_v1(), m_mesh);
+  }
+
+  bool is_at_constrained(Halfedge into) const
+  {
+    for (const Halfedge h : CGAL::halfedges_around_target(into, m_mesh))
+      if (get(m_is_constrained, edge(h, m_mesh)))
+        return true;
+    return false;
+  }
+
+  Profile profile(Halfedge h) const { return Profile(h, m_mesh, m_points, m_traits); }
+  Id id(Halfedge h) const { return Id(get(m_numbers, h) / 2); }
+
+  TriangleMesh& m_mesh;
+  const GeomTraits& m_traits;
+  const Stop& m_stop;
+  const VertexPointMap& m_points;
+  const HalfedgeIndexMap& m_numbers;
+  const EdgeIsConstrainedMap& m_is_constrained;
+  const Cost& m_cost;
+  const Placement& m_placement;
+  const Filter& m_filter;
+  Visitor m_visitor;
+
+  std::vector<Halfedge> m_halfedges; // by edge
+  std::vector<State> m_states;       // by edge
+  Queue m_queue;
+  Waiting_edges<TriangleMesh> m_waiting;
+  // False only where all edges at the vertex are fresh.
+  typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<unsigned char>>::type
+      m_has_stale_edges;
+  std::size_t m_initial_edges = 0, m_edges = 0;
+  std::vector<Vertex> m_neighbours; // a buffer
+};
+
+} // namespace internal
+} // namespace selvedge
+
+#endif // SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_EDGE_COLLAPSE_H

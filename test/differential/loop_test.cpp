@@ -1,0 +1,375 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The own loop against CGAL's: where no two edges cost the same, the same collapses in the same order.
+
+#include <selvedge/Surface_mesh_simplification/Aspect_ratio_filter.h>
+#include <selvedge/Surface_mesh_simplification/Dihedral_angle_filter.h>
+#include <selvedge/Surface_mesh_simplification/Halfedge_placement.h>
+#include <selvedge/Surface_mesh_simplification/Intersection_filter.h>
+#include <selvedge/Surface_mesh_simplification/Quadric_cost.h>
+#include <selvedge/edge_collapse.h>
+#include <selvedge/mesh/Working_mesh.h>
+
+#include "support/meshes.h"
+
+#include <CGAL/Polyhedron_3.h>
+#include <CGAL/Surface_mesh_simplification/Edge_collapse_visitor_base.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_filter.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_ratio_stop_predicate.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_length_cost.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Midpoint_placement.h>
+#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
+#include <CGAL/boost/graph/copy_face_graph.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+#include <random>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace selvedge::test {
+namespace {
+
+namespace SMS = CGAL::Surface_mesh_simplification;
+using Surface_mesh = Working_mesh::Mesh;
+
+struct Step
+{
+  Point_3 p0, p1, placement;
+
+  friend bool operator==(const Step& a, const Step& b)
+  {
+    return a.p0 == b.p0 && a.p1 == b.p1 && a.placement == b.placement;
+  }
+};
+
+struct Recorder
+{
+  std::vector<Step>* steps;
+  std::vector<double>* costs;
+
+  template <class TriangleMesh>
+  void OnStarted(TriangleMesh&)
+  {
+  }
+  template <class TriangleMesh>
+  void OnFinished(TriangleMesh&)
+  {
+  }
+  template <class Profile>
+  void OnStopConditionReached(const Profile&)
+  {
+  }
+  template <class Profile, class OptionalCost>
+  void OnCollected(const Profile&, const OptionalCost& cost)
+  {
+    if (cost)
+      costs->push_back(*cost);
+  }
+  template <class Profile, class OptionalCost, class Size>
+  void OnSelected(const Profile&, const OptionalCost&, Size, Size)
+  {
+  }
+  template <class Profile, class OptionalPoint>
+  void OnCollapsing(const Profile& profile, const OptionalPoint& placement)
+  {
+    steps->push_back({profile.p0(), profile.p1(), *placement});
+  }
+  template <class Profile, class Vertex>
+  void OnCollapsed(const Profile&, const Vertex&)
+  {
+  }
+  template <class Profile>
+  void OnNonCollapsable(const Profile&)
+  {
+  }
+};
+
+/// What a loop with a filter that keeps track of the mesh needs beside the recorder.
+template <class Other>
+struct Recorder_and : Recorder
+{
+  Other other;
+
+  template <class Profile, class OptionalPoint>
+  void OnCollapsing(const Profile& profile, const OptionalPoint& placement)
+  {
+    Recorder::OnCollapsing(profile, placement);
+    other.OnCollapsing(profile, placement);
+  }
+  template <class Profile, class Vertex>
+  void OnCollapsed(const Profile& profile, const Vertex& kept)
+  {
+    other.OnCollapsed(profile, kept);
+  }
+};
+
+/// A placement without its second, a filter without its blockers.
+template <class Placement>
+struct First_placement_alone
+{
+  Placement placement;
+
+  template <class Profile>
+  auto operator()(const Profile& profile) const
+  {
+    return placement(profile);
+  }
+  template <class Vertex>
+  bool reaches_neighbours(const Vertex& kept) const
+  {
+    return placement.reaches_neighbours(kept);
+  }
+};
+template <class Filter>
+struct Without_blockers
+{
+  const Filter* filter;
+
+  template <class Profile, class OptionalPoint>
+  auto operator()(const Profile& profile, const OptionalPoint& placement) const
+  {
+    return (*filter)(profile, placement);
+  }
+};
+
+/// Shaken, so that no two edges cost the same.
+Surface_mesh shaken(Triangle_soup soup, double by = 1e-3)
+{
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> shift(-by, by);
+  for (Point_3& p : soup.points)
+    p = Point_3(p.x() + shift(random), p.y() + shift(random), p.z() + shift(random));
+  const std::vector<char> is_frozen(soup.triangles.size(), false);
+  return Working_mesh(soup, number_positions(soup.points), is_frozen).mesh();
+}
+
+std::vector<std::pair<std::string, Surface_mesh>> meshes()
+{
+  return {{"spheres", shaken(nested_spheres(3000, 2, 0.01))}, // closed
+          {"sheets", shaken(sheets(3000, 2, 0.01))},          // with borders
+          {"skirt", shaken(skirt(4000))}};
+}
+
+template <class Mesh, class Reduce_own, class Reduce_cgal>
+void expect_same_steps(const Mesh& mesh, std::size_t least, const Reduce_own& reduce_own,
+                       const Reduce_cgal& reduce_cgal)
+{
+  Mesh own = mesh, cgal = mesh;
+  std::vector<Step> own_steps, cgal_steps;
+  std::vector<double> costs;
+  reduce_own(own, Recorder{&own_steps, &costs});
+  EXPECT_EQ(std::set<double>(costs.begin(), costs.end()).size(), costs.size()) << "costs tie";
+  reduce_cgal(cgal, Recorder{&cgal_steps, &costs});
+  EXPECT_GE(own_steps.size(), least);
+  ASSERT_EQ(own_steps.size(), cgal_steps.size());
+  for (std::size_t i = 0; i < own_steps.size(); ++i)
+    ASSERT_TRUE(own_steps[i] == cgal_steps[i]) << "step " << i;
+}
+
+// The test that CGAL's loop makes of itself goes first in the own loop's filters.
+const double ratio = 0.1;
+
+TEST(Own_loop, GoesAsCgalsWithDefaultPolicies)
+{
+  for (const auto& [name, mesh] : meshes()) {
+    SCOPED_TRACE(name);
+    const SMS::Count_ratio_stop_predicate<Surface_mesh> stop(ratio);
+    expect_same_steps(
+        mesh, 10,
+        [&](Surface_mesh& reduced, const Recorder& recorder) {
+          selvedge::edge_collapse(reduced, stop,
+                                  CGAL::parameters::filter(Dihedral_angle_filter<>()).visitor(recorder));
+        },
+        [&](Surface_mesh& reduced, const Recorder& recorder) {
+          SMS::edge_collapse(reduced, stop, CGAL::parameters::visitor(recorder));
+        });
+  }
+}
+
+TEST(Own_loop, GoesAsCgalsWithPoliciesThatLookAtTheEndsAlone)
+{
+  for (const auto& [name, mesh] : meshes()) {
+    SCOPED_TRACE(name);
+    const SMS::Count_ratio_stop_predicate<Surface_mesh> stop(ratio);
+    const SMS::Edge_length_cost<Surface_mesh> cost;
+    const SMS::Midpoint_placement<Surface_mesh> placement;
+    const SMS::Bounded_normal_change_filter<> filter;
+    expect_same_steps(
+        mesh, 10,
+        [&](Surface_mesh& reduced, const Recorder& recorder) {
+          selvedge::edge_collapse(reduced, stop,
+                                  CGAL::parameters::get_cost(cost)
+                                      .get_placement(placement)
+                                      .filter(Dihedral_angle_filter(filter))
+                                      .visitor(recorder));
+        },
+        [&](Surface_mesh& reduced, const Recorder& recorder) {
+          SMS::edge_collapse(
+              reduced, stop,
+              CGAL::parameters::get_cost(cost).get_placement(placement).filter(filter).visitor(recorder));
+        });
+  }
+}
+
+TEST(Own_loop, GoesAsCgalsWithQuadricsAndTheExactFilter)
+{
+  for (const auto& [name, mesh] : meshes()) {
+    SCOPED_TRACE(name);
+    const SMS::Count_ratio_stop_predicate<Surface_mesh> stop(ratio);
+    const auto reduce = [&](Surface_mesh& reduced, const Recorder& recorder, const auto& run,
+                            const auto& base) {
+      using Cost = Quadric_cost<Surface_mesh>;
+      using Base = std::decay_t<decltype(base)>;
+      const Cost cost(reduced);
+      const First_placement_alone<Halfedge_placement<Surface_mesh, Cost>> placement{
+          Halfedge_placement<Surface_mesh, Cost>(cost)};
+      const Intersection_filter<Surface_mesh, Base> filter(reduced, base);
+      Recorder_and<decltype(filter.visitor())> visitor{recorder, filter.visitor()};
+      run(reduced, CGAL::parameters::get_cost(cost)
+                       .get_placement(placement)
+                       .filter(Without_blockers<decltype(filter)>{&filter})
+                       .visitor(visitor));
+    };
+    const Aspect_ratio_filter<> base(0.1);
+    expect_same_steps(
+        mesh, 10,
+        [&](Surface_mesh& reduced, const Recorder& recorder) {
+          reduce(
+              reduced, recorder,
+              [&](Surface_mesh& m, const auto& parameters) { selvedge::edge_collapse(m, stop, parameters); },
+              Aspect_ratio_filter<Dihedral_angle_filter<>>(0.1));
+        },
+        [&](Surface_mesh& reduced, const Recorder& recorder) {
+          reduce(
+              reduced, recorder,
+              [&](Surface_mesh& m, const auto& parameters) { SMS::edge_collapse(m, stop, parameters); },
+              base);
+        });
+  }
+}
+
+struct Is_constrained
+{
+  using key_type = Surface_mesh::Edge_index;
+  using value_type = bool;
+  using reference = bool;
+  using category = boost::readable_property_map_tag;
+
+  // Every seventh edge of the input; edges keep their numbers.
+  friend bool get(const Is_constrained&, key_type e) { return std::size_t(e) % 7 == 0; }
+};
+
+TEST(Own_loop, GoesAsCgalsAroundConstrainedEdges)
+{
+  for (const auto& [name, mesh] : meshes()) {
+    SCOPED_TRACE(name);
+    const SMS::Count_ratio_stop_predicate<Surface_mesh> stop(ratio);
+    expect_same_steps(
+        mesh, 0,
+        [&](Surface_mesh& reduced, const Recorder& recorder) {
+          selvedge::edge_collapse(reduced, stop,
+                                  CGAL::parameters::edge_is_constrained_map(Is_constrained())
+                                      .filter(Dihedral_angle_filter<>())
+                                      .visitor(recorder));
+        },
+        [&](Surface_mesh& reduced, const Recorder& recorder) {
+          SMS::edge_collapse(reduced, stop,
+                             CGAL::parameters::edge_is_constrained_map(Is_constrained()).visitor(recorder));
+        });
+  }
+}
+
+TEST(Own_loop, TakesVisitorsDerivedFromCgals)
+{
+  struct Visitor : SMS::Edge_collapse_visitor_base<Surface_mesh>
+  {
+    explicit Visitor(std::array<std::size_t, 4>& calls_) : calls(&calls_) {}
+    void OnCollected(const Profile&, const boost::optional<double>&) { ++(*calls)[0]; }
+    void OnSelected(const Profile&, const boost::optional<double>&, std::size_t, std::size_t)
+    {
+      ++(*calls)[1];
+    }
+    void OnCollapsed(const Profile& profile, const Surface_mesh::Vertex_index& kept)
+    {
+      EXPECT_TRUE(kept == profile.v0() || kept == profile.v1());
+      ++(*calls)[2];
+    }
+    void OnNonCollapsable(const Profile&) { ++(*calls)[3]; }
+    std::array<std::size_t, 4>* calls;
+  };
+  Surface_mesh mesh = shaken(sheets(1000, 1, 0.01));
+  const std::size_t edges = mesh.number_of_edges();
+  std::array<std::size_t, 4> calls{};
+  const SMS::Count_ratio_stop_predicate<Surface_mesh> stop(0.3);
+  const std::size_t removed = selvedge::edge_collapse(mesh, stop, CGAL::parameters::visitor(Visitor(calls)));
+  EXPECT_EQ(mesh.number_of_edges(), edges - removed);
+  EXPECT_EQ(calls[0], edges);
+  EXPECT_EQ(calls[1], calls[2] + calls[3] + 1); // the last was selected only to be told to stop
+  EXPECT_GT(calls[2], 100u);
+  EXPECT_TRUE(CGAL::is_valid_polygon_mesh(mesh));
+}
+
+TEST(Own_loop, GoesAsCgalsOnAPolyhedron)
+{
+  using Polyhedron = CGAL::Polyhedron_3<Kernel>;
+  Polyhedron mesh;
+  CGAL::copy_face_graph(shaken(sheets(1000, 1, 0.01)), mesh);
+  const SMS::Count_ratio_stop_predicate<Polyhedron> stop(ratio);
+  Polyhedron own = mesh, cgal = mesh;
+  EXPECT_GT(selvedge::edge_collapse(own, stop, CGAL::parameters::filter(Dihedral_angle_filter<>())), 100u);
+  SMS::edge_collapse(cgal, stop);
+  const auto points = [](const Polyhedron& reduced) {
+    std::set<Point_3> all;
+    for (const auto v : vertices(reduced))
+      all.insert(v->point());
+    return all;
+  };
+  EXPECT_EQ(points(own), points(cgal));
+}
+
+// The extras: what was refused because of a face elsewhere comes back when that face has changed.
+TEST(Own_loop, EndsOnlyWhenNothingIsPossibleAnyMore)
+{
+  Surface_mesh mesh = shaken(sheets(6000, 6, 1e-5), 1e-6);
+  const Intersection_filter<Surface_mesh, Aspect_ratio_filter<>> filter(mesh, Aspect_ratio_filter<>(0.4));
+  using Cost = Quadric_cost<Surface_mesh>;
+  const Cost cost(mesh);
+  const Halfedge_placement<Surface_mesh, Cost> placement(cost);
+  const SMS::Count_ratio_stop_predicate<Surface_mesh> stop(0);
+  const auto run = [&] {
+    return selvedge::edge_collapse(
+        mesh, stop,
+        CGAL::parameters::get_cost(cost).get_placement(placement).filter(filter).visitor(filter.visitor()));
+  };
+  EXPECT_GT(run(), 1000u);
+  EXPECT_GT(filter.refusals(), 100u);
+  EXPECT_EQ(run(), 0u);
+}
+
+TEST(Own_loop, WithoutBlockersForgetsEdges)
+{
+  Surface_mesh mesh = shaken(sheets(6000, 6, 1e-5), 1e-6);
+  const Intersection_filter<Surface_mesh, Aspect_ratio_filter<>> filter(mesh, Aspect_ratio_filter<>(0.4));
+  using Cost = Quadric_cost<Surface_mesh>;
+  const Cost cost(mesh);
+  const Halfedge_placement<Surface_mesh, Cost> placement(cost);
+  const SMS::Count_ratio_stop_predicate<Surface_mesh> stop(0);
+  const auto run = [&] {
+    return selvedge::edge_collapse(mesh, stop,
+                                   CGAL::parameters::get_cost(cost)
+                                       .get_placement(placement)
+                                       .filter(Without_blockers<decltype(filter)>{&filter})
+                                       .visitor(filter.visitor()));
+  };
+  EXPECT_GT(run(), 1000u);
+  EXPECT_GT(run(), 0u);
+}
+
+} // namespace
+} // namespace selvedge::test
