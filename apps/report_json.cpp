@@ -17,7 +17,7 @@
 namespace selvedge::app {
 namespace {
 
-constexpr std::size_t pairs_named = 100;
+constexpr std::size_t most_named = 100;
 
 Json to_json(const Distance& distance)
 {
@@ -41,10 +41,26 @@ Json to_json(const std::optional<Uv_deviation>& deviation)
   return deviation ? Json{{"mean", deviation->mean}, {"max", deviation->maximum}} : Json(nullptr);
 }
 
+Json to_json(const Line_distance& distance)
+{
+  return {{"rms", distance.of_ends.root_mean_square},
+          {"max", distance.of_ends.maximum},
+          {"max_lower", distance.maximum.lower},
+          {"max_upper", distance.maximum.upper}};
+}
+
+Json to_json(const Line_comparison& lines)
+{
+  return {{"edges_of_original", lines.edges_of_original},
+          {"edges_of_result", lines.edges_of_result},
+          {"original_to_result", to_json(lines.original_to_result)},
+          {"result_to_original", to_json(lines.result_to_original)}};
+}
+
 Json first_of(const std::vector<Offending_pair>& pairs)
 {
   Json list = Json::array();
-  for (std::size_t i = 0; i < (std::min)(pairs.size(), pairs_named); ++i)
+  for (std::size_t i = 0; i < (std::min)(pairs.size(), most_named); ++i)
     list.push_back({{"first", pairs[i].first + 1},
                     {"second", pairs[i].second + 1},
                     {"offence", name(pairs[i].offence)}});
@@ -159,6 +175,47 @@ void add_verification(Json& report, const Verification& verification, bool has_o
     report["distance"] = {{"original_to_result", to_json(verification.distances->original_to_result)},
                           {"result_to_original", to_json(verification.distances->result_to_original)},
                           {"diagonal", verification.distances->diagonal}};
+}
+
+void add_comparison(Json& report, const Comparison& comparison)
+{
+  const auto add_bounds = [](Json& distance, const Bounds& bounds) {
+    distance["max_lower"] = bounds.lower;
+    distance["max_upper"] = bounds.upper;
+  };
+  add_bounds(report["distance"]["original_to_result"], comparison.original_to_result);
+  add_bounds(report["distance"]["result_to_original"], comparison.result_to_original);
+  report["borders"] = to_json(comparison.borders);
+  report["seams"] = to_json(comparison.seams);
+  report["gaps"] = {{"open_edges", comparison.gaps.open_edges},
+                    {"length", comparison.gaps.length},
+                    {"width", comparison.gaps.width}};
+  report["vertices"] = {{"count", comparison.vertices},
+                        {"original", comparison.original_vertices},
+                        {"share", comparison.share_of_original_vertices()}};
+  Json kept = Json::array();
+  for (const Kept_attribute& attribute : comparison.attributes)
+    kept.push_back({{"name", attribute.name},
+                    {"combinations", attribute.combinations},
+                    {"original", attribute.original}});
+  report["attributes"] = {{"kept", std::move(kept)}, {"lost", comparison.lost_attributes}};
+  const Normal_deviation& normals = comparison.normals;
+  report["normals"] = {{"samples", normals.samples},
+                       {"mean", normals.mean},
+                       {"rms", normals.root_mean_square},
+                       {"max", normals.maximum},
+                       {"turned", normals.turned}};
+  const Layer_order& layers = comparison.layers;
+  Json swaps = Json::array();
+  for (std::size_t i = 0; i < (std::min)(layers.swaps.size(), most_named); ++i) {
+    const Layer_swap& swap = layers.swaps[i];
+    swaps.push_back({{"point", {swap.point.x(), swap.point.y(), swap.point.z()}},
+                     {"of_original", {swap.of_original[0] + 1, swap.of_original[1] + 1}},
+                     {"of_result", {swap.of_result[0] + 1, swap.of_result[1] + 1}}});
+  }
+  report["layers"] = {{"lines", layers.lines},        {"crossing", layers.crossing},
+                      {"pairs", layers.pairs},        {"compared", layers.compared},
+                      {"swaps", layers.swaps.size()}, {"first_swaps", std::move(swaps)}};
 }
 
 void add_parts(Json& report, const Prepared_soup& prepared, const Simplified_soup& result)

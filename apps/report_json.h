@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_APPS_REPORT_JSON_H
 #define SELVEDGE_APPS_REPORT_JSON_H
 
+#include <selvedge/compare.h>
 #include <selvedge/mesh/mesh_files.h>
 #include <selvedge/simplify_soup.h>
 #include <selvedge/verify.h>
@@ -29,6 +30,9 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
 
 /// Sets `verified`, `pieces`, and `topology` and `distance` where there is an original.
 void add_verification(Json& report, const Verification& verification, bool has_original);
+
+/// Sets `borders`, `seams`, `gaps`, `vertices`, `attributes`, `normals` and `layers`, and adds to `distance`.
+void add_comparison(Json& report, const Comparison& comparison);
 
 /// Sets `parts`, and `uv` where there is a texture.
 void add_parts(Json& report, const Prepared_soup& prepared, const Simplified_soup& result);

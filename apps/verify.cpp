@@ -8,6 +8,7 @@
 #include "threads.h"
 
 #include <selvedge/Error.h>
+#include <selvedge/compare.h>
 #include <selvedge/mesh/mesh_files.h>
 #include <selvedge/verify.h>
 
@@ -16,6 +17,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 
 namespace selvedge::app {
 namespace {
@@ -29,7 +31,70 @@ struct Request
   std::optional<std::size_t> threads;
 };
 
-void print(const Request& request, const Mesh_file& mesh, const Verification& verification)
+void print(const char* what, const Line_comparison& lines)
+{
+  if (lines.edges_of_original == 0 && lines.edges_of_result == 0)
+    return;
+  const auto& [forth, back] = std::tie(lines.original_to_result, lines.result_to_original);
+  std::cout << what << ": " << counted(lines.edges_of_original, "edge") << " before, "
+            << with_commas(lines.edges_of_result) << " now; " << with_digits(forth.of_ends.root_mean_square)
+            << " RMS, at most " << with_digits(forth.maximum.upper) << " and back "
+            << with_digits(back.maximum.upper) << ", of the diagonal\n";
+}
+
+void print(const Distances& distances, const Comparison& comparison)
+{
+  const auto print_distance = [](const char* what, const Distance& of_vertices, const Bounds& maximum) {
+    std::cout << "distance, " << what << ": " << with_digits(of_vertices.root_mean_square)
+              << " RMS of the vertices, at most " << with_digits(maximum.upper)
+              << " anywhere, of the diagonal\n";
+  };
+  print_distance("original to result", distances.original_to_result, comparison.original_to_result);
+  print_distance("result to original", distances.result_to_original, comparison.result_to_original);
+  print("borders", comparison.borders);
+  print("seams", comparison.seams);
+  if (comparison.gaps.open_edges > 0)
+    std::cout << "GAPS: " << counted(comparison.gaps.open_edges, "edge") << " of seams open, "
+              << with_digits(comparison.gaps.length) << " of the diagonal in all, up to "
+              << with_digits(comparison.gaps.width) << " wide\n";
+
+  std::cout << "vertices: " << with_commas(comparison.original_vertices) << " of "
+            << with_commas(comparison.vertices) << " are the original's, bit for bit\n";
+  for (const Kept_attribute& attribute : comparison.attributes)
+    if (attribute.original < attribute.combinations)
+      std::cout << attribute.name << ": " << with_commas(attribute.combinations - attribute.original)
+                << " of " << with_commas(attribute.combinations) << " NOT as in the original\n";
+  if (!comparison.lost_attributes.empty()) {
+    std::cout << "attributes LOST:";
+    for (const std::string& name : comparison.lost_attributes)
+      std::cout << ' ' << name;
+    std::cout << '\n';
+  }
+
+  const Normal_deviation& normals = comparison.normals;
+  std::cout << "normals: " << with_digits(normals.mean) << "° off in the mean, "
+            << with_digits(normals.root_mean_square) << "° RMS, at most " << with_digits(normals.maximum)
+            << "°";
+  if (normals.turned > 0)
+    std::cout << "; " << with_digits(100 * normals.turned) << " % of the area turned over";
+  std::cout << '\n';
+
+  const Layer_order& layers = comparison.layers;
+  if (layers.swaps.empty()) {
+    std::cout << "layers: in order, at " << with_commas(layers.compared) << " of "
+              << with_commas(layers.pairs) << " places where two could be compared\n";
+  } else {
+    const Layer_swap& first = layers.swaps.front();
+    std::cout << "layers SWAPPED, at " << with_commas(layers.swaps.size()) << " of "
+              << with_commas(layers.compared) << " places where two were compared: triangles "
+              << first.of_original[0] + 1 << " and " << first.of_original[1] + 1
+              << " of the original are now " << first.of_result[0] + 1 << " and " << first.of_result[1] + 1
+              << ", in the other order\n";
+  }
+}
+
+void print(const Request& request, const Mesh_file& mesh, const Verification& verification,
+           const std::optional<Comparison>& comparison)
 {
   constexpr std::size_t named = 5;
   const bool has_original = !request.original.empty();
@@ -65,12 +130,7 @@ void print(const Request& request, const Mesh_file& mesh, const Verification& ve
       std::cout << "  pieces with " << counted(difference.boundary_loops, "boundary loop")
                 << " and Euler characteristic " << difference.euler_characteristic << ": "
                 << difference.pieces_of_original << " before, " << difference.pieces_of_result << " now\n";
-    const auto line = [](const char* what, const Distance& distance) {
-      std::cout << "distance, " << what << ": " << with_digits(distance.root_mean_square) << " RMS, "
-                << with_digits(distance.maximum) << " at most, of the diagonal\n";
-    };
-    line("original to result", verification.distances->original_to_result);
-    line("result to original", verification.distances->result_to_original);
+    print(*verification.distances, *comparison);
   }
   std::cout << std::flush;
 }
@@ -88,22 +148,27 @@ Exit_code run(const Request& request)
   Json report = new_report("verify");
   report["input"] = input_json(request.mesh, mesh);
   std::optional<Verification> verification;
+  std::optional<Comparison> comparison;
   if (has_original) {
     const Mesh_file original = read_mesh(request.original);
     report["original"] = input_json(request.original, original);
     verification = verify(mesh.soup, original.soup);
+    comparison = compare(mesh.soup, original.soup);
   } else {
     verification = verify(mesh.soup);
   }
-  const bool is_good = has_original ? verification->accepted() : verification->embedded();
+  const bool is_good =
+      has_original ? verification->accepted() && comparison->layers.swaps.empty() : verification->embedded();
   const Exit_code code = is_good ? exit_done : exit_not_verified;
   add_verification(report, *verification, has_original);
+  if (comparison)
+    add_comparison(report, *comparison);
   report["memory"] = {{"peak_bytes", peak_memory_bytes()}};
   report["exit_code"] = int(code);
   if (request.is_json)
     std::cout << to_text(report) << std::flush;
   else
-    print(request, mesh, *verification);
+    print(request, mesh, *verification, comparison);
   if (!request.report.empty())
     write_file(request.report, to_text(report));
   return code;
@@ -129,10 +194,14 @@ Action add_verify(CLI::App& command)
       "  selvedge verify jacket.obj                          is it embedded?\n"
       "  selvedge verify small.obj --against jacket.obj      is anything wrong that was not wrong before?\n"
       "  selvedge verify small.obj --json | jq .verified.pairs\n\n"
-      "Exit code 0 when MESH is embedded; with an original, when no offending pair is new and pieces, "
-      "boundary\n"
-      "loops and Euler characteristics are the same. A mesh that was rounded (STL) is compared best with an\n"
-      "original in the same format. Triangles are counted from 1, after polygons were cut.");
+      "Exit code 0 when MESH is embedded; with an original, when no offending pair is new; pieces, boundary\n"
+      "loops and Euler characteristics are the same; and no two layers were found in another order. That "
+      "order\n"
+      "is looked at along lines and does not see everything: replay a log where there is one. All else that "
+      "is\n"
+      "said of the two is for you to judge. A mesh that was rounded (STL, GLB) is compared best with an "
+      "original\n"
+      "in the same format. Triangles are counted from 1, after polygons were cut.");
   return [request] {
     const Thread_limit limit(request->threads);
     return run(*request);

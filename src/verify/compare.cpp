@@ -1,0 +1,119 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <selvedge/compare.h>
+
+#include "Surface_tree.h"
+#include "face_samples.h"
+#include "kept_attributes.h"
+#include "layer_order.h"
+#include "lines.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace selvedge {
+
+using namespace internal;
+
+namespace {
+
+double diagonal_of(const Triangle_soup& soup)
+{
+  CGAL::Bbox_3 box;
+  for (const Index vertex : used_vertices(soup))
+    box += soup.points[vertex].bbox();
+  return soup.triangles.empty() ? 0 : std::hypot(box.x_span(), box.y_span(), box.z_span());
+}
+
+double angle(const Vector_3& a, const Vector_3& b)
+{
+  constexpr double degrees = 57.29577951308232;
+  return degrees * std::atan2(std::sqrt(CGAL::cross_product(a, b).squared_length()), a * b);
+}
+
+/// `largest_distance` is that of the result from the original.
+Normal_deviation normal_deviation(const Triangle_soup& result, const Triangle_soup& original,
+                                  double largest_distance)
+{
+  Normal_deviation deviation;
+  if (result.triangles.empty() || original.triangles.empty())
+    return deviation;
+  const int exponent = common_exponent(result, original);
+  const Surface before(original, exponent), after(result, exponent);
+  std::vector<Vector_3> directions;
+  for (Index face = 0; face < before.triangles.size(); ++face)
+    directions.push_back(before.normal(face));
+  std::vector<double> areas;
+  double area_of_all = 0;
+  for (Index face = 0; face < after.triangles.size(); ++face) {
+    areas.push_back(std::sqrt(after.normal(face).squared_length()));
+    area_of_all += areas.back();
+  }
+  const double limit = 1.000001 * std::ldexp(largest_distance, -exponent) + 1e-12;
+
+  constexpr double spread_by_area = 50'000;
+  Surface_tree tree(before);
+  Face_samples samples(after);
+  double sum = 0, sum_of_squares = 0, turned = 0;
+  for (Index face = 0; face < after.triangles.size(); ++face) {
+    if (!(areas[face] > 0))
+      continue;
+    const Vector_3 normal = after.normal(face);
+    const auto count = 1 + static_cast<std::size_t>(spread_by_area * (areas[face] / area_of_all));
+    const double weight = areas[face] / static_cast<double>(count) / area_of_all;
+    for (std::size_t k = 0; k < count; ++k) {
+      const Point_3 point = samples.next(face);
+      Index nearest = tree.nearest(point).triangle;
+      if (!(directions[nearest] * normal > 0)) {
+        if (const auto facing = tree.nearest_facing(point, directions, normal, limit))
+          nearest = facing->triangle;
+        else
+          turned += weight;
+      }
+      const double degrees = angle(directions[nearest], normal);
+      ++deviation.samples;
+      sum += weight * degrees;
+      sum_of_squares += weight * degrees * degrees;
+      deviation.maximum = std::max(deviation.maximum, degrees);
+    }
+  }
+  deviation.mean = sum;
+  deviation.root_mean_square = std::sqrt(sum_of_squares);
+  deviation.turned = turned;
+  return deviation;
+}
+
+} // namespace
+
+Comparison compare(const Triangle_soup& result, const Triangle_soup& original)
+{
+  Comparison comparison;
+  comparison.diagonal = diagonal_of(original);
+  const double unit = comparison.diagonal > 0 ? comparison.diagonal : 1;
+  const auto make_relative = [&](Bounds bounds) { return Bounds{bounds.lower / unit, bounds.upper / unit}; };
+  const auto make_lines_relative = [&](Line_comparison lines) {
+    for (Line_distance* line : {&lines.original_to_result, &lines.result_to_original})
+      *line = {{line->of_ends.root_mean_square / unit, line->of_ends.maximum / unit},
+               make_relative(line->maximum)};
+    return lines;
+  };
+
+  const Bounds forth = maximum_distance(original, result), back = maximum_distance(result, original);
+  comparison.original_to_result = make_relative(forth);
+  comparison.result_to_original = make_relative(back);
+
+  const Borders_and_seams lines_before = borders_and_seams(original), lines_after = borders_and_seams(result);
+  comparison.borders = make_lines_relative(compare_lines(lines_after.borders, lines_before.borders));
+  comparison.seams = make_lines_relative(compare_lines(lines_after.seams, lines_before.seams));
+  const Gaps gaps = find_gaps(lines_after, lines_before);
+  comparison.gaps = {gaps.open_edges, gaps.length / unit, gaps.width / unit};
+
+  compare_values(comparison, result, original);
+  comparison.normals = normal_deviation(result, original, back.upper);
+  const double reach = std::clamp(2.5 * std::max(forth.upper, back.upper), 1e-9 * unit, 0.05 * unit);
+  comparison.layers = layer_order(result, original, reach);
+  return comparison;
+}
+
+} // namespace selvedge

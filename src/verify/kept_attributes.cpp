@@ -1,0 +1,142 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "kept_attributes.h"
+
+#include "positions.h"
+
+#include <algorithm>
+#include <cstring>
+#include <functional>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+
+namespace selvedge::internal {
+namespace {
+
+/// What a soup says of each corner of each triangle under one name, as bytes that can be compared.
+struct Column
+{
+  std::string name;
+  bool is_by_position;
+  std::function<std::string(Index triangle, int place)> value;
+};
+
+template <std::size_t dimension>
+void add_column(std::vector<Column>& columns, const char* name, const Corner_values<dimension>& values)
+{
+  if (values.empty())
+    return;
+  columns.push_back({name, true, [&values](Index triangle, int place) {
+                       const Index number = values.of_triangle[triangle][place];
+                       if (number == values.missing)
+                         return std::string();
+                       std::string bytes(sizeof(double) * dimension, '\0');
+                       for (std::size_t i = 0; i < dimension; ++i) {
+                         const double coordinate = values.values[number][i] + 0.0; // no −0
+                         std::memcpy(bytes.data() + sizeof(double) * i, &coordinate, sizeof coordinate);
+                       }
+                       return bytes;
+                     }});
+}
+
+void add_column(std::vector<Column>& columns, const char* name, const Triangle_labels& labels,
+                bool is_by_position)
+{
+  if (!labels.empty())
+    columns.push_back({name, is_by_position, [&labels](Index triangle, int) {
+                         return labels.names[labels.of_triangle[triangle]];
+                       }});
+}
+
+std::string row(const Attribute& attribute, Index number, std::size_t rows)
+{
+  const std::size_t size = attribute.rows.size() / rows;
+  // What is stored in another type is another value.
+  std::string bytes = std::to_string(static_cast<int>(attribute.type)) + ' ';
+  return bytes.append(reinterpret_cast<const char*>(attribute.rows.data()) + size * number, size);
+}
+
+std::vector<Column> columns_of(const Triangle_soup& soup)
+{
+  std::vector<Column> columns;
+  add_column(columns, "uv", soup.uvs);
+  add_column(columns, "normal", soup.normals);
+  add_column(columns, "group", soup.groups, true);
+  add_column(columns, "object", soup.objects, true);
+  add_column(columns, "material", soup.materials, true);
+  add_column(columns, "smoothing group", soup.smoothing_groups, false);
+  for (const Attribute& attribute : soup.vertex_attributes)
+    columns.push_back({attribute.name, true, [&soup, &attribute](Index triangle, int place) {
+                         return row(attribute, soup.triangles[triangle][place], soup.points.size());
+                       }});
+  for (const Attribute& attribute : soup.triangle_attributes)
+    columns.push_back({attribute.name, false, [&soup, &attribute](Index triangle, int) {
+                         return row(attribute, triangle, soup.triangles.size());
+                       }});
+  return columns;
+}
+
+/// Pairs of a position and a value, both as numbers, in order, each once.
+using Combinations = std::vector<std::pair<Index, Index>>;
+using Value_numbers = std::unordered_map<std::string, Index>;
+
+Combinations combinations(const Triangle_soup& soup, const Index* positions, const Column& column,
+                          Value_numbers& numbers)
+{
+  Combinations result;
+  for (Index triangle = 0; triangle < soup.triangles.size(); ++triangle)
+    for (int place = 0; place < 3; ++place) {
+      const auto value = numbers.emplace(column.value(triangle, place), static_cast<Index>(numbers.size()));
+      const Index position = column.is_by_position ? positions[soup.triangles[triangle][place]] : 0;
+      result.emplace_back(position, value.first->second);
+    }
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+std::size_t common(const Combinations& a, const Combinations& b)
+{
+  std::size_t count = 0;
+  for (auto i = a.begin(), j = b.begin(); i != a.end() && j != b.end();) {
+    count += *i == *j;
+    const bool is_behind = *j < *i;
+    i += !is_behind;
+    j += is_behind;
+  }
+  return count;
+}
+
+} // namespace
+
+void compare_values(Comparison& comparison, const Triangle_soup& result, const Triangle_soup& original)
+{
+  const std::vector<Index> positions = position_numbers(result, original);
+  const Index* const of_result = positions.data();
+  const Index* const of_original = positions.data() + result.points.size();
+  Value_numbers nothing;
+  const Column no_value = {"", true, [](Index, int) { return std::string(); }};
+  const Combinations before = combinations(original, of_original, no_value, nothing);
+  const Combinations after = combinations(result, of_result, no_value, nothing);
+  comparison.vertices = after.size();
+  comparison.original_vertices = common(after, before);
+
+  const std::vector<Column> columns = columns_of(result);
+  for (const Column& column : columns_of(original)) {
+    const auto same = std::find_if(columns.begin(), columns.end(), [&](const Column& other) {
+      return other.name == column.name && other.is_by_position == column.is_by_position;
+    });
+    if (same == columns.end()) {
+      comparison.lost_attributes.push_back(column.name);
+      continue;
+    }
+    Value_numbers numbers;
+    const Combinations old = combinations(original, of_original, column, numbers);
+    const Combinations kept = combinations(result, of_result, *same, numbers);
+    comparison.attributes.push_back({column.name, kept.size(), common(kept, old)});
+  }
+}
+
+} // namespace selvedge::internal

@@ -1,0 +1,16 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_VERIFY_LAYER_ORDER_H
+#define SELVEDGE_VERIFY_LAYER_ORDER_H
+
+#include <selvedge/compare.h>
+
+namespace selvedge::internal {
+
+/// Draws lines of `reach` to both sides.
+Layer_order layer_order(const Triangle_soup& result, const Triangle_soup& original, double reach);
+
+} // namespace selvedge::internal
+
+#endif // SELVEDGE_VERIFY_LAYER_ORDER_H

@@ -1,0 +1,162 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "lines.h"
+
+#include "Surface_tree.h"
+#include "positions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace selvedge::internal {
+namespace {
+
+/// The side of a triangle, from the end with the lower position to the other. A corner is 3 · triangle + 0, 1
+/// or 2.
+struct Side
+{
+  Index low, high;
+  std::size_t corner_at_low, corner_at_high;
+};
+
+std::vector<Side> sorted_sides(const Triangle_soup& soup)
+{
+  const std::vector<Index> positions = position_numbers(soup.points);
+  std::vector<Side> sides;
+  sides.reserve(3 * soup.triangles.size());
+  for (std::size_t triangle = 0; triangle < soup.triangles.size(); ++triangle) {
+    const auto& [a, b, c] = soup.triangles[triangle];
+    if (positions[a] == positions[b] || positions[b] == positions[c] || positions[c] == positions[a])
+      continue;
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3;
+      Side side = {positions[soup.triangles[triangle][i]], positions[soup.triangles[triangle][j]],
+                   3 * triangle + i, 3 * triangle + j};
+      if (side.high < side.low) {
+        std::swap(side.low, side.high);
+        std::swap(side.corner_at_low, side.corner_at_high);
+      }
+      sides.push_back(side);
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return std::tie(a.low, a.high, a.corner_at_low) < std::tie(b.low, b.high, b.corner_at_low);
+  });
+  return sides;
+}
+
+/// Whether something that the file says of two corners at one position differs.
+bool differ(const Triangle_soup& soup, std::size_t a, std::size_t b)
+{
+  const auto differ_in_label = [&](const Triangle_labels& labels) {
+    return !labels.empty() && labels.of_triangle[a / 3] != labels.of_triangle[b / 3];
+  };
+  const auto uv = [&](std::size_t corner) {
+    return soup.uvs.values[soup.uvs.of_triangle[corner / 3][corner % 3]];
+  };
+  return soup.triangles[a / 3][a % 3] != soup.triangles[b / 3][b % 3] ||
+         (!soup.uvs.empty() && uv(a) != uv(b)) || differ_in_label(soup.groups) ||
+         differ_in_label(soup.objects) || differ_in_label(soup.materials);
+}
+
+Line_distance line_distance(const Lines& from, const Lines& to)
+{
+  return {distance(from.edges, to.edges), maximum_distance(from.edges, to.edges)};
+}
+
+/// From the middle of an edge across its face, at right angles to the edge.
+Vector_3 inwards(const Surface& edges, const Lines& lines, Index edge)
+{
+  const Vector_3 along = edges.corner(edge, 1) - edges.corner(edge, 0);
+  const Vector_3 across = edges.points[lines.opposite[edge]] - edges.corner(edge, 0);
+  const double length = along.squared_length();
+  return length > 0 ? across - (across * along / length) * along : across;
+}
+
+} // namespace
+
+Borders_and_seams borders_and_seams(const Triangle_soup& soup)
+{
+  Borders_and_seams result;
+  result.borders.edges.points = result.seams.edges.points = soup.points;
+  const auto add = [&](Lines& lines, const Side& side) {
+    const auto vertex = [&](std::size_t corner) { return soup.triangles[corner / 3][corner % 3]; };
+    const Index a = vertex(side.corner_at_low), b = vertex(side.corner_at_high);
+    const std::size_t opposite = 3 - side.corner_at_low % 3 - side.corner_at_high % 3;
+    lines.edges.triangles.push_back({a, b, b});
+    lines.opposite.push_back(soup.triangles[side.corner_at_low / 3][opposite]);
+  };
+  const std::vector<Side> sides = sorted_sides(soup);
+  for (auto first = sides.begin(), last = first; first != sides.end(); first = last) {
+    bool is_seam = false;
+    for (; last != sides.end() && last->low == first->low && last->high == first->high; ++last)
+      is_seam = is_seam || differ(soup, first->corner_at_low, last->corner_at_low) ||
+                differ(soup, first->corner_at_high, last->corner_at_high);
+    if (last - first == 1)
+      add(result.borders, *first);
+    else if (is_seam)
+      add(result.seams, *first);
+  }
+  return result;
+}
+
+Line_comparison compare_lines(const Lines& result, const Lines& original)
+{
+  return {original.edges.triangles.size(), result.edges.triangles.size(), line_distance(original, result),
+          line_distance(result, original)};
+}
+
+Gaps find_gaps(const Borders_and_seams& result, const Borders_and_seams& original)
+{
+  Gaps gaps;
+  if (original.seams.edges.triangles.empty() || result.borders.edges.triangles.empty())
+    return gaps;
+  const int exponent = common_exponent(result.borders.edges, original.seams.edges);
+  const Surface edges(result.borders.edges, exponent), seams(original.seams.edges, exponent),
+      borders(original.borders.edges, exponent);
+  Surface_tree seam_tree(seams);
+  std::optional<Surface_tree> border_tree;
+  if (!borders.triangles.empty())
+    border_tree.emplace(borders);
+  // Farther from the border than from a seam: positive.
+  const auto excess = [&](const Point_3& point) {
+    const auto distance_to = [&](Surface_tree& tree) {
+      return std::sqrt(CGAL::squared_distance(point, tree.nearest(point).point));
+    };
+    return border_tree ? distance_to(*border_tree) - distance_to(seam_tree) : 1;
+  };
+
+  Lines open = {{}, {}};
+  open.edges.points = result.borders.edges.points;
+  for (Index edge = 0; edge < edges.triangles.size(); ++edge) {
+    const Point_3 &a = edges.corner(edge, 0), &b = edges.corner(edge, 1);
+    const double of_ends = excess(a) + excess(b);
+    if (of_ends > 0 || (of_ends == 0 && excess(CGAL::midpoint(a, b)) > 0)) {
+      open.edges.triangles.push_back(edges.triangles[edge]);
+      open.opposite.push_back(result.borders.opposite[edge]);
+    }
+  }
+  gaps.open_edges = open.edges.triangles.size();
+  if (gaps.open_edges == 0)
+    return gaps;
+
+  const Surface open_edges(open.edges, exponent);
+  std::vector<Vector_3> directions;
+  for (Index edge = 0; edge < gaps.open_edges; ++edge)
+    directions.push_back(inwards(open_edges, open, edge));
+  Surface_tree tree(open_edges);
+  for (Index edge = 0; edge < gaps.open_edges; ++edge) {
+    const Point_3 &a = open_edges.corner(edge, 0), &b = open_edges.corner(edge, 1);
+    gaps.length += std::sqrt(CGAL::squared_distance(a, b));
+    const Point_3 middle = CGAL::midpoint(a, b);
+    if (const auto across = tree.nearest_facing(middle, directions, -directions[edge], 4))
+      gaps.width = std::max(gaps.width, std::sqrt(CGAL::squared_distance(middle, across->point)));
+  }
+  gaps.length = std::ldexp(gaps.length, exponent);
+  gaps.width = std::ldexp(gaps.width, exponent);
+  return gaps;
+}
+
+} // namespace selvedge::internal

@@ -1,0 +1,41 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_VERIFY_POSITIONS_H
+#define SELVEDGE_VERIFY_POSITIONS_H
+
+#include <selvedge/mesh/Triangle_soup.h>
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace selvedge::internal {
+
+/// For every point a number that it shares with those of the same coordinates; −0 is 0. Numbers begin at 0.
+inline std::vector<Index> position_numbers(const std::vector<Point_3>& points)
+{
+  std::vector<Index> order(points.size()), numbers(points.size());
+  std::iota(order.begin(), order.end(), Index(0));
+  std::sort(order.begin(), order.end(),
+            [&](Index v, Index w) { return CGAL::lexicographically_xyz_smaller(points[v], points[w]); });
+  Index number = 0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i > 0 && points[order[i]] != points[order[i - 1]])
+      ++number;
+    numbers[order[i]] = number;
+  }
+  return numbers;
+}
+
+/// The same for two soups together: those of the second follow those of the first.
+inline std::vector<Index> position_numbers(const Triangle_soup& first, const Triangle_soup& second)
+{
+  std::vector<Point_3> points = first.points;
+  points.insert(points.end(), second.points.begin(), second.points.end());
+  return position_numbers(points);
+}
+
+} // namespace selvedge::internal
+
+#endif // SELVEDGE_VERIFY_POSITIONS_H
