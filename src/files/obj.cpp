@@ -81,10 +81,10 @@ private:
 
   template <std::size_t dimension>
   static void add_value(Corner_values<dimension>& values, const std::array<double, dimension>& value,
-                        const std::string& plural, const Text_reader& text)
+                        const char* plural, const Text_reader& text)
   {
     if (values.values.size() + 1 >= std::numeric_limits<Index>::max())
-      text.fail("the mesh has more than 4294967293 " + plural + "; split it");
+      text.fail(std::string("the mesh has more than 4294967293 ") + plural + "; split it");
     values.values.push_back(value);
   }
 
@@ -181,26 +181,26 @@ private:
       }
   }
 
-  void keep_if_complete(std::vector<Index>& numbers, const std::string& plural)
+  void keep_if_complete(std::vector<Index>& numbers, const char* plural)
   {
     if (numbers.empty() || numbers.size() == m_corners.size())
       return;
-    m_builder.ignore(plural + " of faces that have them at some corners only");
+    m_builder.ignore(std::string(plural) + " of faces that have them at some corners only");
     numbers.clear();
   }
 
-  Index read_index(Text_reader& text, const std::string& kind, std::size_t above, std::size_t count)
+  Index read_index(Text_reader& text, const char* kind, std::size_t above, std::size_t count)
   {
     const Text_reader start = text;
     const std::int64_t number = text.integer_prefix();
     // Relative indices count back from the latest element above the face.
     const std::int64_t index = number > 0 ? number - 1 : static_cast<std::int64_t>(above) + number;
     if (number == 0)
-      start.fail("a face names " + kind + " 0, but OBJ files count from 1");
+      start.fail(std::string("a face names ") + kind + " 0, but OBJ files count from 1");
     if (index < 0 || static_cast<std::uint64_t>(index) >= count)
-      start.fail("a face names " + kind + " " + std::to_string(number) + ", but there are only " +
-                 std::to_string(number > 0 ? count : above) + (number > 0 ? "" : " above it") +
-                 "; correct or remove the face");
+      start.fail(std::string("a face names ") + kind + " " + std::to_string(number) +
+                 ", but there are only " + std::to_string(number > 0 ? count : above) +
+                 (number > 0 ? "" : " above it") + "; correct or remove the face");
     return static_cast<Index>(index);
   }
 

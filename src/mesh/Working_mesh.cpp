@@ -7,6 +7,8 @@
 
 #include <CGAL/Kernel/global_functions.h>
 
+#include <oneapi/tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -27,8 +29,8 @@ constexpr Index s_none = std::numeric_limits<Index>::max();
 class Sewing
 {
 public:
-  Sewing(const std::vector<Index_triple>& triangles, Welding_notes& notes)
-      : m_triangles(triangles), m_mates(3 * triangles.size(), s_none)
+  Sewing(const std::vector<Index_triple>& triangles, Index position_count, Welding_notes& notes)
+      : m_triangles(triangles), m_position_count(position_count), m_mates(3 * triangles.size(), s_none)
   {
     sew(notes);
     number_vertices();
@@ -53,36 +55,49 @@ private:
   {
     struct Side
     {
-      Index low, high, side;
+      Index high, side;
     };
-    std::vector<Side> sides;
-    sides.reserve(m_mates.size());
+    const auto ends = [this](Index side) { return std::minmax({position(side), position(next(side))}); };
+    // Sides are sorted by their lower ends in linear time, and the few of one lower end by the other.
+    std::vector<Index> places(std::size_t(m_position_count) + 1, 0);
+    for (Index side = 0; side < m_mates.size(); ++side)
+      ++places[ends(side).first + 1];
+    std::partial_sum(places.begin(), places.end(), places.begin());
+    std::vector<Side> sides(m_mates.size());
     for (Index side = 0; side < m_mates.size(); ++side) {
-      const auto [low, high] = std::minmax({position(side), position(next(side))});
-      sides.push_back({low, high, side});
+      const auto [low, high] = ends(side);
+      sides[places[low]++] = {high, side};
     }
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-      return std::tie(a.low, a.high, a.side) < std::tie(b.low, b.high, b.side);
-    });
-    for (std::size_t first = 0, beyond; first < sides.size(); first = beyond) {
-      for (beyond = first + 1; beyond < sides.size(); ++beyond)
-        if (sides[beyond].low != sides[first].low || sides[beyond].high != sides[first].high)
-          break;
-      if (beyond - first == 1)
-        continue;
-      const Index a = sides[first].side, b = sides[first + 1].side;
-      const bool is_opposite = position(a) != position(b);
-      notes.non_manifold_edges += beyond - first > 2;
-      notes.misoriented_edges += beyond - first == 2 && !is_opposite;
-      if (beyond - first == 2 && is_opposite && position(previous(a)) != position(previous(b))) {
-        m_mates[a] = b;
-        m_mates[b] = a;
-        continue;
+    for (Index low = 0, first = 0; low < m_position_count; first = places[low++]) {
+      const auto begin = sides.begin() + first, end = sides.begin() + places[low];
+      std::sort(begin, end, [](const Side& a, const Side& b) {
+        return std::tie(a.high, a.side) < std::tie(b.high, b.side);
+      });
+      for (auto it = begin, beyond = begin; it != end; it = beyond) {
+        beyond = std::find_if(it, end, [it](const Side& side) { return side.high != it->high; });
+        sew(it, beyond, notes);
       }
-      m_unsewn.emplace_back();
-      for (std::size_t i = first; i < beyond; ++i)
-        m_unsewn.back().push_back(sides[i].side);
     }
+  }
+
+  // All sides of one place.
+  template <class Iterator>
+  void sew(Iterator first, Iterator beyond, Welding_notes& notes)
+  {
+    if (beyond - first == 1)
+      return;
+    const Index a = first->side, b = first[1].side;
+    const bool is_opposite = position(a) != position(b);
+    notes.non_manifold_edges += beyond - first > 2;
+    notes.misoriented_edges += beyond - first == 2 && !is_opposite;
+    if (beyond - first == 2 && is_opposite && position(previous(a)) != position(previous(b))) {
+      m_mates[a] = b;
+      m_mates[b] = a;
+      return;
+    }
+    m_unsewn.emplace_back();
+    for (Iterator it = first; it != beyond; ++it)
+      m_unsewn.back().push_back(it->side);
   }
 
   // Corners that follow each other around a position across sewn sides are one vertex.
@@ -133,6 +148,7 @@ private:
   }
 
   const std::vector<Index_triple>& m_triangles; // of positions
+  Index m_position_count;
   std::vector<Index> m_mates;
   std::vector<Index> m_vertices;
   Index m_vertex_count = 0;
@@ -148,7 +164,7 @@ std::vector<Index> number_positions(const std::vector<Point_3>& points)
   const auto coordinates = [&](Index v) {
     return std::make_tuple(points[v].x(), points[v].y(), points[v].z());
   };
-  std::sort(sorted.begin(), sorted.end(), [&](Index a, Index b) {
+  tbb::parallel_sort(sorted.begin(), sorted.end(), [&](Index a, Index b) {
     return std::make_pair(coordinates(a), a) < std::make_pair(coordinates(b), b);
   });
   std::vector<Index> numbers(points.size());
@@ -186,7 +202,7 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
         {positions[own_vertices + a], positions[own_vertices + b], positions[own_vertices + c]});
   }
 
-  const Sewing sewing(triangles, m_notes);
+  const Sewing sewing(triangles, Index(positions.size()), m_notes);
   const auto vertex = [&](Corner corner) { return Mesh::Vertex_index(sewing.vertex(corner)); };
   m_mesh.reserve(sewing.vertex_count(), corner_count / 2 + 1, Index(triangles.size()));
   std::vector<Index> position_of_vertex;

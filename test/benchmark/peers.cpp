@@ -177,7 +177,8 @@ void add_rows(Table& table, const Mesh& mesh, double ratio, int runs)
   guarded.ratio = ratio;
   Simplify_options unguarded = guarded;
   unguarded.check_intersections = false;
-  const Simplify_options& by_cgal = unguarded;
+  Simplify_options by_cgal = unguarded;
+  by_cgal.loop = Collapse_loop::cgal;
   const std::vector<Program> programs{
       {"CGAL's loop", [&] { return run_ours(prepared, by_cgal); }},
       {"selvedge", [&] { return run_ours(prepared, guarded); }},
