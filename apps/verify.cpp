@@ -80,7 +80,9 @@ void print(const Distances& distances, const Comparison& comparison)
   std::cout << '\n';
 
   const Layer_order& layers = comparison.layers;
-  if (layers.swaps.empty()) {
+  if (layers.crossing == 0) {
+    std::cout << "layers: none lie close enough to have changed places\n";
+  } else if (layers.swaps.empty()) {
     std::cout << "layers: in order, at " << with_commas(layers.compared) << " of "
               << with_commas(layers.pairs) << " places where two could be compared\n";
   } else {

@@ -86,10 +86,9 @@ struct Kept_attribute
 /// Angles between the faces of the result and those of the original that lie nearest, in degrees.
 ///
 /// Points are spread over the faces of the result, at least one on each. The nearest point of the original is
-/// looked for among faces turned less than 90° from that of the result, within the largest distance of the
-/// result from the original: in layered cloth, and cloth that has two sides, the very nearest is often
-/// another layer or the other side. Only where there is none, the very nearest counts, and the point is
-/// *turned*.
+/// looked for among faces turned less than 90° from that of the result, within the largest distance of either
+/// mesh from the other: in layered cloth, and cloth that has two sides, the very nearest is often another
+/// layer or the other side. Only where there is none, the very nearest counts, and the point is *turned*.
 struct Normal_deviation
 {
   std::size_t samples = 0;
@@ -113,7 +112,7 @@ struct Layer_swap
 /// Lines are drawn along the normals of the original's faces, through one point of each face, more where
 /// faces are few, and fewer than one per face, evenly chosen, where there are more than 200,000 or a line
 /// takes long. They reach two and a half
-/// times as far as any point of one mesh is from the other (at most a twentieth of the diagonal) to both
+/// times as far as any point of one mesh is from the other (at most a quarter of the diagonal) to both
 /// sides: two layers farther apart have not changed places. Every crossing with the original is a *layer*, of
 /// whatever piece, or part of a folded piece; so two legs of one fold are two layers. A triangle of the
 /// result belongs to the layer from which its three corners are reached first over the original's edges, when

@@ -9,6 +9,8 @@
 #include "layer_order.h"
 #include "lines.h"
 
+#include <oneapi/tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -32,7 +34,7 @@ double angle(const Vector_3& a, const Vector_3& b)
   return degrees * std::atan2(std::sqrt(CGAL::cross_product(a, b).squared_length()), a * b);
 }
 
-/// `largest_distance` is that of the result from the original.
+/// `largest_distance` is that of either from the other.
 Normal_deviation normal_deviation(const Triangle_soup& result, const Triangle_soup& original,
                                   double largest_distance)
 {
@@ -99,20 +101,26 @@ Comparison compare(const Triangle_soup& result, const Triangle_soup& original)
     return lines;
   };
 
-  const Bounds forth = maximum_distance(original, result), back = maximum_distance(result, original);
+  Bounds forth, back;
+  tbb::parallel_invoke(
+      [&] { forth = maximum_distance(original, result); }, [&] { back = maximum_distance(result, original); },
+      [&] {
+        const Borders_and_seams before = borders_and_seams(original), after = borders_and_seams(result);
+        comparison.borders = make_lines_relative(compare_lines(after.borders, before.borders));
+        comparison.seams = make_lines_relative(compare_lines(after.seams, before.seams));
+        const Gaps gaps = find_gaps(after, before);
+        comparison.gaps = {gaps.open_edges, gaps.length / unit, gaps.width / unit};
+      },
+      [&] { compare_values(comparison, result, original); });
   comparison.original_to_result = make_relative(forth);
   comparison.result_to_original = make_relative(back);
 
-  const Borders_and_seams lines_before = borders_and_seams(original), lines_after = borders_and_seams(result);
-  comparison.borders = make_lines_relative(compare_lines(lines_after.borders, lines_before.borders));
-  comparison.seams = make_lines_relative(compare_lines(lines_after.seams, lines_before.seams));
-  const Gaps gaps = find_gaps(lines_after, lines_before);
-  comparison.gaps = {gaps.open_edges, gaps.length / unit, gaps.width / unit};
-
-  compare_values(comparison, result, original);
-  comparison.normals = normal_deviation(result, original, back.upper);
-  const double reach = std::clamp(2.5 * std::max(forth.upper, back.upper), 1e-9 * unit, 0.05 * unit);
-  comparison.layers = layer_order(result, original, reach);
+  const double largest = std::max(forth.upper, back.upper);
+  tbb::parallel_invoke([&] { comparison.normals = normal_deviation(result, original, largest); },
+                       [&] {
+                         const double reach = std::clamp(2.5 * largest, 1e-9 * unit, 0.25 * unit);
+                         comparison.layers = layer_order(result, original, reach);
+                       });
   return comparison;
 }
 

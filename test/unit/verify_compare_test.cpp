@@ -1,0 +1,319 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <selvedge/compare.h>
+
+#include "support/soups.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <utility>
+
+namespace selvedge {
+namespace {
+
+using namespace test;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Triangle_soup moved(const Triangle_soup& soup, double x, double y, double z)
+{
+  return mapped(soup, [&](const Point_3& p) { return Point_3(p.x() + x, p.y() + y, p.z() + z); });
+}
+
+// Three points as the other mesh: at the corners the distance is 0, and farthest from all is the middle of
+// the longest side.
+TEST(MaximumDistance, IsNotThatOfVertices)
+{
+  const Triangle_soup corners = soup(one_triangle().points, {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}});
+  EXPECT_EQ(distance(one_triangle(), corners).maximum, 0);
+  const Bounds bounds = maximum_distance(one_triangle(), corners);
+  EXPECT_LE(bounds.lower, std::sqrt(8));
+  EXPECT_GE(bounds.upper, std::sqrt(8));
+  EXPECT_LE(bounds.upper, 1.011 * bounds.lower);
+}
+
+TEST(MaximumDistance, HoldsForEveryPointAndIsNearlyReached)
+{
+  for (int seed = 0; seed < 8; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> coordinate(-1, 1);
+    const auto random_soup = [&](int triangles) {
+      Triangle_soup result;
+      for (int i = 0; i < triangles; ++i) {
+        const Index first = static_cast<Index>(result.points.size());
+        for (int k = 0; k < 3; ++k)
+          result.points.emplace_back(coordinate(random), coordinate(random), coordinate(random));
+        // Every fourth is a segment.
+        result.triangles.push_back({first, first + 1, i % 4 == 3 ? first + 1 : first + 2});
+      }
+      return result;
+    };
+    const Triangle_soup from = random_soup(6), to = random_soup(5);
+    const Bounds bounds = maximum_distance(from, to);
+    EXPECT_LE(bounds.upper, 1.011 * bounds.lower);
+    EXPECT_GE(bounds.lower, distance(from, to).maximum);
+
+    // Many points of the same faces, through the other function.
+    constexpr Index steps = 40;
+    Triangle_soup points;
+    for (const auto& [a, b, c] : from.triangles)
+      for (Index i = 0; i <= steps; ++i)
+        for (Index j = 0; i + j <= steps; ++j) {
+          points.points.push_back(CGAL::barycenter(from.points[a], double(i) / steps, from.points[b],
+                                                   double(j) / steps, from.points[c],
+                                                   double(steps - i - j) / steps));
+          const Index last = static_cast<Index>(points.points.size() - 1);
+          points.triangles.push_back({last, last, last});
+        }
+    const double sampled = distance(points, to).maximum;
+    EXPECT_LE(sampled, bounds.upper);
+    EXPECT_GE(sampled, bounds.lower - 2.0 * std::sqrt(3.0) / steps) << "the spacing of the points";
+  }
+}
+
+TEST(MaximumDistance, IsZeroFromNothingInfiniteToNothingAndScales)
+{
+  EXPECT_EQ(maximum_distance({}, one_triangle()).upper, 0);
+  EXPECT_EQ(maximum_distance(one_triangle(), {}).lower, infinity);
+  const Bounds expected = maximum_distance(sheet(5, 3), tetrahedron());
+  for (const int exponent : {-900, 900}) {
+    const auto scaled = [&](const Point_3& p) {
+      return Point_3(std::ldexp(p.x(), exponent), std::ldexp(p.y(), exponent), std::ldexp(p.z(), exponent));
+    };
+    const Bounds bounds = maximum_distance(mapped(sheet(5, 3), scaled), mapped(tetrahedron(), scaled));
+    EXPECT_EQ(bounds.lower, std::ldexp(expected.lower, exponent));
+    EXPECT_EQ(bounds.upper, std::ldexp(expected.upper, exponent));
+  }
+}
+
+TEST(Lines, AreToldByPositions)
+{
+  const Triangle_soup whole = sheet(3, 4);
+  const Comparison same = compare(whole, whole);
+  EXPECT_EQ(same.borders.edges_of_result, 14u);
+  EXPECT_EQ(same.seams.edges_of_result, 0u);
+  EXPECT_EQ(same.borders.original_to_result.maximum.upper, 0);
+
+  // The same faces without a common vertex: borders stay what they are, all other edges are seams.
+  const Comparison apart = compare(unshared(whole), whole);
+  EXPECT_EQ(apart.borders.edges_of_result, 14u);
+  EXPECT_EQ(apart.seams.edges_of_original, 0u);
+  EXPECT_EQ(apart.seams.edges_of_result, 29u); // 3 · 5 + 4 · 4 + 12 edges, without 14
+  EXPECT_EQ(apart.seams.original_to_result.maximum.upper, 0);
+  EXPECT_EQ(apart.seams.result_to_original.maximum.upper, infinity);
+}
+
+TEST(Lines, AreWhereTextureOrLabelsChange)
+{
+  // A row of six squares, of which something changes between the third and the fourth.
+  const Triangle_soup row = sheet(6, 1);
+  const auto seams = [](const Triangle_soup& soup) { return compare(soup, soup).seams.edges_of_result; };
+  EXPECT_EQ(seams(row), 0u);
+
+  Triangle_soup textured = row;
+  for (const Point_3& p : row.points)
+    textured.uvs.values.push_back({p.x(), p.y()});
+  textured.uvs.of_triangle = row.triangles;
+  EXPECT_EQ(seams(textured), 0u);
+  const Index vertices = static_cast<Index>(row.points.size());
+  for (Index v = 0; v < vertices; ++v)
+    textured.uvs.values.push_back({row.points[v].x() + 9, row.points[v].y()});
+  for (std::size_t i = 6; i < 12; ++i)
+    for (Index& number : textured.uvs.of_triangle[i])
+      number += vertices;
+  EXPECT_EQ(seams(textured), 1u);
+  // Values count, not numbers.
+  std::copy_n(textured.uvs.values.begin(), vertices, textured.uvs.values.begin() + vertices);
+  EXPECT_EQ(seams(textured), 0u);
+
+  for (Triangle_labels Triangle_soup::*labels :
+       {&Triangle_soup::groups, &Triangle_soup::objects, &Triangle_soup::materials}) {
+    Triangle_soup labelled = row;
+    (labelled.*labels).names = {"a", "b"};
+    (labelled.*labels).of_triangle = {0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1};
+    EXPECT_EQ(seams(labelled), 1u);
+  }
+}
+
+TEST(Lines, DriftIsMeasuredAnywhereOnThem)
+{
+  // A border of four edges, and the same with a notch 3 deep in the middle of one.
+  const Triangle_soup square = soup({{0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}}, {{0, 1, 2}, {0, 2, 3}});
+  const Triangle_soup notched =
+      soup({{0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}, {4, 3, 0}}, {{0, 4, 3}, {4, 2, 3}, {4, 1, 2}});
+  const Line_comparison borders = compare(notched, square).borders;
+  const double diagonal = std::sqrt(128);
+  // From the notch to the square at its tip, a vertex; from the square to the notch between two.
+  EXPECT_DOUBLE_EQ(borders.result_to_original.of_ends.maximum, 3 / diagonal);
+  EXPECT_DOUBLE_EQ(borders.result_to_original.maximum.lower, 3 / diagonal);
+  EXPECT_EQ(borders.original_to_result.of_ends.maximum, 0);
+  EXPECT_NEAR(borders.original_to_result.maximum.upper, 4 * 3 / 5.0 / diagonal, 0.02 * 3 / diagonal);
+}
+
+TEST(Gaps, AreSeamsThatOpened)
+{
+  const Triangle_soup left = sheet(2, 4), right = moved(sheet(3, 4), 2, 0, 0);
+  const Triangle_soup sewn = joined(left, right);
+  const Comparison same = compare(sewn, sewn);
+  EXPECT_EQ(same.seams.edges_of_original, 4u);
+  EXPECT_EQ(same.gaps.open_edges, 0u);
+
+  const Comparison apart = compare(joined(left, moved(right, 0.125, 0, 0)), sewn);
+  EXPECT_EQ(apart.gaps.open_edges, 8u);
+  EXPECT_DOUBLE_EQ(apart.gaps.length, 8 / same.diagonal);
+  EXPECT_DOUBLE_EQ(apart.gaps.width, 0.125 / same.diagonal);
+}
+
+TEST(Gaps, AreFoundWhereOneVertexLeft)
+{
+  const Triangle_soup left = sheet(2, 4);
+  const Triangle_soup sewn = joined(left, moved(sheet(3, 4), 2, 0, 0));
+  Triangle_soup torn = sewn;
+  torn.points[2 * 3 + 2] = Point_3(1.75, 2, 0); // of the left piece, in the middle of the seam
+  const Comparison found = compare(torn, sewn);
+  EXPECT_EQ(found.gaps.open_edges, 4u);
+  EXPECT_DOUBLE_EQ(found.gaps.width, 0.125 / found.diagonal) << "half of where it is widest";
+}
+
+TEST(Gaps, AreNoBordersThatMoved)
+{
+  const Triangle_soup sewn = joined(sheet(2, 4), moved(sheet(3, 4), 2, 0, 0));
+  const Triangle_soup shrunk =
+      mapped(sewn, [](const Point_3& p) { return p.y() == 4 ? Point_3(p.x(), 3.5, 0) : p; });
+  const Comparison found = compare(shrunk, sewn);
+  EXPECT_EQ(found.gaps.open_edges, 0u);
+  EXPECT_DOUBLE_EQ(found.borders.result_to_original.maximum.lower, 0.5 / found.diagonal);
+}
+
+TEST(Kept, VerticesAreTheOriginalsBitForBit)
+{
+  const Triangle_soup original = sheet(3, 3);
+  Triangle_soup result = unshared(sheet(3, 3));
+  EXPECT_EQ(compare(result, original).vertices, 16u);
+  EXPECT_EQ(compare(result, original).original_vertices, 16u);
+  result = mapped(result, [](const Point_3& p) {
+    return p.x() == 1 && p.y() == 1 ? Point_3(std::nextafter(1.0, 2.0), 1, 0) : Point_3(p.x(), p.y(), -0.0);
+  });
+  EXPECT_EQ(compare(result, original).vertices, 16u);
+  EXPECT_EQ(compare(result, original).original_vertices, 15u);
+  EXPECT_DOUBLE_EQ(compare(result, original).share_of_original_vertices(), 15 / 16.0);
+}
+
+Triangle_soup with_attributes(Triangle_soup soup)
+{
+  soup.uvs.of_triangle = soup.triangles;
+  for (const Point_3& p : soup.points)
+    soup.uvs.values.push_back({p.x() / 8, p.y() / 8});
+  soup.groups.names = {"left", "right"};
+  for (std::size_t i = 0; i < soup.triangles.size(); ++i)
+    soup.groups.of_triangle.push_back(i % 2);
+  Attribute weight;
+  weight.name = "weight";
+  weight.type = Attribute::Type::uint8;
+  for (std::size_t i = 0; i < soup.points.size(); ++i)
+    weight.rows.push_back(static_cast<unsigned char>(i));
+  soup.vertex_attributes.push_back(weight);
+  return soup;
+}
+
+std::pair<std::size_t, std::size_t> kept(const Comparison& comparison, const std::string& name)
+{
+  for (const Kept_attribute& attribute : comparison.attributes)
+    if (attribute.name == name)
+      return {attribute.original, attribute.combinations};
+  return {};
+}
+
+using Counts = std::pair<std::size_t, std::size_t>;
+
+TEST(Kept, AttributesAreCountedWithTheirPositions)
+{
+  const Triangle_soup original = with_attributes(sheet(2, 2));
+  Comparison found = compare(original, original);
+  EXPECT_EQ(kept(found, "uv"), Counts(9, 9));
+  EXPECT_EQ(kept(found, "weight"), Counts(9, 9));
+  EXPECT_TRUE(found.lost_attributes.empty());
+
+  // Two values exchanged: each is one of the original's, but not there.
+  Triangle_soup result = original;
+  std::swap(result.uvs.values[0], result.uvs.values[8]);
+  std::swap(result.vertex_attributes[0].rows[3], result.vertex_attributes[0].rows[4]);
+  found = compare(result, original);
+  EXPECT_EQ(kept(found, "uv"), Counts(7, 9));
+  EXPECT_EQ(kept(found, "weight"), Counts(7, 9));
+  EXPECT_EQ(kept(found, "group").first, kept(found, "group").second);
+
+  // Other numbers for the same.
+  std::swap(result.groups.names[0], result.groups.names[1]);
+  for (Index& group : result.groups.of_triangle)
+    group = 1 - group;
+  EXPECT_EQ(kept(compare(result, original), "group"), kept(found, "group"));
+
+  // The same numbers in another type are not the same.
+  result = original;
+  result.vertex_attributes[0].type = Attribute::Type::int8;
+  EXPECT_EQ(kept(compare(result, original), "weight"), Counts(0, 9));
+}
+
+TEST(Kept, LostAttributesAreNamed)
+{
+  const Triangle_soup original = with_attributes(sheet(2, 2));
+  EXPECT_EQ(compare(sheet(2, 2), original).lost_attributes,
+            (std::vector<std::string>{"uv", "group", "weight"}));
+  EXPECT_TRUE(compare(original, sheet(2, 2)).lost_attributes.empty());
+}
+
+TEST(Normals, DeviateByTheAngleOfTheFaces)
+{
+  const Triangle_soup flat = sheet(8, 8);
+  EXPECT_EQ(compare(flat, flat).normals.maximum, 0);
+  const Triangle_soup slope = mapped(flat, [](const Point_3& p) { return Point_3(p.x(), p.y(), p.x() / 8); });
+  const Normal_deviation found = compare(slope, flat).normals;
+  const double angle = std::atan(1 / 8.0) * 180 / std::acos(-1);
+  EXPECT_NEAR(found.mean, angle, 1e-9);
+  EXPECT_NEAR(found.root_mean_square, angle, 1e-9);
+  EXPECT_NEAR(found.maximum, angle, 1e-9);
+  EXPECT_EQ(found.turned, 0);
+}
+
+TEST(Normals, OfFacesThatTurnedOverAreTurned)
+{
+  const Triangle_soup flat = sheet(4, 4);
+  Triangle_soup turned = flat;
+  std::swap(turned.triangles[5][0], turned.triangles[5][1]);
+  const Normal_deviation found = compare(turned, flat).normals;
+  EXPECT_NEAR(found.turned, 1 / 32.0, 1e-12);
+  EXPECT_NEAR(found.maximum, 180, 1e-9);
+}
+
+// The result is nearer to the other side of the cloth than to its own: what counts is its own.
+TEST(Normals, OfTheOtherSideOfTheClothDoNotCount)
+{
+  Triangle_soup inner = sheet(4, 4, -0.25);
+  for (auto& [a, b, c] : inner.triangles)
+    std::swap(a, b);
+  const Triangle_soup cloth = joined(sheet(4, 4), inner);
+  const Triangle_soup result = joined(sheet(4, 4, -0.2), moved(inner, 0, 0, -0.01));
+  const Normal_deviation found = compare(result, cloth).normals;
+  EXPECT_EQ(found.turned, 0);
+  EXPECT_EQ(found.maximum, 0);
+}
+
+TEST(Comparison, OfNothingIsNothing)
+{
+  EXPECT_EQ(compare({}, {}).vertices, 0u);
+  EXPECT_EQ(compare(sheet(1, 1), {}).result_to_original.upper, infinity);
+  EXPECT_EQ(compare({}, sheet(1, 1)).original_to_result.upper, infinity);
+  const Triangle_soup degenerate = soup({{1, 1, 1}, {2, 2, 2}}, {{0, 0, 0}, {0, 1, 1}});
+  EXPECT_EQ(compare(degenerate, degenerate).original_to_result.upper, 0);
+  EXPECT_EQ(compare(degenerate, degenerate).normals.samples, 0u);
+}
+
+} // namespace
+} // namespace selvedge
