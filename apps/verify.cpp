@@ -17,7 +17,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <tuple>
 
 namespace selvedge::app {
 namespace {
@@ -35,11 +34,15 @@ void print(const char* what, const Line_comparison& lines)
 {
   if (lines.edges_of_original == 0 && lines.edges_of_result == 0)
     return;
-  const auto& [forth, back] = std::tie(lines.original_to_result, lines.result_to_original);
-  std::cout << what << ": " << counted(lines.edges_of_original, "edge") << " before, "
-            << with_commas(lines.edges_of_result) << " now; " << with_digits(forth.of_ends.root_mean_square)
-            << " RMS, at most " << with_digits(forth.maximum.upper) << " and back "
-            << with_digits(back.maximum.upper) << ", of the diagonal\n";
+  const std::string none = "none";
+  std::cout << what << ": "
+            << (lines.edges_of_original == 0 ? none : counted(lines.edges_of_original, "edge")) << " before, "
+            << (lines.edges_of_result == 0 ? none : with_commas(lines.edges_of_result)) << " now";
+  if (lines.edges_of_original > 0 && lines.edges_of_result > 0)
+    std::cout << "; " << with_digits(lines.original_to_result.of_ends.root_mean_square) << " RMS, at most "
+              << with_digits(lines.original_to_result.maximum.upper) << " and back "
+              << with_digits(lines.result_to_original.maximum.upper) << ", of the diagonal";
+  std::cout << '\n';
 }
 
 void print(const Distances& distances, const Comparison& comparison)

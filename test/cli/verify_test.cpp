@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 namespace selvedge::test {
 namespace {
 
@@ -64,6 +66,59 @@ TEST(App_verify, SaysTheSameInJson)
   EXPECT_EQ(
       nlohmann::json::parse(contents_of(folder / "r.json"))["verified"]["first_new_pairs"][0]["offence"],
       "intersection");
+}
+
+// Two bumps, each pulled through the patch under it: embedded, and with the same topology.
+TEST(App_verify, LayersThatChangedPlacesAreNotVerified)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("tunnel", "in.obj", 100);
+  const std::string out = folder / "out.obj";
+  run_app({"simplify", in, "-o", out, "--ratio", "0", "--no-intersection-check", "--quiet"});
+  EXPECT_EQ(run_app({"verify", out}).code, 0);
+  const App_result result = run_app({"verify", out, "--against", in});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_NE(result.out.find("layers SWAPPED, at "), std::string::npos) << result.out;
+  const nlohmann::json report =
+      nlohmann::json::parse(run_app({"verify", out, "--against", in, "--json"}).out);
+  EXPECT_EQ(report["exit_code"], 1);
+  EXPECT_EQ(report["verified"]["embedded"], true);
+  EXPECT_EQ(report["topology"]["same"], true);
+  EXPECT_GT(report["layers"]["swaps"], 0);
+  EXPECT_EQ(report["layers"]["first_swaps"].size(), std::min<std::size_t>(100, report["layers"]["swaps"]));
+}
+
+TEST(App_verify, SaysWhatIsLeftOfTheOriginal)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("skirt", "in.obj", 2000);
+  const std::string out = folder / "out.obj", bare = folder / "out.off";
+  ASSERT_EQ(run_app({"simplify", in, "-o", out, "--ratio", "0.5", "--quiet"}).code, 0);
+  ASSERT_EQ(run_app({"simplify", in, "-o", bare, "--ratio", "0.5", "--quiet"}).code, 0);
+  const App_result kept = run_app({"verify", out, "--against", in});
+  EXPECT_EQ(kept.code, 0) << kept.out;
+  EXPECT_NE(kept.out.find("are the original's, bit for bit"), std::string::npos) << kept.out;
+  EXPECT_NE(kept.out.find("layers: in order"), std::string::npos) << kept.out;
+  EXPECT_EQ(kept.out.find("LOST"), std::string::npos) << kept.out;
+  EXPECT_EQ(kept.out.find("GAPS"), std::string::npos) << kept.out;
+  const App_result lost = run_app({"verify", bare, "--against", in});
+  EXPECT_NE(lost.out.find("attributes LOST: uv group"), std::string::npos) << lost.out;
+}
+
+TEST(App_verify, TellsOfGaps)
+{
+  const Workspace folder;
+  // Two squares that share two edges by position; in the other file one of them has moved aside.
+  const std::string faces = "f 1 2 3\nf 1 3 4\nf 1 4 5\nf 6 7 8\nf 6 8 9\nf 6 9 10\n";
+  const std::string left = "v 0 0 0\nv 1 0 0\nv 1 0.5 0\nv 1 1 0\nv 0 1 0\n";
+  write_text(folder / "in.obj", left + "v 2 1 0\nv 1 1 0\nv 1 0.5 0\nv 1 0 0\nv 2 0 0\n" + faces);
+  write_text(folder / "out.obj",
+             left + "v 2 1 0\nv 1.0625 1 0\nv 1.0625 0.5 0\nv 1.0625 0 0\nv 2 0 0\n" + faces);
+  const App_result result = run_app({"verify", folder / "out.obj", "--against", folder / "in.obj"});
+  EXPECT_EQ(result.code, 0);
+  EXPECT_NE(result.out.find("GAPS: 4 edges of seams open"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("seams: 2 edges before, none now"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("vertices: 7 of 10 are"), std::string::npos) << result.out;
 }
 
 TEST(App_verify, RefusesUnreadableInput)
