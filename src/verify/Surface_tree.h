@@ -4,12 +4,11 @@
 #ifndef SELVEDGE_VERIFY_SURFACE_TREE_H
 #define SELVEDGE_VERIFY_SURFACE_TREE_H
 
+#include "Triangle_tree.h"
+
 #include <selvedge/mesh/Triangle_soup.h>
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-
-#include <boost/iterator/counting_iterator.hpp>
+#include <CGAL/intersections.h>
 
 #include <algorithm>
 #include <cmath>
@@ -116,20 +115,15 @@ inline Point_3 nearest_on_triangle(const Point_3& query, const Triangle_3& trian
   return nearest;
 }
 
-/// The triangles of a surface, degenerate ones included, in CGAL's AABB tree.
+/// The triangles of a surface, degenerate ones included, in a tree of boxes.
 class Surface_tree
 {
 public:
   /// **Preconditions** The surface has a triangle, and outlives the tree.
-  explicit Surface_tree(const Surface& surface) : m_shared{&surface, nullptr, {}}
+  explicit Surface_tree(const Surface& surface)
+      : m_surface(surface), m_tree(surface.points, surface.triangles)
   {
-    using Counter = boost::counting_iterator<Index>;
-    m_tree.insert(Counter(0), Counter(static_cast<Index>(surface.triangles.size())), &m_shared);
-    m_tree.build();
-    m_last = {surface.corner(0, 0), 0};
   }
-  Surface_tree(const Surface_tree&) = delete;
-  Surface_tree& operator=(const Surface_tree&) = delete;
 
   struct Nearest
   {
@@ -140,124 +134,63 @@ public:
   /// The last answer is the first guess, so queries near each other should follow each other.
   Nearest nearest(const Point_3& query)
   {
-    const auto [point, triangle] = m_tree.closest_point_and_primitive(query, {m_last.point, m_last.triangle});
-    return m_last = {point, triangle};
+    const Nearest nearest = this->nearest(query, m_last);
+    m_last = nearest.triangle;
+    return nearest;
   }
 
   /// The same, with a triangle for a first guess.
-  Nearest nearest(const Point_3& query, Index guess)
+  Nearest nearest(const Point_3& query, Index guess) const
   {
-    m_last = {nearest_on_triangle(query, m_shared.surface->triangle(guess)), guess};
-    return nearest(query);
+    Nearest nearest{nearest_on_triangle(query, m_surface.triangle(guess)), guess};
+    approach(query, CGAL::squared_distance(query, nearest.point), nearest, [](Index) { return true; });
+    return nearest;
   }
 
   /// The nearest, no farther than `limit`, among triangles whose entry in `directions` has a positive product
   /// with `direction`.
   std::optional<Nearest> nearest_facing(const Point_3& query, const std::vector<Vector_3>& directions,
-                                        const Vector_3& direction, double limit)
+                                        const Vector_3& direction, double limit) const
   {
     constexpr Index none = -1;
-    m_shared.directions = &directions;
-    m_shared.direction = direction;
-    const auto [point, triangle] =
-        m_tree.closest_point_and_primitive(query, {query + Vector_3(limit, 0, 0), none});
-    m_shared.directions = nullptr;
-    return triangle == none ? std::nullopt : std::optional(Nearest{point, triangle});
+    Nearest nearest{query, none};
+    approach(query, limit * limit, nearest,
+             [&](Index triangle) { return directions[triangle] * direction > 0; });
+    return nearest.triangle == none ? std::nullopt : std::optional(nearest);
   }
 
   /// All triangles that are not degenerate and meet a segment; decided exactly.
   template <class Output_iterator>
   void crossed(const Segment_3& segment, Output_iterator output) const
   {
-    m_tree.all_intersected_primitives(segment, output);
+    m_tree.visit([&](const CGAL::Bbox_3& box) { return CGAL::do_intersect(segment, box); },
+                 [&](Index number) {
+                   const Triangle_3 triangle = m_surface.triangle(number);
+                   if (!triangle.is_degenerate() && CGAL::do_intersect(segment, triangle))
+                     *output++ = number;
+                 });
   }
 
 private:
-  struct Shared
+  template <class Is_wanted>
+  void approach(const Point_3& query, double squared_bound, Nearest& nearest,
+                const Is_wanted& is_wanted) const
   {
-    const Surface* surface;
-    const std::vector<Vector_3>* directions;
-    Vector_3 direction;
-
-    bool is_wanted(Index triangle) const { return !directions || (*directions)[triangle] * direction > 0; }
-  };
-
-  /// A triangle by its number.
-  class Primitive
-  {
-  public:
-    using Point = Point_3;
-    using Datum = Triangle_3;
-    using Id = Index;
-    using Shared_data = const Shared*;
-
-    Primitive(boost::counting_iterator<Index> triangle, Shared_data) : m_triangle(*triangle) {}
-
-    static Shared_data construct_shared_data(Shared_data shared) { return shared; }
-    Id id() const { return m_triangle; }
-    Point reference_point(Shared_data shared) const { return shared->surface->corner(m_triangle, 0); }
-    Datum datum(Shared_data shared) const { return shared->surface->triangle(m_triangle); }
-
-  private:
-    Index m_triangle;
-  };
-
-  /// CGAL's traits, but what takes distances does so in plain doubles, and nothing minds a degenerate
-  /// triangle.
-  class Traits : public CGAL::AABB_traits<Kernel, Primitive>
-  {
-  public:
-    struct Closest_point
-    {
-      const Traits& traits;
-
-      Point_3 operator()(const Point_3& query, const Primitive& primitive, const Point_3& bound) const
-      {
-        if (!traits.shared_data()->is_wanted(primitive.id()))
-          return bound;
-        const Point_3 nearest = nearest_on_triangle(query, primitive.datum(traits.shared_data()));
-        return CGAL::squared_distance(query, nearest) < CGAL::squared_distance(query, bound) ? nearest
-                                                                                             : bound;
+    m_tree.approach(query, squared_bound, [&](Index triangle) {
+      if (!is_wanted(triangle))
+        return;
+      const Point_3 point = nearest_on_triangle(query, m_surface.triangle(triangle));
+      const double squared_distance = CGAL::squared_distance(query, point);
+      if (squared_distance < squared_bound) {
+        squared_bound = squared_distance;
+        nearest = {point, triangle};
       }
-    };
+    });
+  }
 
-    struct Compare_distance
-    {
-      CGAL::Comparison_result operator()(const Point_3& query, const CGAL::Bbox_3& box,
-                                         const Point_3& bound) const
-      {
-        double distance = 0;
-        for (int axis = 0; axis < 3; ++axis) {
-          const double gap = std::max({box.min(axis) - query[axis], 0.0, query[axis] - box.max(axis)});
-          distance += gap * gap;
-        }
-        return CGAL::compare(distance, CGAL::squared_distance(query, bound));
-      }
-    };
-
-    struct Do_intersect
-    {
-      const Traits& traits;
-
-      bool operator()(const Segment_3& query, const CGAL::Bbox_3& box) const
-      {
-        return CGAL::do_intersect(query, box);
-      }
-      bool operator()(const Segment_3& query, const Primitive& primitive) const
-      {
-        const Triangle_3 triangle = primitive.datum(traits.shared_data());
-        return !triangle.is_degenerate() && CGAL::do_intersect(query, triangle);
-      }
-    };
-
-    Closest_point closest_point_object() const { return {*this}; }
-    Compare_distance compare_distance_object() const { return {}; }
-    Do_intersect do_intersect_object() const { return {*this}; }
-  };
-
-  Shared m_shared;
-  CGAL::AABB_tree<Traits> m_tree;
-  Nearest m_last;
+  const Surface& m_surface;
+  Triangle_tree m_tree;
+  Index m_last = 0;
 };
 
 } // namespace selvedge::internal

@@ -6,6 +6,8 @@
 
 #include <selvedge/mesh/Triangle_soup.h>
 
+#include <CGAL/Bbox_3.h>
+
 #include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
@@ -43,8 +45,17 @@ public:
     pairs_within(1, m_triangles.size(), function);
   }
 
+  /// Calls `function(i)` for each triangle whose box, a `CGAL::Bbox_3`, is wanted; so must be all boxes that
+  /// hold a wanted one.
+  template <class Is_wanted, class Function>
+  void visit(const Is_wanted& is_wanted, const Function& function) const
+  {
+    if (!m_triangles.empty())
+      visit(is_wanted, function, 1);
+  }
+
   /// Calls `function(i)` for triangles whose boxes are nearer to a point than the root of `squared_bound`,
-  /// which the function is to lower, nearest boxes first.
+  /// which the function is to lower, nearer boxes first as a rule.
   template <class Function>
   void approach(const Point_3& query, const double& squared_bound, const Function& function) const
   {
@@ -57,6 +68,8 @@ private:
   {
     std::array<double, 3> low{s_infinity, s_infinity, s_infinity};
     std::array<double, 3> high{-s_infinity, -s_infinity, -s_infinity};
+
+    CGAL::Bbox_3 bbox() const { return {low[0], low[1], low[2], high[0], high[1], high[2]}; }
 
     void add(const Box& other)
     {
@@ -146,6 +159,22 @@ private:
       (tasks(), ...);
     else
       tbb::parallel_invoke(tasks...);
+  }
+
+  template <class Is_wanted, class Function>
+  void visit(const Is_wanted& is_wanted, const Function& function, std::size_t node) const
+  {
+    if (!is_wanted(m_nodes[node].bbox()))
+      return;
+    if (node < leaves()) {
+      visit(is_wanted, function, 2 * node);
+      visit(is_wanted, function, 2 * node + 1);
+    } else {
+      for_each_in(node, [&](std::size_t i) {
+        if (is_wanted(m_boxes[i].bbox()))
+          function(m_triangles[i]);
+      });
+    }
   }
 
   template <class Function>

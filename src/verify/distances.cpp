@@ -6,14 +6,12 @@
 #include <selvedge/compare.h>
 #include <selvedge/verify.h>
 
-#include <CGAL/Hilbert_sort_median_3.h>
-#include <CGAL/Spatial_sort_traits_adapter_3.h>
-#include <CGAL/hilbert_sort.h>
-#include <CGAL/property_map.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <queue>
 
 namespace selvedge {
@@ -24,15 +22,33 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Neighbours follow each other along a space-filling curve, so that the last answer of a tree is a good
-/// guess at the next.
-void sort_along_curve(std::vector<Index>& vertices, const std::vector<Point_3>& points)
+/// Calls `function(i, vertex, nearest)` for the i-th of some vertices, with what is nearest to it: in an
+/// order in which neighbours follow each other, so that the last answer is a good guess at the next, and
+/// concurrently. The answers depend on nothing but the arguments.
+template <class Function>
+void for_each_nearest(const std::vector<Index>& vertices, const Surface& from, const Surface_tree& to,
+                      const Function& function)
 {
-  using Map = CGAL::Pointer_property_map<Point_3>::const_type;
-  using Traits = CGAL::Spatial_sort_traits_adapter_3<Kernel, Map>;
-  const CGAL::Hilbert_sort_median_3<Traits, CGAL::Sequential_tag> sort(
-      Traits(CGAL::make_property_map(points)));
-  sort(vertices.begin(), vertices.end());
+  constexpr std::size_t chunk = 1024;
+  std::vector<Numbered_point> queries;
+  queries.reserve(vertices.size());
+  for (const Index vertex : vertices) {
+    const Point_3& point = from.points[vertex];
+    queries.push_back({{point.x(), point.y(), point.z()}, vertex});
+  }
+  std::size_t parts = 1;
+  while (4 * parts < queries.size())
+    parts *= 2;
+  sort_by_halves(queries, parts);
+  tbb::parallel_for(std::size_t(0), (queries.size() + chunk - 1) / chunk, [&](std::size_t number) {
+    Index guess = 0;
+    for (std::size_t i = chunk * number; i < (std::min)(chunk * (number + 1), queries.size()); ++i) {
+      const Index vertex = queries[i].number;
+      const Surface_tree::Nearest nearest = to.nearest(from.points[vertex], guess);
+      function(i, vertex, nearest);
+      guess = nearest.triangle;
+    }
+  });
 }
 
 /// A part of a triangle: its corners, and for each the nearest triangle of the other mesh.
@@ -69,19 +85,17 @@ Distance distance(const Triangle_soup& from, const Triangle_soup& to)
     return {infinity, infinity};
 
   const int exponent = common_exponent(from, to);
-  const Surface surface(to, exponent);
-  Surface_tree tree(surface);
-  std::vector<Point_3> queries;
-  for (const Index vertex : used_vertices(from))
-    queries.push_back(scaled(from.points[vertex], -exponent));
-  CGAL::hilbert_sort(queries.begin(), queries.end());
-  double sum = 0, maximum = 0;
-  for (const Point_3& query : queries) {
-    const double squared_distance = CGAL::squared_distance(query, tree.nearest(query).point);
-    sum += squared_distance;
-    maximum = std::max(maximum, squared_distance);
-  }
-  const double mean = sum / static_cast<double>(queries.size());
+  const Surface source(from, exponent), surface(to, exponent);
+  const std::vector<Index> vertices = used_vertices(from);
+  std::vector<double> squared_distances(vertices.size());
+  for_each_nearest(vertices, source, Surface_tree(surface),
+                   [&](std::size_t i, Index vertex, const Surface_tree::Nearest& nearest) {
+                     squared_distances[i] = CGAL::squared_distance(source.points[vertex], nearest.point);
+                   });
+  // In one order, whichever came first.
+  const double sum = std::accumulate(squared_distances.begin(), squared_distances.end(), 0.0);
+  const double maximum = *std::max_element(squared_distances.begin(), squared_distances.end());
+  const double mean = sum / static_cast<double>(vertices.size());
   return {std::ldexp(std::sqrt(mean), exponent), std::ldexp(std::sqrt(maximum), exponent)};
 }
 
@@ -94,19 +108,16 @@ Bounds maximum_distance(const Triangle_soup& from, const Triangle_soup& to)
 
   const int exponent = common_exponent(from, to);
   const Surface source(from, exponent), surface(to, exponent);
-  Surface_tree tree(surface);
-  double lower = 0;
-  const auto look_at = [&](const Point_3& point, Index guess) {
-    const Surface_tree::Nearest nearest = tree.nearest(point, guess);
-    lower = std::max(lower, CGAL::squared_distance(point, nearest.point));
-    return nearest.triangle;
-  };
+  const Surface_tree tree(surface);
+  const std::vector<Index> vertices = used_vertices(from);
   std::vector<Index> nearest(source.points.size());
-  std::vector<Index> vertices = used_vertices(from);
-  sort_along_curve(vertices, source.points);
-  Index guess = 0;
-  for (const Index vertex : vertices)
-    guess = nearest[vertex] = look_at(source.points[vertex], guess);
+  std::vector<double> squared_distances(vertices.size());
+  for_each_nearest(vertices, source, tree,
+                   [&](std::size_t i, Index vertex, const Surface_tree::Nearest& found) {
+                     nearest[vertex] = found.triangle;
+                     squared_distances[i] = CGAL::squared_distance(source.points[vertex], found.point);
+                   });
+  double lower = *std::max_element(squared_distances.begin(), squared_distances.end());
 
   // Bounds that differ by a hundredth are good enough, and so are those that differ by rounding.
   const auto good_enough = [&] {
@@ -141,13 +152,14 @@ Bounds maximum_distance(const Triangle_soup& from, const Triangle_soup& to)
         length(0) < length(1) ? (length(1) < length(2) ? 2 : 1) : (length(0) < length(2) ? 2 : 0);
     const int end = (longest + 1) % 3;
     const Point_3 middle = CGAL::midpoint(part.corners[longest], part.corners[end]);
-    const Index nearest_to_middle = look_at(middle, part.nearest[longest]);
+    const Surface_tree::Nearest to_middle = tree.nearest(middle, part.nearest[longest]);
+    lower = std::max(lower, CGAL::squared_distance(middle, to_middle.point));
     for (const int replaced : {longest, end}) {
       Part half = part;
       for (int place = 0; place < 3; ++place) // a segment has two corners at one end
         if (part.corners[place] == part.corners[replaced]) {
           half.corners[place] = middle;
-          half.nearest[place] = nearest_to_middle;
+          half.nearest[place] = to_middle.triangle;
         }
       upper = std::max(upper, keep(half));
     }
