@@ -4,274 +4,21 @@
 // Logs with one thing changed, judged by the replay and by a slow oracle that asks linear programs over
 // rationals about every pair: the same step is refused for the same reason, or only the result is another.
 
-#include "support/Exact_oracle.h"
+#include "support/Slow_judge.h"
 #include "support/logged_reduction.h"
 #include "support/meshes.h"
 #include "support/reduction.h"
 #include "support/soups.h"
 
-#include <CGAL/Gmpq.h>
-
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <map>
 #include <random>
-#include <set>
 
 namespace selvedge::test {
 namespace {
-
-using Number = CGAL::Gmpq;
-using Exact_point = oracle::Point<Number>;
-using Exact_triangle = std::array<Exact_point, 3>;
-using Step = std::pair<Index, Index>;
-using Verdict = std::pair<std::size_t, Violation_kind>; // which step, from 1; 0 and `result` for the end
-
-/// A mesh as a plain list of triangles over positions, which knows nothing but how to look through it.
-class Slow_judge
-{
-public:
-  explicit Slow_judge(const Triangle_soup& soup) : m_points(soup.points)
-  {
-    std::map<std::array<double, 3>, Index> first;
-    for (Index v = 0; v < m_points.size(); ++v)
-      m_position.push_back(
-          first.emplace(std::array{m_points[v].x(), m_points[v].y(), m_points[v].z()}, v).first->second);
-    for (const Index_triple& t : soup.triangles)
-      m_triangles.push_back({m_position[t[0]], m_position[t[1]], m_position[t[2]]});
-    m_start = m_triangles;
-  }
-
-  /// The first violation of a log whose honest end is that of `honest`.
-  Verdict judge(const std::vector<Step>& steps, const std::vector<Step>& honest)
-  {
-    m_triangles = m_start;
-    for (const auto& [m, t] : honest)
-      take(m_position[m], m_position[t]);
-    const std::vector<Index_triple> honest_end = m_triangles;
-    m_triangles = m_start;
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-      const Index m = m_position[steps[i].first], t = m_position[steps[i].second];
-      if (const std::optional<Violation_kind> kind = remembered(m, t))
-        return {i + 1, *kind};
-      take(m, t);
-    }
-    const bool is_same = m_triangles == honest_end && steps.size() == honest.size();
-    return {0, is_same ? Violation_kind::no_edge : Violation_kind::result};
-  }
-
-private:
-  static bool has(const Index_triple& triangle, Index v)
-  {
-    return triangle[0] == v || triangle[1] == v || triangle[2] == v;
-  }
-
-  void take(Index m, Index t)
-  {
-    m_triangles.erase(std::remove_if(m_triangles.begin(), m_triangles.end(),
-                                     [&](const Index_triple& f) { return has(f, m) && has(f, t); }),
-                      m_triangles.end());
-    for (Index_triple& triangle : m_triangles)
-      std::replace(triangle.begin(), triangle.end(), m, t);
-  }
-
-  /// The same question about the same triangles has the same answer.
-  std::optional<Violation_kind> remembered(Index m, Index t)
-  {
-    const CGAL::Bbox_3 box = box_of_star(m, t);
-    std::vector<Index> question{m, t};
-    for (const Index_triple& f : m_triangles)
-      if (has(f, t) || CGAL::do_overlap(box, box_of(f)))
-        question.insert(question.end(), f.begin(), f.end());
-    const auto [entry, is_new] = m_answers.emplace(question, std::nullopt);
-    if (is_new)
-      entry->second = violation(m, t);
-    return entry->second;
-  }
-
-  std::optional<Violation_kind> violation(Index m, Index t) const
-  {
-    std::vector<Index_triple> star, contracted, moving, others;
-    bool is_kept_there = false;
-    for (const Index_triple& f : m_triangles) {
-      is_kept_there = is_kept_there || has(f, t);
-      (has(f, m) ? star : others).push_back(f);
-    }
-    for (const Index_triple& f : star)
-      (has(f, t) ? contracted : moving).push_back(f);
-    if (m == t || !is_kept_there || contracted.empty())
-      return Violation_kind::no_edge;
-    if (fans(m, star) != 1)
-      return Violation_kind::locked;
-    if (!is_link_condition_met(m, t, contracted))
-      return Violation_kind::link;
-
-    std::vector<Exact_triangle> before, after; // m first
-    for (const Index_triple& f : moving) {
-      const std::size_t k = std::size_t(std::find(f.begin(), f.end(), m) - f.begin());
-      const Exact_point a = exact(f[(k + 1) % 3]), b = exact(f[(k + 2) % 3]);
-      before.push_back({exact(m), a, b});
-      after.push_back({exact(t), a, b});
-    }
-    for (std::size_t i = 0; i < before.size(); ++i) {
-      const auto normal = [](const Exact_triangle& f) {
-        return oracle::cross(oracle::difference(f[1], f[0]), oracle::difference(f[2], f[0]));
-      };
-      const Exact_point u = normal(before[i]), v = normal(after[i]), zero{Number(0), Number(0), Number(0)};
-      if (u == zero || v == zero || (oracle::cross(u, v) == zero && oracle::dot(u, v) < Number(0)))
-        return Violation_kind::degenerate;
-    }
-    for (std::size_t i = 0; i < after.size(); ++i) {
-      for (const Index_triple& f : others)
-        if (CGAL::do_overlap(
-                box_of({t, moving[i][0] == m ? t : moving[i][0], moving[i][1] == m ? t : moving[i][1]}) +
-                    box_of(moving[i]),
-                box_of(f)) &&
-            do_meet(after[i], exact(f)))
-          return Violation_kind::intersection;
-      for (std::size_t j = 0; j < i; ++j)
-        if (do_meet(after[i], after[j]))
-          return Violation_kind::intersection;
-    }
-    for (std::size_t i = 0; i < after.size(); ++i)
-      for (const Index_triple& f : others)
-        if (CGAL::do_overlap(box_of(moving[i]) + m_points[t].bbox(), box_of(f)) &&
-            !oracle::is_sweep_clear<Number>(exact(m), exact(t), after[i][1], after[i][2], exact(f)))
-          return Violation_kind::tunnelling;
-    oracle::Star<Number> motion{exact(m), exact(t), {}, {}};
-    for (const Exact_triangle& f : before)
-      motion.moving.push_back({f[1], f[2]});
-    for (const Index_triple& f : contracted) {
-      const std::size_t k = std::size_t(std::find(f.begin(), f.end(), m) - f.begin());
-      motion.contracted.push_back({exact(f[(k + 1) % 3]), exact(f[(k + 2) % 3])});
-    }
-    if (!oracle::is_star_motion_clear(motion))
-      return Violation_kind::tunnelling;
-    return std::nullopt;
-  }
-
-  static bool do_meet(const Exact_triangle& a, const Exact_triangle& b)
-  {
-    std::vector<bool> shared;
-    for (const Exact_point& p : b)
-      shared.push_back(std::find(a.begin(), a.end(), p) != a.end());
-    return (shared[0] && shared[1] && shared[2]) ||
-           oracle::meets_beyond<Number>({a[0], a[1], a[2]}, {b[0], b[1], b[2]}, shared);
-  }
-
-  // How many of `faces` have the edge, and whether two of them run along it in opposite ways.
-  bool is_border(Index v, Index w) const
-  {
-    int forward = 0, backward = 0;
-    for (const Index_triple& f : m_triangles)
-      for (int k = 0; k < 3; ++k) {
-        forward += f[k] == v && f[(k + 1) % 3] == w;
-        backward += f[k] == w && f[(k + 1) % 3] == v;
-      }
-    return forward != 1 || backward != 1;
-  }
-
-  std::set<Index> neighbours(Index v) const
-  {
-    std::set<Index> result;
-    for (const Index_triple& f : m_triangles)
-      if (has(f, v))
-        result.insert(f.begin(), f.end());
-    result.erase(v);
-    return result;
-  }
-
-  int fans(Index m, std::vector<Index_triple> star) const
-  {
-    int count = 0;
-    while (!star.empty()) {
-      ++count;
-      std::vector<Index_triple> fan{star.back()};
-      star.pop_back();
-      for (std::size_t i = 0; i < fan.size(); ++i)
-        for (std::size_t j = star.size(); j-- > 0;)
-          if (std::any_of(fan[i].begin(), fan[i].end(),
-                          [&](Index v) { return v != m && has(star[j], v) && !is_border(m, v); })) {
-            fan.push_back(star[j]);
-            star.erase(star.begin() + std::ptrdiff_t(j));
-          }
-    }
-    return count;
-  }
-
-  bool is_link_condition_met(Index m, Index t, const std::vector<Index_triple>& contracted) const
-  {
-    const std::set<Index> at_m = neighbours(m), at_t = neighbours(t);
-    for (const Index v : at_m) {
-      const bool is_apex = std::any_of(contracted.begin(), contracted.end(),
-                                       [&](const Index_triple& f) { return has(f, v) && v != t; });
-      if (at_t.count(v) > 0 && !is_apex)
-        return false;
-      if (is_apex && is_border(m, v) && is_border(t, v))
-        return false;
-    }
-    const auto is_on_border = [&](Index v, const std::set<Index>& around) {
-      return std::any_of(around.begin(), around.end(), [&](Index w) { return is_border(v, w); });
-    };
-    return !is_on_border(m, at_m) || !is_on_border(t, at_t) || is_border(m, t);
-  }
-
-  CGAL::Bbox_3 box_of(const Index_triple& f) const
-  {
-    return m_points[f[0]].bbox() + m_points[f[1]].bbox() + m_points[f[2]].bbox();
-  }
-  CGAL::Bbox_3 box_of_star(Index m, Index t) const
-  {
-    CGAL::Bbox_3 box = m_points[m].bbox() + m_points[t].bbox();
-    for (const Index_triple& f : m_triangles)
-      if (has(f, m))
-        box += box_of(f);
-    return box;
-  }
-
-  Exact_point exact(Index v) const
-  {
-    return {Number(m_points[v].x()), Number(m_points[v].y()), Number(m_points[v].z())};
-  }
-  Exact_triangle exact(const Index_triple& f) const { return {exact(f[0]), exact(f[1]), exact(f[2])}; }
-
-  std::vector<Point_3> m_points;
-  std::vector<Index> m_position;
-  std::vector<Index_triple> m_start, m_triangles;
-  std::map<std::vector<Index>, std::optional<Violation_kind>> m_answers;
-};
-
-/// A log, taken apart.
-struct Parts
-{
-  std::string head, result;
-  std::vector<Step> steps;
-
-  explicit Parts(const std::string& log)
-  {
-    std::istringstream lines(log);
-    for (std::string line; std::getline(lines, line);) {
-      if (line[0] == 'c') {
-        std::istringstream words(line.substr(2));
-        steps.emplace_back();
-        words >> steps.back().first >> steps.back().second;
-      } else {
-        (steps.empty() ? head : result) += line + '\n';
-      }
-    }
-  }
-
-  std::string with(const std::vector<Step>& changed) const
-  {
-    std::string text = head;
-    for (const auto& [m, t] : changed)
-      text += "c " + std::to_string(m) + ' ' + std::to_string(t) + '\n';
-    return text + result;
-  }
-};
 
 class Mutations
 {
@@ -339,7 +86,7 @@ private:
   }
 
   const Triangle_soup m_soup;
-  Parts m_parts;
+  Log_parts m_parts;
   Slow_judge m_judge;
   std::map<Verdict, int> m_kinds;
 };
