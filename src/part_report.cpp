@@ -3,18 +3,20 @@
 
 #include <selvedge/part_report.h>
 
-#include <selvedge/mesh/selection.h>
+#include "verify/Surface_tree.h"
+
 #include <selvedge/mesh/texture.h>
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <numeric>
+#include <unordered_map>
 #include <utility>
 
 namespace selvedge {
@@ -67,12 +69,13 @@ std::vector<Index> charts_of(const Triangle_soup& soup)
     parents[root(a)] = root(b);
     parents[root(b)] = root(c);
   }
-  std::map<std::pair<Index, Index>, Index> numbers;
+  std::unordered_map<std::uint64_t, Index> numbers;
   std::vector<Index> charts;
-  for (Index t = 0; t < soup.triangles.size(); ++t)
-    charts.push_back(
-        numbers.emplace(std::make_pair(pieces[t], root(soup.uvs.of_triangle[t][0])), Index(numbers.size()))
-            .first->second);
+  charts.reserve(soup.triangles.size());
+  for (Index t = 0; t < soup.triangles.size(); ++t) {
+    const std::uint64_t chart = std::uint64_t(pieces[t]) << 32 | root(soup.uvs.of_triangle[t][0]);
+    charts.push_back(numbers.emplace(chart, Index(numbers.size())).first->second);
+  }
   return charts;
 }
 
@@ -84,34 +87,40 @@ public:
   {
     if (triangle.is_degenerate())
       return;
-    m_triangles.push_back(triangle);
+    const Index first = Index(m_soup.points.size());
+    for (int place = 0; place < 3; ++place)
+      m_soup.points.push_back(triangle[place]);
+    m_soup.triangles.push_back({first, first + 1, first + 2});
     m_uvs.push_back(uvs);
   }
 
-  void build() { m_tree.rebuild(m_triangles.begin(), m_triangles.end()); }
-  bool empty() const { return m_triangles.empty(); }
+  /// The chart stays where it is from now on, and gets no more triangles.
+  void build()
+  {
+    m_surface.emplace(m_soup, 0);
+    m_tree.emplace(*m_surface);
+  }
+  bool empty() const { return m_uvs.empty(); }
 
   Uv uv_near(const Point_3& query) const
   {
-    const auto [point, place] = m_tree.closest_point_and_primitive(query);
-    const Triangle_3& t = *place;
-    const std::array<Uv, 3>& uv = m_uvs[place - m_triangles.begin()];
-    const Kernel::Vector_3 normal = CGAL::cross_product(t[1] - t[0], t[2] - t[0]);
+    const auto [point, number] = m_tree->nearest(query, 0);
+    const Triangle_3 t = m_surface->triangle(number);
+    const std::array<Uv, 3>& uv = m_uvs[number];
+    const Kernel::Vector_3 normal = m_surface->normal(number);
     const double area = normal.squared_length();
-    const auto share = [&](int i, int j) {
-      return normal * CGAL::cross_product(t[i] - point, t[j] - point) / area;
+    const auto share = [&, &nearest = point](int i, int j) {
+      return normal * CGAL::cross_product(t[i] - nearest, t[j] - nearest) / area;
     };
     const double a = share(1, 2), b = share(2, 0), c = 1 - a - b;
     return {a * uv[0][0] + b * uv[1][0] + c * uv[2][0], a * uv[0][1] + b * uv[1][1] + c * uv[2][1]};
   }
 
 private:
-  using Iterator = std::vector<Triangle_3>::const_iterator;
-  using Primitive = CGAL::AABB_triangle_primitive<Kernel, Iterator>;
-
-  std::vector<Triangle_3> m_triangles;
+  Triangle_soup m_soup;
   std::vector<std::array<Uv, 3>> m_uvs;
-  CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> m_tree;
+  std::optional<internal::Surface> m_surface;
+  std::optional<internal::Surface_tree> m_tree;
 };
 
 // For each triangle of the original, how far the texture at its centre has swum, as a share of the diagonal;
@@ -132,16 +141,16 @@ std::vector<double> uv_displacements(const Simplified_soup& result, const Prepar
     chart.build();
 
   displacements.assign(original.triangles.size(), 0);
-  for (Index t = 0; t < original.triangles.size(); ++t) {
+  tbb::parallel_for(Index(0), Index(original.triangles.size()), [&](Index t) {
     const auto chart = charts.find(charts_of_original[t]);
     if (!has_texture(original, t) || chart == charts.end() || chart->second.empty())
-      continue;
+      return;
     const auto [a, b, c] = uvs_of(original, t);
     const Triangle_3 triangle = triangle_of(original, t);
     const Uv now = chart->second.uv_near(CGAL::centroid(triangle[0], triangle[1], triangle[2]));
     displacements[t] =
         unit * std::hypot(now[0] - (a[0] + b[0] + c[0]) / 3, now[1] - (a[1] + b[1] + c[1]) / 3);
-  }
+  });
   return displacements;
 }
 
@@ -162,20 +171,28 @@ std::optional<Uv_deviation> deviation_of(const std::vector<double>& displacement
   return Uv_deviation{sum / area, maximum};
 }
 
-Triangle_soup geometry_of(const Triangle_soup& soup)
+/// The geometry of some parts, each as a soup of its own.
+std::vector<Triangle_soup> cut_out(const Triangle_soup& soup,
+                                   const std::vector<std::vector<Index>>& triangles_of_part,
+                                   const std::vector<Index>& parts)
 {
-  Triangle_soup geometry;
-  geometry.points = soup.points;
-  geometry.triangles = soup.triangles;
-  return geometry;
-}
-
-Triangle_soup only(const Triangle_soup& geometry, const std::vector<Index>& triangles)
-{
-  std::vector<Index_triple> corners;
-  for (const Index t : triangles)
-    corners.push_back({3 * t, 3 * t + 1, 3 * t + 2});
-  return selected(geometry, triangles, corners);
+  constexpr Index none = std::numeric_limits<Index>::max();
+  std::vector<Index> last_users(soup.points.size(), none), numbers(soup.points.size());
+  std::vector<Triangle_soup> cuts(parts.size());
+  for (Index i = 0; i < parts.size(); ++i)
+    for (const Index t : triangles_of_part[parts[i]]) {
+      Index_triple corners = soup.triangles[t];
+      for (Index& v : corners) {
+        if (last_users[v] != i) {
+          last_users[v] = i;
+          numbers[v] = Index(cuts[i].points.size());
+          cuts[i].points.push_back(soup.points[v]);
+        }
+        v = numbers[v];
+      }
+      cuts[i].triangles.push_back(corners);
+    }
+  return cuts;
 }
 
 } // namespace
@@ -192,7 +209,6 @@ std::vector<Part_report> part_reports(const Simplified_soup& result, const Prepa
   const std::vector<double> displacements = uv_displacements(result, original);
   const double unit = diagonal(original.soup);
   const std::vector<Part_kind> kinds = part_kinds(original.soup);
-  const Triangle_soup geometry_before = geometry_of(original.soup), geometry_after = geometry_of(result.soup);
   std::vector<Part_report> reports;
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     const Part_kind& kind = kinds[k];
@@ -210,22 +226,27 @@ std::vector<Part_report> part_reports(const Simplified_soup& result, const Prepa
       });
       parts.resize(s_pieces_reported);
     }
-    for (const Index part : parts) {
-      if (triangles_before[part].empty())
-        continue;
-      Part_report report{kind.name,
-                         kind.names.empty() ? "" : kind.names[part],
-                         triangles_before[part].front(),
-                         triangles_before[part].size(),
-                         triangles_after[part].size(),
-                         result.refused_by_part[k][part],
-                         distance(only(geometry_before, triangles_before[part]),
-                                  only(geometry_after, triangles_after[part])),
-                         deviation_of(displacements, original.soup, triangles_before[part])};
-      report.distance.root_mean_square /= unit;
-      report.distance.maximum /= unit;
-      reports.push_back(std::move(report));
-    }
+    parts.erase(std::remove_if(parts.begin(), parts.end(),
+                               [&](Index part) { return triangles_before[part].empty(); }),
+                parts.end());
+    const std::vector<Triangle_soup> before = cut_out(original.soup, triangles_before, parts);
+    const std::vector<Triangle_soup> after = cut_out(result.soup, triangles_after, parts);
+    const std::size_t first = reports.size();
+    reports.resize(first + parts.size());
+    tbb::parallel_for(std::size_t(0), parts.size(), [&](std::size_t i) {
+      const Index part = parts[i];
+      Distance distance = selvedge::distance(before[i], after[i]);
+      distance.root_mean_square /= unit;
+      distance.maximum /= unit;
+      reports[first + i] = {kind.name,
+                            kind.names.empty() ? "" : kind.names[part],
+                            triangles_before[part].front(),
+                            triangles_before[part].size(),
+                            triangles_after[part].size(),
+                            result.refused_by_part[k][part],
+                            distance,
+                            deviation_of(displacements, original.soup, triangles_before[part])};
+    });
   }
   return reports;
 }

@@ -50,21 +50,32 @@ bool is_face(const Index_triple& corners)
   return corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0];
 }
 
-std::vector<Side> sorted_sides(const std::vector<Index_triple>& triangles)
+/// By their lower ends in linear time, and the few of one lower end by the other, then by the corner.
+std::vector<Side> sorted_sides(const Triangle_soup& soup)
 {
-  std::vector<Side> sides;
-  sides.reserve(3 * triangles.size());
-  for (std::size_t triangle = 0; triangle < triangles.size(); ++triangle)
-    for (int i = 0; is_face(triangles[triangle]) && i < 3; ++i) {
-      const int j = (i + 1) % 3;
-      const Index from = triangles[triangle][i], to = triangles[triangle][j];
-      const std::size_t corner_from = 3 * triangle + i, corner_to = 3 * triangle + j;
-      sides.push_back(from < to ? Side{from, to, corner_from, corner_to}
-                                : Side{to, from, corner_to, corner_from});
-    }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.low, a.high, a.corner_at_low) < std::tie(b.low, b.high, b.corner_at_low);
-  });
+  const std::vector<Index_triple>& triangles = soup.triangles;
+  const auto for_each_side = [&](const auto& function) {
+    for (std::size_t triangle = 0; triangle < triangles.size(); ++triangle)
+      for (int i = 0; is_face(triangles[triangle]) && i < 3; ++i) {
+        const int j = (i + 1) % 3;
+        const Index from = triangles[triangle][i], to = triangles[triangle][j];
+        const std::size_t corner_from = 3 * triangle + i, corner_to = 3 * triangle + j;
+        function(from < to ? Side{from, to, corner_from, corner_to} : Side{to, from, corner_to, corner_from});
+      }
+  };
+  std::vector<std::size_t> places(soup.points.size() + 1, 0);
+  for_each_side([&](const Side& side) { ++places[side.low + 1]; });
+  std::partial_sum(places.begin(), places.end(), places.begin());
+  std::vector<Side> sides(places.back());
+  for_each_side([&](const Side& side) { sides[places[side.low]++] = side; });
+  auto first = sides.begin();
+  for (std::size_t low = 0; low < soup.points.size(); ++low) {
+    const auto beyond = sides.begin() + std::ptrdiff_t(places[low]);
+    std::sort(first, beyond, [](const Side& a, const Side& b) {
+      return std::tie(a.high, a.corner_at_low) < std::tie(b.high, b.corner_at_low);
+    });
+    first = beyond;
+  }
   return sides;
 }
 
@@ -105,7 +116,7 @@ std::vector<Piece> pieces(const Triangle_soup& soup)
   // The fans of faces around the vertices, as sets of corners.
   Disjoint_sets fans(3 * soup.triangles.size());
   std::vector<Side> borders;
-  const std::vector<Side> sides = sorted_sides(soup.triangles);
+  const std::vector<Side> sides = sorted_sides(soup);
   for (auto first = sides.begin(), last = first; first != sides.end(); first = last) {
     for (; last != sides.end() && last->low == first->low && last->high == first->high; ++last) {
       fans.unite(first->corner_at_low, last->corner_at_low);

@@ -3,13 +3,15 @@
 
 #include <selvedge/verify.h>
 
+#include <oneapi/tbb/parallel_invoke.h>
+
 namespace selvedge {
 
 Verification verify(const Triangle_soup& mesh)
 {
   Verification verification;
-  verification.pairs = verification.new_pairs = offending_pairs(mesh);
-  verification.pieces = pieces(mesh);
+  tbb::parallel_invoke([&] { verification.pairs = verification.new_pairs = offending_pairs(mesh); },
+                       [&] { verification.pieces = pieces(mesh); });
   return verification;
 }
 
@@ -21,9 +23,12 @@ Verification verify(const Triangle_soup& result, const Triangle_soup& original)
 Verification verify(const Triangle_soup& result, const Triangle_soup& original,
                     const std::vector<Offending_pair>& pairs_of_original)
 {
-  Verification verification = verify(result);
+  Verification verification;
+  std::vector<Piece> pieces_of_original;
+  tbb::parallel_invoke([&] { verification = verify(result); },
+                       [&] { pieces_of_original = pieces(original); });
   verification.new_pairs = new_pairs(result, verification.pairs, original, pairs_of_original);
-  verification.topology_differences = topology_differences(verification.pieces, pieces(original));
+  verification.topology_differences = topology_differences(verification.pieces, pieces_of_original);
   verification.distances = distances(result, original);
   return verification;
 }
