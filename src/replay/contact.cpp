@@ -49,8 +49,22 @@ Vector normal(const Vector& p, const Vector& q, const Vector& r)
   return cross(difference(q, p), difference(r, p));
 }
 
+/// The axis along which all of some places have one and the same coordinate, or 3.
+template <class Places>
+int common_axis(const Places& places)
+{
+  int axis = 0;
+  while (axis < 3 && !std::all_of(places.begin(), places.end(), [&](const Place& place) {
+           return place.at[axis] == places.begin()->at[axis];
+         }))
+    ++axis;
+  return axis;
+}
+
 int exact_orientation(const Place& p, const Place& q, const Place& r, const Place& s)
 {
+  if (common_axis(std::array{p, q, r, s}) < 3)
+    return 0;
   const Vector origin = exact(p);
   const Number volume = dot(normal(origin, exact(q), exact(r)), difference(exact(s), origin));
   return volume > 0 ? 1 : volume < 0 ? -1 : 0;
@@ -202,9 +216,96 @@ int certain_orientation(const Place& p, const Place& q, const Place& r, const Pl
   return certain_orientation(p.at, q.at, r.at, s.at);
 }
 
+/// The sign of the turn p, q, r, seen along an axis; always exact.
+int planar_turn(const Place& p, const Place& q, const Place& r, int axis)
+{
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  const auto sign = [](double x) { return (x > 0) - (x < 0); };
+  // Whether a difference is zero, and its sign, are exact.
+  const double ax = p.at[u] - r.at[u], ay = p.at[v] - r.at[v];
+  const double bx = q.at[u] - r.at[u], by = q.at[v] - r.at[v];
+  const int left = sign(ax) * sign(by), right = sign(ay) * sign(bx);
+  if (left != right)
+    return left > right ? 1 : -1;
+  if (left == 0)
+    return 0;
+  // Stage A of Shewchuk's orient2d, with room for underflow.
+  const double determinant = ax * by - ay * bx;
+  const double bound = 3.3306690738754716e-16 * std::fabs(ax * by + ay * bx) + 1e-300;
+  if (std::isfinite(bound) && std::fabs(determinant) > bound)
+    return sign(determinant);
+  const auto difference_of = [](double x, double y) { return Number(Number(x) - Number(y)); };
+  const Number exact_determinant = difference_of(p.at[u], r.at[u]) * difference_of(q.at[v], r.at[v]) -
+                                   difference_of(p.at[v], r.at[v]) * difference_of(q.at[u], r.at[u]);
+  return exact_determinant > 0 ? 1 : exact_determinant < 0 ? -1 : 0;
+}
+
 bool is_one_of(const Place& place, const Place* first, std::size_t count)
 {
   return std::any_of(first, first + count, [&](const Place& other) { return other.id == place.id; });
+}
+
+/// Whether the hulls of two sets of places in a plane across an axis surely meet in no more than the hull of
+/// those that they share.
+///
+/// A line through two of the places, with one set on this side of it and the other on that, is looked for.
+/// Then the hulls meet where each of them meets the line, which is in the segment of its places there. Exact;
+/// "not surely" still means that they may be clear.
+template <class Places, class Other_places>
+bool is_clear_in_plane(const Places& first, const Other_places& second, int axis)
+{
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  // Those places of a set that lie on the line, as the segment from the lowest to the highest.
+  struct Trace
+  {
+    int side = 0;
+    bool is_one_sided = true;
+    bool is_shared = true; // all of it
+    const Place *low = nullptr, *high = nullptr;
+  };
+  const auto trace_of = [&](const auto& places, const auto& others, const Place& p, const Place& q) {
+    const int along = p.at[u] != q.at[u] ? u : v;
+    Trace trace;
+    for (const Place& place : places) {
+      const int side = planar_turn(p, q, place, axis);
+      if (side != 0) {
+        trace.is_one_sided = trace.is_one_sided && trace.side != -side;
+        trace.side = side;
+        continue;
+      }
+      trace.is_shared = trace.is_shared && is_one_of(place, others.data(), others.size());
+      if (!trace.low || place.at[along] < trace.low->at[along])
+        trace.low = &place;
+      if (!trace.high || place.at[along] > trace.high->at[along])
+        trace.high = &place;
+    }
+    return std::make_pair(trace, along);
+  };
+  const auto separates = [&](const Place& p, const Place& q) {
+    if (p.at[u] == q.at[u] && p.at[v] == q.at[v])
+      return false;
+    const auto [one, along] = trace_of(first, second, p, q);
+    if (!one.is_one_sided)
+      return false;
+    const Trace other = trace_of(second, first, p, q).first;
+    if (!other.is_one_sided || one.side * other.side > 0 || (one.side == 0 && other.side == 0))
+      return false;
+    if (!one.low || !other.low || one.is_shared || other.is_shared)
+      return true;
+    const auto is_behind = [axis_along = along](const Trace& a, const Trace& b) {
+      const double end = a.high->at[axis_along], begin = b.low->at[axis_along];
+      return end < begin || (end == begin && a.high->id == b.low->id);
+    };
+    return is_behind(one, other) || is_behind(other, one);
+  };
+  const auto any_line_of = [&](const auto& places) {
+    for (std::size_t i = 0; i < places.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (separates(places[i], places[j]))
+          return true;
+    return false;
+  };
+  return any_line_of(second) || any_line_of(first);
 }
 
 enum class Crossing { none, some, unsure };
@@ -242,6 +343,10 @@ bool Sweep::degenerates() const
 {
   if (m_volume != 0)
     return false;
+  if (const int axis = common_axis(m_corners); axis < 3)
+    return planar_turn(m_corners[2], m_corners[3], m_corners[0], axis) *
+               planar_turn(m_corners[2], m_corners[3], m_corners[1], axis) <=
+           0;
   const Vector m = exact(m_corners[0]), t = exact(m_corners[1]), a = exact(m_corners[2]),
                b = exact(m_corners[3]);
   // The normal goes in a straight line from the one to the other, and both are parallel.
@@ -260,6 +365,17 @@ Sweep::Answer Sweep::fast_answer(const Standing& standing) const
   if (shared_count == size)
     return size == 3 ? Answer::touching : Answer::clear;
 
+  if (m_volume == 0) {
+    const auto is_clear = [&, &corners = m_corners](const auto& places) {
+      const int axis = common_axis(corners);
+      return axis < 3 &&
+             std::all_of(places.begin(), places.end(),
+                         [&](const Place& place) { return place.at[axis] == corners[0].at[axis]; }) &&
+             is_clear_in_plane(corners, places, axis);
+    };
+    if (size == 3 ? is_clear(standing.corners) : is_clear(std::array{f[0], f[1]}))
+      return Answer::clear;
+  }
   // A plane in which they have in common no more than they share. First that of the standing face, ...
   if (size == 3) {
     int side = 2;
@@ -367,6 +483,9 @@ bool is_degenerate(const std::array<Place, 3>& triangle)
 bool do_meet(const std::array<Place, 3>& a, const std::array<Place, 3>& b, Contact_statistics& statistics)
 {
   ++statistics.pairs;
+  const int axis = common_axis(a);
+  if (axis < 3 && axis == common_axis(b) && a[0].at[axis] == b[0].at[axis] && is_clear_in_plane(a, b, axis))
+    return false;
   // Apart by the plane of one of them?
   for (const auto& [x, y] : {std::make_pair(&a, &b), std::make_pair(&b, &a)}) {
     int side = 2;
