@@ -79,6 +79,8 @@ struct Prepared_soup
 ///
 /// An `obstacle`, a body under the clothes, say, is seen by everything and never changed, not even rounded.
 /// Pairs that offend between it and the input are frozen like others.
+///
+/// **Threads** The judge takes what oneTBB grants; see verify.h.
 Prepared_soup prepare(Triangle_soup input, const Prepare_options& options = {},
                       const Triangle_soup& obstacle = {});
 
