@@ -114,6 +114,7 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
   report["target"] = {{"reached", done.is_reached()}, {"outcome", done.outcome()}};
   report["collapses"] = done.collapses;
   report["passes"] = done.passes;
+  report["cells"] = {{"count", done.cells}, {"collapses", done.collapses_in_cells}};
   report["refused"] = to_json(done.refused);
   report["frozen"] = {{"faces", prepared.frozen_faces}};
   const Intersection_statistics& index = done.intersections;

@@ -52,6 +52,7 @@ struct Request
   Simplify_options options;
   Simplify_intent intent;
   bool is_unguarded = false;
+  bool is_in_cells = false;
   double weld_distance = 0;
   bool is_sewn = false;
   bool is_strict = false;
@@ -60,6 +61,9 @@ struct Request
   bool is_ascii = false;
   std::optional<std::size_t> threads;
 };
+
+// So many that the walls hold up little, so few that what a cell holds stays in a processor's cache.
+constexpr std::size_t faces_per_cell = 50'000;
 
 constexpr std::string_view level_mark = "{lod}";
 
@@ -126,6 +130,7 @@ Json options_json(const Request& request)
           {"weld", request.weld_distance},
           {"sewn", request.is_sewn},
           {"threads", optional(request.threads)},
+          {"cells", request.is_in_cells},
           {"strict", request.is_strict}};
 }
 
@@ -137,6 +142,8 @@ void check(const Request& request)
     throw Argument_error("say how far to reduce: --ratio, --faces, --error or --lods");
   if (!request.lods.empty() && (request.options.ratio || request.options.faces))
     throw Argument_error("--lods says how far to reduce; --ratio R and --faces say it again");
+  if (request.is_in_cells && !request.intent.ratios.empty())
+    throw Argument_error("--cells: with it no part can have a ratio of its own, as --ratio PART=R asks");
   for (const std::string& output : outputs(request)) {
     output_format(output);
     if (!request.report.empty() &&
@@ -246,6 +253,7 @@ private:
       // Of levels on one way the last has the time of all.
       m_seconds["weld"] = std::max(m_seconds["weld"], prepared.seconds_weld + results[i].seconds_weld);
       m_seconds["index"] = std::max(m_seconds["index"], results[i].report.seconds_index);
+      m_seconds["cells"] = std::max(m_seconds["cells"], results[i].report.seconds_cells);
       m_seconds["reduce"] = std::max(m_seconds["reduce"], results[i].report.seconds_reduce);
       levels.push_back({names[i], std::move(results[i]), {}});
     }
@@ -338,7 +346,8 @@ private:
         add_level(m_report["lods"].emplace_back(Json::object()), level);
     m_seconds["parts"] = seconds_parts;
     m_report["seconds"] = Json::object();
-    for (const char* phase : {"read", "weld", "check", "snap", "index", "reduce", "verify", "write", "parts"})
+    for (const char* phase :
+         {"read", "weld", "check", "snap", "index", "cells", "reduce", "verify", "write", "parts"})
       m_report["seconds"][phase] = m_seconds[phase];
     m_report["memory"] = {{"peak_bytes", peak_memory_bytes()}};
     m_report["exit_code"] = int(m_outcome.exit_code());
@@ -578,6 +587,11 @@ Action add_simplify(CLI::App& command)
   command.add_flag("--require-target", request->is_target_required, "Exit code 1 when the target is missed")
       ->group(conduct);
   Thread_limit::add_option(command, request->threads)->group(conduct);
+  command
+      .add_flag("--cells", request->is_in_cells,
+                "Reduce boxes of space at once, on all threads, then the rest: for large meshes. Changes the "
+                "result, as threads do not")
+      ->group(conduct);
   command.add_option("--report", request->report, "Write a report as JSON")
       ->type_name("FILE")
       ->group(conduct);
@@ -602,6 +616,7 @@ Action add_simplify(CLI::App& command)
       "file is written, and summary and report say what held it back. Ctrl-C writes what was reached.");
   return [request] {
     request->options.check_intersections = !request->is_unguarded;
+    request->options.faces_per_cell = request->is_in_cells ? faces_per_cell : 0;
     read_ratios(*request);
     check(*request);
     watch_for_interruption();

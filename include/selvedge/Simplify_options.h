@@ -79,13 +79,19 @@ struct Simplify_options
   /// What the cells of the index aim at, at least 1.
   std::size_t faces_per_cluster = 100;
 
+  /// Reduces a soup in *cells* first: disjoint boxes of space of at most about so many faces each, on as many
+  /// threads as TBB has; then what is left, as without. 0: not. Every guarantee holds as without, and the
+  /// result never depends on the number of threads; but it is another.
+  std::size_t faces_per_cell = 0;
+
   Quadric_cost_options cost;
 
   /// Told of every collapse of a soup, before it: a vertex of the soup at the position that goes, and one at
   /// that to which it goes; what a log (collapse_log.h) holds. It may be empty.
   std::function<void(std::size_t removed, std::size_t kept)> on_collapse;
 
-  /// Asked now and then; when it returns true, the reduction ends with the mesh as it is. It may be empty.
+  /// Asked now and then; when it returns true, the reduction ends with the mesh as it is. It may be empty. In
+  /// cells it is asked by several threads, one at a time.
   std::function<bool(const Simplify_progress&)> should_stop;
 };
 

@@ -75,10 +75,13 @@ struct Simplify_report
   std::size_t passes =
       0; ///< of CGAL's loop; another one begins while edges refused before have become possible
   bool is_stopped = false; ///< by `Simplify_options::should_stop`
-  Refusals refused;
+  Refusals refused; ///< with `Simplify_options::faces_per_cell`: after the cells, and so are `intersections`
   Intersection_statistics intersections;
-  double seconds_index = 0;  ///< for building the index
-  double seconds_reduce = 0; ///< in all, the index included
+  std::size_t cells = 0;
+  std::size_t collapses_in_cells = 0; ///< of `collapses`
+  double seconds_cells = 0;           ///< of `seconds_reduce`: until all cells were done and joined
+  double seconds_index = 0;           ///< for building the index
+  double seconds_reduce = 0;          ///< in all, the index included
 
   /// What was refused in the last pass alone, when everything still possible was tried once more.
   Refusals refused_in_last_pass;

@@ -15,10 +15,13 @@
 #include <selvedge/Surface_mesh_simplification/Intersection_filter.h>
 #include <selvedge/Surface_mesh_simplification/Normal_change_filter.h>
 #include <selvedge/Surface_mesh_simplification/Quadric_cost.h>
+#include <selvedge/Surface_mesh_simplification/internal/Lazy_edge_profile.h>
 #include <selvedge/Surface_mesh_simplification/stop_predicates.h>
 #include <selvedge/edge_collapse.h>
 
+#include <CGAL/Kernel_traits.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
+#include <CGAL/boost/graph/Euler_operations.h>
 
 #include <chrono>
 #include <cmath>
@@ -98,6 +101,10 @@ struct Simplify_constraints
 
   /// Faces of which no target and no count of the report knows: obstacles. Lock their vertices.
   std::vector<Face> uncounted_faces;
+
+  /// Of which the shares of the diagonal in the options are shares; none: that of the mesh. For a mesh that
+  /// is a part of another.
+  std::optional<double> diagonal;
 };
 
 namespace internal {
@@ -107,6 +114,10 @@ namespace internal {
 template <class TriangleMesh, class Observer>
 class Simplification
 {
+  using Halfedge = typename boost::graph_traits<TriangleMesh>::halfedge_descriptor;
+  using Point_map = typename boost::property_map<TriangleMesh, CGAL::vertex_point_t>::type;
+  using Geom_traits =
+      typename CGAL::Kernel_traits<typename boost::property_traits<Point_map>::value_type>::Kernel;
   using Rule = Border_rule<TriangleMesh>;
   using Targets = Face_targets<TriangleMesh>;
   using Quadrics = Quadric_cost<TriangleMesh, Rule>;
@@ -199,7 +210,8 @@ public:
   Simplification(TriangleMesh& mesh, const Simplify_options& options,
                  const Simplify_constraints<TriangleMesh>& constraints, Observer& observer)
       : m_start(Clock::now()), m_mesh(mesh), m_options(options), m_observer(observer),
-        m_diagonal(diagonal(mesh)), m_rule(make_rule(constraints)), m_targets(make_targets(constraints)),
+        m_diagonal(constraints.diagonal ? *constraints.diagonal : diagonal(mesh)),
+        m_rule(make_rule(constraints)), m_targets(make_targets(constraints)),
         m_quadrics(mesh, options.cost, m_rule), m_line(m_rule), m_border({&observer, m_rule}, m_line),
         m_target(m_targets, m_border), m_error(max_error(), m_quadrics, m_target),
         m_aspect_ratio(options.min_aspect_ratio, m_error),
@@ -210,11 +222,30 @@ public:
       throw Argument_error("the weight of the texture is at least 0, and finite");
     m_quadrics.weigh(constraints.vertex_weights);
     m_report.faces_input = m_targets.total().faces;
-    const Clock::time_point start = Clock::now();
-    if (options.check_intersections)
-      m_intersection.emplace(mesh, m_uv, Clustered_AABB_tree(options.faces_per_cluster));
-    m_report.seconds_index = seconds_since(start);
   }
+
+  /// Lets the source of `moving` go to its target, unasked: somebody else knows that this is legal. Before
+  /// `run`.
+  void collapse(Halfedge moving)
+  {
+    const auto points = get(CGAL::vertex_point, m_mesh);
+    const Geom_traits traits;
+    m_quadrics.initialize(m_mesh, points, traits);
+    const Lazy_edge_profile<TriangleMesh, Point_map, Geom_traits> profile(moving, m_mesh, points, traits);
+    const auto placement = profile.p1();
+    ++m_accepted;
+    before_collapse(profile, placement);
+    const auto kept = CGAL::Euler::collapse_edge(edge(moving, m_mesh), m_mesh);
+    put(points, kept, placement);
+    after_collapse(kept);
+    m_quadrics.update_after_collapse(profile, kept);
+  }
+
+  double diagonal() const { return m_diagonal; }
+  const Targets& targets() const { return m_targets; }
+
+  /// Of the edge that is being considered.
+  double cost() const { return m_cost; }
 
   Simplify_report run()
   {
@@ -229,6 +260,7 @@ public:
     for (const double ratio : ratios)
       m_levels.push_back(Face_ratio_stop::face_target(ratio, m_targets.share(0).faces));
     m_on_level = on_level;
+    build_index();
     pass_levels();
 
     const Cost costs(m_quadrics, m_targets, m_observer, m_options.uv_weight);
@@ -263,6 +295,14 @@ private:
   using Clock = std::chrono::steady_clock;
 
   using Directions = Halfedge_placement<TriangleMesh, Cost, Rule>;
+
+  void build_index()
+  {
+    const Clock::time_point start = Clock::now();
+    if (m_options.check_intersections)
+      m_intersection.emplace(m_mesh, m_uv, Clustered_AABB_tree(m_options.faces_per_cluster));
+    m_report.seconds_index = seconds_since(start);
+  }
 
   struct Filter
   {
@@ -300,13 +340,17 @@ private:
   // The stop of either loop: the target, or somebody's wish.
   auto is_over()
   {
-    return Any_stop(
-        Function_stop([this](double) { return m_targets.is_reached(); }), Hook_stop([this](std::size_t) {
-          const auto total = m_targets.total();
-          m_report.is_stopped = m_options.should_stop &&
-                                m_options.should_stop({m_report.faces_input, total.target, total.faces});
-          return m_report.is_stopped;
-        }));
+    return Any_stop(Function_stop([this](double cost) {
+                      m_cost = cost;
+                      return m_targets.is_reached();
+                    }),
+                    Hook_stop([this](std::size_t) {
+                      const auto total = m_targets.total();
+                      m_report.is_stopped =
+                          m_options.should_stop &&
+                          m_options.should_stop({m_report.faces_input, total.target, total.faces});
+                      return m_report.is_stopped;
+                    }));
   }
 
   struct Visitor : No_visitor
@@ -569,6 +613,7 @@ private:
   std::optional<Intersection> m_intersection;
   Simplify_report m_report;
   std::size_t m_accepted = 0;
+  double m_cost = 0;
   Refusals m_refused_before_pass;
   Refusals m_refused_until_now;
   std::vector<std::size_t> m_levels; // face counts of share 0

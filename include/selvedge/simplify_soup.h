@@ -142,6 +142,8 @@ struct Simplified_soup
 ///    vertex; texture seams and borders between groups are kept like them.
 /// 4. *Texture*: no triangle of the texture turns over.
 /// 5. The triangles left are in the order of the input, each with its first corner first.
+///
+/// In cells (`Simplify_options::faces_per_cell`) no part can have a ratio of its own (`Argument_error`).
 Simplified_soup simplify_soup(const Prepared_soup& prepared, const Simplify_options& options,
                               const Simplify_intent& intent = {});
 
@@ -149,7 +151,7 @@ Simplified_soup simplify_soup(const Prepared_soup& prepared, const Simplify_opti
 /// gives for it alone, but for the seconds.
 ///
 /// They come from one reduction, which is looked at on its way. Where parts have ratios of their own, what is
-/// reduced depends on how far all others have come, and each level is a reduction of its own.
+/// reduced depends on how far all others have come, and each level is a reduction of its own; in cells, too.
 ///
 /// Throws `Argument_error` when the options name a number of faces as well.
 std::vector<Simplified_soup> simplify_lods(const Prepared_soup& prepared, const Simplify_options& options,

@@ -3,8 +3,6 @@
 
 #include <selvedge/mesh/Working_mesh.h>
 
-#include <selvedge/mesh/texture.h>
-
 #include <CGAL/Kernel/global_functions.h>
 
 #include <oneapi/tbb/parallel_sort.h>
@@ -293,8 +291,29 @@ void Working_mesh::for_each_changed_face(Mesh::Halfedge_index moving, const Bord
                      [this](Mesh::Halfedge_index h) { return m_mesh.opposite(m_mesh.next(h)); });
 }
 
+Working_mesh::Side Working_mesh::side(Mesh::Halfedge_index h) const
+{
+  const bool is_beyond = m_mesh.is_border(h);
+  const Mesh::Halfedge_index own = is_beyond ? m_mesh.opposite(h) : h;
+  const Mesh::Face_index face = m_mesh.face(own);
+  return {face, static_cast<unsigned char>(place_in(face, m_mesh.source(own))), is_beyond};
+}
+
+Working_mesh::Mesh::Halfedge_index Working_mesh::halfedge(const Side& side) const
+{
+  const Mesh::Face_index face(side.triangle);
+  if (m_mesh.is_removed(face))
+    throw std::logic_error("a collapse of a face that is gone");
+  Mesh::Halfedge_index h = m_mesh.halfedge(face);
+  while (place_in(face, m_mesh.source(h)) != side.place)
+    h = m_mesh.next(h);
+  return side.is_beyond ? m_mesh.opposite(h) : h;
+}
+
 void Working_mesh::before_collapse(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule)
 {
+  if (m_recorder)
+    m_recorder(side(moving));
   if (m_listener) {
     const Mesh::Face_index face = m_mesh.face(m_mesh.is_border(moving) ? m_mesh.opposite(moving) : moving);
     m_listener(vertex_of(corner_at(face, m_mesh.source(moving))),
@@ -386,13 +405,11 @@ Working_mesh::Uv Working_mesh::relative(const Uv& uv) const
   return {(uv[0] - m_uv_origin[0]) * m_uv_unit, (uv[1] - m_uv_origin[1]) * m_uv_unit};
 }
 
-void Working_mesh::measure_uvs()
+void Working_mesh::measure_uvs(double unit)
 {
-  if (m_soup.uvs.empty())
+  if (m_soup.uvs.empty() || !(unit > 0))
     return;
-  m_uv_unit = uv_unit(m_soup);
-  if (!(m_uv_unit > 0))
-    return;
+  m_uv_unit = unit;
   const Point_3& origin = m_soup.points[m_soup.triangles[0][0]];
   m_origin = {origin.x(), origin.y(), origin.z()};
   m_uv_origin = uv_of(0);

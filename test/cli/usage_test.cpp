@@ -55,6 +55,7 @@ TEST(App_usage, RefusesWhatMakesNoSense)
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--border-weight", "x"}, "--border-weight"},
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--threads", "0"}, "--threads"},
       {{"verify", in, "--threads", "-1"}, "--threads"},
+      {{"simplify", in, "-o", out, "--ratio", "0.5", "--cells", "--ratio", "part=0.2"}, "--cells"},
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--wish"}, "--wish"},
       {{"simplify", in, "-o", folder / "out.xyz", "--ratio", "0.5"}, "out.xyz"},
       {{"simplify", folder / "absent.obj", "-o", folder / "out.xyz", "--ratio", "0.5"},

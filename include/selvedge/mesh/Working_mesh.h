@@ -57,8 +57,9 @@ public:
   void weigh(const std::vector<double>& weights);
 
   /// From now on `uv_cost` says how far the texture is displaced; it is 0 before, and where there is no
-  /// texture. Weights that are to count are set before.
-  void measure_uvs();
+  /// texture. Weights that are to count are set before. `unit` is the `uv_unit` of the soup, or of that of
+  /// which it is a part.
+  void measure_uvs(double unit);
 
   /// From now on refusals are counted by the parts of the soup to which the moving vertex belongs.
   void count_refusals(std::vector<Part_kind> kinds);
@@ -71,6 +72,20 @@ public:
   {
     m_listener = std::move(listener);
   }
+
+  /// Names a halfedge so that it is found again in another mesh made of the same triangles, when the same
+  /// collapses have been done to both.
+  struct Side
+  {
+    Index triangle;      ///< of a face beside it
+    unsigned char place; ///< of the corner from which that face's halfedge comes
+    bool is_beyond;      ///< it is the opposite of that halfedge
+  };
+  Side side(Mesh::Halfedge_index h) const;
+  Mesh::Halfedge_index halfedge(const Side& side) const;
+
+  /// Who is told of every collapse by the halfedge that moves, before it.
+  void record(std::function<void(const Side& moving)> recorder) { m_recorder = std::move(recorder); }
 
   // Called by `simplify`, as an observer.
   void before_collapse(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule);
@@ -123,6 +138,7 @@ private:
   Simplify_constraints<Mesh> m_constraints;
   Welding_notes m_notes;
   std::function<void(std::size_t removed, std::size_t kept)> m_listener;
+  std::function<void(const Side&)> m_recorder;
 
   // The texture at each wedge: the corners at a vertex between two lines.
   std::vector<Index> m_wedges; // by corner of the soup

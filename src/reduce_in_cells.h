@@ -1,0 +1,52 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_REDUCE_IN_CELLS_H
+#define SELVEDGE_REDUCE_IN_CELLS_H
+
+#include <selvedge/Simplify_options.h>
+#include <selvedge/mesh/Working_mesh.h>
+#include <selvedge/simplify_soup.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace selvedge {
+
+/// What cells must know of the whole that they are cells of.
+struct Whole
+{
+  const Prepared_soup& prepared;
+  const std::vector<char>& is_frozen; ///< by triangle, of the obstacle, too
+  const std::vector<double>& weights; ///< by vertex of the soup; or none
+  const Simplify_options& options;
+  double diagonal;
+  double uv_unit;
+  Simplify_progress progress;
+
+  /// Of all vertices that may move, the share that has to go.
+  double share;
+};
+
+struct Cell_collapses
+{
+  std::size_t cells = 0;
+  std::vector<Working_mesh::Side> collapses; ///< those of a cell in their order, cell by cell
+  bool is_stopped = false;                   ///< somebody wished it
+};
+
+/// Collapses that can be done to the whole, cell by cell, or those of different cells in any order or at
+/// once.
+///
+/// Cells are disjoint open boxes. In a cell moves what is strictly inside, and has neighbours that are; so
+/// every star and every sweep is strictly inside a convex set, which no star and no sweep of another cell
+/// meets. Whatever else is in sight stands still in all cells. See docs/guarantees.md.
+///
+/// **Guarantees** The result is a function of the input, not of threads and their luck, unless stopped.
+///
+/// **Complexity** O(n log n) for n faces in all, in parallel but for the division into cells.
+Cell_collapses reduce_in_cells(const Whole& whole);
+
+} // namespace selvedge
+
+#endif // SELVEDGE_REDUCE_IN_CELLS_H

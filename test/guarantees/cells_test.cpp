@@ -1,0 +1,269 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// A reduction in cells: every guarantee holds as without, and threads change nothing.
+
+#include "support/logged_reduction.h"
+#include "support/meshes.h"
+#include "support/reduction.h"
+#include "support/soups.h"
+
+#include <selvedge/Error.h>
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+
+#include <atomic>
+#include <cmath>
+#include <set>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace selvedge::test {
+namespace {
+
+Simplify_options in_cells(Simplify_options options, std::size_t faces_per_cell)
+{
+  options.faces_per_cell = faces_per_cell;
+  return options;
+}
+
+Triangle_soup bare(const Triangle_soup& soup)
+{
+  Triangle_soup result;
+  result.points = soup.points;
+  result.triangles = soup.triangles;
+  return result;
+}
+
+class Cell_scenes : public testing::TestWithParam<const char*>
+{
+protected:
+  static Triangle_soup scene()
+  {
+    const std::string name = GetParam();
+    if (name == "sheets")
+      return sheets(6000, 5, 1e-5);
+    if (name == "folded")
+      return folded_cloth(2000, 6, 1e-6);
+    if (name == "spheres")
+      return nested_spheres(6000, 4, 1e-4);
+    if (name == "sewn")
+      return sewn_pieces(1500);
+    if (name == "flat") // whole rows of vertices lie in the walls of cells
+      return sheet(28, 28);
+    return skirt(8000, 3);
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Cells, Cell_scenes,
+                         testing::Values("sheets", "folded", "spheres", "sewn", "flat", "skirt"));
+
+TEST_P(Cell_scenes, AreEmbeddedAndLegalOnTheWay)
+{
+  for (const Collapse_loop loop : {Collapse_loop::own, Collapse_loop::cgal}) {
+    if (loop == Collapse_loop::cgal && GetParam() != std::string("spheres"))
+      continue;
+    Simplify_options options = in_cells(to_ratio(0.3), scene().triangles.size() / 5);
+    options.loop = loop;
+    const Logged_reduction reduction = reduce_and_log(scene(), options);
+    const Simplify_report& report = reduction.simplified.report;
+    EXPECT_GE(report.cells, 4u);
+    EXPECT_GT(report.collapses_in_cells, report.collapses / 6) << "of " << report.collapses;
+    EXPECT_LT(report.collapses_in_cells, report.collapses);
+    EXPECT_LT(report.refused.by_loop, report.collapses);
+    EXPECT_EQ(report.is_reached(), reduce(scene(), to_ratio(0.3)).simplified.report.is_reached());
+
+    const Verification verification = verify(reduction.simplified.soup, reduction.original);
+    EXPECT_TRUE(verification.embedded()) << verification.pairs.size() << " pairs";
+    EXPECT_TRUE(verification.same_topology());
+
+    const Replay_verdict verdict = replay_text(reduction.original, reduction.log);
+    EXPECT_TRUE(verdict.is_accepted()) << verdict.violations.size() << ": " << verdict.violations[0].message;
+    EXPECT_TRUE(verdict.is_result_stated);
+    EXPECT_EQ(verdict.collapses, report.collapses);
+    EXPECT_EQ(verdict.soup.triangles, reduction.simplified.soup.triangles);
+    EXPECT_EQ(verdict.soup.points, reduction.simplified.soup.points);
+  }
+}
+
+TEST_P(Cell_scenes, DoNotDependOnThreads)
+{
+  std::set<std::string> logs;
+  for (const std::size_t threads : {1, 2, 5}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    logs.insert(reduce_and_log(scene(), in_cells(to_ratio(0.2), scene().triangles.size() / 9)).log);
+  }
+  EXPECT_EQ(logs.size(), 1u);
+}
+
+// As good as without: the cost at which cells stop is one for all, and all that they have gathered goes on.
+TEST(Cells, AreAsTrueToTheOriginalAsTheWhole)
+{
+  const Triangle_soup original = skirt(40000, 2);
+  const auto deviation = [&](const Simplify_options& options) {
+    const Reduction reduction = reduce(original, options);
+    EXPECT_TRUE(reduction.simplified.report.is_reached());
+    return reduction.verification.distances->original_to_result.root_mean_square;
+  };
+  EXPECT_LT(deviation(in_cells(to_ratio(0.3), 20000)), 1.03 * deviation(to_ratio(0.3)));
+}
+
+// The control of the replay: what has no cells but layers, each reduced as if the other were not there, is
+// not legal when put together.
+TEST(Cells, WouldNotBeLegalIfTheyWereNotConvex)
+{
+  const Triangle_soup layer = bare(sheets(2000, 1, 1e-5));
+  const Triangle_soup both =
+      joined(layer, mapped(layer, [](const Point_3& p) { return Point_3(p.x(), p.y(), p.z() + 1e-5); }));
+  std::vector<std::pair<std::size_t, std::size_t>> collapses;
+  Simplify_options options = to_ratio(0.2);
+  options.on_collapse = [&](std::size_t removed, std::size_t kept) { collapses.emplace_back(removed, kept); };
+  ASSERT_TRUE(prepare(both).offending_pairs.empty());
+  simplify_soup(prepare(layer), options);
+
+  const Log_numbering numbering(both, false);
+  Log_header header;
+  header.vertices = numbering.size();
+  header.triangles = both.triangles.size();
+  std::ostringstream log;
+  Log_writer writer(log, header);
+  for (const auto& [removed, kept] : collapses) {
+    Log_step step;
+    step.removed = Index(removed);
+    step.kept = Index(kept);
+    writer.write(step);
+  }
+  Log_result result;
+  result.collapses = collapses.size();
+  result.triangles = both.triangles.size() - 2 * collapses.size();
+  writer.write(result);
+  const Replay_verdict verdict = replay_text(both, log.str());
+  ASSERT_FALSE(verdict.violations.empty());
+  EXPECT_TRUE(verdict.violations[0].kind == Violation_kind::intersection ||
+              verdict.violations[0].kind == Violation_kind::tunnelling)
+      << name(verdict.violations[0].kind);
+}
+
+// Two groups, left and right, with a texture, and weights for every vertex.
+Triangle_soup painted_sheet()
+{
+  Triangle_soup soup = mapped(sheet(60, 60), [](const Point_3& p) {
+    return Point_3(p.x(), p.y(), std::sin(0.3 * p.x()) * std::cos(0.4 * p.y()));
+  });
+  soup.groups.names = {"left", "right"};
+  for (const auto& [a, b, c] : soup.triangles) {
+    soup.groups.of_triangle.push_back(soup.points[a].x() + soup.points[b].x() + soup.points[c].x() > 90);
+    soup.uvs.of_triangle.push_back({a, b, c});
+  }
+  Attribute weight;
+  weight.name = "weight";
+  weight.type = Attribute::Type::uint8;
+  for (const Point_3& p : soup.points) {
+    soup.uvs.values.push_back({p.x() / 60, p.y() / 60});
+    weight.rows.push_back(p.y() > 30 ? 250 : 25);
+  }
+  soup.vertex_attributes.push_back(weight);
+  return soup;
+}
+
+TEST(Cells, RespectLocksKeptPartsWeightsTextureAndObstacle)
+{
+  const Triangle_soup soup = painted_sheet();
+  const Triangle_soup obstacle =
+      mapped(soup, [](const Point_3& p) { return Point_3(p.x() + 0.01, p.y() + 0.02, p.z() - 0.05); });
+  const Prepared_soup prepared = prepare(soup, {}, obstacle);
+  ASSERT_TRUE(prepared.offending_pairs.empty());
+  const auto faces_right = [](const Triangle_soup& of) {
+    std::size_t count = 0;
+    for (const Index group : of.groups.of_triangle)
+      count += group == 1;
+    return count;
+  };
+  for (const bool is_kept : {false, true}) {
+    SCOPED_TRACE(is_kept);
+    Simplify_intent intent;
+    (is_kept ? intent.kept : intent.locked) = {"right"};
+    intent.weights = "weight";
+    const Simplify_options options = in_cells(to_ratio(0.6), 900);
+    const Simplified_soup result = simplify_soup(prepared, options, intent);
+    EXPECT_GT(result.report.collapses_in_cells, 100u);
+    EXPECT_EQ(faces_right(result.soup), faces_right(soup));
+    EXPECT_TRUE(verify(result, prepared).accepted());
+    EXPECT_EQ(result.report.is_reached(), simplify_soup(prepared, to_ratio(0.6), intent).report.is_reached());
+  }
+}
+
+TEST(Cells, LeaveOffendingPairsAsTheyAre)
+{
+  const Triangle_soup lower = bare(sheets(3000, 1, 1e-3));
+  const Triangle_soup both = joined(lower, mapped(lower, [](const Point_3& p) {
+                                      return Point_3(p.x() + 0.013, p.y() + 0.007, p.z() + 0.002);
+                                    }));
+  const Reduction reduction = reduce(both, in_cells(to_ratio(0.3), 700));
+  EXPECT_GT(reduction.prepared.frozen_faces, 100u);
+  EXPECT_GT(reduction.simplified.report.collapses_in_cells, 20u);
+  EXPECT_EQ(reduction.verification.pairs.size(), reduction.prepared.offending_pairs.size());
+  EXPECT_TRUE(reduction.verification.new_pairs.empty());
+}
+
+TEST(Cells, GoAsFarAsAnErrorAllows)
+{
+  Simplify_options options = in_cells({}, 1500);
+  options.max_error = 1e-3;
+  const Reduction reduction = reduce(skirt(8000, 2), options);
+  EXPECT_TRUE(reduction.verification.accepted());
+  options.faces_per_cell = 0;
+  const std::size_t faces = reduction.simplified.soup.triangles.size();
+  const std::size_t faces_without = reduce(skirt(8000, 2), options).simplified.soup.triangles.size();
+  EXPECT_LT(faces, 6000u);
+  EXPECT_NEAR(double(faces), double(faces_without), 0.05 * double(faces_without));
+}
+
+TEST(Cells, GiveEachLevelAsAloneAndNoPartARatioOfItsOwn)
+{
+  const Prepared_soup prepared = prepare(painted_sheet());
+  const Simplify_options options = in_cells({}, 900);
+  const std::vector<Simplified_soup> levels = simplify_lods(prepared, options, {0.3, 0.6});
+  for (const auto& [level, ratio] : {std::pair(0, 0.3), std::pair(1, 0.6)})
+    EXPECT_EQ(levels[level].corners, simplify_soup(prepared, in_cells(to_ratio(ratio), 900)).corners);
+  Simplify_intent intent;
+  intent.ratios = {{"left", 0.5}};
+  EXPECT_THROW(simplify_soup(prepared, in_cells(to_ratio(0.3), 900), intent), Argument_error);
+}
+
+TEST(Cells, AskOneAtATimeWhetherToStopAndStop)
+{
+  const Prepared_soup prepared = prepare(skirt(20000, 2));
+  Simplify_options options = in_cells(to_ratio(0.1), 2000);
+  std::atomic<int> inside = 0;
+  int asked = 0, overlaps = 0;
+  options.should_stop = [&](const Simplify_progress& progress) {
+    overlaps += ++inside != 1;
+    EXPECT_EQ(progress.faces_input, prepared.soup.triangles.size());
+    EXPECT_LE(progress.faces, progress.faces_input);
+    --inside;
+    return ++asked == 12; // once: it is not to be asked again
+  };
+  const Simplified_soup result = simplify_soup(prepared, options);
+  EXPECT_EQ(overlaps, 0);
+  EXPECT_EQ(asked, 12);
+  EXPECT_TRUE(result.report.is_stopped);
+  EXPECT_GT(result.soup.triangles.size(), 4000u);
+  EXPECT_LT(result.soup.triangles.size(), prepared.soup.triangles.size());
+  EXPECT_TRUE(verify(result, prepared).accepted());
+}
+
+TEST(Cells, AreNoneWhereOneWouldHoldAll)
+{
+  const Prepared_soup prepared = prepare(skirt(3000, 1));
+  const Simplified_soup alone = simplify_soup(prepared, to_ratio(0.3));
+  const Simplified_soup result = simplify_soup(prepared, in_cells(to_ratio(0.3), 100000));
+  EXPECT_EQ(result.report.collapses_in_cells, 0u);
+  EXPECT_EQ(result.corners, alone.corners);
+}
+
+} // namespace
+} // namespace selvedge::test
