@@ -116,6 +116,7 @@ Json options_json(const Request& request)
           {"border_turn", options.max_border_turn},
           {"seam_turn", options.max_seam_turn},
           {"border_drift", options.max_border_drift},
+          {"loop", options.loop == Collapse_loop::own ? "own" : "cgal"},
           {"cluster_size", options.faces_per_cluster},
           {"intersection_check", options.check_intersections},
           {"stabiliser", options.cost.stabiliser},
@@ -559,6 +560,14 @@ Action add_simplify(CLI::App& command)
       ->check(in_range(1))
       ->type_name("N")
       ->capture_default_str()
+      ->group(tuning);
+  command
+      .add_option("--loop", options.loop, "The loop that collapses edges: own, or CGAL's as the reference")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, Collapse_loop>{{"own", Collapse_loop::own},
+                                                                               {"cgal", Collapse_loop::cgal}})
+                      .description(""))
+      ->type_name("own|cgal")
+      ->default_str("own")
       ->group(tuning);
   command
       .add_option("--stabiliser", options.cost.stabiliser, "Pull to the original vertices, where all is flat")

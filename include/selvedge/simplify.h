@@ -582,10 +582,21 @@ private:
     if (m_intersection) {
       const auto& guard = m_intersection->statistics();
       const auto& index = m_intersection->index().statistics();
-      report.intersections = {
-          guard.motions_judged,  guard.stars_clear_by_view, guard.sweeps_tested, guard.refused_by_link,
-          guard.refused_by_star, guard.refused_by_sweep,    index.clusters,      index.queries,
-          index.visits,          index.cluster_rebuilds,    index.top_rebuilds};
+      report.intersections = {guard.motions_judged,
+                              guard.stars_clear_by_view,
+                              guard.faces_near,
+                              guard.faces_clear_by_box,
+                              guard.faces_clear_by_view,
+                              guard.pairs_clear_by_view,
+                              guard.sweeps_tested,
+                              guard.refused_by_link,
+                              guard.refused_by_star,
+                              guard.refused_by_sweep,
+                              index.clusters,
+                              index.queries,
+                              index.visits,
+                              index.cluster_rebuilds,
+                              index.top_rebuilds};
     }
     return report;
   }

@@ -6,6 +6,7 @@
 
 #include <selvedge/Error.h>
 #include <selvedge/Surface_mesh_simplification/internal/collapse_geometry.h>
+#include <selvedge/geometry/Certified_view.h>
 #include <selvedge/geometry/Vertex_motion.h>
 #include <selvedge/geometry/star.h>
 #include <selvedge/geometry/sweep.h>
@@ -19,7 +20,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -42,8 +45,12 @@ public:
   struct Statistics
   {
     std::size_t motions_judged = 0;
-    std::size_t sweeps_tested = 0;       ///< pairs of a sweep and a stationary face, past their boxes
     std::size_t stars_clear_by_view = 0; ///< stars that one view settled
+    std::size_t faces_near = 0;          ///< stationary faces whose box meets that of a star
+    std::size_t faces_clear_by_box = 0;  ///< of these, clear of the whole star by boxes in the star's view
+    std::size_t faces_clear_by_view = 0; ///< of the others, clear of the whole star by a plane
+    std::size_t pairs_clear_by_view = 0; ///< of what remains, pairs of a sweep and a face clear by a plane
+    std::size_t sweeps_tested = 0;       ///< pairs that took the exact test
     std::size_t refused_by_link = 0;     ///< condition 0
     std::size_t refused_by_star = 0;     ///< condition 2
     std::size_t refused_by_sweep = 0;    ///< condition 1
@@ -53,19 +60,24 @@ public:
                      FaceIndex&& empty_index)
       : m_mesh(mesh), m_points(points), m_traits(traits), m_index(std::move(empty_index)),
         m_ids(get(CGAL::dynamic_face_property_t<Id>(), mesh)),
-        m_twins(get(CGAL::dynamic_vertex_property_t<std::uint32_t>(), mesh))
+        m_twins(get(CGAL::dynamic_vertex_property_t<std::uint32_t>(), mesh)),
+        m_marks(get(CGAL::dynamic_vertex_property_t<Mark>(), mesh))
   {
     find_twins();
     m_faces.reserve(num_faces(mesh));
+    m_corners.reserve(num_faces(mesh));
+    for (const Vertex v : vertices(mesh))
+      put(m_marks, v, Mark());
     std::vector<Id> ids;
     ids.reserve(num_faces(mesh));
     for (const Face face : faces(mesh)) {
       const Id id = Id(m_faces.size());
       put(m_ids, face, id);
       m_faces.push_back(face);
+      m_corners.push_back(face_corners(face));
       ids.push_back(id);
     }
-    m_index.build(ids, [this](Id id) { return face_box(m_faces[id]); });
+    m_index.build(ids, [this](Id id) { return face_box(id); });
   }
 
   /// Conditions 0, 1 and 2 for the collapse of the profile's edge to `placement`.
@@ -99,8 +111,11 @@ public:
   void after_collapse(Vertex kept)
   {
     for (const Halfedge h : CGAL::halfedges_around_target(halfedge(kept, m_mesh), m_mesh))
-      if (!is_border(h, m_mesh))
-        m_index.set(get(m_ids, face(h, m_mesh)), face_box(face(h, m_mesh)));
+      if (!is_border(h, m_mesh)) {
+        const Id id = get(m_ids, face(h, m_mesh));
+        m_corners[id] = face_corners(face(h, m_mesh));
+        m_index.set(id, face_box(id));
+      }
     // The position of the target lives on, under whichever name CGAL keeps.
     if (const std::uint32_t twins = get(m_twins, m_target); twins != 0 && kept != m_target) {
       put(m_twins, kept, twins);
@@ -115,6 +130,10 @@ public:
   const FaceIndex& index() const { return m_index; }
 
 private:
+  // Coordinates of other kernels may be exact numbers that no double is.
+  static constexpr bool s_has_view = std::is_same_v<typename GeomTraits::FT, double>;
+  static constexpr Certified_view::Index s_from = 0, s_to = 1; // among the points of a motion
+
   /// A vertex goes to a place: that of a neighbour with which it merges, or one that is no vertex.
   struct Motion
   {
@@ -124,12 +143,20 @@ private:
     bool is_target_moved; ///< the neighbour is judged as if it stood at `place` already
   };
 
+  using Local = Certified_view::Index;
+
+  /// Which point of the motion that is judged now a vertex is, if any.
+  struct Mark
+  {
+    std::uint32_t motion = 0; ///< the number of the motion; others' marks do not count
+    Local point = 0;
+  };
+
   /// A face that stands still, its corners as the motion sees them.
   struct Stationary_face
   {
-    Face face;
-    std::array<Point, 3> points;
-    CGAL::Bbox_3 box;
+    Id id;
+    std::array<Local, 3> corners;
   };
 
   bool is_motion_clear(const Motion& motion)
@@ -140,7 +167,11 @@ private:
       return false;
     }
     gather_star(motion);
-    const Star_verdict verdict = judge_star_motion(m_star, m_traits);
+    gather_stationary_faces(motion);
+    m_is_in_view = s_has_view && m_view.close();
+    const bool is_star_seen_clear = m_is_in_view && is_star_clear_in_view();
+    const Star_verdict verdict =
+        is_star_seen_clear ? Star_verdict::clear_by_view : judge_star_motion(m_star, m_traits);
     m_statistics.stars_clear_by_view += verdict == Star_verdict::clear_by_view;
     if (verdict == Star_verdict::refused) {
       ++m_statistics.refused_by_star;
@@ -202,6 +233,7 @@ private:
     return is_edge_border || !is_mover_on_border || !is_target_on_border;
   }
 
+  // The star, with its points numbered: the mover, where it goes, then the link.
   void gather_star(const Motion& motion)
   {
     m_star.from = get(m_points, motion.mover);
@@ -216,36 +248,188 @@ private:
       const bool is_contracted = motion.target && (a == *motion.target || b == *motion.target);
       (is_contracted ? m_star.contracted : m_star.moving)
           .push_back({place_of(a, motion), place_of(b, motion)});
+      (is_contracted ? m_link_of_contracted : m_link_of_moving).push_back({a, b});
     }
+    begin_view();
+    if (++m_motion == 0) { // after four thousand million motions, old marks would count again
+      for (const Vertex v : vertices(m_mesh))
+        put(m_marks, v, Mark());
+      m_motion = 1;
+    }
+    m_local_points.clear();
+    add_point(m_star.from);
+    add_point(m_star.to);
+    if (motion.target)
+      mark(*motion.target, s_to);
+    number_link(m_link_of_moving, m_moving);
+    number_link(m_link_of_contracted, m_contracted);
+    m_star_points.resize(m_local_points.size());
+    std::iota(m_star_points.begin(), m_star_points.end(), Local(0));
+  }
+
+  void number_link(std::vector<std::array<Vertex, 2>>& edges, std::vector<std::array<Local, 2>>& numbered)
+  {
+    numbered.clear();
+    for (const auto& [a, b] : edges) {
+      const Local first = local(a);
+      numbered.push_back({first, local(b)});
+    }
+    edges.clear();
+  }
+
+  // The number of a vertex among the points of the motion.
+  Local local(Vertex v)
+  {
+    const Mark known = get(m_marks, v);
+    if (known.motion == m_motion)
+      return known.point;
+    const Local point = add_point(get(m_points, v));
+    mark(v, point);
+    return point;
+  }
+
+  void mark(Vertex v, Local point)
+  {
+    if (!has_twin(v))
+      put(m_marks, v, Mark{m_motion, point});
+    else
+      for (const Vertex twin : twin_class(v))
+        put(m_marks, twin, Mark{m_motion, point});
+  }
+
+  Local add_point(const Point& point)
+  {
+    m_local_points.push_back(point);
+    if constexpr (s_has_view)
+      m_view.add({point.x(), point.y(), point.z()});
+    return Local(m_local_points.size() - 1);
+  }
+
+  // Along the sum of the normals of the faces, before and after.
+  void begin_view()
+  {
+    if constexpr (s_has_view) {
+      std::array<double, 3> normal{0, 0, 0};
+      const auto add = [&](const Point& apex, const std::array<Point, 2>& edge) {
+        const double ux = edge[0].x() - apex.x(), uy = edge[0].y() - apex.y(), uz = edge[0].z() - apex.z(),
+                     vx = edge[1].x() - apex.x(), vy = edge[1].y() - apex.y(), vz = edge[1].z() - apex.z();
+        normal[0] += uy * vz - uz * vy;
+        normal[1] += uz * vx - ux * vz;
+        normal[2] += ux * vy - uy * vx;
+      };
+      for (const auto& edge : m_star.moving) {
+        add(m_star.from, edge);
+        add(m_star.to, edge);
+      }
+      for (const auto& edge : m_star.contracted)
+        add(m_star.from, edge);
+      m_view.begin({m_star.from.x(), m_star.from.y(), m_star.from.z()}, normal);
+    }
+  }
+
+  // As in judge_star_motion(), seen from infinitely far away: the link is one cycle of distinct positions,
+  // and all faces turn the same way, before and after.
+  bool is_star_clear_in_view() const
+  {
+    const std::size_t faces = m_moving.size() + m_contracted.size();
+    const bool has_to_in_link = !m_contracted.empty();
+    if (m_star_points.size() != faces + (has_to_in_link ? 1 : 2))
+      return false;
+    // As many edges as positions: a cycle, or several, when every position has one edge that leaves it. It is
+    // one, since around a vertex the faces follow upon each other and at most one gap is open.
+    for (const auto* edges : {&m_moving, &m_contracted})
+      for (const auto& [a, b] : *edges)
+        if (m_view.side(s_from, a, b) != 1)
+          return false;
+    return std::all_of(m_moving.begin(), m_moving.end(),
+                       [this](const auto& edge) { return m_view.side(s_to, edge[0], edge[1]) == 1; });
   }
 
   /// Condition 1: every moving face against every face that does not contain the moving vertex.
   bool are_sweeps_clear(const Motion& motion)
   {
-    gather_stationary_faces(motion);
-    const CGAL::Bbox_3 path = m_star.from.bbox() + m_star.to.bbox();
-    for (const auto& [a, b] : m_star.moving) {
-      const CGAL::Bbox_3 sweep_box = path + a.bbox() + b.bbox();
-      const Sweep_test<GeomTraits> sweep(m_star.from, m_star.to, a, b, m_traits);
-      for (const Stationary_face& face : m_stationary) {
-        if (!CGAL::do_overlap(sweep_box, face.box))
-          continue;
-        ++m_statistics.sweeps_tested;
-        if (!sweep.is_clear(face.points[0], face.points[1], face.points[2])) {
-          m_blockers.push_back(face.face);
+    m_sweeps.assign(m_moving.size(), std::nullopt);
+    m_statistics.faces_near += m_stationary.size();
+    if (m_is_in_view)
+      bound_star();
+    for (const Stationary_face& face : m_stationary) {
+      if (m_is_in_view && is_clear_of_star_in_view(face))
+        continue;
+      for (std::size_t j = 0; j < m_moving.size(); ++j)
+        if (!is_sweep_clear(j, face)) {
+          m_blockers.push_back(m_faces[face.id]);
           return false;
         }
-      }
     }
-    // A place that is no neighbour's must be no position of the mesh at all, or two would become one.
     if (motion.target)
       return true;
+    // A place that is no neighbour's must be no position of the mesh at all, or two would become one.
     for (const Stationary_face& face : m_stationary)
-      if (std::find(face.points.begin(), face.points.end(), motion.place) != face.points.end()) {
-        m_blockers.push_back(face.face);
-        return false;
-      }
+      for (const Local corner : face.corners)
+        if (m_local_points[corner] == motion.place) {
+          m_blockers.push_back(m_faces[face.id]);
+          return false;
+        }
     return true;
+  }
+
+  void bound_star()
+  {
+    m_star_lower = m_star_upper = m_view[s_from];
+    for (const Local p : m_star_points)
+      for (std::size_t i = 0; i < 3; ++i) {
+        m_star_lower[i] = (std::min)(m_star_lower[i], m_view[p][i]);
+        m_star_upper[i] = (std::max)(m_star_upper[i], m_view[p][i]);
+      }
+  }
+
+  bool is_clear_of_star_in_view(const Stationary_face& face)
+  {
+    const auto &a = m_view[face.corners[0]], &b = m_view[face.corners[1]], &c = m_view[face.corners[2]];
+    for (std::size_t i = 3; i-- > 0;)
+      if ((std::min)({a[i], b[i], c[i]}) > m_star_upper[i] + m_view.length_error() ||
+          (std::max)({a[i], b[i], c[i]}) < m_star_lower[i] - m_view.length_error()) {
+        ++m_statistics.faces_clear_by_box;
+        return true;
+      }
+    // Neighbours lie beside the star, other layers above or below.
+    const bool is_clear = is_neighbour(face) ? m_view.is_clear_by_edge(face.corners, m_star_points) ||
+                                                   m_view.is_clear_by_plane(face.corners, m_star_points)
+                                             : m_view.is_clear_by_plane(face.corners, m_star_points) ||
+                                                   m_view.is_clear_by_edge(face.corners, m_star_points);
+    m_statistics.faces_clear_by_view += is_clear;
+    return is_clear;
+  }
+
+  // Does it share a point with the star?
+  bool is_neighbour(const Stationary_face& face) const
+  {
+    return (std::min)({face.corners[0], face.corners[1], face.corners[2]}) < m_star_points.size();
+  }
+
+  bool is_sweep_clear(std::size_t j, const Stationary_face& face)
+  {
+    const auto [a, b] = m_moving[j];
+    if (m_is_in_view) {
+      const std::array<Local, 4> corners{a, b, s_from, s_to};
+      const auto is_clear_by_edge = [&] {
+        return m_view.is_clear_by_edge_of(corners, face.corners) ||
+               m_view.is_clear_by_edge(face.corners, corners);
+      };
+      if (is_neighbour(face) ? is_clear_by_edge() || m_view.is_clear_by_plane(face.corners, corners)
+                             : m_view.is_clear_by_plane(face.corners, corners) || is_clear_by_edge()) {
+        ++m_statistics.pairs_clear_by_view;
+        return true;
+      }
+    }
+    const auto box = [this](const auto&... points) { return (m_local_points[points].bbox() + ...); };
+    if (!CGAL::do_overlap(box(s_from, s_to, a, b), box(face.corners[0], face.corners[1], face.corners[2])))
+      return true;
+    ++m_statistics.sweeps_tested;
+    if (!m_sweeps[j])
+      m_sweeps[j].emplace(m_star.from, m_star.to, m_local_points[a], m_local_points[b], m_traits);
+    return m_sweeps[j]->is_clear(m_local_points[face.corners[0]], m_local_points[face.corners[1]],
+                                 m_local_points[face.corners[2]]);
   }
 
   void gather_stationary_faces(const Motion& motion)
@@ -255,27 +439,24 @@ private:
     for (const auto& [a, b] : m_star.moving)
       box += a.bbox() + b.bbox();
     m_index.visit_overlapping(box, [&](Id id) {
-      const std::array<Vertex, 3> corners = face_corners(m_faces[id]);
       // A neighbour that is judged away from where it stands brings its faces along, below.
-      if (!contains(corners, motion.mover) && !(motion.is_target_moved && contains(corners, *motion.target)))
-        push_stationary(m_faces[id], corners, motion);
+      if (!contains(m_corners[id], motion.mover) &&
+          !(motion.is_target_moved && contains(m_corners[id], *motion.target)))
+        push_stationary(id);
     });
     if (!motion.is_target_moved)
       return;
     for (const Halfedge h : CGAL::halfedges_around_target(halfedge(*motion.target, m_mesh), m_mesh))
       if (!is_border(h, m_mesh))
-        if (const auto corners = face_corners(face(h, m_mesh)); !contains(corners, motion.mover))
-          push_stationary(face(h, m_mesh), corners, motion);
+        if (const Id id = get(m_ids, face(h, m_mesh)); !contains(m_corners[id], motion.mover))
+          push_stationary(id);
   }
 
-  void push_stationary(Face of_mesh, const std::array<Vertex, 3>& corners, const Motion& motion)
+  void push_stationary(Id id)
   {
-    Stationary_face face;
-    face.face = of_mesh;
-    for (std::size_t i = 0; i < 3; ++i)
-      face.points[i] = place_of(corners[i], motion);
-    face.box = face.points[0].bbox() + face.points[1].bbox() + face.points[2].bbox();
-    m_stationary.push_back(face);
+    const std::array<Vertex, 3>& corners = m_corners[id];
+    const Local first = local(corners[0]), second = local(corners[1]);
+    m_stationary.push_back({id, {first, second, local(corners[2])}});
   }
 
   Point place_of(Vertex v, const Motion& motion) const
@@ -294,11 +475,10 @@ private:
     return {source(h, m_mesh), target(h, m_mesh), target(next(h, m_mesh), m_mesh)};
   }
 
-  CGAL::Bbox_3 face_box(Face face) const
+  CGAL::Bbox_3 face_box(Id id) const
   {
-    const std::array<Vertex, 3> corners = face_corners(face);
-    return get(m_points, corners[0]).bbox() + get(m_points, corners[1]).bbox() +
-           get(m_points, corners[2]).bbox();
+    const auto& [a, b, c] = m_corners[id];
+    return get(m_points, a).bbox() + get(m_points, b).bbox() + get(m_points, c).bbox();
   }
 
   void find_twins()
@@ -340,7 +520,8 @@ private:
   GeomTraits m_traits;
   FaceIndex m_index;
   typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<Id>>::const_type m_ids;
-  std::vector<Face> m_faces;
+  std::vector<Face> m_faces;                    // by number
+  std::vector<std::array<Vertex, 3>> m_corners; // by number: the mesh's own are five look-ups away
   typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<std::uint32_t>>::const_type
       m_twins;
   std::vector<std::vector<Vertex>> m_twin_classes;
@@ -348,9 +529,19 @@ private:
   std::vector<Face> m_blockers; // of the last placement judged
   Statistics m_statistics;
 
-  // Buffers, kept so that judging allocates nothing.
+  // The motion that is judged now, in buffers that are kept so that judging allocates nothing.
+  typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<Mark>>::const_type m_marks;
+  std::uint32_t m_motion = 0;
   Vertex_motion<Point> m_star;
+  std::vector<Point> m_local_points;
+  std::vector<Local> m_star_points; // the first of them
+  std::vector<std::array<Local, 2>> m_moving, m_contracted;
+  std::vector<std::array<Vertex, 2>> m_link_of_moving, m_link_of_contracted;
   std::vector<Stationary_face> m_stationary;
+  std::vector<std::optional<Sweep_test<GeomTraits>>> m_sweeps; // made when needed
+  Certified_view m_view;
+  bool m_is_in_view = false;
+  Certified_view::Vector m_star_lower{}, m_star_upper{};
   mutable std::vector<Vertex> m_link;
 };
 

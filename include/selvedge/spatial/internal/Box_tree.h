@@ -172,12 +172,12 @@ public:
 private:
   using Tree = CGAL::AABB_tree<Box_tree_traits>;
 
-  // A tree is stale when a quarter of its members stand in the list, or when half of its leaves are no
+  // A tree is stale when half of its members stand in the list, or when half of its leaves are no
   // members.
   bool rebuild_if_stale(Box_table& table)
   {
-    constexpr std::size_t least = 8;
-    if (m_overflow.size() <= least + m_size / 4 && m_tree.size() <= least + 2 * m_size)
+    constexpr std::size_t least = 16;
+    if (m_overflow.size() <= least + m_size / 2 && m_tree.size() <= least + 2 * m_size)
       return false;
     build(members(table), table);
     return true;

@@ -1,0 +1,191 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// What a view proves in floating point, against the exact test: it may be silent, never wrong.
+
+#include <selvedge/geometry/Certified_view.h>
+#include <selvedge/geometry/sweep.h>
+#include <selvedge/mesh/Triangle_soup.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace selvedge::test {
+namespace {
+
+using Local = Certified_view::Index;
+
+/// A moving face (m, a, b), which goes to (t, a, b), and one that stands still.
+struct Case
+{
+  std::array<Point_3, 4> moving; // a, b, m, t
+  std::array<Point_3, 3> still;
+
+  /// As the test's preconditions ask, and with nothing to share for m.
+  bool is_valid() const
+  {
+    const auto& [a, b, m, t] = moving;
+    return !CGAL::collinear(m, a, b) && t != m && t != a && t != b &&
+           std::find(still.begin(), still.end(), m) == still.end() && still[0] != still[1] &&
+           still[1] != still[2] && still[2] != still[0];
+  }
+};
+
+struct Proofs
+{
+  bool by_edge = false, by_plane = false, by_edge_of_sweep = false;
+  bool any() const { return by_edge || by_plane || by_edge_of_sweep; }
+};
+
+std::optional<Proofs> proofs(const Case& c, const Certified_view::Vector& normal)
+{
+  Certified_view view;
+  std::vector<Point_3> points;
+  const auto number = [&](const Point_3& p) {
+    const auto found = std::find(points.begin(), points.end(), p);
+    if (found != points.end())
+      return Local(found - points.begin());
+    points.push_back(p);
+    return view.add({p.x(), p.y(), p.z()});
+  };
+  const Point_3& m = c.moving[2];
+  view.begin({m.x(), m.y(), m.z()}, normal);
+  std::array<Local, 4> moving;
+  std::array<Local, 3> still;
+  std::transform(c.moving.begin(), c.moving.end(), moving.begin(), number);
+  std::transform(c.still.begin(), c.still.end(), still.begin(), number);
+  if (!view.close())
+    return std::nullopt;
+  return Proofs{view.is_clear_by_edge(still, moving), view.is_clear_by_plane(still, moving),
+                view.is_clear_by_edge_of(moving, still)};
+}
+
+/// Which proofs there were.
+Proofs compare(const std::function<Point_3(std::mt19937_64&)>& draw, std::size_t cases, double least_share)
+{
+  std::mt19937_64 random(7);
+  std::uniform_int_distribution<std::size_t> seventh(0, 6);
+  std::normal_distribution<double> component;
+  std::size_t clear = 0, proved = 0, meeting = 0;
+  Proofs seen;
+  for (std::size_t i = 0; i < cases; ++i) {
+    Case c;
+    std::generate(c.moving.begin(), c.moving.end(), [&] { return draw(random); });
+    for (Point_3& p : c.still) {
+      // Shared positions must not be rare.
+      const std::size_t which = seventh(random);
+      p = which < 4 && which != 2 ? c.moving[which] : draw(random);
+    }
+    if (!c.is_valid())
+      continue;
+    const std::optional<Proofs> found = proofs(c, {component(random), component(random), component(random)});
+    if (!found)
+      continue;
+    const auto& [a, b, m, t] = c.moving;
+    const bool is_clear = Sweep_test<Kernel>(m, t, a, b).is_clear(c.still[0], c.still[1], c.still[2]);
+    clear += is_clear;
+    meeting += !is_clear;
+    proved += found->any();
+    seen.by_edge |= found->by_edge;
+    seen.by_plane |= found->by_plane;
+    seen.by_edge_of_sweep |= found->by_edge_of_sweep;
+    EXPECT_TRUE(is_clear || !found->any())
+        << "case " << i << ": " << found->by_edge << found->by_plane << found->by_edge_of_sweep;
+  }
+  EXPECT_GT(meeting, cases / 100);
+  EXPECT_GT(double(proved), least_share * double(clear));
+  return seen;
+}
+
+TEST(Certified_view, IsNeverWrongOnASmallGrid)
+{
+  const Proofs seen = compare(
+      [](std::mt19937_64& random) {
+        std::uniform_int_distribution<int> coordinate(0, 3);
+        const int x = coordinate(random), y = coordinate(random);
+        return Point_3(x, y, coordinate(random));
+      },
+      300000, 0.3);
+  EXPECT_TRUE(seen.by_edge && seen.by_plane && seen.by_edge_of_sweep);
+}
+
+TEST(Certified_view, IsNeverWrongNearAPlane)
+{
+  // Heights of a few units in the last place of the coordinates: less than any plane of a triangle can prove.
+  const Proofs seen = compare(
+      [](std::mt19937_64& random) {
+        std::uniform_int_distribution<int> coordinate(0, 4), height(-2, 2);
+        const double unit = std::numeric_limits<double>::epsilon();
+        const int x = coordinate(random), y = coordinate(random);
+        return Point_3(x, y, 1 + unit * height(random));
+      },
+      300000, 0.05);
+  EXPECT_TRUE(seen.by_edge && seen.by_edge_of_sweep && !seen.by_plane);
+}
+
+TEST(Certified_view, IsNeverWrongOnAGridShakenByUnitsInTheLastPlace)
+{
+  compare(
+      [](std::mt19937_64& random) {
+        std::uniform_int_distribution<int> coordinate(1, 3), shift(-1, 1);
+        const auto shaken = [&] {
+          return coordinate(random) * (1 + std::numeric_limits<double>::epsilon() * shift(random));
+        };
+        const double x = shaken(), y = shaken();
+        return Point_3(x, y, shaken());
+      },
+      300000, 0.1);
+}
+
+TEST(Certified_view, IsNeverWrongFarFromTheOrigin)
+{
+  compare(
+      [](std::mt19937_64& random) {
+        std::uniform_int_distribution<int> coordinate(0, 3);
+        const int x = coordinate(random), y = coordinate(random);
+        return Point_3(1e15 + x, -1e15 + y, 3e14 + coordinate(random));
+      },
+      100000, 0.3);
+}
+
+TEST(Certified_view, IsNeverWrongAcrossScales)
+{
+  compare(
+      [](std::mt19937_64& random) {
+        std::uniform_real_distribution<double> exponent(-12, 0), sign(-1, 1);
+        const auto coordinate = [&] { return std::copysign(std::pow(10, exponent(random)), sign(random)); };
+        const double x = coordinate(), y = coordinate();
+        return Point_3(x, y, coordinate());
+      },
+      300000, 0.1);
+}
+
+TEST(Certified_view, SaysNothingWhereProductsLeaveTheRangeOfDoubles)
+{
+  for (const double size : {1e-120, 1e120}) {
+    Case c{{Point_3(size, 0, 0), Point_3(0, size, 0), Point_3(0, 0, 0), Point_3(0.1 * size, 0.1 * size, 0)},
+           {Point_3(5 * size, 5 * size, 0), Point_3(6 * size, 5 * size, 0), Point_3(5 * size, 6 * size, 0)}};
+    EXPECT_FALSE(proofs(c, {0, 0, 1}).has_value());
+    for (auto* points : {c.moving.data(), c.still.data()})
+      for (std::size_t i = 0; i < (points == c.moving.data() ? 4u : 3u); ++i)
+        points[i] = Point_3(points[i].x() / size, points[i].y() / size, 0);
+    EXPECT_TRUE(proofs(c, {0, 0, 1})->by_edge);
+  }
+  // No direction to look along.
+  const Case c{{Point_3(1, 0, 0), Point_3(0, 1, 0), Point_3(0, 0, 0), Point_3(0.1, 0.1, 0)},
+               {Point_3(5, 5, 0), Point_3(6, 5, 0), Point_3(5, 6, 0)}};
+  EXPECT_FALSE(proofs(c, {0, 0, 0}).has_value());
+}
+
+} // namespace
+} // namespace selvedge::test
