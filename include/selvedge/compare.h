@@ -29,9 +29,9 @@ struct Bounds
 /// unit of the coordinates.
 ///
 /// **Guarantees** `lower` is the distance of a point that was looked at. `upper` is no more than `lower` and
-/// a hundredth of it, or a billionth of the largest coordinate, unless `from.triangles.size() + 1'000'000`
-/// points do not suffice: then it is the best that is known. Zero when `from` has no triangle, infinite when
-/// only `to` has none.
+/// a hundredth of it, or a millionth of the longest side of the bounding box of `from`, unless
+/// `from.triangles.size() + 500'000` points do not suffice: then it is the best that is known. Zero when
+/// `from` has no triangle, infinite when only `to` has none.
 /// **Exactness** Both bounds have the errors of `distance`.
 /// **Complexity** O(log n) for each point in practice, of which there are some more than vertices.
 /// **Reference** The distance to one triangle is a convex function, so over a triangle its maximum is at a

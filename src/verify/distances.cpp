@@ -12,7 +12,9 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <queue>
+#include <utility>
 
 namespace selvedge {
 
@@ -57,6 +59,7 @@ struct Part
   std::array<Point_3, 3> corners;
   Index_triple nearest;
   double upper; // of the squared distance
+  int cuts = 0;
 
   bool operator<(const Part& other) const { return upper < other.upper; }
 };
@@ -73,6 +76,48 @@ double upper_bound(const Part& part, const Surface& to)
     bound = std::min(bound, largest);
   }
   return bound;
+}
+
+/// Where two triangles are equally far from a point of a segment, or none.
+std::optional<Point_3> equally_far(const Point_3& from, const Point_3& to, const Triangle_3& of_from,
+                                   const Triangle_3& of_to)
+{
+  const auto excess = [&](double position) {
+    const Point_3 point = from + position * (to - from);
+    return CGAL::squared_distance(point, nearest_on_triangle(point, of_from)) -
+           CGAL::squared_distance(point, nearest_on_triangle(point, of_to));
+  };
+  // Nearer to an end than this a cut would leave the part almost as large as it was.
+  double low = 1 / 16.0, high = 15 / 16.0;
+  if (excess(low) > 0 || excess(high) <= 0)
+    return std::nullopt;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = (low + high) / 2;
+    (excess(middle) <= 0 ? low : high) = middle;
+  }
+  return from + low * (to - from);
+}
+
+/// Which side of a part to cut, by its first corner, and where: where the nearest triangle changes, so that
+/// parts come to lie over one triangle each; else the longest in its middle.
+std::pair<int, Point_3> cut_of(const Part& part, const Surface& to)
+{
+  std::array<int, 3> sides = {0, 1, 2};
+  const auto length = [&](int side) {
+    return CGAL::squared_distance(part.corners[side], part.corners[(side + 1) % 3]);
+  };
+  std::sort(sides.begin(), sides.end(), [&](int a, int b) { return length(a) > length(b); });
+  for (const int side : sides) {
+    if (part.cuts % 2 == 1)
+      break;
+    const int end = (side + 1) % 3;
+    if (part.nearest[side] != part.nearest[end] && part.corners[side] != part.corners[end])
+      if (const auto point = equally_far(part.corners[side], part.corners[end],
+                                         to.triangle(part.nearest[side]), to.triangle(part.nearest[end])))
+        return {side, *point};
+  }
+  const int end = (sides[0] + 1) % 3;
+  return {sides[0], CGAL::midpoint(part.corners[sides[0]], part.corners[end])};
 }
 
 } // namespace
@@ -119,10 +164,13 @@ Bounds maximum_distance(const Triangle_soup& from, const Triangle_soup& to)
                    });
   double lower = *std::max_element(squared_distances.begin(), squared_distances.end());
 
-  // Bounds that differ by a hundredth are good enough, and so are those that differ by rounding.
+  CGAL::Bbox_3 box;
+  for (const Index vertex : vertices)
+    box += source.points[vertex].bbox();
+  const double negligible = 1e-6 * std::max({box.x_span(), box.y_span(), box.z_span()});
   const auto good_enough = [&] {
     const double length = std::sqrt(lower);
-    const double enough = length + std::max(0.01 * length, 1e-9);
+    const double enough = length + std::max(0.01 * length, negligible);
     return enough * enough;
   };
   std::priority_queue<Part> parts;
@@ -141,25 +189,20 @@ Bounds maximum_distance(const Triangle_soup& from, const Triangle_soup& to)
                                   {nearest[a], nearest[b], nearest[c]},
                                   infinity}));
   }
-  std::size_t budget = from.triangles.size() + 1'000'000;
+  std::size_t budget = from.triangles.size() + 500'000;
   for (; !parts.empty() && parts.top().upper > good_enough() && budget > 0; --budget) {
     const Part part = parts.top();
     parts.pop();
-    const auto length = [&](int place) {
-      return CGAL::squared_distance(part.corners[place], part.corners[(place + 1) % 3]);
-    };
-    const int longest =
-        length(0) < length(1) ? (length(1) < length(2) ? 2 : 1) : (length(0) < length(2) ? 2 : 0);
-    const int end = (longest + 1) % 3;
-    const Point_3 middle = CGAL::midpoint(part.corners[longest], part.corners[end]);
-    const Surface_tree::Nearest to_middle = tree.nearest(middle, part.nearest[longest]);
-    lower = std::max(lower, CGAL::squared_distance(middle, to_middle.point));
-    for (const int replaced : {longest, end}) {
+    const auto [place, point] = cut_of(part, surface);
+    const Surface_tree::Nearest to_point = tree.nearest(point, part.nearest[place]);
+    lower = std::max(lower, CGAL::squared_distance(point, to_point.point));
+    for (const int replaced : {place, (place + 1) % 3}) {
       Part half = part;
-      for (int place = 0; place < 3; ++place) // a segment has two corners at one end
-        if (part.corners[place] == part.corners[replaced]) {
-          half.corners[place] = middle;
-          half.nearest[place] = to_middle.triangle;
+      ++half.cuts;
+      for (int k = 0; k < 3; ++k) // a segment has two corners at one end
+        if (part.corners[k] == part.corners[replaced]) {
+          half.corners[k] = point;
+          half.nearest[k] = to_point.triangle;
         }
       upper = std::max(upper, keep(half));
     }

@@ -229,6 +229,8 @@ Layer_order layer_order(const Triangle_soup& result, const Triangle_soup& origin
     const Point_3 point = samples.next(face);
     const Vector_3 half = (std::ldexp(reach, -exponent) / length) * normal;
     const Segment_3 segment(point - half, point + half);
+    if (segment.is_degenerate()) // too short for the coordinates
+      continue;
     ++order.lines;
     const std::vector<Crossing> old = crossings(tree_before, before, segment);
     if (old.size() < 2)
