@@ -103,14 +103,22 @@ public:
 
   Visitor visitor() const { return Visitor(m_guard); }
 
+  /// The placement itself when base and filter accept it, none otherwise.
+  template <class Profile, class OptionalPoint>
+  OptionalPoint operator()(const Profile& profile, const OptionalPoint& placement) const
+  {
+    m_guard->forget_blockers();
+    return internal::Filter_base<Intersection_filter, BaseFilter>::operator()(profile, placement);
+  }
+
   template <class Profile, class Point>
   bool accepts(const Profile& profile, const Point& placement) const
   {
     return m_guard->is_clear(profile, placement);
   }
 
-  /// The faces because of which the last placement was refused, or no longer accepted on one of two ways,
-  /// that this filter judged; none where what lies around the edge alone decided.
+  /// The faces that made this filter refuse the last placement, or one of two ways to it; none where what
+  /// lies around the edge alone decided, as always when the base refused.
   auto& blockers() const { return m_guard->blockers(); }
 
   const Statistics& statistics() const { return m_guard->statistics(); }

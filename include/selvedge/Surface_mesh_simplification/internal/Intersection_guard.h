@@ -84,7 +84,6 @@ public:
   template <class Profile>
   bool is_clear(const Profile& profile, const Point& placement)
   {
-    m_blockers.clear();
     if (!is_v0_moved(profile, placement))
       return is_motion_clear({profile.v1(), profile.v0(), placement, false});
     if (!is_v1_moved(profile, placement))
@@ -125,7 +124,9 @@ public:
 
   bool has_twin(Vertex v) const { return get(m_twins, v) != 0; }
 
+  /// The faces that kept placements from being clear since `forget_blockers`.
   const std::vector<Face>& blockers() const { return m_blockers; }
+  void forget_blockers() { m_blockers.clear(); }
   const Statistics& statistics() const { return m_statistics; }
   const FaceIndex& index() const { return m_index; }
 
@@ -526,7 +527,7 @@ private:
       m_twins;
   std::vector<std::vector<Vertex>> m_twin_classes;
   Vertex m_target{};
-  std::vector<Face> m_blockers; // of the last placement judged
+  std::vector<Face> m_blockers;
   Statistics m_statistics;
 
   // The motion that is judged now, in buffers that are kept so that judging allocates nothing.
