@@ -79,7 +79,7 @@ TEST_P(Spatial_index, NeverMissesABoxWhileBoxesComeChangeAndGo)
     std::vector<CGAL::Bbox_3> boxes;
     for (Id face = 0; face < 700; ++face) {
       boxes.push_back(random.box());
-      if (face % 7 != 3)
+      if (face % 7 < 2) // most come later, so that trees are made anew wherever they are
         faces.push_back(face);
     }
     std::vector<bool> is_in(boxes.size(), false);
