@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -332,18 +333,21 @@ private:
   // and all faces turn the same way, before and after.
   bool is_star_clear_in_view() const
   {
-    const std::size_t faces = m_moving.size() + m_contracted.size();
-    const bool has_to_in_link = !m_contracted.empty();
-    if (m_star_points.size() != faces + (has_to_in_link ? 1 : 2))
+    if (m_star_points.size() > 64)
       return false;
-    // As many edges as positions: a cycle, or several, when every position has one edge that leaves it. It is
-    // one, since around a vertex the faces follow upon each other and at most one gap is open.
+    std::bitset<64> starts, ends;
     for (const auto* edges : {&m_moving, &m_contracted})
-      for (const auto& [a, b] : *edges)
-        if (m_view.side(s_from, a, b) != 1)
+      for (const auto& [a, b] : *edges) {
+        if (starts[a] || ends[b] || m_view.side(s_from, a, b) != 1)
           return false;
-    return std::all_of(m_moving.begin(), m_moving.end(),
-                       [this](const auto& edge) { return m_view.side(s_to, edge[0], edge[1]) == 1; });
+        starts.set(a);
+        ends.set(b);
+      }
+    // Every position has one edge that leaves it and one that arrives: cycles; and one of them, since around
+    // a vertex the faces follow upon each other.
+    return starts == ends && std::all_of(m_moving.begin(), m_moving.end(), [this](const auto& edge) {
+             return m_view.side(s_to, edge[0], edge[1]) == 1;
+           });
   }
 
   /// Condition 1: every moving face against every face that does not contain the moving vertex.
