@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 
 namespace selvedge::test {
@@ -27,6 +28,33 @@ Triangle_soup collapsed(Triangle_soup soup, Index moving, Index target)
   }
   soup.triangles = kept;
   return soup;
+}
+
+// An open fan around m that comes back to a position: the faces (m, a, b) and (m, a2, d), with a2 where a is,
+// lie one above the other, and share an edge by position alone. As m goes to c, far below, the first turns up
+// about that edge and, when d lies low enough, through the second.
+bool is_fan_collapse_accepted(double height_of_d)
+{
+  Mesh mesh;
+  const auto m = mesh.add_vertex({0, 0, 0}), a = mesh.add_vertex({2, 0, 0}), b = mesh.add_vertex({-1, 2, 0}),
+             c = mesh.add_vertex({-1, -2, -0.3}), a2 = mesh.add_vertex({2, 0, 0}),
+             d = mesh.add_vertex({1, 1, height_of_d}), x = mesh.add_vertex({0, 0, -5});
+  for (const auto& [u, v, w] :
+       {std::array{m, a, b}, {m, b, c}, {m, c, a2}, {m, a2, d}, {c, b, x}, {a2, c, x}})
+    EXPECT_NE(mesh.add_face(u, v, w), Mesh::null_face());
+  EXPECT_TRUE(CGAL::is_valid_polygon_mesh(mesh));
+  const Intersection_filter<Mesh> filter(mesh);
+  const auto points = mesh.points();
+  const Kernel kernel;
+  const internal::Lazy_edge_profile<Mesh, Mesh::Property_map<Mesh::Vertex_index, Point_3>, Kernel> profile(
+      mesh.halfedge(m, c), mesh, points, kernel);
+  return bool(filter(profile, internal::Optional<Point_3>(mesh.point(c))));
+}
+
+TEST(Motion, FacesOfOneFanDoNotPassThroughEachOther)
+{
+  EXPECT_FALSE(is_fan_collapse_accepted(0.01));
+  EXPECT_TRUE(is_fan_collapse_accepted(1)); // high enough
 }
 
 TEST(Motion, CollapseThroughThinSheetIsRejected)
