@@ -48,46 +48,24 @@ struct Step
   }
 };
 
-struct Recorder
+struct Recorder : internal::No_visitor
 {
-  std::vector<Step>* steps;
-  std::vector<double>* costs;
+  Recorder(std::vector<Step>& steps_, std::vector<double>& costs_) : steps(&steps_), costs(&costs_) {}
 
-  template <class TriangleMesh>
-  void OnStarted(TriangleMesh&)
-  {
-  }
-  template <class TriangleMesh>
-  void OnFinished(TriangleMesh&)
-  {
-  }
-  template <class Profile>
-  void OnStopConditionReached(const Profile&)
-  {
-  }
   template <class Profile, class OptionalCost>
   void OnCollected(const Profile&, const OptionalCost& cost)
   {
     if (cost)
       costs->push_back(*cost);
   }
-  template <class Profile, class OptionalCost, class Size>
-  void OnSelected(const Profile&, const OptionalCost&, Size, Size)
-  {
-  }
   template <class Profile, class OptionalPoint>
   void OnCollapsing(const Profile& profile, const OptionalPoint& placement)
   {
     steps->push_back({profile.p0(), profile.p1(), *placement});
   }
-  template <class Profile, class Vertex>
-  void OnCollapsed(const Profile&, const Vertex&)
-  {
-  }
-  template <class Profile>
-  void OnNonCollapsable(const Profile&)
-  {
-  }
+
+  std::vector<Step>* steps;
+  std::vector<double>* costs;
 };
 
 /// What a loop with a filter that keeps track of the mesh needs beside the recorder.
@@ -163,9 +141,9 @@ void expect_same_steps(const Mesh& mesh, std::size_t least, const Reduce_own& re
   Mesh own = mesh, cgal = mesh;
   std::vector<Step> own_steps, cgal_steps;
   std::vector<double> costs;
-  reduce_own(own, Recorder{&own_steps, &costs});
+  reduce_own(own, Recorder(own_steps, costs));
   EXPECT_EQ(std::set<double>(costs.begin(), costs.end()).size(), costs.size()) << "costs tie";
-  reduce_cgal(cgal, Recorder{&cgal_steps, &costs});
+  reduce_cgal(cgal, Recorder(cgal_steps, costs));
   EXPECT_GE(own_steps.size(), least);
   ASSERT_EQ(own_steps.size(), cgal_steps.size());
   for (std::size_t i = 0; i < own_steps.size(); ++i)
