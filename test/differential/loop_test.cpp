@@ -29,7 +29,7 @@
 #include <random>
 #include <set>
 #include <string>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace selvedge::test {
@@ -150,7 +150,7 @@ void expect_same_steps(const Mesh& mesh, std::size_t least, const Reduce_own& re
     ASSERT_TRUE(own_steps[i] == cgal_steps[i]) << "step " << i;
 }
 
-// The test that CGAL's loop makes of itself goes first in the own loop's filters.
+// What CGAL's loop tests beyond its filter, the own loop is given as a filter.
 const double ratio = 0.1;
 
 TEST(Own_loop, GoesAsCgalsWithDefaultPolicies)
@@ -249,7 +249,7 @@ TEST(Own_loop, GoesAsCgalsAroundConstrainedEdges)
     SCOPED_TRACE(name);
     const SMS::Count_ratio_stop_predicate<Surface_mesh> stop(ratio);
     expect_same_steps(
-        mesh, 0,
+        mesh, 10,
         [&](Surface_mesh& reduced, const Recorder& recorder) {
           selvedge::edge_collapse(reduced, stop,
                                   CGAL::parameters::edge_is_constrained_map(Is_constrained())
