@@ -3,6 +3,7 @@
 
 #include <selvedge/spatial/Brute_force_index.h>
 #include <selvedge/spatial/Clustered_AABB_tree.h>
+#include <selvedge/spatial/Slab_box.h>
 
 #include <gtest/gtest.h>
 
@@ -163,6 +164,23 @@ TEST(SpatialIndex, HoldsAboutAsManyFacesPerClusterAsAskedFor)
   index.build(faces, box_on_sheet);
   EXPECT_GT(index.statistics().clusters, 200u);
   EXPECT_LT(index.statistics().clusters, 800u);
+}
+
+TEST(SpatialIndex, TakesABoxWithASlabForABox)
+{
+  const CGAL::Bbox_3 unit(0, 0, 0, 1, 1, 1);
+  const selvedge::Slab_box slab{unit, {0, 0, 0}, {0, 0, 1}, 0, 1};
+  Clustered_AABB_tree tree;
+  Brute_force_index list;
+  tree.build({0}, [&](Id) { return unit; });
+  list.build({0}, [&](Id) { return unit; });
+  const auto visits = [&](const auto& index) {
+    std::multiset<Id> found;
+    index.visit_overlapping(slab, [&](Id id) { found.insert(id); });
+    return found;
+  };
+  EXPECT_EQ(visits(tree), (std::multiset<Id>{0}));
+  EXPECT_EQ(visits(list), (std::multiset<Id>{0}));
 }
 
 } // namespace
