@@ -43,8 +43,8 @@ struct Case
 
 struct Proofs
 {
-  bool by_edge = false, by_plane = false, by_edge_of_sweep = false;
-  bool any() const { return by_edge || by_plane || by_edge_of_sweep; }
+  bool by_edge = false, by_plane = false, by_edge_of_sweep = false, by_slab = false;
+  bool any() const { return by_edge || by_plane || by_edge_of_sweep || by_slab; }
 };
 
 std::optional<Proofs> proofs(const Case& c, const Certified_view::Vector& normal)
@@ -58,16 +58,24 @@ std::optional<Proofs> proofs(const Case& c, const Certified_view::Vector& normal
     points.push_back(p);
     return view.add({p.x(), p.y(), p.z()});
   };
-  const Point_3& m = c.moving[2];
-  view.begin({m.x(), m.y(), m.z()}, normal);
+  const Point_3& origin = c.moving[2];
+  view.begin({origin.x(), origin.y(), origin.z()}, normal);
   std::array<Local, 4> moving;
   std::array<Local, 3> still;
   std::transform(c.moving.begin(), c.moving.end(), moving.begin(), number);
   std::transform(c.still.begin(), c.still.end(), still.begin(), number);
-  if (!view.close())
+  if (!view.is_usable())
     return std::nullopt;
-  return Proofs{view.is_clear_by_edge(still, moving), view.is_clear_by_plane(still, moving),
-                view.is_clear_by_edge_of(moving, still)};
+  const auto [a, b, m, t] = moving;
+  const std::size_t shared = std::count_if(still.begin(), still.end(), [&](Local corner) {
+    return std::find(moving.begin(), moving.end(), corner) != moving.end();
+  });
+  return Proofs{view.is_clear_by_edge(still, moving),
+                shared < 3 &&
+                    view.heights(still, points.size()).are_on_one_side(Certified_view::mask(moving)),
+                view.is_clear_by_edge_of(moving, still),
+                view.is_clear_of_slab(still, view.slab({a, b, m}, t)) ||
+                    view.is_clear_of_slab(still, view.slab({a, b, t}, m))};
 }
 
 /// Which proofs there were.
@@ -99,8 +107,9 @@ Proofs compare(const std::function<Point_3(std::mt19937_64&)>& draw, std::size_t
     seen.by_edge |= found->by_edge;
     seen.by_plane |= found->by_plane;
     seen.by_edge_of_sweep |= found->by_edge_of_sweep;
-    EXPECT_TRUE(is_clear || !found->any())
-        << "case " << i << ": " << found->by_edge << found->by_plane << found->by_edge_of_sweep;
+    seen.by_slab |= found->by_slab;
+    EXPECT_TRUE(is_clear || !found->any()) << "case " << i << ": " << found->by_edge << found->by_plane
+                                           << found->by_edge_of_sweep << found->by_slab;
   }
   EXPECT_GT(meeting, cases / 100);
   EXPECT_GT(double(proved), least_share * double(clear));
@@ -116,7 +125,7 @@ TEST(Certified_view, IsNeverWrongOnASmallGrid)
         return Point_3(x, y, coordinate(random));
       },
       300000, 0.3);
-  EXPECT_TRUE(seen.by_edge && seen.by_plane && seen.by_edge_of_sweep);
+  EXPECT_TRUE(seen.by_edge && seen.by_plane && seen.by_edge_of_sweep && seen.by_slab);
 }
 
 TEST(Certified_view, IsNeverWrongNearAPlane)

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace selvedge {
@@ -23,9 +24,9 @@ namespace selvedge {
 /// that are in both, and this is not a triangle. A plane proves it that has one of them on one side, the
 /// other on the other side, and on itself nothing but a face of one of them: what they have in common lies in
 /// this face, and in the hull of those points of the other that lie in the plane. Such a plane is sought here
-/// among those that stand on a line, and those of triangles.
+/// among those that stand on a line, those of triangles, and those parallel to them.
 ///
-/// **Guarantees** What `is_*` answers with yes is so. No means "not proved".
+/// **Guarantees** What `is_*` and `are_*` answer with yes is so. No means "not proved".
 ///
 /// **Exactness** Coordinates are doubles. Signs count only beyond the error bounds, which hold for rounding
 /// to nearest and points whose distances from the origin lie between 10⁻⁹⁰ and 10⁹⁰ or are zero.
@@ -43,11 +44,11 @@ public:
   {
     m_points.clear();
     m_origin = origin;
-    m_extent = 0;
+    bound_errors(0);
     const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
     const double inverse = 1 / length;
-    m_is_usable = std::isfinite(length) && std::isfinite(inverse);
-    if (!m_is_usable)
+    m_is_directed = std::isfinite(length) && std::isfinite(inverse);
+    if (!m_is_directed)
       return;
     const Vector n{normal[0] * inverse, normal[1] * inverse, normal[2] * inverse};
     // Right angles are good to have, and not needed.
@@ -63,8 +64,10 @@ public:
 
   Index add(const Vector& point)
   {
-    const Vector d{point[0] - m_origin[0], point[1] - m_origin[1], point[2] - m_origin[2]};
-    m_extent = (std::max)(m_extent, std::fabs(d[0]) + std::fabs(d[1]) + std::fabs(d[2]));
+    const Vector d = difference(point, m_origin);
+    const double distance = std::fabs(d[0]) + std::fabs(d[1]) + std::fabs(d[2]);
+    if (!(distance <= m_extent))
+      bound_errors(distance);
     Vector seen;
     for (std::size_t i = 0; i < 3; ++i)
       seen[i] = m_axes[i][0] * d[0] + m_axes[i][1] * d[1] + m_axes[i][2] * d[2];
@@ -72,25 +75,20 @@ public:
     return Index(m_points.size() - 1);
   }
 
-  /// To be called when all points are in; whether anything can be proved at all.
-  bool close()
-  {
-    // With r for the largest distance from the origin (in the 1-norm) and ε = 2⁻⁵³: a coordinate is at most r
-    // (1 + 8 ε) and wrong by at most 8 ε r; a difference of two by 18 ε r. A side is a sum of two products of
-    // differences, each at most 2 r: wrong by at most 2 · 2 · (2 r · 18 ε r) + 3 · 8 ε r² < 2⁸ ε r². A height
-    // above a plane is a sum of three products of such sums, at most 8 r², and differences: wrong by at most
-    // 3 · (2⁸ ε r² · 2 r + 8 r² · 18 ε r) + 5 · 48 ε r³ < 2¹² ε r³. Twice that is asked for.
-    m_is_usable = m_is_usable && m_extent > 1e-90 && m_extent < 1e90;
-    m_length_error = std::ldexp(m_extent, -48);
-    m_area_error = std::ldexp(m_extent * m_extent, -44);
-    m_volume_error = std::ldexp(m_extent * m_extent * m_extent, -40);
-    return m_is_usable;
-  }
+  /// Whether anything can be proved at all of the points that are in. Points may be added later on.
+  bool is_usable() const { return m_is_directed && m_extent > s_least && m_extent < s_largest; }
 
+  /// That of which the third coordinates are the heights above the origin.
+  const Vector& direction() const { return m_axes[2]; }
+
+  std::size_t size() const { return m_points.size(); }
   const Vector& operator[](Index i) const { return m_points[i]; }
 
   /// By how much coordinates of two points must differ to be in that order.
   double length_error() const { return m_length_error; }
+
+  /// By how much twice the area of a triangle in the view must differ from 0 for its sign to be known.
+  double area_error() const { return m_area_error; }
 
   /// The side of the line from i to j on which k is seen: 1 left, −1 right, 0 not known.
   int side(Index i, Index j, Index k) const
@@ -114,27 +112,82 @@ public:
     return false;
   }
 
-  /// Is the triangle clear of any simplex of `points` by its own plane?
+  /// The first points, one bit for each.
+  using Mask = std::uint64_t;
+  static constexpr std::size_t s_max_masked = 64;
+
+  /// The mask of some points; 0, in which nothing is known, when one of them has no bit.
   template <class Points>
-  bool is_clear_by_plane(const std::array<Index, 3>& triangle, const Points& points) const
+  static Mask mask(const Points& points)
+  {
+    Mask result = 0;
+    for (const Index p : points) {
+      if (p >= s_max_masked)
+        return 0;
+      result |= Mask(1) << p;
+    }
+    return result;
+  }
+
+  /// Which points are known to lie above and below the plane of a triangle; its corners count as both.
+  struct Heights
+  {
+    Mask above = 0, below = 0;
+
+    bool are_on_one_side(Mask points) const
+    {
+      return points != 0 && ((above & points) == points || (below & points) == points);
+    }
+  };
+
+  /// Of the first `count` points. The triangle is clear of any simplex of those on one side, unless it is a
+  /// face of it.
+  Heights heights(const std::array<Index, 3>& triangle, std::size_t count) const
   {
     const Vector& o = m_points[triangle[0]];
-    const Vector normal = cross(difference(m_points[triangle[1]], o), difference(m_points[triangle[2]], o));
-    int sign = 0;
-    std::size_t shared = 0;
-    for (const Index p : points) {
-      if (p == triangle[0] || p == triangle[1] || p == triangle[2]) {
-        ++shared;
-        continue;
-      }
-      const Vector d = difference(m_points[p], o);
-      const double volume = normal[0] * d[0] + normal[1] * d[1] + normal[2] * d[2];
-      const int height = int(volume > m_volume_error) - int(volume < -m_volume_error);
-      if (height == 0 || height == -sign)
-        return false;
-      sign = height;
+    const Vector normal = this->normal(triangle);
+    const double level = dot(normal, o);
+    Heights result;
+    for (Index p = 0; p < (std::min)(count, s_max_masked); ++p) {
+      const double height = dot(normal, m_points[p]) - level;
+      const Mask bit = Mask(1) << p;
+      result.above |= height > m_volume_error ? bit : 0;
+      result.below |= height < -m_volume_error ? bit : 0;
     }
-    return sign != 0 && shared < 3;
+    const Mask corners = masked(triangle[0]) | masked(triangle[1]) | masked(triangle[2]);
+    result.above |= corners;
+    result.below |= corners;
+    return result;
+  }
+
+  /// The direction across a triangle, and between which heights lie the triangle and one more point.
+  struct Slab
+  {
+    Vector normal;
+    double lower, upper;
+  };
+  Slab slab(const std::array<Index, 3>& triangle, Index point) const
+  {
+    Slab result;
+    result.normal = normal(triangle);
+    result.lower = result.upper = dot(result.normal, m_points[point]);
+    for (const Index corner : triangle) {
+      const double height = dot(result.normal, m_points[corner]);
+      result.lower = (std::min)(result.lower, height);
+      result.upper = (std::max)(result.upper, height);
+    }
+    return result;
+  }
+
+  /// Is the triangle clear of all that the slab holds, by a plane of its direction?
+  bool is_clear_of_slab(const std::array<Index, 3>& triangle, const Slab& slab) const
+  {
+    const double a = dot(slab.normal, m_points[triangle[0]]), b = dot(slab.normal, m_points[triangle[1]]),
+                 c = dot(slab.normal, m_points[triangle[2]]);
+    return (a > slab.upper + m_volume_error && b > slab.upper + m_volume_error &&
+            c > slab.upper + m_volume_error) ||
+           (a < slab.lower - m_volume_error && b < slab.lower - m_volume_error &&
+            c < slab.lower - m_volume_error);
   }
 
   /// Is the triangle clear of the tetrahedron by a plane that stands on one of the latter's edges?
@@ -156,6 +209,33 @@ public:
   }
 
 private:
+  static constexpr double s_least = 1e-90, s_largest = 1e90;
+
+  // With r for the largest distance from the origin (in the 1-norm) and ε = 2⁻⁵³: a coordinate is at most r
+  // (1 + 8 ε) and wrong by at most 8 ε r; a difference of two by 18 ε r. A side is a sum of two products of
+  // differences, each at most 2 r: wrong by at most 2 · 2 · (2 r · 18 ε r) + 3 · 8 ε r² < 2⁸ ε r². A normal
+  // has three such components, each at most 8 r²; so a height above a plane, the difference of two products
+  // with the normal, is wrong by at most 3 · 2⁸ ε r² · 2 r for the normal, 2 · 3 · 8 r² · 8 ε r for the
+  // coordinates and 200 ε r³ for rounding, together less than 2¹² ε r³. Twice that is asked for.
+  void bound_errors(double extent)
+  {
+    m_extent = extent;
+    // Where products may overflow, nothing is certain.
+    const double r = extent < s_largest ? extent : std::numeric_limits<double>::infinity();
+    m_length_error = 0x1p-48 * r;
+    m_area_error = 0x1p-44 * r * r;
+    m_volume_error = 0x1p-40 * r * r * r;
+  }
+
+  static Mask masked(Index p) { return p < s_max_masked ? Mask(1) << p : 0; }
+
+  Vector normal(const std::array<Index, 3>& triangle) const
+  {
+    const Vector& o = m_points[triangle[0]];
+    return cross(difference(m_points[triangle[1]], o), difference(m_points[triangle[2]], o));
+  }
+
+  static double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
   static Vector difference(const Vector& a, const Vector& b)
   {
     return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
@@ -170,7 +250,7 @@ private:
   std::vector<Vector> m_points;
   double m_extent = 0;
   double m_length_error = 0, m_area_error = 0, m_volume_error = 0;
-  bool m_is_usable = false;
+  bool m_is_directed = false;
 };
 
 } // namespace selvedge

@@ -7,9 +7,11 @@
 #include <selvedge/Error.h>
 #include <selvedge/Surface_mesh_simplification/internal/collapse_geometry.h>
 #include <selvedge/geometry/Certified_view.h>
+#include <selvedge/geometry/Star_shadow.h>
 #include <selvedge/geometry/Vertex_motion.h>
 #include <selvedge/geometry/star.h>
 #include <selvedge/geometry/sweep.h>
+#include <selvedge/spatial/Slab_box.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Dynamic_property_map.h>
@@ -18,7 +20,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -49,7 +50,7 @@ public:
     std::size_t stars_clear_by_view = 0; ///< stars that one view settled
     std::size_t faces_near = 0;          ///< stationary faces whose box meets that of a star
     std::size_t faces_clear_by_box = 0;  ///< of these, clear of the whole star by boxes in the star's view
-    std::size_t faces_clear_by_view = 0; ///< of the others, clear of the whole star by a plane
+    std::size_t faces_clear_by_view = 0; ///< of the others, clear of the whole star in its view
     std::size_t pairs_clear_by_view = 0; ///< of what remains, pairs of a sweep and a face clear by a plane
     std::size_t sweeps_tested = 0;       ///< pairs that took the exact test
     std::size_t refused_by_link = 0;     ///< condition 0
@@ -60,20 +61,22 @@ public:
   Intersection_guard(const TriangleMesh& mesh, const VertexPointMap& points, const GeomTraits& traits,
                      FaceIndex&& empty_index)
       : m_mesh(mesh), m_points(points), m_traits(traits), m_index(std::move(empty_index)),
-        m_ids(get(CGAL::dynamic_face_property_t<Id>(), mesh)),
-        m_twins(get(CGAL::dynamic_vertex_property_t<std::uint32_t>(), mesh)),
-        m_marks(get(CGAL::dynamic_vertex_property_t<Mark>(), mesh))
+        m_vertex_numbers(get(CGAL::dynamic_vertex_property_t<Number>(), mesh)),
+        m_face_numbers(get(CGAL::dynamic_face_property_t<Id>(), mesh))
   {
+    m_vertices.reserve(num_vertices(mesh));
+    for (const Vertex v : vertices(mesh)) {
+      put(m_vertex_numbers, v, Number(m_vertices.size()));
+      m_vertices.push_back({get(m_points, v)});
+    }
     find_twins();
     m_faces.reserve(num_faces(mesh));
     m_corners.reserve(num_faces(mesh));
-    for (const Vertex v : vertices(mesh))
-      put(m_marks, v, Mark());
     std::vector<Id> ids;
     ids.reserve(num_faces(mesh));
     for (const Face face : faces(mesh)) {
       const Id id = Id(m_faces.size());
-      put(m_ids, face, id);
+      put(m_face_numbers, face, id);
       m_faces.push_back(face);
       m_corners.push_back(face_corners(face));
       ids.push_back(id);
@@ -104,26 +107,26 @@ public:
     // Read before the collapse frees them.
     for (const Halfedge h : {profile.v0_v1(), profile.v1_v0()})
       if (!is_border(h, m_mesh))
-        m_index.remove(get(m_ids, face(h, m_mesh)));
+        m_index.remove(get(m_face_numbers, face(h, m_mesh)));
     m_target = is_v0_moved(profile, placement) ? profile.v1() : profile.v0();
   }
 
   void after_collapse(Vertex kept)
   {
+    Vertex_record& of_kept = m_vertices[number(kept)];
+    of_kept.point = get(m_points, kept);
+    // The position of the target lives on, under whichever name CGAL keeps.
+    if (const Number twins = record(m_target).twins; twins != 0 && kept != m_target) {
+      of_kept.twins = twins;
+      std::replace(m_twin_classes[twins].begin(), m_twin_classes[twins].end(), m_target, kept);
+    }
     for (const Halfedge h : CGAL::halfedges_around_target(halfedge(kept, m_mesh), m_mesh))
       if (!is_border(h, m_mesh)) {
-        const Id id = get(m_ids, face(h, m_mesh));
+        const Id id = get(m_face_numbers, face(h, m_mesh));
         m_corners[id] = face_corners(face(h, m_mesh));
         m_index.set(id, face_box(id));
       }
-    // The position of the target lives on, under whichever name CGAL keeps.
-    if (const std::uint32_t twins = get(m_twins, m_target); twins != 0 && kept != m_target) {
-      put(m_twins, kept, twins);
-      std::replace(m_twin_classes[twins].begin(), m_twin_classes[twins].end(), m_target, kept);
-    }
   }
-
-  bool has_twin(Vertex v) const { return get(m_twins, v) != 0; }
 
   /// The faces that kept placements from being clear since `forget_blockers`.
   const std::vector<Face>& blockers() const { return m_blockers; }
@@ -136,6 +139,18 @@ private:
   static constexpr bool s_has_view = std::is_same_v<typename GeomTraits::FT, double>;
   static constexpr Certified_view::Index s_from = 0, s_to = 1; // among the points of a motion
 
+  using Number = std::uint32_t; // of a vertex
+  using Local = Certified_view::Index;
+
+  /// All that is asked of a vertex when a face near it is judged, side by side in memory.
+  struct Vertex_record
+  {
+    Point point;
+    Number twins = 0;         ///< the class of the vertices at its position; 0 when it is alone there
+    std::uint32_t motion = 0; ///< the last motion that it was a point of
+    Local local = 0;          ///< which
+  };
+
   /// A vertex goes to a place: that of a neighbour with which it merges, or one that is no vertex.
   struct Motion
   {
@@ -145,35 +160,31 @@ private:
     bool is_target_moved; ///< the neighbour is judged as if it stood at `place` already
   };
 
-  using Local = Certified_view::Index;
-
-  /// Which point of the motion that is judged now a vertex is, if any.
-  struct Mark
-  {
-    std::uint32_t motion = 0; ///< the number of the motion; others' marks do not count
-    Local point = 0;
-  };
-
   /// A face that stands still, its corners as the motion sees them.
   struct Stationary_face
   {
     Id id;
     std::array<Local, 3> corners;
+    Certified_view::Heights heights; ///< of the star above its plane
   };
+
+  /// Two planes near a sweep, those of the face that moves before and after, as directions: between which
+  /// heights it lies in each.
+  using Lids = std::array<Certified_view::Slab, 2>;
 
   bool is_motion_clear(const Motion& motion)
   {
     ++m_statistics.motions_judged;
-    if (has_twin(motion.mover) || (motion.target && !is_link_condition_met(motion.mover, *motion.target))) {
+    if (has_twin(motion.mover) || !gather_star(motion) || !is_link_condition_met(motion)) {
       ++m_statistics.refused_by_link;
       return false;
     }
-    gather_star(motion);
-    gather_stationary_faces(motion);
-    m_is_in_view = s_has_view && m_view.close();
-    const bool is_star_seen_clear = m_is_in_view && is_star_clear_in_view();
+    m_is_in_view = begin_view();
+    m_has_shadow = m_is_in_view && is_star_clear_in_view(motion);
+    if (m_has_shadow)
+      m_shadow.begin(m_view, s_from, m_link);
     const Star_verdict verdict =
-        is_star_seen_clear ? Star_verdict::clear_by_view : judge_star_motion(m_star, m_traits);
+        m_has_shadow ? Star_verdict::clear_by_view : judge_star_motion(exact_star(), m_traits);
     m_statistics.stars_clear_by_view += verdict == Star_verdict::clear_by_view;
     if (verdict == Star_verdict::refused) {
       ++m_statistics.refused_by_star;
@@ -186,209 +197,235 @@ private:
     return true;
   }
 
-  /// Condition 0: every position joined by an edge to both ends is the third corner of a contracted face.
-  bool is_link_condition_met(Vertex mover, Vertex target) const
+  // Numbers the points of the star: the mover, where it goes, then the link. False when a face other than the
+  // contracted ones has a corner where the mover goes.
+  bool gather_star(const Motion& motion)
   {
-    std::array<std::optional<Vertex>, 2> contracted;
-    std::size_t contracted_count = 0;
-    bool is_edge_border = false;
-    bool is_mover_on_border = false;
-    std::vector<Vertex>& link = m_link;
-    link.clear();
-    for (const Halfedge h : CGAL::halfedges_around_target(halfedge(mover, m_mesh), m_mesh)) {
-      const bool is_h_border = is_border(h, m_mesh) || is_border(opposite(h, m_mesh), m_mesh);
-      is_mover_on_border |= is_h_border;
-      if (source(h, m_mesh) != target) {
-        link.push_back(source(h, m_mesh));
+    if (++m_motion == 0) { // after four thousand million motions, old marks would count again
+      for (Vertex_record& record : m_vertices)
+        record.motion = 0;
+      m_motion = 1;
+    }
+    m_local_points.clear();
+    m_local_points.push_back(record(motion.mover).point);
+    m_local_points.push_back(motion.place);
+    if (motion.target)
+      mark(number(*motion.target), s_to);
+    m_link.clear();
+    m_is_contracted.clear();
+    m_is_star_closed = true;
+    m_sweeps.clear();
+    m_lids.clear();
+    for (const Halfedge h : CGAL::halfedges_around_target(halfedge(motion.mover, m_mesh), m_mesh)) {
+      if (is_border(h, m_mesh)) {
+        m_is_star_closed = false;
         continue;
       }
-      is_edge_border = is_h_border;
+      const Vertex a = target(next(h, m_mesh), m_mesh), b = source(h, m_mesh);
+      const Local first = local(number(a)), second = local(number(b));
+      const bool is_contracted = a == motion.target || b == motion.target;
+      if (!is_contracted && motion.target && (first == s_to || second == s_to))
+        return false;
+      m_link.push_back({first, second});
+      m_is_contracted.push_back(is_contracted);
+    }
+    m_star_size = m_local_points.size();
+    return true;
+  }
+
+  /// Condition 0: every position joined by an edge to both ends is the third corner of a contracted face.
+  bool is_link_condition_met(const Motion& motion)
+  {
+    if (!motion.target)
+      return true;
+    const Vertex mover = motion.mover, end = *motion.target;
+    std::array<Local, 2> contracted;
+    std::size_t contracted_count = 0;
+    bool is_edge_border = false;
+    for (const Halfedge h : CGAL::halfedges_around_target(halfedge(mover, m_mesh), m_mesh)) {
+      if (source(h, m_mesh) != end)
+        continue;
       for (const Halfedge side : {h, opposite(h, m_mesh)}) {
-        if (is_border(side, m_mesh))
+        if (is_border(side, m_mesh)) {
+          is_edge_border = true;
           continue;
+        }
         const Halfedge next_edge = next(side, m_mesh);
         if (is_border(opposite(next_edge, m_mesh), m_mesh) &&
             is_border(opposite(next(next_edge, m_mesh), m_mesh), m_mesh))
           return false;
-        contracted[contracted_count++] = source(next(next_edge, m_mesh), m_mesh);
+        contracted[contracted_count++] = local(number(target(next_edge, m_mesh)));
       }
     }
     const auto is_allowed = [&](Vertex neighbour) {
-      if (std::none_of(link.begin(), link.end(), [&](Vertex v) { return is_same_position(v, neighbour); }))
-        return true;
-      return std::any_of(contracted.begin(), contracted.begin() + contracted_count,
-                         [&](const std::optional<Vertex>& v) { return is_same_position(*v, neighbour); });
+      const Vertex_record& of_neighbour = record(neighbour);
+      return of_neighbour.motion != m_motion || // not in the link
+             std::find(contracted.begin(), contracted.begin() + contracted_count, of_neighbour.local) !=
+                 contracted.begin() + contracted_count;
     };
-    bool is_target_on_border = false;
+    bool is_end_on_border = false;
     const auto are_neighbours_allowed = [&](Vertex at) {
       for (const Halfedge h : CGAL::halfedges_around_target(halfedge(at, m_mesh), m_mesh)) {
-        is_target_on_border |= is_border(h, m_mesh);
+        is_end_on_border |= is_border(h, m_mesh);
         if (source(h, m_mesh) != mover && !is_allowed(source(h, m_mesh)))
           return false;
       }
       return true;
     };
-    if (!has_twin(target)
-            ? !are_neighbours_allowed(target)
-            : !std::all_of(twin_class(target).begin(), twin_class(target).end(), are_neighbours_allowed))
+    if (!has_twin(end) ? !are_neighbours_allowed(end)
+                       : !std::all_of(twins(end).begin(), twins(end).end(), are_neighbours_allowed))
       return false;
-    return is_edge_border || !is_mover_on_border || !is_target_on_border;
-  }
-
-  // The star, with its points numbered: the mover, where it goes, then the link.
-  void gather_star(const Motion& motion)
-  {
-    m_star.from = get(m_points, motion.mover);
-    m_star.to = motion.place;
-    m_star.moving.clear();
-    m_star.contracted.clear();
-    for (const Halfedge h : CGAL::halfedges_around_target(halfedge(motion.mover, m_mesh), m_mesh)) {
-      if (is_border(h, m_mesh))
-        continue;
-      const Vertex a = target(next(h, m_mesh), m_mesh);
-      const Vertex b = source(h, m_mesh);
-      const bool is_contracted = motion.target && (a == *motion.target || b == *motion.target);
-      (is_contracted ? m_star.contracted : m_star.moving)
-          .push_back({place_of(a, motion), place_of(b, motion)});
-      (is_contracted ? m_link_of_contracted : m_link_of_moving).push_back({a, b});
-    }
-    begin_view();
-    if (++m_motion == 0) { // after four thousand million motions, old marks would count again
-      for (const Vertex v : vertices(m_mesh))
-        put(m_marks, v, Mark());
-      m_motion = 1;
-    }
-    m_local_points.clear();
-    add_point(m_star.from);
-    add_point(m_star.to);
-    if (motion.target)
-      mark(*motion.target, s_to);
-    number_link(m_link_of_moving, m_moving);
-    number_link(m_link_of_contracted, m_contracted);
-    m_star_points.resize(m_local_points.size());
-    std::iota(m_star_points.begin(), m_star_points.end(), Local(0));
-  }
-
-  void number_link(std::vector<std::array<Vertex, 2>>& edges, std::vector<std::array<Local, 2>>& numbered)
-  {
-    numbered.clear();
-    for (const auto& [a, b] : edges) {
-      const Local first = local(a);
-      numbered.push_back({first, local(b)});
-    }
-    edges.clear();
+    return is_edge_border || m_is_star_closed || !is_end_on_border;
   }
 
   // The number of a vertex among the points of the motion.
-  Local local(Vertex v)
+  Local local(Number v)
   {
-    const Mark known = get(m_marks, v);
-    if (known.motion == m_motion)
-      return known.point;
-    const Local point = add_point(get(m_points, v));
+    const Vertex_record& of_vertex = m_vertices[v];
+    if (of_vertex.motion == m_motion)
+      return of_vertex.local;
+    const Local point = Local(m_local_points.size());
+    m_local_points.push_back(of_vertex.point);
     mark(v, point);
     return point;
   }
 
-  void mark(Vertex v, Local point)
+  void mark(Number v, Local point)
   {
-    if (!has_twin(v))
-      put(m_marks, v, Mark{m_motion, point});
+    const auto mark_one = [&](Vertex_record& record) {
+      record.motion = m_motion;
+      record.local = point;
+    };
+    if (m_vertices[v].twins == 0)
+      mark_one(m_vertices[v]);
     else
-      for (const Vertex twin : twin_class(v))
-        put(m_marks, twin, Mark{m_motion, point});
+      for (const Vertex twin : m_twin_classes[m_vertices[v].twins])
+        mark_one(m_vertices[number(twin)]);
   }
 
-  Local add_point(const Point& point)
-  {
-    m_local_points.push_back(point);
-    if constexpr (s_has_view)
-      m_view.add({point.x(), point.y(), point.z()});
-    return Local(m_local_points.size() - 1);
-  }
-
-  // Along the sum of the normals of the faces, before and after.
-  void begin_view()
+  // From the star, along the sum of the normals of its faces. Whether there is a view.
+  bool begin_view()
   {
     if constexpr (s_has_view) {
-      std::array<double, 3> normal{0, 0, 0};
-      const auto add = [&](const Point& apex, const std::array<Point, 2>& edge) {
-        const double ux = edge[0].x() - apex.x(), uy = edge[0].y() - apex.y(), uz = edge[0].z() - apex.z(),
-                     vx = edge[1].x() - apex.x(), vy = edge[1].y() - apex.y(), vz = edge[1].z() - apex.z();
+      Certified_view::Vector normal{0, 0, 0};
+      const auto add = [&](Local apex, const std::array<Local, 2>& edge) {
+        const Point &o = m_local_points[apex], &a = m_local_points[edge[0]], &b = m_local_points[edge[1]];
+        const double ux = a.x() - o.x(), uy = a.y() - o.y(), uz = a.z() - o.z(), vx = b.x() - o.x(),
+                     vy = b.y() - o.y(), vz = b.z() - o.z();
         normal[0] += uy * vz - uz * vy;
         normal[1] += uz * vx - ux * vz;
         normal[2] += ux * vy - uy * vx;
       };
-      for (const auto& edge : m_star.moving) {
-        add(m_star.from, edge);
-        add(m_star.to, edge);
+      for (const auto& edge : m_link) {
+        add(s_from, edge);
+        if (!m_is_star_closed) // otherwise the sum is the same before and after
+          add(s_to, edge);
       }
-      for (const auto& edge : m_star.contracted)
-        add(m_star.from, edge);
-      m_view.begin({m_star.from.x(), m_star.from.y(), m_star.from.z()}, normal);
+      m_view.begin(coordinates(m_local_points[s_from]), normal);
+      see_new_points();
+      return m_view.is_usable();
     }
+    return false;
   }
+
+  void see_new_points()
+  {
+    if constexpr (s_has_view)
+      while (m_view.size() < m_local_points.size())
+        m_view.add(coordinates(m_local_points[m_view.size()]));
+  }
+
+  static Certified_view::Vector coordinates(const Point& point) { return {point.x(), point.y(), point.z()}; }
 
   // As in judge_star_motion(), seen from infinitely far away: the link is one cycle of distinct positions,
   // and all faces turn the same way, before and after.
-  bool is_star_clear_in_view() const
+  bool is_star_clear_in_view(const Motion& motion) const
   {
-    if (m_star_points.size() > 64)
+    const bool is_cycle = m_is_star_closed && m_star_size + motion.target.has_value() == m_link.size() + 2;
+    if (!is_cycle || m_link.size() > Star_shadow::s_max_edges)
       return false;
-    std::bitset<64> starts, ends;
-    for (const auto* edges : {&m_moving, &m_contracted})
-      for (const auto& [a, b] : *edges) {
-        if (starts[a] || ends[b] || m_view.side(s_from, a, b) != 1)
-          return false;
-        starts.set(a);
-        ends.set(b);
-      }
-    // Every position has one edge that leaves it and one that arrives: cycles; and one of them, since around
-    // a vertex the faces follow upon each other.
-    return starts == ends && std::all_of(m_moving.begin(), m_moving.end(), [this](const auto& edge) {
-             return m_view.side(s_to, edge[0], edge[1]) == 1;
-           });
+    for (std::size_t j = 0; j < m_link.size(); ++j) {
+      const auto& [a, b] = m_link[j];
+      if (m_view.side(s_from, a, b) != 1 || (!m_is_contracted[j] && m_view.side(s_to, a, b) != 1))
+        return false;
+    }
+    return true;
   }
 
   /// Condition 1: every moving face against every face that does not contain the moving vertex.
   bool are_sweeps_clear(const Motion& motion)
   {
-    m_sweeps.assign(m_moving.size(), std::nullopt);
-    m_statistics.faces_near += m_stationary.size();
     if (m_is_in_view)
       bound_star();
-    for (const Stationary_face& face : m_stationary) {
-      if (m_is_in_view && is_clear_of_star_in_view(face))
-        continue;
-      for (std::size_t j = 0; j < m_moving.size(); ++j)
-        if (!is_sweep_clear(j, face)) {
-          m_blockers.push_back(m_faces[face.id]);
-          return false;
-        }
-    }
-    if (motion.target)
-      return true;
+    m_stationary.clear();
     // A place that is no neighbour's must be no position of the mesh at all, or two would become one.
+    std::optional<Id> face_at_place;
+    const Number mover = number(motion.mover);
+    const Number moved_target = motion.is_target_moved ? number(*motion.target) : mover;
+    const auto judge_by_star = [&](Id id) {
+      ++m_statistics.faces_near;
+      const std::array<Number, 3>& corners = m_corners[id];
+      const Local a = local(corners[0]), b = local(corners[1]);
+      Stationary_face face{id, {a, b, local(corners[2])}, {}};
+      if (!motion.target && std::any_of(face.corners.begin(), face.corners.end(),
+                                        [&](Local corner) { return m_local_points[corner] == motion.place; }))
+        face_at_place = id;
+      if (m_is_in_view)
+        see_new_points();
+      if (!m_is_in_view || !is_clear_of_star_in_view(face))
+        m_stationary.push_back(face);
+    };
+    m_index.visit_overlapping(star_box(), [&](Id id) {
+      // A neighbour that is judged away from where it stands brings its faces along, below.
+      if (!contains(m_corners[id], mover) && !contains(m_corners[id], moved_target))
+        judge_by_star(id);
+    });
+    if (motion.is_target_moved)
+      for (const Halfedge h : CGAL::halfedges_around_target(halfedge(*motion.target, m_mesh), m_mesh))
+        if (!is_border(h, m_mesh))
+          if (const Id id = get(m_face_numbers, face(h, m_mesh)); !contains(m_corners[id], mover))
+            judge_by_star(id);
+
     for (const Stationary_face& face : m_stationary)
-      for (const Local corner : face.corners)
-        if (m_local_points[corner] == motion.place) {
+      for (std::size_t j = 0; j < m_link.size(); ++j)
+        if (!m_is_contracted[j] && !is_sweep_clear(j, face)) {
           m_blockers.push_back(m_faces[face.id]);
           return false;
         }
-    return true;
+    if (face_at_place)
+      m_blockers.push_back(m_faces[*face_at_place]);
+    return !face_at_place;
+  }
+
+  // Around the star, and as flat as it is.
+  Slab_box star_box() const
+  {
+    Slab_box result;
+    for (std::size_t i = 0; i < m_star_size; ++i)
+      result.box += m_local_points[i].bbox();
+    if (m_is_in_view) {
+      result.origin = coordinates(m_local_points[s_from]);
+      result.normal = m_view.direction();
+      result.lower = m_star_lower[2] - m_view.length_error();
+      result.upper = m_star_upper[2] + m_view.length_error();
+    }
+    return result;
   }
 
   void bound_star()
   {
     m_star_lower = m_star_upper = m_view[s_from];
-    for (const Local p : m_star_points)
+    for (Local p = 0; p < m_star_size; ++p)
       for (std::size_t i = 0; i < 3; ++i) {
         m_star_lower[i] = (std::min)(m_star_lower[i], m_view[p][i]);
         m_star_upper[i] = (std::max)(m_star_upper[i], m_view[p][i]);
       }
+    m_star_points.resize(m_star_size);
+    std::iota(m_star_points.begin(), m_star_points.end(), Local(0));
+    m_star_mask = m_view.mask(m_star_points);
   }
 
-  bool is_clear_of_star_in_view(const Stationary_face& face)
+  bool is_clear_of_star_in_view(Stationary_face& face)
   {
     const auto &a = m_view[face.corners[0]], &b = m_view[face.corners[1]], &c = m_view[face.corners[2]];
     for (std::size_t i = 3; i-- > 0;)
@@ -397,11 +434,17 @@ private:
         ++m_statistics.faces_clear_by_box;
         return true;
       }
+    const auto is_clear_by_plane = [&] {
+      face.heights = m_view.heights(face.corners, m_star_size);
+      return shared_points(face.corners, m_star_points) < 3 && face.heights.are_on_one_side(m_star_mask);
+    };
+    const auto is_clear_beside = [&] {
+      return m_has_shadow ? m_shadow.is_clear(m_view, face.corners)
+                          : m_view.is_clear_by_edge(face.corners, m_star_points);
+    };
     // Neighbours lie beside the star, other layers above or below.
-    const bool is_clear = is_neighbour(face) ? m_view.is_clear_by_edge(face.corners, m_star_points) ||
-                                                   m_view.is_clear_by_plane(face.corners, m_star_points)
-                                             : m_view.is_clear_by_plane(face.corners, m_star_points) ||
-                                                   m_view.is_clear_by_edge(face.corners, m_star_points);
+    const bool is_clear = is_neighbour(face) ? is_clear_beside() || is_clear_by_plane()
+                                             : is_clear_by_plane() || is_clear_beside();
     m_statistics.faces_clear_by_view += is_clear;
     return is_clear;
   }
@@ -409,81 +452,78 @@ private:
   // Does it share a point with the star?
   bool is_neighbour(const Stationary_face& face) const
   {
-    return (std::min)({face.corners[0], face.corners[1], face.corners[2]}) < m_star_points.size();
+    return (std::min)({face.corners[0], face.corners[1], face.corners[2]}) < m_star_size;
+  }
+
+  template <class Points>
+  static std::size_t shared_points(const std::array<Local, 3>& corners, const Points& points)
+  {
+    return std::count_if(corners.begin(), corners.end(), [&](Local corner) {
+      return std::find(points.begin(), points.end(), corner) != points.end();
+    });
   }
 
   bool is_sweep_clear(std::size_t j, const Stationary_face& face)
   {
-    const auto [a, b] = m_moving[j];
-    if (m_is_in_view) {
-      const std::array<Local, 4> corners{a, b, s_from, s_to};
-      const auto is_clear_by_edge = [&] {
-        return m_view.is_clear_by_edge_of(corners, face.corners) ||
-               m_view.is_clear_by_edge(face.corners, corners);
-      };
-      if (is_neighbour(face) ? is_clear_by_edge() || m_view.is_clear_by_plane(face.corners, corners)
-                             : m_view.is_clear_by_plane(face.corners, corners) || is_clear_by_edge()) {
-        ++m_statistics.pairs_clear_by_view;
-        return true;
-      }
+    const auto [a, b] = m_link[j];
+    if (m_is_in_view && is_sweep_clear_in_view(j, face)) {
+      ++m_statistics.pairs_clear_by_view;
+      return true;
     }
     const auto box = [this](const auto&... points) { return (m_local_points[points].bbox() + ...); };
     if (!CGAL::do_overlap(box(s_from, s_to, a, b), box(face.corners[0], face.corners[1], face.corners[2])))
       return true;
     ++m_statistics.sweeps_tested;
+    m_sweeps.resize(m_link.size());
     if (!m_sweeps[j])
-      m_sweeps[j].emplace(m_star.from, m_star.to, m_local_points[a], m_local_points[b], m_traits);
+      m_sweeps[j].emplace(m_local_points[s_from], m_local_points[s_to], m_local_points[a], m_local_points[b],
+                          m_traits);
     return m_sweeps[j]->is_clear(m_local_points[face.corners[0]], m_local_points[face.corners[1]],
                                  m_local_points[face.corners[2]]);
   }
 
-  void gather_stationary_faces(const Motion& motion)
+  bool is_sweep_clear_in_view(std::size_t j, const Stationary_face& face)
   {
-    m_stationary.clear();
-    CGAL::Bbox_3 box = m_star.from.bbox() + m_star.to.bbox();
-    for (const auto& [a, b] : m_star.moving)
-      box += a.bbox() + b.bbox();
-    m_index.visit_overlapping(box, [&](Id id) {
-      // A neighbour that is judged away from where it stands brings its faces along, below.
-      if (!contains(m_corners[id], motion.mover) &&
-          !(motion.is_target_moved && contains(m_corners[id], *motion.target)))
-        push_stationary(id);
-    });
-    if (!motion.is_target_moved)
-      return;
-    for (const Halfedge h : CGAL::halfedges_around_target(halfedge(*motion.target, m_mesh), m_mesh))
-      if (!is_border(h, m_mesh))
-        if (const Id id = get(m_ids, face(h, m_mesh)); !contains(m_corners[id], motion.mover))
-          push_stationary(id);
+    const auto [a, b] = m_link[j];
+    const std::array<Local, 4> corners{a, b, s_from, s_to};
+    if (face.heights.are_on_one_side(m_view.mask(corners)) && shared_points(face.corners, corners) < 3)
+      return true;
+    if (m_lids.empty())
+      for (const auto& [start, end] : m_link)
+        m_lids.push_back({m_view.slab({start, end, s_from}, s_to), m_view.slab({start, end, s_to}, s_from)});
+    return m_view.is_clear_of_slab(face.corners, m_lids[j][0]) ||
+           m_view.is_clear_of_slab(face.corners, m_lids[j][1]) ||
+           m_view.is_clear_by_edge_of(corners, face.corners) ||
+           m_view.is_clear_by_edge(face.corners, corners);
   }
 
-  void push_stationary(Id id)
+  const Vertex_motion<Point>& exact_star()
   {
-    const std::array<Vertex, 3>& corners = m_corners[id];
-    const Local first = local(corners[0]), second = local(corners[1]);
-    m_stationary.push_back({id, {first, second, local(corners[2])}});
+    m_star.from = m_local_points[s_from];
+    m_star.to = m_local_points[s_to];
+    m_star.moving.clear();
+    m_star.contracted.clear();
+    for (std::size_t j = 0; j < m_link.size(); ++j)
+      (m_is_contracted[j] ? m_star.contracted : m_star.moving)
+          .push_back({m_local_points[m_link[j][0]], m_local_points[m_link[j][1]]});
+    return m_star;
   }
 
-  Point place_of(Vertex v, const Motion& motion) const
-  {
-    return motion.is_target_moved && v == *motion.target ? motion.place : Point(get(m_points, v));
-  }
-
-  static bool contains(const std::array<Vertex, 3>& corners, Vertex v)
+  static bool contains(const std::array<Number, 3>& corners, Number v)
   {
     return corners[0] == v || corners[1] == v || corners[2] == v;
   }
 
-  std::array<Vertex, 3> face_corners(Face face) const
+  std::array<Number, 3> face_corners(Face face) const
   {
     const Halfedge h = halfedge(face, m_mesh);
-    return {source(h, m_mesh), target(h, m_mesh), target(next(h, m_mesh), m_mesh)};
+    return {number(source(h, m_mesh)), number(target(h, m_mesh)), number(target(next(h, m_mesh), m_mesh))};
   }
 
   CGAL::Bbox_3 face_box(Id id) const
   {
     const auto& [a, b, c] = m_corners[id];
-    return get(m_points, a).bbox() + get(m_points, b).bbox() + get(m_points, c).bbox();
+    return m_vertices[a].point.bbox() + m_vertices[b].point.bbox() + m_vertices[c].point.bbox();
   }
 
   void find_twins()
@@ -503,7 +543,7 @@ private:
       if (beyond - first == 1)
         continue;
       for (std::size_t i = first; i < beyond; ++i)
-        put(m_twins, sorted[i], std::uint32_t(m_twin_classes.size()));
+        m_vertices[number(sorted[i])].twins = Number(m_twin_classes.size());
       m_twin_classes.emplace_back(sorted.begin() + first, sorted.begin() + beyond);
     }
     for (const auto edge : edges(m_mesh)) {
@@ -513,41 +553,44 @@ private:
     }
   }
 
-  const std::vector<Vertex>& twin_class(Vertex v) const { return m_twin_classes[get(m_twins, v)]; }
-
-  bool is_same_position(Vertex a, Vertex b) const
-  {
-    return a == b || (has_twin(a) && get(m_twins, a) == get(m_twins, b));
-  }
+  Number number(Vertex v) const { return get(m_vertex_numbers, v); }
+  const Vertex_record& record(Vertex v) const { return m_vertices[number(v)]; }
+  bool has_twin(Vertex v) const { return record(v).twins != 0; }
+  const std::vector<Vertex>& twins(Vertex v) const { return m_twin_classes[record(v).twins]; }
 
   const TriangleMesh& m_mesh;
   VertexPointMap m_points;
   GeomTraits m_traits;
   FaceIndex m_index;
-  typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<Id>>::const_type m_ids;
+  typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<Number>>::const_type
+      m_vertex_numbers;
+  typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<Id>>::const_type m_face_numbers;
+  std::vector<Vertex_record> m_vertices;        // by number
   std::vector<Face> m_faces;                    // by number
-  std::vector<std::array<Vertex, 3>> m_corners; // by number: the mesh's own are five look-ups away
-  typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<std::uint32_t>>::const_type
-      m_twins;
+  std::vector<std::array<Number, 3>> m_corners; // by number: the mesh's own are five look-ups away
   std::vector<std::vector<Vertex>> m_twin_classes;
   Vertex m_target{};
   std::vector<Face> m_blockers;
   Statistics m_statistics;
 
   // The motion that is judged now, in buffers that are kept so that judging allocates nothing.
-  typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<Mark>>::const_type m_marks;
   std::uint32_t m_motion = 0;
-  Vertex_motion<Point> m_star;
   std::vector<Point> m_local_points;
-  std::vector<Local> m_star_points; // the first of them
-  std::vector<std::array<Local, 2>> m_moving, m_contracted;
-  std::vector<std::array<Vertex, 2>> m_link_of_moving, m_link_of_contracted;
-  std::vector<Stationary_face> m_stationary;
-  std::vector<std::optional<Sweep_test<GeomTraits>>> m_sweeps; // made when needed
+  std::size_t m_star_size = 0;              // so many of them are the star's
+  std::vector<std::array<Local, 2>> m_link; // edges, in order around the mover
+  std::vector<char> m_is_contracted;        // by edge
+  bool m_is_star_closed = false;
   Certified_view m_view;
   bool m_is_in_view = false;
+  Star_shadow m_shadow;
+  bool m_has_shadow = false;
+  std::vector<Local> m_star_points; // the first m_star_size
+  Certified_view::Mask m_star_mask = 0;
   Certified_view::Vector m_star_lower{}, m_star_upper{};
-  mutable std::vector<Vertex> m_link;
+  std::vector<Stationary_face> m_stationary;
+  std::vector<Lids> m_lids;                                    // by edge of the link, made when needed
+  Vertex_motion<Point> m_star;                                 // made when needed
+  std::vector<std::optional<Sweep_test<GeomTraits>>> m_sweeps; // made when needed
 };
 
 } // namespace internal

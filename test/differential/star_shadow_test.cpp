@@ -1,0 +1,190 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// What the shadow of a star proves in floating point, against the exact test of every sweep: it may be
+// silent, never wrong.
+
+#include <selvedge/geometry/Star_shadow.h>
+#include <selvedge/geometry/sweep.h>
+#include <selvedge/mesh/Triangle_soup.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace selvedge::test {
+namespace {
+
+using Local = Certified_view::Index;
+using Random = std::mt19937_64;
+constexpr Local s_from = 0, s_to = 1;
+
+/// A closed star in a view along the z axis.
+class Star
+{
+public:
+  /// `link` winds about `from`; `to` is one of it or none.
+  Star(const Point_3& from, const Point_3& to, const std::vector<Point_3>& link) : m_points{from, to}
+  {
+    m_view.begin({from.x(), from.y(), from.z()}, {0, 0, 1});
+    for (const Point_3& p : m_points)
+      m_view.add({p.x(), p.y(), p.z()});
+    // In the order of halfedges around a vertex: clockwise, each edge counter-clockwise.
+    for (std::size_t i = link.size(); i-- > 0;)
+      m_edges.push_back({number(link[i]), number(link[(i + 1) % link.size()])});
+  }
+
+  /// The preconditions.
+  bool is_seen_clear() const
+  {
+    return m_view.is_usable() && std::all_of(m_edges.begin(), m_edges.end(), [this](const auto& edge) {
+             return m_view.side(s_from, edge[0], edge[1]) == 1 &&
+                    (is_contracted(edge) || m_view.side(s_to, edge[0], edge[1]) == 1);
+           });
+  }
+
+  bool is_seen_clear_of(const std::array<Point_3, 3>& face)
+  {
+    Star_shadow shadow;
+    shadow.begin(m_view, s_from, m_edges);
+    const Local a = number(face[0]), b = number(face[1]);
+    return shadow.is_clear(m_view, {a, b, number(face[2])});
+  }
+
+  bool is_clear_of(const std::array<Point_3, 3>& face) const
+  {
+    return std::all_of(m_edges.begin(), m_edges.end(), [&](const auto& edge) {
+      return is_contracted(edge) ||
+             Sweep_test<Kernel>(m_points[s_from], m_points[s_to], m_points[edge[0]], m_points[edge[1]])
+                 .is_clear(face[0], face[1], face[2]);
+    });
+  }
+
+private:
+  static bool is_contracted(const std::array<Local, 2>& edge) { return edge[0] == s_to || edge[1] == s_to; }
+
+  Local number(const Point_3& p)
+  {
+    const auto found = std::find(m_points.begin(), m_points.end(), p);
+    if (found != m_points.end())
+      return Local(found - m_points.begin());
+    m_points.push_back(p);
+    return m_view.add({p.x(), p.y(), p.z()});
+  }
+
+  Certified_view m_view;
+  std::vector<Point_3> m_points;
+  std::vector<std::array<Local, 2>> m_edges;
+};
+
+struct Counts
+{
+  std::size_t stars = 0, clear = 0, proved = 0, meeting = 0;
+};
+
+/// Random stars among random faces, all of points that are drawn.
+Counts compare(const std::function<Point_3(Random&)>& draw, std::size_t cases)
+{
+  Random random(11);
+  const auto below = [&](std::size_t n) {
+    return std::uniform_int_distribution<std::size_t>(0, n - 1)(random);
+  };
+  Counts counts;
+  for (std::size_t i = 0; i < cases; ++i) {
+    const Point_3 from = draw(random);
+    std::vector<Point_3> link(3 + below(6));
+    std::generate(link.begin(), link.end(), [&] { return draw(random); });
+    const auto angle = [&](const Point_3& p) { return std::atan2(p.y() - from.y(), p.x() - from.x()); };
+    std::sort(link.begin(), link.end(),
+              [&](const Point_3& p, const Point_3& q) { return angle(p) < angle(q); });
+    const Point_3 to = below(4) != 0 ? link[below(link.size())] : draw(random);
+    Star star(from, to, link);
+    // Distinct angles make distinct positions.
+    if (to == from || !star.is_seen_clear())
+      continue;
+    ++counts.stars;
+    for (int repeat = 0; repeat < 20; ++repeat) {
+      std::array<Point_3, 3> face;
+      std::generate(face.begin(), face.end(),
+                    [&] { return below(2) == 0 ? link[below(link.size())] : draw(random); });
+      if (std::find(face.begin(), face.end(), from) != face.end() || face[0] == face[1] ||
+          face[1] == face[2] || face[2] == face[0])
+        continue;
+      const bool is_clear = star.is_clear_of(face), is_proved = star.is_seen_clear_of(face);
+      EXPECT_TRUE(is_clear || !is_proved) << "case " << i;
+      counts.clear += is_clear;
+      counts.meeting += !is_clear;
+      counts.proved += is_proved;
+    }
+  }
+  return counts;
+}
+
+TEST(Star_shadow, IsNeverWrongOnASmallGrid)
+{
+  const Counts counts = compare(
+      [](Random& random) {
+        std::uniform_int_distribution<int> coordinate(0, 4), height(0, 1);
+        const int x = coordinate(random), y = coordinate(random);
+        return Point_3(x, y, height(random));
+      },
+      200000);
+  EXPECT_GT(counts.stars, 3000u);
+  EXPECT_GT(counts.meeting, 10000u);
+  EXPECT_GT(counts.proved, counts.clear / 5);
+}
+
+TEST(Star_shadow, ProvesNearlyAllThatIsClearInAPlane)
+{
+  // Where all is flat, nothing can pass above or below.
+  const Counts counts = compare(
+      [](Random& random) {
+        std::uniform_real_distribution<double> coordinate(0, 1);
+        const double x = coordinate(random);
+        return Point_3(x, coordinate(random), 0);
+      },
+      50000);
+  EXPECT_GT(counts.meeting, 10000u);
+  EXPECT_GT(counts.clear, 10000u);
+  EXPECT_GT(double(counts.proved), 0.99 * double(counts.clear));
+}
+
+TEST(Star_shadow, IsNeverWrongOnAGridShakenByUnitsInTheLastPlace)
+{
+  const Counts counts = compare(
+      [](Random& random) {
+        std::uniform_int_distribution<int> coordinate(1, 4), shift(-1, 1);
+        const auto shaken = [&] {
+          return coordinate(random) * (1 + std::numeric_limits<double>::epsilon() * shift(random));
+        };
+        const double x = shaken(), y = shaken();
+        return Point_3(x, y, shaken());
+      },
+      200000);
+  EXPECT_GT(counts.stars, 1000u);
+  EXPECT_GT(counts.proved, counts.clear / 10);
+}
+
+TEST(Star_shadow, IsNeverWrongAcrossScales)
+{
+  const Counts counts = compare(
+      [](Random& random) {
+        std::uniform_real_distribution<double> exponent(-12, 0), sign(-1, 1);
+        const auto coordinate = [&] { return std::copysign(std::pow(10, exponent(random)), sign(random)); };
+        const double x = coordinate(), y = coordinate();
+        return Point_3(x, y, coordinate());
+      },
+      200000);
+  EXPECT_GT(counts.stars, 1000u);
+  EXPECT_GT(counts.proved, counts.clear / 10);
+}
+
+} // namespace
+} // namespace selvedge::test
