@@ -65,9 +65,8 @@ public:
   Index add(const Vector& point)
   {
     const Vector d = difference(point, m_origin);
-    const double distance = std::fabs(d[0]) + std::fabs(d[1]) + std::fabs(d[2]);
-    if (!(distance <= m_extent))
-      bound_errors(distance);
+    if (!(distance(d) <= m_extent))
+      bound_errors(distance(d));
     Vector seen;
     for (std::size_t i = 0; i < 3; ++i)
       seen[i] = m_axes[i][0] * d[0] + m_axes[i][1] * d[1] + m_axes[i][2] * d[2];
@@ -235,6 +234,7 @@ private:
     return cross(difference(m_points[triangle[1]], o), difference(m_points[triangle[2]], o));
   }
 
+  static double distance(const Vector& d) { return std::fabs(d[0]) + std::fabs(d[1]) + std::fabs(d[2]); }
   static double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
   static Vector difference(const Vector& a, const Vector& b)
   {

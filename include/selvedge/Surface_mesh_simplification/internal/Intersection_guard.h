@@ -352,18 +352,53 @@ private:
     return true;
   }
 
+  // The faces without the mover that a moving face might meet. Memory is fetched for all before any is looked
+  // at.
+  void gather_faces_near(const Motion& motion)
+  {
+    m_near.clear();
+    m_index.visit_overlapping(star_box(), [this](Id id) {
+      prefetch(&m_corners[id]);
+      m_near.push_back(id);
+    });
+    const auto remove_faces_at = [this](Vertex v) {
+      const auto is_at = [this, v = number(v)](Id id) {
+        const auto& [a, b, c] = m_corners[id];
+        return a == v || b == v || c == v;
+      };
+      m_near.erase(std::remove_if(m_near.begin(), m_near.end(), is_at), m_near.end());
+    };
+    if (motion.is_target_moved) {
+      // The index knows them where they stand.
+      remove_faces_at(*motion.target);
+      for (const Halfedge h : CGAL::halfedges_around_target(halfedge(*motion.target, m_mesh), m_mesh))
+        if (!is_border(h, m_mesh))
+          m_near.push_back(get(m_face_numbers, face(h, m_mesh)));
+    }
+    remove_faces_at(motion.mover);
+    for (const Id id : m_near)
+      for (const Number corner : m_corners[id])
+        prefetch(&m_vertices[corner]);
+    m_statistics.faces_near += m_near.size();
+  }
+
+  static void prefetch([[maybe_unused]] const void* address)
+  {
+#ifdef __GNUC__
+    __builtin_prefetch(address);
+#endif
+  }
+
   /// Condition 1: every moving face against every face that does not contain the moving vertex.
   bool are_sweeps_clear(const Motion& motion)
   {
     if (m_is_in_view)
       bound_star();
+    gather_faces_near(motion);
     m_stationary.clear();
     // A place that is no neighbour's must be no position of the mesh at all, or two would become one.
     std::optional<Id> face_at_place;
-    const Number mover = number(motion.mover);
-    const Number moved_target = motion.is_target_moved ? number(*motion.target) : mover;
-    const auto judge_by_star = [&](Id id) {
-      ++m_statistics.faces_near;
+    for (const Id id : m_near) {
       const std::array<Number, 3>& corners = m_corners[id];
       const Local a = local(corners[0]), b = local(corners[1]);
       Stationary_face face{id, {a, b, local(corners[2])}, {}};
@@ -374,18 +409,7 @@ private:
         see_new_points();
       if (!m_is_in_view || !is_clear_of_star_in_view(face))
         m_stationary.push_back(face);
-    };
-    m_index.visit_overlapping(star_box(), [&](Id id) {
-      // A neighbour that is judged away from where it stands brings its faces along, below.
-      if (!contains(m_corners[id], mover) && !contains(m_corners[id], moved_target))
-        judge_by_star(id);
-    });
-    if (motion.is_target_moved)
-      for (const Halfedge h : CGAL::halfedges_around_target(halfedge(*motion.target, m_mesh), m_mesh))
-        if (!is_border(h, m_mesh))
-          if (const Id id = get(m_face_numbers, face(h, m_mesh)); !contains(m_corners[id], mover))
-            judge_by_star(id);
-
+    }
     for (const Stationary_face& face : m_stationary)
       for (std::size_t j = 0; j < m_link.size(); ++j)
         if (!m_is_contracted[j] && !is_sweep_clear(j, face)) {
@@ -509,11 +533,6 @@ private:
     return m_star;
   }
 
-  static bool contains(const std::array<Number, 3>& corners, Number v)
-  {
-    return corners[0] == v || corners[1] == v || corners[2] == v;
-  }
-
   std::array<Number, 3> face_corners(Face face) const
   {
     const Halfedge h = halfedge(face, m_mesh);
@@ -553,10 +572,22 @@ private:
     }
   }
 
-  Number number(Vertex v) const { return get(m_vertex_numbers, v); }
-  const Vertex_record& record(Vertex v) const { return m_vertices[number(v)]; }
-  bool has_twin(Vertex v) const { return record(v).twins != 0; }
-  const std::vector<Vertex>& twins(Vertex v) const { return m_twin_classes[record(v).twins]; }
+  Number number(Vertex v) const
+  {
+    return get(m_vertex_numbers, v);
+  }
+  const Vertex_record& record(Vertex v) const
+  {
+    return m_vertices[number(v)];
+  }
+  bool has_twin(Vertex v) const
+  {
+    return record(v).twins != 0;
+  }
+  const std::vector<Vertex>& twins(Vertex v) const
+  {
+    return m_twin_classes[record(v).twins];
+  }
 
   const TriangleMesh& m_mesh;
   VertexPointMap m_points;
@@ -587,9 +618,10 @@ private:
   std::vector<Local> m_star_points; // the first m_star_size
   Certified_view::Mask m_star_mask = 0;
   Certified_view::Vector m_star_lower{}, m_star_upper{};
-  std::vector<Stationary_face> m_stationary;
-  std::vector<Lids> m_lids;                                    // by edge of the link, made when needed
-  Vertex_motion<Point> m_star;                                 // made when needed
+  std::vector<Id> m_near;
+  std::vector<Stationary_face> m_stationary; // those of them that one look at the star did not settle
+  std::vector<Lids> m_lids;                  // by edge of the link, made when needed
+  Vertex_motion<Point> m_star;               // made when needed
   std::vector<std::optional<Sweep_test<GeomTraits>>> m_sweeps; // made when needed
 };
 
