@@ -117,6 +117,7 @@ Json options_json(const Request& request)
           {"seam_turn", options.max_seam_turn},
           {"border_drift", options.max_border_drift},
           {"loop", options.loop == Collapse_loop::own ? "own" : "cgal"},
+          {"index", options.index == Face_index::packed ? "packed" : "clusters"},
           {"cluster_size", options.faces_per_cluster},
           {"intersection_check", options.check_intersections},
           {"stabiliser", options.cost.stabiliser},
@@ -556,7 +557,17 @@ Action add_simplify(CLI::App& command)
       ->group(seams);
 
   const char* const tuning = "Tuning";
-  command.add_option("--cluster-size", options.faces_per_cluster, "Faces per cluster of the index")
+  command
+      .add_option("--index", options.index,
+                  "The index of faces: a packed tree, or clusters of faces as the reference")
+      ->transform(
+          CLI::CheckedTransformer(std::map<std::string, Face_index>{{"packed", Face_index::packed},
+                                                                    {"clusters", Face_index::clusters}})
+              .description(""))
+      ->type_name("packed|clusters")
+      ->default_str("packed")
+      ->group(tuning);
+  command.add_option("--cluster-size", options.faces_per_cluster, "Faces per cluster, with --index clusters")
       ->check(in_range(1))
       ->type_name("N")
       ->capture_default_str()

@@ -21,10 +21,15 @@ struct Simplify_progress
 };
 
 /// Which loop takes edges from a queue and collapses them.
-enum class Collapse_loop
-{
+enum class Collapse_loop {
   own, ///< `selvedge::edge_collapse`
   cgal ///< `CGAL::Surface_mesh_simplification::edge_collapse`, in as many passes as it takes: the reference
+};
+
+/// Which index finds the faces near a motion.
+enum class Face_index {
+  packed,  ///< `Packed_R_tree`
+  clusters ///< `Clustered_AABB_tree`: the reference
 };
 
 /// What `simplify` is asked to do. Values outside the ranges given throw `Argument_error`.
@@ -76,7 +81,10 @@ struct Simplify_options
   /// Both loops give the guarantees; the own one is faster.
   Collapse_loop loop = Collapse_loop::own;
 
-  /// What the cells of the index aim at, at least 1.
+  /// Both indices give the same result; the packed one is faster and smaller.
+  Face_index index = Face_index::packed;
+
+  /// What the cells of the clustered index aim at, at least 1.
   std::size_t faces_per_cluster = 100;
 
   /// Reduces a soup in *cells* first: disjoint boxes of space of at most about so many faces each, on as many

@@ -61,11 +61,11 @@ struct Intersection_statistics
   std::size_t refused_by_link = 0;     ///< motions that would join what is not joined
   std::size_t refused_by_star = 0;     ///< motions in which the star would meet itself
   std::size_t refused_by_sweep = 0;    ///< motions in which a face would meet one that stands still
-  std::size_t clusters = 0;
+  std::size_t clusters = 0;            ///< of the index, or leaves of the packed one
   std::size_t queries = 0;
   std::size_t faces_visited = 0;
   std::size_t cluster_rebuilds = 0;
-  std::size_t top_rebuilds = 0;
+  std::size_t top_rebuilds = 0; ///< of the tree over the clusters, or of the whole packed one
 };
 
 /// What a reduction of a mesh did.

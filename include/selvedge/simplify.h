@@ -18,6 +18,7 @@
 #include <selvedge/Surface_mesh_simplification/internal/Lazy_edge_profile.h>
 #include <selvedge/Surface_mesh_simplification/stop_predicates.h>
 #include <selvedge/edge_collapse.h>
+#include <selvedge/spatial/internal/Selectable_index.h>
 
 #include <CGAL/Kernel_traits.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
@@ -29,6 +30,7 @@
 #include <limits>
 #include <optional>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace selvedge {
@@ -204,7 +206,7 @@ class Simplification
   using Aspect_ratio = Aspect_ratio_filter<Error>;
   using Normal_change = Normal_change_filter<Aspect_ratio>;
   using Uv = Halfedge_filter<Is_uv_orientation_kept, Normal_change>;
-  using Intersection = Intersection_filter<TriangleMesh, Uv>;
+  using Intersection = Intersection_filter<TriangleMesh, Uv, Selectable_index>;
 
 public:
   Simplification(TriangleMesh& mesh, const Simplify_options& options,
@@ -300,8 +302,15 @@ private:
   {
     const Clock::time_point start = Clock::now();
     if (m_options.check_intersections)
-      m_intersection.emplace(m_mesh, m_uv, Clustered_AABB_tree(m_options.faces_per_cluster));
+      m_intersection.emplace(m_mesh, m_uv, empty_index());
     m_report.seconds_index = seconds_since(start);
+  }
+
+  Selectable_index empty_index() const
+  {
+    Clustered_AABB_tree clustered(m_options.faces_per_cluster); // so that 0 is refused in any case
+    return m_options.index == Face_index::packed ? Selectable_index(Packed_R_tree())
+                                                 : Selectable_index(std::move(clustered));
   }
 
   struct Filter
@@ -581,7 +590,7 @@ private:
     report.seconds_reduce = seconds_since(m_start);
     if (m_intersection) {
       const auto& guard = m_intersection->statistics();
-      const auto& index = m_intersection->index().statistics();
+      const auto index = m_intersection->index().statistics();
       report.intersections = {guard.motions_judged,
                               guard.stars_clear_by_view,
                               guard.faces_near,

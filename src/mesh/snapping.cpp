@@ -447,9 +447,9 @@ Snapping_notes snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
   return notes;
 }
 
-template Snapping_notes snap_borders<Clustered_AABB_tree>(Triangle_soup&, std::vector<Index>&,
-                                                          const std::vector<char>&, double,
-                                                          const std::vector<Index>&);
+template Snapping_notes snap_borders<Packed_R_tree>(Triangle_soup&, std::vector<Index>&,
+                                                    const std::vector<char>&, double,
+                                                    const std::vector<Index>&);
 template Snapping_notes snap_borders<Brute_force_index>(Triangle_soup&, std::vector<Index>&,
                                                         const std::vector<char>&, double,
                                                         const std::vector<Index>&);

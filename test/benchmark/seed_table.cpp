@@ -32,11 +32,18 @@ constexpr double ratio_of_seed = 0.3;
 constexpr std::size_t cluster_size_of_seed = 100;
 const std::vector<std::size_t> cluster_sizes{10, 25, 50, cluster_size_of_seed, 200, 500, 1000};
 
-Simplify_options reduction(bool is_guarded, std::size_t cluster_size = cluster_size_of_seed)
+Simplify_options reduction(bool is_guarded)
 {
   Simplify_options options;
   options.ratio = ratio_of_seed;
   options.check_intersections = is_guarded;
+  return options;
+}
+
+Simplify_options reduction_with_clusters(std::size_t cluster_size)
+{
+  Simplify_options options = reduction(true);
+  options.index = Face_index::clusters;
   options.faces_per_cluster = cluster_size;
   return options;
 }
@@ -110,12 +117,13 @@ Row measured_row(const Mesh& mesh, int runs)
   return row(column, ratio.median(), spread(ratio), pairs, outcome);
 }
 
-/// Adds a row for each cluster size, and one for no filter at all.
+/// Adds a row for each cluster size, one for the packed index and one for no filter at all.
 Curve measured_curve(const Mesh& mesh, int runs, Table& table)
 {
   std::vector<Simplify_options> all;
   for (const std::size_t size : cluster_sizes)
-    all.push_back(reduction(true, size));
+    all.push_back(reduction_with_clusters(size));
+  all.push_back(reduction(true));
   all.push_back(reduction(false));
   const auto seconds = interleaved(mesh.prepared, all, runs, [](std::size_t, const auto&) {});
 
@@ -123,10 +131,12 @@ Curve measured_curve(const Mesh& mesh, int runs, Table& table)
   Curve curve{mesh.name, {}};
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Sample ratio = seconds[i] / seconds[static_cast<std::size_t>(of_seed - cluster_sizes.begin())];
-    const bool is_guarded = i < cluster_sizes.size();
-    table.add({mesh.name, is_guarded ? std::to_string(cluster_sizes[i]) : "no filter", text(ratio.median()),
-               spread(ratio), text(seconds[i].median())});
-    if (is_guarded)
+    const bool is_clustered = i < cluster_sizes.size();
+    const std::string name = is_clustered                 ? std::to_string(cluster_sizes[i])
+                             : all[i].check_intersections ? "packed index"
+                                                          : "no filter";
+    table.add({mesh.name, name, text(ratio.median()), spread(ratio), text(seconds[i].median())});
+    if (is_clustered)
       curve.values.push_back(seconds[i].median());
   }
   return curve;

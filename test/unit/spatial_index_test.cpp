@@ -1,13 +1,18 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include "support/slabs.h"
+
 #include <selvedge/spatial/Brute_force_index.h>
 #include <selvedge/spatial/Clustered_AABB_tree.h>
+#include <selvedge/spatial/Packed_R_tree.h>
 #include <selvedge/spatial/Slab_box.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <random>
 #include <set>
 
@@ -15,7 +20,9 @@ namespace {
 
 using selvedge::Brute_force_index;
 using selvedge::Clustered_AABB_tree;
-using Id = Clustered_AABB_tree::Id;
+using selvedge::Packed_R_tree;
+using selvedge::Slab_box;
+using Id = Packed_R_tree::Id;
 
 class Random_boxes
 {
@@ -25,6 +32,7 @@ public:
   {
   }
 
+  // From 0 to 1.
   double number() { return double(m_random()) / double(std::mt19937::max()); }
   Id index(std::size_t size) { return Id(m_random() % size); }
 
@@ -45,8 +53,8 @@ private:
   double m_origin, m_extent;
 };
 
-template <class Index>
-std::multiset<Id> overlapping(const Index& index, const CGAL::Bbox_3& box)
+template <class Index, class Query>
+std::multiset<Id> overlapping(const Index& index, const Query& box)
 {
   std::multiset<Id> result;
   index.visit_overlapping(box, [&](Id id) { result.insert(id); });
@@ -54,7 +62,8 @@ std::multiset<Id> overlapping(const Index& index, const CGAL::Bbox_3& box)
 }
 
 // What every query must satisfy: all that overlap, each once, and nothing that is not in.
-void expect_same_but_for_rounding(const Clustered_AABB_tree& index, const Brute_force_index& judge,
+template <class Index>
+void expect_same_but_for_rounding(const Index& index, const Brute_force_index& judge,
                                   const std::vector<bool>& is_in, const CGAL::Bbox_3& query)
 {
   const std::multiset<Id> found = overlapping(index, query);
@@ -66,13 +75,18 @@ void expect_same_but_for_rounding(const Clustered_AABB_tree& index, const Brute_
   }
 }
 
-class Spatial_index : public testing::TestWithParam<std::tuple<int, double, double>>
+std::size_t rebuilds(const Clustered_AABB_tree& index)
 {
-};
+  return index.statistics().cluster_rebuilds + index.statistics().top_rebuilds;
+}
+std::size_t rebuilds(const Packed_R_tree& index)
+{
+  return index.statistics().rebuilds;
+}
 
-TEST_P(Spatial_index, NeverMissesABoxWhileBoxesComeChangeAndGo)
+template <class MakeIndex>
+void expect_never_to_miss_a_box(const MakeIndex& make_index, double origin, double extent)
 {
-  const auto [faces_per_cluster, origin, extent] = GetParam();
   for (unsigned seed = 1; seed <= 3; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     Random_boxes random(seed, origin, extent);
@@ -86,49 +100,131 @@ TEST_P(Spatial_index, NeverMissesABoxWhileBoxesComeChangeAndGo)
     std::vector<bool> is_in(boxes.size(), false);
     for (const Id face : faces)
       is_in[face] = true;
-    Clustered_AABB_tree index(faces_per_cluster);
+    auto index = make_index();
     Brute_force_index judge;
     index.build(faces, [&](Id face) { return boxes[face]; });
     judge.build(faces, [&](Id face) { return boxes[face]; });
 
     for (int step = 0; step < 1500; ++step) {
       const Id face = random.index(boxes.size());
-      if (is_in[face] && random.number() < 0.4) {
+      if (is_in[face] && random.number() < (step < 1000 ? 0.4 : 1)) { // at the end most are gone
         index.remove(face);
         judge.remove(face);
         is_in[face] = false;
-      } else {
+      } else if (step < 1000) {
         const CGAL::Bbox_3 box = random.box();
         index.set(face, box);
         judge.set(face, box);
         is_in[face] = true;
       }
       expect_same_but_for_rounding(index, judge, is_in, random.box());
-      if (HasFatalFailure())
+      if (testing::Test::HasFatalFailure())
         return;
     }
-    EXPECT_GT(index.statistics().cluster_rebuilds + index.statistics().top_rebuilds, 0u);
+    EXPECT_GT(rebuilds(index), 0u);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Sizes, Spatial_index,
-    testing::Combine(testing::Values(1, 10, 100, 100000),
-                     // Far from the origin and huge, where float has next to no digits left, and tiny.
-                     testing::Values(0.0, 1e7, -1e30), testing::Values(1.0, 1e-9, 1e300)));
+// Far from the origin and huge, where float has next to no digits left, and tiny.
+const auto origins = testing::Values(0.0, 1e7, -1e30);
+const auto extents = testing::Values(1.0, 1e-9, 1e300);
 
-TEST(SpatialIndex, FindsWhatFloatsCannotTellApart)
+class Clustered_index : public testing::TestWithParam<std::tuple<int, double, double>>
+{
+};
+
+TEST_P(Clustered_index, NeverMissesABoxWhileBoxesComeChangeAndGo)
+{
+  const auto [faces_per_cluster, origin, extent] = GetParam();
+  expect_never_to_miss_a_box([size = faces_per_cluster] { return Clustered_AABB_tree(size); }, origin,
+                             extent);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, Clustered_index,
+                         testing::Combine(testing::Values(1, 10, 100, 100000), origins, extents));
+
+class Packed_index : public testing::TestWithParam<std::tuple<double, double>>
+{
+};
+
+TEST_P(Packed_index, NeverMissesABoxWhileBoxesComeChangeAndGo)
+{
+  const auto [origin, extent] = GetParam();
+  expect_never_to_miss_a_box([] { return Packed_R_tree(); }, origin, extent);
+}
+
+// Slabs of all directions and lengths that just touch a box, or just do not.
+TEST_P(Packed_index, LeavesOutOnlyWhatLiesOutsideTheSlab)
+{
+  const auto [origin, extent] = GetParam();
+  Random_boxes random(1, origin, extent);
+  std::vector<Id> faces;
+  std::vector<CGAL::Bbox_3> boxes;
+  for (Id face = 0; face < 100; ++face) {
+    boxes.push_back(random.box());
+    faces.push_back(face);
+  }
+  Packed_R_tree index;
+  index.build(faces, [&](Id face) { return boxes[face]; });
+  std::size_t left_out = 0;
+  for (int step = 0; step < 2000; ++step) {
+    SCOPED_TRACE(testing::Message() << "step " << step);
+    const Id touched = random.index(boxes.size());
+    Slab_box query{boxes[touched]};
+    const double length = std::pow(10, 200 * (random.number() - 0.5));
+    for (int axis = 0; axis < 3; ++axis) {
+      const double factors[] = {0, 1e-9, 1, 1};
+      query.normal[axis] = length * factors[random.index(4)] * (2 * random.number() - 1);
+      query.origin[axis] = origin + extent * (step % 4 == 0 ? 10 : 1) * random.number();
+    }
+    // The doubles next to the least and the largest value of the box.
+    const auto range = selvedge::test::range_along(query, boxes[touched]);
+    const auto least = CGAL::to_interval(range[0]), largest = CGAL::to_interval(range[1]);
+    const Id which = random.index(5);
+    if (which < 3)
+      query.upper = which == 0 ? least.first : least.second;
+    else if (which == 3)
+      query.lower = largest.first;
+    else {
+      query.lower = least.first;
+      query.upper = largest.second;
+    }
+    if (step % 8 == 0)
+      query.box = CGAL::Bbox_3(-1e301, -1e301, -1e301, 1e301, 1e301, 1e301);
+    const std::multiset<Id> found = overlapping(index, query);
+    for (const Id face : faces)
+      if (CGAL::do_overlap(boxes[face], query.box) && found.count(face) != 1) {
+        ASSERT_EQ(found.count(face), 0u);
+        ASSERT_TRUE(selvedge::test::is_outside(query, boxes[face])) << "face " << face;
+        ++left_out;
+      }
+  }
+  if (origin == 0 && extent == 1) {
+    EXPECT_GT(left_out, 5000u);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, Packed_index, testing::Combine(origins, extents));
+
+template <class Index>
+class Spatial_index : public testing::Test
+{
+};
+using Indices = testing::Types<Clustered_AABB_tree, Packed_R_tree>;
+TYPED_TEST_SUITE(Spatial_index, Indices);
+
+TYPED_TEST(Spatial_index, FindsWhatFloatsCannotTellApart)
 {
   const auto point = [](double x) { return CGAL::Bbox_3(x, x, x, x, x, x); };
-  Clustered_AABB_tree index;
+  TypeParam index;
   index.build({0, 1}, [&](Id id) { return point(id == 0 ? 1.0 : std::nextafter(1.0, 2.0)); });
   EXPECT_EQ(overlapping(index, point(1.0)).count(0), 1u);
   EXPECT_EQ(overlapping(index, point(std::nextafter(1.0, 2.0))).count(1), 1u);
 }
 
-TEST(SpatialIndex, WorksFromEmpty)
+TYPED_TEST(Spatial_index, WorksFromEmpty)
 {
-  Clustered_AABB_tree index;
+  TypeParam index;
   index.build({}, [](Id) { return CGAL::Bbox_3(); });
   EXPECT_TRUE(overlapping(index, CGAL::Bbox_3(0, 0, 0, 1, 1, 1)).empty());
   index.set(4, CGAL::Bbox_3(0, 0, 0, 1, 1, 1));
@@ -137,13 +233,46 @@ TEST(SpatialIndex, WorksFromEmpty)
   EXPECT_TRUE(overlapping(index, CGAL::Bbox_3(0, 0, 0, 1, 1, 1)).empty());
 }
 
-TEST(SpatialIndex, MovesWithItsContent)
+TYPED_TEST(Spatial_index, MovesWithItsContent)
 {
-  Clustered_AABB_tree first;
+  TypeParam first;
   first.build({0}, [](Id) { return CGAL::Bbox_3(0, 0, 0, 1, 1, 1); });
-  Clustered_AABB_tree second = std::move(first);
+  TypeParam second = std::move(first);
   second.set(1, CGAL::Bbox_3(0, 0, 0, 1, 1, 1));
   EXPECT_EQ(overlapping(second, CGAL::Bbox_3(0, 0, 0, 1, 1, 1)), (std::multiset<Id>{0, 1}));
+}
+
+TYPED_TEST(Spatial_index, TakesABoxWithASlabWhereABoxIsExpected)
+{
+  const CGAL::Bbox_3 unit(0, 0, 0, 1, 1, 1);
+  TypeParam index;
+  index.build({0}, [&](Id) { return unit; });
+  const std::multiset<Id> found{0};
+  EXPECT_EQ(overlapping(index, Slab_box{unit, {0, 0, 0}, {0, 0, 1}, 0, 1}), found);
+  EXPECT_EQ(overlapping(index, Slab_box{unit}), found) << "there is no slab";
+  const double infinity = std::numeric_limits<double>::infinity(), none = std::nan("");
+  for (const double bad : {infinity, -infinity, none}) {
+    EXPECT_EQ(overlapping(index, Slab_box{unit, {bad, 0, 0}, {1, 1, 1}, 5, 6}), found);
+    EXPECT_EQ(overlapping(index, Slab_box{unit, {0, 0, 0}, {1, bad, 1}, 5, 6}), found);
+  }
+  EXPECT_EQ(overlapping(index, Slab_box{unit, {0, 0, 0}, {1, 1, 1}, none, none}), found);
+}
+
+TEST(SpatialIndex, LeavesOutWhatLiesClearOfTheSlab)
+{
+  const CGAL::Bbox_3 unit(0, 0, 0, 1, 1, 1);
+  Packed_R_tree index;
+  index.build({0}, [&](Id) { return unit; });
+  const auto is_left_out = [&](double component, double lower, double upper) {
+    return overlapping(index, Slab_box{unit, {1, 0, 0}, {component, component, component}, lower, upper})
+        .empty();
+  };
+  EXPECT_TRUE(is_left_out(1, 2.0001, 5));
+  EXPECT_TRUE(is_left_out(1, -5, -1.0001));
+  EXPECT_TRUE(is_left_out(-1, -5, -2.0001));
+  EXPECT_TRUE(is_left_out(-1, 1.0001, 5));
+  EXPECT_FALSE(is_left_out(1, 2, 5));
+  EXPECT_FALSE(is_left_out(-1, 1, 5));
 }
 
 TEST(SpatialIndex, RefusesEmptyClusters)
@@ -164,23 +293,6 @@ TEST(SpatialIndex, HoldsAboutAsManyFacesPerClusterAsAskedFor)
   index.build(faces, box_on_sheet);
   EXPECT_GT(index.statistics().clusters, 200u);
   EXPECT_LT(index.statistics().clusters, 800u);
-}
-
-TEST(SpatialIndex, TakesABoxWithASlabForABox)
-{
-  const CGAL::Bbox_3 unit(0, 0, 0, 1, 1, 1);
-  const selvedge::Slab_box slab{unit, {0, 0, 0}, {0, 0, 1}, 0, 1};
-  Clustered_AABB_tree tree;
-  Brute_force_index list;
-  tree.build({0}, [&](Id) { return unit; });
-  list.build({0}, [&](Id) { return unit; });
-  const auto visits = [&](const auto& index) {
-    std::multiset<Id> found;
-    index.visit_overlapping(slab, [&](Id id) { found.insert(id); });
-    return found;
-  };
-  EXPECT_EQ(visits(tree), (std::multiset<Id>{0}));
-  EXPECT_EQ(visits(list), (std::multiset<Id>{0}));
 }
 
 } // namespace

@@ -6,7 +6,7 @@
 
 #include <selvedge/Surface_mesh_simplification/internal/Filter_base.h>
 #include <selvedge/Surface_mesh_simplification/internal/Intersection_guard.h>
-#include <selvedge/spatial/Clustered_AABB_tree.h>
+#include <selvedge/spatial/Packed_R_tree.h>
 
 #include <CGAL/Kernel_traits.h>
 #include <CGAL/Surface_mesh_simplification/Edge_collapse_visitor_base.h>
@@ -49,7 +49,7 @@ namespace selvedge {
 ///
 /// **Reference** Derichs, Misiak, Fuhrmann: Intersection-free mesh decimation for high resolution cloth
 /// models, section 4; Gumhold, Borodin, Klein: Intersection free simplification.
-template <class TriangleMesh, class BaseFilter = No_filter, class FaceIndex = Clustered_AABB_tree,
+template <class TriangleMesh, class BaseFilter = No_filter, class FaceIndex = Packed_R_tree,
           class VertexPointMap = typename boost::property_map<TriangleMesh, CGAL::vertex_point_t>::const_type,
           class GeomTraits = typename CGAL::Kernel_traits<
               typename boost::property_traits<VertexPointMap>::value_type>::Kernel>
@@ -86,7 +86,7 @@ public:
     std::shared_ptr<Guard> m_guard;
   };
 
-  /// `index` is empty; an index made with another cluster size, say.
+  /// `index` is empty.
   explicit Intersection_filter(const TriangleMesh& mesh, const BaseFilter& base = {},
                                FaceIndex index = FaceIndex())
       : Intersection_filter(mesh, base, std::move(index), get(CGAL::vertex_point, mesh))

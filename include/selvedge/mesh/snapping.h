@@ -5,7 +5,7 @@
 #define SELVEDGE_MESH_SNAPPING_H
 
 #include <selvedge/mesh/Triangle_soup.h>
-#include <selvedge/spatial/Clustered_AABB_tree.h>
+#include <selvedge/spatial/Packed_R_tree.h>
 
 #include <cstddef>
 #include <vector>
@@ -78,7 +78,7 @@ struct Snapping_notes
 ///
 /// **Complexity** O(n log n) for n triangles, and as many steps as there are pairs of border vertices within
 /// `distance`, for each round; rounds are about as many as pieces that meet in one corner.
-template <class FaceIndex = Clustered_AABB_tree>
+template <class FaceIndex = Packed_R_tree>
 Snapping_notes snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
                             const std::vector<char>& is_frozen, double distance,
                             const std::vector<Index>& transforms = {});

@@ -14,7 +14,7 @@
 namespace selvedge {
 
 /// Finds the faces whose bounding boxes overlap a box by looking at all of them: the judge of
-/// `Clustered_AABB_tree`, with the same interface.
+/// `Packed_R_tree` and `Clustered_AABB_tree`, with the same interface.
 ///
 /// **Guarantees** A query visits exactly the faces whose box overlaps the query box, by ascending number.
 ///

@@ -86,12 +86,14 @@ public:
     return result;
   }
 
+  const std::array<double, 3>& origin() const { return m_origin; }
+
 private:
   // A double beyond the range of float has no defined conversion; clamping to that range is monotone, too.
   static float to_float(double x)
   {
     constexpr double largest = (std::numeric_limits<float>::max)();
-    return static_cast<float>(std::clamp(x, -largest, largest));
+    return static_cast<float>((std::min)((std::max)(x, -largest), largest));
   }
 
   std::array<double, 3> m_origin{0, 0, 0};

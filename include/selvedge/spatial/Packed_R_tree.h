@@ -1,0 +1,362 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SPATIAL_PACKED_R_TREE_H
+#define SELVEDGE_SPATIAL_PACKED_R_TREE_H
+
+#include <selvedge/spatial/Slab_box.h>
+#include <selvedge/spatial/internal/Box_block.h>
+#include <selvedge/spatial/internal/Float_slab.h>
+#include <selvedge/spatial/internal/Hilbert_curve.h>
+#include <selvedge/spatial/internal/Monotone_box.h>
+
+#include <CGAL/Bbox_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace selvedge {
+
+/// Finds the faces whose bounding boxes overlap a box, while faces come, change and go: fast.
+///
+/// Faces lie in the order of a Hilbert curve through the centres of their boxes; sixteen that follow upon
+/// each other make a leaf, sixteen leaves a node, and so on up to one. A leaf or a node is tested at once,
+/// with vector instructions, and where it is follows from its number. A face keeps its slot while it changes,
+/// and the boxes above grow with it. When a third of the slots are empty, the faces move together, in the
+/// order that they have, and all boxes are made anew.
+///
+/// **Guarantees**
+/// 1. A query visits every face whose box overlaps the query box, each exactly once. It may visit others.
+/// 2. A query with a slab may leave out faces whose boxes lie wholly outside the slab, and no others.
+/// 3. The order of visits depends on the sequence of calls alone, not on addresses or on the platform.
+///
+/// **Preconditions** Boxes are finite and not empty. Faces are numbered 0 … n−1; the numbers are those of the
+/// caller, and what lies behind a number is of no concern here: boxes are stored, never computed anew, so
+/// that a face that is gone from the mesh is not read.
+///
+/// **Exactness** Boxes are kept as floats, through a monotone map that can only add overlaps. Slabs are made
+/// wider by a bound on all rounding errors (`internal::Float_slab`).
+///
+/// **Complexity** Building is O(n); a query is logarithmic in n for each face that it finds, when boxes
+/// overlap as those of faces of a surface do; a change is O(log n), and amortised O(1) as a rule. About 34
+/// bytes per face, and twice as many more while building. Faces unknown to `build` are fewer than known ones:
+/// they are looked at one by one until the next time that the tree is made anew.
+///
+/// **Reference** Kamel, Faloutsos: On packing R-trees.
+class Packed_R_tree
+{
+public:
+  using Id = std::uint32_t;
+
+  /// Counts since construction, for reports.
+  struct Statistics
+  {
+    std::size_t leaves = 0; ///< now
+    std::size_t queries = 0;
+    std::size_t visits = 0;   ///< faces handed out by the queries
+    std::size_t rebuilds = 0; ///< times that the faces moved together
+  };
+
+  /// Replaces the content by `faces`, where the box of face `faces[i]` is `box_of(faces[i])`, a
+  /// `CGAL::Bbox_3`.
+  template <class BoxOf>
+  void build(const std::vector<Id>& faces, const BoxOf& box_of)
+  {
+    CGAL::Bbox_3 sample;
+    for (std::size_t i = 0; i < faces.size(); i += 1 + faces.size() / 1000)
+      sample += box_of(faces[i]);
+    m_map = internal::Monotone_box_map(sample);
+    m_slots.clear();
+    Content content;
+    content.reserve(faces.size());
+    for (const Id face : faces)
+      content.push_back({m_map(box_of(face)), face});
+    sort_along_curve(content);
+    fill(content);
+  }
+
+  /// Puts in a face, or gives a face that is in another box.
+  void set(Id face, const CGAL::Bbox_3& box)
+  {
+    const internal::Monotone_box mapped = m_map(box);
+    if (face >= m_slots.size())
+      m_slots.resize(face + std::size_t(1), s_none);
+    Slot& slot = m_slots[face];
+    const bool is_new = slot == s_none;
+    if (is_new)
+      slot = new_slot();
+    put({mapped, face}, slot);
+    grow(slot / s_width, mapped);
+    constexpr std::size_t least = 8;
+    if (is_new && m_leaves.size() - m_leaves_in_tree > least + m_leaves_in_tree / 8)
+      rebuild();
+  }
+
+  /// Removes a face that is in.
+  void remove(Id face)
+  {
+    const Slot slot = m_slots[face];
+    Leaf& leaf = m_leaves[slot / s_width];
+    leaf.boxes.set(slot % s_width, internal::Monotone_box::empty());
+    leaf.faces[slot % s_width] = s_none;
+    --m_size;
+    if (3 * m_size < 2 * m_slot_count)
+      rebuild();
+  }
+
+  /// Calls `visit(face)` for every face whose box overlaps `box`, and perhaps for some more.
+  template <class Visitor>
+  void visit_overlapping(const CGAL::Bbox_3& box, Visitor&& visit) const
+  {
+    const internal::Monotone_box mapped = m_map(box);
+    visit_all([&](const Box_block& boxes) { return boxes.overlapping(mapped); }, visit);
+  }
+
+  /// The same for what overlaps the box and meets the slab.
+  template <class Visitor>
+  void visit_overlapping(const Slab_box& query, Visitor&& visit) const
+  {
+    const std::optional<internal::Float_slab> slab =
+        internal::Float_slab::make(query, m_map.origin(), m_magnitude);
+    if (!slab)
+      return visit_overlapping(query.box, visit);
+    const internal::Monotone_box mapped = m_map(query.box);
+    visit_all(
+        [&](const Box_block& boxes) {
+          const Mask mask = boxes.overlapping(mapped);
+          return mask == 0 ? mask : mask & boxes.not_outside(*slab);
+        },
+        visit);
+  }
+
+  const Statistics& statistics() const { return m_statistics; }
+
+private:
+  using Slot = std::uint32_t;
+  using Box_block = internal::Box_block;
+  using Mask = Box_block::Mask;
+  static constexpr std::size_t s_width = Box_block::width;
+  static constexpr Id s_none = Id(-1);
+
+  struct Leaf
+  {
+    Box_block boxes;
+    std::array<Id, s_width> faces;
+
+    Leaf() { faces.fill(s_none); }
+  };
+
+  struct Entry
+  {
+    internal::Monotone_box box;
+    Id face;
+  };
+  using Content = std::vector<Entry>;
+
+  static void sort_along_curve(Content& content)
+  {
+    using Hilbert_curve = internal::Hilbert_curve;
+    static constexpr Hilbert_curve curve;
+    using Centre = std::array<double, 3>;
+    const auto centre = [](const Entry& entry) {
+      Centre result;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        result[axis] = 0.5 * entry.box.lower[axis] + 0.5 * entry.box.upper[axis];
+      return result;
+    };
+    if (content.empty())
+      return;
+    Centre lower = centre(content.front()), upper = lower;
+    for (const Entry& entry : content) {
+      const Centre c = centre(entry);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        lower[axis] = (std::min)(lower[axis], c[axis]);
+        upper[axis] = (std::max)(upper[axis], c[axis]);
+      }
+    }
+    const double extent = (std::max)({upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]});
+    const double cells = extent > 0 ? ((1 << Hilbert_curve::bits) - 1) / extent : 0;
+
+    std::vector<Place> places;
+    places.reserve(content.size());
+    for (Slot i = 0; i < content.size(); ++i) {
+      const Centre c = centre(content[i]);
+      Hilbert_curve::Cell cell;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        cell[axis] = std::uint32_t((c[axis] - lower[axis]) * cells);
+      places.push_back({curve.place_of(cell), i});
+    }
+    radix_sort(places);
+    Content sorted;
+    sorted.reserve(content.size());
+    for (const Place& place : places)
+      sorted.push_back(content[place.index]);
+    content.swap(sorted);
+  }
+
+  struct Place
+  {
+    std::uint64_t on_curve;
+    std::uint32_t index;
+  };
+
+  // Digit by digit from the last, keeping the order of what is equal.
+  static void radix_sort(std::vector<Place>& places)
+  {
+    constexpr int bits = 11;
+    constexpr std::size_t digits = 1 << bits;
+    std::vector<Place> sorted(places.size());
+    for (int shift = 0; shift < 3 * internal::Hilbert_curve::bits; shift += bits) {
+      const auto digit = [shift](const Place& place) { return place.on_curve >> shift & (digits - 1); };
+      std::array<std::size_t, digits> first{};
+      for (const Place& place : places)
+        ++first[digit(place)];
+      std::size_t sum = 0;
+      for (std::size_t& count : first)
+        sum += std::exchange(count, sum);
+      for (const Place& place : places)
+        sorted[first[digit(place)]++] = place;
+      places.swap(sorted);
+    }
+  }
+
+  void rebuild()
+  {
+    ++m_statistics.rebuilds;
+    Content content;
+    content.reserve(m_size);
+    for (const Leaf& leaf : m_leaves)
+      for (std::size_t i = 0; i < s_width; ++i)
+        if (leaf.faces[i] != s_none)
+          content.push_back({leaf.boxes[i], leaf.faces[i]});
+    if (m_leaves.size() > m_leaves_in_tree)
+      sort_along_curve(content);
+    std::fill(m_slots.begin(), m_slots.end(), s_none);
+    fill(content);
+  }
+
+  // Puts this into fresh leaves, in this order, and makes the nodes above.
+  void fill(const Content& content)
+  {
+    m_size = m_slot_count = 0;
+    m_leaves.clear();
+    m_leaves.reserve((content.size() + s_width - 1) / s_width);
+    for (const Entry& entry : content) {
+      if (entry.face >= m_slots.size())
+        m_slots.resize(entry.face + std::size_t(1), s_none);
+      put(entry, m_slots[entry.face] = new_slot());
+    }
+    m_leaves_in_tree = m_leaves.size();
+
+    const auto bounding_boxes = [](const auto& blocks, const auto& block_of) {
+      std::vector<internal::Monotone_box> boxes;
+      boxes.reserve(blocks.size());
+      for (const auto& block : blocks)
+        boxes.push_back(block_of(block).bounding_box());
+      return boxes;
+    };
+    auto boxes = bounding_boxes(m_leaves, [](const Leaf& leaf) { return leaf.boxes; });
+    m_levels.clear();
+    do {
+      std::vector<Box_block> level((boxes.size() + s_width - 1) / s_width);
+      for (std::size_t i = 0; i < boxes.size(); ++i)
+        level[i / s_width].set(i % s_width, boxes[i]);
+      boxes = bounding_boxes(level, [](const Box_block& block) { return block; });
+      m_levels.push_back(std::move(level));
+    } while (boxes.size() > 1);
+    m_magnitude = 0;
+    if (!boxes.empty())
+      note_magnitude(boxes.front());
+    m_statistics.leaves = m_leaves.size();
+  }
+
+  Slot new_slot()
+  {
+    if (m_slot_count == s_width * m_leaves.size())
+      m_leaves.emplace_back();
+    return m_slot_count++;
+  }
+
+  void put(const Entry& entry, Slot slot)
+  {
+    Leaf& leaf = m_leaves[slot / s_width];
+    Id& face = leaf.faces[slot % s_width];
+    m_size += face == s_none;
+    face = entry.face;
+    leaf.boxes.set(slot % s_width, entry.box);
+  }
+
+  // Up to the first node that is large enough already.
+  void grow(std::size_t leaf, const internal::Monotone_box& box)
+  {
+    if (leaf < m_leaves_in_tree) {
+      std::size_t child = leaf;
+      for (std::vector<Box_block>& level : m_levels) {
+        Box_block& node = level[child / s_width];
+        internal::Monotone_box bounds = node[child % s_width];
+        if (bounds.contains(box))
+          return;
+        node.set(child % s_width, bounds += box);
+        child /= s_width;
+      }
+    }
+    note_magnitude(box);
+  }
+
+  void note_magnitude(const internal::Monotone_box& box)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      m_magnitude = (std::max)({m_magnitude, std::abs(box.lower[axis]), std::abs(box.upper[axis])});
+  }
+
+  // `test` says which boxes of a block may have to do with the query.
+  template <class Test, class Visitor>
+  void visit_all(const Test& test, Visitor& visit) const
+  {
+    std::size_t visits = 0;
+    const auto visit_faces = [&](const Leaf& leaf) {
+      for (Mask mask = test(leaf.boxes); mask != 0; mask &= mask - 1) {
+        ++visits;
+        visit(leaf.faces[Box_block::first(mask)]);
+      }
+    };
+    if (m_leaves_in_tree > 0)
+      visit_leaves_below(m_levels.size() - 1, 0, test, visit_faces);
+    for (std::size_t i = m_leaves_in_tree; i < m_leaves.size(); ++i)
+      visit_faces(m_leaves[i]);
+    ++m_statistics.queries;
+    m_statistics.visits += visits;
+  }
+
+  template <class Test, class Visitor>
+  void visit_leaves_below(std::size_t level, std::size_t node, const Test& test, Visitor& visit) const
+  {
+    for (Mask mask = test(m_levels[level][node]); mask != 0; mask &= mask - 1) {
+      const std::size_t child = s_width * node + Box_block::first(mask);
+      if (level > 0)
+        visit_leaves_below(level - 1, child, test, visit);
+      else
+        visit(m_leaves[child]);
+    }
+  }
+
+  internal::Monotone_box_map m_map;
+  float m_magnitude = 0; // of a coordinate of a box, at most
+  std::vector<Leaf> m_leaves;
+  std::size_t m_leaves_in_tree = 0;             // those behind are looked at one by one
+  std::vector<std::vector<Box_block>> m_levels; // the lowest first
+  std::vector<Slot> m_slots;                    // by face
+  std::size_t m_size = 0;
+  Slot m_slot_count = 0; // given to a face since the tree was made
+  mutable Statistics m_statistics;
+};
+
+} // namespace selvedge
+
+#endif // SELVEDGE_SPATIAL_PACKED_R_TREE_H

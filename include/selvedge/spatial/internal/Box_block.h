@@ -1,0 +1,132 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SPATIAL_INTERNAL_BOX_BLOCK_H
+#define SELVEDGE_SPATIAL_INTERNAL_BOX_BLOCK_H
+
+#include <selvedge/spatial/internal/Float_slab.h>
+#include <selvedge/spatial/internal/Monotone_box.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+namespace selvedge {
+namespace internal {
+
+/// Sixteen boxes, bound by bound, so that a query is tested against all of them at once: the loops below are
+/// such that a compiler makes vector instructions of them.
+class alignas(64) Box_block
+{
+public:
+  static constexpr std::size_t width = 16;
+
+  /// Bit k is box k.
+  using Mask = std::uint32_t;
+
+  /// All boxes empty: no query overlaps them.
+  Box_block()
+  {
+    for (std::size_t i = 0; i < width; ++i)
+      set(i, Monotone_box::empty());
+  }
+
+  void set(std::size_t i, const Monotone_box& box)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      m_bounds[axis][i] = box.lower[axis];
+      m_bounds[3 + axis][i] = box.upper[axis];
+    }
+  }
+
+  Monotone_box operator[](std::size_t i) const
+  {
+    return {{m_bounds[0][i], m_bounds[1][i], m_bounds[2][i]},
+            {m_bounds[3][i], m_bounds[4][i], m_bounds[5][i]}};
+  }
+
+  /// Of all sixteen.
+  Monotone_box bounding_box() const
+  {
+    Monotone_box box = Monotone_box::empty();
+    for (std::size_t i = 0; i < width; ++i)
+      box += (*this)[i];
+    return box;
+  }
+
+  Mask overlapping(const Monotone_box& box) const
+  {
+    const auto& [x0, y0, z0, x1, y1, z1] = m_bounds;
+    Answers answers;
+    for (std::size_t i = 0; i < width; ++i)
+      answers[i] = yes(x0[i] <= box.upper[0]) & yes(y0[i] <= box.upper[1]) & yes(z0[i] <= box.upper[2]) &
+                   yes(x1[i] >= box.lower[0]) & yes(y1[i] >= box.lower[1]) & yes(z1[i] >= box.lower[2]);
+    return mask(answers);
+  }
+
+  /// What is not a number is not outside.
+  Mask not_outside(const Float_slab& slab) const
+  {
+    const auto [x, y, z] = slab.normal;
+    const auto [low_x, low_y, low_z] = slab.low_bounds;
+    const Row &x0 = m_bounds[low_x], &y0 = m_bounds[low_y], &z0 = m_bounds[low_z], &x1 = m_bounds[3 - low_x],
+              &y1 = m_bounds[5 - low_y], &z1 = m_bounds[7 - low_z];
+    Answers answers;
+    for (std::size_t i = 0; i < width; ++i)
+      answers[i] = no(x * x0[i] + y * y0[i] + z * z0[i] > slab.upper) &
+                   no(x * x1[i] + y * y1[i] + z * z1[i] < slab.lower);
+    return mask(answers);
+  }
+
+  /// The least box of a mask that is not empty.
+  static std::size_t first(Mask mask)
+  {
+#ifdef __GNUC__
+    return std::size_t(__builtin_ctz(mask));
+#else
+    std::size_t i = 0;
+    while ((mask >> i & 1) == 0)
+      ++i;
+    return i;
+#endif
+  }
+
+private:
+  using Row = std::array<float, width>;
+  using Answers = std::array<std::int32_t, width>; // 0 or −1, as the instructions give them
+
+  static std::int32_t yes(bool answer)
+  {
+    return answer ? -1 : 0;
+  }
+  static std::int32_t no(bool answer)
+  {
+    return answer ? 0 : -1;
+  }
+
+  static Mask mask(const Answers& answers)
+  {
+    Mask result = 0;
+#ifdef __SSE2__ // of a plain loop compilers make this only sometimes
+    for (std::size_t i = 0; i < width; i += 4) {
+      const __m128i four = _mm_loadu_si128(reinterpret_cast<const __m128i*>(&answers[i]));
+      result |= Mask(_mm_movemask_ps(_mm_castsi128_ps(four))) << i;
+    }
+#else
+    for (std::size_t i = 0; i < width; ++i)
+      result |= Mask(answers[i] & 1) << i;
+#endif
+    return result;
+  }
+
+  std::array<Row, 6> m_bounds; // lower x, y, z, upper x, y, z
+};
+
+} // namespace internal
+} // namespace selvedge
+
+#endif // SELVEDGE_SPATIAL_INTERNAL_BOX_BLOCK_H

@@ -1,0 +1,79 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SPATIAL_INTERNAL_SELECTABLE_INDEX_H
+#define SELVEDGE_SPATIAL_INTERNAL_SELECTABLE_INDEX_H
+
+#include <selvedge/spatial/Clustered_AABB_tree.h>
+#include <selvedge/spatial/Packed_R_tree.h>
+
+#include <CGAL/Bbox_3.h>
+
+#include <cstddef>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace selvedge {
+namespace internal {
+
+/// One of the indices of faces, selected at run time.
+class Selectable_index
+{
+public:
+  using Id = Packed_R_tree::Id;
+
+  struct Statistics
+  {
+    std::size_t clusters; ///< or leaves
+    std::size_t queries;
+    std::size_t visits;
+    std::size_t cluster_rebuilds;
+    std::size_t top_rebuilds; ///< or of the whole tree
+  };
+
+  explicit Selectable_index(Packed_R_tree index) : m_index(std::move(index)) {}
+  explicit Selectable_index(Clustered_AABB_tree index) : m_index(std::move(index)) {}
+
+  template <class BoxOf>
+  void build(const std::vector<Id>& faces, const BoxOf& box_of)
+  {
+    std::visit([&](auto& index) { index.build(faces, box_of); }, m_index);
+  }
+  void set(Id face, const CGAL::Bbox_3& box)
+  {
+    std::visit([&](auto& index) { index.set(face, box); }, m_index);
+  }
+  void remove(Id face)
+  {
+    std::visit([&](auto& index) { index.remove(face); }, m_index);
+  }
+  template <class Query, class Visitor>
+  void visit_overlapping(const Query& query, Visitor&& visit) const
+  {
+    std::visit([&](const auto& index) { index.visit_overlapping(query, visit); }, m_index);
+  }
+
+  Statistics statistics() const
+  {
+    return std::visit([](const auto& index) { return common(index.statistics()); }, m_index);
+  }
+
+private:
+  static Statistics common(const Packed_R_tree::Statistics& packed)
+  {
+    return {packed.leaves, packed.queries, packed.visits, 0, packed.rebuilds};
+  }
+  static Statistics common(const Clustered_AABB_tree::Statistics& clustered)
+  {
+    return {clustered.clusters, clustered.queries, clustered.visits, clustered.cluster_rebuilds,
+            clustered.top_rebuilds};
+  }
+
+  std::variant<Packed_R_tree, Clustered_AABB_tree> m_index;
+};
+
+} // namespace internal
+} // namespace selvedge
+
+#endif // SELVEDGE_SPATIAL_INTERNAL_SELECTABLE_INDEX_H
