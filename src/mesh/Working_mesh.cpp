@@ -223,8 +223,12 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
   for (Corner corner = 0; corner < corner_count; corner += 3) {
     if (m_mesh.add_face(vertex(corner), vertex(corner + 1), vertex(corner + 2)) == Mesh::null_face())
       throw std::logic_error("a triangle does not fit into the welded mesh");
-    for (Index k = 0; k < 3; ++k)
+    m_places.resize(m_mesh.number_of_halfedges());
+    Mesh::Halfedge_index h = m_mesh.halfedge(Mesh::Face_index(corner / 3));
+    for (unsigned char k = 0; k < 3; ++k, h = m_mesh.next(h)) {
       is_locked[sewing.vertex(corner + k)] |= is_frozen[corner / 3];
+      m_places[h] = k;
+    }
   }
   for (Index v = 0; v < is_locked.size(); ++v)
     if (is_locked[v])
@@ -253,34 +257,23 @@ bool Working_mesh::is_line(Corner a, Corner b) const
          differ_in_label(m_soup.materials);
 }
 
-std::size_t Working_mesh::place_in(Mesh::Face_index face, Mesh::Vertex_index vertex) const
-{
-  // By position, which no two corners of a face share, and which a corner has in the soup as in the mesh.
-  const Index_triple& corners = m_corners[face];
-  std::size_t place = 0;
-  while (place < 3 && m_soup.points[vertex_of(corners[place])] != m_mesh.point(vertex))
-    ++place;
-  return place;
-}
-
-// Calls function(face, place, corner) for each face that a motion changes: its corner at that place becomes
-// `corner`.
+// Calls function(h, corner) for each face that a motion changes: its corner at the target of its halfedge h
+// becomes `corner`.
 template <class Function>
 void Working_mesh::for_each_changed_face(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule,
                                          const Function& function) const
 {
-  const Mesh::Vertex_index mover = m_mesh.source(moving), target = m_mesh.target(moving);
   // From a contracted face, away from the other, up to the next line of the rule, which knows more lines than
   // corners show: sides may become equal. Is there none?
   const auto goes_all_the_way = [&](Mesh::Halfedge_index from, Mesh::Halfedge_index other,
                                     const auto& across) {
     if (m_mesh.is_border(from))
       return false;
-    const Corner carried = corner_at(m_mesh.face(from), target);
+    const Corner carried = corners_at_ends(moving, from).second;
     for (Mesh::Halfedge_index h = across(from); m_mesh.face(h) != m_mesh.face(other); h = across(h)) {
       if (rule.is_line(m_mesh.edge(h)))
         return false;
-      function(m_mesh.face(h), place_in(m_mesh.face(h), mover), carried);
+      function(from == moving ? m_mesh.prev(h) : h, carried);
     }
     return true;
   };
@@ -295,8 +288,7 @@ Working_mesh::Side Working_mesh::side(Mesh::Halfedge_index h) const
 {
   const bool is_beyond = m_mesh.is_border(h);
   const Mesh::Halfedge_index own = is_beyond ? m_mesh.opposite(h) : h;
-  const Mesh::Face_index face = m_mesh.face(own);
-  return {face, static_cast<unsigned char>(place_in(face, m_mesh.source(own))), is_beyond};
+  return {m_mesh.face(own), m_places[m_mesh.prev(own)], is_beyond};
 }
 
 Working_mesh::Mesh::Halfedge_index Working_mesh::halfedge(const Side& side) const
@@ -305,7 +297,7 @@ Working_mesh::Mesh::Halfedge_index Working_mesh::halfedge(const Side& side) cons
   if (m_mesh.is_removed(face))
     throw std::logic_error("a collapse of a face that is gone");
   Mesh::Halfedge_index h = m_mesh.halfedge(face);
-  while (place_in(face, m_mesh.source(h)) != side.place)
+  while (m_places[m_mesh.prev(h)] != side.place)
     h = m_mesh.next(h);
   return side.is_beyond ? m_mesh.opposite(h) : h;
 }
@@ -315,16 +307,22 @@ void Working_mesh::before_collapse(Mesh::Halfedge_index moving, const Border_rul
   if (m_recorder)
     m_recorder(side(moving));
   if (m_listener) {
-    const Mesh::Face_index face = m_mesh.face(m_mesh.is_border(moving) ? m_mesh.opposite(moving) : moving);
-    m_listener(vertex_of(corner_at(face, m_mesh.source(moving))),
-               vertex_of(corner_at(face, m_mesh.target(moving))));
+    const auto [from, to] =
+        corners_at_ends(moving, m_mesh.is_border(moving) ? m_mesh.opposite(moving) : moving);
+    m_listener(vertex_of(from), vertex_of(to));
   }
-  for_each_moved_wedge(moving, [this](Corner from, Corner to) {
-    m_uv_quadrics[m_wedges[to]] += m_uv_quadrics[m_wedges[from]];
+  for_each_moved_wedge(moving, [&](Index from, Index to) {
+    Wedge& merged = m_wedges[to];
+    merged.quadric += m_wedges[from].quadric;
+    merged.own_cost = merged.quadric(relative(m_mesh.point(m_mesh.target(moving))), merged.uv);
   });
-  for_each_changed_face(moving, rule, [this](Mesh::Face_index face, std::size_t place, Corner corner) {
-    m_corners[face][place] = corner;
+  for_each_changed_face(moving, rule, [this](Mesh::Halfedge_index h, Corner corner) {
+    m_corners[m_mesh.face(h)][m_places[h]] = corner;
   });
+  // Of a contracted face the edge behind goes with it, and the one ahead takes its place.
+  for (const Mesh::Halfedge_index h : {moving, m_mesh.opposite(moving)})
+    if (!m_mesh.is_border(h))
+      m_places[m_mesh.next(h)] = m_places[m_mesh.opposite(m_mesh.prev(h))];
 }
 
 void Working_mesh::on_refused(Mesh::Halfedge_index moving, const Refusals& refusals)
@@ -351,7 +349,7 @@ void Working_mesh::weigh(const std::vector<double>& weights)
     if (m_mesh.is_border(h) || !is_own(m_mesh.face(h)))
       continue;
     double& weight = m_constraints.vertex_weights[m_mesh.target(h)];
-    weight = (std::max)(weight, weights[vertex_of(corner_at(m_mesh.face(h), m_mesh.target(h)))]);
+    weight = (std::max)(weight, weights[vertex_of(corner_at(h))]);
   }
 }
 
@@ -363,7 +361,7 @@ bool Working_mesh::keeps_pieces(Mesh::Halfedge_index moving, const Border_rule<M
     const Mesh::Face_index side = m_mesh.face(h), other_side = m_mesh.face(m_mesh.opposite(h));
     if (!m_mesh.is_valid(side) || !m_mesh.is_valid(other_side) || !is_own(side) || !is_own(other_side))
       return true;
-    return vertex_of(corner_at(side, m_mesh.target(h))) != vertex_of(corner_at(other_side, m_mesh.target(h)));
+    return vertex_of(corner_at(h)) != vertex_of(corner_at(m_mesh.prev(m_mesh.opposite(h))));
   };
   const Mesh::Halfedge_index back = m_mesh.opposite(moving);
   if (!rule.is_line(m_mesh.edge(moving)))
@@ -386,10 +384,10 @@ bool Working_mesh::keeps_uv_orientation(Mesh::Halfedge_index moving, const Borde
     return CGAL::orientation(point(0), point(1), point(2));
   };
   bool is_kept = true;
-  for_each_changed_face(moving, rule, [&](Mesh::Face_index face, std::size_t place, Corner corner) {
-    Index_triple corners = m_corners[face];
+  for_each_changed_face(moving, rule, [&](Mesh::Halfedge_index h, Corner corner) {
+    Index_triple corners = m_corners[m_mesh.face(h)];
     const CGAL::Orientation before = orientation(corners);
-    corners[place] = corner;
+    corners[m_places[h]] = corner;
     is_kept = is_kept && (before == CGAL::COLLINEAR || orientation(corners) == before);
   });
   return is_kept;
@@ -414,75 +412,82 @@ void Working_mesh::measure_uvs(double unit)
   m_origin = {origin.x(), origin.y(), origin.z()};
   m_uv_origin = uv_of(0);
 
-  number_wedges();
+  const std::vector<Mesh::Vertex_index> vertices = number_wedges();
   for (const Mesh::Halfedge_index h : m_mesh.halfedges()) {
     if (m_mesh.is_border(h) || !is_own(m_mesh.face(h)))
       continue;
     const Index t = m_mesh.face(h);
     const auto& [a, b, c] = m_soup.triangles[t];
     const Mesh::Vertex_index v = m_mesh.target(h);
-    m_uv_quadrics[m_wedges[corner_at(m_mesh.face(h), v)]].add_triangle(
+    Wedge& wedge = m_wedges[m_wedge_of[corner_at(h)]];
+    wedge.uv = relative(uv_of(corner_at(h)));
+    wedge.quadric.add_triangle(
         {relative(m_soup.points[a]), relative(m_soup.points[b]), relative(m_soup.points[c])},
         {relative(uv_of(3 * t)), relative(uv_of(3 * t + 1)), relative(uv_of(3 * t + 2))},
         m_constraints.vertex_weights.empty() ? 1 : m_constraints.vertex_weights[v]);
   }
+  for (std::size_t i = 0; i < m_wedges.size(); ++i)
+    m_wedges[i].own_cost = m_wedges[i].quadric(relative(m_mesh.point(vertices[i])), m_wedges[i].uv);
 }
 
-void Working_mesh::number_wedges()
+// Returns the vertex of each.
+std::vector<Working_mesh::Mesh::Vertex_index> Working_mesh::number_wedges()
 {
-  m_wedges.assign(3 * m_corners.size(), s_none);
-  Index count = 0;
+  std::vector<char> is_line(m_mesh.number_of_edges(), false);
+  for (const Mesh::Edge_index e : m_constraints.line_edges)
+    is_line[e] = true;
+  m_wedge_of.assign(3 * m_corners.size(), s_none);
+  std::vector<Mesh::Vertex_index> vertices;
   for (const Mesh::Halfedge_index first : m_mesh.halfedges()) {
-    const Mesh::Vertex_index vertex = m_mesh.target(first);
-    // From a face around the vertex, until all round or at a line.
-    const auto number = [&](const auto& across) {
-      for (Mesh::Halfedge_index h = first; !m_mesh.is_border(h) && is_own(m_mesh.face(h));) {
-        m_wedges[corner_at(m_mesh.face(h), vertex)] = count;
-        const Mesh::Halfedge_index beyond = across(h);
-        if (m_mesh.is_border(beyond) || !is_own(m_mesh.face(beyond)) ||
-            m_wedges[corner_at(m_mesh.face(beyond), vertex)] != s_none)
-          return;
-        const Mesh::Halfedge_index shared = m_mesh.opposite(beyond) == m_mesh.next(h) ? m_mesh.next(h) : h;
-        for (const Mesh::Vertex_index end : {m_mesh.source(shared), m_mesh.target(shared)})
-          if (is_line(corner_at(m_mesh.face(h), end), corner_at(m_mesh.face(beyond), end)))
-            return;
-        h = beyond;
-      }
+    const auto is_numbered = [this](Mesh::Halfedge_index h) {
+      return m_mesh.is_border(h) || !is_own(m_mesh.face(h)) || m_wedge_of[corner_at(h)] != s_none;
     };
-    if (m_mesh.is_border(first) || !is_own(m_mesh.face(first)) ||
-        m_wedges[corner_at(m_mesh.face(first), vertex)] != s_none)
+    if (is_numbered(first))
       continue;
-    number([this](Mesh::Halfedge_index h) { return m_mesh.opposite(m_mesh.next(h)); });
-    number([this](Mesh::Halfedge_index h) { return m_mesh.prev(m_mesh.opposite(h)); });
-    ++count;
+    const auto number = [&](Mesh::Halfedge_index h) { m_wedge_of[corner_at(h)] = Index(vertices.size()); };
+    // From the first face around the vertex either way, until all round or at a line.
+    number(first);
+    for (Mesh::Halfedge_index h = first; !is_line[m_mesh.edge(m_mesh.next(h))];) {
+      h = m_mesh.opposite(m_mesh.next(h));
+      if (is_numbered(h))
+        break;
+      number(h);
+    }
+    for (Mesh::Halfedge_index h = first; !is_line[m_mesh.edge(h)];) {
+      h = m_mesh.prev(m_mesh.opposite(h));
+      if (is_numbered(h))
+        break;
+      number(h);
+    }
+    vertices.push_back(m_mesh.target(first));
   }
-  m_uv_quadrics.assign(count, {});
+  m_wedges.assign(vertices.size(), {});
+  return vertices;
 }
 
-// Calls function(from, to) with the corners at both ends of a motion, once for each side of the lines.
+// Calls function(from, to) with the wedges at both ends of a motion, once for each side of the lines.
 template <class Function>
 void Working_mesh::for_each_moved_wedge(Mesh::Halfedge_index moving, const Function& function) const
 {
-  if (m_uv_quadrics.empty())
+  if (m_wedges.empty())
     return;
   Index done = s_none;
   for (const Mesh::Halfedge_index h : {moving, m_mesh.opposite(moving)}) {
     if (m_mesh.is_border(h) || !is_own(m_mesh.face(h)))
       continue;
-    const Corner from = corner_at(m_mesh.face(h), m_mesh.source(moving));
-    if (m_wedges[from] != done)
-      function(from, corner_at(m_mesh.face(h), m_mesh.target(moving)));
-    done = m_wedges[from];
+    const auto [from, to] = corners_at_ends(moving, h);
+    if (m_wedge_of[from] != done)
+      function(m_wedge_of[from], m_wedge_of[to]);
+    done = m_wedge_of[from];
   }
 }
 
 double Working_mesh::uv_cost(Mesh::Halfedge_index moving) const
 {
   double cost = 0;
-  for_each_moved_wedge(moving, [&](Corner from, Corner to) {
-    const Uv_quadric::Vector x = relative(m_mesh.point(m_mesh.target(moving)));
-    const Uv s = relative(uv_of(to));
-    cost += m_uv_quadrics[m_wedges[from]](x, s) + m_uv_quadrics[m_wedges[to]](x, s);
+  for_each_moved_wedge(moving, [&](Index from, Index to) {
+    const Wedge& wedge = m_wedges[to];
+    cost += m_wedges[from].quadric(relative(m_mesh.point(m_mesh.target(moving))), wedge.uv) + wedge.own_cost;
   });
   return cost;
 }

@@ -115,11 +115,14 @@ private:
   bool is_own(Mesh::Face_index face) const { return std::size_t(face) < m_corners.size(); }
   bool is_line(Corner a, Corner b) const;
 
-  /// The place in a face of its corner at a vertex, or 3.
-  std::size_t place_in(Mesh::Face_index face, Mesh::Vertex_index vertex) const;
-  Corner corner_at(Mesh::Face_index face, Mesh::Vertex_index vertex) const
+  /// The corner at the target of a halfedge of the face beside it.
+  Corner corner_at(Mesh::Halfedge_index h) const { return m_corners[m_mesh.face(h)][m_places[h]]; }
+
+  /// The corners at the source and at the target of a motion of the face beside one of its halfedges.
+  std::pair<Corner, Corner> corners_at_ends(Mesh::Halfedge_index moving, Mesh::Halfedge_index side) const
   {
-    return m_corners[face][place_in(face, vertex)];
+    const std::pair<Corner, Corner> corners(corner_at(m_mesh.prev(side)), corner_at(side));
+    return side == moving ? corners : std::make_pair(corners.second, corners.first);
   }
 
   template <class Function>
@@ -128,21 +131,28 @@ private:
   template <class Function>
   void for_each_moved_wedge(Mesh::Halfedge_index moving, const Function& function) const;
 
-  void number_wedges();
+  std::vector<Mesh::Vertex_index> number_wedges();
   Uv_quadric::Vector relative(const Point_3& point) const;
   Uv relative(const Uv& uv) const;
 
   const Triangle_soup& m_soup;
   Mesh m_mesh;
   std::vector<Index_triple> m_corners; // by face, which has the number of its triangle
+  std::vector<unsigned char> m_places; // by halfedge that is no border: at its target, in its face's corners
   Simplify_constraints<Mesh> m_constraints;
   Welding_notes m_notes;
   std::function<void(std::size_t removed, std::size_t kept)> m_listener;
   std::function<void(const Side&)> m_recorder;
 
-  // The texture at each wedge: the corners at a vertex between two lines.
-  std::vector<Index> m_wedges; // by corner of the soup
-  std::vector<Uv_quadric> m_uv_quadrics;
+  // The corners at a vertex between two lines.
+  struct Wedge
+  {
+    Uv_quadric quadric;
+    Uv uv;
+    double own_cost; // what the quadric says of where the wedge is
+  };
+  std::vector<Index> m_wedge_of; // by corner of the soup
+  std::vector<Wedge> m_wedges;
   Uv_quadric::Vector m_origin{};
   Uv m_uv_origin{};
   double m_uv_unit = 0; // in units of the mesh
