@@ -38,6 +38,7 @@ public:
 
   /// The side on the other face of the same edge; none on a border.
   Index mate(Index side) const { return m_mates[side]; }
+  Index side_count() const { return Index(m_mates.size()); }
   Index vertex(Index corner) const { return m_vertices[corner]; }
   Index vertex_count() const { return m_vertex_count; }
 
@@ -153,6 +154,37 @@ private:
   std::vector<std::vector<Index>> m_unsewn; // sides that lie at one place and are not sewn, by place
 };
 
+// Makes edges and faces between the vertices of a mesh, in the order of the sides, and returns the halfedges
+// of these. `Surface_mesh::add_face` would make the same, but has to search for what is known here.
+std::vector<Working_mesh::Mesh::Halfedge_index> connect(const Sewing& sewing, Working_mesh::Mesh& mesh)
+{
+  using Halfedge = Working_mesh::Mesh::Halfedge_index;
+  const auto vertex = [&](Index corner) { return Working_mesh::Mesh::Vertex_index(sewing.vertex(corner)); };
+  std::vector<Halfedge> halfedges(sewing.side_count());
+  for (Index side = 0; side < halfedges.size(); ++side) {
+    const Index mate = sewing.mate(side), end = Sewing::next(side);
+    halfedges[side] = side < mate ? mesh.add_edge(vertex(side), vertex(end)) : mesh.opposite(halfedges[mate]);
+    mesh.set_halfedge(vertex(end), halfedges[side]);
+  }
+  std::vector<Halfedge> border_from(mesh.number_of_vertices());
+  for (Index side = 0; side < halfedges.size(); ++side) {
+    if (side % 3 == 0)
+      mesh.set_halfedge(mesh.add_face(), halfedges[Sewing::previous(side)]);
+    mesh.set_face(halfedges[side], Working_mesh::Mesh::Face_index(side / 3));
+    mesh.set_next(halfedges[side], halfedges[Sewing::next(side)]);
+    if (sewing.mate(side) == s_none)
+      border_from[vertex(Sewing::next(side))] = mesh.opposite(halfedges[side]);
+  }
+  for (Index side = 0; side < halfedges.size(); ++side) {
+    if (sewing.mate(side) != s_none)
+      continue;
+    const Halfedge border = mesh.opposite(halfedges[side]);
+    mesh.set_halfedge(vertex(side), border); // so that CGAL sees at once that the vertex is on a border
+    mesh.set_next(border, border_from[vertex(side)]);
+  }
+  return halfedges;
+}
+
 } // namespace
 
 std::vector<Index> number_positions(const std::vector<Point_3>& points)
@@ -201,7 +233,6 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
   }
 
   const Sewing sewing(triangles, Index(positions.size()), m_notes);
-  const auto vertex = [&](Corner corner) { return Mesh::Vertex_index(sewing.vertex(corner)); };
   m_mesh.reserve(sewing.vertex_count(), corner_count / 2 + 1, Index(triangles.size()));
   std::vector<Index> position_of_vertex;
   std::vector<Index> vertices_at(positions.size(), 0); // how many, by position
@@ -220,24 +251,20 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
   std::vector<char> is_locked(m_mesh.number_of_vertices(), false);
   for (Index v = 0; v < is_locked.size(); ++v)
     is_locked[v] = vertices_at[position_of_vertex[v]] > 1;
-  for (Corner corner = 0; corner < corner_count; corner += 3) {
-    if (m_mesh.add_face(vertex(corner), vertex(corner + 1), vertex(corner + 2)) == Mesh::null_face())
-      throw std::logic_error("a triangle does not fit into the welded mesh");
-    m_places.resize(m_mesh.number_of_halfedges());
-    Mesh::Halfedge_index h = m_mesh.halfedge(Mesh::Face_index(corner / 3));
-    for (unsigned char k = 0; k < 3; ++k, h = m_mesh.next(h)) {
-      is_locked[sewing.vertex(corner + k)] |= is_frozen[corner / 3];
-      m_places[h] = k;
-    }
-  }
+  for (Corner corner = 0; corner < corner_count; ++corner)
+    is_locked[sewing.vertex(corner)] |= is_frozen[corner / 3];
   for (Index v = 0; v < is_locked.size(); ++v)
     if (is_locked[v])
       m_constraints.locked_vertices.push_back(Mesh::Vertex_index(v));
 
+  const std::vector<Mesh::Halfedge_index> halfedges = connect(sewing, m_mesh);
+  m_places.resize(m_mesh.number_of_halfedges());
+  for (Index side = 0; side < corner_count; ++side)
+    m_places[halfedges[side]] = Sewing::next(side) % 3;
   for (Index side = 0; side < own_corners; ++side) {
     const Index mate = sewing.mate(side), end = Sewing::next(side);
     if (mate < own_corners && side < mate && (is_line(side, Sewing::next(mate)) || is_line(end, mate)))
-      m_constraints.line_edges.push_back(m_mesh.edge(m_mesh.halfedge(vertex(side), vertex(end))));
+      m_constraints.line_edges.push_back(m_mesh.edge(halfedges[side]));
   }
   m_notes.seam_edges = m_constraints.line_edges.size();
 }
