@@ -144,17 +144,18 @@ class Simplification
     template <class Profile, class Point>
     Optional<typename Profile::FT> operator()(const Profile& profile, const Optional<Point>& placement) const
     {
-      if (!placement || !m_targets.is_counted(profile.v0_v1()))
-        return {};
-      return typename Profile::FT(cost_at(profile, *placement));
+      const Optional<double> cost =
+          placement ? cost_along(profile, moving_halfedge(profile, *placement)) : Optional<double>();
+      return cost ? typename Profile::FT(*cost) : Optional<typename Profile::FT>();
     }
 
-    template <class Profile, class Point>
-    double cost_at(const Profile& profile, const Point& point) const
+    template <class Profile>
+    Optional<double> cost_along(const Profile& profile, Halfedge moving) const
     {
-      const double cost = m_quadrics.cost_at(profile, point);
-      return m_uv_weight > 0 ? cost + m_uv_weight * m_observer->uv_cost(moving_halfedge(profile, point))
-                             : cost;
+      if (!m_targets.is_counted(moving))
+        return {};
+      const Optional<double> cost = m_quadrics.cost_along(profile, moving);
+      return m_uv_weight > 0 ? *cost + m_uv_weight * m_observer->uv_cost(moving) : cost;
     }
 
     bool reaches_neighbours(typename boost::graph_traits<TriangleMesh>::vertex_descriptor kept) const

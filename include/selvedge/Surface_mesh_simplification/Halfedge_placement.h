@@ -7,6 +7,7 @@
 #include <selvedge/Surface_mesh_simplification/collapse_locality.h>
 #include <selvedge/Surface_mesh_simplification/internal/Filter_base.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
+#include <selvedge/Surface_mesh_simplification/internal/collapse_geometry.h>
 
 #include <CGAL/Dynamic_property_map.h>
 #include <CGAL/Surface_mesh_simplification/Edge_collapse_visitor_base.h>
@@ -40,13 +41,17 @@ struct No_border_rule
 ///
 /// With this placement every vertex of the result is a vertex of the input, bit for bit.
 ///
-/// A model of CGAL's concept `GetPlacement`. `Cost` has `cost_at(profile, point)`, as `Quadric_cost` has;
-/// `Rule` has `may_move(halfedge)` and `reaches_neighbours(vertex)`, as `Border_rule` has.
+/// A model of CGAL's concept `GetPlacement`. `Cost` is a model of `GetCost` that says the same in
+/// `cost_along(profile, halfedge)`, for moving the source of a halfedge of the profile's edge onto its
+/// target, as `Quadric_cost` has it; `Rule` has `may_move(halfedge)` and `reaches_neighbours(vertex)`, as
+/// `Border_rule` has.
 ///
 /// **Reference** Derichs, Misiak, Fuhrmann, section 3 and figure 4.
 template <class TriangleMesh, class Cost, class Rule = No_border_rule>
 class Halfedge_placement
 {
+  using Halfedge = typename boost::graph_traits<TriangleMesh>::halfedge_descriptor;
+
 public:
   using TM = TriangleMesh; // named by CGAL's own placement decorators
 
@@ -63,9 +68,30 @@ public:
   template <class Profile>
   internal::Optional<typename Profile::Point> second(const Profile& profile) const
   {
-    if (is_v0_target_first(profile))
-      return m_rule.may_move(profile.v0_v1()) ? profile.p1() : internal::Optional<typename Profile::Point>();
-    return m_rule.may_move(profile.v1_v0()) ? profile.p0() : internal::Optional<typename Profile::Point>();
+    if (!m_rule.may_move(profile.v0_v1()) || !m_rule.may_move(profile.v1_v0()))
+      return {};
+    return is_v0_cheaper(profile) ? profile.p1() : profile.p0();
+  }
+
+  /// What the cost policy says of the edge when it is so placed, for a loop that asks for both.
+  using Cost_policy = Cost;
+  template <class Profile>
+  internal::Optional<double> cost(const Profile& profile) const
+  {
+    const bool may_move_v0 = m_rule.may_move(profile.v0_v1());
+    const bool may_move_v1 = m_rule.may_move(profile.v1_v0());
+    if (may_move_v0 != may_move_v1)
+      return cost_along(profile, may_move_v0 ? profile.v0_v1() : profile.v1_v0());
+    const auto onto_v0 = cost_along(profile, profile.v1_v0()), onto_v1 = cost_along(profile, profile.v0_v1());
+    return onto_v0 < onto_v1 ? onto_v0 : onto_v1;
+  }
+  template <class Profile>
+  internal::Optional<double> second_cost(const Profile& profile) const
+  {
+    if (!m_rule.may_move(profile.v0_v1()) || !m_rule.may_move(profile.v1_v0()))
+      return {};
+    const auto onto_v0 = cost_along(profile, profile.v1_v0()), onto_v1 = cost_along(profile, profile.v0_v1());
+    return onto_v0 < onto_v1 ? onto_v1 : onto_v0;
   }
 
   /// See `Collapse_locality`.
@@ -82,16 +108,22 @@ public:
     const bool may_move_v1 = m_rule.may_move(profile.v1_v0());
     if (may_move_v0 != may_move_v1)
       return may_move_v1;
-    return cost_at(profile, profile.p0()) < cost_at(profile, profile.p1());
+    return is_v0_cheaper(profile);
   }
 
-  template <class Profile, class Point>
-  double cost_at(const Profile& profile, const Point& point) const
+  template <class Profile>
+  internal::Optional<double> cost_along(const Profile& profile, Halfedge moving) const
   {
-    return m_cost.cost_at(profile, point);
+    return m_cost.cost_along(profile, moving);
   }
 
 private:
+  template <class Profile>
+  bool is_v0_cheaper(const Profile& profile) const
+  {
+    return cost_along(profile, profile.v1_v0()) < cost_along(profile, profile.v0_v1());
+  }
+
   Cost m_cost;
   Rule m_rule;
 };
@@ -157,12 +189,14 @@ public:
     if (!state.is_deciding)
       return is_turned ? second : first;
 
+    const auto cost_at = [&](const Result& end) {
+      return *m_placement.cost_along(profile, internal::moving_halfedge(profile, *end));
+    };
     state.is_deciding = false;
-    state.reached_cost =
-        (std::max)(state.reached_cost, m_placement.cost_at(profile, is_turned ? *second : *first));
+    state.reached_cost = (std::max)(state.reached_cost, cost_at(is_turned ? second : first));
     if (const Result accepted = m_filter(profile, first))
       return accepted;
-    if (m_placement.cost_at(profile, *second) <= state.reached_cost)
+    if (cost_at(second) <= state.reached_cost)
       return m_filter(profile, second);
     put(state.is_turned, e, true);
     ++state.turned;

@@ -5,6 +5,7 @@
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_QUADRIC_COST_H
 
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
+#include <selvedge/Surface_mesh_simplification/internal/collapse_geometry.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Dynamic_property_map.h>
@@ -134,8 +135,14 @@ class Quadric_cost
   using Graph_traits = boost::graph_traits<TriangleMesh>;
   using Vertex = typename Graph_traits::vertex_descriptor;
   using Halfedge = typename Graph_traits::halfedge_descriptor;
+
+  struct Vertex_quadric
+  {
+    Quadric quadric;
+    double own_cost = 0; // what it says of the vertex itself
+  };
   using Quadric_map =
-      typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<Quadric>>::const_type;
+      typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<Vertex_quadric>>::const_type;
 
 public:
   /// Asks CGAL's loop to call `initialize` and `update_after_collapse`.
@@ -165,12 +172,12 @@ public:
       m_state->origin[i] = 0.5 * box.min(i) + 0.5 * box.max(i);
     for (const auto face : faces(mesh))
       add_face(halfedge(face, mesh), mesh, points);
-    if (m_state->weights.empty())
-      return;
     auto weight = m_state->weights.begin();
     for (const Vertex v : vertices(mesh)) {
-      Quadric weighted = get(m_state->quadrics, v);
-      put(m_state->quadrics, v, weighted *= *weight++);
+      Quadric sum = quadric(v);
+      if (!m_state->weights.empty())
+        sum *= *weight++;
+      m_state->set(v, sum, get(points, v));
     }
   }
 
@@ -190,8 +197,18 @@ public:
   double cost_at(const Profile& profile, const Point& point) const
   {
     const Quadric::Vector x = m_state->vector(point);
-    const double sum = get(m_state->quadrics, profile.v0())(x) + get(m_state->quadrics, profile.v1())(x);
-    return (std::max)(0.0, sum); // cancellation may leave a little less than nothing
+    return positive(quadric(profile.v0())(x) + quadric(profile.v1())(x));
+  }
+
+  /// The same number for moving along a halfedge of the profile's edge, sooner.
+  template <class Profile>
+  internal::Optional<double> cost_along(const Profile& profile, Halfedge moving) const
+  {
+    const bool is_v0_moved = moving == profile.v0_v1();
+    const Vertex mover = is_v0_moved ? profile.v0() : profile.v1();
+    const Vertex goal = is_v0_moved ? profile.v1() : profile.v0();
+    return positive(quadric(mover)(m_state->vector(is_v0_moved ? profile.p1() : profile.p0())) +
+                    get(m_state->quadrics, goal).own_cost);
   }
 
   /// The root mean square distance of `point` to the planes gathered at both ends of the edge, weighted by
@@ -199,8 +216,7 @@ public:
   template <class Profile, class Point>
   double error_at(const Profile& profile, const Point& point) const
   {
-    const double weight =
-        get(m_state->quadrics, profile.v0()).trace() + get(m_state->quadrics, profile.v1()).trace();
+    const double weight = quadric(profile.v0()).trace() + quadric(profile.v1()).trace();
     return weight > 0 ? std::sqrt(cost_at(profile, point) / weight) : 0;
   }
 
@@ -211,9 +227,9 @@ public:
   template <class Profile>
   void update_after_collapse(const Profile& profile, Vertex kept) const
   {
-    Quadric sum = get(m_state->quadrics, profile.v0());
-    sum += get(m_state->quadrics, profile.v1());
-    put(m_state->quadrics, kept, sum);
+    Quadric sum = quadric(profile.v0());
+    sum += quadric(profile.v1());
+    m_state->set(kept, sum, get(profile.vertex_point_map(), kept));
   }
 
 private:
@@ -221,7 +237,7 @@ private:
   {
     State(const TriangleMesh& mesh, const Quadric_cost_options& options_, const EdgeIsLineMap& edge_is_line_)
         : options(options_), edge_is_line(edge_is_line_),
-          quadrics(get(CGAL::dynamic_vertex_property_t<Quadric>(), mesh))
+          quadrics(get(CGAL::dynamic_vertex_property_t<Vertex_quadric>(), mesh))
     {
     }
 
@@ -232,6 +248,12 @@ private:
               CGAL::to_double(p.z()) - origin[2]};
     }
 
+    template <class Point>
+    void set(Vertex v, const Quadric& quadric, const Point& point)
+    {
+      put(quadrics, v, Vertex_quadric{quadric, quadric(vector(point))});
+    }
+
     Quadric_cost_options options;
     EdgeIsLineMap edge_is_line;
     Quadric_map quadrics;
@@ -239,6 +261,11 @@ private:
     Quadric::Vector origin{0, 0, 0};
     bool is_initialised = false;
   };
+
+  const Quadric& quadric(Vertex v) const { return get(m_state->quadrics, v).quadric; }
+
+  // Cancellation may leave a little less than nothing.
+  static double positive(double sum) { return (std::max)(0.0, sum); }
 
   static Quadric::Vector difference(const Quadric::Vector& a, const Quadric::Vector& b)
   {
@@ -291,8 +318,8 @@ private:
 
   void add(Vertex v, const Quadric& quadric) const
   {
-    Quadric sum = get(m_state->quadrics, v);
-    sum += quadric;
+    Vertex_quadric sum = get(m_state->quadrics, v);
+    sum.quadric += quadric;
     put(m_state->quadrics, v, sum);
   }
 

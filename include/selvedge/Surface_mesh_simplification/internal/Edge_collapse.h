@@ -103,6 +103,17 @@ struct Has_second<
 {
 };
 
+// Whether the placement knows what this cost policy says of an edge that it places.
+template <class Placement, class Cost, class = void>
+struct Has_cost : std::false_type
+{
+};
+template <class Placement, class Cost>
+struct Has_cost<Placement, Cost, std::void_t<typename Placement::Cost_policy>>
+    : std::is_same<typename Placement::Cost_policy, Cost>
+{
+};
+
 /// The loop behind `selvedge::edge_collapse`.
 template <class TriangleMesh, class GeomTraits, class Stop, class VertexPointMap, class HalfedgeIndexMap,
           class EdgeIsConstrainedMap, class Cost, class Placement, class Filter, class Visitor>
@@ -165,7 +176,7 @@ private:
       if (get(m_is_constrained, e))
         continue;
       const Profile of_edge = profile(h);
-      const Optional_cost cost = cost_of(of_edge, m_placement(of_edge));
+      const Optional_cost cost = cost_of(of_edge, State::first);
       if (cost)
         entries.push_back({*cost, id(h)});
       m_visitor.OnCollected(of_edge, cost);
@@ -202,7 +213,7 @@ private:
     if constexpr (Has_second<Placement, Profile>::value) {
       if (m_states[edge_id] == State::first) {
         m_states[edge_id] = State::second;
-        if (const Optional_cost second = cost_of(of_edge, placement_of(of_edge, State::second)))
+        if (const Optional_cost second = cost_of(of_edge, State::second))
           m_queue.set(edge_id, *second);
       }
     }
@@ -279,7 +290,7 @@ private:
       return;
     m_states[edge_id] = State::first;
     const Profile of_edge = profile(m_halfedges[edge_id]);
-    if (const Optional_cost cost = cost_of(of_edge, m_placement(of_edge)))
+    if (const Optional_cost cost = cost_of(of_edge, State::first))
       m_queue.set(edge_id, *cost);
     else
       m_queue.erase(edge_id);
@@ -291,9 +302,17 @@ private:
     put(m_has_stale_edges, of_edge.v1(), true);
   }
 
-  Optional_cost cost_of(const Profile& of_edge, const Optional_point& placement) const
+  Optional_cost cost_of(const Profile& of_edge, State state) const
   {
-    const Optional_cost cost = m_cost(of_edge, placement);
+    Optional_cost cost;
+    if constexpr (Has_cost<Placement, Cost>::value) {
+      const auto known =
+          state == State::second ? m_placement.second_cost(of_edge) : m_placement.cost(of_edge);
+      if (known)
+        cost = FT(*known);
+    } else {
+      cost = m_cost(of_edge, placement_of(of_edge, state));
+    }
     return cost && *cost == *cost ? cost : Optional_cost();
   }
 
