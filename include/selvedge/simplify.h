@@ -116,7 +116,10 @@ namespace internal {
 template <class TriangleMesh, class Observer>
 class Simplification
 {
-  using Halfedge = typename boost::graph_traits<TriangleMesh>::halfedge_descriptor;
+  using Graph_traits = boost::graph_traits<TriangleMesh>;
+  using Vertex = typename Graph_traits::vertex_descriptor;
+  using Halfedge = typename Graph_traits::halfedge_descriptor;
+  using Edge = typename Graph_traits::edge_descriptor;
   using Point_map = typename boost::property_map<TriangleMesh, CGAL::vertex_point_t>::type;
   using Geom_traits =
       typename CGAL::Kernel_traits<typename boost::property_traits<Point_map>::value_type>::Kernel;
@@ -158,10 +161,8 @@ class Simplification
       return m_uv_weight > 0 ? *cost + m_uv_weight * m_observer->uv_cost(moving) : cost;
     }
 
-    bool reaches_neighbours(typename boost::graph_traits<TriangleMesh>::vertex_descriptor kept) const
-    {
-      return m_quadrics.reaches_neighbours(kept);
-    }
+    bool reaches_neighbours(Vertex kept) const { return m_quadrics.reaches_neighbours(kept); }
+    bool reaches(Vertex kept, Edge edge) const { return m_quadrics.reaches(kept, edge); }
 
     template <class Profile, class Vertex>
     void update_after_collapse(const Profile& profile, const Vertex& kept) const

@@ -4,6 +4,7 @@
 // The own loop against CGAL's: where no two edges cost the same, the same collapses in the same order.
 
 #include <selvedge/Surface_mesh_simplification/Aspect_ratio_filter.h>
+#include <selvedge/Surface_mesh_simplification/Border_filter.h>
 #include <selvedge/Surface_mesh_simplification/Dihedral_angle_filter.h>
 #include <selvedge/Surface_mesh_simplification/Halfedge_placement.h>
 #include <selvedge/Surface_mesh_simplification/Intersection_filter.h>
@@ -29,6 +30,7 @@
 #include <random>
 #include <set>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -103,6 +105,11 @@ struct First_placement_alone
   {
     return placement.reaches_neighbours(kept);
   }
+  template <class Vertex, class Edge>
+  bool reaches(const Vertex& kept, const Edge& edge) const
+  {
+    return placement.reaches(kept, edge);
+  }
 };
 template <class Filter>
 struct Without_blockers
@@ -113,6 +120,24 @@ struct Without_blockers
   auto operator()(const Profile& profile, const OptionalPoint& placement) const
   {
     return (*filter)(profile, placement);
+  }
+};
+
+/// A placement that says neither what its edges cost nor which of them a collapse concerns.
+template <class Placement>
+struct Silent_placement
+{
+  Placement placement;
+
+  template <class Profile>
+  auto operator()(const Profile& profile) const
+  {
+    return placement(profile);
+  }
+  template <class Profile>
+  auto second(const Profile& profile) const
+  {
+    return placement.second(profile);
   }
 };
 
@@ -309,6 +334,45 @@ TEST(Own_loop, GoesAsCgalsOnAPolyhedron)
     return all;
   };
   EXPECT_EQ(points(own), points(cgal));
+}
+
+// What a placement tells the loop saves work and changes nothing, along lines neither.
+TEST(Own_loop, GoesTheSameWayWhenItIsToldLess)
+{
+  for (const auto& [name, mesh] : meshes()) {
+    SCOPED_TRACE(name);
+    const SMS::Count_ratio_stop_predicate<Surface_mesh> stop(ratio);
+    const auto reduce = [&](Surface_mesh& reduced, const Recorder& recorder, const auto& told) {
+      using Rule = Border_rule<Surface_mesh>;
+      Border_rule_options options;
+      options.max_border_turn = 30;
+      options.max_drift = 0.01;
+      Rule rule(reduced, options);
+      for (const auto e : reduced.edges())
+        if (std::size_t(e) % 50 == 0)
+          rule.mark(e);
+      using Cost = Quadric_cost<Surface_mesh, Rule>;
+      const Cost cost(reduced, {}, rule);
+      const Border_filter<Rule, Aspect_ratio_filter<>> filter(rule, Aspect_ratio_filter<>(0.2));
+      const Recorder_and<Border_visitor<Surface_mesh>> visitor{recorder, Border_visitor<Surface_mesh>(rule)};
+      selvedge::edge_collapse(
+          reduced, stop,
+          CGAL::parameters::get_cost(cost)
+              .get_placement(told(Halfedge_placement<Surface_mesh, Cost, Rule>(cost, rule)))
+              .filter(filter)
+              .visitor(visitor));
+    };
+    expect_same_steps(
+        mesh, 100,
+        [&](Surface_mesh& reduced, const Recorder& recorder) {
+          reduce(reduced, recorder, [](const auto& placement) { return placement; });
+        },
+        [&](Surface_mesh& reduced, const Recorder& recorder) {
+          reduce(reduced, recorder, [](const auto& placement) {
+            return Silent_placement<std::decay_t<decltype(placement)>>{placement};
+          });
+        });
+  }
 }
 
 // The extras: what was refused because of a face elsewhere comes back when that face has changed.

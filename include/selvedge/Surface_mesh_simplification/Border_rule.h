@@ -122,6 +122,7 @@ public:
 
   /// Can the collapse that left `kept` have changed what `may_move` says of edges that do not end there?
   bool reaches_neighbours(Vertex kept) const { return get(m_state->freedoms, kept) != Freedom::free; }
+  bool reaches(Vertex kept, Edge e) const { return reaches_neighbours(kept) && is_line(e); }
 
   /// May the ends of the profile's edge merge at `placement`, wherever that is?
   ///

@@ -34,6 +34,12 @@ struct No_border_rule
   {
     return false;
   }
+
+  template <class Vertex, class Edge>
+  bool reaches(const Vertex&, const Edge&) const
+  {
+    return false;
+  }
 };
 
 /// Places the merged vertex at one end of its edge: of the two directions those that the rule allows, of
@@ -43,14 +49,17 @@ struct No_border_rule
 ///
 /// A model of CGAL's concept `GetPlacement`. `Cost` is a model of `GetCost` that says the same in
 /// `cost_along(profile, halfedge)`, for moving the source of a halfedge of the profile's edge onto its
-/// target, as `Quadric_cost` has it; `Rule` has `may_move(halfedge)` and `reaches_neighbours(vertex)`, as
-/// `Border_rule` has.
+/// target, as `Quadric_cost` has it; `Rule` has `may_move(halfedge)`, `reaches_neighbours(vertex)` and
+/// `reaches(vertex, edge)`, as `Border_rule` has.
 ///
 /// **Reference** Derichs, Misiak, Fuhrmann, section 3 and figure 4.
 template <class TriangleMesh, class Cost, class Rule = No_border_rule>
 class Halfedge_placement
 {
-  using Halfedge = typename boost::graph_traits<TriangleMesh>::halfedge_descriptor;
+  using Graph_traits = boost::graph_traits<TriangleMesh>;
+  using Vertex = typename Graph_traits::vertex_descriptor;
+  using Halfedge = typename Graph_traits::halfedge_descriptor;
+  using Edge = typename Graph_traits::edge_descriptor;
 
 public:
   using TM = TriangleMesh; // named by CGAL's own placement decorators
@@ -95,9 +104,13 @@ public:
   }
 
   /// See `Collapse_locality`.
-  bool reaches_neighbours(typename boost::graph_traits<TriangleMesh>::vertex_descriptor kept) const
+  bool reaches_neighbours(Vertex kept) const
   {
     return Collapse_locality<Cost>::reaches_neighbours(m_cost, kept) || m_rule.reaches_neighbours(kept);
+  }
+  bool reaches(Vertex kept, Edge edge) const
+  {
+    return Collapse_locality<Cost>::reaches(m_cost, kept, edge) || m_rule.reaches(kept, edge);
   }
 
   /// Is the first choice to move v1 onto v0?

@@ -222,6 +222,7 @@ public:
 
   /// No: see `Collapse_locality`.
   bool reaches_neighbours(Vertex /*kept*/) const { return false; }
+  bool reaches(Vertex /*kept*/, typename Graph_traits::edge_descriptor /*edge*/) const { return false; }
 
   /// Gives the merged vertex the sum of both; called by the loop.
   template <class Profile>

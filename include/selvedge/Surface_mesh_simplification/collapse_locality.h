@@ -16,15 +16,21 @@ namespace selvedge {
 ///
 /// What a policy says of the edges at the merged vertex always counts as changed. This trait says whether
 /// `policy` may also say something new of other edges at the neighbours of `kept`, the merged vertex: 36
-/// edges instead of 6, on average. Yes is always right, and is what CGAL's own loop assumes. A policy of
-/// one's own either has a member `bool reaches_neighbours(vertex) const` or specialises this trait; a wrong
-/// "no" costs order and quality, never a guarantee, since a placement is asked for once more when its edge
-/// collapses.
+/// edges instead of 6, on average. Yes is always right, and is what CGAL's own loop assumes. Where it does,
+/// `reaches(policy, kept, edge)` says of one of these edges whether it may. A policy of one's own either has
+/// members `bool reaches_neighbours(vertex) const` and `bool reaches(vertex, edge) const` or specialises this
+/// trait; a wrong "no" costs order and quality, never a guarantee, since a placement is asked for once more
+/// when its edge collapses.
 template <class Policy, class = void>
 struct Collapse_locality
 {
   template <class Vertex>
   static bool reaches_neighbours(const Policy&, const Vertex&)
+  {
+    return true;
+  }
+  template <class Vertex, class Edge>
+  static bool reaches(const Policy&, const Vertex&, const Edge&)
   {
     return true;
   }
@@ -38,6 +44,11 @@ struct Collapse_locality<Policy, std::void_t<decltype(&Policy::reaches_neighbour
   {
     return policy.reaches_neighbours(kept);
   }
+  template <class Vertex, class Edge>
+  static bool reaches(const Policy& policy, const Vertex& kept, const Edge& edge)
+  {
+    return policy.reaches(kept, edge);
+  }
 };
 
 /// Policies that look at nothing but the ends of an edge.
@@ -45,6 +56,11 @@ struct Looks_at_ends_alone
 {
   template <class Policy, class Vertex>
   static bool reaches_neighbours(const Policy&, const Vertex&)
+  {
+    return false;
+  }
+  template <class Policy, class Vertex, class Edge>
+  static bool reaches(const Policy&, const Vertex&, const Edge&)
   {
     return false;
   }

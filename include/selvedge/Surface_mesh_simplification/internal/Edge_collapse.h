@@ -268,7 +268,7 @@ private:
       if (!is_wide && !get(m_has_stale_edges, neighbour))
         continue;
       for (const Halfedge g : CGAL::halfedges_around_target(opposite(h, m_mesh), m_mesh))
-        if (g != opposite(h, m_mesh) && (is_wide || is_stale(id(g))))
+        if (g != opposite(h, m_mesh) && (is_stale(id(g)) || (is_wide && is_reached(kept, edge(g, m_mesh)))))
           refresh(g);
       put(m_has_stale_edges, neighbour, false);
     }
@@ -278,6 +278,12 @@ private:
         if (m_states[edge_id] != State::gone && is_stale(edge_id))
           refresh(m_halfedges[edge_id]);
       });
+  }
+
+  bool is_reached(Vertex kept, Edge e) const
+  {
+    return Collapse_locality<Cost>::reaches(m_cost, kept, e) ||
+           Collapse_locality<Placement>::reaches(m_placement, kept, e);
   }
 
   bool is_stale(Id edge_id) const { return m_states[edge_id] == State::second || !m_queue.contains(edge_id); }
