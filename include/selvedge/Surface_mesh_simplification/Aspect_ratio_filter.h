@@ -54,14 +54,17 @@ public:
   template <class Profile, class Point>
   bool accepts(const Profile& profile, const Point& placement) const
   {
-    double least_before = 1, least_after = 1;
-    internal::all_of_changed_faces(
-        profile, placement, [&](const Point& before, const Point& after, const Point& a, const Point& b) {
-          least_before = (std::min)(least_before, aspect_ratio(before, a, b));
-          least_after = (std::min)(least_after, aspect_ratio(after, a, b));
-          return true;
-        });
-    return least_after >= m_min_aspect_ratio || least_after > least_before;
+    const auto least = [&](bool is_after) {
+      double ratio = 1;
+      internal::all_of_changed_faces(
+          profile, placement, [&](const Point& before, const Point& after, const Point& a, const Point& b) {
+            ratio = (std::min)(ratio, aspect_ratio(is_after ? after : before, a, b));
+            return true;
+          });
+      return ratio;
+    };
+    const double least_after = least(true);
+    return least_after >= m_min_aspect_ratio || least_after > least(false);
   }
 
 private:

@@ -66,6 +66,7 @@ public:
   {
     uncount(face);
     put(m_state->share_of, face, s_uncounted);
+    m_state->are_all_counted = false;
   }
 
   bool is_counted(Face face) const { return get(m_state->share_of, face) != s_uncounted; }
@@ -73,7 +74,7 @@ public:
   /// Is any face beside the halfedge counted?
   bool is_counted(Halfedge h) const
   {
-    return any_beside(h, [this](Face face) { return is_counted(face); });
+    return m_state->are_all_counted || any_beside(h, [this](Face face) { return is_counted(face); });
   }
 
   /// May the edge collapse? Not when a face beside it is of a share that has reached its target.
@@ -130,6 +131,7 @@ private:
     typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<std::uint32_t>>::const_type
         share_of;
     std::vector<Share> shares;
+    bool are_all_counted = true;
   };
 
   Share& share_of(Face face) const { return m_state->shares[get(m_state->share_of, face)]; }
