@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_QUADRIC_COST_H
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_QUADRIC_COST_H
 
+#include <selvedge/Surface_mesh_simplification/internal/Symmetric_quadric.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
 #include <selvedge/Surface_mesh_simplification/internal/collapse_geometry.h>
 
@@ -20,76 +21,6 @@
 #include <vector>
 
 namespace selvedge {
-
-/// A quadratic function of a point, x ↦ xᵀAx + 2bᵀx + c, in double precision.
-class Quadric
-{
-public:
-  using Vector = std::array<double, 3>;
-
-  /// Adds weight × squared distance to the plane through `point` with the unit normal `normal`.
-  void add_plane(const Vector& normal, const Vector& point, double weight)
-  {
-    const double d = -dot(normal, point);
-    m_xx += weight * normal[0] * normal[0];
-    m_xy += weight * normal[0] * normal[1];
-    m_xz += weight * normal[0] * normal[2];
-    m_yy += weight * normal[1] * normal[1];
-    m_yz += weight * normal[1] * normal[2];
-    m_zz += weight * normal[2] * normal[2];
-    for (int i = 0; i < 3; ++i)
-      m_b[i] += weight * d * normal[i];
-    m_c += weight * d * d;
-  }
-
-  /// Adds weight × squared distance to `point`.
-  void add_point(const Vector& point, double weight)
-  {
-    m_xx += weight;
-    m_yy += weight;
-    m_zz += weight;
-    for (int i = 0; i < 3; ++i)
-      m_b[i] -= weight * point[i];
-    m_c += weight * dot(point, point);
-  }
-
-  Quadric& operator+=(const Quadric& other)
-  {
-    m_xx += other.m_xx;
-    m_xy += other.m_xy;
-    m_xz += other.m_xz;
-    m_yy += other.m_yy;
-    m_yz += other.m_yz;
-    m_zz += other.m_zz;
-    for (int i = 0; i < 3; ++i)
-      m_b[i] += other.m_b[i];
-    m_c += other.m_c;
-    return *this;
-  }
-
-  Quadric& operator*=(double factor)
-  {
-    for (double* const number : {&m_xx, &m_xy, &m_xz, &m_yy, &m_yz, &m_zz, &m_b[0], &m_b[1], &m_b[2], &m_c})
-      *number *= factor;
-    return *this;
-  }
-
-  double operator()(const Vector& x) const
-  {
-    return x[0] * (m_xx * x[0] + 2 * (m_xy * x[1] + m_xz * x[2] + m_b[0])) +
-           x[1] * (m_yy * x[1] + 2 * (m_yz * x[2] + m_b[1])) + x[2] * (m_zz * x[2] + 2 * m_b[2]) + m_c;
-  }
-
-  /// The sum of the weights of the planes, and three times those of the points.
-  double trace() const { return m_xx + m_yy + m_zz; }
-
-  static double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-private:
-  double m_xx = 0, m_xy = 0, m_xz = 0, m_yy = 0, m_yz = 0, m_zz = 0;
-  Vector m_b{0, 0, 0};
-  double m_c = 0;
-};
 
 /// How much of what a `Quadric_cost` weighs. Both numbers are ratios, at least 0.
 struct Quadric_cost_options
@@ -132,6 +63,8 @@ struct No_line_map
 template <class TriangleMesh, class EdgeIsLineMap = No_line_map>
 class Quadric_cost
 {
+  using Quadric = internal::Symmetric_quadric;
+  using Vector = internal::Vector_of_doubles;
   using Graph_traits = boost::graph_traits<TriangleMesh>;
   using Vertex = typename Graph_traits::vertex_descriptor;
   using Halfedge = typename Graph_traits::halfedge_descriptor;
@@ -196,7 +129,7 @@ public:
   template <class Profile, class Point>
   double cost_at(const Profile& profile, const Point& point) const
   {
-    const Quadric::Vector x = m_state->vector(point);
+    const Vector x = m_state->vector(point);
     return positive(quadric(profile.v0())(x) + quadric(profile.v1())(x));
   }
 
@@ -243,7 +176,7 @@ private:
     }
 
     template <class Point>
-    Quadric::Vector vector(const Point& p) const
+    Vector vector(const Point& p) const
     {
       return {CGAL::to_double(p.x()) - origin[0], CGAL::to_double(p.y()) - origin[1],
               CGAL::to_double(p.z()) - origin[2]};
@@ -259,7 +192,7 @@ private:
     EdgeIsLineMap edge_is_line;
     Quadric_map quadrics;
     std::vector<double> weights; // by vertex; empty when all are 1
-    Quadric::Vector origin{0, 0, 0};
+    Vector origin{0, 0, 0};
     bool is_initialised = false;
   };
 
@@ -268,17 +201,8 @@ private:
   // Cancellation may leave a little less than nothing.
   static double positive(double sum) { return (std::max)(0.0, sum); }
 
-  static Quadric::Vector difference(const Quadric::Vector& a, const Quadric::Vector& b)
-  {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-  }
-  static Quadric::Vector cross(const Quadric::Vector& a, const Quadric::Vector& b)
-  {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  }
-
   // Scales to length 1 and returns the length it had; leaves the zero vector as it is.
-  static double normalise(Quadric::Vector& v)
+  static double normalise(Vector& v)
   {
     const double length = std::hypot(v[0], v[1], v[2]);
     if (length > 0)
@@ -292,14 +216,15 @@ private:
   {
     const State& state = *m_state;
     const std::array<Halfedge, 3> edges{first, next(first, mesh), next(next(first, mesh), mesh)};
-    std::array<Quadric::Vector, 3> corners; // corner i is the source of edge i
+    std::array<Vector, 3> corners; // corner i is the source of edge i
     for (int i = 0; i < 3; ++i)
       corners[i] = state.vector(get(points, source(edges[i], mesh)));
-    Quadric::Vector normal = cross(difference(corners[1], corners[0]), difference(corners[2], corners[0]));
+    Vector normal = internal::cross(internal::difference(corners[1], corners[0]),
+                                    internal::difference(corners[2], corners[0]));
     const double area = 0.5 * normalise(normal);
 
     Quadric of_face;
-    of_face.add_plane(normal, corners[0], area);
+    of_face.add_square(normal, -internal::dot(normal, corners[0]), area);
     for (int i = 0; i < 3; ++i) {
       Quadric of_corner = of_face;
       of_corner.add_point(corners[i], state.options.stabiliser * area);
@@ -308,10 +233,12 @@ private:
     for (int i = 0; i < 3; ++i) {
       if (!is_border(opposite(edges[i], mesh), mesh) && !get(state.edge_is_line, edge(edges[i], mesh)))
         continue;
-      Quadric::Vector along = difference(corners[(i + 1) % 3], corners[i]);
+      Vector along = internal::difference(corners[(i + 1) % 3], corners[i]);
       const double length = normalise(along);
       Quadric of_border;
-      of_border.add_plane(cross(normal, along), corners[i], state.options.border_weight * length * length);
+      const Vector upright = internal::cross(normal, along);
+      of_border.add_square(upright, -internal::dot(upright, corners[i]),
+                           state.options.border_weight * length * length);
       add(source(edges[i], mesh), of_border);
       add(target(edges[i], mesh), of_border);
     }
