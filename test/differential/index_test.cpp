@@ -5,7 +5,6 @@
 
 #include "support/meshes.h"
 #include "support/reduction.h"
-#include "support/slabs.h"
 
 #include <selvedge/Surface_mesh_simplification/Intersection_filter.h>
 #include <selvedge/Surface_mesh_simplification/stop_predicates.h>
@@ -17,7 +16,6 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
 #include <set>
 #include <utility>
 
@@ -46,14 +44,13 @@ public:
   void build(const std::vector<Id>& faces, const BoxOf& box_of)
   {
     m_index.build(faces, box_of);
-    for (const Id face : faces)
-      set_judge(face, box_of(face));
+    m_judge.build(faces, box_of);
   }
   void set(Id face, const CGAL::Bbox_3& box)
   {
     ++m_statistics.changes;
     m_index.set(face, box);
-    set_judge(face, box);
+    m_judge.set(face, box);
   }
   void remove(Id face)
   {
@@ -61,8 +58,8 @@ public:
     m_index.remove(face);
     m_judge.remove(face);
   }
-  template <class Query, class Visitor>
-  void visit_overlapping(const Query& query, Visitor&& visit) const
+  template <class Visitor>
+  void visit_overlapping(const CGAL::Bbox_3& query, Visitor&& visit) const
   {
     ++m_statistics.queries;
     std::set<Id> found;
@@ -70,24 +67,13 @@ public:
       m_statistics.twice += !found.insert(face).second;
       visit(face);
     });
-    m_judge.visit_overlapping(query, [&](Id face) {
-      m_statistics.missed += found.count(face) == 0 && !may_be_left_out(query, face);
-    });
+    m_judge.visit_overlapping(query, [&](Id face) { m_statistics.missed += found.count(face) == 0; });
   }
   const Statistics& statistics() const { return m_statistics; }
 
 private:
-  void set_judge(Id face, const CGAL::Bbox_3& box)
-  {
-    m_judge.set(face, box);
-    m_boxes[face] = box;
-  }
-  bool may_be_left_out(const CGAL::Bbox_3&, Id) const { return false; }
-  bool may_be_left_out(const Slab_box& slab, Id face) const { return is_outside(slab, m_boxes.at(face)); }
-
   Index m_index;
   Brute_force_index m_judge;
-  std::map<Id, CGAL::Bbox_3> m_boxes;
   mutable Statistics m_statistics;
 };
 

@@ -1,8 +1,6 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "support/slabs.h"
-
 #include <selvedge/spatial/Brute_force_index.h>
 #include <selvedge/spatial/Clustered_AABB_tree.h>
 #include <selvedge/spatial/Packed_R_tree.h>
@@ -11,8 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
-#include <numeric>
 #include <random>
 #include <set>
 
@@ -153,57 +149,6 @@ TEST_P(Packed_index, NeverMissesABoxWhileBoxesComeChangeAndGo)
   expect_never_to_miss_a_box([] { return Packed_R_tree(); }, origin, extent);
 }
 
-// Slabs of all directions and lengths that just touch a box, or just do not.
-TEST_P(Packed_index, LeavesOutOnlyWhatLiesOutsideTheSlab)
-{
-  const auto [origin, extent] = GetParam();
-  Random_boxes random(1, origin, extent);
-  std::vector<Id> faces;
-  std::vector<CGAL::Bbox_3> boxes;
-  for (Id face = 0; face < 100; ++face) {
-    boxes.push_back(random.box());
-    faces.push_back(face);
-  }
-  Packed_R_tree index;
-  index.build(faces, [&](Id face) { return boxes[face]; });
-  std::size_t left_out = 0;
-  for (int step = 0; step < 2000; ++step) {
-    SCOPED_TRACE(testing::Message() << "step " << step);
-    const Id touched = random.index(boxes.size());
-    Slab_box query{boxes[touched]};
-    const double length = std::pow(10, 200 * (random.number() - 0.5));
-    for (int axis = 0; axis < 3; ++axis) {
-      const double factors[] = {0, 1e-9, 1, 1};
-      query.normal[axis] = length * factors[random.index(4)] * (2 * random.number() - 1);
-      query.origin[axis] = origin + extent * (step % 4 == 0 ? 10 : 1) * random.number();
-    }
-    // The doubles next to the least and the largest value of the box.
-    const auto range = selvedge::test::range_along(query, boxes[touched]);
-    const auto least = CGAL::to_interval(range[0]), largest = CGAL::to_interval(range[1]);
-    const Id which = random.index(5);
-    if (which < 3)
-      query.upper = which == 0 ? least.first : least.second;
-    else if (which == 3)
-      query.lower = largest.first;
-    else {
-      query.lower = least.first;
-      query.upper = largest.second;
-    }
-    if (step % 8 == 0)
-      query.box = CGAL::Bbox_3(-1e301, -1e301, -1e301, 1e301, 1e301, 1e301);
-    const std::multiset<Id> found = overlapping(index, query);
-    for (const Id face : faces)
-      if (CGAL::do_overlap(boxes[face], query.box) && found.count(face) != 1) {
-        ASSERT_EQ(found.count(face), 0u);
-        ASSERT_TRUE(selvedge::test::is_outside(query, boxes[face])) << "face " << face;
-        ++left_out;
-      }
-  }
-  if (origin == 0 && extent == 1) {
-    EXPECT_GT(left_out, 5000u);
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(Sizes, Packed_index, testing::Combine(origins, extents));
 
 template <class Index>
@@ -249,30 +194,6 @@ TYPED_TEST(Spatial_index, TakesABoxWithASlabWhereABoxIsExpected)
   index.build({0}, [&](Id) { return unit; });
   const std::multiset<Id> found{0};
   EXPECT_EQ(overlapping(index, Slab_box{unit, {0, 0, 0}, {0, 0, 1}, 0, 1}), found);
-  EXPECT_EQ(overlapping(index, Slab_box{unit}), found) << "there is no slab";
-  const double infinity = std::numeric_limits<double>::infinity(), none = std::nan("");
-  for (const double bad : {infinity, -infinity, none}) {
-    EXPECT_EQ(overlapping(index, Slab_box{unit, {bad, 0, 0}, {1, 1, 1}, 5, 6}), found);
-    EXPECT_EQ(overlapping(index, Slab_box{unit, {0, 0, 0}, {1, bad, 1}, 5, 6}), found);
-  }
-  EXPECT_EQ(overlapping(index, Slab_box{unit, {0, 0, 0}, {1, 1, 1}, none, none}), found);
-}
-
-TEST(SpatialIndex, LeavesOutWhatLiesClearOfTheSlab)
-{
-  const CGAL::Bbox_3 unit(0, 0, 0, 1, 1, 1);
-  Packed_R_tree index;
-  index.build({0}, [&](Id) { return unit; });
-  const auto is_left_out = [&](double component, double lower, double upper) {
-    return overlapping(index, Slab_box{unit, {1, 0, 0}, {component, component, component}, lower, upper})
-        .empty();
-  };
-  EXPECT_TRUE(is_left_out(1, 2.0001, 5));
-  EXPECT_TRUE(is_left_out(1, -5, -1.0001));
-  EXPECT_TRUE(is_left_out(-1, -5, -2.0001));
-  EXPECT_TRUE(is_left_out(-1, 1.0001, 5));
-  EXPECT_FALSE(is_left_out(1, 2, 5));
-  EXPECT_FALSE(is_left_out(-1, 1, 5));
 }
 
 TEST(SpatialIndex, RefusesEmptyClusters)

@@ -4,9 +4,7 @@
 #ifndef SELVEDGE_SPATIAL_PACKED_R_TREE_H
 #define SELVEDGE_SPATIAL_PACKED_R_TREE_H
 
-#include <selvedge/spatial/Slab_box.h>
 #include <selvedge/spatial/internal/Box_block.h>
-#include <selvedge/spatial/internal/Float_slab.h>
 #include <selvedge/spatial/internal/Hilbert_curve.h>
 #include <selvedge/spatial/internal/Monotone_box.h>
 
@@ -14,10 +12,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -33,15 +29,13 @@ namespace selvedge {
 ///
 /// **Guarantees**
 /// 1. A query visits every face whose box overlaps the query box, each exactly once. It may visit others.
-/// 2. A query with a slab may leave out faces whose boxes lie wholly outside the slab, and no others.
-/// 3. The order of visits depends on the sequence of calls alone, not on addresses or on the platform.
+/// 2. The order of visits depends on the sequence of calls alone, not on addresses or on the platform.
 ///
 /// **Preconditions** Boxes are finite and not empty. Faces are numbered 0 … n−1; the numbers are those of the
 /// caller, and what lies behind a number is of no concern here: boxes are stored, never computed anew, so
 /// that a face that is gone from the mesh is not read.
 ///
-/// **Exactness** Boxes are kept as floats, through a monotone map that can only add overlaps. Slabs are made
-/// wider by a bound on all rounding errors (`internal::Float_slab`).
+/// **Exactness** Boxes are kept as floats, through a monotone map that can only add overlaps.
 ///
 /// **Complexity** Building is O(n); a query is logarithmic in n for each face that it finds, when boxes
 /// overlap as those of faces of a surface do; a change is O(log n), and amortised O(1) as a rule. About 34
@@ -114,25 +108,20 @@ public:
   template <class Visitor>
   void visit_overlapping(const CGAL::Bbox_3& box, Visitor&& visit) const
   {
-    const internal::Monotone_box mapped = m_map(box);
-    visit_all([&](const Box_block& boxes) { return boxes.overlapping(mapped); }, visit);
-  }
-
-  /// The same for what overlaps the box and meets the slab.
-  template <class Visitor>
-  void visit_overlapping(const Slab_box& query, Visitor&& visit) const
-  {
-    const std::optional<internal::Float_slab> slab =
-        internal::Float_slab::make(query, m_map.origin(), m_magnitude);
-    if (!slab)
-      return visit_overlapping(query.box, visit);
-    const internal::Monotone_box mapped = m_map(query.box);
-    visit_all(
-        [&](const Box_block& boxes) {
-          const Mask mask = boxes.overlapping(mapped);
-          return mask == 0 ? mask : mask & boxes.not_outside(*slab);
-        },
-        visit);
+    const internal::Monotone_box query = m_map(box);
+    std::size_t visits = 0;
+    const auto visit_faces = [&](const Leaf& leaf) {
+      for (Mask mask = leaf.boxes.overlapping(query); mask != 0; mask &= mask - 1) {
+        ++visits;
+        visit(leaf.faces[Box_block::first(mask)]);
+      }
+    };
+    if (m_leaves_in_tree > 0)
+      visit_leaves_below(m_levels.size() - 1, 0, query, visit_faces);
+    for (std::size_t i = m_leaves_in_tree; i < m_leaves.size(); ++i)
+      visit_faces(m_leaves[i]);
+    ++m_statistics.queries;
+    m_statistics.visits += visits;
   }
 
   const Statistics& statistics() const { return m_statistics; }
@@ -270,9 +259,6 @@ private:
       boxes = bounding_boxes(level, [](const Box_block& block) { return block; });
       m_levels.push_back(std::move(level));
     } while (boxes.size() > 1);
-    m_magnitude = 0;
-    if (!boxes.empty())
-      note_magnitude(boxes.front());
     m_statistics.leaves = m_leaves.size();
   }
 
@@ -295,59 +281,33 @@ private:
   // Up to the first node that is large enough already.
   void grow(std::size_t leaf, const internal::Monotone_box& box)
   {
-    if (leaf < m_leaves_in_tree) {
-      std::size_t child = leaf;
-      for (std::vector<Box_block>& level : m_levels) {
-        Box_block& node = level[child / s_width];
-        internal::Monotone_box bounds = node[child % s_width];
-        if (bounds.contains(box))
-          return;
-        node.set(child % s_width, bounds += box);
-        child /= s_width;
-      }
+    if (leaf >= m_leaves_in_tree)
+      return;
+    std::size_t child = leaf;
+    for (std::vector<Box_block>& level : m_levels) {
+      Box_block& node = level[child / s_width];
+      internal::Monotone_box bounds = node[child % s_width];
+      if (bounds.contains(box))
+        return;
+      node.set(child % s_width, bounds += box);
+      child /= s_width;
     }
-    note_magnitude(box);
   }
 
-  void note_magnitude(const internal::Monotone_box& box)
+  template <class Visitor>
+  void visit_leaves_below(std::size_t level, std::size_t node, const internal::Monotone_box& query,
+                          Visitor& visit) const
   {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      m_magnitude = (std::max)({m_magnitude, std::abs(box.lower[axis]), std::abs(box.upper[axis])});
-  }
-
-  // `test` says which boxes of a block may have to do with the query.
-  template <class Test, class Visitor>
-  void visit_all(const Test& test, Visitor& visit) const
-  {
-    std::size_t visits = 0;
-    const auto visit_faces = [&](const Leaf& leaf) {
-      for (Mask mask = test(leaf.boxes); mask != 0; mask &= mask - 1) {
-        ++visits;
-        visit(leaf.faces[Box_block::first(mask)]);
-      }
-    };
-    if (m_leaves_in_tree > 0)
-      visit_leaves_below(m_levels.size() - 1, 0, test, visit_faces);
-    for (std::size_t i = m_leaves_in_tree; i < m_leaves.size(); ++i)
-      visit_faces(m_leaves[i]);
-    ++m_statistics.queries;
-    m_statistics.visits += visits;
-  }
-
-  template <class Test, class Visitor>
-  void visit_leaves_below(std::size_t level, std::size_t node, const Test& test, Visitor& visit) const
-  {
-    for (Mask mask = test(m_levels[level][node]); mask != 0; mask &= mask - 1) {
+    for (Mask mask = m_levels[level][node].overlapping(query); mask != 0; mask &= mask - 1) {
       const std::size_t child = s_width * node + Box_block::first(mask);
       if (level > 0)
-        visit_leaves_below(level - 1, child, test, visit);
+        visit_leaves_below(level - 1, child, query, visit);
       else
         visit(m_leaves[child]);
     }
   }
 
   internal::Monotone_box_map m_map;
-  float m_magnitude = 0; // of a coordinate of a box, at most
   std::vector<Leaf> m_leaves;
   std::size_t m_leaves_in_tree = 0;             // those behind are looked at one by one
   std::vector<std::vector<Box_block>> m_levels; // the lowest first

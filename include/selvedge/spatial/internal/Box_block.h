@@ -4,10 +4,8 @@
 #ifndef SELVEDGE_SPATIAL_INTERNAL_BOX_BLOCK_H
 #define SELVEDGE_SPATIAL_INTERNAL_BOX_BLOCK_H
 
-#include <selvedge/spatial/internal/Float_slab.h>
 #include <selvedge/spatial/internal/Monotone_box.h>
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -68,20 +66,6 @@ public:
     return mask(answers);
   }
 
-  /// What is not a number is not outside.
-  Mask not_outside(const Float_slab& slab) const
-  {
-    const auto [x, y, z] = slab.normal;
-    const auto [low_x, low_y, low_z] = slab.low_bounds;
-    const Row &x0 = m_bounds[low_x], &y0 = m_bounds[low_y], &z0 = m_bounds[low_z], &x1 = m_bounds[3 - low_x],
-              &y1 = m_bounds[5 - low_y], &z1 = m_bounds[7 - low_z];
-    Answers answers;
-    for (std::size_t i = 0; i < width; ++i)
-      answers[i] = no(x * x0[i] + y * y0[i] + z * z0[i] > slab.upper) &
-                   no(x * x1[i] + y * y1[i] + z * z1[i] < slab.lower);
-    return mask(answers);
-  }
-
   /// The least box of a mask that is not empty.
   static std::size_t first(Mask mask)
   {
@@ -102,10 +86,6 @@ private:
   static std::int32_t yes(bool answer)
   {
     return answer ? -1 : 0;
-  }
-  static std::int32_t no(bool answer)
-  {
-    return answer ? 0 : -1;
   }
 
   static Mask mask(const Answers& answers)

@@ -86,8 +86,6 @@ public:
     return result;
   }
 
-  const std::array<double, 3>& origin() const { return m_origin; }
-
 private:
   // A double beyond the range of float has no defined conversion; clamping to that range is monotone, too.
   static float to_float(double x)

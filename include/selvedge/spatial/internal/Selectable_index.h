@@ -48,10 +48,10 @@ public:
   {
     std::visit([&](auto& index) { index.remove(face); }, m_index);
   }
-  template <class Query, class Visitor>
-  void visit_overlapping(const Query& query, Visitor&& visit) const
+  template <class Visitor>
+  void visit_overlapping(const CGAL::Bbox_3& box, Visitor&& visit) const
   {
-    std::visit([&](const auto& index) { index.visit_overlapping(query, visit); }, m_index);
+    std::visit([&](const auto& index) { index.visit_overlapping(box, visit); }, m_index);
   }
 
   Statistics statistics() const
