@@ -5,15 +5,12 @@
 #define SELVEDGE_GEOMETRY_STAR_SHADOW_H
 
 #include <selvedge/geometry/Certified_view.h>
+#include <selvedge/internal/instructions.h>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
-
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
 
 namespace selvedge {
 
@@ -138,22 +135,11 @@ private:
       short_of_left[j] = error - to_ray;
       short_of_right[j] = to_ray + error;
     }
+    const auto negative = [this](const auto& numbers) {
+      return internal::negative(numbers.data(), m_padded);
+    };
     sides = {m_star, negative(short_of_line), negative(short_of_left), negative(short_of_right)};
     return sides;
-  }
-
-  // Which numbers are negative.
-  Mask negative(const std::array<double, s_max_edges>& numbers) const
-  {
-    Mask result = 0;
-#ifdef __SSE2__
-    for (std::size_t j = 0; j < m_padded; j += 2)
-      result |= Mask(_mm_movemask_pd(_mm_loadu_pd(&numbers[j]))) << j;
-#else
-    for (std::size_t j = 0; j < m_padded; ++j)
-      result |= Mask(numbers[j] < 0) << j;
-#endif
-    return result;
   }
 
   Index m_from = 0;

@@ -11,6 +11,7 @@
 #include <selvedge/geometry/Vertex_motion.h>
 #include <selvedge/geometry/star.h>
 #include <selvedge/geometry/sweep.h>
+#include <selvedge/internal/instructions.h>
 #include <selvedge/spatial/Slab_box.h>
 
 #include <CGAL/Bbox_3.h>
@@ -67,7 +68,7 @@ public:
     m_vertices.reserve(num_vertices(mesh));
     for (const Vertex v : vertices(mesh)) {
       put(m_vertex_numbers, v, Number(m_vertices.size()));
-      m_vertices.push_back({get(m_points, v)});
+      m_vertices.push_back({get(m_points, v), 0, 0, false});
     }
     find_twins();
     m_faces.reserve(num_faces(mesh));
@@ -116,9 +117,10 @@ public:
     Vertex_record& of_kept = m_vertices[number(kept)];
     of_kept.point = get(m_points, kept);
     // The position of the target lives on, under whichever name CGAL keeps.
-    if (const Number twins = record(m_target).twins; twins != 0 && kept != m_target) {
-      of_kept.twins = twins;
-      std::replace(m_twin_classes[twins].begin(), m_twin_classes[twins].end(), m_target, kept);
+    if (has_twin(m_target) && kept != m_target) {
+      of_kept.has_twin = true;
+      m_twin_class_of_vertex[number(kept)] = m_twin_class_of_vertex[number(m_target)];
+      std::replace(twins(kept).begin(), twins(kept).end(), m_target, kept);
     }
     for (const Halfedge h : CGAL::halfedges_around_target(halfedge(kept, m_mesh), m_mesh))
       if (!is_border(h, m_mesh)) {
@@ -142,13 +144,13 @@ private:
   using Number = std::uint32_t; // of a vertex
   using Local = Certified_view::Index;
 
-  /// All that is asked of a vertex when a face near it is judged, side by side in memory.
-  struct Vertex_record
+  /// All that is asked of a vertex when a face near it is judged, in one line of a cache.
+  struct alignas(32) Vertex_record
   {
     Point point;
-    Number twins = 0;         ///< the class of the vertices at its position; 0 when it is alone there
-    std::uint32_t motion = 0; ///< the last motion that it was a point of
-    Local local = 0;          ///< which
+    std::uint32_t motion = 0;   ///< the last motion that it was a point of
+    std::uint32_t local : 31;   ///< which
+    std::uint32_t has_twin : 1; ///< others share its position
   };
 
   /// A vertex goes to a place: that of a neighbour with which it merges, or one that is no vertex.
@@ -296,10 +298,10 @@ private:
       record.motion = m_motion;
       record.local = point;
     };
-    if (m_vertices[v].twins == 0)
+    if (!m_vertices[v].has_twin)
       mark_one(m_vertices[v]);
     else
-      for (const Vertex twin : m_twin_classes[m_vertices[v].twins])
+      for (const Vertex twin : m_twin_classes[m_twin_class_of_vertex[v]])
         mark_one(m_vertices[number(twin)]);
   }
 
@@ -380,13 +382,6 @@ private:
       for (const Number corner : m_corners[id])
         prefetch(&m_vertices[corner]);
     m_statistics.faces_near += m_near.size();
-  }
-
-  static void prefetch([[maybe_unused]] const void* address)
-  {
-#ifdef __GNUC__
-    __builtin_prefetch(address);
-#endif
   }
 
   /// Condition 1: every moving face against every face that does not contain the moving vertex.
@@ -554,7 +549,6 @@ private:
         sorted.push_back(v);
     std::stable_sort(sorted.begin(), sorted.end(),
                      [this](Vertex a, Vertex b) { return get(m_points, a) < get(m_points, b); });
-    m_twin_classes.resize(1); // class 0 is that of the vertices without twins
     for (std::size_t first = 0, beyond; first < sorted.size(); first = beyond) {
       for (beyond = first + 1; beyond < sorted.size(); ++beyond)
         if (get(m_points, sorted[beyond]) != get(m_points, sorted[first]))
@@ -562,7 +556,7 @@ private:
       if (beyond - first == 1)
         continue;
       for (std::size_t i = first; i < beyond; ++i)
-        m_vertices[number(sorted[i])].twins = Number(m_twin_classes.size());
+        note_twin(sorted[i]);
       m_twin_classes.emplace_back(sorted.begin() + first, sorted.begin() + beyond);
     }
     for (const auto edge : edges(m_mesh)) {
@@ -572,22 +566,18 @@ private:
     }
   }
 
-  Number number(Vertex v) const
+  // In the class that comes next.
+  void note_twin(Vertex v)
   {
-    return get(m_vertex_numbers, v);
+    m_twin_class_of_vertex.resize(m_vertices.size());
+    m_twin_class_of_vertex[number(v)] = Number(m_twin_classes.size());
+    m_vertices[number(v)].has_twin = true;
   }
-  const Vertex_record& record(Vertex v) const
-  {
-    return m_vertices[number(v)];
-  }
-  bool has_twin(Vertex v) const
-  {
-    return record(v).twins != 0;
-  }
-  const std::vector<Vertex>& twins(Vertex v) const
-  {
-    return m_twin_classes[record(v).twins];
-  }
+
+  Number number(Vertex v) const { return get(m_vertex_numbers, v); }
+  const Vertex_record& record(Vertex v) const { return m_vertices[number(v)]; }
+  bool has_twin(Vertex v) const { return record(v).has_twin; }
+  std::vector<Vertex>& twins(Vertex v) { return m_twin_classes[m_twin_class_of_vertex[number(v)]]; }
 
   const TriangleMesh& m_mesh;
   VertexPointMap m_points;
@@ -596,10 +586,11 @@ private:
   typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<Number>>::const_type
       m_vertex_numbers;
   typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<Id>>::const_type m_face_numbers;
-  std::vector<Vertex_record> m_vertices;        // by number
-  std::vector<Face> m_faces;                    // by number
-  std::vector<std::array<Number, 3>> m_corners; // by number: the mesh's own are five look-ups away
-  std::vector<std::vector<Vertex>> m_twin_classes;
+  std::vector<Vertex_record> m_vertices;           // by number
+  std::vector<Face> m_faces;                       // by number
+  std::vector<std::array<Number, 3>> m_corners;    // by number: the mesh's own are five look-ups away
+  std::vector<std::vector<Vertex>> m_twin_classes; // the vertices at one position
+  std::vector<Number> m_twin_class_of_vertex;      // by number, empty without twins
   Vertex m_target{};
   std::vector<Face> m_blockers;
   Statistics m_statistics;
