@@ -422,12 +422,13 @@ private:
     Slab_box result;
     for (std::size_t i = 0; i < m_star_size; ++i)
       result.box += m_local_points[i].bbox();
-    if (m_is_in_view) {
-      result.origin = coordinates(m_local_points[s_from]);
-      result.normal = m_view.direction();
-      result.lower = m_star_lower[2] - m_view.length_error();
-      result.upper = m_star_upper[2] + m_view.length_error();
-    }
+    if constexpr (s_has_view)
+      if (m_is_in_view) {
+        result.origin = coordinates(m_local_points[s_from]);
+        result.normal = m_view.direction();
+        result.lower = m_star_lower[2] - m_view.length_error();
+        result.upper = m_star_upper[2] + m_view.length_error();
+      }
     return result;
   }
 
