@@ -4,7 +4,6 @@
 #include <selvedge/spatial/Brute_force_index.h>
 #include <selvedge/spatial/Clustered_AABB_tree.h>
 #include <selvedge/spatial/Packed_R_tree.h>
-#include <selvedge/spatial/Slab_box.h>
 
 #include <gtest/gtest.h>
 
@@ -17,7 +16,6 @@ namespace {
 using selvedge::Brute_force_index;
 using selvedge::Clustered_AABB_tree;
 using selvedge::Packed_R_tree;
-using selvedge::Slab_box;
 using Id = Packed_R_tree::Id;
 
 class Random_boxes
@@ -185,15 +183,6 @@ TYPED_TEST(Spatial_index, MovesWithItsContent)
   TypeParam second = std::move(first);
   second.set(1, CGAL::Bbox_3(0, 0, 0, 1, 1, 1));
   EXPECT_EQ(overlapping(second, CGAL::Bbox_3(0, 0, 0, 1, 1, 1)), (std::multiset<Id>{0, 1}));
-}
-
-TYPED_TEST(Spatial_index, TakesABoxWithASlabWhereABoxIsExpected)
-{
-  const CGAL::Bbox_3 unit(0, 0, 0, 1, 1, 1);
-  TypeParam index;
-  index.build({0}, [&](Id) { return unit; });
-  const std::multiset<Id> found{0};
-  EXPECT_EQ(overlapping(index, Slab_box{unit, {0, 0, 0}, {0, 0, 1}, 0, 1}), found);
 }
 
 TEST(SpatialIndex, RefusesEmptyClusters)

@@ -65,8 +65,9 @@ public:
   Index add(const Vector& point)
   {
     const Vector d = difference(point, m_origin);
-    if (!(distance(d) <= m_extent))
-      bound_errors(distance(d));
+    const double distance = std::fabs(d[0]) + std::fabs(d[1]) + std::fabs(d[2]);
+    if (!(distance <= m_extent))
+      bound_errors(distance);
     Vector seen;
     for (std::size_t i = 0; i < 3; ++i)
       seen[i] = m_axes[i][0] * d[0] + m_axes[i][1] * d[1] + m_axes[i][2] * d[2];
@@ -77,10 +78,6 @@ public:
   /// Whether anything can be proved at all of the points that are in. Points may be added later on.
   bool is_usable() const { return m_is_directed && m_extent > s_least && m_extent < s_largest; }
 
-  /// That of which the third coordinates are the heights above the origin.
-  const Vector& direction() const { return m_axes[2]; }
-
-  std::size_t size() const { return m_points.size(); }
   const Vector& operator[](Index i) const { return m_points[i]; }
 
   /// By how much coordinates of two points must differ to be in that order.
@@ -234,7 +231,6 @@ private:
     return cross(difference(m_points[triangle[1]], o), difference(m_points[triangle[2]], o));
   }
 
-  static double distance(const Vector& d) { return std::fabs(d[0]) + std::fabs(d[1]) + std::fabs(d[2]); }
   static double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
   static Vector difference(const Vector& a, const Vector& b)
   {

@@ -12,7 +12,6 @@
 #include <selvedge/geometry/star.h>
 #include <selvedge/geometry/sweep.h>
 #include <selvedge/internal/instructions.h>
-#include <selvedge/spatial/Slab_box.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Dynamic_property_map.h>
@@ -216,6 +215,7 @@ private:
     m_link.clear();
     m_is_contracted.clear();
     m_is_star_closed = true;
+    m_is_in_view = false;
     m_sweeps.clear();
     m_lids.clear();
     for (const Halfedge h : CGAL::halfedges_around_target(halfedge(motion.mover, m_mesh), m_mesh)) {
@@ -284,10 +284,16 @@ private:
   Local local(Number v)
   {
     const Vertex_record& of_vertex = m_vertices[v];
-    if (of_vertex.motion == m_motion)
-      return of_vertex.local;
+    return of_vertex.motion == m_motion ? Local(of_vertex.local) : add_point(v);
+  }
+
+  Local add_point(Number v)
+  {
     const Local point = Local(m_local_points.size());
-    m_local_points.push_back(of_vertex.point);
+    m_local_points.push_back(m_vertices[v].point);
+    if constexpr (s_has_view)
+      if (m_is_in_view)
+        m_view.add(coordinates(m_vertices[v].point));
     mark(v, point);
     return point;
   }
@@ -324,17 +330,11 @@ private:
           add(s_to, edge);
       }
       m_view.begin(coordinates(m_local_points[s_from]), normal);
-      see_new_points();
+      for (const Point& point : m_local_points)
+        m_view.add(coordinates(point));
       return m_view.is_usable();
     }
     return false;
-  }
-
-  void see_new_points()
-  {
-    if constexpr (s_has_view)
-      while (m_view.size() < m_local_points.size())
-        m_view.add(coordinates(m_local_points[m_view.size()]));
   }
 
   static Certified_view::Vector coordinates(const Point& point) { return {point.x(), point.y(), point.z()}; }
@@ -400,8 +400,6 @@ private:
       if (!motion.target && std::any_of(face.corners.begin(), face.corners.end(),
                                         [&](Local corner) { return m_local_points[corner] == motion.place; }))
         face_at_place = id;
-      if (m_is_in_view)
-        see_new_points();
       if (!m_is_in_view || !is_clear_of_star_in_view(face))
         m_stationary.push_back(face);
     }
@@ -416,20 +414,12 @@ private:
     return !face_at_place;
   }
 
-  // Around the star, and as flat as it is.
-  Slab_box star_box() const
+  CGAL::Bbox_3 star_box() const
   {
-    Slab_box result;
+    CGAL::Bbox_3 box;
     for (std::size_t i = 0; i < m_star_size; ++i)
-      result.box += m_local_points[i].bbox();
-    if constexpr (s_has_view)
-      if (m_is_in_view) {
-        result.origin = coordinates(m_local_points[s_from]);
-        result.normal = m_view.direction();
-        result.lower = m_star_lower[2] - m_view.length_error();
-        result.upper = m_star_upper[2] + m_view.length_error();
-      }
-    return result;
+      box += m_local_points[i].bbox();
+    return box;
   }
 
   void bound_star()
@@ -445,15 +435,26 @@ private:
     m_star_mask = m_view.mask(m_star_points);
   }
 
+  bool is_clear_by_box(const Certified_view::Vector& a, const Certified_view::Vector& b,
+                       const Certified_view::Vector& c) const
+  {
+    for (std::size_t i = 3; i-- > 0;) { // other layers first
+      const double upper = m_star_upper[i] + m_view.length_error(),
+                   lower = m_star_lower[i] - m_view.length_error();
+      // Without short cuts: no branch to mispredict.
+      if (((a[i] > upper) & (b[i] > upper) & (c[i] > upper)) |
+          ((a[i] < lower) & (b[i] < lower) & (c[i] < lower)))
+        return true;
+    }
+    return false;
+  }
+
   bool is_clear_of_star_in_view(Stationary_face& face)
   {
-    const auto &a = m_view[face.corners[0]], &b = m_view[face.corners[1]], &c = m_view[face.corners[2]];
-    for (std::size_t i = 3; i-- > 0;)
-      if ((std::min)({a[i], b[i], c[i]}) > m_star_upper[i] + m_view.length_error() ||
-          (std::max)({a[i], b[i], c[i]}) < m_star_lower[i] - m_view.length_error()) {
-        ++m_statistics.faces_clear_by_box;
-        return true;
-      }
+    if (is_clear_by_box(m_view[face.corners[0]], m_view[face.corners[1]], m_view[face.corners[2]])) {
+      ++m_statistics.faces_clear_by_box;
+      return true;
+    }
     const auto is_clear_by_plane = [&] {
       face.heights = m_view.heights(face.corners, m_star_size);
       return shared_points(face.corners, m_star_points) < 3 && face.heights.are_on_one_side(m_star_mask);
