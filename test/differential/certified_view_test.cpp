@@ -43,8 +43,8 @@ struct Case
 
 struct Proofs
 {
-  bool by_edge = false, by_plane = false, by_edge_of_sweep = false, by_slab = false;
-  bool any() const { return by_edge || by_plane || by_edge_of_sweep || by_slab; }
+  bool by_box = false, by_edge = false, by_plane = false, by_edge_of_sweep = false, by_slab = false;
+  bool any() const { return by_box || by_edge || by_plane || by_edge_of_sweep || by_slab; }
 };
 
 std::optional<Proofs> proofs(const Case& c, const Certified_view::Vector& normal)
@@ -63,16 +63,13 @@ std::optional<Proofs> proofs(const Case& c, const Certified_view::Vector& normal
   std::array<Local, 4> moving;
   std::array<Local, 3> still;
   std::transform(c.moving.begin(), c.moving.end(), moving.begin(), number);
+  view.enclose();
   std::transform(c.still.begin(), c.still.end(), still.begin(), number);
   if (!view.is_usable())
     return std::nullopt;
   const auto [a, b, m, t] = moving;
-  const std::size_t shared = std::count_if(still.begin(), still.end(), [&](Local corner) {
-    return std::find(moving.begin(), moving.end(), corner) != moving.end();
-  });
-  return Proofs{view.is_clear_by_edge(still, moving),
-                shared < 3 &&
-                    view.heights(still, points.size()).are_on_one_side(Certified_view::mask(moving)),
+  return Proofs{view.is_clear_of_box(still), view.is_clear_by_edge(still, moving),
+                view.heights(still, points.size()).is_clear(Certified_view::mask(moving)),
                 view.is_clear_by_edge_of(moving, still),
                 view.is_clear_of_slab(still, view.slab({a, b, m}, t)) ||
                     view.is_clear_of_slab(still, view.slab({a, b, t}, m))};
@@ -104,12 +101,13 @@ Proofs compare(const std::function<Point_3(std::mt19937_64&)>& draw, std::size_t
     clear += is_clear;
     meeting += !is_clear;
     proved += found->any();
+    seen.by_box |= found->by_box;
     seen.by_edge |= found->by_edge;
     seen.by_plane |= found->by_plane;
     seen.by_edge_of_sweep |= found->by_edge_of_sweep;
     seen.by_slab |= found->by_slab;
-    EXPECT_TRUE(is_clear || !found->any()) << "case " << i << ": " << found->by_edge << found->by_plane
-                                           << found->by_edge_of_sweep << found->by_slab;
+    EXPECT_TRUE(is_clear || !found->any()) << "case " << i << ": " << found->by_box << found->by_edge
+                                           << found->by_plane << found->by_edge_of_sweep << found->by_slab;
   }
   EXPECT_GT(meeting, cases / 100);
   EXPECT_GT(double(proved), least_share * double(clear));
@@ -125,7 +123,7 @@ TEST(Certified_view, IsNeverWrongOnASmallGrid)
         return Point_3(x, y, coordinate(random));
       },
       300000, 0.3);
-  EXPECT_TRUE(seen.by_edge && seen.by_plane && seen.by_edge_of_sweep && seen.by_slab);
+  EXPECT_TRUE(seen.by_box && seen.by_edge && seen.by_plane && seen.by_edge_of_sweep && seen.by_slab);
 }
 
 TEST(Certified_view, IsNeverWrongNearAPlane)

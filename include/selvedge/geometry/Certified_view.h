@@ -44,6 +44,8 @@ public:
   {
     m_points.clear();
     m_origin = origin;
+    m_lower.fill(-std::numeric_limits<double>::infinity());
+    m_upper.fill(std::numeric_limits<double>::infinity());
     bound_errors(0);
     const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
     const double inverse = 1 / length;
@@ -68,20 +70,41 @@ public:
     const double distance = std::fabs(d[0]) + std::fabs(d[1]) + std::fabs(d[2]);
     if (!(distance <= m_extent))
       bound_errors(distance);
-    Vector seen;
-    for (std::size_t i = 0; i < 3; ++i)
-      seen[i] = m_axes[i][0] * d[0] + m_axes[i][1] * d[1] + m_axes[i][2] * d[2];
+    Seen_point seen;
+    seen.outside = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double x = m_axes[i][0] * d[0] + m_axes[i][1] * d[1] + m_axes[i][2] * d[2];
+      seen.position[i] = x;
+      seen.outside |= unsigned(x < m_lower[i] - m_length_error) << 2 * i;
+      seen.outside |= unsigned(x > m_upper[i] + m_length_error) << (2 * i + 1);
+    }
     m_points.push_back(seen);
     return Index(m_points.size() - 1);
+  }
+
+  /// Puts a box around the points that are in: what is added from now on may be clear of them by that alone.
+  void enclose()
+  {
+    m_lower.fill(std::numeric_limits<double>::infinity());
+    m_upper.fill(-std::numeric_limits<double>::infinity());
+    for (const Seen_point& point : m_points)
+      for (std::size_t i = 0; i < 3; ++i) {
+        m_lower[i] = (std::min)(m_lower[i], point.position[i]);
+        m_upper[i] = (std::max)(m_upper[i], point.position[i]);
+      }
+  }
+
+  /// Is the triangle clear of all that is enclosed, by a plane of the box?
+  bool is_clear_of_box(const std::array<Index, 3>& triangle) const
+  {
+    return (m_points[triangle[0]].outside & m_points[triangle[1]].outside & m_points[triangle[2]].outside) !=
+           0;
   }
 
   /// Whether anything can be proved at all of the points that are in. Points may be added later on.
   bool is_usable() const { return m_is_directed && m_extent > s_least && m_extent < s_largest; }
 
-  const Vector& operator[](Index i) const { return m_points[i]; }
-
-  /// By how much coordinates of two points must differ to be in that order.
-  double length_error() const { return m_length_error; }
+  const Vector& operator[](Index i) const { return m_points[i].position; }
 
   /// By how much twice the area of a triangle in the view must differ from 0 for its sign to be known.
   double area_error() const { return m_area_error; }
@@ -89,7 +112,7 @@ public:
   /// The side of the line from i to j on which k is seen: 1 left, −1 right, 0 not known.
   int side(Index i, Index j, Index k) const
   {
-    const Vector &p = m_points[i], &q = m_points[j], &r = m_points[k];
+    const Vector &p = (*this)[i], &q = (*this)[j], &r = (*this)[k];
     const double area = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
     return int(area > m_area_error) - int(area < -m_area_error);
   }
@@ -129,30 +152,33 @@ public:
   struct Heights
   {
     Mask above = 0, below = 0;
+    Mask corners = 0; ///< all bits when one of them has none
 
-    bool are_on_one_side(Mask points) const
+    /// Is the triangle clear of any simplex of these points, by its plane?
+    bool is_clear(Mask points) const
     {
-      return points != 0 && ((above & points) == points || (below & points) == points);
+      return points != 0 && ((above & points) == points || (below & points) == points) &&
+             (corners & ~points) != 0;
     }
   };
 
-  /// Of the first `count` points. The triangle is clear of any simplex of those on one side, unless it is a
-  /// face of it.
+  /// Of the first `count` points.
   Heights heights(const std::array<Index, 3>& triangle, std::size_t count) const
   {
-    const Vector& o = m_points[triangle[0]];
     const Vector normal = this->normal(triangle);
-    const double level = dot(normal, o);
+    const double level = dot(normal, (*this)[triangle[0]]);
     Heights result;
     for (Index p = 0; p < (std::min)(count, s_max_masked); ++p) {
-      const double height = dot(normal, m_points[p]) - level;
-      const Mask bit = Mask(1) << p;
-      result.above |= height > m_volume_error ? bit : 0;
-      result.below |= height < -m_volume_error ? bit : 0;
+      const double height = dot(normal, (*this)[p]) - level;
+      result.above |= Mask(height > m_volume_error) << p;
+      result.below |= Mask(height < -m_volume_error) << p;
     }
-    const Mask corners = masked(triangle[0]) | masked(triangle[1]) | masked(triangle[2]);
-    result.above |= corners;
-    result.below |= corners;
+    for (const Index corner : triangle)
+      result.corners |= corner < s_max_masked ? Mask(1) << corner : 0;
+    result.above |= result.corners;
+    result.below |= result.corners;
+    if ((std::max)({triangle[0], triangle[1], triangle[2]}) >= s_max_masked)
+      result.corners = ~Mask(0);
     return result;
   }
 
@@ -166,9 +192,9 @@ public:
   {
     Slab result;
     result.normal = normal(triangle);
-    result.lower = result.upper = dot(result.normal, m_points[point]);
+    result.lower = result.upper = dot(result.normal, (*this)[point]);
     for (const Index corner : triangle) {
-      const double height = dot(result.normal, m_points[corner]);
+      const double height = dot(result.normal, (*this)[corner]);
       result.lower = (std::min)(result.lower, height);
       result.upper = (std::max)(result.upper, height);
     }
@@ -178,8 +204,8 @@ public:
   /// Is the triangle clear of all that the slab holds, by a plane of its direction?
   bool is_clear_of_slab(const std::array<Index, 3>& triangle, const Slab& slab) const
   {
-    const double a = dot(slab.normal, m_points[triangle[0]]), b = dot(slab.normal, m_points[triangle[1]]),
-                 c = dot(slab.normal, m_points[triangle[2]]);
+    const double a = dot(slab.normal, (*this)[triangle[0]]), b = dot(slab.normal, (*this)[triangle[1]]),
+                 c = dot(slab.normal, (*this)[triangle[2]]);
     return (a > slab.upper + m_volume_error && b > slab.upper + m_volume_error &&
             c > slab.upper + m_volume_error) ||
            (a < slab.lower - m_volume_error && b < slab.lower - m_volume_error &&
@@ -205,11 +231,19 @@ public:
   }
 
 private:
+  struct alignas(32) Seen_point
+  {
+    Vector position;
+    unsigned outside; ///< two bits for each coordinate: surely less than the box has, surely more
+  };
+
   static constexpr double s_least = 1e-90, s_largest = 1e90;
 
   // With r for the largest distance from the origin (in the 1-norm) and ε = 2⁻⁵³: a coordinate is at most r
   // (1 + 8 ε) and wrong by at most 8 ε r; a difference of two by 18 ε r. A side is a sum of two products of
-  // differences, each at most 2 r: wrong by at most 2 · 2 · (2 r · 18 ε r) + 3 · 8 ε r² < 2⁸ ε r². A normal
+  // differences, each at most 2 r: wrong by at most 2 · 2 · (2 r · 18 ε r) + 3 · 8 ε r² < 2⁸ ε r². So is
+  // ax + by + c, for a, b differences and x, y coordinates, with c = −(ax₀ + by₀): by at most
+  // 4 · (r · 18 ε r + 2 r · 8 ε r) + 3 · 8 ε r². A normal
   // has three such components, each at most 8 r²; so a height above a plane, the difference of two products
   // with the normal, is wrong by at most 3 · 2⁸ ε r² · 2 r for the normal, 2 · 3 · 8 r² · 8 ε r for the
   // coordinates and 200 ε r³ for rounding, together less than 2¹² ε r³. Twice that is asked for.
@@ -223,12 +257,10 @@ private:
     m_volume_error = 0x1p-40 * r * r * r;
   }
 
-  static Mask masked(Index p) { return p < s_max_masked ? Mask(1) << p : 0; }
-
   Vector normal(const std::array<Index, 3>& triangle) const
   {
-    const Vector& o = m_points[triangle[0]];
-    return cross(difference(m_points[triangle[1]], o), difference(m_points[triangle[2]], o));
+    const Vector& o = (*this)[triangle[0]];
+    return cross(difference((*this)[triangle[1]], o), difference((*this)[triangle[2]], o));
   }
 
   static double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -243,7 +275,8 @@ private:
 
   Vector m_origin{};
   std::array<Vector, 3> m_axes{};
-  std::vector<Vector> m_points;
+  std::vector<Seen_point> m_points;
+  Vector m_lower{}, m_upper{}; // of what is enclosed
   double m_extent = 0;
   double m_length_error = 0, m_area_error = 0, m_volume_error = 0;
   bool m_is_directed = false;

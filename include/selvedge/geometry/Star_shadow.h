@@ -30,7 +30,7 @@ namespace selvedge {
 ///
 /// **Guarantees** What `is_clear` answers with yes is so. No means "not proved".
 ///
-/// **Exactness** As `Certified_view`; the lines' sides are its areas.
+/// **Exactness** As `Certified_view`, whose bound for areas holds for the lines, too.
 ///
 /// **Complexity** Linear in the number of link edges, once for a point; a few operations on bits for a face.
 class Star_shadow
@@ -88,23 +88,22 @@ public:
 
 private:
   using Mask = std::uint64_t;
-  /// A point of each, and a direction.
+  /// Each as a function of a point, au + bv + c: twice the area of the triangle of two points of the line and
+  /// this one, positive on the left.
   struct Lines
   {
-    std::array<double, s_max_edges> u, v, du, dv;
+    std::array<double, s_max_edges> a, b, c;
 
     void set(std::size_t j, const Certified_view::Vector& p, const Certified_view::Vector& q)
     {
-      u[j] = p[0];
-      v[j] = p[1];
-      du[j] = q[0] - p[0];
-      dv[j] = q[1] - p[1];
+      a[j] = p[1] - q[1];
+      b[j] = q[0] - p[0];
+      c[j] = -(a[j] * p[0] + b[j] * p[1]);
     }
 
-    // As Certified_view::side.
-    double area(std::size_t j, const Certified_view::Vector& p) const
+    internal::Signs sides(std::size_t count, const Certified_view::Vector& p, double error) const
     {
-      return du[j] * (p[1] - v[j]) - dv[j] * (p[0] - u[j]);
+      return internal::signs_of_sums(a.data(), b.data(), c.data(), count, p[0], p[1], error);
     }
   };
 
@@ -128,17 +127,9 @@ private:
       return sides;
     const auto& p = view[point];
     const double error = view.area_error();
-    std::array<double, s_max_edges> short_of_line, short_of_left, short_of_right; // negative: on that side
-    for (std::size_t j = 0; j < m_padded; ++j) {
-      const double to_line = m_lines.area(j, p), to_ray = m_rays.area(j, p);
-      short_of_line[j] = to_line + error;
-      short_of_left[j] = error - to_ray;
-      short_of_right[j] = to_ray + error;
-    }
-    const auto negative = [this](const auto& numbers) {
-      return internal::negative(numbers.data(), m_padded);
-    };
-    sides = {m_star, negative(short_of_line), negative(short_of_left), negative(short_of_right)};
+    const internal::Signs of_lines = m_lines.sides(m_padded, p, error),
+                          of_rays = m_rays.sides(m_padded, p, error);
+    sides = {m_star, of_lines.negative, of_rays.positive, of_rays.negative};
     return sides;
   }
 

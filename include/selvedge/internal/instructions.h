@@ -24,18 +24,36 @@ inline void prefetch([[maybe_unused]] const void* address)
 #endif
 }
 
-/// Which of the first `count` numbers, 64 at most, are less than 0: bit i is number i.
-inline std::uint64_t negative(const double* numbers, std::size_t count)
+/// Bit i tells of number i whether it is surely negative or positive.
+struct Signs
 {
-  std::uint64_t result = 0;
-  std::size_t i = 0;
+  std::uint64_t negative = 0, positive = 0;
+};
+
+/// The signs of a[i] x + b[i] y + c[i] for i < `count`, which is even and 64 at most; those within `error` of
+/// 0 are neither.
+inline Signs signs_of_sums(const double* a, const double* b, const double* c, std::size_t count, double x,
+                           double y, double error)
+{
+  Signs signs;
 #ifdef __SSE2__
-  for (; i + 2 <= count; i += 2)
-    result |= std::uint64_t(_mm_movemask_pd(_mm_cmplt_pd(_mm_loadu_pd(numbers + i), _mm_setzero_pd()))) << i;
+  const __m128d xx = _mm_set1_pd(x), yy = _mm_set1_pd(y), most = _mm_set1_pd(error),
+                least = _mm_set1_pd(-error);
+  for (std::size_t i = 0; i < count; i += 2) {
+    const __m128d sum =
+        _mm_add_pd(_mm_add_pd(_mm_mul_pd(_mm_loadu_pd(a + i), xx), _mm_mul_pd(_mm_loadu_pd(b + i), yy)),
+                   _mm_loadu_pd(c + i));
+    signs.negative |= std::uint64_t(_mm_movemask_pd(_mm_cmplt_pd(sum, least))) << i;
+    signs.positive |= std::uint64_t(_mm_movemask_pd(_mm_cmpgt_pd(sum, most))) << i;
+  }
+#else
+  for (std::size_t i = 0; i < count; ++i) {
+    const double sum = a[i] * x + b[i] * y + c[i];
+    signs.negative |= std::uint64_t(sum < -error) << i;
+    signs.positive |= std::uint64_t(sum > error) << i;
+  }
 #endif
-  for (; i < count; ++i)
-    result |= std::uint64_t(numbers[i] < 0) << i;
-  return result;
+  return signs;
 }
 
 } // namespace internal

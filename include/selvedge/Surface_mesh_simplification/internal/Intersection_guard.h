@@ -424,40 +424,21 @@ private:
 
   void bound_star()
   {
-    m_star_lower = m_star_upper = m_view[s_from];
-    for (Local p = 0; p < m_star_size; ++p)
-      for (std::size_t i = 0; i < 3; ++i) {
-        m_star_lower[i] = (std::min)(m_star_lower[i], m_view[p][i]);
-        m_star_upper[i] = (std::max)(m_star_upper[i], m_view[p][i]);
-      }
+    m_view.enclose();
     m_star_points.resize(m_star_size);
     std::iota(m_star_points.begin(), m_star_points.end(), Local(0));
     m_star_mask = m_view.mask(m_star_points);
   }
 
-  bool is_clear_by_box(const Certified_view::Vector& a, const Certified_view::Vector& b,
-                       const Certified_view::Vector& c) const
-  {
-    for (std::size_t i = 3; i-- > 0;) { // other layers first
-      const double upper = m_star_upper[i] + m_view.length_error(),
-                   lower = m_star_lower[i] - m_view.length_error();
-      // Without short cuts: no branch to mispredict.
-      if (((a[i] > upper) & (b[i] > upper) & (c[i] > upper)) |
-          ((a[i] < lower) & (b[i] < lower) & (c[i] < lower)))
-        return true;
-    }
-    return false;
-  }
-
   bool is_clear_of_star_in_view(Stationary_face& face)
   {
-    if (is_clear_by_box(m_view[face.corners[0]], m_view[face.corners[1]], m_view[face.corners[2]])) {
+    if (m_view.is_clear_of_box(face.corners)) {
       ++m_statistics.faces_clear_by_box;
       return true;
     }
     const auto is_clear_by_plane = [&] {
       face.heights = m_view.heights(face.corners, m_star_size);
-      return shared_points(face.corners, m_star_points) < 3 && face.heights.are_on_one_side(m_star_mask);
+      return face.heights.is_clear(m_star_mask);
     };
     const auto is_clear_beside = [&] {
       return m_has_shadow ? m_shadow.is_clear(m_view, face.corners)
@@ -474,14 +455,6 @@ private:
   bool is_neighbour(const Stationary_face& face) const
   {
     return (std::min)({face.corners[0], face.corners[1], face.corners[2]}) < m_star_size;
-  }
-
-  template <class Points>
-  static std::size_t shared_points(const std::array<Local, 3>& corners, const Points& points)
-  {
-    return std::count_if(corners.begin(), corners.end(), [&](Local corner) {
-      return std::find(points.begin(), points.end(), corner) != points.end();
-    });
   }
 
   bool is_sweep_clear(std::size_t j, const Stationary_face& face)
@@ -507,7 +480,7 @@ private:
   {
     const auto [a, b] = m_link[j];
     const std::array<Local, 4> corners{a, b, s_from, s_to};
-    if (face.heights.are_on_one_side(m_view.mask(corners)) && shared_points(face.corners, corners) < 3)
+    if (face.heights.is_clear(m_view.mask(corners)))
       return true;
     if (m_lids.empty())
       for (const auto& [start, end] : m_link)
@@ -610,7 +583,6 @@ private:
   bool m_has_shadow = false;
   std::vector<Local> m_star_points; // the first m_star_size
   Certified_view::Mask m_star_mask = 0;
-  Certified_view::Vector m_star_lower{}, m_star_upper{};
   std::vector<Id> m_near;
   std::vector<Stationary_face> m_stationary; // those of them that one look at the star did not settle
   std::vector<Lids> m_lids;                  // by edge of the link, made when needed
