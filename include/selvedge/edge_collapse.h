@@ -64,7 +64,7 @@ std::size_t collapse_edges(TriangleMesh& mesh, const Stop& stop, const GeomTrait
 /// number counts as none.
 ///
 /// **Complexity** O(n log n) and, between the building of its tables and the end, no allocation of its own
-/// but for edges that wait for blockers; those of filters and visitors are theirs. About 27 bytes per edge.
+/// but for edges that wait for blockers; those of filters and visitors are theirs. About 28 bytes per edge.
 template <class TriangleMesh, class StopPredicate,
           class NamedParameters = CGAL::parameters::Default_named_parameters>
 std::size_t edge_collapse(TriangleMesh& mesh, const StopPredicate& stop,

@@ -489,6 +489,11 @@ std::vector<Working_mesh::Mesh::Vertex_index> Working_mesh::number_wedges()
     vertices.push_back(m_mesh.target(first));
   }
   m_wedges.assign(vertices.size(), {});
+  std::vector<Index> wedges_at(m_mesh.number_of_vertices(), 0);
+  for (const Mesh::Vertex_index v : vertices)
+    ++wedges_at[v];
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    m_wedges[i].is_alone = wedges_at[vertices[i]] == 1;
   return vertices;
 }
 
@@ -503,9 +508,12 @@ void Working_mesh::for_each_moved_wedge(Mesh::Halfedge_index moving, const Funct
     if (m_mesh.is_border(h) || !is_own(m_mesh.face(h)))
       continue;
     const auto [from, to] = corners_at_ends(moving, h);
-    if (m_wedge_of[from] != done)
-      function(m_wedge_of[from], m_wedge_of[to]);
-    done = m_wedge_of[from];
+    const Index wedge = m_wedge_of[from];
+    if (wedge != done)
+      function(wedge, m_wedge_of[to]);
+    if (m_wedges[wedge].is_alone)
+      return;
+    done = wedge;
   }
 }
 

@@ -82,25 +82,31 @@ public:
     return is_v0_cheaper(profile) ? profile.p1() : profile.p0();
   }
 
-  /// What the cost policy says of the edge when it is so placed, for a loop that asks for both.
+  /// An end of an edge and what the cost policy says of placing the merged vertex there, for a loop that asks
+  /// for both and remembers them.
+  struct Choice
+  {
+    bool is_v0;
+    internal::Optional<double> cost;
+  };
   using Cost_policy = Cost;
   template <class Profile>
-  internal::Optional<double> cost(const Profile& profile) const
+  Choice choice(const Profile& profile) const
   {
     const bool may_move_v0 = m_rule.may_move(profile.v0_v1());
     const bool may_move_v1 = m_rule.may_move(profile.v1_v0());
     if (may_move_v0 != may_move_v1)
-      return cost_along(profile, may_move_v0 ? profile.v0_v1() : profile.v1_v0());
+      return {may_move_v1, cost_along(profile, may_move_v0 ? profile.v0_v1() : profile.v1_v0())};
     const auto onto_v0 = cost_along(profile, profile.v1_v0()), onto_v1 = cost_along(profile, profile.v0_v1());
-    return onto_v0 < onto_v1 ? onto_v0 : onto_v1;
+    return onto_v0 < onto_v1 ? Choice{true, onto_v0} : Choice{false, onto_v1};
   }
   template <class Profile>
-  internal::Optional<double> second_cost(const Profile& profile) const
+  internal::Optional<Choice> second_choice(const Profile& profile) const
   {
     if (!m_rule.may_move(profile.v0_v1()) || !m_rule.may_move(profile.v1_v0()))
       return {};
-    const auto onto_v0 = cost_along(profile, profile.v1_v0()), onto_v1 = cost_along(profile, profile.v0_v1());
-    return onto_v0 < onto_v1 ? onto_v1 : onto_v0;
+    const bool is_v0 = !is_v0_cheaper(profile);
+    return Choice{is_v0, cost_along(profile, is_v0 ? profile.v1_v0() : profile.v0_v1())};
   }
 
   /// See `Collapse_locality`.

@@ -19,8 +19,8 @@ namespace selvedge {
 /// edges instead of 6, on average. Yes is always right, and is what CGAL's own loop assumes. Where it does,
 /// `reaches(policy, kept, edge)` says of one of these edges whether it may. A policy of one's own either has
 /// members `bool reaches_neighbours(vertex) const` and `bool reaches(vertex, edge) const` or specialises this
-/// trait; a wrong "no" costs order and quality, never a guarantee, since a placement is asked for once more
-/// when its edge collapses.
+/// trait; a wrong "no" costs order and quality, never a guarantee, since the filters are asked when an edge
+/// collapses.
 template <class Policy, class = void>
 struct Collapse_locality
 {

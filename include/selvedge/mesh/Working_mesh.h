@@ -150,6 +150,7 @@ private:
     Uv_quadric quadric;
     Uv uv;
     double own_cost; // what the quadric says of where the wedge is
+    bool is_alone;   // at its vertex: lines neither come nor go
   };
   std::vector<Index> m_wedge_of; // by corner of the soup
   std::vector<Wedge> m_wedges;

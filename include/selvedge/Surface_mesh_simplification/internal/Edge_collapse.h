@@ -103,13 +103,13 @@ struct Has_second<
 {
 };
 
-// Whether the placement knows what this cost policy says of an edge that it places.
+// Whether the placement chooses an end by what this cost policy says of it.
 template <class Placement, class Cost, class = void>
-struct Has_cost : std::false_type
+struct Has_choice : std::false_type
 {
 };
 template <class Placement, class Cost>
-struct Has_cost<Placement, Cost, std::void_t<typename Placement::Cost_policy>>
+struct Has_choice<Placement, Cost, std::void_t<typename Placement::Cost_policy>>
     : std::is_same<typename Placement::Cost_policy, Cost>
 {
 };
@@ -136,6 +136,11 @@ class Edge_collapse
   // An edge that is out of the queue, or in it for its second placement, is *stale*: what happens nearby may
   // make its first placement possible again.
   enum class State : unsigned char { gone, first, second };
+  struct Edge_record
+  {
+    State state = State::gone;
+    bool is_v0 = false; // the end that was chosen, if the placement chooses
+  };
 
 public:
   Edge_collapse(TriangleMesh& mesh, const GeomTraits& traits, const Stop& stop, const VertexPointMap& points,
@@ -143,7 +148,7 @@ public:
                 const Placement& placement, const Filter& filter, const Visitor& visitor)
       : m_mesh(mesh), m_traits(traits), m_stop(stop), m_points(points), m_numbers(numbers),
         m_is_constrained(is_constrained), m_cost(cost), m_placement(placement), m_filter(filter),
-        m_visitor(visitor), m_halfedges(num_edges(mesh)), m_states(num_edges(mesh), State::gone),
+        m_visitor(visitor), m_halfedges(num_edges(mesh)), m_records(num_edges(mesh)),
         m_queue(num_edges(mesh)), m_waiting(mesh),
         m_has_stale_edges(get(CGAL::dynamic_vertex_property_t<unsigned char>(), mesh))
   {
@@ -171,12 +176,12 @@ private:
     for (const Edge e : edges(m_mesh)) {
       const Halfedge h = halfedge(e, m_mesh);
       m_halfedges[id(h)] = h;
-      m_states[id(h)] = State::first;
+      m_records[id(h)].state = State::first;
       ++m_edges;
       if (get(m_is_constrained, e))
         continue;
       const Profile of_edge = profile(h);
-      const Optional_cost cost = cost_of(of_edge, State::first);
+      const Optional_cost cost = cost_of(of_edge, m_records[id(h)]);
       if (cost)
         entries.push_back({*cost, id(h)});
       m_visitor.OnCollected(of_edge, cost);
@@ -200,7 +205,8 @@ private:
       mark_stale(of_edge);
       return true;
     }
-    const Optional_point placement = placement_of(of_edge, m_states[edge_id]);
+    Edge_record& record = m_records[edge_id];
+    const Optional_point placement = placement_of(of_edge, record);
     if (placement && m_filter(of_edge, placement)) {
       collapse(of_edge, edge_id, placement);
       return true;
@@ -211,9 +217,9 @@ private:
       for (const Face face : m_filter.blockers())
         m_waiting.add(face, edge_id);
     if constexpr (Has_second<Placement, Profile>::value) {
-      if (m_states[edge_id] == State::first) {
-        m_states[edge_id] = State::second;
-        if (const Optional_cost second = cost_of(of_edge, State::second))
+      if (record.state == State::first) {
+        record.state = State::second;
+        if (const Optional_cost second = cost_of(of_edge, record))
           m_queue.set(edge_id, *second);
       }
     }
@@ -252,7 +258,7 @@ private:
   void forget(Id edge_id)
   {
     m_queue.erase(edge_id);
-    m_states[edge_id] = State::gone;
+    m_records[edge_id].state = State::gone;
     --m_edges;
   }
   // The edge of a vanishing face that goes with it; the other is constrained when this one is.
@@ -275,7 +281,7 @@ private:
     put(m_has_stale_edges, kept, false);
     if constexpr (Has_blockers<Filter>::value)
       m_waiting.take_released([this](Id edge_id) {
-        if (m_states[edge_id] != State::gone && is_stale(edge_id))
+        if (m_records[edge_id].state != State::gone && is_stale(edge_id))
           refresh(m_halfedges[edge_id]);
       });
   }
@@ -286,7 +292,10 @@ private:
            Collapse_locality<Placement>::reaches(m_placement, kept, e);
   }
 
-  bool is_stale(Id edge_id) const { return m_states[edge_id] == State::second || !m_queue.contains(edge_id); }
+  bool is_stale(Id edge_id) const
+  {
+    return m_records[edge_id].state == State::second || !m_queue.contains(edge_id);
+  }
 
   // Puts an edge where its first placement belongs.
   void refresh(Halfedge h)
@@ -294,9 +303,8 @@ private:
     const Id edge_id = id(h);
     if (get(m_is_constrained, edge(h, m_mesh)))
       return;
-    m_states[edge_id] = State::first;
-    const Profile of_edge = profile(m_halfedges[edge_id]);
-    if (const Optional_cost cost = cost_of(of_edge, State::first))
+    m_records[edge_id].state = State::first;
+    if (const Optional_cost cost = cost_of(profile(m_halfedges[edge_id]), m_records[edge_id]))
       m_queue.set(edge_id, *cost);
     else
       m_queue.erase(edge_id);
@@ -308,24 +316,36 @@ private:
     put(m_has_stale_edges, of_edge.v1(), true);
   }
 
-  Optional_cost cost_of(const Profile& of_edge, State state) const
+  // Of an edge in its state.
+  Optional_cost cost_of(const Profile& of_edge, Edge_record& record) const
   {
     Optional_cost cost;
-    if constexpr (Has_cost<Placement, Cost>::value) {
-      const auto known =
-          state == State::second ? m_placement.second_cost(of_edge) : m_placement.cost(of_edge);
-      if (known)
-        cost = FT(*known);
+    if constexpr (Has_choice<Placement, Cost>::value) {
+      if (record.state == State::second) {
+        if (const auto choice = m_placement.second_choice(of_edge))
+          cost = choose(*choice, record);
+      } else {
+        cost = choose(m_placement.choice(of_edge), record);
+      }
     } else {
-      cost = m_cost(of_edge, placement_of(of_edge, state));
+      cost = m_cost(of_edge, placement_of(of_edge, record));
     }
     return cost && *cost == *cost ? cost : Optional_cost();
   }
 
-  Optional_point placement_of(const Profile& of_edge, State state) const
+  template <class Choice>
+  static Optional_cost choose(const Choice& choice, Edge_record& record)
   {
+    record.is_v0 = choice.is_v0;
+    return choice.cost ? FT(*choice.cost) : Optional_cost();
+  }
+
+  Optional_point placement_of(const Profile& of_edge, const Edge_record& record) const
+  {
+    if constexpr (Has_choice<Placement, Cost>::value)
+      return record.is_v0 ? of_edge.p0() : of_edge.p1();
     if constexpr (Has_second<Placement, Profile>::value)
-      if (state == State::second)
+      if (record.state == State::second)
         return m_placement.second(of_edge);
     return m_placement(of_edge);
   }
@@ -396,8 +416,8 @@ private:
   const Filter& m_filter;
   Visitor m_visitor;
 
-  std::vector<Halfedge> m_halfedges; // by edge
-  std::vector<State> m_states;       // by edge
+  std::vector<Halfedge> m_halfedges;  // by edge
+  std::vector<Edge_record> m_records; // by edge
   Queue m_queue;
   Waiting_edges<TriangleMesh> m_waiting;
   // False only where all edges at the vertex are fresh.
