@@ -26,14 +26,15 @@ using Local = Certified_view::Index;
 using Random = std::mt19937_64;
 constexpr Local s_from = 0, s_to = 1;
 
-/// A closed star in a view along the z axis.
+/// A closed star in a view from above.
 class Star
 {
 public:
   /// `link` winds about `from`; `to` is one of it or none.
   Star(const Point_3& from, const Point_3& to, const std::vector<Point_3>& link) : m_points{from, to}
   {
-    m_view.begin({from.x(), from.y(), from.z()}, {0, 0, 1});
+    // Askew, so that the coordinates of the view are rounded.
+    m_view.begin({from.x(), from.y(), from.z()}, {0.1, 0.07, 1});
     for (const Point_3& p : m_points)
       m_view.add({p.x(), p.y(), p.z()});
     // In the order of halfedges around a vertex: clockwise, each edge counter-clockwise.
