@@ -171,6 +171,24 @@ Mesh star(const Point_3& centre, const Draw& draw, int size, bool is_closed)
   return mesh;
 }
 
+/// Two fans around the first vertex, joined where they begin and end: in one position, at two vertices. Seen
+/// from above, the link winds twice. The wide fan is above the other only as long as the first vertex is
+/// high.
+Mesh double_fan(Random& random)
+{
+  Mesh mesh;
+  const Vertex from = mesh.add_vertex({0, 0, double(3 + below(random, 6))});
+  std::vector<Vertex> ring;
+  for (const int size : {1, 4}) {
+    ring.push_back(mesh.add_vertex({5, 0, 0}));
+    for (const int y : {size, -size})
+      ring.push_back(mesh.add_vertex({double(-size), double(y), double(below(random, 3))}));
+  }
+  for (std::size_t i = 0; i < ring.size(); ++i)
+    mesh.add_face(from, ring[i], ring[(i + 1) % ring.size()]);
+  return mesh;
+}
+
 /// Sheets of 2 × 2 squares with bumps, above one another.
 Mesh layers(Random& random)
 {
@@ -320,6 +338,17 @@ TEST(Guard, IsRightAboutStarsOfMoreEdgesThanAShadowHas)
         return mesh;
       },
       4);
+}
+
+TEST(Guard, IsRightAboutStarsThatWindTwice)
+{
+  compare(
+      [](Random& random) {
+        Mesh mesh = double_fan(random);
+        add_faces(mesh, in_grid(random, 5, 1), random);
+        return mesh;
+      },
+      200);
 }
 
 TEST(Guard, IsRightAboutLayers)
