@@ -16,11 +16,14 @@ namespace internal {
 
 // What processors do in one instruction and C++17 has no words for; elsewhere the same in several.
 
-/// Tells that what lies there will be read soon.
-inline void prefetch([[maybe_unused]] const void* address)
+/// Tells that the object will be read soon.
+template <class T>
+void prefetch([[maybe_unused]] const T& object)
 {
 #ifdef __GNUC__
-  __builtin_prefetch(address);
+  constexpr std::size_t line = 64;
+  for (std::size_t offset = 0; offset < sizeof(T); offset += line)
+    __builtin_prefetch(reinterpret_cast<const char*>(&object) + offset);
 #endif
 }
 

@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_SPATIAL_PACKED_R_TREE_H
 #define SELVEDGE_SPATIAL_PACKED_R_TREE_H
 
+#include <selvedge/internal/instructions.h>
 #include <selvedge/spatial/internal/Box_block.h>
 #include <selvedge/spatial/internal/Hilbert_curve.h>
 #include <selvedge/spatial/internal/Monotone_box.h>
@@ -298,12 +299,17 @@ private:
   void visit_leaves_below(std::size_t level, std::size_t node, const internal::Monotone_box& query,
                           Visitor& visit) const
   {
-    for (Mask mask = m_levels[level][node].overlapping(query); mask != 0; mask &= mask - 1) {
-      const std::size_t child = s_width * node + Box_block::first(mask);
-      if (level > 0)
-        visit_leaves_below(level - 1, child, query, visit);
-      else
-        visit(m_leaves[child]);
+    const Mask found = m_levels[level][node].overlapping(query);
+    const auto for_each_child = [&](const auto& function) {
+      for (Mask mask = found; mask != 0; mask &= mask - 1)
+        function(s_width * node + Box_block::first(mask));
+    };
+    if (level > 0) {
+      for_each_child([&](std::size_t child) { internal::prefetch(m_levels[level - 1][child]); });
+      for_each_child([&](std::size_t child) { visit_leaves_below(level - 1, child, query, visit); });
+    } else {
+      for_each_child([&](std::size_t child) { internal::prefetch(m_leaves[child]); });
+      for_each_child([&](std::size_t child) { visit(m_leaves[child]); });
     }
   }
 

@@ -78,7 +78,7 @@ public:
       const Id id = Id(m_faces.size());
       put(m_face_numbers, face, id);
       m_faces.push_back(face);
-      m_corners.push_back(face_corners(face));
+      m_corners.push_back(face_corners(halfedge(face, mesh)));
       ids.push_back(id);
     }
     m_index.build(ids, [this](Id id) { return face_box(id); });
@@ -124,7 +124,7 @@ public:
     for (const Halfedge h : CGAL::halfedges_around_target(halfedge(kept, m_mesh), m_mesh))
       if (!is_border(h, m_mesh)) {
         const Id id = get(m_face_numbers, face(h, m_mesh));
-        m_corners[id] = face_corners(face(h, m_mesh));
+        m_corners[id] = face_corners(h);
         m_index.set(id, face_box(id));
       }
   }
@@ -360,7 +360,7 @@ private:
   {
     m_near.clear();
     m_index.visit_overlapping(star_box(), [this](Id id) {
-      prefetch(&m_corners[id]);
+      prefetch(m_corners[id]);
       m_near.push_back(id);
     });
     const auto remove_faces_at = [this](Vertex v) {
@@ -380,7 +380,7 @@ private:
     remove_faces_at(motion.mover);
     for (const Id id : m_near)
       for (const Number corner : m_corners[id])
-        prefetch(&m_vertices[corner]);
+        prefetch(m_vertices[corner]);
     m_statistics.faces_near += m_near.size();
   }
 
@@ -503,9 +503,8 @@ private:
     return m_star;
   }
 
-  std::array<Number, 3> face_corners(Face face) const
+  std::array<Number, 3> face_corners(Halfedge h) const
   {
-    const Halfedge h = halfedge(face, m_mesh);
     return {number(source(h, m_mesh)), number(target(h, m_mesh)), number(target(next(h, m_mesh), m_mesh))};
   }
 
