@@ -4,6 +4,8 @@
 #ifndef SELVEDGE_GEOMETRY_CERTIFIED_VIEW_H
 #define SELVEDGE_GEOMETRY_CERTIFIED_VIEW_H
 
+#include <selvedge/internal/Vector_of_doubles.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -36,7 +38,7 @@ class Certified_view
 {
 public:
   using Index = std::uint32_t;
-  using Vector = std::array<double, 3>;
+  using Vector = internal::Vector_of_doubles;
 
   /// An empty view from the direction of `normal`, of any length, of points around `origin`. Not usable when
   /// there is no such direction.
@@ -59,14 +61,14 @@ public:
                                   : (std::fabs(n[1]) <= std::fabs(n[2]) ? 1 : 2);
     Vector axis{0, 0, 0};
     axis[least] = 1;
-    const Vector u = cross(axis, n), v = cross(n, u);
+    const Vector u = internal::cross(axis, n), v = internal::cross(n, u);
     // No component of an axis is larger than 1.
     m_axes = {u, v, n};
   }
 
   Index add(const Vector& point)
   {
-    const Vector d = difference(point, m_origin);
+    const Vector d = internal::difference(point, m_origin);
     const double distance = std::fabs(d[0]) + std::fabs(d[1]) + std::fabs(d[2]);
     if (!(distance <= m_extent))
       bound_errors(distance);
@@ -166,10 +168,10 @@ public:
   Heights heights(const std::array<Index, 3>& triangle, std::size_t count) const
   {
     const Vector normal = this->normal(triangle);
-    const double level = dot(normal, (*this)[triangle[0]]);
+    const double level = internal::dot(normal, (*this)[triangle[0]]);
     Heights result;
     for (Index p = 0; p < (std::min)(count, s_max_masked); ++p) {
-      const double height = dot(normal, (*this)[p]) - level;
+      const double height = internal::dot(normal, (*this)[p]) - level;
       result.above |= Mask(height > m_volume_error) << p;
       result.below |= Mask(height < -m_volume_error) << p;
     }
@@ -192,9 +194,9 @@ public:
   {
     Slab result;
     result.normal = normal(triangle);
-    result.lower = result.upper = dot(result.normal, (*this)[point]);
+    result.lower = result.upper = internal::dot(result.normal, (*this)[point]);
     for (const Index corner : triangle) {
-      const double height = dot(result.normal, (*this)[corner]);
+      const double height = internal::dot(result.normal, (*this)[corner]);
       result.lower = (std::min)(result.lower, height);
       result.upper = (std::max)(result.upper, height);
     }
@@ -204,8 +206,9 @@ public:
   /// Is the triangle clear of all that the slab holds, by a plane of its direction?
   bool is_clear_of_slab(const std::array<Index, 3>& triangle, const Slab& slab) const
   {
-    const double a = dot(slab.normal, (*this)[triangle[0]]), b = dot(slab.normal, (*this)[triangle[1]]),
-                 c = dot(slab.normal, (*this)[triangle[2]]);
+    const double a = internal::dot(slab.normal, (*this)[triangle[0]]),
+                 b = internal::dot(slab.normal, (*this)[triangle[1]]),
+                 c = internal::dot(slab.normal, (*this)[triangle[2]]);
     return (a > slab.upper + m_volume_error && b > slab.upper + m_volume_error &&
             c > slab.upper + m_volume_error) ||
            (a < slab.lower - m_volume_error && b < slab.lower - m_volume_error &&
@@ -260,17 +263,8 @@ private:
   Vector normal(const std::array<Index, 3>& triangle) const
   {
     const Vector& o = (*this)[triangle[0]];
-    return cross(difference((*this)[triangle[1]], o), difference((*this)[triangle[2]], o));
-  }
-
-  static double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-  static Vector difference(const Vector& a, const Vector& b)
-  {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-  }
-  static Vector cross(const Vector& a, const Vector& b)
-  {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    return internal::cross(internal::difference((*this)[triangle[1]], o),
+                           internal::difference((*this)[triangle[2]], o));
   }
 
   Vector m_origin{};

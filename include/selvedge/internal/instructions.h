@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_INTERNAL_INSTRUCTIONS_H
 #define SELVEDGE_INTERNAL_INSTRUCTIONS_H
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -25,6 +26,37 @@ void prefetch([[maybe_unused]] const T& object)
   for (std::size_t offset = 0; offset < sizeof(T); offset += line)
     __builtin_prefetch(reinterpret_cast<const char*>(&object) + offset);
 #endif
+}
+
+/// The number of the lowest bit that is set; there is one.
+inline std::size_t lowest_bit(std::uint32_t mask)
+{
+#ifdef __GNUC__
+  return std::size_t(__builtin_ctz(mask));
+#else
+  std::size_t i = 0;
+  while ((mask >> i & 1) == 0)
+    ++i;
+  return i;
+#endif
+}
+
+/// Bit i tells whether number i is negative; their number is a multiple of four, 32 at most.
+template <std::size_t count>
+std::uint32_t negative(const std::array<std::int32_t, count>& numbers)
+{
+  static_assert(count % 4 == 0 && count <= 32, "");
+  std::uint32_t result = 0;
+#ifdef __SSE2__ // of a plain loop compilers make this only sometimes
+  for (std::size_t i = 0; i < count; i += 4) {
+    const __m128i four = _mm_loadu_si128(reinterpret_cast<const __m128i*>(&numbers[i]));
+    result |= std::uint32_t(_mm_movemask_ps(_mm_castsi128_ps(four))) << i;
+  }
+#else
+  for (std::size_t i = 0; i < count; ++i)
+    result |= std::uint32_t(numbers[i] < 0) << i;
+#endif
+  return result;
 }
 
 /// Bit i tells of number i whether it is surely negative or positive.

@@ -4,26 +4,12 @@
 #ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_SYMMETRIC_QUADRIC_H
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_SYMMETRIC_QUADRIC_H
 
-#include <array>
+#include <selvedge/internal/Vector_of_doubles.h>
+
 #include <cstddef>
 
 namespace selvedge {
 namespace internal {
-
-using Vector_of_doubles = std::array<double, 3>;
-
-inline double dot(const Vector_of_doubles& a, const Vector_of_doubles& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-inline Vector_of_doubles difference(const Vector_of_doubles& a, const Vector_of_doubles& b)
-{
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-inline Vector_of_doubles cross(const Vector_of_doubles& a, const Vector_of_doubles& b)
-{
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 /// A quadratic function of a point, x ↦ xᵀAx + 2bᵀx + c, in double precision.
 class Symmetric_quadric

@@ -4,14 +4,12 @@
 #ifndef SELVEDGE_SPATIAL_INTERNAL_BOX_BLOCK_H
 #define SELVEDGE_SPATIAL_INTERNAL_BOX_BLOCK_H
 
+#include <selvedge/internal/instructions.h>
 #include <selvedge/spatial/internal/Monotone_box.h>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
 
 namespace selvedge {
 namespace internal {
@@ -63,45 +61,17 @@ public:
     for (std::size_t i = 0; i < width; ++i)
       answers[i] = yes(x0[i] <= box.upper[0]) & yes(y0[i] <= box.upper[1]) & yes(z0[i] <= box.upper[2]) &
                    yes(x1[i] >= box.lower[0]) & yes(y1[i] >= box.lower[1]) & yes(z1[i] >= box.lower[2]);
-    return mask(answers);
+    return negative(answers);
   }
 
   /// The least box of a mask that is not empty.
-  static std::size_t first(Mask mask)
-  {
-#ifdef __GNUC__
-    return std::size_t(__builtin_ctz(mask));
-#else
-    std::size_t i = 0;
-    while ((mask >> i & 1) == 0)
-      ++i;
-    return i;
-#endif
-  }
+  static std::size_t first(Mask mask) { return lowest_bit(mask); }
 
 private:
   using Row = std::array<float, width>;
   using Answers = std::array<std::int32_t, width>; // 0 or −1, as the instructions give them
 
-  static std::int32_t yes(bool answer)
-  {
-    return answer ? -1 : 0;
-  }
-
-  static Mask mask(const Answers& answers)
-  {
-    Mask result = 0;
-#ifdef __SSE2__ // of a plain loop compilers make this only sometimes
-    for (std::size_t i = 0; i < width; i += 4) {
-      const __m128i four = _mm_loadu_si128(reinterpret_cast<const __m128i*>(&answers[i]));
-      result |= Mask(_mm_movemask_ps(_mm_castsi128_ps(four))) << i;
-    }
-#else
-    for (std::size_t i = 0; i < width; ++i)
-      result |= Mask(answers[i] & 1) << i;
-#endif
-    return result;
-  }
+  static std::int32_t yes(bool answer) { return answer ? -1 : 0; }
 
   std::array<Row, 6> m_bounds; // lower x, y, z, upper x, y, z
 };
