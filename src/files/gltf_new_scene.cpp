@@ -17,8 +17,6 @@ namespace {
 
 using Json = Gltf_scene::Json;
 
-constexpr Gltf_scene::Matrix s_identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
-
 template <class Number>
 void append_little_endian(std::string& rows, Number number)
 {
@@ -157,7 +155,7 @@ private:
   {
     m_kinds.push_back(kind);
     m_scene->instances.push_back(
-        {Index(m_scene->blocks.size()), Index(m_result.points.size()), s_identity, false});
+        {Index(m_scene->blocks.size()), Index(m_result.points.size()), identity_matrix, false});
     std::vector<Gltf_scene::Column>& columns = m_scene->blocks.emplace_back().attributes;
     columns.push_back(column("POSITION", type_float32, 3));
     if (kind.has_normals)

@@ -1,19 +1,14 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "files/Binary_reader.h"
 #include "files/formats.h"
-#include "files/gltf_scene.h"
+#include "files/gltf_column_reader.h"
 
 #include <selvedge/Error.h>
 #include <selvedge/mesh/selection.h>
 
-#include <tiny_gltf.h>
-
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <memory>
@@ -29,97 +24,6 @@ using Matrix = Gltf_scene::Matrix;
 using Column = Gltf_scene::Column;
 
 constexpr Index s_none = std::numeric_limits<Index>::max();
-constexpr const char* s_embedded_buffer = "glb-buffer";
-
-/// What tinygltf may open: the chunk of a GLB, and files beside the document.
-struct Buffer_sources
-{
-  std::string_view embedded;
-  const std::filesystem::path* folder; // none when the document is not a file
-};
-
-bool buffer_exists(const std::string& name, void* user)
-{
-  const Buffer_sources& sources = *static_cast<const Buffer_sources*>(user);
-  std::error_code error;
-  return name == s_embedded_buffer ||
-         (sources.folder && std::filesystem::is_regular_file(*sources.folder / name, error));
-}
-
-bool read_buffer(std::vector<unsigned char>* bytes, std::string* message, const std::string& name, void* user)
-{
-  const Buffer_sources& sources = *static_cast<const Buffer_sources*>(user);
-  if (name == s_embedded_buffer) {
-    bytes->assign(sources.embedded.begin(), sources.embedded.end());
-    return true;
-  }
-  std::ifstream stream(*sources.folder / name, std::ios::binary);
-  bytes->assign(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
-  if (stream.bad() || bytes->empty())
-    *message = "it is empty or cannot be read";
-  return message->empty();
-}
-
-/// A copy without what tinygltf would only have to get wrong.
-Json without_extensions(const Json& value)
-{
-  if (!value.is_structured())
-    return value;
-  Json result = value.is_array() ? Json::array() : Json::object();
-  for (auto it = value.begin(); it != value.end(); ++it)
-    if (value.is_array())
-      result.push_back(without_extensions(*it));
-    else if (it.key() != "extras" && it.key() != "extensions")
-      result[it.key()] = without_extensions(*it);
-  return result;
-}
-
-const Json& member(const Json& object, const char* name)
-{
-  static const Json none = Json::array();
-  const auto found = object.find(name);
-  return found == object.end() ? none : *found;
-}
-
-/// Its rotation is not normalised; that keeps every entry one formula of the numbers in the file.
-Matrix local_matrix(const tinygltf::Node& node)
-{
-  Matrix result = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
-  if (!node.matrix.empty()) {
-    for (std::size_t row = 0; row < 3; ++row)
-      for (std::size_t column = 0; column < 4; ++column)
-        result[row][column] = node.matrix[4 * column + row];
-    return result;
-  }
-  if (!node.rotation.empty()) {
-    const double x = node.rotation[0], y = node.rotation[1], z = node.rotation[2], w = node.rotation[3];
-    result = {{{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w), 0},
-               {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w), 0},
-               {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y), 0}}};
-  }
-  for (std::size_t row = 0; row < 3; ++row) {
-    for (std::size_t column = 0; column < 3 && !node.scale.empty(); ++column)
-      result[row][column] *= node.scale[column];
-    if (!node.translation.empty())
-      result[row][3] = node.translation[row];
-  }
-  return result;
-}
-
-/// See mesh_files.h for the formula.
-Matrix product(const Matrix& a, const Matrix& b)
-{
-  Matrix result;
-  for (std::size_t row = 0; row < 3; ++row)
-    for (std::size_t column = 0; column < 4; ++column) {
-      result[row][column] = a[row][0] * b[0][column] + a[row][1] * b[1][column] + a[row][2] * b[2][column];
-      if (column == 3)
-        result[row][column] += a[row][3];
-    }
-  return result;
-}
-
-constexpr Matrix s_identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 
 bool is_mirroring(const Matrix& m)
 {
@@ -133,7 +37,7 @@ std::array<double, 3> world_normal(const Matrix& m, bool is_mirrored, const std:
   Matrix linear = m;
   for (auto& row : linear)
     row[3] = 0;
-  if (linear == s_identity)
+  if (linear == identity_matrix)
     return n;
   std::array<double, 3> result;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -150,225 +54,29 @@ std::array<double, 3> world_normal(const Matrix& m, bool is_mirrored, const std:
 class Gltf_reader
 {
 public:
-  Gltf_reader(std::string_view contents, Mesh_format format, const std::string& name,
-              const std::filesystem::path* folder)
-      : m_contents(contents), m_name(name), m_folder(folder)
+  Gltf_reader(Gltf_document document, Mesh_format format) : m_document(std::move(document))
   {
     m_file.format = format;
   }
 
   Mesh_file read()
   {
-    split();
-    parse();
-    refuse_extensions();
-    load();
-    place_nodes();
     find_parts();
     fill_soup();
     set_free();
     if (soup().triangles.empty())
       fail("the file has no triangles in its scene; export the mesh as triangles");
+    m_scene->document = std::move(json());
     soup().scene = m_scene;
     return std::move(m_file);
   }
 
 private:
   Triangle_soup& soup() { return m_file.soup; }
-  Json& document() { return m_scene->document; }
+  Json& json() { return m_document.json; }
+  const tinygltf::Model& model() const { return m_document.model; }
   void remark(const std::string& what, std::size_t count = 1) { m_file.notes.remarks[what] += count; }
-  [[noreturn]] void fail(const std::string& message) const { throw Input_error(m_name + ": " + message); }
-
-  void split()
-  {
-    m_json = m_contents;
-    if (m_file.format == Mesh_format::gltf)
-      return;
-    Binary_reader bytes(m_contents, false);
-    if (bytes.remaining() < 20 || m_contents.substr(0, 4) != "glTF")
-      fail("this is no GLB file: it does not begin with glTF; export it again");
-    bytes.skip(4);
-    if (bytes.take<std::uint32_t>() != 2)
-      fail("this GLB file is not of version 2; export it as glTF 2.0");
-    const std::size_t length = bytes.take<std::uint32_t>();
-    if (length > m_contents.size())
-      fail("the file ends before its last byte; copy or export it again");
-    const auto chunk = [&](std::size_t& at, std::uint32_t kind) {
-      if (length - at < 8)
-        return std::string_view();
-      Binary_reader head(m_contents.substr(at, 8), false);
-      const std::size_t size = head.take<std::uint32_t>();
-      if (size > length - at - 8)
-        fail("a chunk of the file is longer than the file; export it again");
-      const bool is_wanted = head.take<std::uint32_t>() == kind;
-      const std::string_view body = m_contents.substr(at + 8, size);
-      at += 8 + size;
-      return is_wanted ? body : std::string_view();
-    };
-    std::size_t at = 12;
-    if (length < at)
-      fail("the file says that it is shorter than its head; export it again");
-    m_json = chunk(at, 0x4E4F534A);
-    m_embedded = chunk(at, 0x004E4942);
-  }
-
-  void parse()
-  {
-    // Further down, functions call themselves once per level.
-    const auto limit_depth = [this](int depth, Json::parse_event_t, const Json&) {
-      if (depth > 100)
-        fail("its JSON is nested more than 100 levels deep; simplify it");
-      return true;
-    };
-    m_scene = std::make_shared<Gltf_scene>();
-    document() = Json::parse(m_json, limit_depth);
-    if (!document().is_object())
-      fail("its JSON is not an object; export the file again");
-    const Json& asset = member(document(), "asset");
-    if (!asset.is_object() || !asset.value("version", Json()).is_string() ||
-        asset["version"].get<std::string>().substr(0, 2) != "2.")
-      fail("this is not glTF of version 2; export it as glTF 2.0");
-  }
-
-  void refuse_extensions()
-  {
-    const std::map<std::string, std::string> refused = {
-        {"KHR_draco_mesh_compression",
-         "its meshes are compressed with KHR_draco_mesh_compression; export it without compression"},
-        {"EXT_meshopt_compression",
-         "its buffers are compressed with EXT_meshopt_compression; export it without compression"},
-        {"KHR_meshopt_compression",
-         "its buffers are compressed with KHR_meshopt_compression; export it without compression"},
-        {"KHR_mesh_quantization",
-         "its vertices are quantised with KHR_mesh_quantization; export it without quantisation"},
-        {"EXT_mesh_gpu_instancing",
-         "it places meshes with EXT_mesh_gpu_instancing; export it with one node for each"}};
-    for (const char* list : {"extensionsRequired", "extensionsUsed"})
-      for (const Json& extension : member(document(), list)) {
-        if (!extension.is_string())
-          fail(std::string(list) + " holds something that is no name; export the file again");
-        const std::string name = extension;
-        if (const auto found = refused.find(name); found != refused.end())
-          fail(found->second);
-        const auto begins_with = [&](std::string_view prefix) {
-          return name.compare(0, prefix.size(), prefix) == 0;
-        };
-        if (list == std::string_view("extensionsRequired") && !begins_with("KHR_materials_") &&
-            !begins_with("KHR_texture_") && !begins_with("EXT_texture_") && !begins_with("MSFT_texture_") &&
-            !begins_with("KHR_lights_") && !begins_with("KHR_xmp"))
-          fail("it requires the extension " + name + ", which is not known here; export it without");
-      }
-  }
-
-  void load()
-  {
-    Json reduced;
-    for (const char* name :
-         {"asset", "buffers", "bufferViews", "accessors", "meshes", "nodes", "scenes", "scene"})
-      if (document().contains(name))
-        reduced[name] = without_extensions(document()[name]);
-    Buffer_sources sources{m_embedded, m_folder};
-    if (const Json& buffers = member(reduced, "buffers");
-        m_file.format == Mesh_format::glb && buffers.is_array() && !buffers.empty() &&
-        buffers[0].is_object() && !buffers[0].contains("uri")) {
-      reduced["buffers"][0]["uri"] = s_embedded_buffer;
-      // The chunk may be longer, by its padding.
-      sources.embedded = m_embedded.substr(0, buffers[0].value("byteLength", std::size_t(0)));
-    }
-    const std::string text = reduced.dump();
-    tinygltf::TinyGLTF loader;
-    loader.SetFsCallbacks({buffer_exists, [](const std::string& name, void*) { return name; }, read_buffer,
-                           tinygltf::WriteWholeFile, &sources});
-    std::string error, warning;
-    const bool is_loaded =
-        loader.LoadASCIIFromString(&m_model, &error, &warning, text.data(), unsigned(text.size()), "");
-    if (!is_loaded || !error.empty()) {
-      std::replace(error.begin(), error.end(), '\n', ' ');
-      error.erase(error.find_last_not_of(" .") + 1);
-      fail("not a valid glTF file (" + error + "); export it again");
-    }
-    check_lists();
-  }
-
-  // What tinygltf lets pass: lists out of step with the document, and transforms that are none.
-  void check_lists()
-  {
-    const auto is_whole = [](const Json& list, std::size_t size) {
-      return list.is_array() && list.size() == size;
-    };
-    bool is_in_step = true;
-    is_in_step &= is_whole(member(document(), "meshes"), m_model.meshes.size());
-    is_in_step &= is_whole(member(document(), "nodes"), m_model.nodes.size());
-    is_in_step &= is_whole(member(document(), "accessors"), m_model.accessors.size());
-    is_in_step &= is_whole(member(document(), "bufferViews"), m_model.bufferViews.size());
-    for (std::size_t m = 0; m < m_model.meshes.size() && is_in_step; ++m) {
-      const Json& primitives = member(document()["meshes"][m], "primitives");
-      is_in_step &= is_whole(primitives, m_model.meshes[m].primitives.size());
-      for (std::size_t p = 0; p < m_model.meshes[m].primitives.size() && is_in_step; ++p)
-        is_in_step &= primitives[p].is_object() && is_whole(member(primitives[p], "targets"),
-                                                            m_model.meshes[m].primitives[p].targets.size());
-    }
-    if (!is_in_step)
-      fail("not a valid glTF file (a list holds something that does not belong there); export it again");
-    for (std::size_t n = 0; n < m_model.nodes.size(); ++n) {
-      const tinygltf::Node& node = m_model.nodes[n];
-      const Json& json = document()["nodes"][n];
-      const auto has_size = [&](const char* name, const std::vector<double>& values, std::size_t size) {
-        return json.contains(name) &&
-               (!node.matrix.empty() && &values != &node.matrix ? false : values.size() != size);
-      };
-      if (has_size("matrix", node.matrix, 16) || has_size("translation", node.translation, 3) ||
-          has_size("rotation", node.rotation, 4) || has_size("scale", node.scale, 3))
-        fail("node " + std::to_string(n) + " has a transform of the wrong length; correct it");
-      if (!node.matrix.empty() &&
-          (node.matrix[3] != 0 || node.matrix[7] != 0 || node.matrix[11] != 0 || node.matrix[15] != 1))
-        fail("node " + std::to_string(n) +
-             " has a matrix whose last row is not 0 0 0 1; apply the transform to the mesh");
-    }
-  }
-
-  // Global transforms of the nodes of the scene, which must be a forest.
-  void place_nodes()
-  {
-    const std::size_t size = m_model.nodes.size();
-    m_is_in_scene.assign(size, false);
-    m_to_world.assign(size, s_identity);
-    std::vector<int> stack;
-    if (m_model.scenes.empty()) {
-      std::vector<char> is_child(size, false);
-      for (const tinygltf::Node& node : m_model.nodes)
-        for (const int child : node.children)
-          if (child >= 0 && std::size_t(child) < size)
-            is_child[child] = true;
-      for (std::size_t n = 0; n < size; ++n)
-        if (!is_child[n])
-          stack.push_back(int(n));
-    } else {
-      const std::size_t scene = m_model.defaultScene < 0 ? 0 : std::size_t(m_model.defaultScene);
-      if (scene >= m_model.scenes.size())
-        fail("its scene is number " + std::to_string(scene) + ", but there are only " +
-             std::to_string(m_model.scenes.size()) + "; correct it");
-      stack = m_model.scenes[scene].nodes;
-    }
-    const auto enter = [&](int n, const Matrix& parent) {
-      if (n < 0 || std::size_t(n) >= size)
-        fail("its scene names node " + std::to_string(n) + ", which is not there; correct it");
-      if (m_is_in_scene[n])
-        fail("node " + std::to_string(n) + " stands in the scene twice; give each node one parent");
-      m_is_in_scene[n] = true;
-      m_to_world[n] = product(parent, local_matrix(m_model.nodes[n]));
-    };
-    for (const int root : stack)
-      enter(root, s_identity);
-    while (!stack.empty()) {
-      const int n = stack.back();
-      stack.pop_back();
-      for (const int child : m_model.nodes[n].children) {
-        enter(child, m_to_world[n]);
-        stack.push_back(child);
-      }
-    }
-  }
+  [[noreturn]] void fail(const std::string& message) const { m_document.fail(message); }
 
   bool is_reducible(const tinygltf::Primitive& primitive) const
   {
@@ -379,17 +87,17 @@ private:
   // Gives every node of the scene a mesh of its own, and lists its primitives.
   void find_parts()
   {
-    m_is_free_accessor.assign(m_model.accessors.size(), false);
-    std::vector<std::size_t> in_scene(m_model.meshes.size(), 0);
-    std::vector<char> is_taken(m_model.meshes.size(), false); // nodes outside the scene keep their meshes
-    for (std::size_t n = 0; n < m_model.nodes.size(); ++n) {
-      const int mesh = m_model.nodes[n].mesh;
+    m_is_free_accessor.assign(model().accessors.size(), false);
+    std::vector<std::size_t> in_scene(model().meshes.size(), 0);
+    std::vector<char> is_taken(model().meshes.size(), false); // nodes outside the scene keep their meshes
+    for (std::size_t n = 0; n < model().nodes.size(); ++n) {
+      const int mesh = model().nodes[n].mesh;
       if (mesh == -1)
         continue;
-      if (mesh < 0 || std::size_t(mesh) >= m_model.meshes.size())
+      if (mesh < 0 || std::size_t(mesh) >= model().meshes.size())
         fail("node " + std::to_string(n) + " names mesh " + std::to_string(mesh) +
              ", which is not there; correct it");
-      if (m_is_in_scene[n])
+      if (m_document.to_world[n])
         ++in_scene[mesh];
       else
         is_taken[mesh] = true;
@@ -406,15 +114,15 @@ private:
           keep_accessors(m, [](const tinygltf::Primitive&) { return true; });
       }
     }
-    for (std::size_t n = 0; n < m_model.nodes.size(); ++n)
-      if (m_is_in_scene[n] && m_model.nodes[n].mesh != -1) {
-        const Index mesh = Index(m_model.nodes[n].mesh);
+    for (std::size_t n = 0; n < model().nodes.size(); ++n)
+      if (m_document.to_world[n] && model().nodes[n].mesh != -1) {
+        const Index mesh = Index(model().nodes[n].mesh);
         Index own = mesh;
         if (is_taken[mesh]) {
-          own = Index(document()["meshes"].size());
-          Json copy = document()["meshes"][mesh];
-          document()["meshes"].push_back(std::move(copy));
-          document()["nodes"][n]["mesh"] = own;
+          own = Index(json()["meshes"].size());
+          Json copy = json()["meshes"][mesh];
+          json()["meshes"].push_back(std::move(copy));
+          json()["nodes"][n]["mesh"] = own;
         }
         is_taken[mesh] = true;
         add_node(n, mesh, own);
@@ -424,7 +132,7 @@ private:
   template <class Which>
   void keep_accessors(std::size_t mesh, const Which& which)
   {
-    for (const tinygltf::Primitive& primitive : m_model.meshes[mesh].primitives)
+    for (const tinygltf::Primitive& primitive : model().meshes[mesh].primitives)
       if (which(primitive)) {
         m_kept_accessors.insert(primitive.indices);
         for (const auto& [name, accessor] : primitive.attributes)
@@ -437,14 +145,14 @@ private:
 
   void add_node(std::size_t n, Index mesh, Index own)
   {
-    const tinygltf::Node& node = m_model.nodes[n];
-    const std::vector<tinygltf::Primitive>& primitives = m_model.meshes[mesh].primitives;
+    const tinygltf::Node& node = model().nodes[n];
+    const std::vector<tinygltf::Primitive>& primitives = model().meshes[mesh].primitives;
     const bool is_skinned = node.skin != -1;
     if (is_skinned)
       remark("skinned meshes, taken in their bind pose");
     const std::size_t parts =
         std::count_if(primitives.begin(), primitives.end(), [&](const auto& p) { return is_reducible(p); });
-    const Matrix& to_world = is_skinned ? s_identity : m_to_world[n];
+    const Matrix& to_world = is_skinned ? identity_matrix : *m_document.to_world[n];
     std::map<Index, Index> instance_of_block;
     for (Index p = 0; p < primitives.size(); ++p) {
       const tinygltf::Primitive& primitive = primitives[p];
@@ -452,8 +160,8 @@ private:
         remark("primitives of points or lines, or without positions, kept as they are");
         continue;
       }
-      m_place = "mesh " + std::to_string(mesh) + ", primitive " + std::to_string(p);
-      const Index block = block_of(mesh, primitive);
+      const std::string place = "mesh " + std::to_string(mesh) + ", primitive " + std::to_string(p);
+      const Index block = block_of(mesh, primitive, place);
       const auto [it, is_new] = instance_of_block.emplace(block, Index(m_scene->instances.size()));
       if (is_new)
         m_scene->instances.push_back({block, 0, to_world, is_mirroring(to_world)});
@@ -467,7 +175,7 @@ private:
 
   std::string group_name(std::size_t n, std::size_t mesh, std::size_t primitive, std::size_t parts)
   {
-    std::string name = m_model.nodes[n].name.empty() ? m_model.meshes[mesh].name : m_model.nodes[n].name;
+    std::string name = model().nodes[n].name.empty() ? model().meshes[mesh].name : model().nodes[n].name;
     name = name.empty() ? "node " + std::to_string(n) : name;
     if (parts > 1)
       name += "/" + std::to_string(primitive);
@@ -490,7 +198,7 @@ private:
     return unique;
   }
 
-  Index block_of(Index mesh, const tinygltf::Primitive& primitive)
+  Index block_of(Index mesh, const tinygltf::Primitive& primitive, const std::string& place)
   {
     const auto [it, is_new] = m_block_numbers.emplace(
         std::make_tuple(mesh, primitive.attributes, primitive.targets), Index(m_scene->blocks.size()));
@@ -498,152 +206,50 @@ private:
       return it->second;
     Gltf_scene::Block& block = m_scene->blocks.emplace_back();
     const int position = primitive.attributes.at("POSITION");
-    if (position < 0 || std::size_t(position) >= m_model.accessors.size() ||
-        m_model.accessors[position].bufferView < 0)
-      fail(m_place + ": its positions are nowhere in the file; export it again");
-    if (m_model.accessors[position].count >= std::numeric_limits<Index>::max())
-      fail(m_place + ": it has more than 4294967294 vertices; split it");
-    block.size = Index(m_model.accessors[position].count);
-    block.attributes.push_back(read_column(position, "POSITION", block.size));
-    check_position(block.attributes.front());
+    if (position < 0 || std::size_t(position) >= model().accessors.size() ||
+        model().accessors[position].bufferView < 0)
+      fail(place + ": its positions are nowhere in the file; export it again");
+    if (model().accessors[position].count >= std::numeric_limits<Index>::max())
+      fail(place + ": it has more than 4294967294 vertices; split it");
+    block.size = Index(model().accessors[position].count);
+    const Column& positions =
+        block.attributes.emplace_back(read_column(position, "POSITION", block.size, place));
+    if (positions.component_type != type_float32 || positions.components != 3 || positions.row_size != 12)
+      fail(place + ": its positions are not three 32-bit floats each; export it without quantisation");
     for (const auto& [name, accessor] : primitive.attributes)
       if (name != "POSITION")
-        block.attributes.push_back(read_column(accessor, name, block.size));
+        block.attributes.push_back(read_column(accessor, name, block.size, place));
     for (const auto& target : primitive.targets) {
       block.targets.emplace_back();
       for (const auto& [name, accessor] : target)
-        block.targets.back().push_back(read_column(accessor, name, block.size));
+        block.targets.back().push_back(read_column(accessor, name, block.size, place));
     }
     return it->second;
   }
 
-  void check_position(const Column& column)
+  Column read_column(int accessor, const std::string& name, std::size_t count, const std::string& place)
   {
-    if (column.component_type != type_float32 || column.components != 3 || column.row_size != 12)
-      fail(m_place + ": its positions are not three 32-bit floats each; export it without quantisation");
-  }
-
-  std::string_view view(int number)
-  {
-    if (number < 0 || std::size_t(number) >= m_model.bufferViews.size())
-      fail(m_place + ": buffer view " + std::to_string(number) + " is not there; export the file again");
-    const tinygltf::BufferView& range = m_model.bufferViews[number];
-    if (range.buffer < 0 || std::size_t(range.buffer) >= m_model.buffers.size())
-      fail("buffer view " + std::to_string(number) +
-           " names a buffer that is not there; export the file again");
-    const std::vector<unsigned char>& bytes = m_model.buffers[range.buffer].data;
-    if (range.byteOffset > bytes.size() || range.byteLength > bytes.size() - range.byteOffset)
-      fail("buffer view " + std::to_string(number) + " ends beyond its buffer; export the file again");
-    return {reinterpret_cast<const char*>(bytes.data()) + range.byteOffset, range.byteLength};
-  }
-
-  // The rows in a buffer view, one after the other.
-  std::string rows(int number, std::size_t offset, std::size_t row_size, std::size_t count,
-                   bool may_have_gaps = false)
-  {
-    const std::string_view bytes = view(number);
-    const std::size_t gap = may_have_gaps ? m_model.bufferViews[number].byteStride : 0,
-                      stride = gap == 0 ? row_size : gap;
-    // No product overflows: the count is at most that of bytes.
-    if (count == 0 || count > bytes.size() || offset > bytes.size() || row_size > bytes.size() - offset ||
-        (count - 1) * stride > bytes.size() - offset - row_size)
-      fail(m_place + ": an accessor has no rows or reaches beyond buffer view " + std::to_string(number) +
-           "; export the file again");
-    std::string result;
-    result.reserve(count * row_size);
-    for (std::size_t i = 0; i < count; ++i)
-      result.append(bytes, offset + i * stride, row_size);
+    Column result = Gltf_column_reader(m_document, place).read(accessor, name, count);
+    m_is_free_accessor[accessor] = true;
+    if (model().accessors[accessor].sparse.isSparse)
+      remark("sparse accessors, from now on written in full");
     return result;
-  }
-
-  Column read_column(int number, const std::string& name, std::size_t count)
-  {
-    if (number < 0 || std::size_t(number) >= m_model.accessors.size())
-      fail(m_place + ": " + name + " names accessor " + std::to_string(number) +
-           ", which is not there; export the file again");
-    const tinygltf::Accessor& accessor = m_model.accessors[number];
-    if (accessor.count != count)
-      fail(m_place + ": " + name + " has " + std::to_string(accessor.count) + " rows for " +
-           std::to_string(count) + " vertices; export the file again");
-    Column column;
-    column.name = name;
-    column.component_type = accessor.componentType;
-    const std::size_t size = component_size(accessor.componentType);
-    if (size == 0)
-      fail(m_place + ": " + name + " is of a type that glTF does not know; export the file again");
-    // Columns of matrices begin at multiples of four bytes.
-    const auto matrix = [&](std::size_t order) { return order * ((order * size + 3) / 4 * 4); };
-    switch (accessor.type) {
-    case TINYGLTF_TYPE_MAT2:
-      column.components = 4, column.row_size = matrix(2);
-      break;
-    case TINYGLTF_TYPE_MAT3:
-      column.components = 9, column.row_size = matrix(3);
-      break;
-    case TINYGLTF_TYPE_MAT4:
-      column.components = 16, column.row_size = matrix(4);
-      break;
-    default:
-      column.components = accessor.type == TINYGLTF_TYPE_SCALAR ? 1 : std::size_t(accessor.type);
-      column.row_size = column.components * size;
-    }
-    column.accessor = document()["accessors"][number];
-    for (const char* key : {"bufferView", "byteOffset", "sparse", "count"})
-      column.accessor.erase(key);
-    m_is_free_accessor[number] = true;
-    if (accessor.bufferView >= 0)
-      column.rows = rows(accessor.bufferView, accessor.byteOffset, column.row_size, count, true);
-    else
-      column.rows.assign(count * column.row_size, '\0');
-    if (accessor.sparse.isSparse)
-      put_sparse_values(accessor, column, count);
-    if (column.component_type == type_float32)
-      for (std::size_t i = 0; i < count; ++i)
-        for (std::size_t k = 0; k < column.components; ++k)
-          if (!std::isfinite(component(column, i, k)))
-            fail(m_place + ": " + name + " of vertex " + std::to_string(i) +
-                 " is not finite; remove or repair it");
-    return column;
-  }
-
-  void put_sparse_values(const tinygltf::Accessor& accessor, Column& column, std::size_t count)
-  {
-    remark("sparse accessors, from now on written in full");
-    const auto& sparse = accessor.sparse;
-    Column indices;
-    indices.component_type = sparse.indices.componentType;
-    indices.row_size = component_size(indices.component_type);
-    if (sparse.count < 1 || sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0 ||
-        (indices.component_type != type_uint8 && indices.component_type != type_uint16 &&
-         indices.component_type != type_uint32))
-      fail(m_place + ": the sparse part of " + column.name + " is not valid; export the file again");
-    indices.rows = rows(sparse.indices.bufferView, sparse.indices.byteOffset, indices.row_size, sparse.count);
-    const std::string values =
-        rows(sparse.values.bufferView, sparse.values.byteOffset, column.row_size, sparse.count);
-    for (std::size_t i = 0; i < std::size_t(sparse.count); ++i) {
-      const double row = component(indices, i, 0);
-      if (row >= double(count))
-        fail(m_place + ": the sparse part of " + column.name +
-             " names a vertex that is not there; export the file again");
-      column.rows.replace(std::size_t(row) * column.row_size, column.row_size, values, i * column.row_size,
-                          column.row_size);
-    }
   }
 
   // The numbers of accessors and buffer views that only the triangles of the soup need, and the bytes of all
   // others.
   void set_free()
   {
-    for (const Json& animation : member(document(), "animations"))
+    for (const Json& animation : member(json(), "animations"))
       for (const Json& sampler : member(animation, "samplers"))
         for (const char* key : {"input", "output"})
           m_kept_accessors.insert(sampler.value(key, -1));
-    for (const Json& skin : member(document(), "skins"))
+    for (const Json& skin : member(json(), "skins"))
       m_kept_accessors.insert(skin.value("inverseBindMatrices", -1));
-    m_place = "the file";
+    const Gltf_column_reader columns(m_document, "the file");
     std::set<int> freed, kept;
-    for (std::size_t i = 0; i < m_model.accessors.size(); ++i) {
-      const tinygltf::Accessor& accessor = m_model.accessors[i];
+    for (std::size_t i = 0; i < model().accessors.size(); ++i) {
+      const tinygltf::Accessor& accessor = model().accessors[i];
       const bool is_free = m_is_free_accessor[i] && m_kept_accessors.count(int(i)) == 0;
       if (is_free)
         m_scene->free_accessors.push_back(Index(i));
@@ -652,18 +258,18 @@ private:
       if (accessor.sparse.isSparse)
         views.insert({accessor.sparse.indices.bufferView, accessor.sparse.values.bufferView});
     }
-    for (const Json& image : member(document(), "images")) {
+    for (const Json& image : member(json(), "images")) {
       kept.insert(image.value("bufferView", -1));
       if (image.contains("uri") && image["uri"].is_string() &&
           image["uri"].get<std::string>().compare(0, 5, "data:") != 0)
         remark("images in files of their own, whose addresses are kept");
     }
-    m_scene->views.resize(m_model.bufferViews.size());
-    for (int i = 0; i < int(m_model.bufferViews.size()); ++i)
+    m_scene->views.resize(model().bufferViews.size());
+    for (int i = 0; i < int(model().bufferViews.size()); ++i)
       if (freed.count(i) != 0 && kept.count(i) == 0)
         m_scene->free_views.push_back(Index(i));
       else
-        m_scene->views[i] = view(i);
+        m_scene->views[i] = columns.view(i);
   }
 
   void fill_soup()
@@ -736,9 +342,8 @@ private:
     const Gltf_scene::Block& block = m_scene->blocks[m_scene->instances[part.instance].block];
     std::vector<Index> result;
     if (primitive.indices >= 0) {
-      m_place = "an index accessor";
-      const Column indices =
-          read_column(primitive.indices, "indices", m_model.accessors[primitive.indices].count);
+      const Column indices = read_column(primitive.indices, "indices",
+                                         model().accessors[primitive.indices].count, "an index accessor");
       if (indices.components != 1 || indices.component_type == type_float32 ||
           indices.component_type == type_int8 || indices.component_type == type_int16)
         fail("accessor " + std::to_string(primitive.indices) +
@@ -774,7 +379,7 @@ private:
 
   void add_materials()
   {
-    const Json& materials = member(document(), "materials");
+    const Json& materials = member(json(), "materials");
     const auto has_none = [](const tinygltf::Primitive* primitive) { return primitive->material < 0; };
     if (std::all_of(m_sources.begin(), m_sources.end(), has_none))
       return;
@@ -931,25 +536,19 @@ private:
       names.push_back("morph targets");
     for (const char* key :
          {"materials", "textures", "images", "skins", "animations", "cameras", "extensions"})
-      if (!member(document(), key).empty())
+      if (!member(json(), key).empty())
         names.push_back(key == std::string_view("materials") ? "properties of materials" : key);
   }
 
-  std::string_view m_contents, m_json, m_embedded;
-  const std::string& m_name;
-  const std::filesystem::path* m_folder;
+  Gltf_document m_document;
   Mesh_file m_file;
-  std::shared_ptr<Gltf_scene> m_scene;
-  tinygltf::Model m_model;
-  std::vector<char> m_is_in_scene; // by node
-  std::vector<Matrix> m_to_world;
+  std::shared_ptr<Gltf_scene> m_scene = std::make_shared<Gltf_scene>();
   std::vector<const tinygltf::Primitive*> m_sources; // of parts
   std::set<std::string> m_group_names;
   std::map<std::tuple<Index, std::map<std::string, int>, std::vector<std::map<std::string, int>>>, Index>
       m_block_numbers;
   std::vector<char> m_is_free_accessor;
   std::set<int> m_kept_accessors;
-  std::string m_place; // for messages
 };
 
 } // namespace
@@ -958,7 +557,7 @@ Mesh_file read_gltf(std::string_view contents, Mesh_format format, const std::st
                     const std::filesystem::path* folder)
 {
   try {
-    return Gltf_reader(contents, format, name, folder).read();
+    return Gltf_reader(read_gltf_document(contents, format, name, folder), format).read();
   } catch (const nlohmann::json::exception& error) {
     throw Input_error(name + ": not a valid glTF file (" + error.what() + "); export it again");
   }

@@ -81,6 +81,8 @@ enum Component_type {
   type_float32
 };
 
+constexpr Gltf_scene::Matrix identity_matrix = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+
 /// Zero for types that the format does not know.
 std::size_t component_size(int component_type);
 

@@ -1,0 +1,327 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "files/gltf_document.h"
+
+#include "files/Binary_reader.h"
+
+#include <selvedge/Error.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+namespace selvedge::files {
+namespace {
+
+using Json = Gltf_scene::Json;
+using Matrix = Gltf_scene::Matrix;
+
+constexpr const char* s_embedded_buffer = "glb-buffer";
+
+/// What a file consists of.
+struct Chunks
+{
+  std::string_view json;
+  std::optional<std::string_view> embedded; // of a GLB
+};
+
+Chunks split(std::string_view contents, const Gltf_document& document)
+{
+  Binary_reader bytes(contents, false);
+  if (bytes.remaining() < 20 || contents.substr(0, 4) != "glTF")
+    document.fail("this is no GLB file: it does not begin with glTF; export it again");
+  bytes.skip(4);
+  if (bytes.take<std::uint32_t>() != 2)
+    document.fail("this GLB file is not of version 2; export it as glTF 2.0");
+  const std::size_t length = bytes.take<std::uint32_t>();
+  if (length > contents.size())
+    document.fail("the file ends before its last byte; copy or export it again");
+  const auto chunk = [&](std::size_t& at, std::uint32_t kind) {
+    if (length - at < 8)
+      return std::string_view();
+    Binary_reader head(contents.substr(at, 8), false);
+    const std::size_t size = head.take<std::uint32_t>();
+    if (size > length - at - 8)
+      document.fail("a chunk of the file is longer than the file; export it again");
+    const bool is_wanted = head.take<std::uint32_t>() == kind;
+    const std::string_view body = contents.substr(at + 8, size);
+    at += 8 + size;
+    return is_wanted ? body : std::string_view();
+  };
+  std::size_t at = 12;
+  if (length < at)
+    document.fail("the file says that it is shorter than its head; export it again");
+  const std::string_view json = chunk(at, 0x4E4F534A);
+  return {json, chunk(at, 0x004E4942)};
+}
+
+void parse(std::string_view json, Gltf_document& document)
+{
+  // Further down, functions call themselves once per level.
+  const auto limit_depth = [&document](int depth, Json::parse_event_t, const Json&) {
+    if (depth > 100)
+      document.fail("its JSON is nested more than 100 levels deep; simplify it");
+    return true;
+  };
+  document.json = Json::parse(json, limit_depth);
+  if (!document.json.is_object())
+    document.fail("its JSON is not an object; export the file again");
+  const Json& asset = member(document.json, "asset");
+  if (!asset.is_object() || !asset.value("version", Json()).is_string() ||
+      asset["version"].get<std::string>().substr(0, 2) != "2.")
+    document.fail("this is not glTF of version 2; export it as glTF 2.0");
+}
+
+void refuse_extensions(const Gltf_document& document)
+{
+  const std::map<std::string, std::string> refused = {
+      {"KHR_draco_mesh_compression",
+       "its meshes are compressed with KHR_draco_mesh_compression; export it without compression"},
+      {"EXT_meshopt_compression",
+       "its buffers are compressed with EXT_meshopt_compression; export it without compression"},
+      {"KHR_meshopt_compression",
+       "its buffers are compressed with KHR_meshopt_compression; export it without compression"},
+      {"KHR_mesh_quantization",
+       "its vertices are quantised with KHR_mesh_quantization; export it without quantisation"},
+      {"EXT_mesh_gpu_instancing",
+       "it places meshes with EXT_mesh_gpu_instancing; export it with one node for each"}};
+  for (const char* list : {"extensionsRequired", "extensionsUsed"})
+    for (const Json& extension : member(document.json, list)) {
+      if (!extension.is_string())
+        document.fail(std::string(list) + " holds something that is no name; export the file again");
+      const std::string name = extension;
+      if (const auto found = refused.find(name); found != refused.end())
+        document.fail(found->second);
+      const auto begins_with = [&](std::string_view prefix) {
+        return name.compare(0, prefix.size(), prefix) == 0;
+      };
+      if (list == std::string_view("extensionsRequired") && !begins_with("KHR_materials_") &&
+          !begins_with("KHR_texture_") && !begins_with("EXT_texture_") && !begins_with("MSFT_texture_") &&
+          !begins_with("KHR_lights_") && !begins_with("KHR_xmp"))
+        document.fail("it requires the extension " + name + ", which is not known here; export it without");
+    }
+}
+
+/// What tinygltf may open: the chunk of a GLB, and files beside the document.
+struct Buffer_sources
+{
+  std::string_view embedded;
+  const std::filesystem::path* folder; // none when the document is not a file
+};
+
+bool buffer_exists(const std::string& name, void* user)
+{
+  const Buffer_sources& sources = *static_cast<const Buffer_sources*>(user);
+  std::error_code error;
+  return name == s_embedded_buffer ||
+         (sources.folder && std::filesystem::is_regular_file(*sources.folder / name, error));
+}
+
+bool read_buffer(std::vector<unsigned char>* bytes, std::string* message, const std::string& name, void* user)
+{
+  const Buffer_sources& sources = *static_cast<const Buffer_sources*>(user);
+  if (name == s_embedded_buffer) {
+    bytes->assign(sources.embedded.begin(), sources.embedded.end());
+    return true;
+  }
+  std::ifstream stream(*sources.folder / name, std::ios::binary);
+  bytes->assign(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+  if (stream.bad() || bytes->empty())
+    *message = "it is empty or cannot be read";
+  return message->empty();
+}
+
+/// A copy without what tinygltf would only have to get wrong.
+Json without_extensions(const Json& value)
+{
+  if (!value.is_structured())
+    return value;
+  Json result = value.is_array() ? Json::array() : Json::object();
+  for (auto it = value.begin(); it != value.end(); ++it)
+    if (value.is_array())
+      result.push_back(without_extensions(*it));
+    else if (it.key() != "extras" && it.key() != "extensions")
+      result[it.key()] = without_extensions(*it);
+  return result;
+}
+
+void load(const std::optional<std::string_view>& embedded, const std::filesystem::path* folder,
+          Gltf_document& document)
+{
+  Json reduced;
+  for (const char* name :
+       {"asset", "buffers", "bufferViews", "accessors", "meshes", "nodes", "scenes", "scene"})
+    if (document.json.contains(name))
+      reduced[name] = without_extensions(document.json[name]);
+  Buffer_sources sources{embedded.value_or(""), folder};
+  const Json& buffers = member(reduced, "buffers");
+  if (embedded && buffers.is_array() && !buffers.empty() && buffers[0].is_object() &&
+      !buffers[0].contains("uri")) {
+    reduced["buffers"][0]["uri"] = s_embedded_buffer;
+    // The chunk may be longer, by its padding.
+    sources.embedded = embedded->substr(0, buffers[0].value("byteLength", std::size_t(0)));
+  }
+  const std::string text = reduced.dump();
+  tinygltf::TinyGLTF loader;
+  loader.SetFsCallbacks({buffer_exists, [](const std::string& name, void*) { return name; }, read_buffer,
+                         tinygltf::WriteWholeFile, &sources});
+  std::string error, warning;
+  const bool is_loaded =
+      loader.LoadASCIIFromString(&document.model, &error, &warning, text.data(), unsigned(text.size()), "");
+  if (!is_loaded || !error.empty()) {
+    std::replace(error.begin(), error.end(), '\n', ' ');
+    error.erase(error.find_last_not_of(" .") + 1);
+    document.fail("not a valid glTF file (" + error + "); export it again");
+  }
+}
+
+/// What tinygltf lets pass: lists out of step with the document, and transforms that are none.
+void check_lists(const Gltf_document& document)
+{
+  const tinygltf::Model& model = document.model;
+  const auto is_whole = [](const Json& list, std::size_t size) {
+    return list.is_array() && list.size() == size;
+  };
+  bool is_in_step = true;
+  is_in_step &= is_whole(member(document.json, "meshes"), model.meshes.size());
+  is_in_step &= is_whole(member(document.json, "nodes"), model.nodes.size());
+  is_in_step &= is_whole(member(document.json, "accessors"), model.accessors.size());
+  is_in_step &= is_whole(member(document.json, "bufferViews"), model.bufferViews.size());
+  for (std::size_t m = 0; m < model.meshes.size() && is_in_step; ++m) {
+    const Json& primitives = member(document.json["meshes"][m], "primitives");
+    is_in_step &= is_whole(primitives, model.meshes[m].primitives.size());
+    for (std::size_t p = 0; p < model.meshes[m].primitives.size() && is_in_step; ++p)
+      is_in_step &= primitives[p].is_object() &&
+                    is_whole(member(primitives[p], "targets"), model.meshes[m].primitives[p].targets.size());
+  }
+  if (!is_in_step)
+    document.fail(
+        "not a valid glTF file (a list holds something that does not belong there); export it again");
+  for (std::size_t n = 0; n < model.nodes.size(); ++n) {
+    const tinygltf::Node& node = model.nodes[n];
+    const Json& json = document.json["nodes"][n];
+    const auto has_size = [&](const char* name, const std::vector<double>& values, std::size_t size) {
+      return json.contains(name) &&
+             (!node.matrix.empty() && &values != &node.matrix ? false : values.size() != size);
+    };
+    if (has_size("matrix", node.matrix, 16) || has_size("translation", node.translation, 3) ||
+        has_size("rotation", node.rotation, 4) || has_size("scale", node.scale, 3))
+      document.fail("node " + std::to_string(n) + " has a transform of the wrong length; correct it");
+    if (!node.matrix.empty() &&
+        (node.matrix[3] != 0 || node.matrix[7] != 0 || node.matrix[11] != 0 || node.matrix[15] != 1))
+      document.fail("node " + std::to_string(n) +
+                    " has a matrix whose last row is not 0 0 0 1; apply the transform to the mesh");
+  }
+}
+
+/// Its rotation is not normalised; that keeps every entry one formula of the numbers in the file.
+Matrix local_matrix(const tinygltf::Node& node)
+{
+  Matrix result = identity_matrix;
+  if (!node.matrix.empty()) {
+    for (std::size_t row = 0; row < 3; ++row)
+      for (std::size_t column = 0; column < 4; ++column)
+        result[row][column] = node.matrix[4 * column + row];
+    return result;
+  }
+  if (!node.rotation.empty()) {
+    const double x = node.rotation[0], y = node.rotation[1], z = node.rotation[2], w = node.rotation[3];
+    result = {{{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w), 0},
+               {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w), 0},
+               {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y), 0}}};
+  }
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3 && !node.scale.empty(); ++column)
+      result[row][column] *= node.scale[column];
+    if (!node.translation.empty())
+      result[row][3] = node.translation[row];
+  }
+  return result;
+}
+
+/// See mesh_files.h for the formula.
+Matrix product(const Matrix& a, const Matrix& b)
+{
+  Matrix result;
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t column = 0; column < 4; ++column) {
+      result[row][column] = a[row][0] * b[0][column] + a[row][1] * b[1][column] + a[row][2] * b[2][column];
+      if (column == 3)
+        result[row][column] += a[row][3];
+    }
+  return result;
+}
+
+/// Global transforms of the nodes of the scene, which must be a forest.
+void place_nodes(Gltf_document& document)
+{
+  const tinygltf::Model& model = document.model;
+  const std::size_t size = model.nodes.size();
+  document.to_world.resize(size);
+  std::vector<int> stack;
+  if (model.scenes.empty()) {
+    std::vector<char> is_child(size, false);
+    for (const tinygltf::Node& node : model.nodes)
+      for (const int child : node.children)
+        if (child >= 0 && std::size_t(child) < size)
+          is_child[child] = true;
+    for (std::size_t n = 0; n < size; ++n)
+      if (!is_child[n])
+        stack.push_back(int(n));
+  } else {
+    const std::size_t scene = model.defaultScene < 0 ? 0 : std::size_t(model.defaultScene);
+    if (scene >= model.scenes.size())
+      document.fail("its scene is number " + std::to_string(scene) + ", but there are only " +
+                    std::to_string(model.scenes.size()) + "; correct it");
+    stack = model.scenes[scene].nodes;
+  }
+  const auto enter = [&](int n, const Matrix& parent) {
+    if (n < 0 || std::size_t(n) >= size)
+      document.fail("its scene names node " + std::to_string(n) + ", which is not there; correct it");
+    if (document.to_world[n])
+      document.fail("node " + std::to_string(n) + " stands in the scene twice; give each node one parent");
+    document.to_world[n] = product(parent, local_matrix(model.nodes[n]));
+  };
+  for (const int root : stack)
+    enter(root, identity_matrix);
+  while (!stack.empty()) {
+    const int n = stack.back();
+    stack.pop_back();
+    for (const int child : model.nodes[n].children) {
+      enter(child, *document.to_world[n]);
+      stack.push_back(child);
+    }
+  }
+}
+
+} // namespace
+
+void Gltf_document::fail(const std::string& message) const
+{
+  throw Input_error(name + ": " + message);
+}
+
+Gltf_document read_gltf_document(std::string_view contents, Mesh_format format, const std::string& name,
+                                 const std::filesystem::path* folder)
+{
+  Gltf_document document;
+  document.name = name;
+  const Chunks chunks = format == Mesh_format::glb ? split(contents, document) : Chunks{contents, {}};
+  parse(chunks.json, document);
+  refuse_extensions(document);
+  load(chunks.embedded, folder, document);
+  check_lists(document);
+  place_nodes(document);
+  return document;
+}
+
+const Gltf_scene::Json& member(const Gltf_scene::Json& object, const char* name)
+{
+  static const Json none = Json::array();
+  const auto found = object.find(name);
+  return found == object.end() ? none : *found;
+}
+
+} // namespace selvedge::files

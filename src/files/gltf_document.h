@@ -1,0 +1,40 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SRC_FILES_GLTF_DOCUMENT_H
+#define SELVEDGE_SRC_FILES_GLTF_DOCUMENT_H
+
+#include "files/gltf_scene.h"
+
+#include <selvedge/mesh/mesh_files.h>
+
+#include <tiny_gltf.h>
+
+#include <optional>
+
+namespace selvedge::files {
+
+/// A glTF file, as JSON and as tinygltf understands it. The lists of both are in step, the nodes of the scene
+/// are a forest. What accessors and buffer views say of themselves is not checked yet.
+struct Gltf_document
+{
+  std::string name; ///< stands for the file in messages
+  Gltf_scene::Json json;
+  tinygltf::Model model;
+  std::vector<std::optional<Gltf_scene::Matrix>> to_world; ///< of every node that is in the scene
+
+  /// Throws an `Input_error` that names the file.
+  [[noreturn]] void fail(const std::string& message) const;
+};
+
+/// Throws `Input_error` or an exception of the JSON library where the file is not one that can be read.
+/// `folder` is where buffers in files of their own are looked for; null when there is none.
+Gltf_document read_gltf_document(std::string_view contents, Mesh_format format, const std::string& name,
+                                 const std::filesystem::path* folder);
+
+/// A list in an object; an empty one where it is not there.
+const Gltf_scene::Json& member(const Gltf_scene::Json& object, const char* name);
+
+} // namespace selvedge::files
+
+#endif // SELVEDGE_SRC_FILES_GLTF_DOCUMENT_H
