@@ -6,8 +6,7 @@
 #include "files/Text_reader.h"
 #include "files/columns.h"
 #include "files/formats.h"
-
-#include <selvedge/mesh/rounding.h>
+#include "files/ply_types.h"
 
 #include <algorithm>
 #include <array>
@@ -18,9 +17,6 @@ namespace selvedge::files {
 namespace {
 
 using Type = Attribute::Type;
-
-constexpr std::array<std::string_view, 8> type_names = {"char", "uchar", "short", "ushort",
-                                                        "int",  "uint",  "float", "double"};
 
 std::size_t size_of(Type type)
 {
@@ -153,8 +149,7 @@ public:
         const std::int64_t value = m_text.integer();
         if (value < std::numeric_limits<Number>::min() || value > std::numeric_limits<Number>::max())
           fail("the value " + std::to_string(value) + " is not of the type " +
-               std::string(type_names[static_cast<std::size_t>(type)]) +
-               " that the header announces; correct the header");
+               std::string(ply_type_name(type)) + " that the header announces; correct the header");
         append_number(rows, static_cast<Number>(value));
       } else {
         append_number(rows, m_text.real<Number>());
@@ -276,17 +271,10 @@ private:
 
   Type read_type(std::string_view name) const
   {
-    static const std::unordered_map<std::string_view, Type> types = {
-        {"char", Type::int8},      {"int8", Type::int8},       {"uchar", Type::uint8},
-        {"uint8", Type::uint8},    {"short", Type::int16},     {"int16", Type::int16},
-        {"ushort", Type::uint16},  {"uint16", Type::uint16},   {"int", Type::int32},
-        {"int32", Type::int32},    {"uint", Type::uint32},     {"uint32", Type::uint32},
-        {"float", Type::float32},  {"float32", Type::float32}, {"double", Type::float64},
-        {"float64", Type::float64}};
-    const auto found = types.find(name);
-    if (found == types.end())
-      m_text.fail("the header has an unknown type " + in_quotes(name) + "; convert the file");
-    return found->second;
+    for (std::size_t i = 0; i < ply_type_names.size(); ++i)
+      if (name == ply_type_names[i][0] || name == ply_type_names[i][1])
+        return static_cast<Type>(i);
+    m_text.fail("the header has an unknown type " + in_quotes(name) + "; convert the file");
   }
 
   /// Reads the vertices first, wherever they stand: cutting polygons needs them.
@@ -597,214 +585,11 @@ private:
   std::unordered_map<std::string, Index> m_uv_numbers; // by their bytes
 };
 
-/// Writes numbers one after the other, in the encoding asked for.
-class Value_writer
-{
-public:
-  Value_writer(Byte_writer& out, Encoding encoding) : m_out(out), m_encoding(encoding) {}
-
-  template <class Number>
-  void write(Number number)
-  {
-    if (m_encoding == Encoding::ascii) {
-      if (!m_is_line_begin)
-        m_out << ' ';
-      m_out << number;
-      m_is_line_begin = false;
-    } else if constexpr (sizeof number == 1) {
-      m_out << static_cast<char>(number);
-    } else {
-      m_out.binary(number, m_encoding == Encoding::binary_big_endian);
-    }
-  }
-
-  void write_real(double value, bool as_float32)
-  {
-    // The same text in both cases: a decimal is read as the double nearest to it.
-    if (as_float32 && m_encoding != Encoding::ascii)
-      write(static_cast<float>(value));
-    else
-      write(value);
-  }
-
-  void end_element()
-  {
-    if (m_encoding == Encoding::ascii)
-      m_out << '\n';
-    m_is_line_begin = true;
-  }
-
-private:
-  Byte_writer& m_out;
-  Encoding m_encoding;
-  bool m_is_line_begin = true;
-};
-
-template <class Rows>
-bool are_float32(const Rows& rows, std::size_t dimension)
-{
-  return std::all_of(rows.begin(), rows.end(), [&](const auto& row) {
-    for (std::size_t i = 0; i < dimension; ++i)
-      if (!is_float32(row[static_cast<int>(i)]) && !std::isnan(row[static_cast<int>(i)]))
-        return false;
-    return true;
-  });
-}
-
-struct Named_column
-{
-  std::string name;
-  Column column;
-};
-
-/// Whether a reader finds the same name again.
-bool is_property_name(const std::string& name)
-{
-  return name.find_first_of(" \t\r\v\f\n") == std::string::npos && (name.empty() || name.back() != '\\');
-}
-
-/// The components of attributes, one property each.
-std::vector<Named_column> columns_of(const std::vector<Attribute>& attributes)
-{
-  std::vector<Named_column> columns;
-  for (const Attribute& attribute : attributes)
-    for (std::size_t i = 0; i < attribute.components; ++i)
-      columns.push_back(
-          {attribute.components == 1 ? attribute.name : attribute.name + '_' + std::to_string(i),
-           {&attribute, i}});
-  return columns;
-}
-
-void write_properties(Byte_writer& out, const std::vector<Named_column>& columns)
-{
-  for (const auto& [name, column] : columns) {
-    if (!is_property_name(name))
-      throw Argument_error("the attribute name " + in_quotes(name) +
-                           " cannot stand in a PLY file; rename the attribute");
-    out << "property " << type_names[static_cast<std::size_t>(column.attribute->type)] << ' ' << name << '\n';
-  }
-}
-
-void write_properties(Byte_writer& out, bool as_float32, std::initializer_list<std::string_view> names)
-{
-  for (const std::string_view name : names)
-    out << "property " << (as_float32 ? "float " : "double ") << name << '\n';
-}
-
-/// What a PLY file says of a soup, and where.
-struct Ply_layout
-{
-  explicit Ply_layout(const Triangle_soup& soup)
-      : vertex_columns(columns_of(soup.vertex_attributes)),
-        face_columns(columns_of(soup.triangle_attributes)), normals(values_of_vertices(soup.normals, soup))
-  {
-    if (soup.uvs.empty())
-      return;
-    const bool is_name_free = std::none_of(vertex_columns.begin(), vertex_columns.end(),
-                                           [](const auto& c) { return c.name == "s" || c.name == "t"; });
-    has_vertex_uvs = is_name_free && !soup.uvs.missing && soup.uvs.of_triangle == soup.triangles &&
-                     soup.uvs.values.size() == soup.points.size();
-    has_face_uvs = !has_vertex_uvs;
-  }
-
-  std::vector<Named_column> vertex_columns, face_columns;
-  std::vector<std::array<double, 3>> normals; // of vertices
-  bool has_vertex_uvs = false, has_face_uvs = false;
-};
-
 } // namespace
 
 Mesh_file read_ply(std::string_view contents, const std::string& name)
 {
   return Ply_reader(contents, name).read();
-}
-
-std::vector<std::array<double, 3>> values_of_vertices(const Corner_values<3>& values,
-                                                      const Triangle_soup& soup)
-{
-  if (values.empty() || values.missing)
-    return {};
-  if (values.of_triangle == soup.triangles && values.values.size() == soup.points.size())
-    return values.values;
-  constexpr Index none = std::numeric_limits<Index>::max();
-  std::vector<Index> numbers(soup.points.size(), none);
-  std::vector<std::array<double, 3>> result(soup.points.size(), {0, 0, 0});
-  for (std::size_t i = 0; i < soup.triangles.size(); ++i)
-    for (int corner = 0; corner < 3; ++corner) {
-      const Index vertex = soup.triangles[i][corner], number = values.of_triangle[i][corner];
-      const auto& value = values.values[number];
-      if (numbers[vertex] == none)
-        result[vertex] = value;
-      else if (numbers[vertex] != number && std::memcmp(&result[vertex], &value, sizeof value) != 0)
-        return {};
-      numbers[vertex] = number;
-    }
-  return result;
-}
-
-void write_ply(Byte_writer& out, const Triangle_soup& soup, const Write_options& options)
-{
-  const Ply_layout layout(soup);
-  const bool as_float32 = are_float32(soup.points, 3), float32_normals = are_float32(layout.normals, 3),
-             float32_uvs = are_float32(soup.uvs.values, 2);
-  // Many readers know only signed indices.
-  const bool is_small =
-      soup.points.size() <= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
-  out << "ply\nformat "
-      << (options.encoding == Encoding::ascii               ? "ascii"
-          : options.encoding == Encoding::binary_big_endian ? "binary_big_endian"
-                                                            : "binary_little_endian")
-      << " 1.0\n";
-  for (const std::string& comment : options.comments)
-    out << "comment " << comment << '\n';
-  for (const std::string& comment : soup.header_comments)
-    out << comment << '\n';
-  out << "element vertex " << soup.points.size() << '\n';
-  write_properties(out, as_float32, {"x", "y", "z"});
-  if (!layout.normals.empty())
-    write_properties(out, float32_normals, {"nx", "ny", "nz"});
-  if (layout.has_vertex_uvs)
-    write_properties(out, float32_uvs, {"s", "t"});
-  write_properties(out, layout.vertex_columns);
-  out << "element face " << soup.triangles.size() << "\nproperty list uchar " << (is_small ? "int" : "uint")
-      << " vertex_indices\n";
-  if (layout.has_face_uvs)
-    out << "property list uchar " << (float32_uvs ? "float" : "double") << " texcoord\n";
-  write_properties(out, layout.face_columns);
-  out << "end_header\n";
-
-  Value_writer values(out, options.encoding);
-  const auto write_columns = [&values](const std::vector<Named_column>& columns, std::size_t row) {
-    for (const auto& [name, column] : columns)
-      column.with(row, [&](auto number) { values.write(number); });
-  };
-  for (std::size_t i = 0; i < soup.points.size(); ++i) {
-    for (int axis = 0; axis < 3; ++axis)
-      values.write_real(soup.points[i][axis], as_float32);
-    if (!layout.normals.empty())
-      for (const double coordinate : layout.normals[i])
-        values.write_real(coordinate, float32_normals);
-    if (layout.has_vertex_uvs)
-      for (const double coordinate : soup.uvs.values[i])
-        values.write_real(coordinate, float32_uvs);
-    write_columns(layout.vertex_columns, i);
-    values.end_element();
-  }
-  for (std::size_t i = 0; i < soup.triangles.size(); ++i) {
-    values.write(std::uint8_t{3});
-    for (const Index corner : soup.triangles[i])
-      values.write(corner);
-    if (layout.has_face_uvs) {
-      const bool has_uvs = soup.uvs.of_triangle[i][0] != soup.uvs.missing;
-      values.write(std::uint8_t(has_uvs ? 6 : 0));
-      for (int corner = 0; corner < 3 && has_uvs; ++corner)
-        for (const double coordinate : soup.uvs.values[soup.uvs.of_triangle[i][corner]])
-          values.write_real(coordinate, float32_uvs);
-    }
-    write_columns(layout.face_columns, i);
-    values.end_element();
-  }
-  out.commit();
 }
 
 } // namespace selvedge::files

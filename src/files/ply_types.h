@@ -1,0 +1,31 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SRC_FILES_PLY_TYPES_H
+#define SELVEDGE_SRC_FILES_PLY_TYPES_H
+
+#include <selvedge/mesh/Triangle_soup.h>
+
+#include <array>
+#include <string_view>
+
+namespace selvedge::files {
+
+/// What headers call each type: the name that is written, and another that is read as well.
+constexpr std::array<std::array<std::string_view, 2>, 8> ply_type_names = {{{"char", "int8"},
+                                                                            {"uchar", "uint8"},
+                                                                            {"short", "int16"},
+                                                                            {"ushort", "uint16"},
+                                                                            {"int", "int32"},
+                                                                            {"uint", "uint32"},
+                                                                            {"float", "float32"},
+                                                                            {"double", "float64"}}};
+
+constexpr std::string_view ply_type_name(Attribute::Type type)
+{
+  return ply_type_names[static_cast<std::size_t>(type)][0];
+}
+
+} // namespace selvedge::files
+
+#endif // SELVEDGE_SRC_FILES_PLY_TYPES_H
