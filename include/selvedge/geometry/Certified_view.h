@@ -50,10 +50,10 @@ public:
     m_upper.fill(std::numeric_limits<double>::infinity());
     bound_errors(0);
     const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
-    const double inverse = 1 / length;
-    m_is_directed = std::isfinite(length) && std::isfinite(inverse);
+    m_is_directed = length > s_least_normal && length < 1 / s_least_normal;
     if (!m_is_directed)
       return;
+    const double inverse = 1 / length;
     const Vector n{normal[0] * inverse, normal[1] * inverse, normal[2] * inverse};
     // Right angles are good to have, and not needed.
     const std::size_t least = std::fabs(n[0]) <= std::fabs(n[1]) && std::fabs(n[0]) <= std::fabs(n[2])
@@ -241,6 +241,7 @@ private:
   };
 
   static constexpr double s_least = 1e-90, s_largest = 1e90;
+  static constexpr double s_least_normal = 1e-150; // the squares of shorter ones are less exact
 
   // With r for the largest distance from the origin (in the 1-norm) and ε = 2⁻⁵³: a coordinate is at most r
   // (1 + 8 ε) and wrong by at most 8 ε r; a difference of two by 18 ε r. A side is a sum of two products of
