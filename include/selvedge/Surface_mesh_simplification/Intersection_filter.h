@@ -29,15 +29,16 @@ namespace selvedge {
 /// have the same three positions, and any two meet exactly in the positions (none, one, or two and the edge
 /// between them) that they share:
 /// 1. *Embedded*: it is so after every collapse.
-/// 2. *Motion*: between two collapses nothing passes through anything. A merged vertex at one end of the edge
-/// means
-///    that the other moves there on a straight line; one elsewhere means two such motions, one after the
-///    other, in whichever order is free.
+/// 2. *Motion*: between two collapses nothing passes through anything. A merged vertex at one end of the
+///    edge means that the other moves there on a straight line; one elsewhere means two such motions, one
+///    after the other, in whichever order is free.
 /// 3. A vertex that shares its position with another vertex does not move; others may move to where it is.
 ///
 /// **Preconditions** the caller must ensure: the mesh outlives the filter, and between its construction and
-/// the end of the loop changes by the loop alone, with the visitor attached. Checked, in every build: no edge
-/// has length zero, which CGAL's loop would collapse without asking (`Argument_error`).
+/// the end of the loop changes by the loop alone, with the visitor attached; around every vertex there is one
+/// fan of faces, for others the vertex does not lead to (`CGAL::Polygon_mesh_processing` duplicates such
+/// vertices). Checked, in every build: no edge has length zero, which CGAL's loop would collapse without
+/// asking (`Argument_error`).
 ///
 /// **Not promised** for a mesh that is not embedded at the start; see `simplify` for what can be done there.
 ///
