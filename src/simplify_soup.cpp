@@ -71,6 +71,24 @@ void take_away(Triangle_soup& soup, const Triangle_soup& obstacle)
   soup.triangles.resize(soup.triangles.size() - obstacle.triangles.size());
 }
 
+// Positions of a soup and its obstacle; those of the obstacle follow.
+std::vector<Index> number_positions_of_both(const Triangle_soup& soup, const Triangle_soup& obstacle)
+{
+  std::vector<Point_3> points = soup.points;
+  points.insert(points.end(), obstacle.points.begin(), obstacle.points.end());
+  return number_positions(points);
+}
+
+// Vertices that rounding has taken from one position no longer share it: where some have moved and others, of
+// an obstacle, have not. `after` numbers the positions as they are now.
+void take_apart(std::vector<Index>& positions, const std::vector<Index>& after)
+{
+  std::vector<Index> first_left(positions.size(), std::numeric_limits<Index>::max()); // by position before
+  for (Index v = 0; v < positions.size(); ++v)
+    if (after[v] != after[positions[v]])
+      positions[v] = first_left[positions[v]] = std::min(first_left[positions[v]], v);
+}
+
 Triangle_soup geometry_of_both(const Triangle_soup& soup, const Triangle_soup& obstacle)
 {
   Triangle_soup both;
@@ -280,10 +298,8 @@ Prepared_soup prepare(Triangle_soup input, const Prepare_options& options, const
 
   Clock::time_point start = Clock::now();
   prepared.obstacle.points = obstacle.points;
+  prepared.positions = number_positions_of_both(soup, obstacle);
   {
-    std::vector<Point_3> points = soup.points;
-    points.insert(points.end(), obstacle.points.begin(), obstacle.points.end());
-    prepared.positions = number_positions(points);
     const std::vector<Index> positions(prepared.positions.begin() + soup.points.size(),
                                        prepared.positions.end());
     std::copy_if(obstacle.triangles.begin(), obstacle.triangles.end(),
@@ -302,7 +318,7 @@ Prepared_soup prepare(Triangle_soup input, const Prepare_options& options, const
   };
   prepared.left_out_faces = leave_out(prepared.positions);
 
-  // The defects that the input had before it was rounded, and where its vertices then fall together.
+  // The defects that the input had before it was rounded, and where vertices are afterwards.
   std::vector<Offending_pair> pairs_before;
   std::vector<Index> positions_after;
   if (options.round_to_float32) {
@@ -310,8 +326,9 @@ Prepared_soup prepare(Triangle_soup input, const Prepare_options& options, const
     unrounded.points = soup.points;
     prepared.rounding = round_to_float32(soup);
     if (prepared.rounding.coordinates > 0) {
-      positions_after = number_positions(soup.points);
+      positions_after = number_positions_of_both(soup, obstacle);
       prepared.left_out_by_rounding = leave_out(positions_after);
+      take_apart(prepared.positions, positions_after);
       unrounded.triangles = soup.triangles;
       append(unrounded, prepared.obstacle);
       prepared.seconds_weld = seconds_since(start);
@@ -340,13 +357,12 @@ Prepared_soup prepare(Triangle_soup input, const Prepare_options& options, const
           });
   }
   if (!positions_after.empty()) {
-    std::vector<char> is_merged(soup.points.size(), false);
+    std::vector<char> is_merged(soup.points.size(), false); // by position after: it was several
     for (Index v = 0; v < positions_after.size(); ++v)
-      if (prepared.positions[v] != prepared.positions[positions_after[v]])
-        is_merged[v] = is_merged[positions_after[v]] = true;
+      is_merged[positions_after[v]] |= prepared.positions[v] != prepared.positions[positions_after[v]];
     for (Index t = 0; t < own_triangles; ++t)
       for (const Index v : soup.triangles[t])
-        prepared.is_frozen[t] |= is_merged[v];
+        prepared.is_frozen[t] |= is_merged[positions_after[v]];
   }
   prepared.frozen_faces =
       std::count(prepared.is_frozen.begin(), prepared.is_frozen.begin() + own_triangles, true);
@@ -357,8 +373,8 @@ Prepared_soup prepare(Triangle_soup input, const Prepare_options& options, const
   std::vector<Index> transforms = transforms_of_vertices(soup);
   if (!transforms.empty()) // no node has the positions of an obstacle
     transforms.resize(soup.points.size(), std::numeric_limits<Index>::max());
-  prepared.snapping =
-      snap_borders(soup, prepared.positions, prepared.is_frozen, options.weld_distance, transforms);
+  prepared.snapping = snap_borders(soup, prepared.positions, prepared.is_frozen, options.weld_distance,
+                                   transforms, prepared.obstacle.triangles.size());
   prepared.seconds_snap = seconds_since(start);
   take_away(soup, prepared.obstacle);
   return prepared;

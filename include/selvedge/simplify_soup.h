@@ -44,8 +44,9 @@ struct Prepared_soup
   /// position. Where vertices and triangles are numbered below, its own follow those of `soup`.
   Triangle_soup obstacle;
 
-  /// For every vertex the first vertex at its position. What only rounding has made equal counts as
-  /// different.
+  /// For every vertex the first vertex at its position. Those count as at one position that are at one before
+  /// rounding and after it: not those that only rounding has made equal, nor those that it has taken apart, a
+  /// vertex of the soup from one of the obstacle.
   std::vector<Index> positions;
 
   /// What keeps `soup` and `obstacle` together from being embedded; found exactly.
@@ -54,9 +55,9 @@ struct Prepared_soup
   /// Those among them that rounding has made; a number apart from the input's own defects.
   std::size_t pairs_by_rounding = 0;
 
-  /// For every triangle: does it belong to an offending pair, or touch another only because of rounding? Its
-  /// vertices will not move, so that every offending pair stays as it is and none is added. So do all
-  /// triangles of the obstacle.
+  /// For every triangle: does it belong to an offending pair, or have a corner where only rounding has made
+  /// positions equal? Its vertices will not move, so that every offending pair stays as it is and none is
+  /// added. So do all triangles of the obstacle.
   std::vector<char> is_frozen;
   std::size_t frozen_faces = 0; ///< of `soup`
 
@@ -78,7 +79,8 @@ struct Prepared_soup
 /// numbers of the input.
 ///
 /// An `obstacle`, a body under the clothes, say, is seen by everything and never changed, not even rounded.
-/// Pairs that offend between it and the input are frozen like others.
+/// Pairs that offend between it and the input are frozen like others, and so are faces of the input that only
+/// rounding has brought to a vertex of it. The input is not sewn to it: along it, it keeps its own borders.
 ///
 /// **Threads** The judge takes what oneTBB grants; see verify.h.
 Prepared_soup prepare(Triangle_soup input, const Prepare_options& options = {},

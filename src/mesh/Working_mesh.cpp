@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numeric>
@@ -23,12 +24,16 @@ namespace {
 constexpr Index s_none = std::numeric_limits<Index>::max();
 
 /// Which sides of triangles are sewn together, and which corners so become one vertex. Side 3i+k runs from
-/// corner 3i+k to the next corner of triangle i.
+/// corner 3i+k to the next corner of triangle i. The first sides are the soup's own, the others an
+/// obstacle's; these are never sewn to those, so that the soup has the borders that it has without an
+/// obstacle.
 class Sewing
 {
 public:
-  Sewing(const std::vector<Index_triple>& triangles, Index position_count, Welding_notes& notes)
-      : m_triangles(triangles), m_position_count(position_count), m_mates(3 * triangles.size(), s_none)
+  Sewing(const std::vector<Index_triple>& triangles, Index own_sides, Index position_count,
+         Welding_notes& notes)
+      : m_triangles(triangles), m_own_sides(own_sides), m_position_count(position_count),
+        m_mates(3 * triangles.size(), s_none)
   {
     sew(notes);
     number_vertices();
@@ -48,8 +53,10 @@ public:
 private:
   Index position(Index corner) const { return m_triangles[corner / 3][corner % 3]; }
 
+  bool is_own(Index side) const { return side < m_own_sides; }
+
   // Two sides make an edge when they are all that lies there, run opposite ways, and belong to different
-  // triangles of positions.
+  // triangles of positions. What lies there of an obstacle counts apart.
   void sew(Welding_notes& notes)
   {
     struct Side
@@ -73,13 +80,15 @@ private:
         return std::tie(a.high, a.side) < std::tie(b.high, b.side);
       });
       for (auto it = begin, beyond = begin; it != end; it = beyond) {
-        beyond = std::find_if(it, end, [it](const Side& side) { return side.high != it->high; });
+        beyond = std::find_if(it, end, [&](const Side& side) {
+          return side.high != it->high || is_own(side.side) != is_own(it->side);
+        });
         sew(it, beyond, notes);
       }
     }
   }
 
-  // All sides of one place.
+  // All sides of one place. Notes are of the soup's own.
   template <class Iterator>
   void sew(Iterator first, Iterator beyond, Welding_notes& notes)
   {
@@ -87,8 +96,8 @@ private:
       return;
     const Index a = first->side, b = first[1].side;
     const bool is_opposite = position(a) != position(b);
-    notes.non_manifold_edges += beyond - first > 2;
-    notes.misoriented_edges += beyond - first == 2 && !is_opposite;
+    notes.non_manifold_edges += is_own(a) && beyond - first > 2;
+    notes.misoriented_edges += is_own(a) && beyond - first == 2 && !is_opposite;
     if (beyond - first == 2 && is_opposite && position(previous(a)) != position(previous(b))) {
       m_mates[a] = b;
       m_mates[b] = a;
@@ -147,6 +156,7 @@ private:
   }
 
   const std::vector<Index_triple>& m_triangles; // of positions
+  Index m_own_sides;
   Index m_position_count;
   std::vector<Index> m_mates;
   std::vector<Index> m_vertices;
@@ -232,21 +242,24 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
         {positions[own_vertices + a], positions[own_vertices + b], positions[own_vertices + c]});
   }
 
-  const Sewing sewing(triangles, Index(positions.size()), m_notes);
+  const Sewing sewing(triangles, own_corners, Index(positions.size()), m_notes);
   m_mesh.reserve(sewing.vertex_count(), corner_count / 2 + 1, Index(triangles.size()));
   std::vector<Index> position_of_vertex;
   std::vector<Index> vertices_at(positions.size(), 0); // how many, by position
-  for (Corner corner = 0; corner < corner_count; ++corner) {
-    if (sewing.vertex(corner) != m_mesh.number_of_vertices())
-      continue; // vertices are numbered by their first corners
-    const Index position = triangles[corner / 3][corner % 3];
-    m_mesh.add_vertex(position < own_vertices ? soup.points[position]
-                                              : obstacle.points[position - own_vertices]);
-    position_of_vertex.push_back(position);
-    ++vertices_at[position];
-  }
+  const auto add_vertices = [&](const Triangle_soup& from, Corner first) {
+    for (Corner i = 0; i < 3 * from.triangles.size(); ++i) {
+      const Corner corner = first + i;
+      if (sewing.vertex(corner) != m_mesh.number_of_vertices())
+        continue; // vertices are numbered by their first corners
+      m_mesh.add_vertex(from.points[from.triangles[i / 3][i % 3]]);
+      position_of_vertex.push_back(triangles[corner / 3][corner % 3]);
+      ++vertices_at[position_of_vertex.back()];
+    }
+  };
+  add_vertices(soup, 0);
   m_notes.unwelded_positions =
       std::count_if(vertices_at.begin(), vertices_at.end(), [](Index count) { return count > 1; });
+  add_vertices(obstacle, own_corners);
 
   std::vector<char> is_locked(m_mesh.number_of_vertices(), false);
   for (Index v = 0; v < is_locked.size(); ++v)
@@ -263,10 +276,19 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
     m_places[halfedges[side]] = Sewing::next(side) % 3;
   for (Index side = 0; side < own_corners; ++side) {
     const Index mate = sewing.mate(side), end = Sewing::next(side);
-    if (mate < own_corners && side < mate && (is_line(side, Sewing::next(mate)) || is_line(end, mate)))
+    if (mate != s_none && side < mate && (is_line(side, Sewing::next(mate)) || is_line(end, mate)))
       m_constraints.line_edges.push_back(m_mesh.edge(halfedges[side]));
   }
   m_notes.seam_edges = m_constraints.line_edges.size();
+
+  if (!obstacle.triangles.empty()) { // the limits are shares of the diagonal of the soup
+    CGAL::Bbox_3 box;
+    for (const Index_triple& triangle : soup.triangles)
+      for (const Index v : triangle)
+        box += soup.points[v].bbox();
+    m_constraints.diagonal =
+        std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
+  }
 }
 
 bool Working_mesh::is_line(Corner a, Corner b) const
@@ -385,8 +407,7 @@ bool Working_mesh::keeps_pieces(Mesh::Halfedge_index moving, const Border_rule<M
   // By their numbers, the vertices of a line are open (each side has its own) or closed. Runs of open ones
   // are boundary loops of pieces or stretches of them, so none may vanish, and no two may meet.
   const auto is_open_at_end = [this](Mesh::Halfedge_index h) {
-    const Mesh::Face_index side = m_mesh.face(h), other_side = m_mesh.face(m_mesh.opposite(h));
-    if (!m_mesh.is_valid(side) || !m_mesh.is_valid(other_side) || !is_own(side) || !is_own(other_side))
+    if (m_mesh.is_border(h) || m_mesh.is_border(m_mesh.opposite(h)))
       return true;
     return vertex_of(corner_at(h)) != vertex_of(corner_at(m_mesh.prev(m_mesh.opposite(h))));
   };
@@ -505,7 +526,7 @@ void Working_mesh::for_each_moved_wedge(Mesh::Halfedge_index moving, const Funct
     return;
   Index done = s_none;
   for (const Mesh::Halfedge_index h : {moving, m_mesh.opposite(moving)}) {
-    if (m_mesh.is_border(h) || !is_own(m_mesh.face(h)))
+    if (m_mesh.is_border(h))
       continue;
     const auto [from, to] = corners_at_ends(moving, h);
     const Index wedge = m_wedge_of[from];

@@ -35,13 +35,14 @@ class Border_snapping
 {
 public:
   Border_snapping(const Triangle_soup& soup, const std::vector<Index>& positions,
-                  const std::vector<char>& is_frozen, double distance, const std::vector<Index>& transforms)
+                  const std::vector<char>& is_frozen, double distance, const std::vector<Index>& transforms,
+                  std::size_t obstacle_triangles)
       : m_points(soup.points), m_distance(distance), m_moved_to(soup.points.size(), s_none)
   {
     m_triangles.reserve(soup.triangles.size());
     for (const Index_triple& v : soup.triangles)
       m_triangles.push_back({positions[v[0]], positions[v[1]], positions[v[2]]});
-    find_borders();
+    find_borders(m_triangles.size() - obstacle_triangles);
     gather_faces(is_frozen);
     if (!transforms.empty())
       gather_transforms(soup, transforms);
@@ -122,12 +123,12 @@ private:
     sides.erase(kept, sides.end());
   }
 
-  void find_borders()
+  void find_borders(std::size_t own_triangles)
   {
-    m_sides.reserve(3 * m_triangles.size());
-    for (const Index_triple& triangle : m_triangles)
+    m_sides.reserve(3 * own_triangles);
+    for (std::size_t face = 0; face < own_triangles; ++face)
       for (std::size_t k = 0; k < 3; ++k)
-        m_sides.push_back({triangle[k], triangle[(k + 1) % 3]});
+        m_sides.push_back({m_triangles[face][k], m_triangles[face][(k + 1) % 3]});
     drop_shared(m_sides);
     m_sides.shrink_to_fit();
 
@@ -425,13 +426,13 @@ private:
 template <class FaceIndex>
 Snapping_notes snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
                             const std::vector<char>& is_frozen, double distance,
-                            const std::vector<Index>& transforms)
+                            const std::vector<Index>& transforms, std::size_t obstacle_triangles)
 {
   if (!(std::isfinite(distance) && distance >= 0))
     throw Argument_error("the weld distance must be a finite number, 0 or larger");
   if (distance == 0)
     return {};
-  Border_snapping<FaceIndex> snapping(soup, positions, is_frozen, distance, transforms);
+  Border_snapping<FaceIndex> snapping(soup, positions, is_frozen, distance, transforms, obstacle_triangles);
   Snapping_notes notes = snapping.run();
 
   const std::vector<Point_3> points = soup.points;
@@ -449,10 +450,10 @@ Snapping_notes snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
 
 template Snapping_notes snap_borders<Packed_R_tree>(Triangle_soup&, std::vector<Index>&,
                                                     const std::vector<char>&, double,
-                                                    const std::vector<Index>&);
+                                                    const std::vector<Index>&, std::size_t);
 template Snapping_notes snap_borders<Brute_force_index>(Triangle_soup&, std::vector<Index>&,
                                                         const std::vector<char>&, double,
-                                                        const std::vector<Index>&);
+                                                        const std::vector<Index>&, std::size_t);
 
 Triangle_soup joined_at_positions(const Triangle_soup& soup)
 {

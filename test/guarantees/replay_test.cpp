@@ -69,6 +69,21 @@ TEST(Replay, AcceptsReductionsOfRoundedAndOfStlInput)
   expect_accepted(corners, to_ratio(0.3), {}, true);
 }
 
+TEST(Replay, AcceptsWhatIsLeftFreeWhereRoundingMergesPositions)
+{
+  // Two sheets with a common border, a vertex each; and a third that comes to one of them only when it is
+  // rounded. All faces at both vertices stand still, not only those at the first.
+  const Triangle_soup right =
+      mapped(sheet(4, 4, 1), [](const Point_3& p) { return Point_3(p.x() + 4, p.y(), 1); });
+  Triangle_soup both = joined(sheet(4, 4, 1), right);
+  ASSERT_EQ(both.points[14], both.points[35]);
+  both = joined(both, soup({{4, 2, 1 + 1e-12}, {4, 2, 3}, {5, 2, 3}}, {{0, 1, 2}}));
+  Prepare_options rounding;
+  rounding.round_to_float32 = true;
+  expect_accepted(both, without_limits(to_ratio(0)), rounding);
+  EXPECT_EQ(prepare(both, rounding).frozen_faces, 7u) << "three at either vertex, and the third's";
+}
+
 TEST(Replay, AcceptsSnapsAsMotions)
 {
   Triangle_soup gap = sheet(6, 6);

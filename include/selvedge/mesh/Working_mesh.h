@@ -32,7 +32,9 @@ namespace selvedge {
 /// attribute of the result is one of the input's at that position and on that side.
 ///
 /// An obstacle may lie beside the soup: triangles that are in the mesh, do not change, and are not in the
-/// result.
+/// result. Nothing of the soup is sewn to it: where the soup lies along an obstacle it has the border that it
+/// has alone, and where both have a position its vertices are twins of the obstacle's. The shares of the
+/// diagonal in the limits are of the soup's own.
 class Working_mesh : public No_observer
 {
 public:

@@ -69,7 +69,8 @@ struct Snapping_notes
 /// `positions[v]` is the number of the first vertex at the position of v, before and after. `is_frozen` holds
 /// for each triangle whether its vertices stand still. `transforms`, empty or one number per vertex, says who
 /// may share a position: vertices with different numbers are not joined, and positions that have several
-/// stay.
+/// stay. The last `obstacle_triangles` triangles, which are frozen, are an obstacle's: their borders are none
+/// to be sewn, and take nothing from the borders of the others where they lie along them.
 ///
 /// **Preconditions** No triangle has two corners at one position. All triangles of offending pairs are
 /// frozen. Throws `Argument_error` unless `distance` is finite and not negative; at 0 there is nothing to do.
@@ -81,7 +82,7 @@ struct Snapping_notes
 template <class FaceIndex = Packed_R_tree>
 Snapping_notes snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
                             const std::vector<char>& is_frozen, double distance,
-                            const std::vector<Index>& transforms = {});
+                            const std::vector<Index>& transforms = {}, std::size_t obstacle_triangles = 0);
 
 /// Gives all vertices at one position one number, so that pieces that meet there hang together; vertices
 /// whose attributes differ keep their own. Of several, the first stays; those no longer used are dropped.
