@@ -407,17 +407,29 @@ bool Working_mesh::keeps_pieces(Mesh::Halfedge_index moving, const Border_rule<M
   // By their numbers, the vertices of a line are open (each side has its own) or closed. Runs of open ones
   // are boundary loops of pieces or stretches of them, so none may vanish, and no two may meet.
   const auto is_open_at_end = [this](Mesh::Halfedge_index h) {
-    if (m_mesh.is_border(h) || m_mesh.is_border(m_mesh.opposite(h)))
-      return true;
-    return vertex_of(corner_at(h)) != vertex_of(corner_at(m_mesh.prev(m_mesh.opposite(h))));
+    const Mesh::Halfedge_index other = m_mesh.opposite(h);
+    return m_mesh.is_border(h) || m_mesh.is_border(other) ||
+           vertex_of(corner_at(h)) != vertex_of(corner_at(m_mesh.prev(other)));
+  };
+  const auto is_on_boundary = [&](Mesh::Vertex_index v) {
+    const auto around = m_mesh.halfedges_around_target(m_mesh.halfedge(v));
+    return std::any_of(around.begin(), around.end(), [&](Mesh::Halfedge_index h) {
+      return is_open_at_end(h) || is_open_at_end(m_mesh.opposite(h));
+    });
   };
   const Mesh::Halfedge_index back = m_mesh.opposite(moving);
   if (!rule.is_line(m_mesh.edge(moving)))
     return true;
   const bool is_open_ahead = is_open_at_end(moving), is_open = is_open_at_end(back);
-  for (const Mesh::Halfedge_index h : m_mesh.halfedges_around_target(back))
-    if (h != back && rule.is_line(m_mesh.edge(h)) && is_open_at_end(m_mesh.opposite(h)) == is_open_ahead)
+  for (const Mesh::Halfedge_index h : m_mesh.halfedges_around_target(back)) {
+    if (h == back || !rule.is_line(m_mesh.edge(h)))
+      continue;
+    const bool is_open_behind = is_open_at_end(m_mesh.opposite(h));
+    if (is_open_behind == is_open_ahead)
       return is_open == is_open_ahead;
+    // One run ends here. Where the next vertex ends it instead, that is to be on no other.
+    return is_open || !is_on_boundary(is_open_ahead ? m_mesh.source(h) : m_mesh.target(moving));
+  }
   return true;
 }
 

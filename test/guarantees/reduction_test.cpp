@@ -271,6 +271,26 @@ TEST(Determinism, TheIndexDoesNotChangeTheResult)
   }
 }
 
+TEST(Topology, ASlitDoesNotReachTheBorder)
+{
+  // A sheet with a slit from below, each side of which has its own vertices in the same places, and from its
+  // end on a line between two groups up to the border. Where the line ends, the slit must not: the piece
+  // would hang together by a single vertex.
+  Triangle_soup slit = sheet(4, 3);
+  slit.points.insert(slit.points.end(), {slit.points[2], slit.points[7]});
+  slit.groups.names = {"left", "right"};
+  for (std::size_t t = 0; t < slit.triangles.size(); ++t) {
+    const bool is_right = t % 8 >= 4;
+    slit.groups.of_triangle.push_back(is_right);
+    for (Index& v : slit.triangles[t])
+      if (is_right && (v == 2 || v == 7))
+        v = v == 2 ? 20 : 21;
+  }
+  const Reduction reduction = reduce(slit, without_limits(to_ratio(0)));
+  EXPECT_GT(reduction.simplified.report.collapses, 3u);
+  EXPECT_TRUE(reduction.verification.accepted());
+}
+
 TEST(Refusal, OptionsOutOfRange)
 {
   const auto expect_refused = [](auto&& change) {
