@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <functional>
 #include <limits>
 #include <mutex>
 #include <numeric>
@@ -34,6 +35,43 @@ struct Box
   }
 };
 
+/// Asks whoever may stop the whole, for all cells.
+class Shared_stop
+{
+public:
+  explicit Shared_stop(const Whole& whole)
+      : m_should_stop(whole.options.should_stop), m_progress(whole.progress)
+  {
+  }
+
+  /// Whether to stop, when so many faces more are gone. Nobody is asked again who once said yes.
+  bool ask(std::size_t gone = 0)
+  {
+    if (!m_should_stop)
+      return false;
+    const std::lock_guard lock(m_mutex);
+    m_progress.faces -= std::min(m_progress.faces, gone);
+    return m_is_stopped = m_is_stopped || m_should_stop(m_progress);
+  }
+
+  bool is_stopped() const { return m_is_stopped; }
+
+  /// For one cell.
+  std::function<bool(const Simplify_progress&)> of_cell()
+  {
+    return [this, told = std::size_t(0)](const Simplify_progress& of_cell) mutable {
+      const std::size_t gone = of_cell.faces_input - of_cell.faces;
+      return ask(gone - std::exchange(told, gone));
+    };
+  }
+
+private:
+  const std::function<bool(const Simplify_progress&)>& m_should_stop;
+  std::mutex m_mutex;
+  Simplify_progress m_progress;
+  std::atomic<bool> m_is_stopped = false;
+};
+
 /// A box, and all triangles whose own boxes meet its closure. Those of the obstacle follow those of the soup.
 struct Cell
 {
@@ -41,19 +79,20 @@ struct Cell
   std::vector<Index> triangles;
 };
 
-/// Divides space at medians of vertices.
+/// Divides space at medians of vertices, until somebody wishes it to stop. With each division the vertices of
+/// a box become half as many at most.
 class Division
 {
 public:
-  Division(const Triangle_soup& soup, const Triangle_soup& obstacle, const std::vector<Index>& positions,
-           std::size_t faces_per_cell)
-      : m_soup(soup), m_obstacle(obstacle), m_vertices_per_cell((faces_per_cell + 1) / 2)
+  Division(const Whole& whole, Shared_stop& stop)
+      : m_soup(whole.prepared.soup), m_obstacle(whole.prepared.obstacle),
+        m_vertices_per_cell(whole.options.faces_per_cell / 2 + whole.options.faces_per_cell % 2), m_stop(stop)
   {
     std::vector<Index> vertices;
-    for (Index v = 0; v < soup.points.size(); ++v)
-      if (positions[v] == v)
+    for (Index v = 0; v < m_soup.points.size(); ++v)
+      if (whole.prepared.positions[v] == v)
         vertices.push_back(v);
-    std::vector<Index> triangles(soup.triangles.size() + obstacle.triangles.size());
+    std::vector<Index> triangles(m_soup.triangles.size() + m_obstacle.triangles.size());
     std::iota(triangles.begin(), triangles.end(), Index(0));
     divide({}, vertices.begin(), vertices.end(), std::move(triangles));
   }
@@ -71,6 +110,8 @@ private:
         m_cells.push_back({box, std::move(triangles)});
       return;
     }
+    if (m_stop.ask())
+      return;
     const int axis = longest_axis(first, beyond);
     const auto coordinate = [&](Index v) { return m_soup.points[v][axis]; };
     const Iterator middle = first + count / 2;
@@ -119,122 +160,8 @@ private:
   const Triangle_soup& m_soup;
   const Triangle_soup& m_obstacle;
   std::size_t m_vertices_per_cell;
+  Shared_stop& m_stop;
   std::vector<Cell> m_cells;
-};
-
-/// Some triangles of a soup and its obstacle, as soups of their own with all that `Working_mesh` looks at.
-struct Cut_out
-{
-  Cut_out(const Whole& whole, const std::vector<Index>& triangles)
-  {
-    const Triangle_soup& from = whole.prepared.soup;
-    const Triangle_soup& from_obstacle = whole.prepared.obstacle;
-    const Index own_triangles = Index(from.triangles.size()), own_vertices = Index(from.points.size());
-
-    std::vector<Index_triple> numbered;
-    for (const Index t : triangles)
-      if (t < own_triangles)
-        numbered.push_back(from.triangles[t]);
-      else {
-        const auto& [a, b, c] = from_obstacle.triangles[t - own_triangles];
-        numbered.push_back({own_vertices + a, own_vertices + b, own_vertices + c});
-      }
-    for (const Index_triple& triangle : numbered)
-      vertices.insert(vertices.end(), triangle.begin(), triangle.end());
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-
-    for (const Index v : vertices)
-      if (v < own_vertices)
-        soup.points.push_back(from.points[v]);
-      else
-        obstacle.points.push_back(from_obstacle.points[v - own_vertices]);
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-      Index_triple triangle;
-      for (int k = 0; k < 3; ++k)
-        triangle[k] =
-            Index(std::lower_bound(vertices.begin(), vertices.end(), numbered[i][k]) - vertices.begin());
-      if (triangles[i] >= own_triangles)
-        for (Index& v : triangle)
-          v -= Index(soup.points.size());
-      (triangles[i] < own_triangles ? soup : obstacle).triangles.push_back(triangle);
-      is_frozen.push_back(whole.is_frozen[triangles[i]]);
-    }
-    number_positions(whole.prepared.positions);
-
-    const std::vector<Index> own(triangles.begin(), triangles.begin() + soup.triangles.size());
-    take(soup.uvs, from.uvs, own);
-    take(soup.normals, from.normals, own);
-    for (const auto labels : {&Triangle_soup::groups, &Triangle_soup::objects, &Triangle_soup::materials})
-      if (!(from.*labels).empty())
-        for (const Index t : own)
-          (soup.*labels).of_triangle.push_back((from.*labels).of_triangle[t]);
-  }
-
-  Triangle_soup soup, obstacle;
-  std::vector<Index> vertices; // of the whole
-  std::vector<Index> positions;
-  std::vector<char> is_frozen;
-
-private:
-  // By the first vertex here that lies there.
-  void number_positions(const std::vector<Index>& positions_of_whole)
-  {
-    std::vector<std::pair<Index, Index>> order; // position in the whole, vertex here
-    for (Index v = 0; v < vertices.size(); ++v)
-      order.push_back({positions_of_whole[vertices[v]], v});
-    std::sort(order.begin(), order.end());
-    positions.resize(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i)
-      positions[order[i].second] =
-          i > 0 && order[i].first == order[i - 1].first ? positions[order[i - 1].second] : order[i].second;
-  }
-
-  // Every corner gets a value of its own: they are compared by value.
-  template <std::size_t dimension>
-  static void take(Corner_values<dimension>& values, const Corner_values<dimension>& from,
-                   const std::vector<Index>& triangles)
-  {
-    if (from.empty())
-      return;
-    for (const Index t : triangles) {
-      const Index first = Index(values.values.size());
-      values.of_triangle.push_back({first, first + 1, first + 2});
-      for (const Index i : from.of_triangle[t])
-        values.values.push_back(from.values[i]);
-    }
-  }
-};
-
-/// Asks whoever may stop the whole, for all cells.
-class Shared_stop
-{
-public:
-  explicit Shared_stop(const Whole& whole)
-      : m_should_stop(whole.options.should_stop), m_progress(whole.progress)
-  {
-  }
-
-  bool is_stopped() const { return m_is_stopped; }
-
-  /// For one cell.
-  std::function<bool(const Simplify_progress&)> of_cell()
-  {
-    if (!m_should_stop)
-      return {};
-    return [this, told = std::size_t(0)](const Simplify_progress& of_cell) mutable {
-      const std::size_t gone = of_cell.faces_input - of_cell.faces;
-      const std::lock_guard lock(m_mutex);
-      m_progress.faces -= std::min(m_progress.faces, gone - std::exchange(told, gone));
-      return m_is_stopped = m_is_stopped || m_should_stop(m_progress);
-    };
-  }
-
-private:
-  const std::function<bool(const Simplify_progress&)>& m_should_stop;
-  std::mutex m_mutex;
-  Simplify_progress m_progress;
-  std::atomic<bool> m_is_stopped = false;
 };
 
 /// The collapses of one cell, as if they had to reach the share alone.
@@ -273,27 +200,20 @@ std::size_t lock_outside(Working_mesh& working, const Box& box)
 
 Cell_run run_cell(const Whole& whole, const Cell& cell, Shared_stop& stop)
 {
-  const Cut_out cut(whole, cell.triangles);
-  Working_mesh working(cut.soup, cut.positions, cut.is_frozen, cut.obstacle);
   Cell_run run;
+  if (stop.ask())
+    return run;
+  Working_mesh working(whole.working, whole.rule, cell.triangles);
   run.movable_vertices = lock_outside(working, cell.box);
   const std::size_t wanted = std::size_t(whole.share * double(run.movable_vertices));
   if (wanted == 0)
     return run;
 
   working.constraints().diagonal = whole.diagonal;
-  if (!whole.weights.empty()) {
-    std::vector<double> weights;
-    for (std::size_t v = 0; v < cut.soup.points.size(); ++v)
-      weights.push_back(whole.weights[cut.vertices[v]]);
-    working.weigh(weights);
-  }
-  if (whole.options.uv_weight > 0)
-    working.measure_uvs(whole.uv_unit);
-
   Simplify_options options = whole.options;
   options.ratio.reset();
-  options.faces = cut.soup.triangles.size() - std::min(cut.soup.triangles.size(), 2 * wanted);
+  const std::size_t faces = cell.triangles.size() - working.constraints().uncounted_faces.size();
+  options.faces = faces - std::min(faces, 2 * wanted);
   options.should_stop = stop.of_cell();
   internal::Simplification<Working_mesh::Mesh, Working_mesh> simplification(working.mesh(), options,
                                                                             working.constraints(), working);
@@ -330,14 +250,13 @@ double common_cost(const std::vector<Cell_run>& runs)
 
 Cell_collapses reduce_in_cells(const Whole& whole)
 {
-  const std::vector<Cell> cells = Division(whole.prepared.soup, whole.prepared.obstacle,
-                                           whole.prepared.positions, whole.options.faces_per_cell)
-                                      .take();
+  Shared_stop stop(whole);
+  const std::vector<Cell> cells = Division(whole, stop).take();
   Cell_collapses result;
   result.cells = cells.size();
+  result.is_stopped = stop.is_stopped();
   if (cells.size() < 2)
     return result;
-  Shared_stop stop(whole);
   std::vector<Cell_run> runs(cells.size());
   tbb::parallel_for(
       std::size_t(0), cells.size(), [&](std::size_t i) { runs[i] = run_cell(whole, cells[i], stop); },

@@ -17,11 +17,10 @@ namespace selvedge {
 struct Whole
 {
   const Prepared_soup& prepared;
-  const std::vector<char>& is_frozen; ///< by triangle, of the obstacle, too
-  const std::vector<double>& weights; ///< by vertex of the soup; or none
+  const Working_mesh& working; ///< the mesh of `prepared`, in which nothing has been collapsed
+  const Border_rule<Working_mesh::Mesh>& rule;
   const Simplify_options& options;
   double diagonal;
-  double uv_unit;
   Simplify_progress progress;
 
   /// Of all vertices that may move, the share that has to go.
@@ -40,9 +39,12 @@ struct Cell_collapses
 ///
 /// Cells are disjoint open boxes. In a cell moves what is strictly inside, and has neighbours that are; so
 /// every star and every sweep is strictly inside a convex set, which no star and no sweep of another cell
-/// meets. Whatever else is in sight stands still in all cells. See docs/guarantees.md.
+/// meets. Whatever else is in sight stands still in all cells. What is one edge, one vertex, a line or locked
+/// is taken from the whole, and decided by no cell. See docs/guarantees.md.
 ///
 /// **Guarantees** The result is a function of the input, not of threads and their luck, unless stopped.
+/// `should_stop` of the options is asked before every division of a box and every cell, and by each of these
+/// as in any reduction.
 ///
 /// **Complexity** O(n log n) for n faces in all, in parallel but for the division into cells.
 Cell_collapses reduce_in_cells(const Whole& whole);

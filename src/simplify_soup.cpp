@@ -161,8 +161,8 @@ class Soup_reduction
 public:
   Soup_reduction(const Prepared_soup& prepared, const Simplify_options& options,
                  const Simplify_intent& intent)
-      : m_options(options), m_prepared(prepared), m_is_frozen(frozen(prepared, intent)),
-        m_start(Clock::now()), m_working(prepared.soup, prepared.positions, m_is_frozen, prepared.obstacle),
+      : m_options(options), m_prepared(prepared), m_start(Clock::now()),
+        m_working(prepared.soup, prepared.positions, frozen(prepared, intent), prepared.obstacle),
         m_seconds_weld(seconds_since(m_start)),
         m_simplification(m_working.mesh(), m_options, constraints(prepared.soup, intent), m_working)
   {
@@ -212,9 +212,9 @@ private:
     for (const std::string& name : intent.kept)
       add_share(name, 1);
     if (!intent.weights.empty())
-      m_working.weigh(m_weights = vertex_weights(soup, intent.weights));
+      m_working.weigh(vertex_weights(soup, intent.weights));
     if (m_options.uv_weight > 0)
-      m_working.measure_uvs(m_uv_unit = uv_unit(soup));
+      m_working.measure_uvs(uv_unit(soup));
     m_working.count_refusals(part_kinds(soup));
     m_working.tell(m_options.on_collapse);
     return constraints;
@@ -235,19 +235,32 @@ private:
     const double share =
         caution * double(m_simplification.targets().total_excess()) / (2.0 * double(movable));
     const Cell_collapses found = reduce_in_cells({m_prepared,
-                                                  m_is_frozen,
-                                                  m_weights,
+                                                  m_working,
+                                                  m_simplification.rule(),
                                                   m_options,
                                                   m_simplification.diagonal(),
-                                                  m_uv_unit,
                                                   {total.faces, total.target, total.faces},
                                                   share});
-    for (const Working_mesh::Side& moving : found.collapses)
-      m_simplification.collapse(m_working.halfedge(moving));
-    if (found.is_stopped)
-      m_options.should_stop = [](const Simplify_progress&) { return true; };
     m_cells = found.cells;
-    m_collapses_in_cells = found.collapses.size();
+    const std::size_t faces_left = total.faces - std::min(total.faces, 2 * found.collapses.size());
+    const Simplify_progress progress{total.faces, total.target, faces_left};
+    bool is_stopped = found.is_stopped;
+    for (const Working_mesh::Side& moving : found.collapses) {
+      // Small cells may go too far together, by the last face of each.
+      if (m_simplification.targets().is_reached())
+        break;
+      // Who has stopped the cells wants what they have reached.
+      constexpr std::size_t collapses_between_questions = 4096;
+      if (!is_stopped && m_options.should_stop && m_collapses_in_cells % collapses_between_questions == 0 &&
+          m_options.should_stop(progress)) {
+        is_stopped = true;
+        break;
+      }
+      m_simplification.collapse(m_working.halfedge(moving));
+      ++m_collapses_in_cells;
+    }
+    if (is_stopped)
+      m_options.should_stop = [](const Simplify_progress&) { return true; };
     m_seconds_cells = seconds_since(start);
   }
 
@@ -271,9 +284,6 @@ private:
 
   Simplify_options m_options;
   const Prepared_soup& m_prepared;
-  std::vector<char> m_is_frozen;
-  std::vector<double> m_weights;
-  double m_uv_unit = 0;
   Clock::time_point m_start;
   Working_mesh m_working;
   double m_seconds_weld;

@@ -246,6 +246,7 @@ public:
   }
 
   double diagonal() const { return m_diagonal; }
+  const Rule& rule() const { return m_rule; }
   const Targets& targets() const { return m_targets; }
 
   /// Of the edge that is being considered.

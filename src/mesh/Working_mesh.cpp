@@ -3,197 +3,23 @@
 
 #include <selvedge/mesh/Working_mesh.h>
 
+#include "Sewing.h"
+
 #include <CGAL/Kernel/global_functions.h>
 
 #include <oneapi/tbb/parallel_sort.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <tuple>
-#include <unordered_set>
 #include <utility>
 
 namespace selvedge {
 namespace {
 
-constexpr Index s_none = std::numeric_limits<Index>::max();
-
-/// Which sides of triangles are sewn together, and which corners so become one vertex. Side 3i+k runs from
-/// corner 3i+k to the next corner of triangle i. The first sides are the soup's own, the others an
-/// obstacle's; these are never sewn to those, so that the soup has the borders that it has without an
-/// obstacle.
-class Sewing
-{
-public:
-  Sewing(const std::vector<Index_triple>& triangles, Index own_sides, Index position_count,
-         Welding_notes& notes)
-      : m_triangles(triangles), m_own_sides(own_sides), m_position_count(position_count),
-        m_mates(3 * triangles.size(), s_none)
-  {
-    sew(notes);
-    number_vertices();
-    while (tear_parallel_edges())
-      number_vertices();
-  }
-
-  /// The side on the other face of the same edge; none on a border.
-  Index mate(Index side) const { return m_mates[side]; }
-  Index side_count() const { return Index(m_mates.size()); }
-  Index vertex(Index corner) const { return m_vertices[corner]; }
-  Index vertex_count() const { return m_vertex_count; }
-
-  static Index next(Index side) { return side % 3 == 2 ? side - 2 : side + 1; }
-  static Index previous(Index side) { return side % 3 == 0 ? side + 2 : side - 1; }
-
-private:
-  Index position(Index corner) const { return m_triangles[corner / 3][corner % 3]; }
-
-  bool is_own(Index side) const { return side < m_own_sides; }
-
-  // Two sides make an edge when they are all that lies there, run opposite ways, and belong to different
-  // triangles of positions. What lies there of an obstacle counts apart.
-  void sew(Welding_notes& notes)
-  {
-    struct Side
-    {
-      Index high, side;
-    };
-    const auto ends = [this](Index side) { return std::minmax({position(side), position(next(side))}); };
-    // Sides are sorted by their lower ends in linear time, and the few of one lower end by the other.
-    std::vector<Index> places(std::size_t(m_position_count) + 1, 0);
-    for (Index side = 0; side < m_mates.size(); ++side)
-      ++places[ends(side).first + 1];
-    std::partial_sum(places.begin(), places.end(), places.begin());
-    std::vector<Side> sides(m_mates.size());
-    for (Index side = 0; side < m_mates.size(); ++side) {
-      const auto [low, high] = ends(side);
-      sides[places[low]++] = {high, side};
-    }
-    for (Index low = 0, first = 0; low < m_position_count; first = places[low++]) {
-      const auto begin = sides.begin() + first, end = sides.begin() + places[low];
-      std::sort(begin, end, [](const Side& a, const Side& b) {
-        return std::tie(a.high, a.side) < std::tie(b.high, b.side);
-      });
-      for (auto it = begin, beyond = begin; it != end; it = beyond) {
-        beyond = std::find_if(it, end, [&](const Side& side) {
-          return side.high != it->high || is_own(side.side) != is_own(it->side);
-        });
-        sew(it, beyond, notes);
-      }
-    }
-  }
-
-  // All sides of one place. Notes are of the soup's own.
-  template <class Iterator>
-  void sew(Iterator first, Iterator beyond, Welding_notes& notes)
-  {
-    if (beyond - first == 1)
-      return;
-    const Index a = first->side, b = first[1].side;
-    const bool is_opposite = position(a) != position(b);
-    notes.non_manifold_edges += is_own(a) && beyond - first > 2;
-    notes.misoriented_edges += is_own(a) && beyond - first == 2 && !is_opposite;
-    if (beyond - first == 2 && is_opposite && position(previous(a)) != position(previous(b))) {
-      m_mates[a] = b;
-      m_mates[b] = a;
-      return;
-    }
-    m_unsewn.emplace_back();
-    for (Iterator it = first; it != beyond; ++it)
-      m_unsewn.back().push_back(it->side);
-  }
-
-  // Corners that follow each other around a position across sewn sides are one vertex.
-  void number_vertices()
-  {
-    m_vertices.assign(m_mates.size(), s_none);
-    m_vertex_count = 0;
-    for (Index first = 0; first < m_vertices.size(); ++first) {
-      if (m_vertices[first] != s_none)
-        continue;
-      const Index vertex = m_vertex_count++;
-      Index corner = first;
-      do {
-        m_vertices[corner] = vertex;
-        const Index across = m_mates[corner];
-        corner = across == s_none ? s_none : next(across);
-      } while (corner != s_none && corner != first);
-      for (Index across = m_mates[previous(first)]; corner == s_none && across != s_none;
-           across = m_mates[previous(across)])
-        m_vertices[across] = vertex;
-    }
-  }
-
-  // A halfedge mesh cannot hold two edges between the same two vertices, which unsewn sides of one place may
-  // ask for. Tearing all that is sewn at their ends gives them ends of their own.
-  bool tear_parallel_edges()
-  {
-    std::unordered_set<Index> torn;
-    for (const std::vector<Index>& sides : m_unsewn) {
-      std::vector<std::pair<Index, Index>> ends;
-      for (const Index side : sides)
-        ends.push_back(std::minmax({m_vertices[side], m_vertices[next(side)]}));
-      std::sort(ends.begin(), ends.end());
-      for (auto it = std::adjacent_find(ends.begin(), ends.end()); it != ends.end();
-           it = std::adjacent_find(it + 1, ends.end()))
-        torn.insert({it->first, it->second});
-    }
-    bool is_torn = false;
-    for (Index side = 0; side < m_mates.size() && !torn.empty(); ++side) {
-      if (m_mates[side] == s_none || !(torn.count(m_vertices[side]) || torn.count(m_vertices[next(side)])))
-        continue;
-      m_unsewn.push_back({side, m_mates[side]});
-      m_mates[m_mates[side]] = s_none;
-      m_mates[side] = s_none;
-      is_torn = true;
-    }
-    return is_torn;
-  }
-
-  const std::vector<Index_triple>& m_triangles; // of positions
-  Index m_own_sides;
-  Index m_position_count;
-  std::vector<Index> m_mates;
-  std::vector<Index> m_vertices;
-  Index m_vertex_count = 0;
-  std::vector<std::vector<Index>> m_unsewn; // sides that lie at one place and are not sewn, by place
-};
-
-// Makes edges and faces between the vertices of a mesh, in the order of the sides, and returns the halfedges
-// of these. `Surface_mesh::add_face` would make the same, but has to search for what is known here.
-std::vector<Working_mesh::Mesh::Halfedge_index> connect(const Sewing& sewing, Working_mesh::Mesh& mesh)
-{
-  using Halfedge = Working_mesh::Mesh::Halfedge_index;
-  const auto vertex = [&](Index corner) { return Working_mesh::Mesh::Vertex_index(sewing.vertex(corner)); };
-  std::vector<Halfedge> halfedges(sewing.side_count());
-  for (Index side = 0; side < halfedges.size(); ++side) {
-    const Index mate = sewing.mate(side), end = Sewing::next(side);
-    halfedges[side] = side < mate ? mesh.add_edge(vertex(side), vertex(end)) : mesh.opposite(halfedges[mate]);
-    mesh.set_halfedge(vertex(end), halfedges[side]);
-  }
-  std::vector<Halfedge> border_from(mesh.number_of_vertices());
-  for (Index side = 0; side < halfedges.size(); ++side) {
-    if (side % 3 == 0)
-      mesh.set_halfedge(mesh.add_face(), halfedges[Sewing::previous(side)]);
-    mesh.set_face(halfedges[side], Working_mesh::Mesh::Face_index(side / 3));
-    mesh.set_next(halfedges[side], halfedges[Sewing::next(side)]);
-    if (sewing.mate(side) == s_none)
-      border_from[vertex(Sewing::next(side))] = mesh.opposite(halfedges[side]);
-  }
-  for (Index side = 0; side < halfedges.size(); ++side) {
-    if (sewing.mate(side) != s_none)
-      continue;
-    const Halfedge border = mesh.opposite(halfedges[side]);
-    mesh.set_halfedge(vertex(side), border); // so that CGAL sees at once that the vertex is on a border
-    mesh.set_next(border, border_from[vertex(side)]);
-  }
-  return halfedges;
-}
+constexpr Index s_none = Sewing::none;
 
 } // namespace
 
@@ -243,37 +69,37 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
   }
 
   const Sewing sewing(triangles, own_corners, Index(positions.size()), m_notes);
-  m_mesh.reserve(sewing.vertex_count(), corner_count / 2 + 1, Index(triangles.size()));
-  std::vector<Index> position_of_vertex;
+  std::vector<Corner> corner_of(sewing.vertex_count()); // the first of each vertex
+  for (Corner corner = corner_count; corner-- > 0;)
+    corner_of[sewing.vertex(corner)] = corner;
+  const std::vector<Mesh::Halfedge_index> halfedges = make_mesh(sewing, [&](Index vertex) {
+    const Corner corner = corner_of[vertex];
+    if (corner < own_corners)
+      return soup.points[vertex_of(corner)];
+    const Corner beside = corner - own_corners;
+    return obstacle.points[obstacle.triangles[beside / 3][beside % 3]];
+  });
+
   std::vector<Index> vertices_at(positions.size(), 0); // how many, by position
-  const auto add_vertices = [&](const Triangle_soup& from, Corner first) {
-    for (Corner i = 0; i < 3 * from.triangles.size(); ++i) {
-      const Corner corner = first + i;
-      if (sewing.vertex(corner) != m_mesh.number_of_vertices())
-        continue; // vertices are numbered by their first corners
-      m_mesh.add_vertex(from.points[from.triangles[i / 3][i % 3]]);
-      position_of_vertex.push_back(triangles[corner / 3][corner % 3]);
-      ++vertices_at[position_of_vertex.back()];
-    }
+  const auto position_of = [&](Index vertex) {
+    return triangles[corner_of[vertex] / 3][corner_of[vertex] % 3];
   };
-  add_vertices(soup, 0);
+  const auto count_vertices = [&](Index vertex, Corner beyond) {
+    for (; vertex < corner_of.size() && corner_of[vertex] < beyond; ++vertex)
+      ++vertices_at[position_of(vertex)];
+    return vertex;
+  };
+  const Index first_of_obstacle = count_vertices(0, own_corners);
   m_notes.unwelded_positions =
       std::count_if(vertices_at.begin(), vertices_at.end(), [](Index count) { return count > 1; });
-  add_vertices(obstacle, own_corners);
-
-  std::vector<char> is_locked(m_mesh.number_of_vertices(), false);
+  count_vertices(first_of_obstacle, corner_count);
+  std::vector<char> is_locked(corner_of.size(), false);
   for (Index v = 0; v < is_locked.size(); ++v)
-    is_locked[v] = vertices_at[position_of_vertex[v]] > 1;
+    is_locked[v] = vertices_at[position_of(v)] > 1;
   for (Corner corner = 0; corner < corner_count; ++corner)
     is_locked[sewing.vertex(corner)] |= is_frozen[corner / 3];
-  for (Index v = 0; v < is_locked.size(); ++v)
-    if (is_locked[v])
-      m_constraints.locked_vertices.push_back(Mesh::Vertex_index(v));
+  lock(is_locked);
 
-  const std::vector<Mesh::Halfedge_index> halfedges = connect(sewing, m_mesh);
-  m_places.resize(m_mesh.number_of_halfedges());
-  for (Index side = 0; side < corner_count; ++side)
-    m_places[halfedges[side]] = Sewing::next(side) % 3;
   for (Index side = 0; side < own_corners; ++side) {
     const Index mate = sewing.mate(side), end = Sewing::next(side);
     if (mate != s_none && side < mate && (is_line(side, Sewing::next(mate)) || is_line(end, mate)))
@@ -284,11 +110,109 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
   if (!obstacle.triangles.empty()) { // the limits are shares of the diagonal of the soup
     CGAL::Bbox_3 box;
     for (const Index_triple& triangle : soup.triangles)
-      for (const Index v : triangle)
-        box += soup.points[v].bbox();
+      for (const Index i : triangle)
+        box += soup.points[i].bbox();
     m_constraints.diagonal =
         std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
   }
+}
+
+Working_mesh::Working_mesh(const Working_mesh& whole, const Border_rule<Mesh>& rule,
+                           const std::vector<Index>& faces)
+    : m_soup(whole.m_soup)
+{
+  const Mesh& mesh = whole.m_mesh;
+  std::vector<Mesh::Halfedge_index> originals; // by side
+  std::vector<Index> mates;
+  std::vector<Index> cut; // sides whose mates are not here
+  for (const Index face : faces) {
+    if (whole.is_own(Mesh::Face_index(face)))
+      m_corners.push_back(whole.m_corners[face]);
+    else
+      m_constraints.uncounted_faces.push_back(Mesh::Face_index(Index(originals.size() / 3)));
+    for (unsigned char place = 0; place < 3; ++place) {
+      originals.push_back(whole.halfedge({face, place, false}));
+      mates.push_back(s_none);
+      const Mesh::Halfedge_index opposite = mesh.opposite(originals.back());
+      if (mesh.is_border(opposite))
+        continue;
+      const Side beyond = whole.side(opposite);
+      const auto found = std::lower_bound(faces.begin(), faces.end(), beyond.triangle);
+      if (found != faces.end() && *found == beyond.triangle)
+        mates.back() = Index(3 * (found - faces.begin())) + beyond.place;
+      else
+        cut.push_back(Index(mates.size() - 1));
+    }
+  }
+
+  const Sewing sewing(std::move(mates));
+  std::vector<Mesh::Vertex_index> vertices(sewing.vertex_count()); // of the whole
+  for (Index side = 0; side < originals.size(); ++side)
+    vertices[sewing.vertex(side)] = mesh.source(originals[side]);
+  const std::vector<Mesh::Halfedge_index> halfedges =
+      make_mesh(sewing, [&](Index vertex) { return mesh.point(vertices[vertex]); });
+
+  std::vector<char> is_locked(vertices.size(), false);
+  for (Index v = 0; v < vertices.size(); ++v)
+    is_locked[v] = rule.is_locked(vertices[v]);
+  for (const Index side : cut)
+    is_locked[sewing.vertex(side)] = is_locked[sewing.vertex(Sewing::next(side))] = true;
+  lock(is_locked);
+  for (Index side = 0; side < originals.size(); ++side)
+    if (sewing.mate(side) != s_none && side < sewing.mate(side) && rule.is_line(mesh.edge(originals[side])))
+      m_constraints.line_edges.push_back(m_mesh.edge(halfedges[side]));
+  if (!whole.m_constraints.vertex_weights.empty())
+    for (const Mesh::Vertex_index v : vertices)
+      m_constraints.vertex_weights.push_back(whole.m_constraints.vertex_weights[v]);
+  measure_uvs(whole.m_uv_unit);
+}
+
+void Working_mesh::lock(const std::vector<char>& is_locked)
+{
+  for (Index v = 0; v < is_locked.size(); ++v)
+    if (is_locked[v])
+      m_constraints.locked_vertices.push_back(Mesh::Vertex_index(v));
+}
+
+// Makes vertices, edges and faces, edges in the order of the sides, and returns the halfedges of these.
+// `Surface_mesh::add_face` would make the same, but has to search for what is known here.
+template <class Function>
+std::vector<Working_mesh::Mesh::Halfedge_index> Working_mesh::make_mesh(const Sewing& sewing,
+                                                                        const Function& point_of)
+{
+  using Halfedge = Mesh::Halfedge_index;
+  const Index side_count = sewing.side_count();
+  const auto vertex = [&](Index corner) { return Mesh::Vertex_index(sewing.vertex(corner)); };
+  m_mesh.reserve(sewing.vertex_count(), side_count / 2 + 1, side_count / 3);
+  for (Index v = 0; v < sewing.vertex_count(); ++v)
+    m_mesh.add_vertex(point_of(v));
+  std::vector<Halfedge> halfedges(side_count);
+  for (Index side = 0; side < side_count; ++side) {
+    const Index mate = sewing.mate(side), end = Sewing::next(side);
+    halfedges[side] =
+        side < mate ? m_mesh.add_edge(vertex(side), vertex(end)) : m_mesh.opposite(halfedges[mate]);
+    m_mesh.set_halfedge(vertex(end), halfedges[side]);
+  }
+  std::vector<Halfedge> border_from(m_mesh.number_of_vertices());
+  for (Index side = 0; side < side_count; ++side) {
+    if (side % 3 == 0)
+      m_mesh.set_halfedge(m_mesh.add_face(), halfedges[Sewing::previous(side)]);
+    m_mesh.set_face(halfedges[side], Mesh::Face_index(side / 3));
+    m_mesh.set_next(halfedges[side], halfedges[Sewing::next(side)]);
+    if (sewing.mate(side) == s_none)
+      border_from[vertex(Sewing::next(side))] = m_mesh.opposite(halfedges[side]);
+  }
+  for (Index side = 0; side < side_count; ++side) {
+    if (sewing.mate(side) != s_none)
+      continue;
+    const Halfedge border = m_mesh.opposite(halfedges[side]);
+    m_mesh.set_halfedge(vertex(side), border); // so that CGAL sees at once that the vertex is on a border
+    m_mesh.set_next(border, border_from[vertex(side)]);
+  }
+  m_places.resize(m_mesh.number_of_halfedges());
+  for (Index side = 0; side < side_count; ++side)
+    m_places[halfedges[side]] = Sewing::next(side) % 3;
+  return halfedges;
 }
 
 bool Working_mesh::is_line(Corner a, Corner b) const
@@ -306,8 +230,8 @@ bool Working_mesh::is_line(Corner a, Corner b) const
          differ_in_label(m_soup.materials);
 }
 
-// Calls function(h, corner) for each face that a motion changes: its corner at the target of its halfedge h
-// becomes `corner`.
+// Calls function(h, from) for each face that a motion changes: its corner at the target of its halfedge h
+// becomes that at the target of `from`, which belongs to a face that goes.
 template <class Function>
 void Working_mesh::for_each_changed_face(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule,
                                          const Function& function) const
@@ -318,7 +242,7 @@ void Working_mesh::for_each_changed_face(Mesh::Halfedge_index moving, const Bord
                                     const auto& across) {
     if (m_mesh.is_border(from))
       return false;
-    const Corner carried = corners_at_ends(moving, from).second;
+    const Mesh::Halfedge_index carried = halfedges_to_ends(moving, from).second;
     for (Mesh::Halfedge_index h = across(from); m_mesh.face(h) != m_mesh.face(other); h = across(h)) {
       if (rule.is_line(m_mesh.edge(h)))
         return false;
@@ -343,12 +267,13 @@ Working_mesh::Side Working_mesh::side(Mesh::Halfedge_index h) const
 Working_mesh::Mesh::Halfedge_index Working_mesh::halfedge(const Side& side) const
 {
   const Mesh::Face_index face(side.triangle);
-  if (m_mesh.is_removed(face))
-    throw std::logic_error("a collapse of a face that is gone");
+  if (!m_mesh.has_valid_index(face) || m_mesh.is_removed(face))
+    throw std::logic_error("a side of a face that is gone");
   Mesh::Halfedge_index h = m_mesh.halfedge(face);
-  while (m_places[m_mesh.prev(h)] != side.place)
-    h = m_mesh.next(h);
-  return side.is_beyond ? m_mesh.opposite(h) : h;
+  for (int i = 0; i < 3; ++i, h = m_mesh.next(h))
+    if (m_places[m_mesh.prev(h)] == side.place)
+      return side.is_beyond ? m_mesh.opposite(h) : h;
+  throw std::logic_error("a side that its face does not have");
 }
 
 void Working_mesh::before_collapse(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule)
@@ -357,16 +282,18 @@ void Working_mesh::before_collapse(Mesh::Halfedge_index moving, const Border_rul
     m_recorder(side(moving));
   if (m_listener) {
     const auto [from, to] =
-        corners_at_ends(moving, m_mesh.is_border(moving) ? m_mesh.opposite(moving) : moving);
-    m_listener(vertex_of(from), vertex_of(to));
+        halfedges_to_ends(moving, m_mesh.is_border(moving) ? m_mesh.opposite(moving) : moving);
+    m_listener(vertex_of(corner_at(from)), vertex_of(corner_at(to)));
   }
   for_each_moved_wedge(moving, [&](Index from, Index to) {
     Wedge& merged = m_wedges[to];
     merged.quadric += m_wedges[from].quadric;
     merged.own_cost = merged.quadric(relative(m_mesh.point(m_mesh.target(moving))), merged.uv);
   });
-  for_each_changed_face(moving, rule, [this](Mesh::Halfedge_index h, Corner corner) {
-    m_corners[m_mesh.face(h)][m_places[h]] = corner;
+  for_each_changed_face(moving, rule, [this](Mesh::Halfedge_index h, Mesh::Halfedge_index from) {
+    m_corners[m_mesh.face(h)][m_places[h]] = corner_at(from);
+    if (!m_wedges.empty())
+      wedge_at(h) = wedge_at(from);
   });
   // Of a contracted face the edge behind goes with it, and the one ahead takes its place.
   for (const Mesh::Halfedge_index h : {moving, m_mesh.opposite(moving)})
@@ -444,10 +371,10 @@ bool Working_mesh::keeps_uv_orientation(Mesh::Halfedge_index moving, const Borde
     return CGAL::orientation(point(0), point(1), point(2));
   };
   bool is_kept = true;
-  for_each_changed_face(moving, rule, [&](Mesh::Halfedge_index h, Corner corner) {
+  for_each_changed_face(moving, rule, [&](Mesh::Halfedge_index h, Mesh::Halfedge_index from) {
     Index_triple corners = m_corners[m_mesh.face(h)];
     const CGAL::Orientation before = orientation(corners);
-    corners[m_places[h]] = corner;
+    corners[m_places[h]] = corner_at(from);
     is_kept = is_kept && (before == CGAL::COLLINEAR || orientation(corners) == before);
   });
   return is_kept;
@@ -465,26 +392,26 @@ Working_mesh::Uv Working_mesh::relative(const Uv& uv) const
 
 void Working_mesh::measure_uvs(double unit)
 {
-  if (m_soup.uvs.empty() || !(unit > 0))
+  if (m_soup.uvs.empty() || m_corners.empty() || !(unit > 0))
     return;
   m_uv_unit = unit;
-  const Point_3& origin = m_soup.points[m_soup.triangles[0][0]];
+  const Corner first = m_corners[0][0];
+  const Point_3& origin = m_soup.points[vertex_of(first)];
   m_origin = {origin.x(), origin.y(), origin.z()};
-  m_uv_origin = uv_of(0);
+  m_uv_origin = uv_of(first);
 
   const std::vector<Mesh::Vertex_index> vertices = number_wedges();
   for (const Mesh::Halfedge_index h : m_mesh.halfedges()) {
     if (m_mesh.is_border(h) || !is_own(m_mesh.face(h)))
       continue;
-    const Index t = m_mesh.face(h);
-    const auto& [a, b, c] = m_soup.triangles[t];
+    const auto& [a, b, c] = m_corners[m_mesh.face(h)];
     const Mesh::Vertex_index v = m_mesh.target(h);
-    Wedge& wedge = m_wedges[m_wedge_of[corner_at(h)]];
+    const auto point = [this](Corner corner) { return relative(m_soup.points[vertex_of(corner)]); };
+    Wedge& wedge = m_wedges[wedge_at(h)];
     wedge.uv = relative(uv_of(corner_at(h)));
-    wedge.quadric.add_triangle(
-        {relative(m_soup.points[a]), relative(m_soup.points[b]), relative(m_soup.points[c])},
-        {relative(uv_of(3 * t)), relative(uv_of(3 * t + 1)), relative(uv_of(3 * t + 2))},
-        m_constraints.vertex_weights.empty() ? 1 : m_constraints.vertex_weights[v]);
+    wedge.quadric.add_triangle({point(a), point(b), point(c)},
+                               {relative(uv_of(a)), relative(uv_of(b)), relative(uv_of(c))},
+                               m_constraints.vertex_weights.empty() ? 1 : m_constraints.vertex_weights[v]);
   }
   for (std::size_t i = 0; i < m_wedges.size(); ++i)
     m_wedges[i].own_cost = m_wedges[i].quadric(relative(m_mesh.point(vertices[i])), m_wedges[i].uv);
@@ -496,15 +423,15 @@ std::vector<Working_mesh::Mesh::Vertex_index> Working_mesh::number_wedges()
   std::vector<char> is_line(m_mesh.number_of_edges(), false);
   for (const Mesh::Edge_index e : m_constraints.line_edges)
     is_line[e] = true;
-  m_wedge_of.assign(3 * m_corners.size(), s_none);
+  m_wedge_numbers.assign(m_corners.size(), {s_none, s_none, s_none});
   std::vector<Mesh::Vertex_index> vertices;
   for (const Mesh::Halfedge_index first : m_mesh.halfedges()) {
     const auto is_numbered = [this](Mesh::Halfedge_index h) {
-      return m_mesh.is_border(h) || !is_own(m_mesh.face(h)) || m_wedge_of[corner_at(h)] != s_none;
+      return m_mesh.is_border(h) || !is_own(m_mesh.face(h)) || wedge_at(h) != s_none;
     };
     if (is_numbered(first))
       continue;
-    const auto number = [&](Mesh::Halfedge_index h) { m_wedge_of[corner_at(h)] = Index(vertices.size()); };
+    const auto number = [&](Mesh::Halfedge_index h) { wedge_at(h) = Index(vertices.size()); };
     // From the first face around the vertex either way, until all round or at a line.
     number(first);
     for (Mesh::Halfedge_index h = first; !is_line[m_mesh.edge(m_mesh.next(h))];) {
@@ -540,10 +467,10 @@ void Working_mesh::for_each_moved_wedge(Mesh::Halfedge_index moving, const Funct
   for (const Mesh::Halfedge_index h : {moving, m_mesh.opposite(moving)}) {
     if (m_mesh.is_border(h))
       continue;
-    const auto [from, to] = corners_at_ends(moving, h);
-    const Index wedge = m_wedge_of[from];
+    const auto [from, to] = halfedges_to_ends(moving, h);
+    const Index wedge = wedge_at(from);
     if (wedge != done)
-      function(wedge, m_wedge_of[to]);
+      function(wedge, wedge_at(to));
     if (m_wedges[wedge].is_alone)
       return;
     done = wedge;

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <set>
@@ -245,15 +246,48 @@ TEST(Cells, AskOneAtATimeWhetherToStopAndStop)
     EXPECT_EQ(progress.faces_input, prepared.soup.triangles.size());
     EXPECT_LE(progress.faces, progress.faces_input);
     --inside;
-    return ++asked == 12; // once: it is not to be asked again
+    return ++asked == 40; // once: it is not to be asked again
   };
   const Simplified_soup result = simplify_soup(prepared, options);
   EXPECT_EQ(overlaps, 0);
-  EXPECT_EQ(asked, 12);
+  EXPECT_EQ(asked, 40);
   EXPECT_TRUE(result.report.is_stopped);
   EXPECT_GT(result.soup.triangles.size(), 4000u);
   EXPECT_LT(result.soup.triangles.size(), prepared.soup.triangles.size());
   EXPECT_TRUE(verify(result, prepared).accepted());
+}
+
+TEST(Cells, AskWhetherToStopWhileTheirCollapsesAreDoneToTheWhole)
+{
+  const Prepared_soup prepared = prepare(sheet(100, 100));
+  Simplify_options options = in_cells(to_ratio(0.1), 4000);
+  std::size_t since_asked = 0, most = 0, asked = 0;
+  options.on_collapse = [&](std::size_t, std::size_t) { most = std::max(most, ++since_asked); };
+  options.should_stop = [&](const Simplify_progress& progress) {
+    EXPECT_LE(progress.faces, progress.faces_input);
+    since_asked = 0;
+    ++asked;
+    return false;
+  };
+  EXPECT_GT(simplify_soup(prepared, options).report.collapses_in_cells, 4096u + 2000);
+  EXPECT_LE(most, 4096u);
+
+  // Whenever somebody wishes it, it stops, and asks no more.
+  const std::size_t asks = asked;
+  std::set<std::size_t> collapses;
+  for (std::size_t wish = 1; wish < asks; wish += 1 + asks / 6) {
+    options.on_collapse = {};
+    asked = 0;
+    options.should_stop = [&](const Simplify_progress&) { return ++asked >= wish; };
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+    const Simplified_soup result = simplify_soup(prepared, options);
+    EXPECT_TRUE(result.report.is_stopped);
+    EXPECT_EQ(asked, wish);
+    EXPECT_TRUE(verify(result, prepared).accepted());
+    collapses.insert(result.report.collapses);
+  }
+  EXPECT_EQ(*collapses.begin(), 0u);
+  EXPECT_GT(collapses.size(), 3u);
 }
 
 TEST(Cells, AreNoneWhereOneWouldHoldAll)

@@ -6,6 +6,7 @@
 
 #include <selvedge/mesh/Triangle_soup.h>
 
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -136,6 +137,28 @@ inline Triangle_soup t_junction()
 inline Triangle_soup folded_over()
 {
   return soup({{0, 0, 0}, {4, 0, 0}, {1, 3, 0}, {2, 2, 0}}, {{0, 1, 2}, {1, 0, 3}});
+}
+
+/// A crooked sheet with size × size squares. On some of its inner edges stands a triangle more, so that three
+/// faces share the edge, and no halfedge mesh can hold it unless the faces at both its ends are torn apart.
+inline Triangle_soup finned_sheet(Index size, unsigned seed)
+{
+  std::mt19937 random(seed);
+  const auto up_to = [&](double length) { return length * double(random()) / 4294967296.0; };
+  Triangle_soup result = mapped(sheet(size, size), [&](const Point_3& p) {
+    const double x = p.x() + up_to(0.6), y = p.y() + up_to(0.4);
+    return Point_3(1.2 * x, y, up_to(0.05));
+  });
+  for (Index y = 1; y < size; ++y)
+    for (Index x = 1; x + 1 < size; ++x) {
+      if (random() % 4 != 0)
+        continue;
+      const Index a = y * (size + 1) + x, b = a + 1;
+      const Point_3 &p = result.points[a], &q = result.points[b];
+      result.triangles.push_back({a, b, Index(result.points.size())});
+      result.points.emplace_back((p.x() + q.x()) / 2, (p.y() + q.y()) / 2, 1);
+    }
+  return result;
 }
 
 /// Three collinear corners, all different.

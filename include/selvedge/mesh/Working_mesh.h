@@ -20,6 +20,8 @@
 
 namespace selvedge {
 
+class Sewing;
+
 /// A soup as one mesh in which coincident borders are sewn: what `simplify` works on, and the way back.
 ///
 /// Vertices at one position become one vertex when that keeps every edge manifold and oriented; where it does
@@ -50,8 +52,27 @@ public:
   Working_mesh(const Triangle_soup& soup, const std::vector<Index>& positions,
                const std::vector<char>& is_frozen, const Triangle_soup& obstacle = {});
 
+  /// Makes a mesh of some faces of another, so that a part of that can be reduced apart: its face i is
+  /// `faces[i]` there.
+  ///
+  /// **Guarantees** It decides nothing anew:
+  /// 1. Two faces have an edge in common exactly where they have it in the whole. A vertex of the whole all
+  /// of whose faces are here has them here, in the same order. Of any other vertex, what is left is locked,
+  /// and is several vertices where it does not hang together.
+  /// 2. The rule of the whole says which other vertices are locked, and which edges are lines.
+  /// 3. Points, corners of the soup, weights, and texture are those of the whole.
+  ///
+  /// What concerns the soup, `result` and counts by its parts, is asked of the whole.
+  ///
+  /// **Preconditions** `faces` ascend; nothing has been collapsed in `whole`, whose soup outlives this mesh.
+  ///
+  /// **Complexity** O(n log n) for n faces of the part.
+  Working_mesh(const Working_mesh& whole, const Border_rule<Mesh>& rule, const std::vector<Index>& faces);
+
   Mesh& mesh() { return m_mesh; }
+  const Mesh& mesh() const { return m_mesh; }
   Simplify_constraints<Mesh>& constraints() { return m_constraints; }
+  const Simplify_constraints<Mesh>& constraints() const { return m_constraints; }
   const Welding_notes& notes() const { return m_notes; }
 
   /// Weighs vertices by numbers that the vertices of the soup have; where several are sewn, by the largest of
@@ -59,8 +80,7 @@ public:
   void weigh(const std::vector<double>& weights);
 
   /// From now on `uv_cost` says how far the texture is displaced; it is 0 before, and where there is no
-  /// texture. Weights that are to count are set before. `unit` is the `uv_unit` of the soup, or of that of
-  /// which it is a part.
+  /// texture. Weights that are to count are set before. `unit` is the `uv_unit` of the soup.
   void measure_uvs(double unit);
 
   /// From now on refusals are counted by the parts of the soup to which the moving vertex belongs.
@@ -84,6 +104,8 @@ public:
     bool is_beyond;      ///< it is the opposite of that halfedge
   };
   Side side(Mesh::Halfedge_index h) const;
+
+  /// Throws `std::logic_error` when there is no such side, because the face is gone, say.
   Mesh::Halfedge_index halfedge(const Side& side) const;
 
   /// Who is told of every collapse by the halfedge that moves, before it.
@@ -120,19 +142,25 @@ private:
   /// The corner at the target of a halfedge of the face beside it.
   Corner corner_at(Mesh::Halfedge_index h) const { return m_corners[m_mesh.face(h)][m_places[h]]; }
 
-  /// The corners at the source and at the target of a motion of the face beside one of its halfedges.
-  std::pair<Corner, Corner> corners_at_ends(Mesh::Halfedge_index moving, Mesh::Halfedge_index side) const
+  /// Of the face beside a halfedge of a motion, the halfedges to the source and to the target of the motion.
+  std::pair<Mesh::Halfedge_index, Mesh::Halfedge_index> halfedges_to_ends(Mesh::Halfedge_index moving,
+                                                                          Mesh::Halfedge_index side) const
   {
-    const std::pair<Corner, Corner> corners(corner_at(m_mesh.prev(side)), corner_at(side));
-    return side == moving ? corners : std::make_pair(corners.second, corners.first);
+    const Mesh::Halfedge_index before = m_mesh.prev(side);
+    return side == moving ? std::make_pair(before, side) : std::make_pair(side, before);
   }
 
+  template <class Function>
+  std::vector<Mesh::Halfedge_index> make_mesh(const Sewing& sewing, const Function& point_of);
+  void lock(const std::vector<char>& is_locked);
   template <class Function>
   void for_each_changed_face(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule,
                              const Function& function) const;
   template <class Function>
   void for_each_moved_wedge(Mesh::Halfedge_index moving, const Function& function) const;
 
+  Index& wedge_at(Mesh::Halfedge_index h) { return m_wedge_numbers[m_mesh.face(h)][m_places[h]]; }
+  Index wedge_at(Mesh::Halfedge_index h) const { return m_wedge_numbers[m_mesh.face(h)][m_places[h]]; }
   std::vector<Mesh::Vertex_index> number_wedges();
   Uv_quadric::Vector relative(const Point_3& point) const;
   Uv relative(const Uv& uv) const;
@@ -154,7 +182,7 @@ private:
     double own_cost; // what the quadric says of where the wedge is
     bool is_alone;   // at its vertex: lines neither come nor go
   };
-  std::vector<Index> m_wedge_of; // by corner of the soup
+  std::vector<Index_triple> m_wedge_numbers; // by face, for each of its corners
   std::vector<Wedge> m_wedges;
   Uv_quadric::Vector m_origin{};
   Uv m_uv_origin{};
