@@ -111,6 +111,23 @@ struct Simplify_constraints
 
 namespace internal {
 
+/// A stop predicate that asks a function of the cost.
+template <class Function>
+class Function_stop
+{
+public:
+  explicit Function_stop(const Function& is_over) : m_is_over(is_over) {}
+
+  template <class FT, class Profile>
+  bool operator()(const FT& cost, const Profile&, std::size_t, std::size_t) const
+  {
+    return m_is_over(cost);
+  }
+
+private:
+  Function m_is_over;
+};
+
 /// Everything that one reduction is made of: the rule for borders, the cost, the chain of filters, and a
 /// visitor that tells them of each collapse.
 template <class TriangleMesh, class Observer>
@@ -331,22 +348,6 @@ private:
       static const std::vector<typename Intersection::Face> none;
       return simplification->m_intersection ? simplification->m_intersection->blockers() : none;
     }
-  };
-
-  template <class Function>
-  class Function_stop
-  {
-  public:
-    explicit Function_stop(const Function& is_over) : m_is_over(is_over) {}
-
-    template <class FT, class Profile>
-    bool operator()(const FT& cost, const Profile&, std::size_t, std::size_t) const
-    {
-      return m_is_over(cost);
-    }
-
-  private:
-    Function m_is_over;
   };
 
   // The stop of either loop: the target, or somebody's wish.

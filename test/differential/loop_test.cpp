@@ -293,8 +293,8 @@ TEST(Own_loop, TakesVisitorsDerivedFromCgals)
   struct Visitor : SMS::Edge_collapse_visitor_base<Surface_mesh>
   {
     explicit Visitor(std::array<std::size_t, 4>& calls_) : calls(&calls_) {}
-    void OnCollected(const Profile&, const boost::optional<double>&) { ++(*calls)[0]; }
-    void OnSelected(const Profile&, const boost::optional<double>&, std::size_t, std::size_t)
+    void OnCollected(const Profile&, const internal::Optional<double>&) { ++(*calls)[0]; }
+    void OnSelected(const Profile&, const internal::Optional<double>&, std::size_t, std::size_t)
     {
       ++(*calls)[1];
     }

@@ -9,6 +9,7 @@
 #include <selvedge/Surface_mesh_simplification/internal/collapse_geometry.h>
 
 #include <CGAL/Dynamic_property_map.h>
+#include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/iterator.h>
 #include <CGAL/number_type_basic.h>
 #include <CGAL/squared_distance_3.h>
@@ -101,8 +102,8 @@ public:
   bool is_line(Edge e) const
   {
     const Halfedge h = halfedge(e, m_state->mesh);
-    return get(m_state->marks, e) || is_border(h, m_state->mesh) ||
-           is_border(opposite(h, m_state->mesh), m_state->mesh);
+    return get(m_state->marks, e) || CGAL::is_border(h, m_state->mesh) ||
+           CGAL::is_border(opposite(h, m_state->mesh), m_state->mesh);
   }
   friend bool get(const Border_rule& rule, Edge e) { return rule.is_line(e); }
 
@@ -200,7 +201,7 @@ private:
       if (!(options.max_drift >= 0))
         throw Argument_error("the drift allowed at a border is a length of at least 0");
       for (const Halfedge h : halfedges(mesh))
-        if (is_border(h, mesh))
+        if (CGAL::is_border(h, mesh))
           raise(target(h, mesh), Freedom::along_line);
     }
 
@@ -245,7 +246,7 @@ private:
   {
     const TriangleMesh& mesh = m_state->mesh;
     for (const Halfedge side : {h, opposite(h, mesh)})
-      if (!is_border(side, mesh) && is_line(edge(next(side, mesh), mesh)) &&
+      if (!CGAL::is_border(side, mesh) && is_line(edge(next(side, mesh), mesh)) &&
           is_line(edge(prev(side, mesh), mesh)))
         return true;
     return false;
@@ -253,7 +254,7 @@ private:
 
   bool is_border_edge(Halfedge h) const
   {
-    return is_border(h, m_state->mesh) || is_border(opposite(h, m_state->mesh), m_state->mesh);
+    return CGAL::is_border(h, m_state->mesh) || CGAL::is_border(opposite(h, m_state->mesh), m_state->mesh);
   }
 
   // May the line u – m – t, with `behind` = m→u and `ahead` = m→t, become the segment u – p?

@@ -7,6 +7,7 @@
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
 
 #include <CGAL/Dynamic_property_map.h>
+#include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/iterator.h>
 
 #include <algorithm>
@@ -147,8 +148,8 @@ private:
   {
     const TriangleMesh& mesh = m_state->mesh;
     const Halfedge other = opposite(h, mesh);
-    const bool is_left = !is_border(h, mesh) && is_so(face(h, mesh));
-    return is_left || (!is_border(other, mesh) && is_so(face(other, mesh)));
+    const bool is_left = !CGAL::is_border(h, mesh) && is_so(face(h, mesh));
+    return is_left || (!CGAL::is_border(other, mesh) && is_so(face(other, mesh)));
   }
 
   std::shared_ptr<State> m_state;

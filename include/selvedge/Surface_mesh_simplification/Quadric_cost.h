@@ -10,6 +10,7 @@
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Dynamic_property_map.h>
+#include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/iterator.h>
 #include <CGAL/tags.h>
 
@@ -231,7 +232,7 @@ private:
       add(source(edges[i], mesh), of_corner);
     }
     for (int i = 0; i < 3; ++i) {
-      if (!is_border(opposite(edges[i], mesh), mesh) && !get(state.edge_is_line, edge(edges[i], mesh)))
+      if (!CGAL::is_border(opposite(edges[i], mesh), mesh) && !get(state.edge_is_line, edge(edges[i], mesh)))
         continue;
       Vector along = internal::difference(corners[(i + 1) % 3], corners[i]);
       const double length = normalise(along);

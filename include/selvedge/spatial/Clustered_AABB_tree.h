@@ -174,7 +174,7 @@ private:
     const float extent = domain.upper[longest] - domain.lower[longest];
     if (!(extent > 0))
       return 1;
-    float size = extent * std::sqrt(float(m_faces_per_cluster) / (float(m_faces_per_cluster) + faces.size()));
+    float size = extent * std::sqrt(float(m_faces_per_cluster) / float(m_faces_per_cluster + faces.size()));
     for (int round = 0; round < 3; ++round) {
       std::unordered_map<Cell, std::size_t, boost::hash<Cell>> cells;
       for (const Id face : faces)

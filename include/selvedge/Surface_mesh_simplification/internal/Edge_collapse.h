@@ -354,7 +354,7 @@ private:
   // the surface may lose its last faces, no two stretches of a border may meet.
   bool is_topology_kept(const Profile& of_edge)
   {
-    const auto is_outside = [this](Halfedge h) { return is_border(opposite(h, m_mesh), m_mesh); };
+    const auto is_outside = [this](Halfedge h) { return CGAL::is_border(opposite(h, m_mesh), m_mesh); };
     if (!of_edge.left_face_exists() && !of_edge.right_face_exists())
       return false;
     if (of_edge.left_face_exists() && is_outside(of_edge.v1_vL()) && is_outside(of_edge.vL_v0()))
@@ -365,12 +365,12 @@ private:
     m_neighbours.clear();
     bool is_v0_on_border = false, is_v1_on_border = false;
     for (const Halfedge h : CGAL::halfedges_around_target(of_edge.v1_v0(), m_mesh)) {
-      is_v0_on_border = is_v0_on_border || is_border(h, m_mesh);
+      is_v0_on_border = is_v0_on_border || CGAL::is_border(h, m_mesh);
       if (h != of_edge.v1_v0())
         m_neighbours.push_back(source(h, m_mesh));
     }
     for (const Halfedge h : CGAL::halfedges_around_target(of_edge.v0_v1(), m_mesh)) {
-      is_v1_on_border = is_v1_on_border || is_border(h, m_mesh);
+      is_v1_on_border = is_v1_on_border || CGAL::is_border(h, m_mesh);
       const Vertex v = source(h, m_mesh);
       if (h != of_edge.v0_v1() &&
           std::find(m_neighbours.begin(), m_neighbours.end(), v) != m_neighbours.end() &&
@@ -382,9 +382,10 @@ private:
         is_at_constrained(of_edge.v1_v0()))
       return false;
     for (const Halfedge h : {of_edge.v0_v1(), of_edge.v1_v0()})
-      if (is_border(h, m_mesh)) {
+      if (CGAL::is_border(h, m_mesh)) {
         const Halfedge second = next(h, m_mesh), third = next(second, m_mesh);
-        return !(next(third, m_mesh) == h && is_border(second, m_mesh) && is_border(third, m_mesh));
+        return !(next(third, m_mesh) == h && CGAL::is_border(second, m_mesh) &&
+                 CGAL::is_border(third, m_mesh));
       }
     if (is_v0_on_border && is_v1_on_border)
       return false;

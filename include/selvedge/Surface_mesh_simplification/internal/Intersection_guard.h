@@ -15,6 +15,7 @@
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Dynamic_property_map.h>
+#include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/iterator.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 
@@ -106,7 +107,7 @@ public:
   {
     // Read before the collapse frees them.
     for (const Halfedge h : {profile.v0_v1(), profile.v1_v0()})
-      if (!is_border(h, m_mesh))
+      if (!CGAL::is_border(h, m_mesh))
         m_index.remove(get(m_face_numbers, face(h, m_mesh)));
     m_target = is_v0_moved(profile, placement) ? profile.v1() : profile.v0();
   }
@@ -122,7 +123,7 @@ public:
       std::replace(twins(kept).begin(), twins(kept).end(), m_target, kept);
     }
     for (const Halfedge h : CGAL::halfedges_around_target(halfedge(kept, m_mesh), m_mesh))
-      if (!is_border(h, m_mesh)) {
+      if (!CGAL::is_border(h, m_mesh)) {
         const Id id = get(m_face_numbers, face(h, m_mesh));
         m_corners[id] = face_corners(h);
         m_index.set(id, face_box(id));
@@ -219,13 +220,13 @@ private:
     m_sweeps.clear();
     m_lids.clear();
     for (const Halfedge h : CGAL::halfedges_around_target(halfedge(motion.mover, m_mesh), m_mesh)) {
-      if (is_border(h, m_mesh)) {
+      if (CGAL::is_border(h, m_mesh)) {
         m_is_star_closed = false;
         continue;
       }
       const Vertex a = target(next(h, m_mesh), m_mesh), b = source(h, m_mesh);
       const Local first = local(number(a)), second = local(number(b));
-      const bool is_contracted = a == motion.target || b == motion.target;
+      const bool is_contracted = motion.target && (a == *motion.target || b == *motion.target);
       if (!is_contracted && motion.target && (first == s_to || second == s_to))
         return false;
       m_link.push_back({first, second});
@@ -248,13 +249,13 @@ private:
       if (source(h, m_mesh) != end)
         continue;
       for (const Halfedge side : {h, opposite(h, m_mesh)}) {
-        if (is_border(side, m_mesh)) {
+        if (CGAL::is_border(side, m_mesh)) {
           is_edge_border = true;
           continue;
         }
         const Halfedge next_edge = next(side, m_mesh);
-        if (is_border(opposite(next_edge, m_mesh), m_mesh) &&
-            is_border(opposite(next(next_edge, m_mesh), m_mesh), m_mesh))
+        if (CGAL::is_border(opposite(next_edge, m_mesh), m_mesh) &&
+            CGAL::is_border(opposite(next(next_edge, m_mesh), m_mesh), m_mesh))
           return false;
         contracted[contracted_count++] = local(number(target(next_edge, m_mesh)));
       }
@@ -268,7 +269,7 @@ private:
     bool is_end_on_border = false;
     const auto are_neighbours_allowed = [&](Vertex at) {
       for (const Halfedge h : CGAL::halfedges_around_target(halfedge(at, m_mesh), m_mesh)) {
-        is_end_on_border |= is_border(h, m_mesh);
+        is_end_on_border |= CGAL::is_border(h, m_mesh);
         if (source(h, m_mesh) != mover && !is_allowed(source(h, m_mesh)))
           return false;
       }
@@ -374,7 +375,7 @@ private:
       // The index knows them where they stand.
       remove_faces_at(*motion.target);
       for (const Halfedge h : CGAL::halfedges_around_target(halfedge(*motion.target, m_mesh), m_mesh))
-        if (!is_border(h, m_mesh))
+        if (!CGAL::is_border(h, m_mesh))
           m_near.push_back(get(m_face_numbers, face(h, m_mesh)));
     }
     remove_faces_at(motion.mover);

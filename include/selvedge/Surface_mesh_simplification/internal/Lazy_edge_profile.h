@@ -5,6 +5,7 @@
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_LAZY_EDGE_PROFILE_H
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_profile.h>
+#include <CGAL/boost/graph/helpers.h>
 
 #include <optional>
 
@@ -45,8 +46,8 @@ public:
                     const GeomTraits& traits)
       : m_mesh(mesh), m_points(points), m_traits(traits), m_v0_v1(v0_v1), m_v1_v0(opposite(v0_v1, mesh)),
         m_v0(target(m_v1_v0, mesh)), m_v1(target(v0_v1, mesh)), m_p0(get(points, m_v0)),
-        m_p1(get(points, m_v1)), m_is_v0_v1_border(is_border(v0_v1, mesh)),
-        m_is_v1_v0_border(is_border(m_v1_v0, mesh))
+        m_p1(get(points, m_v1)), m_is_v0_v1_border(CGAL::is_border(v0_v1, mesh)),
+        m_is_v1_v0_border(CGAL::is_border(m_v1_v0, mesh))
   {
     if (!m_is_v0_v1_border) {
       m_v1_vL = next(m_v0_v1, mesh);

@@ -5,6 +5,7 @@
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_WAITING_EDGES_H
 
 #include <CGAL/Dynamic_property_map.h>
+#include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/iterator.h>
 
 #include <cstdint>
@@ -52,7 +53,7 @@ public:
   void release_around(Vertex vertex)
   {
     for (const auto h : CGAL::halfedges_around_target(halfedge(vertex, m_mesh), m_mesh)) {
-      if (is_border(h, m_mesh))
+      if (CGAL::is_border(h, m_mesh))
         continue;
       for (Id node = get(m_first, face(h, m_mesh)); node != 0;) {
         m_released.push_back(m_nodes[node].edge);

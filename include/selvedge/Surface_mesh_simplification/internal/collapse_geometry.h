@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COLLAPSE_GEOMETRY_H
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COLLAPSE_GEOMETRY_H
 
+#include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/iterator.h>
 
 namespace selvedge {
@@ -41,7 +42,7 @@ bool all_of_changed_faces(const Profile& profile, const Point& placement, Predic
   const auto points = profile.vertex_point_map();
   const auto are_fine_around = [&](auto vertex, auto other, const Point& before) {
     for (const auto h : CGAL::halfedges_around_target(halfedge(vertex, mesh), mesh)) {
-      if (is_border(h, mesh))
+      if (CGAL::is_border(h, mesh))
         continue;
       const auto a = target(next(h, mesh), mesh);
       const auto b = source(h, mesh);

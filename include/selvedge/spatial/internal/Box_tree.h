@@ -8,6 +8,7 @@
 
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Search_traits_3.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -49,16 +50,18 @@ private:
   Id m_id;
 };
 
-/// A model of `AABBTraits` over boxes in a table: all that building and traversing a tree takes. It is a
-/// kernel only because `AABB_tree` names, though never makes, a search tree for distance queries.
-class Box_tree_traits : public CGAL::Exact_predicates_inexact_constructions_kernel
+/// A model of `AABBTraits` over boxes in a table: all that building and traversing a tree takes. It has the
+/// search traits only because `AABB_tree` names, though never makes, a search tree for distance queries.
+class Box_tree_traits : public CGAL::Search_traits_3<CGAL::Exact_predicates_inexact_constructions_kernel>
 {
 public:
   using Primitive = Box_primitive;
   using Bounding_box = Monotone_box;
   using size_type = std::size_t;
   using Object_and_primitive_id = std::pair<int, Primitive::Id>; // named by AABB_tree, never made
-  using Point_and_primitive_id = std::pair<Point_3, Primitive::Id>;
+  using Point_3 = Primitive::Point;                              // in CGAL 5 likewise, and in CGAL 6 this
+  using Point = Point_3;
+  using Point_and_primitive_id = std::pair<Point, Primitive::Id>;
 
   explicit Box_tree_traits(const Box_table* table = nullptr) : m_table(table) {}
 

@@ -41,8 +41,10 @@ struct Monotone_box
   bool overlaps(const Monotone_box& other) const
   {
     // Without short cuts: six comparisons and no branch to mispredict.
-    return (lower[0] <= other.upper[0]) & (other.lower[0] <= upper[0]) & (lower[1] <= other.upper[1]) &
-           (other.lower[1] <= upper[1]) & (lower[2] <= other.upper[2]) & (other.lower[2] <= upper[2]);
+    const auto is_met = [&](int axis) {
+      return int(lower[axis] <= other.upper[axis]) & int(other.lower[axis] <= upper[axis]);
+    };
+    return (is_met(0) & is_met(1) & is_met(2)) != 0;
   }
 
   bool contains(const Monotone_box& other) const
