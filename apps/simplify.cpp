@@ -512,8 +512,9 @@ Action add_simplify(CLI::App& command)
       ->capture_default_str()
       ->group(limits);
   command
-      .add_option("--aspect-ratio", options.min_aspect_ratio,
-                  "Make a face thinner than this, unless it was; 0 to 1")
+      .add_option(
+          "--aspect-ratio", options.min_aspect_ratio,
+          "Make a face thinner than this, unless it was; 0 to 1. 0.2 keeps faces round for a simulation")
       ->check(in_range(0, 1))
       ->type_name("A")
       ->capture_default_str()

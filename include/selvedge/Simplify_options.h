@@ -52,8 +52,11 @@ struct Simplify_options
   /// The largest change of a face's normal in one collapse, in degrees from 0 to 180.
   double max_normal_change = 45;
 
-  /// The least aspect ratio of a face, in [0, 1], unless it is better than before.
-  double min_aspect_ratio = 0.2;
+  /// The least aspect ratio of a face, in [0, 1], unless it is better than before. The default is what looks
+  /// best: folds keep their long, thin triangles. For a result that is simulated, 0.2 keeps triangles
+  /// rounder, which is the value of Derichs, Misiak and Fuhrmann; at 10 % of the faces it costs 1.3 to 2
+  /// times the error.
+  double min_aspect_ratio = 0.05;
 
   /// The largest turn of a border at a vertex that leaves it, in degrees from 0 to 180.
   double max_border_turn = 8;

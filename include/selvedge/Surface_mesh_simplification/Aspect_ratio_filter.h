@@ -44,7 +44,7 @@ class Aspect_ratio_filter : public internal::Filter_base<Aspect_ratio_filter<Bas
 {
 public:
   /// `min_aspect_ratio` lies in [0, 1], or `Argument_error` is thrown; 0 accepts everything.
-  explicit Aspect_ratio_filter(double min_aspect_ratio = 0.2, const BaseFilter& base = {})
+  explicit Aspect_ratio_filter(double min_aspect_ratio = 0.05, const BaseFilter& base = {})
       : internal::Filter_base<Aspect_ratio_filter, BaseFilter>(base), m_min_aspect_ratio(min_aspect_ratio)
   {
     if (!(min_aspect_ratio >= 0 && min_aspect_ratio <= 1))
