@@ -9,6 +9,7 @@
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Search_traits_3.h>
+#include <CGAL/version.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -50,9 +51,16 @@ private:
   Id m_id;
 };
 
-/// A model of `AABBTraits` over boxes in a table: all that building and traversing a tree takes. It has the
-/// search traits only because `AABB_tree` names, though never makes, a search tree for distance queries.
-class Box_tree_traits : public CGAL::Search_traits_3<CGAL::Exact_predicates_inexact_constructions_kernel>
+// What `AABB_tree` wants of its traits for a search tree that it names, and here never makes: a kernel in
+// CGAL 5, search traits in CGAL 6.
+#if CGAL_VERSION_NR >= 1060000000
+using Aabb_traits_base = CGAL::Search_traits_3<CGAL::Exact_predicates_inexact_constructions_kernel>;
+#else
+using Aabb_traits_base = CGAL::Exact_predicates_inexact_constructions_kernel;
+#endif
+
+/// A model of `AABBTraits` over boxes in a table: all that building and traversing a tree takes.
+class Box_tree_traits : public Aabb_traits_base
 {
 public:
   using Primitive = Box_primitive;
