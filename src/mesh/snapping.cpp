@@ -50,6 +50,7 @@ public:
 
   Snapping_notes run()
   {
+    m_notes.distance = m_distance;
     m_notes.border_vertices = m_sites.size();
     if (m_sites.empty())
       return m_notes;
@@ -268,7 +269,7 @@ private:
   bool is_shortly_followed(Index i, Index j) const
   {
     double length = 0;
-    for (Index at = i; m_sites[at].next.size() == 1;) {
+    for (Index at = i; m_sites[at].next.size() == 1 && (at == i || m_sites[at].previous.size() == 1);) {
       const Index next = m_sites[at].next.front();
       length += distance(m_sites[at], m_sites[next]);
       if (length > 2 * m_distance || next == i)
@@ -282,6 +283,9 @@ private:
 
   bool join(const Pair& pair)
   {
+    // What was joined before in this round may have moved the next vertices along the borders.
+    if (!are_partners(pair.low, pair.high))
+      return false;
     Site *stays = &m_sites[pair.low], *goes = &m_sites[pair.high];
     if (stays->faces.size() < goes->faces.size())
       std::swap(stays, goes);
@@ -372,8 +376,40 @@ private:
     goes.faces.clear();
     m_moved_to[goes.position] = stays.position;
     goes.is_joined = stays.is_joined = true;
+    join_borders(goes, stays);
     m_notes.snaps.push_back({goes.position, stays.position});
     m_notes.largest_distance = (std::max)(m_notes.largest_distance, distance);
+  }
+
+  // Of borders that run through a site, `stays` takes the place of `goes`; sides that now run opposite ways
+  // are sewn.
+  void join_borders(Site& goes, Site& stays)
+  {
+    const Index from = m_site_at[goes.position], to = m_site_at[stays.position];
+    const auto remove = [](std::vector<Index>& sites, Index site) {
+      sites.erase(std::find(sites.begin(), sites.end(), site));
+    };
+    for (const Index next : goes.next)
+      std::replace(m_sites[next].previous.begin(), m_sites[next].previous.end(), from, to);
+    for (const Index previous : goes.previous)
+      std::replace(m_sites[previous].next.begin(), m_sites[previous].next.end(), from, to);
+    for (const Index next : std::exchange(goes.next, {}))
+      if (const auto it = std::find(stays.previous.begin(), stays.previous.end(), next);
+          it != stays.previous.end()) {
+        stays.previous.erase(it);
+        remove(m_sites[next].next, to);
+        remove(m_sites[next].previous, to);
+      } else {
+        stays.next.push_back(next);
+      }
+    for (const Index previous : std::exchange(goes.previous, {}))
+      if (const auto it = std::find(stays.next.begin(), stays.next.end(), previous); it != stays.next.end()) {
+        stays.next.erase(it);
+        remove(m_sites[previous].next, to);
+        remove(m_sites[previous].previous, to);
+      } else {
+        stays.previous.push_back(previous);
+      }
   }
 
   void count()

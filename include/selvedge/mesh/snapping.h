@@ -22,6 +22,8 @@ struct Snap
 /// What snapping found and did, to be told to the user. Vertices are counted by position.
 struct Snapping_notes
 {
+  double distance = 0; ///< within which partners were looked for
+
   std::size_t border_vertices = 0; ///< on borders, before
   std::size_t partnered = 0;       ///< of these: have a partner
   std::size_t sewn = 0;            ///< of the partnered: share a position with a partner now
@@ -52,9 +54,9 @@ struct Snapping_notes
 ///
 /// In rounds, until one changes nothing: every border vertex names its nearest partner that is not frozen,
 /// the lower position number first where two are as near, and those who name each other are joined, by
-/// ascending distance, then numbers. So where several pieces meet in a corner, all come to one position, one
-/// after another. The one with fewer faces goes, of two alike the one with the higher number; if that is
-/// refused, the other goes. All vertices at one position go together.
+/// ascending distance, then numbers, if they still are partners then. So where several pieces meet in a
+/// corner, all come to one position, one after another. The one with fewer faces goes, of two alike the one
+/// with the higher number; if that is refused, the other goes. All vertices at one position go together.
 ///
 /// **Guarantees**
 /// 1. *One of the two*: no new position is made; who goes takes the coordinates of the partner, bit for bit.
