@@ -4,10 +4,12 @@
 #include "Progress_bar.h"
 #include "interruption.h"
 #include "output_files.h"
+#include "report_json.h"
 #include "subcommands.h"
 #include "text.h"
 
 #include <selvedge/Error.h>
+#include <selvedge/Simplify_options.h>
 #include <selvedge/mesh/mesh_files.h>
 #include <selvedge/replay.h>
 
@@ -15,6 +17,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace selvedge::app {
@@ -26,17 +29,27 @@ struct Request
   std::string log;
   std::string output;
   std::string scene;
+  std::string limits;
+  std::string report;
   bool is_free_of_limits = false;
   bool is_all_wanted = false;
   bool is_ascii = false;
+  bool is_json = false;
 };
 
-/// Without an original of the same bytes every number in the log would mean something else.
-void require_same_file(const Request& request, const Log_header& header)
+/// The limits that the judge imposes, if any. The words go before files of the same name.
+std::optional<Reduction_limits> imposed_limits(const std::string& what)
 {
-  if (!header.sha256.empty() && header.sha256 != sha256_of_file(request.original))
-    throw Input_error(request.original +
-                      ": is not the file that the log was made from; its SHA-256 is another");
+  if (what.empty())
+    return std::nullopt;
+  if (what == "seed")
+    return limits_of_seed();
+  if (what == "default")
+    return limits_of(Simplify_options());
+  std::ifstream stream(what, std::ios::binary);
+  if (!stream)
+    throw Input_error(what + ": cannot be opened; --limits takes a file, or the word 'seed' or 'default'");
+  return read_limits(stream, what);
 }
 
 void print(const Violation& violation)
@@ -64,10 +77,51 @@ void print_at_length(const Violation& violation)
     std::cout << violation.scene;
 }
 
+std::string describe(const Reduction_limits& limits)
+{
+  std::string text;
+  for (const Limit_description& limit : limit_descriptions)
+    if (const std::optional<double>& value = limits.*limit.value)
+      text += (text.empty() ? "" : ", ") + std::string(limit.key) + ' ' + with_digits(*value, "%.12g") +
+              limit.unit;
+  return text.empty() ? "none" : text;
+}
+
+void print_terms(const Replay_verdict& verdict)
+{
+  const auto bound = [](bool is_bound) {
+    return is_bound ? "bound by its SHA-256" : "NOT BOUND by a SHA-256";
+  };
+  std::cout << "limits judged: " << describe(verdict.limits) << '\n';
+  if (verdict.limits_source != Limits_source::log)
+    std::cout << "limits that the log declares, set aside: " << describe(verdict.header.limits) << '\n';
+  std::cout << "input: " << bound(verdict.is_input_stated)
+            << (verdict.header.is_rounded_to_float32 ? "; rounded to 32-bit floats" : "");
+  if (verdict.offending_pairs > 0)
+    std::cout << "; " << counted(verdict.offending_pairs, "offending pair") << ", which stay";
+  std::cout << "\nresult: " << bound(verdict.is_result_stated) << '\n';
+  if (verdict.snaps > 0)
+    std::cout << "snaps: up to " << with_digits(verdict.largest_snap) << " long; together they took a vertex "
+              << with_digits(verdict.largest_way_of_snaps) << " at most\n";
+  for (const Not_judged& open : not_judged(verdict))
+    std::cout << "not judged: " << open.key << ": " << open.sentence << '\n';
+}
+
+std::string summary_of_terms(const Replay_verdict& verdict)
+{
+  const bool has_limits =
+      verdict.limits_source != Limits_source::none && describe(verdict.limits) != describe({});
+  return std::string(has_limits ? "limits of the " : "no limits") +
+         (has_limits ? name(verdict.limits_source) : "") +
+         (verdict.is_input_stated ? ", input bound" : ", input NOT BOUND") +
+         (verdict.is_result_stated ? ", result bound" : ", result NOT BOUND");
+}
+
 void print(const Request& request, const Replay_verdict& verdict)
 {
-  std::cout << request.log << ": " << counted(verdict.steps, "step") << ", " << with_commas(verdict.collapses)
-            << " of them collapses; " << counted(verdict.soup.triangles.size(), "triangle") << " left\n"
+  std::cout << request.log << ": " << counted(verdict.snaps, "snap") << ", "
+            << counted(verdict.collapses, "collapse") << "; "
+            << counted(verdict.soup.triangles.size(), "triangle") << " left\n"
             << "judged: " << with_commas(verdict.pairs_judged) << " pairs, "
             << with_commas(verdict.pairs_judged_in_rationals) << " of them in rational numbers; "
             << with_digits(verdict.seconds_prepare) << " s for the original, "
@@ -75,9 +129,9 @@ void print(const Request& request, const Replay_verdict& verdict)
   if (verdict.steps > 0)
     std::cout << ", " << with_digits(1e6 * verdict.seconds_steps / double(verdict.steps)) << " us each";
   std::cout << '\n';
+  print_terms(verdict);
   if (verdict.is_accepted()) {
-    std::cout << "ACCEPTED" << (request.is_free_of_limits ? ", limits apart" : "")
-              << (verdict.is_result_stated ? "" : "; the log does not say what its result is") << std::endl;
+    std::cout << "ACCEPTED: " << summary_of_terms(verdict) << std::endl;
     return;
   }
   if (verdict.violations.empty()) {
@@ -88,12 +142,9 @@ void print(const Request& request, const Replay_verdict& verdict)
   print_at_length(verdict.violations.front());
   if (request.is_all_wanted) {
     std::cout << "all " << with_commas(verdict.violations.size()) << ":\n";
-    std::map<std::string, std::size_t> kinds;
-    for (const Violation& violation : verdict.violations) {
+    for (const Violation& violation : verdict.violations)
       print(violation);
-      ++kinds[name(violation.kind)];
-    }
-    for (const auto& [kind, count] : kinds)
+    for (const auto& [kind, count] : count_by_kind(verdict.violations))
       std::cout << "total " << kind << ": " << with_commas(count) << '\n';
   }
   std::cout << std::flush;
@@ -105,29 +156,52 @@ Exit_code run(const Request& request)
     output_format(request.output);
     require_writable(request.output);
   }
-  if (!request.scene.empty())
-    require_writable(request.scene);
+  for (const std::string& path : {request.scene, request.report})
+    if (!path.empty())
+      require_writable(path);
+  for (const std::string& other : {request.original, request.log, request.output, request.scene})
+    if (!request.report.empty() && !other.empty() && is_same_file(request.report, other))
+      throw Argument_error("--report names the same file as something else: " + request.report);
+  Replay_options options;
+  options.limits = imposed_limits(request.limits);
   std::ifstream stream(request.log, std::ios::binary);
   if (!stream)
     throw Input_error(request.log + ": cannot be opened");
   Log_reader log(stream, request.log);
-  require_same_file(request, log.header());
   const Mesh_file original = read_mesh(request.original);
 
   watch_for_interruption();
-  Replay_options options;
   options.are_limits_judged = !request.is_free_of_limits;
+  options.sha256_of_original = sha256_of_file(request.original);
   options.is_all_wanted = request.is_all_wanted;
   options.should_stop = [](std::size_t) { return is_interrupted(); };
-  const Replay_verdict verdict = replay(original.soup, original.format == Mesh_format::stl, log, options);
-  print(request, verdict);
+  const Replay_verdict verdict = [&] {
+    try {
+      return replay(original.soup, original.format == Mesh_format::stl, log, options);
+    } catch (const Input_error& error) {
+      throw Input_error(request.original + " with " + request.log + ": " + error.what());
+    }
+  }();
+  const Exit_code code = !verdict.violations.empty() ? exit_not_verified
+                         : verdict.is_stopped        ? exit_interrupted
+                                                     : exit_done;
+  Json report = new_report("replay");
+  report["input"] = input_json(request.original, original);
+  report["log"] = {{"path", request.log}};
+  add_replay(report, verdict);
+  report["memory"] = {{"peak_bytes", peak_memory_bytes()}};
+  report["exit_code"] = int(code);
+  if (request.is_json)
+    std::cout << to_text(report) << std::flush;
+  else
+    print(request, verdict);
+  if (!request.report.empty())
+    write_file(request.report, to_text(report));
   if (!request.scene.empty() && !verdict.violations.empty())
     write_file(request.scene, verdict.violations.front().scene);
   if (!request.output.empty())
     write_output(request.output, verdict.soup, request.is_ascii);
-  if (!verdict.violations.empty())
-    return exit_not_verified;
-  return verdict.is_stopped ? exit_interrupted : exit_done;
+  return code;
 }
 
 } // namespace
@@ -141,20 +215,39 @@ Action add_replay(CLI::App& command)
       ->type_name("");
   command.add_option("-o,--output", request->output, "Where the mesh goes that the steps lead to")
       ->type_name("FILE");
-  command.add_flag("--no-limits", request->is_free_of_limits,
-                   "Judge links and geometry alone, not angles, shapes and lines");
+  CLI::Option* const limits =
+      command
+          .add_option("--limits", request->limits,
+                      "Judge these limits in place of those that the log declares: 'limit NAME NUMBER' lines "
+                      "as in a log, the paper's, or the defaults of `simplify`")
+          ->type_name("FILE|seed|default");
+  command
+      .add_flag("--no-limits", request->is_free_of_limits,
+                "Judge links and geometry alone, not angles, shapes and lines; of snaps their length, too")
+      ->excludes(limits);
   command.add_flag("--all", request->is_all_wanted, "Go on after a bad step, and list them all");
   command.add_option("--scene", request->scene, "Write the first violation's faces as an OBJ file")
       ->type_name("FILE");
+  CLI::Option* const report =
+      command.add_option("--report", request->report, "Write the verdict as JSON, beside the text")
+          ->type_name("FILE");
+  command.add_flag("--json", request->is_json, "Print the verdict as JSON instead of text")->excludes(report);
   command.add_flag("--ascii", request->is_ascii, "Write PLY and STL as text");
   command.footer(
       "Examples:\n"
       "  selvedge simplify jacket.obj -o small.obj --ratio 0.3 --log jacket.log\n"
       "  selvedge replay jacket.obj jacket.log -o again.obj && cmp small.obj again.obj\n"
-      "  selvedge replay jacket.obj of_my_own_program.log --no-limits --all\n\n"
-      "Exit code 0 when every step is accepted and the result is what the log says, 1 when not. The log's "
-      "format\n"
-      "is documented in collapse_log.h, and how to write one in docs/validate_your_simplifier.md.");
+      "  selvedge replay jacket.obj jacket.log --limits seed        by the judge's limits, not the log's\n"
+      "  selvedge replay jacket.obj of_my_own_program.log --no-limits --all\n"
+      "  selvedge replay jacket.obj jacket.log --json | jq .terms\n\n"
+      "Exit code 0 when every step is accepted and the result is what the log says, 1 when not. Accepted is "
+      "only\n"
+      "what the verdict says was judged: which limits with which values; whether input and result are bound "
+      "by\n"
+      "their SHA-256; and it lists what was not judged. The log's format is documented in collapse_log.h, "
+      "how "
+      "to\n"
+      "write one in docs/validate_your_simplifier.md, the JSON in docs/report.md.");
   return [request] { return run(*request); };
 }
 

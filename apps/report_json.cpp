@@ -67,6 +67,29 @@ Json first_of(const std::vector<Offending_pair>& pairs)
   return list;
 }
 
+Json to_json(const Reduction_limits& limits)
+{
+  Json object = Json::object();
+  for (const Limit_description& limit : limit_descriptions)
+    object[limit.key] = limits.*limit.value ? Json(*(limits.*limit.value)) : Json(nullptr);
+  return object;
+}
+
+Json to_json(const Violation& violation)
+{
+  Json triangles = Json::array();
+  for (const Index triangle : violation.triangles)
+    triangles.push_back(triangle + 1);
+  return {{"kind", name(violation.kind)},
+          {"step", violation.step},
+          {"line", violation.line},
+          {"removed", violation.removed},
+          {"kept", violation.kept},
+          {"triangles", std::move(triangles)},
+          {"message", violation.message},
+          {"point", violation.point.empty() ? Json(nullptr) : Json(violation.point)}};
+}
+
 // Soups may have as many pieces as triangles; kinds are few.
 Json kinds_of(const std::vector<Piece>& pieces)
 {
@@ -239,6 +262,45 @@ void add_parts(Json& report, const Prepared_soup& prepared, const Simplified_sou
   }
   report["parts"] = std::move(list);
   report["uv"] = to_json(uv_deviation(result, prepared));
+}
+
+std::map<std::string, std::size_t> count_by_kind(const std::vector<Violation>& violations)
+{
+  std::map<std::string, std::size_t> counts;
+  for (const Violation& violation : violations)
+    ++counts[name(violation.kind)];
+  return counts;
+}
+
+void add_replay(Json& report, const Replay_verdict& verdict)
+{
+  report["verdict"] = verdict.is_accepted()        ? "accepted"
+                      : verdict.violations.empty() ? "interrupted"
+                                                   : "refused";
+  Json open = Json::array();
+  for (const Not_judged& part : not_judged(verdict))
+    open.push_back({{"key", part.key}, {"sentence", part.sentence}});
+  report["terms"] = {{"limits_of", name(verdict.limits_source)},
+                     {"limits", to_json(verdict.limits)},
+                     {"declared", to_json(verdict.header.limits)},
+                     {"input_bound", verdict.is_input_stated},
+                     {"result_bound", verdict.is_result_stated},
+                     {"rounding", verdict.header.is_rounded_to_float32 ? "float32" : "none"},
+                     {"not_judged", std::move(open)}};
+  report["steps"] = {{"taken", verdict.steps}, {"snaps", verdict.snaps}, {"collapses", verdict.collapses}};
+  report["faces"] = {{"output", verdict.soup.triangles.size()}};
+  report["frozen"] = {{"pairs", verdict.offending_pairs}};
+  report["snap"] = {{"largest_distance", verdict.largest_snap},
+                    {"largest_way", verdict.largest_way_of_snaps}};
+  Json kinds = Json::array(), first = Json::array();
+  for (const auto& [kind, count] : count_by_kind(verdict.violations))
+    kinds.push_back({{"kind", kind}, {"count", count}});
+  for (std::size_t i = 0; i < (std::min)(verdict.violations.size(), most_named); ++i)
+    first.push_back(to_json(verdict.violations[i]));
+  report["violations"] = {
+      {"count", verdict.violations.size()}, {"kinds", std::move(kinds)}, {"first", std::move(first)}};
+  report["pairs"] = {{"judged", verdict.pairs_judged}, {"in_rationals", verdict.pairs_judged_in_rationals}};
+  report["seconds"] = {{"check", verdict.seconds_prepare}, {"steps", verdict.seconds_steps}};
 }
 
 std::size_t peak_memory_bytes()

@@ -6,13 +6,17 @@
 
 #include <selvedge/compare.h>
 #include <selvedge/mesh/mesh_files.h>
+#include <selvedge/replay.h>
 #include <selvedge/simplify_soup.h>
 #include <selvedge/verify.h>
 
 #include <nlohmann/json.hpp>
 
+#include <cstddef>
 #include <filesystem>
+#include <map>
 #include <string>
+#include <vector>
 
 namespace selvedge::app {
 
@@ -36,6 +40,12 @@ void add_comparison(Json& report, const Comparison& comparison);
 
 /// Sets `parts`, and `uv` where there is a texture.
 void add_parts(Json& report, const Prepared_soup& prepared, const Simplified_soup& result);
+
+/// Counts violations by the names of their kinds.
+std::map<std::string, std::size_t> count_by_kind(const std::vector<Violation>& violations);
+
+/// Sets `verdict`, `terms`, `steps`, `faces`, `frozen`, `snap`, `violations`, `pairs` and `seconds`.
+void add_replay(Json& report, const Replay_verdict& verdict);
 
 std::size_t peak_memory_bytes();
 

@@ -211,6 +211,9 @@ private:
     }
     const Triangle_soup obstacle =
         m_request.obstacle.empty() ? Triangle_soup() : read_mesh(m_request.obstacle).soup;
+    if (!m_request.obstacle.empty())
+      m_log_header.obstacle = {obstacle.points.size(), obstacle.triangles.size(),
+                               sha256_of_file(m_request.obstacle)};
 
     m_bar.begin("judging the input");
     Prepare_options options;

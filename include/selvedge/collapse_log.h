@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_COLLAPSE_LOG_H
 #define SELVEDGE_COLLAPSE_LOG_H
 
+#include <selvedge/Reduction_limits.h>
 #include <selvedge/mesh/Triangle_soup.h>
 
 #include <array>
@@ -19,48 +20,57 @@
 namespace selvedge {
 
 /// \file
-/// The log of a reduction: every motion of a vertex, in order, so that a program that knows nothing of the one that
-/// wrote it can do the same again and judge each step (`replay.h`).
+/// The log of a reduction: every motion of a vertex, in order, so that a program that knows nothing of the
+/// one that wrote it can do the same again and judge each step (`replay.h`).
 ///
-/// **The format**, version 1, to the byte. Text in ASCII; a line ends with a line feed (a carriage return before it is
-/// ignored); words in a line are separated by one or more blanks. An empty line, and one that begins with `#`, says
-/// nothing. Lines come in this order:
+/// **The format**, version 1, to the byte. Text in ASCII; a line ends with a line feed (a carriage return
+/// before it is ignored); words in a line are separated by one or more blanks. An empty line, and one that
+/// begins with `#`, says nothing. Lines come in this order:
 ///
 ///     selvedge-log 1
 ///     input VERTICES TRIANGLES SHA256
 ///     rounding none|float32                  once at most; none where it is missing
+///     obstacle VERTICES TRIANGLES SHA256     once at most
 ///     limit NAME NUMBER                      any number of them, each name once
 ///     s MOVED KEPT                           any number of them
 ///     w VERTEX VERTEX ...                    any number of them
 ///     c REMOVED KEPT [X Y Z [FIRST]]         any number of them
 ///     result COLLAPSES TRIANGLES SHA256
 ///
-/// - *Vertices* are 0-based numbers of the input file: in OBJ, OFF and PLY the order of its vertices, used or not; in glTF
-///   that in which `read_mesh` finds them, by nodes, then primitives. In STL,
-///   which has no vertices, 3 × triangle + corner, any of those at one position.
+/// - *Vertices* are 0-based numbers of the input file: in OBJ, OFF and PLY the order of its vertices, used
+///   or not; in glTF that in which `read_mesh` finds them, by nodes, then primitives. In STL, which has no
+///   vertices, 3 × triangle + corner, any of those at one position.
 /// - *input*: vertices of the file (in STL three for each triangle), triangles after polygons were cut as
-///   `read_mesh` cuts them, and the SHA-256 of the file's bytes, in 64 hexadecimal digits, or `-` for unknown.
-/// - *rounding*: what was done to every coordinate before anything else: nothing, or to the nearest 32-bit float, ties to
-///   even.
-/// - *limit*: what the writer held itself to, and wants to be held to: `normal_change`, `border_turn`, `seam_turn` in
-///   degrees; `aspect_ratio`, from 0 to 1, as `aspect_ratio()` defines it; `border_drift`, as a share of the diagonal of
-///   the bounding box of the vertices that triangles use. What is not declared is not judged; when at least one
-///   of the last three is, vertices of borders and seams must also keep to their lines. `Simplify_options` says
-///   what each of them means.
-/// - *s*, a snap: the vertices at the position of MOVED go, along a straight line, to that of KEPT; no edge joins the two.
-/// - *w*, welding: vertices at one position, which from here on move as one. Vertices at one position always do,
-///   stated or not; the line is for readers who would rather not look for them. A writer states all groups or none.
-/// - *c*, a collapse: the vertices at the position of REMOVED go to that of KEPT, along their common edge, and merge with
-///   it. Where X Y Z is given both go there instead, KEPT first, or REMOVED first when FIRST is `removed`; FIRST may
-///   also be `kept`. Numbers are decimal, with a point, and so many digits that they read back as the same double
-///   (17 do; the shortest that do are what we write).
-/// - *result*: how many c-lines there were, how many triangles are left, and the SHA-256, or `-`, of this text: a line
-///   `A B C` and a line feed for every triangle left, in the order of the input, its corners in their order there, each by the
-///   smallest number of a vertex that was, before the first c-line, at the position where the corner is now. (A position
-///   X Y Z has the number of the vertex that went there as KEPT.)
+///   `read_mesh` cuts them, and the SHA-256 of the file's bytes, in 64 hexadecimal digits, or `-` for
+///   unknown.
+/// - *rounding*: what was done to every coordinate before anything else: nothing, or to the nearest 32-bit
+///   float, ties to even.
+/// - *obstacle*: a mesh that the writer kept clear of and did not change, as *input* describes a mesh. The
+///   log does not hold it, and nobody can judge by it; the line says that there was one.
+/// - *limit*: what the writer held itself to, and wants to be held to. NAME is a key of `limit_descriptions`
+///   (`normal_change`, `aspect_ratio`, `border_turn`, `seam_turn`, `border_drift`, `weld_distance`), NUMBER
+///   is at least 0; `Reduction_limits` has the units. The diagonal is that of the bounding box of the
+///   vertices that triangles use, after all snaps. What is not declared is not judged, except that a log
+///   with snaps must declare its `weld_distance`. When `border_turn`, `seam_turn` or `border_drift` is
+///   declared, vertices of borders and seams must also keep to their lines.
+/// - *s*, a snap: the vertices at the position of MOVED go, along a straight line, to that of KEPT, their
+///   partner on another border within the weld distance (`snapping.h` says who is a partner); no edge joins
+///   the two.
+/// - *w*, welding: vertices at one position, which from here on move as one. Vertices at one position always
+///   do, stated or not; the line is for readers who would rather not look for them. A writer states all
+///   groups or none.
+/// - *c*, a collapse: the vertices at the position of REMOVED go to that of KEPT, along their common edge,
+///   and merge with it. Where X Y Z is given both go there instead, KEPT first, or REMOVED first when FIRST
+///   is `removed`; FIRST may also be `kept`. Numbers are decimal, with a point, and so many digits that they
+///   read back as the same double (17 do; the shortest that do are what we write).
+/// - *result*: how many c-lines there were, how many triangles are left, and the SHA-256, or `-`, of this
+///   text: a line `A B C` and a line feed for every triangle left, in the order of the input, its corners in
+///   their order there, each by the smallest number of a vertex that was, before the first c-line, at the
+///   position where the corner is now. (A position X Y Z has the number of the vertex that went there as
+///   KEPT.)
 ///
-/// Triangles with two corners at one position, at the start or after rounding, are left out of everything but the count
-/// in *input*.
+/// Triangles with two corners at one position, at the start or after rounding, are left out of everything
+/// but the count in *input*.
 ///
 /// **Complexity** Both directions stream: memory does not grow with the length of the log.
 
@@ -89,11 +99,16 @@ struct Log_header
   std::string sha256; ///< of the file; empty when unknown
   bool is_rounded_to_float32 = false;
 
-  std::optional<double> normal_change; ///< degrees
-  std::optional<double> aspect_ratio;
-  std::optional<double> border_turn;  ///< degrees
-  std::optional<double> seam_turn;    ///< degrees
-  std::optional<double> border_drift; ///< share of the diagonal
+  /// A mesh beside the input that the writer kept clear of.
+  struct Obstacle
+  {
+    std::size_t vertices = 0;
+    std::size_t triangles = 0;
+    std::string sha256; ///< of the file; empty when unknown
+  };
+  std::optional<Obstacle> obstacle;
+
+  Reduction_limits limits;
 };
 
 /// A line that moves or welds.
@@ -131,8 +146,8 @@ private:
   std::ostream& m_stream;
 };
 
-/// Reads a log from a stream that outlives the reader. Whatever is no log of this version, in whatever line, is an
-/// `Input_error` that names `name`, the line and the mend.
+/// Reads a log from a stream that outlives the reader. Whatever is no log of this version, in whatever line,
+/// is an `Input_error` that names `name`, the line and the mend.
 class Log_reader
 {
 public:
@@ -148,24 +163,29 @@ public:
   const Log_result& result() const;
 
 private:
+  friend Reduction_limits read_limits(std::istream& stream, const std::string& name);
+
   class Implementation;
   std::unique_ptr<Implementation> m_implementation;
 };
 
+/// Reads `limit` lines, as a log's header has them, and nothing else but empty lines and those that begin
+/// with `#`. Throws `Input_error`, which names `name` and the line, where there is anything else, and when
+/// there is no limit.
+Reduction_limits read_limits(std::istream& stream, const std::string& name);
+
 struct Prepared_soup;
 struct Simplified_soup;
-struct Simplify_options;
 
-/// Writes the log of a reduction by `simplify_soup`.
-///
-/// An obstacle is not in the log, and what is judged by it is judged without.
+/// Writes the log of a reduction by `simplify_soup`. Of an obstacle it holds only that there was one.
 class Reduction_log
 {
 public:
-  /// `header` names the file and its rounding; the limits are added from the options. Writes snaps and welds. All arguments
-  /// but the header and the options outlive the log.
-  Reduction_log(std::ostream& stream, Log_header header, const Log_numbering& numbering, const Prepared_soup& prepared,
-                const Simplify_options& options);
+  /// `header` names the file, its rounding, and the file of the obstacle if there is one; the limits are
+  /// added from the options, the weld distance and an obstacle without a file from `prepared`. Writes snaps
+  /// and welds. All arguments but the header and the options outlive the log.
+  Reduction_log(std::ostream& stream, Log_header header, const Log_numbering& numbering,
+                const Prepared_soup& prepared, const Simplify_options& options);
 
   /// To be called by `Simplify_options::on_collapse`.
   void add_collapse(std::size_t removed, std::size_t kept);

@@ -27,13 +27,14 @@ std::vector<Index> smallest_numbers(const std::vector<Point_3>& points, const Lo
   return result;
 }
 
-Log_header with_limits(Log_header header, const Simplify_options& options)
+Log_header completed(Log_header header, const Prepared_soup& prepared, const Simplify_options& options)
 {
-  header.normal_change = options.max_normal_change;
-  header.aspect_ratio = options.min_aspect_ratio;
-  header.border_turn = options.max_border_turn;
-  header.seam_turn = options.max_seam_turn;
-  header.border_drift = options.max_border_drift;
+  header.limits = limits_of(options);
+  if (prepared.snapping.distance > 0)
+    header.limits.weld_distance = prepared.snapping.distance;
+  const Triangle_soup& obstacle = prepared.obstacle;
+  if (!header.obstacle && !obstacle.triangles.empty())
+    header.obstacle = {obstacle.points.size(), obstacle.triangles.size(), {}};
   return header;
 }
 
@@ -41,7 +42,8 @@ Log_header with_limits(Log_header header, const Simplify_options& options)
 
 Reduction_log::Reduction_log(std::ostream& stream, Log_header header, const Log_numbering& numbering,
                              const Prepared_soup& prepared, const Simplify_options& options)
-    : m_writer(stream, with_limits(std::move(header), options)), m_numbering(numbering), m_prepared(prepared)
+    : m_writer(stream, completed(std::move(header), prepared, options)), m_numbering(numbering),
+      m_prepared(prepared)
 {
   for (const auto& [from, to] : prepared.snapping.snaps) {
     Log_step step;

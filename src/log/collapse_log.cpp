@@ -16,17 +16,6 @@ namespace {
 
 constexpr std::string_view s_first_line = "selvedge-log 1";
 
-/// The limits by their names.
-template <class Header>
-auto limits(Header& header)
-{
-  return std::array{std::make_pair("normal_change", &header.normal_change),
-                    std::make_pair("aspect_ratio", &header.aspect_ratio),
-                    std::make_pair("border_turn", &header.border_turn),
-                    std::make_pair("seam_turn", &header.seam_turn),
-                    std::make_pair("border_drift", &header.border_drift)};
-}
-
 template <class Number>
 std::string text_of(Number number)
 {
@@ -55,12 +44,18 @@ Log_numbering::Log_numbering(const Triangle_soup& original, bool is_stl)
 
 Log_writer::Log_writer(std::ostream& stream, const Log_header& header) : m_stream(stream)
 {
-  m_stream << s_first_line << "\ninput " << text_of(header.vertices) << ' ' << text_of(header.triangles)
-           << ' ' << text_of_digest(header.sha256) << "\nrounding "
-           << (header.is_rounded_to_float32 ? "float32" : "none") << '\n';
-  for (const auto& [name, value] : limits(header))
-    if (*value)
-      m_stream << "limit " << name << ' ' << text_of(**value) << '\n';
+  m_stream << s_first_line << '\n';
+  const auto write_mesh = [&](const char* what, const auto& mesh) {
+    m_stream << what << ' ' << text_of(mesh.vertices) << ' ' << text_of(mesh.triangles) << ' '
+             << text_of_digest(mesh.sha256) << '\n';
+  };
+  write_mesh("input", header);
+  m_stream << "rounding " << (header.is_rounded_to_float32 ? "float32" : "none") << '\n';
+  if (header.obstacle)
+    write_mesh("obstacle", *header.obstacle);
+  for (const Limit_description& limit : limit_descriptions)
+    if (const std::optional<double>& value = header.limits.*limit.value)
+      m_stream << "limit " << limit.key << ' ' << text_of(*value) << '\n';
 }
 
 void Log_writer::write(const Log_step& step)
@@ -102,10 +97,7 @@ public:
       fail("the log has version " + std::string(m_words[1]) + ", and this program knows only version 1");
     if (!next_line() || m_words[0] != "input")
       fail("the second line is 'input VERTICES TRIANGLES SHA256'");
-    expect_words(4, 4, "input VERTICES TRIANGLES SHA256");
-    header.vertices = number<std::size_t>(1);
-    header.triangles = number<std::size_t>(2);
-    header.sha256 = digest(3);
+    read_mesh(header, "input VERTICES TRIANGLES SHA256");
     bool is_rounding_known = false;
     while (next_line()) {
       if (m_words[0] == "rounding" && !is_rounding_known) {
@@ -114,14 +106,27 @@ public:
           fail("rounding is 'none' or 'float32'");
         header.is_rounded_to_float32 = m_words[1] == "float32";
         is_rounding_known = true;
+      } else if (m_words[0] == "obstacle" && !header.obstacle) {
+        read_mesh(header.obstacle.emplace(), "obstacle VERTICES TRIANGLES SHA256");
       } else if (m_words[0] == "limit") {
-        expect_words(3, 3, "limit NAME NUMBER");
         read_limit();
       } else {
         m_is_line_pending = true;
         return;
       }
     }
+  }
+
+  void read_limits()
+  {
+    std::size_t count = 0;
+    for (; next_line(); ++count) {
+      if (m_words[0] != "limit")
+        fail("only lines of the form 'limit NAME NUMBER' stand in a file of limits");
+      read_limit();
+    }
+    if (count == 0)
+      fail("there is no limit in this file; add one as 'limit NAME NUMBER'");
   }
 
   bool read(Log_step& step)
@@ -232,19 +237,32 @@ private:
     return text;
   }
 
+  template <class Mesh>
+  void read_mesh(Mesh& mesh, const char* form) const
+  {
+    expect_words(4, 4, form);
+    mesh.vertices = number<std::size_t>(1);
+    mesh.triangles = number<std::size_t>(2);
+    mesh.sha256 = digest(3);
+  }
+
   void read_limit()
   {
-    for (const auto& [name, value] : limits(header)) {
-      if (m_words[1] != name)
+    expect_words(3, 3, "limit NAME NUMBER");
+    std::string known;
+    for (const Limit_description& limit : limit_descriptions) {
+      known += (known.empty() ? "" : ", ") + std::string(limit.key);
+      if (m_words[1] != limit.key)
         continue;
-      if (*value)
-        fail(std::string("the limit ") + name + " is declared twice");
-      *value = number<double>(2);
-      if (**value < 0)
+      std::optional<double>& value = header.limits.*limit.value;
+      if (value)
+        fail(std::string("the limit ") + limit.key + " is declared twice");
+      value = number<double>(2);
+      if (*value < 0)
         fail("a limit is not negative");
       return;
     }
-    fail("there is no limit called '" + std::string(m_words[1].substr(0, 20)) + "'");
+    fail("there is no limit called '" + std::string(m_words[1].substr(0, 20)) + "'; there are " + known);
   }
 
   void read_collapse(Log_step& step)
@@ -294,6 +312,13 @@ bool Log_reader::read(Log_step& step)
 const Log_result& Log_reader::result() const
 {
   return m_implementation->result;
+}
+
+Reduction_limits read_limits(std::istream& stream, const std::string& name)
+{
+  Log_reader::Implementation lines(stream, name);
+  lines.read_limits();
+  return lines.header.limits;
 }
 
 } // namespace selvedge

@@ -6,6 +6,7 @@
 #include <selvedge/mesh/selection.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace selvedge::reference {
 namespace {
@@ -29,9 +30,10 @@ std::vector<Index> first_at_position(const std::vector<Point_3>& points)
 }
 
 Complex::Complex(const Triangle_soup& soup)
-    : m_soup(soup), m_position_of_vertex(first_at_position(soup.points)), m_faces_at(soup.points.size()),
-      m_alive(soup.triangles.size())
+    : m_soup(soup), m_position_of_vertex(first_at_position(soup.points)), m_snapped_to(soup.points.size()),
+      m_faces_at(soup.points.size()), m_alive(soup.triangles.size())
 {
+  std::iota(m_snapped_to.begin(), m_snapped_to.end(), Index(0));
   for (const Point_3& p : soup.points)
     m_points.push_back({p.x(), p.y(), p.z()});
   for (Index f = 0; f < soup.triangles.size(); ++f) {
@@ -153,9 +155,7 @@ void Complex::snap(Index moved, Index kept)
     m_faces_at[kept].push_back(f);
   }
   m_faces_at[moved].clear();
-  for (Index& position : m_position_of_vertex)
-    if (position == moved)
-      position = kept;
+  m_snapped_to[moved] = kept;
 }
 
 std::vector<Index> Complex::collapse(Index removed, Index kept)
@@ -280,7 +280,7 @@ Triangle_soup Complex::result() const
   Triangle_soup moved = m_soup;
   for (Index v = 0; v < moved.points.size(); ++v) {
     // Bits stay, down to the sign of a zero, where nothing has moved.
-    const Coordinates& now = m_points[m_position_of_vertex[v]];
+    const Coordinates& now = m_points[position(v)];
     const Point_3 place(now[0], now[1], now[2]);
     if (moved.points[v] != place)
       moved.points[v] = place;

@@ -41,8 +41,14 @@ public:
 
   explicit Complex(const Triangle_soup& soup);
 
-  /// Where a vertex of the soup is now, or was when it went.
-  Index position(Index vertex) const { return m_position_of_vertex[vertex]; }
+  /// Where a vertex of the soup is now, or was when a collapse removed it.
+  Index position(Index vertex) const
+  {
+    Index position = m_position_of_vertex[vertex];
+    while (m_snapped_to[position] != position)
+      position = m_snapped_to[position];
+    return position;
+  }
   Place place(Index position) const { return {position, m_points[position]}; }
   const Coordinates& point(Index position) const { return m_points[position]; }
   std::array<Place, 3> triangle(Index face) const;
@@ -90,8 +96,9 @@ private:
   void carry_passed(const std::vector<Edge>& edges, Index removed, Index kept);
 
   const Triangle_soup& m_soup;
-  std::vector<Index> m_position_of_vertex;
-  std::vector<Coordinates> m_points; // by position
+  std::vector<Index> m_position_of_vertex; // at the start
+  std::vector<Index> m_snapped_to;         // by position; itself where it has not snapped
+  std::vector<Coordinates> m_points;       // by position
   std::vector<Face> m_faces;
   std::vector<std::vector<Index>> m_faces_at;
   std::size_t m_alive = 0;

@@ -4,13 +4,12 @@
 #include "limits.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 namespace selvedge::reference {
 namespace {
 
-// Of what is compared: programs that add in another order do not differ about a limit.
-constexpr double s_tolerance = 1e-9;
 constexpr double s_degree = 3.14159265358979323846 / 180;
 
 using Vector = Coordinates;
@@ -34,7 +33,8 @@ Vector cross(const Vector& u, const Vector& v)
 
 bool is_angle_within(const Vector& u, const Vector& v, double degrees)
 {
-  return degrees >= 180 || dot(u, v) >= (std::cos(degrees * s_degree) - s_tolerance) * length(u) * length(v);
+  return degrees >= 180 ||
+         dot(u, v) >= (std::cos(degrees * s_degree) - limit_tolerance) * length(u) * length(v);
 }
 
 double distance_to_segment(const Vector& p, const Vector& a, const Vector& b)
@@ -56,6 +56,39 @@ double aspect_ratio(const Vector& a, const Vector& b, const Vector& c)
 
 } // namespace
 
+double distance(const Coordinates& a, const Coordinates& b)
+{
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+const Limit_description* limit_of(Violation_kind kind)
+{
+  switch (kind) {
+  case Violation_kind::normal_change:
+    return &describe(&Reduction_limits::normal_change);
+  case Violation_kind::aspect_ratio:
+    return &describe(&Reduction_limits::aspect_ratio);
+  case Violation_kind::border_turn:
+    return &describe(&Reduction_limits::border_turn);
+  case Violation_kind::seam_turn:
+    return &describe(&Reduction_limits::seam_turn);
+  case Violation_kind::border_drift:
+    return &describe(&Reduction_limits::border_drift);
+  case Violation_kind::weld_distance:
+    return &describe(&Reduction_limits::weld_distance);
+  default:
+    return nullptr;
+  }
+}
+
+std::string message_of_limit(Violation_kind kind, double limit)
+{
+  const Limit_description& description = *limit_of(kind);
+  char number[32];
+  return std::string(description.broken) + ' ' +
+         std::string(number, std::to_chars(number, number + sizeof number, limit).ptr) + description.unit;
+}
+
 void Limits::set_size(const Coordinates& low, const Coordinates& high)
 {
   m_diagonal = length(difference(high, low));
@@ -64,7 +97,7 @@ void Limits::set_size(const Coordinates& low, const Coordinates& high)
 std::optional<Violation_kind> Limits::judge(const Complex& complex, Index removed, Index kept,
                                             const Coordinates& place, bool is_kept_still) const
 {
-  if (m_header.border_turn || m_header.seam_turn || m_header.border_drift) {
+  if (m_limits.border_turn || m_limits.seam_turn || m_limits.border_drift) {
     if (const auto kind = judge_line(complex, removed, kept, place))
       return kind;
     if (!is_kept_still)
@@ -93,12 +126,12 @@ std::optional<Violation_kind> Limits::judge_line(const Complex& complex, Index m
   if (behind.is_border() != ahead->is_border())
     return Violation_kind::line;
   const Coordinates &m = complex.point(mover), &u = complex.point(behind.neighbour);
-  const auto& turn = ahead->is_border() ? m_header.border_turn : m_header.seam_turn;
+  const auto& turn = ahead->is_border() ? m_limits.border_turn : m_limits.seam_turn;
   if (turn && !is_angle_within(difference(m, u), difference(place, m), *turn))
     return ahead->is_border() ? Violation_kind::border_turn : Violation_kind::seam_turn;
-  if (!m_header.border_drift)
+  if (!m_limits.border_drift)
     return std::nullopt;
-  const double most = *m_header.border_drift * m_diagonal * (1 + s_tolerance);
+  const double most = *m_limits.border_drift * m_diagonal * (1 + limit_tolerance);
   const auto is_far = [&](const Coordinates& p) { return distance_to_segment(p, u, place) > most; };
   if (is_far(m))
     return Violation_kind::border_drift;
@@ -124,9 +157,9 @@ std::optional<Violation_kind> Limits::judge_shapes(const Complex& complex, Index
       least_after = std::min(least_after, aspect_ratio(place, a, b));
       const Vector before = cross(difference(a, m), difference(b, m));
       const Vector after = cross(difference(a, place), difference(b, place));
-      if (m_header.normal_change && length(before) > 0)
+      if (m_limits.normal_change && length(before) > 0)
         is_turned =
-            is_turned || !(length(after) > 0) || !is_angle_within(before, after, *m_header.normal_change);
+            is_turned || !(length(after) > 0) || !is_angle_within(before, after, *m_limits.normal_change);
     }
   };
   add(removed, kept);
@@ -134,28 +167,17 @@ std::optional<Violation_kind> Limits::judge_shapes(const Complex& complex, Index
     add(kept, removed);
   if (is_turned)
     return Violation_kind::normal_change;
-  if (m_header.aspect_ratio && least_after < *m_header.aspect_ratio * (1 - s_tolerance) &&
-      least_after <= least_before * (1 - s_tolerance))
+  if (m_limits.aspect_ratio && least_after < *m_limits.aspect_ratio * (1 - limit_tolerance) &&
+      least_after <= least_before * (1 - limit_tolerance))
     return Violation_kind::aspect_ratio;
   return std::nullopt;
 }
 
-const char* Limits::message(Violation_kind kind)
+std::string Limits::message(Violation_kind kind) const
 {
-  switch (kind) {
-  case Violation_kind::line:
+  if (kind == Violation_kind::line)
     return "what moves is on a border or seam, and leaves it, or is a corner or an end of it";
-  case Violation_kind::border_turn:
-    return "the border turns there by more than the log allows";
-  case Violation_kind::seam_turn:
-    return "the seam turns there by more than the log allows";
-  case Violation_kind::border_drift:
-    return "the border or seam goes further away than the log allows";
-  case Violation_kind::normal_change:
-    return "the normal of a triangle changes by more than the log allows";
-  default:
-    return "a triangle gets thinner than the log allows, and than it was";
-  }
+  return message_of_limit(kind, *(m_limits.*limit_of(kind)->value));
 }
 
 } // namespace selvedge::reference

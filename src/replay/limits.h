@@ -6,18 +6,31 @@
 
 #include "Complex.h"
 
-#include <selvedge/collapse_log.h>
+#include <selvedge/Reduction_limits.h>
 #include <selvedge/replay.h>
 
 #include <optional>
+#include <string>
 
 namespace selvedge::reference {
 
-/// The limits that a log declares, in floating point.
+/// The share of what is compared by which a limit may be missed: programs that add in another order do not
+/// differ about a limit.
+inline constexpr double limit_tolerance = 1e-9;
+
+double distance(const Coordinates& a, const Coordinates& b);
+
+/// Returns the limit that a violation is of; null where it is of none.
+const Limit_description* limit_of(Violation_kind kind);
+
+/// Returns a sentence for a step that breaks a limit.
+std::string message_of_limit(Violation_kind kind, double limit);
+
+/// Judges collapses by limits of quality, in floating point.
 class Limits
 {
 public:
-  explicit Limits(const Log_header& header) : m_header(header) {}
+  explicit Limits(const Reduction_limits& limits) : m_limits(limits) {}
 
   /// The bounding box that the drift is a share of.
   void set_size(const Coordinates& low, const Coordinates& high);
@@ -26,7 +39,8 @@ public:
   std::optional<Violation_kind> judge(const Complex& complex, Index removed, Index kept,
                                       const Coordinates& place, bool is_kept_still) const;
 
-  static const char* message(Violation_kind kind);
+  /// Returns a sentence for a collapse that `judge` has refused.
+  std::string message(Violation_kind kind) const;
 
 private:
   std::optional<Violation_kind> judge_line(const Complex& complex, Index mover, Index other,
@@ -34,7 +48,7 @@ private:
   std::optional<Violation_kind> judge_shapes(const Complex& complex, Index removed, Index kept,
                                              const Coordinates& place, bool is_kept_still) const;
 
-  Log_header m_header;
+  Reduction_limits m_limits;
   double m_diagonal = 0;
 };
 

@@ -7,6 +7,7 @@
 #include "Complex.h"
 #include "contact.h"
 #include "limits.h"
+#include "snap.h"
 
 #include <selvedge/Error.h>
 #include <selvedge/mesh/rounding.h>
@@ -25,10 +26,33 @@ namespace selvedge {
 
 const char* name(Violation_kind kind)
 {
-  static constexpr const char* s_names[] = {
-      "no_edge",     "locked",    "link",         "degenerate",    "intersection", "tunnelling", "line",
-      "border_turn", "seam_turn", "border_drift", "normal_change", "aspect_ratio", "result"};
-  return s_names[std::size_t(kind)];
+  if (const Limit_description* limit = reference::limit_of(kind))
+    return limit->key;
+  switch (kind) {
+  case Violation_kind::no_edge:
+    return "no_edge";
+  case Violation_kind::locked:
+    return "locked";
+  case Violation_kind::partner:
+    return "partner";
+  case Violation_kind::link:
+    return "link";
+  case Violation_kind::degenerate:
+    return "degenerate";
+  case Violation_kind::intersection:
+    return "intersection";
+  case Violation_kind::tunnelling:
+    return "tunnelling";
+  case Violation_kind::line:
+    return "line";
+  default:
+    return "result";
+  }
+}
+
+const char* name(Limits_source source)
+{
+  return source == Limits_source::none ? "none" : source == Limits_source::log ? "log" : "judge";
 }
 
 namespace reference {
@@ -83,6 +107,7 @@ struct Start
   std::vector<Index> numbers;  // of its triangles in the original
   std::vector<char> is_locked; // by position
   Offences offences;
+  std::size_t offending_pairs = 0;
 };
 
 void leave_out_needless(Start& start)
@@ -117,6 +142,7 @@ Start prepare(const Triangle_soup& original, bool is_rounded)
   for (const Offending_pair& pair : offending_pairs(start.soup)) {
     is_frozen[pair.first] = is_frozen[pair.second] = true;
     start.offences.add(pair.first, pair.second);
+    ++start.offending_pairs;
   }
   // What only rounding has brought to one position was never one.
   std::vector<char> is_merged(first.size(), false);
@@ -146,8 +172,16 @@ public:
   Replay(const Triangle_soup& original, bool is_stl, Log_reader& log, const Replay_options& options)
       : m_numbering(original, is_stl), m_log(log), m_options(options),
         m_start(prepare(original, log.header().is_rounded_to_float32)), m_complex(m_start.soup),
-        m_limits(log.header())
+        m_limits(judged_limits(log.header(), options))
   {
+    const Log_header& header = log.header();
+    m_verdict.header = header;
+    m_verdict.is_input_stated = !header.sha256.empty() && header.sha256 == options.sha256_of_original;
+    m_verdict.offending_pairs = m_start.offending_pairs;
+    m_verdict.limits = judged_limits(header, options);
+    m_verdict.limits_source = !options.are_limits_judged ? Limits_source::none
+                              : options.limits           ? Limits_source::judge
+                                                         : Limits_source::log;
     m_boxes.resize(m_complex.size());
     for (Index f = 0; f < m_boxes.size(); ++f)
       m_boxes[f] = box_of(m_complex.triangle(f));
@@ -156,7 +190,6 @@ public:
 
   Replay_verdict run()
   {
-    m_verdict.header = m_log.header();
     const Clock::time_point start = Clock::now();
     Log_step step;
     while (m_log.read(step)) {
@@ -175,6 +208,7 @@ public:
     }
     if (!m_verdict.is_stopped && (m_verdict.violations.empty() || m_options.is_all_wanted))
       judge_result();
+    measure_snaps();
     m_verdict.soup = m_complex.result();
     m_verdict.seconds_steps = seconds_since(start);
     m_verdict.pairs_judged = m_statistics.pairs;
@@ -183,6 +217,16 @@ public:
   }
 
 private:
+  static Reduction_limits judged_limits(const Log_header& header, const Replay_options& options)
+  {
+    const Reduction_limits limits = options.limits.value_or(header.limits);
+    if (options.are_limits_judged)
+      return limits;
+    Reduction_limits needed; // without its distance a snap could be anything
+    needed.weld_distance = limits.weld_distance;
+    return needed;
+  }
+
   static Box box_of(const std::array<Place, 3>& triangle)
   {
     Box box;
@@ -219,12 +263,14 @@ private:
     const bool is_snap = step.kind == Log_step::Kind::snap;
     if (!is_snap)
       begin_collapses();
-    m_verdict.collapses += !is_snap;
+    ++(is_snap ? m_verdict.snaps : m_verdict.collapses);
     Index removed = position(step.removed), kept = position(step.kept);
     if (!is_possible(is_snap, removed, kept))
       return;
     if (is_snap) {
       judge_lock(removed);
+      judge_lock(kept);
+      judge_partners(removed, kept);
       judge({removed, m_complex.place(kept)});
       apply(removed, kept, true);
       return;
@@ -272,6 +318,7 @@ private:
   {
     if (m_complex.has_seams())
       return;
+    measure_snaps();
     m_complex.find_seams();
     Box box;
     for (Index f = 0; f < m_complex.size(); ++f)
@@ -323,13 +370,37 @@ private:
     return true;
   }
 
-  void judge_lock(Index mover)
+  void judge_lock(Index position)
   {
-    if (m_start.is_locked[mover])
-      report(Violation_kind::locked, "what moves belongs to a triangle that offends in the original",
-             m_complex.faces_at(mover));
-    else if (m_step->kind == Log_step::Kind::collapse && !m_complex.is_one_fan(mover))
-      report(Violation_kind::locked, "what moves holds several sheets together", m_complex.faces_at(mover));
+    if (m_start.is_locked[position])
+      report(Violation_kind::locked,
+             m_step->kind == Log_step::Kind::snap
+                 ? "one of the two belongs to a triangle that offends in the original"
+                 : "what moves belongs to a triangle that offends in the original",
+             m_complex.faces_at(position));
+    else if (m_step->kind == Log_step::Kind::collapse && !m_complex.is_one_fan(position))
+      report(Violation_kind::locked, "what moves holds several sheets together",
+             m_complex.faces_at(position));
+  }
+
+  void judge_partners(Index moved, Index kept)
+  {
+    if (const auto objection = judge_snap(m_complex, moved, kept, m_verdict.limits.weld_distance))
+      report(objection->kind, objection->message, m_complex.faces_at(moved));
+    m_verdict.largest_snap =
+        std::max(m_verdict.largest_snap, distance(m_complex.point(moved), m_complex.point(kept)));
+  }
+
+  // Before the first collapse, which may leave vertices where no triangle is.
+  void measure_snaps()
+  {
+    if (m_verdict.snaps == 0 || std::exchange(m_are_snaps_measured, true))
+      return;
+    const std::vector<Point_3>& points = m_start.soup.points;
+    for (Index v = 0; v < points.size(); ++v)
+      m_verdict.largest_way_of_snaps =
+          std::max(m_verdict.largest_way_of_snaps, distance({points[v].x(), points[v].y(), points[v].z()},
+                                                            m_complex.point(m_complex.position(v))));
   }
 
   void judge_link(Index removed, Index kept)
@@ -483,23 +554,23 @@ private:
 
   void judge_limits(Index removed, Index kept, const Coordinates& place, bool is_kept_still)
   {
-    if (m_is_bad || !m_options.are_limits_judged)
+    if (m_is_bad)
       return;
     if (const auto kind = m_limits.judge(m_complex, removed, kept, place, is_kept_still))
-      report(*kind, Limits::message(*kind), m_complex.faces_at(removed));
+      report(*kind, m_limits.message(*kind), m_complex.faces_at(removed));
   }
 
   // Limits compare with what was before the first of two motions, and are told after both.
   void judge_limits_before_motion(Index removed, Index kept, const Coordinates& place)
   {
     m_pending_limit.reset();
-    if (!m_is_bad && m_options.are_limits_judged)
+    if (!m_is_bad)
       m_pending_limit = m_limits.judge(m_complex, removed, kept, place, false);
   }
   void report_pending_limit(Index removed, Index /*kept*/)
   {
     if (m_pending_limit)
-      report(*m_pending_limit, Limits::message(*m_pending_limit), m_complex.faces_at(removed));
+      report(*m_pending_limit, m_limits.message(*m_pending_limit), m_complex.faces_at(removed));
   }
 
   // What changes
@@ -561,7 +632,8 @@ private:
   void judge_result()
   {
     const Log_result& stated = m_log.result();
-    m_verdict.is_result_stated = !stated.sha256.empty();
+    const bool has_digest = !stated.sha256.empty();
+    m_verdict.is_result_stated = has_digest && stated.sha256 == digest();
     std::string message;
     if (stated.collapses != m_verdict.collapses)
       message = "the log has " + std::to_string(m_verdict.collapses) + " collapses, and says " +
@@ -569,7 +641,7 @@ private:
     else if (stated.triangles != m_complex.face_count())
       message = std::to_string(m_complex.face_count()) + " triangles are left, and the log says " +
                 std::to_string(stated.triangles);
-    else if (!stated.sha256.empty() && stated.sha256 != digest())
+    else if (has_digest && !m_verdict.is_result_stated)
       message = "the triangles left are not those that the log's digest stands for";
     if (message.empty())
       return;
@@ -611,6 +683,7 @@ private:
 
   const Log_step* m_step = nullptr; // the one at hand, and what is known of it
   bool m_is_bad = false;
+  bool m_are_snaps_measured = false;
   std::optional<Violation_kind> m_pending_limit;
   std::vector<Index> m_standing;
 };
@@ -623,6 +696,10 @@ Replay_verdict replay(const Triangle_soup& original, bool is_stl, Log_reader& lo
 {
   const std::size_t vertices = is_stl ? 3 * original.triangles.size() : original.points.size();
   const Log_header& header = log.header();
+  if (!header.sha256.empty() && !options.sha256_of_original.empty() &&
+      header.sha256 != options.sha256_of_original)
+    throw Input_error("this is not the file that the log was made from, which has another SHA-256; give the "
+                      "original that the log was made from");
   if (header.vertices != vertices || header.triangles != original.triangles.size())
     throw Input_error("the log is of a mesh of " + std::to_string(header.vertices) + " vertices and " +
                       std::to_string(header.triangles) + " triangles; this one has " +

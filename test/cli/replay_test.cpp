@@ -6,8 +6,15 @@
 #include <selvedge/mesh/mesh_files.h>
 #include <selvedge/verify.h>
 
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <sstream>
+
 namespace selvedge::test {
 namespace {
+
+using Json = nlohmann::json;
 
 /// A reduction that the app has done, with its log.
 struct Logged_run
@@ -45,8 +52,123 @@ TEST(App_replay, AcceptsItsOwnLogAndMakesTheSameFile)
   const App_result result = run_app({"replay", run.original, run.log, "-o", again});
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(result.err, "");
-  EXPECT_NE(result.out.find("\nACCEPTED\n"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("\nACCEPTED: limits of the log, input bound, result bound\n"), std::string::npos)
+      << result.out;
+  EXPECT_NE(
+      result.out.find("\nlimits judged: normal_change 45°, aspect_ratio 0.2, border_turn 8°, seam_turn 60°, "
+                      "border_drift 0.002 of the diagonal\n"),
+      std::string::npos)
+      << result.out;
   EXPECT_EQ(contents_of(again), contents_of(run.reduced));
+}
+
+// What it takes to have nothing judged but geometry shows in the verdict.
+TEST(App_replay, NamesWhatALogWithoutTermsLeavesOpen)
+{
+  const Logged_run run;
+  std::istringstream lines(run.text);
+  std::string stripped;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("input", 0) == 0 || line.rfind("result", 0) == 0)
+      line = line.substr(0, line.rfind(' ')) + " -";
+    if (line.rfind("limit", 0) != 0)
+      stripped += line + '\n';
+  }
+  write_text(run.log, stripped);
+  const App_result result = run_app({"replay", run.original, run.log});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("\nACCEPTED: no limits, input NOT BOUND, result NOT BOUND\n"), std::string::npos)
+      << result.out;
+  for (const char* key : {"normal_change", "aspect_ratio", "border_turn", "seam_turn", "border_drift",
+                          "lines", "input", "result", "attributes"})
+    EXPECT_NE(result.out.find(std::string("\nnot judged: ") + key + ": "), std::string::npos) << result.out;
+}
+
+TEST(App_replay, LimitsOfTheJudgeTakeThePlaceOfTheLogs)
+{
+  const Logged_run run({"--ratio", "0.4", "--normal-change", "120"});
+  const auto replay = [&](const std::string& limits) {
+    return run_app({"replay", run.original, run.log, "--limits", limits});
+  };
+  EXPECT_EQ(run_app({"replay", run.original, run.log}).code, 0);
+  for (const char* limits : {"default", "seed"}) {
+    const App_result refused = replay(limits);
+    EXPECT_EQ(refused.code, 1);
+    EXPECT_NE(refused.out.find("normal_change: the normal of a triangle turns by more than 45°\n"),
+              std::string::npos)
+        << refused.out;
+  }
+  const std::string file = run.folder / "limits";
+  write_text(file, "limit normal_change 120\nlimit seam_turn 60\n");
+  const App_result accepted = replay(file);
+  EXPECT_EQ(accepted.code, 0);
+  EXPECT_NE(accepted.out.find("\nlimits judged: normal_change 120°, seam_turn 60°\n"), std::string::npos)
+      << accepted.out;
+  EXPECT_NE(accepted.out.find("\nlimits that the log declares, set aside: normal_change 120°"),
+            std::string::npos)
+      << accepted.out;
+  EXPECT_NE(accepted.out.find("\nACCEPTED: limits of the judge, input bound, result bound\n"),
+            std::string::npos)
+      << accepted.out;
+  write_text(file, "limit normal_change 45\n");
+  EXPECT_EQ(replay(file).code, 1);
+  write_text(file, "limit normal_changes 45\n");
+  expect_refused({"replay", run.original, run.log, "--limits", file}, 3, "limits, line 1");
+  expect_refused({"replay", run.original, run.log, "--limits", run.folder / "absent"}, 3, "absent");
+  expect_refused({"replay", run.original, run.log, "--limits", "seed", "--no-limits"}, 2, "--limits");
+}
+
+TEST(App_replay, AcceptsTheDefaultsByTheDefaults)
+{
+  const Logged_run run;
+  const App_result result = run_app({"replay", run.original, run.log, "--limits", "default"});
+  EXPECT_EQ(result.code, 0) << result.out;
+  const std::size_t first = result.out.find("limits judged: "), second = result.out.find("set aside: ");
+  ASSERT_NE(second, std::string::npos);
+  const auto rest_of_line = [&](std::size_t at) {
+    return result.out.substr(at, result.out.find('\n', at) - at);
+  };
+  EXPECT_EQ(rest_of_line(first + 15), rest_of_line(second + 11))
+      << "simplify declares what default stands for";
+}
+
+TEST(App_replay, SaysThatTheObstacleWasNotJudged)
+{
+  const Workspace folder;
+  const std::string obstacle = folder.generate("nested", "obstacle.obj", 200);
+  const Logged_run run({"--ratio", "0.6", "--obstacle", obstacle});
+  EXPECT_NE(run.text.find("\nobstacle "), std::string::npos);
+  const App_result result = run_app({"replay", run.original, run.log});
+  EXPECT_NE(result.out.find("\nnot judged: obstacle: "), std::string::npos) << result.out;
+}
+
+TEST(App_replay, GivesTheVerdictAsJson)
+{
+  const Logged_run run({"--ratio", "0.6", "--no-intersection-check"});
+  const std::string file = run.folder / "verdict.json";
+  const App_result result = run_app({"replay", run.original, run.log, "--all", "--report", file});
+  const Json verdict = Json::parse(contents_of(file));
+  EXPECT_EQ(verdict["exit_code"], result.code);
+  EXPECT_EQ(verdict["verdict"], "refused");
+  EXPECT_EQ(verdict["terms"]["limits_of"], "log");
+  EXPECT_EQ(verdict["terms"]["limits"]["normal_change"], 45);
+  EXPECT_TRUE(verdict["terms"]["limits"]["weld_distance"].is_null());
+  EXPECT_EQ(verdict["terms"]["input_bound"], true);
+  EXPECT_EQ(verdict["terms"]["not_judged"].size(), 1u);
+  EXPECT_GT(verdict["violations"]["count"], 0);
+  EXPECT_EQ(verdict["violations"]["first"].size(),
+            std::min(verdict["violations"]["count"].get<std::size_t>(), std::size_t(100)));
+  EXPECT_GT(verdict["violations"]["first"][0]["step"], 0);
+  std::size_t total = 0;
+  for (const Json& kind : verdict["violations"]["kinds"])
+    total += kind["count"].get<std::size_t>();
+  EXPECT_EQ(verdict["violations"]["count"], total);
+
+  const App_result printed = run_app({"replay", run.original, run.log, "--json", "--limits", "seed"});
+  EXPECT_EQ(Json::parse(printed.out)["terms"]["limits_of"], "judge");
+  EXPECT_EQ(Json::parse(printed.out)["terms"]["declared"]["seam_turn"], 60);
+  EXPECT_EQ(Json::parse(printed.out)["terms"]["limits"]["seam_turn"], 8);
+  expect_refused({"replay", run.original, run.log, "--report", run.log}, 2, "--report");
 }
 
 TEST(App_replay, RefusesALogThatLacksAStep)

@@ -77,6 +77,11 @@ TEST(App_report, HasExactlyTheDocumentedKeys)
   keys.clear();
   collect_keys(Json::parse(run_app({"verify", folder / "out.obj", "--against", in, "--json"}).out), "", keys);
   EXPECT_EQ(difference(keys, documented_keys("verify")), std::set<std::string>());
+
+  keys.clear();
+  report_of(folder, in, folder / "out.obj", {"--ratio", "0.6", "--log", folder / "run.log"});
+  collect_keys(Json::parse(run_app({"replay", in, folder / "run.log", "--json"}).out), "", keys);
+  EXPECT_EQ(difference(keys, documented_keys("replay")), std::set<std::string>());
 }
 
 TEST(App_report, AgreesWithTheFiles)

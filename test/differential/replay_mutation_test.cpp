@@ -12,6 +12,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <map>
@@ -23,7 +25,10 @@ namespace {
 class Mutations
 {
 public:
-  Mutations(const Triangle_soup& soup, const std::string& log) : m_soup(soup), m_parts(log), m_judge(soup) {}
+  Mutations(const Triangle_soup& soup, const std::string& log, double weld_distance = 0)
+      : m_soup(soup), m_parts(log), m_judge(soup, weld_distance)
+  {
+  }
 
   void compare(const std::vector<Step>& steps)
   {
@@ -71,6 +76,55 @@ public:
     }
   }
 
+  /// Changes snaps; what follows them stays.
+  void run_on_snaps(unsigned seed, int count)
+  {
+    std::mt19937 random(seed);
+    const auto below = [&](std::size_t n) { return std::size_t(random() % n); };
+    const std::size_t size = std::size_t(std::count_if(m_parts.steps.begin(), m_parts.steps.end(),
+                                                       [](const Step& step) { return step.is_snap; }));
+    ASSERT_GT(size, 2u);
+    std::vector<Index> ends;
+    for (std::size_t i = 0; i < size; ++i)
+      ends.insert(ends.end(), {m_parts.steps[i].first, m_parts.steps[i].second});
+    for (int i = 0; i < count; ++i) {
+      SCOPED_TRACE("seed " + std::to_string(seed) + ", mutation " + std::to_string(i));
+      std::vector<Step> steps = m_parts.steps;
+      Step& step = steps[below(size)];
+      switch (i % 9) {
+      case 8: { // one too many, somewhere between the others, to a vertex nearby
+        const Index m = ends[below(ends.size())];
+        steps.insert(steps.begin() + std::ptrdiff_t(below(size + 1)), {m, nearest(m, below(3)), true});
+        break;
+      }
+      case 0: // to the partner of another
+        step.second = ends[below(ends.size())];
+        break;
+      case 1: // to a vertex nearby, mostly another partner, or one of its own piece
+        step.second = nearest(step.first, below(6));
+        break;
+      case 2: // to any vertex, mostly far away, and not on a border
+        step.second = Index(below(m_soup.points.size()));
+        break;
+      case 3: // of any vertex
+        step.first = Index(below(m_soup.points.size()));
+        break;
+      case 4: // of a vertex near the partner
+        step.first = nearest(step.second, below(6));
+        break;
+      case 5: // the other way
+        std::swap(step.first, step.second);
+        break;
+      case 6: // two in the other order, so that others are partners, or none are
+        std::swap(step, steps[below(size)]);
+        break;
+      default: // missing, so that the collapses after it are of another mesh
+        steps.erase(steps.begin() + (&step - steps.data()));
+      }
+      compare(steps);
+    }
+  }
+
   const std::vector<Step>& steps() const { return m_parts.steps; }
   static std::map<Violation_kind, int> counts;
 
@@ -83,6 +137,19 @@ private:
         if (t[k] == v)
           found.insert(found.end(), {t[(k + 1) % 3], t[(k + 2) % 3]});
     return found[which % found.size()];
+  }
+
+  // Of the vertices that have no triangle in common with v, that which `rank` of them are nearer than.
+  Index nearest(Index v, std::size_t rank) const
+  {
+    std::vector<std::pair<double, Index>> others;
+    for (Index w = 0; w < m_soup.points.size(); ++w)
+      if (std::none_of(m_soup.triangles.begin(), m_soup.triangles.end(), [&](const Index_triple& t) {
+            return std::count(t.begin(), t.end(), v) > 0 && std::count(t.begin(), t.end(), w) > 0;
+          }))
+        others.emplace_back(CGAL::squared_distance(m_soup.points[v], m_soup.points[w]), w);
+    std::nth_element(others.begin(), others.begin() + std::ptrdiff_t(rank), others.end());
+    return others[rank].second;
   }
 
   const Triangle_soup m_soup;
@@ -131,6 +198,64 @@ TEST(Mutation, OfUnguardedLogsIsJudgedAsTheOracleDoes)
     mutations.compare(mutations.steps());
     mutations.run(7, s_mutants / 3);
   }
+}
+
+/// Sheets around a corner, and one beneath, all jagged and apart by about `gap`; in few bits.
+Triangle_soup gaping_sheets(Index size, double gap, unsigned seed)
+{
+  std::mt19937 random(seed);
+  const auto jitter = [&] { return double(random() % 64) / 64; };
+  Triangle_soup soup;
+  for (const auto& [x, y, z] : {std::array{0.0, 0.0, 0.0},
+                                {3 + gap, 0.0, 0.0},
+                                {0.0, 3 + gap, 0.0},
+                                {size + gap, size + gap, 0.0},
+                                {size + gap, 0.0, -gap}})
+    soup = joined(soup, mapped(sheet(size, size), [&, x = x, y = y, z = z](const Point_3& p) {
+                    return Point_3(p.x() + x + gap * jitter() / 4, p.y() + y + gap * jitter() / 4,
+                                   p.z() + z + gap * jitter() / 2);
+                  }));
+  return soup;
+}
+
+TEST(Mutation, OfSnapsIsJudgedAsTheOracleDoes)
+{
+  Mutations::counts.clear();
+  for (unsigned seed = 1; seed <= 2; ++seed)
+    for (const double gap : {1.0 / 32, 1.0 / 2}) { // the second is not small beside the squares of side 1
+      const Triangle_soup soup = gaping_sheets(2, gap, seed);
+      ASSERT_TRUE(is_embedded(soup));
+      Prepare_options snapping;
+      snapping.weld_distance = 2 * gap;
+      const Logged_reduction reduction = reduce_and_log(soup, without_limits(to_ratio(0.6)), snapping);
+      Mutations mutations(soup, reduction.log, snapping.weld_distance);
+      mutations.compare(mutations.steps());
+      mutations.run_on_snaps(seed, s_mutants);
+    }
+  for (const auto& [kind, count] : Mutations::counts)
+    std::cout << "  " << name(kind) << ": " << count << '\n';
+  for (const Violation_kind kind :
+       {Violation_kind::weld_distance, Violation_kind::partner, Violation_kind::link, Violation_kind::result})
+    EXPECT_GT(Mutations::counts[kind], 0) << name(kind);
+}
+
+// Distances are not small beside edges, so that what one snap moves decides who is a partner of whom later.
+TEST(Mutation, OwnSnapsAreAcceptedHoweverWideTheGap)
+{
+  std::size_t snaps = 0;
+  for (unsigned seed = 1; seed <= 40; ++seed)
+    for (const double gap : {1.0 / 16, 1.0 / 4, 1.0 / 2}) {
+      SCOPED_TRACE("seed " + std::to_string(seed) + ", gap " + std::to_string(gap));
+      const Triangle_soup soup = gaping_sheets(3, gap, seed);
+      Prepare_options snapping;
+      snapping.weld_distance = 2 * gap;
+      const Logged_reduction reduction = reduce_and_log(soup, to_ratio(0.5), snapping);
+      const Replay_verdict verdict = replay_text(soup, reduction.log);
+      EXPECT_TRUE(verdict.is_accepted())
+          << verdict.violations.front().step << ": " << verdict.violations.front().message;
+      snaps += verdict.snaps;
+    }
+  EXPECT_GT(snaps, 1000u);
 }
 
 TEST(Mutation, ATunnellingCollapsePutIntoALog)

@@ -17,6 +17,8 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
+#include <utility>
 
 namespace selvedge::test {
 namespace {
@@ -113,6 +115,30 @@ TEST(Replay, AcceptsReductionsOfRealGarments)
   }
 }
 
+TEST(Replay, AcceptsSnapsOfRealGarments)
+{
+  const std::filesystem::path folder = std::filesystem::path(SELVEDGE_SHARED_DATA) / "garments";
+  if (!std::filesystem::exists(folder))
+    GTEST_SKIP() << "no real meshes in " << folder;
+  for (const auto& [file, distance] : {std::pair{"multilayer_skirt.obj", 0.0001},
+                                       {"multilayer_skirt.obj", 0.003},
+                                       {"dress_14_pieces_uv.obj", 0.0006}}) {
+    SCOPED_TRACE(file + std::string(" at ") + std::to_string(distance));
+    const Triangle_soup soup = read_mesh(folder / file).soup;
+    Prepare_options snapping;
+    snapping.weld_distance = distance;
+    const Logged_reduction reduction = reduce_and_log(soup, to_ratio(0.3), snapping);
+    const Replay_verdict verdict = replay_text(soup, reduction.log);
+    EXPECT_TRUE(verdict.is_accepted())
+        << verdict.violations.front().step << ": " << verdict.violations.front().message;
+    EXPECT_GT(verdict.snaps, 300u);
+    EXPECT_EQ(verdict.limits.weld_distance, distance);
+    EXPECT_LE(verdict.largest_snap, distance);
+    EXPECT_GE(verdict.largest_way_of_snaps, verdict.largest_snap);
+    EXPECT_TRUE(are_same_bits(verdict.soup, reduction.simplified.soup));
+  }
+}
+
 TEST(Replay, UnguardedReductionIsRefusedAtItsFirstBadStep)
 {
   const Triangle_soup soup = sheets(1000, 3, 1e-4);
@@ -205,6 +231,178 @@ TEST(Replay, RefusesWhatTheDeclaredLimitsForbid)
             Violation_kind::aspect_ratio);
 }
 
+Triangle_soup shifted(const Triangle_soup& soup, double x, double y, double z = 0)
+{
+  return mapped(soup, [=](const Point_3& p) { return Point_3(p.x() + x, p.y() + y, p.z() + z); });
+}
+
+/// Sheets of squares of side 1 with a gap of 0.005 between vertices 3, 7, 11, 15 of the one and 16, 20, 24,
+/// 28 of the other.
+Triangle_soup two_sheets()
+{
+  return joined(sheet(3, 3), shifted(sheet(3, 3), 3.005, 0));
+}
+
+std::string with_snaps(const Triangle_soup& soup, const std::string& distance, const std::string& snaps)
+{
+  return head_of(soup, distance.empty() ? "" : "limit weld_distance " + distance + '\n') + snaps +
+         "result 0 " + std::to_string(soup.triangles.size()) + " -\n";
+}
+
+TEST(Replay, RefusesASnapThatIsTooLongOrHasNoLimit)
+{
+  const Triangle_soup soup = two_sheets();
+  EXPECT_TRUE(replay_text(soup, with_snaps(soup, "0.01", "s 7 20\n")).is_accepted());
+  EXPECT_EQ(kind_of_first(soup, with_snaps(soup, "0.004", "s 7 20\n")), Violation_kind::weld_distance);
+  EXPECT_EQ(kind_of_first(soup, with_snaps(soup, "", "s 7 20\n")), Violation_kind::weld_distance);
+
+  // Nor does any way of setting limits aside do without.
+  Replay_options free;
+  free.are_limits_judged = false;
+  EXPECT_FALSE(replay_text(soup, with_snaps(soup, "", "s 7 20\n"), free).is_accepted());
+  EXPECT_FALSE(replay_text(soup, with_snaps(soup, "0.004", "s 7 20\n"), free).is_accepted());
+  EXPECT_TRUE(replay_text(soup, with_snaps(soup, "0.01", "s 7 20\n"), free).is_accepted());
+  Replay_options imposed;
+  imposed.limits = limits_of_seed();
+  EXPECT_FALSE(replay_text(soup, with_snaps(soup, "0.01", "s 7 20\n"), imposed).is_accepted());
+  imposed.limits->weld_distance = 0.01;
+  EXPECT_TRUE(replay_text(soup, with_snaps(soup, "", "s 7 20\n"), imposed).is_accepted());
+}
+
+TEST(Replay, RefusesASnapThatIsNotFromABorderToAPartner)
+{
+  const Triangle_soup soup = two_sheets();
+  const auto kind = [](const Triangle_soup& mesh, const std::string& distance, const std::string& snaps) {
+    return kind_of_first(mesh, with_snaps(mesh, distance, snaps));
+  };
+  EXPECT_EQ(kind(soup, "2", "s 6 20\n"), Violation_kind::partner) << "6 is inside";
+  EXPECT_EQ(kind(soup, "2", "s 7 21\n"), Violation_kind::partner) << "21 is inside";
+  EXPECT_EQ(kind(soup, "3", "s 3 15\n"), Violation_kind::partner)
+      << "the border leads from the one to the other";
+  EXPECT_EQ(kind(soup, "2", "s 7 11\n"), Violation_kind::no_edge) << "an edge joins them";
+  EXPECT_EQ(kind(soup, "0.01", "s 7 20\ns 20 7\n"), Violation_kind::no_edge) << "they are one already";
+
+  const Triangle_soup corners = joined(sheet(3, 3), shifted(sheet(3, 3), 3.005, 3.005));
+  EXPECT_EQ(kind(corners, "0.01", "s 15 16\n"), Violation_kind::partner) << "there is no edge to sew";
+  Triangle_soup turned = soup;
+  for (std::size_t t = turned.triangles.size() / 2; t < turned.triangles.size(); ++t)
+    std::swap(turned.triangles[t][0], turned.triangles[t][1]);
+  EXPECT_EQ(kind(turned, "0.01", "s 7 20\n"), Violation_kind::partner) << "both borders run the same way";
+}
+
+TEST(Replay, RefusesASnapThatMakesAnEdgeOfThreeTriangles)
+{
+  const Triangle_soup soup = joined(two_sheets(), shifted(sheet(3, 3), 3.005, 0, -0.005));
+  const std::string snaps = "s 20 7\ns 36 7\ns 24 11\n";
+  EXPECT_TRUE(replay_text(soup, with_snaps(soup, "0.01", snaps)).is_accepted());
+  const Replay_verdict verdict = replay_text(soup, with_snaps(soup, "0.01", snaps + "s 40 11\n"));
+  ASSERT_EQ(verdict.violations.size(), 1u);
+  EXPECT_EQ(verdict.violations[0].kind, Violation_kind::link);
+  EXPECT_EQ(verdict.violations[0].step, 4u);
+}
+
+TEST(Replay, RefusesASnapThroughWhatLiesInTheGapOrToWhatOffends)
+{
+  const Triangle_soup hanging =
+      joined(two_sheets(), test::soup({{3.002, 0.5, -1}, {3.002, 1.5, -1}, {3.002, 1, 1}}, {{0, 1, 2}}));
+  const Violation_kind kind = kind_of_first(hanging, with_snaps(hanging, "0.01", "s 7 20\n"));
+  EXPECT_TRUE(kind == Violation_kind::intersection || kind == Violation_kind::tunnelling) << name(kind);
+  EXPECT_TRUE(replay_text(hanging, with_snaps(hanging, "0.01", "s 15 28\n")).is_accepted());
+
+  const Triangle_soup pierced =
+      joined(two_sheets(), test::soup({{3.2, 1.1, -1}, {3.3, 1.1, -1}, {3.25, 1.15, 1}}, {{0, 1, 2}}));
+  ASSERT_FALSE(is_embedded(pierced));
+  EXPECT_EQ(kind_of_first(pierced, with_snaps(pierced, "0.01", "s 20 7\n")), Violation_kind::locked);
+  EXPECT_EQ(kind_of_first(pierced, with_snaps(pierced, "0.01", "s 7 20\n")), Violation_kind::locked);
+  EXPECT_TRUE(replay_text(pierced, with_snaps(pierced, "0.01", "s 15 28\n")).is_accepted());
+}
+
+TEST(Replay, JudgesByLimitsOfTheJudgeInPlaceOfTheLogs)
+{
+  const Triangle_soup soup = skirt(1500);
+  Simplify_options options = to_ratio(0.5);
+  options.max_normal_change = 120;
+  const std::string log = reduce_and_log(soup, options).log;
+  const Replay_verdict own = replay_text(soup, log);
+  EXPECT_TRUE(own.is_accepted());
+  EXPECT_EQ(own.limits_source, Limits_source::log);
+  EXPECT_EQ(own.limits.normal_change, 120);
+  EXPECT_EQ(own.limits.border_drift, options.max_border_drift);
+
+  Replay_options imposed;
+  imposed.limits = limits_of(Simplify_options());
+  const Replay_verdict verdict = replay_text(soup, log, imposed);
+  ASSERT_FALSE(verdict.is_accepted());
+  EXPECT_EQ(verdict.violations[0].kind, Violation_kind::normal_change);
+  EXPECT_NE(verdict.violations[0].message.find("more than 45°"), std::string::npos)
+      << verdict.violations[0].message;
+  EXPECT_EQ(verdict.limits_source, Limits_source::judge);
+  EXPECT_EQ(verdict.limits.normal_change, 45);
+  EXPECT_EQ(verdict.header.limits.normal_change, 120);
+
+  // Nor is anything judged that the log alone declares.
+  imposed.limits = Reduction_limits();
+  imposed.limits->normal_change = 120;
+  EXPECT_TRUE(replay_text(soup, log, imposed).is_accepted());
+  const std::string strict = std::string(log).replace(log.find("normal_change 120"), 17, "normal_change 1");
+  EXPECT_FALSE(replay_text(soup, strict).is_accepted());
+  EXPECT_TRUE(replay_text(soup, strict, imposed).is_accepted());
+}
+
+std::vector<std::string> keys_not_judged(const Replay_verdict& verdict)
+{
+  std::vector<std::string> keys;
+  for (const Not_judged& part : not_judged(verdict))
+    keys.push_back(part.key);
+  return keys;
+}
+
+TEST(Replay, SaysWhatItHasNotJudged)
+{
+  const std::string digest(64, 'a');
+  const Triangle_soup soup = skirt(1500);
+  std::string log = reduce_and_log(soup, to_ratio(0.5)).log;
+  Replay_options options;
+  options.sha256_of_original = digest;
+  EXPECT_EQ(keys_not_judged(replay_text(soup, log, options)),
+            (std::vector<std::string>{"input", "attributes"}))
+      << "the log names no file";
+  log.replace(log.find(" -\n"), 3, ' ' + digest + '\n');
+  const Replay_verdict whole = replay_text(soup, log, options);
+  EXPECT_TRUE(whole.is_input_stated && whole.is_result_stated);
+  EXPECT_EQ(keys_not_judged(whole), std::vector<std::string>{"attributes"});
+  EXPECT_FALSE(replay_text(soup, log).is_input_stated) << "the judge knows no file";
+  options.sha256_of_original = std::string(64, 'b');
+  EXPECT_THROW(replay_text(soup, log, options), Input_error);
+
+  // A log that says the least that a log can.
+  std::string stripped = head_of(soup);
+  std::istringstream lines(log);
+  for (std::string line; std::getline(lines, line);)
+    stripped += line[0] == 'c' ? line + '\n' : "";
+  stripped += log.substr(log.find("result"));
+  stripped.replace(stripped.size() - 65, 64, "-");
+  const Replay_verdict bare = replay_text(soup, stripped);
+  EXPECT_TRUE(bare.is_accepted());
+  EXPECT_EQ(keys_not_judged(bare),
+            (std::vector<std::string>{"normal_change", "aspect_ratio", "border_turn", "seam_turn",
+                                      "border_drift", "lines", "input", "result", "attributes"}));
+}
+
+TEST(Replay, SaysThatAnObstacleOrLimitsOfSnapsWereNotJudged)
+{
+  const Triangle_soup soup = two_sheets(), below = shifted(sheet(6, 3), 0, 0, -1);
+  Prepare_options snapping;
+  snapping.weld_distance = 0.01;
+  const Replay_verdict verdict =
+      replay_text(soup, reduce_and_log(soup, to_ratio(0.5), snapping, false, below).log);
+  EXPECT_TRUE(verdict.is_accepted());
+  ASSERT_TRUE(verdict.header.obstacle);
+  EXPECT_EQ(verdict.header.obstacle->triangles, below.triangles.size());
+  EXPECT_EQ(keys_not_judged(verdict),
+            (std::vector<std::string>{"limits_of_snaps", "obstacle", "input", "attributes"}));
+}
+
 TEST(Replay, RefusesAFoldAndAClosedLink)
 {
   // Vertex 12 of a flat sheet, moved two edges away by way of a vertex that is none of its neighbours.
@@ -251,11 +449,47 @@ TEST(Log, WhatIsNoLogIsRefusedWithItsLine)
         head + "c 1 99\nresult 0 0 -\n", head + "c 1 -1\n", head + "c 1 2 3\n", head + "c 12 13 1 2 nan\n",
         head + "q\n", head + "result 0 32 zz\n", head + "limit speed 3\n",
         head + "limit seam_turn 3\nlimit seam_turn 3\n", head + "c 12 13\ns 1 2\n",
-        head + "w 1 2\nresult 0 32 -\n", head + "result 0 32 -\nc 12 13\n"}) {
+        head + "w 1 2\nresult 0 32 -\n", head + "result 0 32 -\nc 12 13\n", head + "obstacle 1 2\n",
+        head + "obstacle 3 1 -\nobstacle 3 1 -\nresult 0 32 -\n"}) {
     SCOPED_TRACE(text);
     EXPECT_THROW(replay_text(flat, text), Input_error);
   }
   EXPECT_THROW(replay_text(sheet(4, 5), head + "result 0 40 -\n"), Input_error) << "another mesh";
+}
+
+TEST(Log, WritesAndReadsEveryLimitOfTheTable)
+{
+  Log_header header;
+  header.vertices = 3;
+  header.triangles = 1;
+  header.obstacle = {5, 2, std::string(64, 'c')};
+  double value = 0.125;
+  for (const Limit_description& limit : limit_descriptions)
+    header.limits.*limit.value = value++;
+  std::stringstream log;
+  Log_writer(log, header).write(Log_result{0, 1, {}});
+  const Log_reader reader(log, "log");
+  value = 0.125;
+  for (const Limit_description& limit : limit_descriptions)
+    EXPECT_EQ(reader.header().limits.*limit.value, value++) << limit.key;
+  ASSERT_TRUE(reader.header().obstacle);
+  EXPECT_EQ(reader.header().obstacle->vertices, 5u);
+  EXPECT_EQ(reader.header().obstacle->sha256, std::string(64, 'c'));
+}
+
+TEST(Log, LimitsAreReadFromAFileOfTheirLines)
+{
+  const auto limits = [](const std::string& text) {
+    std::istringstream stream(text);
+    return read_limits(stream, "limits");
+  };
+  const Reduction_limits read = limits("# of the house\nlimit border_turn 8\n\nlimit weld_distance 0.5\r\n");
+  EXPECT_EQ(read.border_turn, 8);
+  EXPECT_EQ(read.weld_distance, 0.5);
+  EXPECT_FALSE(read.normal_change || read.aspect_ratio || read.seam_turn || read.border_drift);
+  for (const char* text : {"", "# none\n", "border_turn 8\n", "limit border_turn\n", "limit speed 3\n",
+                           "limit border_turn 8\nlimit border_turn 9\n", "limit border_turn 8\nc 1 2\n"})
+    EXPECT_THROW(limits(text), Input_error) << text;
 }
 
 TEST(Log, DigestIsThatOfTheStandard)

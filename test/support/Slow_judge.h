@@ -12,6 +12,7 @@
 #include <CGAL/Gmpq.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -25,14 +26,24 @@ namespace selvedge::test {
 using Number = CGAL::Gmpq;
 using Exact_point = oracle::Point<Number>;
 using Exact_triangle = std::array<Exact_point, 3>;
-using Step = std::pair<Index, Index>;
 using Verdict = std::pair<std::size_t, Violation_kind>; // which step, from 1; 0 and `result` for the end
+
+/// A collapse or a snap: what is at the position of `first` goes to that of `second`.
+struct Step
+{
+  Index first, second;
+  bool is_snap;
+
+  Step(Index moved, Index kept, bool is_a_snap = false) : first(moved), second(kept), is_snap(is_a_snap) {}
+};
 
 /// A mesh as a plain list of triangles over positions, which knows nothing but how to look through it.
 class Slow_judge
 {
 public:
-  explicit Slow_judge(const Triangle_soup& soup) : m_points(soup.points)
+  explicit Slow_judge(const Triangle_soup& soup, double weld_distance = 0)
+      : m_points(soup.points), m_square_of_weld_distance(Number(weld_distance) * Number(weld_distance)),
+        m_weld_distance(weld_distance)
   {
     std::map<std::array<double, 3>, Index> first;
     for (Index v = 0; v < m_points.size(); ++v)
@@ -46,18 +57,20 @@ public:
   /// The first violation of a log whose honest end is that of `honest`.
   Verdict judge(const std::vector<Step>& steps, const std::vector<Step>& honest)
   {
-    m_triangles = m_start;
-    for (const auto& [m, t] : honest)
-      take(m_position[m], m_position[t]);
-    const std::vector<Index_triple> honest_end = m_triangles;
-    m_triangles = m_start;
+    const auto count = [](const std::vector<Step>& list) {
+      return std::count_if(list.begin(), list.end(), [](const Step& step) { return !step.is_snap; });
+    };
+    begin();
+    for (const Step& step : honest)
+      take(step);
+    const std::vector<Index_triple> honest_end = end();
+    begin();
     for (std::size_t i = 0; i < steps.size(); ++i) {
-      const Index m = m_position[steps[i].first], t = m_position[steps[i].second];
-      if (const std::optional<Violation_kind> kind = remembered(m, t))
+      if (const std::optional<Violation_kind> kind = remembered(steps[i]))
         return {i + 1, *kind};
-      take(m, t);
+      take(steps[i]);
     }
-    const bool is_same = m_triangles == honest_end && steps.size() == honest.size();
+    const bool is_same = end() == honest_end && count(steps) == count(honest);
     return {0, is_same ? Violation_kind::no_edge : Violation_kind::result};
   }
 
@@ -66,15 +79,14 @@ public:
   std::vector<Verdict> judge_all(const std::vector<Step>& steps)
   {
     std::vector<Verdict> verdicts;
-    m_triangles = m_start;
+    begin();
     m_is_old_forgiven = true;
     for (std::size_t i = 0; i < steps.size(); ++i) {
-      const Index m = m_position[steps[i].first], t = m_position[steps[i].second];
-      const std::optional<Violation_kind> kind = violation(m, t);
+      const std::optional<Violation_kind> kind = violation(steps[i]);
       if (kind)
         verdicts.emplace_back(i + 1, *kind);
       if (kind != Violation_kind::no_edge)
-        take(m, t);
+        take(steps[i]);
     }
     m_is_old_forgiven = false;
     return verdicts;
@@ -86,18 +98,40 @@ private:
     return triangle[0] == v || triangle[1] == v || triangle[2] == v;
   }
 
-  void take(Index m, Index t)
+  void begin()
   {
+    m_triangles = m_start;
+    m_now = m_position;
+  }
+
+  void take(const Step& step)
+  {
+    const Index m = m_now[step.first], t = m_now[step.second];
     m_triangles.erase(std::remove_if(m_triangles.begin(), m_triangles.end(),
                                      [&](const Index_triple& f) { return has(f, m) && has(f, t); }),
                       m_triangles.end());
     for (Index_triple& triangle : m_triangles)
       std::replace(triangle.begin(), triangle.end(), m, t);
+    if (step.is_snap)
+      std::replace(m_now.begin(), m_now.end(), m, t);
+  }
+
+  // The triangles by the smallest vertices at their positions, as a log's digest has them.
+  std::vector<Index_triple> end() const
+  {
+    std::vector<Index_triple> triangles = m_triangles;
+    for (Index_triple& triangle : triangles)
+      for (Index& v : triangle)
+        v = Index(std::find(m_now.begin(), m_now.end(), v) - m_now.begin());
+    return triangles;
   }
 
   /// The same question about the same triangles has the same answer.
-  std::optional<Violation_kind> remembered(Index m, Index t)
+  std::optional<Violation_kind> remembered(const Step& step)
   {
+    if (const std::optional<Violation_kind> kind = broken_rule(step))
+      return kind;
+    const Index m = m_now[step.first], t = m_now[step.second];
     const CGAL::Bbox_3 box = box_of_star(m, t);
     std::vector<Index> question{m, t};
     for (const Index_triple& f : m_triangles)
@@ -105,26 +139,52 @@ private:
         question.insert(question.end(), f.begin(), f.end());
     const auto [entry, is_new] = m_answers.emplace(question, std::nullopt);
     if (is_new)
-      entry->second = violation(m, t);
+      entry->second = contact(m, t);
     return entry->second;
   }
 
-  std::optional<Violation_kind> violation(Index m, Index t) const
+  std::optional<Violation_kind> violation(const Step& step) const
   {
-    std::vector<Index_triple> star, contracted, moving, others;
+    const std::optional<Violation_kind> kind = broken_rule(step);
+    return kind ? kind : contact(m_now[step.first], m_now[step.second]);
+  }
+
+  /// What is wrong apart from what meets what.
+  std::optional<Violation_kind> broken_rule(const Step& step) const
+  {
+    const Index m = m_now[step.first], t = m_now[step.second];
+    std::vector<Index_triple> star, contracted;
     bool is_kept_there = false;
     for (const Index_triple& f : m_triangles) {
       is_kept_there = is_kept_there || has(f, t);
-      (has(f, m) ? star : others).push_back(f);
+      if (has(f, m))
+        star.push_back(f);
+      if (has(f, m) && has(f, t))
+        contracted.push_back(f);
     }
-    for (const Index_triple& f : star)
-      (has(f, t) ? contracted : moving).push_back(f);
-    if (m == t || !is_kept_there || contracted.empty())
+    if (m == t || star.empty() || !is_kept_there || contracted.empty() != step.is_snap)
       return Violation_kind::no_edge;
-    if (fans(m, star) != 1)
-      return Violation_kind::locked;
-    if (!is_link_condition_met(m, t, contracted))
-      return Violation_kind::link;
+    if (step.is_snap) {
+      if (square_of_distance(m, t) > m_square_of_weld_distance)
+        return Violation_kind::weld_distance;
+      if (!are_partners(m, t))
+        return Violation_kind::partner;
+      if (!is_sewing_manifold(m, t))
+        return Violation_kind::link;
+    } else {
+      if (fans(m, star) != 1)
+        return Violation_kind::locked;
+      if (!is_link_condition_met(m, t, contracted))
+        return Violation_kind::link;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Violation_kind> contact(Index m, Index t) const
+  {
+    std::vector<Index_triple> contracted, moving, others;
+    for (const Index_triple& f : m_triangles)
+      (!has(f, m) ? others : has(f, t) ? contracted : moving).push_back(f);
 
     std::vector<Exact_triangle> before, after; // m first
     for (const Index_triple& f : moving) {
@@ -200,6 +260,89 @@ private:
     return forward != 1 || backward != 1;
   }
 
+  // Partners, word for word as snapping.h has it; asked of every edge of the mesh.
+  bool are_partners(Index m, Index t) const
+  {
+    const std::vector<Step> sides = border_sides();
+    const auto is_sewable = [&](Index a, Index b) {
+      for (const Step& from_a : sides)
+        for (const Step& to_b : sides)
+          if (from_a.first == a && to_b.second == b &&
+              square_of_distance(from_a.second, to_b.first) <= m_square_of_weld_distance)
+            return true;
+      return false;
+    };
+    return (is_sewable(m, t) || is_sewable(t, m)) && !is_shortly_followed(sides, m, t) &&
+           !is_shortly_followed(sides, t, m);
+  }
+
+  // Lengths are sums of roots: in doubles, which the scenes do not come near to.
+  bool is_shortly_followed(const std::vector<Step>& sides, Index a, Index b) const
+  {
+    double length = 0;
+    for (Index at = a; length <= 2 * m_weld_distance;) {
+      if (at == b)
+        return true;
+      std::vector<Index> next;
+      std::size_t arriving = 0;
+      for (const Step& side : sides) {
+        arriving += side.second == at;
+        if (side.first == at)
+          next.push_back(side.second);
+      }
+      if (next.size() != 1 || (at != a && arriving != 1) || next.front() == a)
+        return false;
+      length += std::sqrt(CGAL::to_double(square_of_distance(at, next.front())));
+      at = next.front();
+    }
+    return false;
+  }
+
+  // Sides of triangles that are alone in their place, as their triangles run.
+  std::vector<Step> border_sides() const
+  {
+    std::map<std::pair<Index, Index>, int> uses;
+    for (const Index_triple& f : m_triangles)
+      for (int k = 0; k < 3; ++k)
+        ++uses[std::minmax(f[k], f[(k + 1) % 3])];
+    std::vector<Step> sides;
+    for (const Index_triple& f : m_triangles)
+      for (int k = 0; k < 3; ++k)
+        if (uses[std::minmax(f[k], f[(k + 1) % 3])] == 1)
+          sides.emplace_back(f[k], f[(k + 1) % 3]);
+    return sides;
+  }
+
+  // Whether edges that become one were borders, and are of two triangles that run opposite ways afterwards.
+  bool is_sewing_manifold(Index m, Index t) const
+  {
+    const std::set<Index> at_m = neighbours(m), at_t = neighbours(t);
+    return std::all_of(at_m.begin(), at_m.end(), [&](Index v) {
+      if (at_t.count(v) == 0)
+        return true;
+      int from = 0, to = 0;
+      for (const Index w : {m, t}) {
+        int of_one = 0;
+        for (const Index_triple& f : m_triangles)
+          for (int k = 0; k < 3; ++k) {
+            const bool is_from = f[k] == v && f[(k + 1) % 3] == w, is_to = f[k] == w && f[(k + 1) % 3] == v;
+            from += is_from;
+            to += is_to;
+            of_one += is_from || is_to;
+          }
+        if (of_one != 1)
+          return false;
+      }
+      return from == 1 && to == 1;
+    });
+  }
+
+  Number square_of_distance(Index v, Index w) const
+  {
+    const Exact_point u = oracle::difference(exact(v), exact(w));
+    return oracle::dot(u, u);
+  }
+
   std::set<Index> neighbours(Index v) const
   {
     std::set<Index> result;
@@ -265,13 +408,16 @@ private:
   Exact_triangle exact(const Index_triple& f) const { return {exact(f[0]), exact(f[1]), exact(f[2])}; }
 
   std::vector<Point_3> m_points;
-  std::vector<Index> m_position;
+  const Number m_square_of_weld_distance;
+  const double m_weld_distance;
+  std::vector<Index> m_position; // by vertex, at the start
+  std::vector<Index> m_now;      // and after the snaps so far
   std::vector<Index_triple> m_start, m_triangles;
   std::map<std::vector<Index>, std::optional<Violation_kind>> m_answers;
   bool m_is_old_forgiven = false;
 };
 
-/// A log, taken apart.
+/// A log, taken apart; what it says of vertices at one position is left out.
 struct Log_parts
 {
   std::string head, result;
@@ -281,12 +427,13 @@ struct Log_parts
   {
     std::istringstream lines(log);
     for (std::string line; std::getline(lines, line);) {
-      if (line[0] == 'c') {
+      if (line[0] == 'c' || line.rfind("s ", 0) == 0) {
         std::istringstream words(line.substr(2));
-        steps.emplace_back();
-        words >> steps.back().first >> steps.back().second;
-      } else {
-        (steps.empty() ? head : result) += line + '\n';
+        Index moved, kept;
+        words >> moved >> kept;
+        steps.emplace_back(moved, kept, line[0] == 's');
+      } else if (line[0] != 'w') {
+        (line.rfind("result", 0) == 0 ? result : head) += line + '\n';
       }
     }
   }
@@ -294,8 +441,9 @@ struct Log_parts
   std::string with(const std::vector<Step>& changed) const
   {
     std::string text = head;
-    for (const auto& [m, t] : changed)
-      text += "c " + std::to_string(m) + ' ' + std::to_string(t) + '\n';
+    for (const Step& step : changed)
+      text += (step.is_snap ? "s " : "c ") + std::to_string(step.first) + ' ' + std::to_string(step.second) +
+              '\n';
     return text + result;
   }
 };

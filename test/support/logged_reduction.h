@@ -21,7 +21,8 @@ struct Logged_reduction
 };
 
 inline Logged_reduction reduce_and_log(const Triangle_soup& soup, Simplify_options options,
-                                       const Prepare_options& prepare_options = {}, bool is_stl = false)
+                                       const Prepare_options& prepare_options = {}, bool is_stl = false,
+                                       const Triangle_soup& obstacle = {})
 {
   Logged_reduction result;
   result.original = soup;
@@ -30,7 +31,7 @@ inline Logged_reduction reduce_and_log(const Triangle_soup& soup, Simplify_optio
   header.vertices = numbering.size();
   header.triangles = soup.triangles.size();
   header.is_rounded_to_float32 = prepare_options.round_to_float32;
-  const Prepared_soup prepared = prepare(soup, prepare_options);
+  const Prepared_soup prepared = prepare(soup, prepare_options, obstacle);
   std::ostringstream stream;
   Reduction_log log(stream, header, numbering, prepared, options);
   options.on_collapse = [&](std::size_t removed, std::size_t kept) { log.add_collapse(removed, kept); };

@@ -1,0 +1,71 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_REDUCTION_LIMITS_H
+#define SELVEDGE_REDUCTION_LIMITS_H
+
+#include <array>
+#include <optional>
+
+namespace selvedge {
+
+struct Simplify_options;
+
+/// Limits of quality that a reduction keeps to, or is judged by. A limit without a value is not judged.
+/// `Simplify_options` and `Prepare_options` say exactly what each one bounds.
+struct Reduction_limits
+{
+  std::optional<double> normal_change; ///< degrees
+  std::optional<double> aspect_ratio;  ///< from 0 to 1, as `aspect_ratio()` defines it
+  std::optional<double> border_turn;   ///< degrees
+  std::optional<double> seam_turn;     ///< degrees
+  std::optional<double> border_drift;  ///< share of the diagonal of the bounding box
+  std::optional<double> weld_distance; ///< length in the unit of the coordinates
+};
+
+/// Describes one limit: what it is called in logs, reports and sentences. No other place says it again.
+struct Limit_description
+{
+  std::optional<double> Reduction_limits::*value;
+  const char* key;    ///< in the `limit` lines of a log, in JSON, and as the name of its `Violation_kind`
+  const char* unit;   ///< follows the number in a sentence
+  const char* bounds; ///< what the limit bounds
+  const char* broken; ///< what a step does that breaks the limit; the number and its unit follow
+};
+
+inline constexpr std::array<Limit_description, 6> limit_descriptions{
+    {{&Reduction_limits::normal_change, "normal_change", "°",
+      "by how much a collapse turns the normal of a triangle", "the normal of a triangle turns by more than"},
+     {&Reduction_limits::aspect_ratio, "aspect_ratio", "", "how thin a collapse makes a triangle",
+      "a triangle gets thinner than it was, and its aspect ratio is less than"},
+     {&Reduction_limits::border_turn, "border_turn", "°",
+      "how sharp a corner of a border a collapse cuts off", "the border turns there by more than"},
+     {&Reduction_limits::seam_turn, "seam_turn", "°", "how sharp a corner of a seam a collapse cuts off",
+      "the seam turns there by more than"},
+     {&Reduction_limits::border_drift, "border_drift", " of the diagonal",
+      "how far collapses take a border or seam away from where it was",
+      "the border or seam goes further away than"},
+     {&Reduction_limits::weld_distance, "weld_distance", "", "how far a snap moves a vertex",
+      "the vertex snaps further than"}}};
+
+/// Returns the description of the limit that is the member `value`.
+constexpr const Limit_description& describe(std::optional<double> Reduction_limits::*value)
+{
+  std::size_t i = 0;
+  while (limit_descriptions[i].value != value)
+    ++i;
+  return limit_descriptions[i];
+}
+
+/// Returns the limits that `simplify_soup` keeps to under `options`. There is no weld distance among them:
+/// it belongs to `Prepare_options`.
+Reduction_limits limits_of(const Simplify_options& options);
+
+/// Returns the limits of Derichs, Misiak and Fuhrmann: 45° of normal change, an aspect ratio of 0.2, and 8°
+/// of turn. They reduce pieces that are not sewn, so that a seam is a border of two of them: 8° holds for
+/// both kinds of line. They bound no drift, and do not weld.
+Reduction_limits limits_of_seed();
+
+} // namespace selvedge
+
+#endif // SELVEDGE_REDUCTION_LIMITS_H

@@ -1,0 +1,38 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <selvedge/replay.h>
+
+namespace selvedge {
+
+std::vector<Not_judged> not_judged(const Replay_verdict& verdict)
+{
+  const Reduction_limits& limits = verdict.limits;
+  std::vector<Not_judged> result;
+  for (const Limit_description& limit : limit_descriptions)
+    if (limit.value != &Reduction_limits::weld_distance && !(limits.*limit.value)) // no snap goes without
+      result.push_back({limit.key, std::string(limit.bounds) + ": there is no limit"});
+  if (!limits.border_turn && !limits.seam_turn && !limits.border_drift)
+    result.push_back(
+        {"lines", "whether borders and seams move only along themselves: no limit of theirs is set"});
+  if (verdict.snaps > 0)
+    result.push_back({"limits_of_snaps", "what snaps do to angles and shapes of triangles, and to borders: "
+                                         "the weld distance is their only limit"});
+  if (verdict.header.obstacle)
+    result.push_back({"obstacle",
+                      "the obstacle that the log names: the log does not hold its triangles, and none "
+                      "of them was looked at"});
+  if (!verdict.is_input_stated)
+    result.push_back(
+        {"input", verdict.header.sha256.empty()
+                      ? "whether the log was made from this file: it names no SHA-256 of its input"
+                      : "whether the log was made from this file: its SHA-256 is not known"});
+  if (!verdict.is_result_stated)
+    result.push_back({"result",
+                      "whether these triangles are the writer's result: no digest of it was found to "
+                      "be that of the triangles left"});
+  result.push_back({"attributes", "what hangs on vertices and triangles, as texture coordinates do"});
+  return result;
+}
+
+} // namespace selvedge
