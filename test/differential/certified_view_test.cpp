@@ -177,6 +177,125 @@ TEST(Certified_view, IsNeverWrongAcrossScales)
       300000, 0.1);
 }
 
+/// Draws points of integer coordinates, and makes others from them that are collinear or coplanar exactly,
+/// though their coordinates in a view are rounded.
+class Integer_points
+{
+public:
+  using Vector = Certified_view::Vector;
+
+  explicit Integer_points(std::uint64_t seed) : m_random(seed) {}
+
+  double integer(int size) { return std::uniform_int_distribution<int>(-size, size)(m_random); }
+
+  Vector draw()
+  {
+    const int size = 1 << std::uniform_int_distribution<int>(2, 19)(m_random);
+    const double x = integer(size), y = integer(size);
+    return {x, y, integer(size)};
+  }
+
+  /// A view along any direction, with the extent of a few points near its origin: as that of a small star is
+  /// before faces beside it are seen.
+  Certified_view view() { return view(draw()); }
+  Certified_view view(const Vector& normal)
+  {
+    Certified_view result;
+    result.begin({0, 0, 0}, normal);
+    for (double i = integer(4); i > 0; --i)
+      result.add({integer(1), integer(1), integer(1)});
+    return result;
+  }
+
+private:
+  std::mt19937_64 m_random;
+};
+
+/// o + i u + j v.
+Certified_view::Vector sum(const Certified_view::Vector& o, double i, const Certified_view::Vector& u,
+                           double j = 0, const Certified_view::Vector& v = {})
+{
+  return {o[0] + i * u[0] + j * v[0], o[1] + i * u[1] + j * v[1], o[2] + i * u[2] + j * v[2]};
+}
+
+TEST(Certified_view, KnowsNoSideOfALineForAPointOnIt)
+{
+  Integer_points points(7);
+  for (int i = 0; i < 100000; ++i) {
+    Certified_view view = points.view();
+    const auto start = points.draw(), step = points.draw();
+    const auto add = [&] { return view.add(sum(start, points.integer(40), step)); };
+    const Local p = add(), q = add(), r = add();
+    ASSERT_EQ(view.side(p, q, r), 0) << "case " << i;
+  }
+}
+
+TEST(Certified_view, KnowsNoSideOfAPlaneForAPointInIt)
+{
+  Integer_points points(7);
+  for (int i = 0; i < 100000; ++i) {
+    Certified_view view = points.view();
+    const auto start = points.draw(), u = points.draw(), v = points.draw();
+    const auto add = [&] { return view.add(sum(start, points.integer(20), u, points.integer(20), v)); };
+    const Local a = add(), b = add(), c = add(), p = add();
+    const Certified_view::Heights heights = view.heights({a, b, c}, p + 1);
+    ASSERT_EQ((heights.above | heights.below) >> p & 1, 0u) << "case " << i;
+    ASSERT_FALSE(view.is_clear_of_slab({p, p, p}, view.slab({a, b, c}, a))) << "case " << i;
+  }
+}
+
+TEST(Certified_view, KnowsNoPointInTheRimOfABoxToBeOutside)
+{
+  Integer_points points(7);
+  for (int i = 0; i < 100000; ++i) {
+    // Along this direction, points whose coordinates have the same sum are at the same height, exactly.
+    Certified_view view = points.view({1, 1, 1});
+    const auto start = points.draw(), u = points.draw(), v = points.draw();
+    const Certified_view::Vector across{u[0], -u[0], 0}, along{v[0], v[1], -v[0] - v[1]};
+    for (const auto& [j, k] : {std::pair(40, 0), std::pair(-40, 0), std::pair(0, 40), std::pair(0, -40)})
+      view.add(sum(start, j, across, k, along));
+    view.enclose();
+    const Local p = view.add(sum(start, points.integer(20), across, points.integer(20), along));
+    ASSERT_FALSE(view.is_clear_of_box({p, p, p})) << "case " << i;
+  }
+}
+
+// The error bounds are derived for axes of which no component is larger than 1.
+TEST(Certified_view, SeesNoDistanceLargerThanItIs)
+{
+  std::size_t usable = 0;
+  for (const double longest : {1.0, 0x1p-400, 0x1p-490, 0x1p-500, 0x1p-530, 0x1p-537, 0x1p-538, 0x1p-1074})
+    for (int i = 0; i < 512; ++i) {
+      const auto component = [&](int digits) { return longest * (digits % 8) / 7; };
+      Certified_view view;
+      view.begin({0, 0, 0}, {component(i), component(i / 8), component(i / 64)});
+      for (const auto& axis : {Certified_view::Vector{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) {
+        const Local p = view.add(axis);
+        usable += view.is_usable();
+        for (const double coordinate : view[p])
+          EXPECT_TRUE(!view.is_usable() || std::fabs(coordinate) <= 1 + 1e-15)
+              << coordinate << " for a normal as short as " << longest;
+      }
+    }
+  EXPECT_GT(usable, 512u);
+}
+
+// Of the points from the 65th on no mask knows anything, least of all that they may be left out.
+TEST(Certified_view, ProvesNothingByThePlaneOfPointsThatNoMaskHolds)
+{
+  Certified_view view;
+  view.begin({0, 0, 0}, {0, 0, 1});
+  for (int i = 0; i < 70; ++i)
+    view.add({double(i % 10), double(i / 10), 0});
+  const std::array<Local, 3> above{view.add({0, 0, 1}), view.add({9, 0, 1}), view.add({0, 9, 1})};
+  const Local beyond = view.add({1, 1, 2});
+  const Certified_view::Heights heights = view.heights(above, beyond + 1);
+  using Points = std::vector<Local>;
+  EXPECT_TRUE(heights.is_clear(view.mask(Points{0, 1, 63})));
+  for (const Points& points : {Points{0, 1, 64}, Points{0, 1, beyond}, Points{beyond, 0, 1}})
+    EXPECT_FALSE(heights.is_clear(view.mask(points)));
+}
+
 TEST(Certified_view, SaysNothingWhereProductsLeaveTheRangeOfDoubles)
 {
   for (const double size : {1e-120, 1e120}) {

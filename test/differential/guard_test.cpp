@@ -340,6 +340,43 @@ TEST(Guard, IsRightAboutStarsOfMoreEdgesThanAShadowHas)
       4);
 }
 
+// A flat disk of 70 faces with one corner of its rim pulled up, and above its middle a small face that only
+// what moves with that corner would meet. A mask holds 64 points: for some of the corners it has no bit.
+TEST(Guard, IsRightAboutStarsOfMorePointsThanAMaskHas)
+{
+  constexpr int size = 70;
+  for (int high = 0; high < size; ++high) {
+    Mesh mesh;
+    const Vertex centre = mesh.add_vertex({0, 0, 0});
+    std::vector<Vertex> ring;
+    for (int i = 0; i < size; ++i) {
+      const double angle = 2 * 3.14159 * i / size;
+      ring.push_back(
+          mesh.add_vertex({100 * std::cos(angle), 100 * std::sin(angle), i == high ? 100.0 : 0.0}));
+    }
+    for (int i = 0; i < size; ++i)
+      mesh.add_face(centre, ring[i], ring[(i + 1) % size]);
+    const Vertex target = ring[(high + size / 4) % size];
+    const auto is_clear = [&] {
+      const Intersection_filter<Mesh> filter(mesh);
+      const Profile profile(mesh.halfedge(centre, target), mesh, mesh.points(), Kernel());
+      const bool result = bool(filter(profile, internal::Optional<Point_3>(profile.p1())));
+      EXPECT_EQ(result, Reference(mesh).is_clear(profile.v0(), profile.v1(), profile.p1()));
+      return result;
+    };
+    EXPECT_TRUE(is_clear());
+    // Half way between the corner, where the disk comes to lie, and the target.
+    const Point_3 middle = CGAL::midpoint(mesh.point(ring[high]), mesh.point(target));
+    const auto near_middle = [&](double x, double y) {
+      return mesh.add_vertex({0.9 * middle.x() + x, 0.9 * middle.y() + y, 0.8 * middle.z()});
+    };
+    const Vertex a = near_middle(0, 0), b = near_middle(1, 0), c = near_middle(0, 1);
+    mesh.add_face(a, b, c);
+    ASSERT_TRUE(is_embedded(soup_of(mesh)));
+    EXPECT_FALSE(is_clear()) << "the corner is number " << high;
+  }
+}
+
 TEST(Guard, IsRightAboutStarsThatWindTwice)
 {
   compare(

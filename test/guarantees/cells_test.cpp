@@ -197,6 +197,59 @@ TEST(Cells, RespectLocksKeptPartsWeightsTextureAndObstacle)
   }
 }
 
+// Left and right of a zigzag of right angles, along which nothing can move, a sheet differs in one thing, of
+// which the cells have to know.
+TEST(Cells, KeepLinesOfEveryKind)
+{
+  constexpr Index width = 40;
+  const Triangle_soup plain = mapped(sheet(width, width), [](const Point_3& p) {
+    return Point_3(p.x(), p.y(), std::sin(0.3 * p.x()) * std::cos(0.4 * p.y()));
+  });
+  std::vector<Index> sides; // of triangles
+  std::set<Index> zigzag;
+  for (Index y = 0; y < width; ++y)
+    for (Index x = 0; x < width; ++x) {
+      const Index line = width / 2 + y % 2;
+      sides.insert(sides.end(), 2, x >= line);
+      for (const Index row : {y, y + 1})
+        zigzag.insert(row * (width + 1) + line);
+    }
+
+  const auto labelled = [&](Triangle_labels Triangle_soup::*labels) {
+    Triangle_soup soup = plain;
+    soup.*labels = {sides, {"left", "right"}};
+    return soup;
+  };
+  const auto valued = [&](auto values) {
+    Triangle_soup soup = plain;
+    for (const Index side : sides)
+      (soup.*values).of_triangle.push_back({side, side, side});
+    (soup.*values).values.resize(2);
+    (soup.*values).values[1][0] = 1;
+    return soup;
+  };
+  Triangle_soup cut = joined(plain, plain);
+  cut.triangles = plain.triangles;
+  for (std::size_t t = 0; t < sides.size(); ++t)
+    for (Index& v : cut.triangles[t])
+      v += sides[t] * Index(plain.points.size());
+
+  const auto vanished = [&](const Triangle_soup& soup) {
+    const Simplified_soup result = reduce(soup, in_cells(to_ratio(0.3), 400)).simplified;
+    EXPECT_GT(result.report.collapses_in_cells, 300u);
+    const std::set<Point_3> left(result.soup.points.begin(), result.soup.points.end());
+    return std::count_if(zigzag.begin(), zigzag.end(),
+                         [&](Index v) { return left.count(plain.points[v]) == 0; });
+  };
+  EXPECT_GT(vanished(plain), 20);
+  EXPECT_EQ(vanished(labelled(&Triangle_soup::groups)), 0);
+  EXPECT_EQ(vanished(labelled(&Triangle_soup::objects)), 0);
+  EXPECT_EQ(vanished(labelled(&Triangle_soup::materials)), 0);
+  EXPECT_EQ(vanished(valued(&Triangle_soup::uvs)), 0);
+  EXPECT_EQ(vanished(valued(&Triangle_soup::normals)), 0);
+  EXPECT_EQ(vanished(cut), 0);
+}
+
 TEST(Cells, LeaveOffendingPairsAsTheyAre)
 {
   const Triangle_soup lower = bare(sheets(3000, 1, 1e-3));
