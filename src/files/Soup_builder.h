@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_SRC_FILES_SOUP_BUILDER_H
 #define SELVEDGE_SRC_FILES_SOUP_BUILDER_H
 
+#include "files/row_unlike.h"
 #include "files/triangulate_polygon.h"
 
 #include <selvedge/Error.h>
@@ -110,11 +111,8 @@ private:
     const auto is_none = [](const Index_triple& corners) { return corners[0] == s_none; };
     if (std::none_of(values.of_triangle.begin(), values.of_triangle.end(), is_none))
       return;
-    std::array<double, dimension> none = {};
-    while (std::find(values.values.begin(), values.values.end(), none) != values.values.end())
-      --none[0];
     values.missing = static_cast<Index>(values.values.size());
-    values.values.push_back(none);
+    values.values.push_back(row_unlike(values.values));
     std::replace_if(values.of_triangle.begin(), values.of_triangle.end(), is_none,
                     Index_triple{*values.missing, *values.missing, *values.missing});
   }

@@ -3,6 +3,7 @@
 
 #include "files/formats.h"
 #include "files/gltf_column_reader.h"
+#include "files/row_unlike.h"
 
 #include <selvedge/Error.h>
 #include <selvedge/mesh/selection.h>
@@ -22,8 +23,6 @@ namespace {
 using Json = Gltf_scene::Json;
 using Matrix = Gltf_scene::Matrix;
 using Column = Gltf_scene::Column;
-
-constexpr Index s_none = std::numeric_limits<Index>::max();
 
 bool is_mirroring(const Matrix& m)
 {
@@ -438,11 +437,8 @@ private:
     if (result.values.empty())
       return;
     if (std::find(first.begin(), first.end(), s_none) != first.end()) {
-      std::array<double, dimension> none = {};
-      while (std::find(result.values.begin(), result.values.end(), none) != result.values.end())
-        --none[0];
       result.missing = Index(result.values.size());
-      result.values.push_back(none);
+      result.values.push_back(row_unlike(result.values));
     }
     for (std::size_t t = 0; t < soup().triangles.size(); ++t) {
       const Index instance = m_scene->parts[soup().groups.of_triangle[t]].instance;

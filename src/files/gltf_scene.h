@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -80,6 +81,8 @@ enum Component_type {
   type_uint32 = 5125,
   type_float32
 };
+
+constexpr Index s_none = std::numeric_limits<Index>::max();
 
 constexpr Gltf_scene::Matrix identity_matrix = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 

@@ -18,7 +18,6 @@ namespace {
 using Json = Gltf_scene::Json;
 using Column = Gltf_scene::Column;
 
-constexpr Index s_none = std::numeric_limits<Index>::max();
 constexpr int s_vertices = 34962, s_indices = 34963; // what buffer views are for
 
 std::string base64(const std::string& bytes)

@@ -99,7 +99,9 @@ private:
       const std::string_view word = text.word();
       double number = 0;
       const auto [last, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-      is_known = is_known && size < 4 && error == std::errc() && last == word.data() + word.size();
+      // NaN is what vertices without the column have.
+      is_known = is_known && size < 4 && error == std::errc() && last == word.data() + word.size() &&
+                 !std::isnan(number);
       if (is_known)
         numbers[size++] = number;
     }

@@ -175,7 +175,10 @@ private:
 class Ply_reader
 {
 public:
-  Ply_reader(std::string_view contents, const std::string& name) : m_name(name), m_text(contents, name) {}
+  Ply_reader(std::string_view contents, const std::string& name)
+      : m_name(name), m_file_size(contents.size()), m_text(contents, name)
+  {
+  }
 
   Mesh_file read()
   {
@@ -503,7 +506,7 @@ private:
           read_property(values, property, targets[p]);
       }
       number_uvs(values, uvs, corners.size(), i, uv_corners);
-      repeat_last_rows(m_builder.add_face(corners, uv_corners));
+      repeat_last_rows(values, m_builder.add_face(corners, uv_corners));
     }
     if (m_has_normals)
       m_builder.set_vertex_values(soup.normals, std::move(m_normals));
@@ -559,9 +562,18 @@ private:
     }
   }
 
-  /// The row that a face has added to each attribute becomes one for each of its triangles.
-  void repeat_last_rows(std::size_t triangles)
+  /// The row that a face has added to each attribute becomes one for each of its triangles. A polygon with
+  /// many corners and many attributes has the product of both, which nothing in the file accounts for.
+  template <class Values>
+  void repeat_last_rows(const Values& values, std::size_t triangles)
   {
+    constexpr std::size_t most_for_a_byte = 64;
+    for (const Attribute& attribute : m_builder.soup().triangle_attributes)
+      m_repeated_bytes += triangles * size_of(attribute.type);
+    if (m_repeated_bytes / most_for_a_byte > m_file_size)
+      values.fail(
+          "the attributes of the polygons take more than 64 times the size of the file when these are cut "
+          "into triangles; cut them before");
     for (Attribute& attribute : m_builder.soup().triangle_attributes) {
       const std::size_t size = size_of(attribute.type);
       attribute.rows.resize(attribute.rows.size() - (triangles == 0 ? size : 0));
@@ -575,6 +587,7 @@ private:
   }
 
   const std::string& m_name;
+  std::size_t m_file_size;
   Text_reader m_text;
   Soup_builder m_builder{Mesh_format::ply};
   std::string_view m_format;
@@ -583,6 +596,7 @@ private:
   std::vector<std::array<double, 3>> m_normals;
   std::vector<std::array<double, 2>> m_uvs;
   std::unordered_map<std::string, Index> m_uv_numbers; // by their bytes
+  std::size_t m_repeated_bytes = 0;                    // of attributes of triangles
 };
 
 } // namespace

@@ -65,17 +65,22 @@ bool cut_ears(const std::vector<Point_2>& points, std::vector<Index_triple>& tri
     });
   };
 
+  // What was no ear is none until one of its neighbours goes.
+  std::vector<char> is_refused(size, false);
   Index corner = 1, refused = 0;
   for (Index left = size; left > 3;) {
     const Index following = next[corner];
-    if (is_ear(corner)) {
+    if (!is_refused[corner] && is_ear(corner)) {
       triangles.push_back({previous[corner], corner, following});
       next[previous[corner]] = following;
       previous[following] = previous[corner];
+      is_refused[following] = is_refused[previous[corner]] = false;
       --left;
       refused = 0;
-    } else if (++refused == left) {
-      return false;
+    } else {
+      is_refused[corner] = true;
+      if (++refused == left)
+        return false;
     }
     corner = following;
   }

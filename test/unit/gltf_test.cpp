@@ -773,6 +773,11 @@ TEST(Gltf, RefusesWhatIsBroken)
   refused("multiple of three", [](Json& json) { json["accessors"][0]["count"] = 2; });
   refused("accessor", [](Json& json) { json["accessors"][0]["count"] = 0; });
   refused("nowhere", [](Json& json) { json["accessors"][0].erase("bufferView"); });
+  refused("accessor", [](Json& json) { json["meshes"][0]["primitives"][0]["indices"] = 7; });
+  refused("accessor", [](Json& json) {
+    json["accessors"].push_back({{"componentType", 5125}, {"count", 4000000000u}, {"type", "SCALAR"}});
+    json["meshes"][0]["primitives"][0]["indices"] = 1;
+  });
   refused("rows", [](Json& json) {
     json["accessors"].push_back(json["accessors"][0]);
     json["accessors"][1]["count"] = 2;

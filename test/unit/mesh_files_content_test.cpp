@@ -69,6 +69,18 @@ TEST(ObjTextureCoordinates, AreMissingWhereAFaceHasNotAll)
   EXPECT_EQ(file.notes.ignored.size(), 1u);
 }
 
+TEST(ObjTextureCoordinates, OfNoFaceAreLikeNoOthers)
+{
+  std::string text = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
+  const int taken = 300000;
+  for (int i = taken; i > 0; --i) // all that would be tried before the one that is free
+    text += "vt " + std::to_string(-i % taken) + " -0\n";
+  const Corner_values<2> uvs = read_obj(text + "vt 0.5 0\nvt 0 1\nf 1 2 3\nf 1/1 2/2 3/3\n").soup.uvs;
+  ASSERT_TRUE(uvs.missing);
+  EXPECT_EQ(uvs.of_triangle[0], (Index_triple{*uvs.missing, *uvs.missing, *uvs.missing}));
+  EXPECT_EQ(std::count(uvs.values.begin(), uvs.values.end(), uvs.values[*uvs.missing]), 1);
+}
+
 TEST(ObjNormals, FollowTheCorners)
 {
   const Mesh_file file = read_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 1\nvn 0 0.1 1\nf 1//1 2//-1 3//-2\n");

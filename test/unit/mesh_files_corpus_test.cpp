@@ -54,6 +54,22 @@ std::string stl_facet(const std::string& third)
          "\nendloop\nendfacet\n";
 }
 
+/// A polygon that bears numbers.
+std::string ply_polygon(std::size_t corners, std::size_t numbers)
+{
+  std::string header = ply_header("ascii", std::to_string(corners), "1"), points, polygon, values;
+  header.erase(header.find("uchar"), 5).insert(header.find("int vertex"), "uint ");
+  for (std::size_t i = 0; i < numbers; ++i) {
+    header.insert(header.find("end_header"), "property double a" + std::to_string(i) + "\n");
+    values += " 0";
+  }
+  for (std::size_t i = 0; i < corners; ++i) {
+    points += std::to_string(i) + " " + std::to_string(i * i) + " 0\n";
+    polygon += " " + std::to_string(i);
+  }
+  return header + points + std::to_string(corners) + polygon + values + "\n";
+}
+
 /// A binary STL that announces `announced` facets and holds `held`, all zero.
 std::string stl_binary(unsigned char announced, std::size_t held)
 {
@@ -145,6 +161,8 @@ const std::vector<Entry>& corpus()
       {"ObjNormalNotFinite", obj, corner + "vn nan nan nan\nf 1//1 2//1 3//1\n", "", 3, 1},
       {"ObjWeights", obj, "v 0 0 0 0.5\nv 4 0 0\nv 0 4 0\nf 1 2 3\n", "", 3, 1},
       {"ObjColours", obj, "v 0 0 0 1 0 0\nv 4 0 0 1 0 0\nv 0 4 0\nf 1 2 3\n", "", 3, 1},
+      {"ObjColourNan", obj, "v 0 0 0 nan 0 0\nv 4 0 0 1 0 0\nv 0 4 0 nan\nf 1 2 3\n", "", 3, 1,
+       "not carried, vertex columns: 2"},
       {"ObjTwoFurtherColumns", obj, "v 0 0 0 1 2\nv 4 0 0\nv 0 4 0\nf 1 2 3\n", "", 3, 1,
        "not carried, vertex columns: 1"},
       {"ObjFiveFurtherColumns", obj, "v 0 0 0 1 2 3 4 5\nv 4 0 0\nv 0 4 0\nf 1 2 3\n", "", 3, 1,
@@ -247,6 +265,10 @@ const std::vector<Entry>& corpus()
        "texcoord\nend_header\n" +
            ply_points + "3 0 1 2 5 0 0 1 0 1\n",
        "", 3, 1, "not carried, texture coordinates of faces, not two to a corner: 1"},
+      {"PlyPolygonOfManyCornersAndAttributes", ply, ply_polygon(3000, 300),
+       ": the attributes of the polygons take more than 64 times the size of the file"},
+      {"PlyPolygonOfManyCorners", ply, ply_polygon(3000, 3), "", 3000, 2998,
+       "faces of more than three corners, cut into triangles: 1"},
       {"PlyIndexTooLarge", ply, ply_header("ascii", "3", "1") + ply_points + "3 0 1 3\n",
        ":13: face 0 names vertex 3"},
       {"PlyIndexNegative", ply, ply_header("ascii", "3", "1") + ply_points + "3 0 1 -1\n",

@@ -60,8 +60,10 @@ namespace selvedge {
 /// and without gaps, and all buffers are one. Primitives of points or lines and meshes outside the scene stay
 /// as they are. Primitives and meshes without a triangle left are gone.
 ///
-/// **Complexity.** Linear in the size of the file, except for polygons: quadratic in the number of corners
-/// of each as a rule, cubic at worst.
+/// **Complexity.** Time is linear in the size of the file, but quadratic in the number of corners of a polygon.
+/// Memory is linear, with two exceptions: a glTF scene may show a part in many of its nodes, and a polygon in a
+/// PLY file gives its attributes to each of its triangles. Where these take more than 64 times the size of the
+/// file, it is refused.
 
 enum class Mesh_format { obj, off, ply, stl, glb, gltf };
 
