@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # Installs what Selvedge is built from, on Debian 12 or later; does nothing where all of it is there already.
-# With the argument "benchmark" also the peers that the benchmark programs measure.
+# With the argument "benchmark" also the peers that the benchmark programs measure, with "fuzz" clang and its run-time
+# libraries, of which libFuzzer is one.
 set -euo pipefail
 
 packages=(
@@ -19,6 +20,8 @@ packages=(
 )
 if [[ "${1:-}" == benchmark ]]; then
   packages+=(libopenmesh-dev libmeshoptimizer-dev)
+elif [[ "${1:-}" == fuzz ]]; then
+  packages+=(clang libclang-rt-dev)
 fi
 
 is_installed() { [[ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" == installed ]]; }
