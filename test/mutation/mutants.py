@@ -1,0 +1,187 @@
+# Copyright (c) 2026 the Selvedge authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The mutants that run.py judges, by the file that they change. Each is an error that could have been made."""
+
+import dataclasses
+
+
+@dataclasses.dataclass
+class Mutant:
+    file: str
+    old: str  # stands in the file exactly once
+    new: str
+    reason: str  # what is wrong then
+    tests: tuple  # "name" or "name:filter" of those that should see it, the quickest first
+    sources: tuple = ()  # of the library, to be compiled anew as well for a mutant in a header
+    equal: str = ""  # why it is no error, for those that are none
+
+
+ALL = []
+
+
+def group(file, tests, *entries, sources=()):
+    for old, new, reason, *equal in entries:
+        ALL.append(Mutant(file, old, new, reason, tests, sources, *equal))
+
+
+headers = "include/selvedge/"
+
+group(
+    headers + "geometry/Certified_view.h",
+    ("certified_view_test",),
+    ("m_area_error = 0x1p-44", "m_area_error = 0x1p-53", "bound for areas too small"),
+    ("m_volume_error = 0x1p-40", "m_volume_error = 0x1p-53", "bound for volumes too small"),
+    ("m_length_error = 0x1p-48", "m_length_error = 0x1p-56", "bound for lengths too small"),
+    ("if (!(distance <= m_extent))", "if (!(distance <= m_extent) && m_points.size() < 4)",
+     "extent not grown after the fourth point"),
+    ("s_least_normal = 1e-150", "s_least_normal = 0", "no least length of a normal"),
+    ("        return 0;\n      result |= Mask(1) << p;", "        continue;\n      result |= Mask(1) << p;",
+     "masks skip points that have no bit"),
+    ("m_points[triangle[0]].outside & m_points[triangle[1]].outside &",
+     "m_points[triangle[0]].outside &", "a corner of the face not compared with the box"),
+    ("seen.outside |= unsigned(x < m_lower[i] - m_length_error)",
+     "seen.outside |= unsigned(x <= m_lower[i])", "what touches the box is outside"),
+    ("int(area < -m_area_error)", "int(area < 0)", "a side known without a bound"),
+    ("p == i || p == j || side(i, j, p) == far;", "p == i || p == j || side(i, j, p) != -far;",
+     "points of which no side is known are on the far side"),
+    ("result.below |= Mask(height < -m_volume_error)", "result.below |= Mask(height < m_volume_error)",
+     "points in a plane are below it"),
+    ("&&\n             (corners & ~points) != 0;", ";", "a face is clear of a sweep that has its three corners"),
+    ("result.lower = result.upper = internal::dot(result.normal, (*this)[point]);",
+     "result.lower = result.upper = internal::dot(result.normal, (*this)[triangle[0]]);", "a slab forgets its point"),
+    ("b > slab.upper + m_volume_error", "b > slab.lower", "a face within a slab is above it"),
+    ("near == side(i, j, tetrahedron[d]) &&", "true &&", "a plane with one corner of the sweep on the wrong side"),
+    ("m_extent > s_least && m_extent < s_largest", "true", "usable where products underflow and overflow"),
+)
+
+group(
+    headers + "geometry/Star_shadow.h",
+    ("star_shadow_test",),
+    ("{m_star, of_lines.negative,", "{m_star, of_lines.positive,", "inside and outside of the rim exchanged"),
+    ("(a.right & b.right & c.right)", "(a.right & b.right)", "a corner not compared with a ray"),
+    ("turned(a.left & b.left & c.left)", "(a.left & b.left & c.left)", "rays at the wrong end of the edges"),
+    ("m_all = ~Mask(0) >> (s_max_edges - edges.size());", "m_all = ~Mask(0) >> (s_max_edges - edges.size() + 1);",
+     "the last sector forgotten"),
+    ("const double error = view.area_error();", "const double error = 0x1p-9 * view.area_error();",
+     "bound for areas too small in the shadow"),
+    ("std::array<Index, 3>{m_from, (*m_edges)[j][0],", "std::array<Index, 3>{(*m_edges)[j][1], (*m_edges)[j][0],",
+     "a sector without its vertex"),
+)
+group(
+    headers + "geometry/Star_shadow.h",
+    ("guard_test",),
+    ("if (sides.star == m_star)", "if (sides.star != 0)", "sides of an earlier star"),
+)
+group(
+    headers + "internal/instructions.h",
+    ("star_shadow_test",),
+    ("least = _mm_set1_pd(-error);", "least = _mm_set1_pd(error);", "points on a line are right of it"),
+)
+
+group(
+    headers + "geometry/sweep.h",
+    ("geometry_sweep_test", "sweep_test"),
+    ("return is_flat();", "return true;", "a face inside the wedge of a sweep is clear"),
+    ("side[k][0] == side[k][1] && side[k][0] != m_sign)", "side[k][0] == side[k][1])",
+     "a face on the inner side of a facet is clear"),
+    ("height[0] == height[1] && height[0] == height[2]", "height[0] == height[1]", "one ray of a cone not looked at"),
+    ("return turn != CGAL::ZERO && planar_orientation(x, u, w) != -turn",
+     "return turn != CGAL::ZERO && planar_orientation(x, u, w) == turn", "a ray on the rim of a flat cone is beside it"),
+    ("return side != CGAL::ZERO || is_disjoint_in_plane<n>(f);", "return true;", "all in one plane is clear"),
+    ("side[2][j] != CGAL::NEGATIVE && side[3][j] != CGAL::NEGATIVE)",
+     "side[2][j] != CGAL::NEGATIVE && side[3][j] == CGAL::POSITIVE)", "a corner on a facet of a sweep is not in it"),
+    ("return uv * wu != CGAL::NEGATIVE && vw * wu", "return uv * wu == CGAL::POSITIVE && vw * wu",
+     "an edge through the rim of a triangle does not pierce it"),
+    ("return shared == 2 && is_clear_at_edge", "return is_clear_at_edge", "a face may end on top of another"),
+    ("k == i || k == j || planar_orientation(*own[i], *own[j], *own[k]) != far;", "true;",
+     "a line with its own points on both sides separates"),
+)
+
+group(
+    headers + "geometry/star.h",
+    ("geometry_star_test", "star_test"),
+    ("return next == 0 && length == link.size();", "return next == 0;", "a part of the link is a cycle"),
+    ("if (orientation(*q, motion.to, edge[0], edge[1]) != turn)",
+     "if (orientation(*q, motion.to, edge[0], edge[1]) == -turn && false)", "the star not looked at after the motion"),
+    ("planar_orientation(edge[0], edge[1], motion.from) == planar_orientation", "CGAL::ZERO != planar_orientation",
+     "a face may turn over through a line"),
+    ("if (&other != &edge && !sweep.is_clear(other[0], other[1]))", "if (&other > &edge && !sweep.is_clear(other[0], other[1]))",
+     "of two faces only one is compared with the other"),
+    ("for (const auto& other : motion.contracted) {\n      if (!sweep", "for (const auto& other : motion.contracted) {\n      if (false && !sweep",
+     "contracted faces not looked at"),
+)
+
+guard = headers + "Surface_mesh_simplification/internal/Intersection_guard.h"
+group(
+    guard,
+    ("guard_test",),
+    ("if (has_twin(motion.mover) || !gather_star(motion)", "if (!gather_star(motion)", "vertices with twins move"),
+    ("return is_edge_border || m_is_star_closed || !is_end_on_border;", "return true;", "two borders meet"),
+    ("if (!has_twin(end) ? !are_neighbours_allowed(end)", "if (true ? !are_neighbours_allowed(end)",
+     "neighbours of twins not looked at"),
+    ("if (!m_vertices[v].has_twin)", "if (true)", "twins are not one point"),
+    ("m_is_star_closed && m_star_size + motion.target.has_value() == m_link.size() + 2;", "m_is_star_closed;",
+     "links that wind twice are cycles"),
+    ("(!m_is_contracted[j] && m_view.side(s_to, a, b) != 1))", "(!m_is_contracted[j] && m_view.side(s_to, a, b) == -1))",
+     "the star not surely clear after the motion"),
+    ("m_index.set(id, face_box(id));", "", "the index does not follow"),
+    ("m_corners[id] = face_corners(h);", "", "corners do not follow"),
+    ("std::replace(twins(kept).begin(), twins(kept).end(), m_target, kept);", "", "classes of twins do not follow"),
+    ("return !face_at_place;", "return true;", "a place where another vertex is"),
+    ("for (std::size_t i = 0; i < m_star_size; ++i)", "for (std::size_t i = 0; i < 2; ++i)", "only the way is asked of the index"),
+    ("m_has_shadow = m_is_in_view && is_star_clear_in_view(motion);", "m_has_shadow = m_is_in_view && m_is_star_closed && m_link.size() <= 64;",
+     "the shadow of a star that is not clear"),
+    ("if (verdict == Star_verdict::refused) {", "if (false) {", "what the star says is not heard"),
+    ("if (!is_contracted && motion.target && (first == s_to || second == s_to))", "if (false)",
+     "a face beside the edge has a corner at the target"),
+    ("return !has_twin(profile.v0()) && !has_twin(profile.v1()) &&", "return !has_twin(profile.v0()) &&",
+     "a twin moves to a new place"),
+    ("m_star_mask = m_view.mask(m_star_points);", "m_star_mask = m_view.mask(m_star_points) | 1;",
+     "stars of more points than bits are known by one"),
+)
+
+group(
+    headers + "spatial/Packed_R_tree.h",
+    ("spatial_index_test",),
+    ("if (bounds.contains(box))", "if (true)", "nodes do not grow"),
+    ("for (std::size_t i = m_leaves_in_tree; i < m_leaves.size(); ++i)",
+     "for (std::size_t i = m_leaves_in_tree + 1; i < m_leaves.size(); ++i)", "the first new leaf not visited"),
+    ("leaf.boxes.set(slot % s_width, internal::Monotone_box::empty());", "leaf.boxes.set(slot % s_width, leaf.boxes[0]);",
+     "what is removed is still found"),
+)
+group(
+    headers + "spatial/internal/Box_block.h",
+    ("spatial_index_test",),
+    ("yes(z1[i] >= box.lower[2])", "yes(z1[i] > box.lower[2])", "boxes that touch do not overlap"),
+)
+group(
+    headers + "spatial/internal/Monotone_box.h",
+    ("spatial_index_test",),
+    ("(other.lower[1] <= upper[1])", "(other.lower[1] < upper[1])", "boxes that touch do not overlap, in clusters"),
+)
+group(
+    headers + "spatial/Clustered_AABB_tree.h",
+    ("spatial_index_test",),
+    ("m_statistics.top_rebuilds += m_top.set(cluster, m_clusters[cluster].box(), *m_cluster_table);", "",
+     "boxes of clusters do not grow"),
+)
+
+loop = headers + "Surface_mesh_simplification/internal/"
+group(
+    loop + "Edge_collapse.h",
+    ("loop_test",),
+    ("if (is_v0_on_border && is_v1_on_border)", "if (false)", "two stretches of border meet"),
+    ("v) != m_neighbours.end() &&\n          !(of_edge.left_face_exists()", "v) != m_neighbours.end() && false &&\n          !(of_edge.left_face_exists()",
+     "no link condition"),
+    ("return !is_two_faces && !CGAL::is_tetrahedron(of_edge.v0_v1(), m_mesh);", "return !is_two_faces;", "tetrahedra vanish"),
+    ("if (record.state == State::first) {", "if (false) {", "no second placement"),
+    ("m_waiting.release_around(of_edge.v0());", "", "edges wait for ever"),
+    ("put(m_has_stale_edges, of_edge.v0(), true);", "", "stale edges are not found"),
+    ("m_queue.erase(edge_id);\n    m_records[edge_id].state = State::gone;", "m_records[edge_id].state = State::gone;",
+     "edges that are gone stay in the queue"),
+)
+group(
+    loop + "Edge_queue.h",
+    ("loop_test",),
+    ("if (i > 0 && entry < m_heap[parent(i)])", "if (false)", "what became cheaper does not rise"),
+)
