@@ -157,7 +157,7 @@ group(
 group(
     headers + "spatial/internal/Monotone_box.h",
     ("spatial_index_test",),
-    ("(other.lower[1] <= upper[1])", "(other.lower[1] < upper[1])", "boxes that touch do not overlap, in clusters"),
+    ("int(other.lower[axis] <= upper[axis])", "int(other.lower[axis] < upper[axis])", "boxes that touch do not overlap, in clusters"),
 )
 group(
     headers + "spatial/Clustered_AABB_tree.h",
@@ -184,4 +184,110 @@ group(
     loop + "Edge_queue.h",
     ("loop_test",),
     ("if (i > 0 && entry < m_heap[parent(i)])", "if (false)", "what became cheaper does not rise"),
+)
+
+group(
+    "src/reduce_in_cells.cpp",
+    ("cells_sewing_test", "cells_test"),
+    ("if (!(low[i] < p[i] && p[i] < high[i]))", "if (!(low[i] <= p[i] && p[i] <= high[i]))", "walls belong to cells"),
+    ("if (!is_locked[v] && (is_bound[a] || is_bound[b]))", "if (!is_locked[v] && is_bound[v])", "neighbours of the wall move"),
+    ("if (low <= plane)", "if (low < plane)", "faces that touch the wall are not in the cell below"),
+    ("if (cost > limit)", "if (false)", "every cell goes to its own cost"),
+    ("working.constraints().diagonal = whole.diagonal;", "", "drift as a share of the cell"),
+)
+group(
+    "src/mesh/Working_mesh.cpp",
+    ("working_mesh_part_test", "cells_test", "attributes_test", "reduction_test"),
+    ("side < sewing.mate(side) && rule.is_line(mesh.edge(originals[side])))", "side < sewing.mate(side) && false)",
+     "cells know no lines"),
+    ("differ_in_label(m_soup.groups) || differ_in_label(m_soup.objects)", "differ_in_label(m_soup.objects)",
+     "groups make no lines"),
+    ("|| differ(m_soup.normals) ||", "||", "normals make no lines"),
+    ("is_locked[v] = rule.is_locked(vertices[v]);", "", "what is locked in the whole moves in a cell"),
+    ("is_locked[v] = vertices_at[position_of(v)] > 1;", "is_locked[v] = vertices_at[position_of(v)] > 2;", "pairs of twins move"),
+    ("is_locked[sewing.vertex(corner)] |= is_frozen[corner / 3];", "", "faces that offend move"),
+    ("if (rule.is_line(m_mesh.edge(h)))\n        return false;", "", "corners are carried across lines"),
+    ("m_places[m_mesh.next(h)] = m_places[m_mesh.opposite(m_mesh.prev(h))];", "", "corners do not follow the edges that merge"),
+)
+group(
+    "src/mesh/Sewing.cpp",
+    ("slits_test", "cells_sewing_test", "reduction_test", "random_soups_test"),
+    ("if (tear_parallel_edges(matching.unsewn()))", "if (false)", "two edges between two vertices"),
+    ("beyond - first == 2 && is_opposite &&\n", "beyond - first == 2 &&\n", "sides that run the same way are sewn"),
+    ("side.high != it->high || is_own(side.side) != is_own(it->side);", "side.high != it->high;", "the soup is sewn to the obstacle"),
+)
+
+group(
+    "src/mesh/snapping.cpp",
+    ("snapping_rules_test", "snapping_test"),
+    ("if (!are_partners(pair.low, pair.high))", "if (false)", "partners of before other joins are joined"),
+    ("if (!is_manifold(goes, stays))", "if (false)", "edges of three faces"),
+    ("if (!is_star_motion_clear<Kernel>(m_star))", "if (false)", "a star folds onto itself"),
+    ("if (!are_sweeps_clear(goes))", "if (false)", "a seam is closed through another layer"),
+    ("if (site.is_frozen || m_sites[j].is_frozen)", "if (site.is_frozen)", "what moves may snap to a face that offends"),
+    ("!is_shortly_followed(i, j) && !is_shortly_followed(j, i);", "true;", "a border is sewn to itself"),
+    ("m_index.set(face, face_box(face));", "", "the index does not follow a snap"),
+    ("if (p == q || distance(m_sites[p], m_sites[q]) <= m_distance)", "if (p == q)", "gaps are closed only from their ends"),
+)
+
+group(
+    "src/simplify_soup.cpp",
+    ("obstacle_test", "reduction_test", "intent_test", "replay_test"),
+    ("prepared.is_frozen[t] |= is_merged[positions_after[v]];", "", "what rounding merges moves"),
+    ("take_apart(prepared.positions, positions_after);", "", "what rounding takes apart is one position"),
+    ("prepared.is_frozen[pair.first] = prepared.is_frozen[pair.second] = true;", "prepared.is_frozen[pair.first] = true;",
+     "one face of a pair moves"),
+)
+
+group(
+    "src/replay/contact.cpp",
+    ("replay_flat_test", "replay_contact_test"),
+    ("7.7715611723761027e-16 * permanent + 1e-220", "1e-220", "signs without a bound"),
+    ("3.3306690738754716e-16 * std::fabs(ax * by + ay * bx) + 1e-300", "1e-300", "planar signs without a bound"),
+    ("return dot(normal(m, a, b), normal(t, a, b)) <= 0;", "return dot(normal(m, a, b), normal(t, a, b)) < 0;",
+     "a face may end without an area"),
+    ("if (left == 0)\n    return 0;", "", "no turn where both products are zero"),
+    ("sides[k][i] != 0 && sides[k][i] != m_volume;", "sides[k][i] != m_volume;", "what touches a facet is clear"),
+    ("return end < begin || (end == begin && a.high->id == b.low->id);", "return end <= begin;",
+     "segments of a line that touch are apart"),
+    ("return size == 3 ? Answer::touching : Answer::clear;", "return Answer::clear;", "a face may end on top of another"),
+    ("(is_shared[j] || sides[k][j] == sides[k][i]);", "true;", "corners on both sides of a facet are apart from it"),
+    ("m_volume == at_end ? Answer::touching : Answer::clear;", "Answer::clear;", "a face may fold through another"),
+)
+group(
+    "src/replay/replay.cpp",
+    ("replay_all_test", "replay_test", "replay_mutation_test"),
+    ("!m_complex.is_one_fan(position))", "false)", "what holds sheets together moves"),
+    ("if (edge.is_border() && other->is_border())", "if (false)", "a triangle with two border edges goes"),
+    ("if (apexes.count(edge.neighbour) == 0)", "if (false)", "no link condition"),
+    ("is_on_border(at_removed) && is_on_border(at_kept) && !edge_to", "false && !edge_to", "two borders meet"),
+    ("if (!m_complex.has(f, motion.mover))", "if (f % 2 == 0)", "half of what stands still is not seen"),
+    ("if (face.sweep.touches(standing))", "if (false)", "tunnelling through what stands still"),
+    ("face.sweep.touches(side))", "false)", "tunnelling within the star"),
+    ("is_merged[first[v]] = true;", "", "what rounding merges moves"),
+    ("m_tree.set(f, m_boxes[f]);", "", "the tree does not follow"),
+    ("start.is_locked[first[v]] || is_frozen[t];", "start.is_locked[first[v]];", "faces that offend move"),
+)
+group(
+    "src/replay/snap.cpp",
+    ("replay_test:*nap*", "replay_mutation_test"),
+    ("if (!partners.are_near(moved, kept))", "if (false)", "snaps over any distance"),
+    ("if (of_moved.is_empty())", "if (false)", "what is on no border snaps"),
+    ("edge.outgoing != other.incoming))", "false))", "edges whose faces run the same way"),
+)
+group(
+    "src/replay/limits.cpp",
+    ("replay_test",),
+    ("if (ahead == lines.end() || lines.size() != 2)", "if (ahead == lines.end())", "corners of lines move"),
+    ("if (is_far(m))", "if (false)", "the vertex that moves may drift"),
+    ("if (std::any_of(passed->begin(), passed->end(), is_far))", "if (false)", "what was passed before may drift"),
+    ("least_after <= least_before * (1 - limit_tolerance))", "false)", "triangles get thin"),
+    ("if (behind.is_border() != ahead->is_border())", "if (false)", "from a border on to a seam"),
+)
+group(
+    "src/replay/Complex.cpp",
+    ("replay_test", "replay_all_test"),
+    ("carry_seams(contracted, removed, kept);", "", "seams do not follow"),
+    ("carry_passed(edges_at(removed), removed, kept);", "", "what was passed is forgotten"),
+    ("carry_corners(contracted, moving, removed, kept);", "", "corners do not follow"),
 )

@@ -24,6 +24,8 @@ its file exactly once, or the unchanged tree does not pass. Needs python 3.9, an
 """
 
 import argparse
+import concurrent.futures
+import hashlib
 import json
 import os
 import pathlib
@@ -61,7 +63,6 @@ class Build:
 
     def __init__(self, folder):
         self.folder = folder
-        self.overlay = folder / "mutant"
 
     def update(self, tests):
         launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
@@ -79,27 +80,27 @@ class Build:
     def source_of(self, test):
         return next(source for source in self.commands if pathlib.Path(source).stem == test)
 
-    def compile(self, source):
-        """Compiles a source as the build does, but with the overlay first. Returns the object, or the error."""
+    def compile(self, source, overlay):
+        """Compiles a source as the build does, but with a folder first. Returns the object, or the error."""
         words = shlex.split(self.commands[source])
-        result = self.overlay / (source.replace("/", "_") + ".o")
+        result = overlay / (source.replace("/", "_") + ".o")
         words[words.index("-o") + 1] = str(result)
-        mutated = self.overlay / source
+        mutated = overlay / source
         words[words.index("-c") + 1] = str(mutated if mutated.is_file() else TREE / source)
         first = next(i for i, word in enumerate(words) if word.startswith("-I"))
-        words[first:first] = [f"-I{self.overlay / 'include'}", f"-I{self.overlay / 'src'}", f"-I{self.overlay / 'test'}"]
+        words[first:first] = [f"-iquote{(TREE / source).parent}", f"-I{overlay / 'include'}", f"-I{overlay / 'src'}"]
         words.append("-O1")
         status, output = run(words, self.folder)
         return (result, None) if status == 0 else (None, output)
 
-    def link(self, test, objects):
+    def link(self, test, objects, overlay):
         """Links a test with some objects in place of the build's. Returns the program."""
         commands = subprocess.check_output(["ninja", "-C", self.folder, "-t", "commands", test], text=True)
         words = shlex.split(commands.strip().splitlines()[-1])
         words = words[words.index("&&") + 1:]
         words = words[:words.index("&&")]
         output = words.index("-o")
-        program = self.overlay / test
+        program = overlay / test
         words[output + 1] = str(program)
         own = f"{pathlib.Path(self.source_of(test)).name}.o"
         replaced = [str(objects[source]) for source in objects]
@@ -120,17 +121,17 @@ def parts(test):
     return name, ["--gtest_brief=1", "--gtest_fail_fast", "--gtest_filter=" + (chosen or "*")]
 
 
-def judge(build, mutant, seconds):
-    """Returns what became of a mutant, and the test that says so."""
-    shutil.rmtree(build.overlay, ignore_errors=True)
-    changed = build.overlay / mutant.file
+def judge(build, mutant, seconds, overlay):
+    """Returns what became of a mutant, and the test that says so. The folder `overlay` is for its files."""
+    shutil.rmtree(overlay, ignore_errors=True)
+    changed = overlay / mutant.file
     changed.parent.mkdir(parents=True)
     text = (TREE / mutant.file).read_text(encoding="utf-8")
     changed.write_text(text.replace(mutant.old, mutant.new), encoding="utf-8")
     objects = {}
     sources = [mutant.file] if mutant.file.endswith(".cpp") else list(mutant.sources)
     for source in sources:
-        objects[source], error = build.compile(source)
+        objects[source], error = build.compile(source, overlay)
         if error:
             return "not compiled", error.strip().splitlines()[0][-100:]
     for test in mutant.tests:
@@ -138,10 +139,10 @@ def judge(build, mutant, seconds):
         source = build.source_of(name)
         own = dict(objects)
         if not mutant.file.endswith(".cpp"):
-            own[source], error = build.compile(source)
+            own[source], error = build.compile(source, overlay)
             if error:
                 return "not compiled", next(line for line in error.splitlines() if "error" in line)[-100:]
-        program = build.link(name, own)
+        program = build.link(name, own, overlay)
         status, output = run([str(program), *options], build.folder, 60 + 10 * seconds[test])
         if status is None:
             return "killed", f"{name} (no end)"
@@ -156,6 +157,7 @@ def main():
     parser.add_argument("--only", default="", metavar="WORD", help="mutants whose file, change or reason holds this")
     parser.add_argument("--list", action="store_true", help="compile nothing")
     parser.add_argument("--build", type=pathlib.Path, default=TREE / "build/release", metavar="FOLDER")
+    parser.add_argument("--jobs", type=int, default=1, metavar="NUMBER", help="mutants at a time")
     arguments = parser.parse_args()
 
     chosen = [mutant for mutant in mutants.ALL
@@ -182,11 +184,18 @@ def main():
         if status != 0:
             stop(output + f"\n{test} does not pass on the unchanged tree.")
 
+    def outcome(mutant):
+        change = hashlib.sha256(f"{mutant.file} {mutant.old} {mutant.new}".encode()).hexdigest()
+        overlay = build.folder / "mutants" / change[:16]  # the same every time, for ccache
+        result = judge(build, mutant, seconds, overlay)
+        shutil.rmtree(overlay)
+        return result
+
     counts = {}
-    for number, mutant in enumerate(chosen, 1):
-        outcome, by = judge(build, mutant, seconds)
-        counts[outcome] = counts.get(outcome, 0) + 1
-        print(f"| {number} | {mutant.file.rsplit('/')[-1]} | {mutant.reason} | {outcome} | {by} |", flush=True)
+    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+        for number, (mutant, (became, by)) in enumerate(zip(chosen, pool.map(outcome, chosen)), 1):
+            counts[became] = counts.get(became, 0) + 1
+            print(f"| {number} | {mutant.file.rsplit('/')[-1]} | {mutant.reason} | {became} | {by} |", flush=True)
     print(", ".join(f"{count} {outcome}" for outcome, count in sorted(counts.items())))
     return 1 if counts.get("survived") else 0
 
