@@ -90,6 +90,14 @@ Json to_json(const Violation& violation)
           {"point", violation.point.empty() ? Json(nullptr) : Json(violation.point)}};
 }
 
+Json counted_from_1(const std::vector<Index>& numbers)
+{
+  Json list = Json::array();
+  for (const Index number : numbers)
+    list.push_back(number + 1);
+  return list;
+}
+
 // Soups may have as many pieces as triangles; kinds are few.
 Json kinds_of(const std::vector<Piece>& pieces)
 {
@@ -199,6 +207,26 @@ void add_verification(Json& report, const Verification& verification, bool has_o
                            {"pieces_of_original", difference.pieces_of_original},
                            {"pieces_of_result", difference.pieces_of_result}});
   report["topology"] = {{"same", verification.same_topology()}, {"differences", std::move(differences)}};
+  const Piece_matching& matching = verification.matching;
+  Json pieces = Json::object(), mismatches = Json::array();
+  for (const Matched_by by :
+       {Matched_by::vertices, Matched_by::positions, Matched_by::borders, Matched_by::distance})
+    pieces[name(by)] = 0;
+  for (const Piece_match& match : matching.matches)
+    pieces[name(match.by)] = pieces[name(match.by)].get<std::size_t>() + match.of_original.size();
+  for (std::size_t i = 0; i < (std::min)(matching.mismatches.size(), most_named); ++i) {
+    const Piece_mismatch& mismatch = matching.mismatches[i];
+    mismatches.push_back({{"what", name(mismatch.what)},
+                          {"of_original", counted_from_1(mismatch.of_original)},
+                          {"of_result", counted_from_1(mismatch.of_result)},
+                          {"message", mismatch.message}});
+  }
+  report["matching"] = {{"complete", matching.is_complete()},
+                        {"pieces_of_original", matching.pieces_of_original.size()},
+                        {"by", std::move(pieces)},
+                        {"mismatches", matching.mismatches.size()},
+                        {"first_mismatches", std::move(mismatches)},
+                        {"names_compared", matching.names_compared}};
   if (verification.distances)
     report["distance"] = {{"original_to_result", to_json(verification.distances->original_to_result)},
                           {"result_to_original", to_json(verification.distances->result_to_original)},

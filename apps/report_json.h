@@ -32,7 +32,7 @@ Json input_json(const std::filesystem::path& path, const Mesh_file& file);
 /// `rounding`.
 void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified_soup& result);
 
-/// Sets `verified`, `pieces`, and `topology` and `distance` where there is an original.
+/// Sets `verified`, `pieces`, and `topology`, `matching` and `distance` where there is an original.
 void add_verification(Json& report, const Verification& verification, bool has_original);
 
 /// Sets `borders`, `seams`, `gaps`, `vertices`, `attributes`, `normals` and `layers`, and adds to `distance`.

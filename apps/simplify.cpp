@@ -273,7 +273,7 @@ private:
     m_outcome.is_target_required = m_request.is_target_required;
     for (Level& level : levels) {
       level.verification = verify(level.result, prepared);
-      m_outcome.is_accepted &= level.verification.accepted();
+      m_outcome.is_accepted &= level.verification.accepted() && level.verification.same_topology();
       m_outcome.is_interrupted |= level.result.report.is_stopped;
       m_outcome.is_reached &= level.result.report.is_reached();
     }
@@ -304,11 +304,13 @@ private:
     const auto& [output, result, verification] = level;
     const std::string where = m_request.lods.empty() ? "" : output + ": ";
     if (!m_outcome.is_written()) {
-      if (!verification.accepted())
-        complain(where + "THE RESULT IS WRONG and was not written: " +
-                 counted(verification.new_pairs.size(), "new offending pair") +
-                 (verification.same_topology() ? "" : ", topology changed") +
-                 "; this is a bug in selvedge, please report it with the input and the options");
+      if (!verification.accepted() || !verification.same_topology())
+        complain(
+            where + "THE RESULT IS WRONG and was not written: " +
+            counted(verification.new_pairs.size(), "new offending pair") +
+            (verification.same_topology() ? "" : ", topology changed") +
+            (verification.matching.is_complete() ? "" : ", " + verification.matching.mismatches[0].message) +
+            "; this is a bug in selvedge, please report it with the input and the options");
     } else if (!m_outcome.is_guarded) {
       complain(where + "not verified: the intersection check was off (" +
                counted(verification.new_pairs.size(), "new offending pair") + "); written all the same");

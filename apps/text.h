@@ -47,6 +47,40 @@ inline const char* name(Offence offence)
   return "";
 }
 
+inline const char* name(Matched_by by)
+{
+  switch (by) {
+  case Matched_by::vertices:
+    return "vertices";
+  case Matched_by::positions:
+    return "positions";
+  case Matched_by::borders:
+    return "borders";
+  case Matched_by::distance:
+    return "distance";
+  }
+  return "";
+}
+
+inline const char* name(Mismatch what)
+{
+  switch (what) {
+  case Mismatch::missing:
+    return "missing";
+  case Mismatch::added:
+    return "added";
+  case Mismatch::topology:
+    return "topology";
+  case Mismatch::name:
+    return "name";
+  case Mismatch::far:
+    return "far";
+  case Mismatch::turned:
+    return "turned";
+  }
+  return "";
+}
+
 /// Triangles are counted from 1, for a person.
 inline std::string describe(const Offending_pair& pair)
 {

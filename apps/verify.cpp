@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include "blind_spots.h"
 #include "output_files.h"
 #include "report_json.h"
 #include "subcommands.h"
@@ -26,6 +27,7 @@ struct Request
   std::string mesh;
   std::string original;
   std::string report;
+  double weld_distance = 0;
   bool is_json = false;
   std::optional<std::size_t> threads;
 };
@@ -98,10 +100,31 @@ void print(const Distances& distances, const Comparison& comparison)
   }
 }
 
+constexpr std::size_t named = 5;
+
+void print(const Piece_matching& matching)
+{
+  std::size_t pieces[4] = {};
+  for (const Piece_match& match : matching.matches)
+    pieces[int(match.by)] += match.of_original.size();
+  std::cout << (matching.is_complete() ? "pieces: each is one of the original's" : "pieces WRONG");
+  const char* separator = "; matched ";
+  for (const Matched_by by :
+       {Matched_by::vertices, Matched_by::positions, Matched_by::borders, Matched_by::distance})
+    if (pieces[int(by)] > 0) {
+      std::cout << separator << with_commas(pieces[int(by)]) << " by " << name(by);
+      separator = ", ";
+    }
+  std::cout << '\n';
+  for (std::size_t i = 0; i < (std::min)(matching.mismatches.size(), named); ++i)
+    std::cout << "  " << matching.mismatches[i].message << '\n';
+  if (matching.mismatches.size() > named)
+    std::cout << "  and " << with_commas(matching.mismatches.size() - named) << " more\n";
+}
+
 void print(const Request& request, const Mesh_file& mesh, const Verification& verification,
            const std::optional<Comparison>& comparison)
 {
-  constexpr std::size_t named = 5;
   const bool has_original = !request.original.empty();
   std::size_t loops = 0;
   long euler = 0;
@@ -130,12 +153,18 @@ void print(const Request& request, const Mesh_file& mesh, const Verification& ve
       std::cout << "  and " << with_commas(pairs.size() - named) << " more\n";
   }
   if (has_original) {
-    std::cout << (verification.same_topology() ? "topology: as in the original\n" : "topology CHANGED:\n");
+    print(verification.matching);
+    std::cout << (verification.same_topology()          ? "topology: as in the original\n"
+                  : verification.matching.is_complete() ? "topology: other numbers of vertices:\n"
+                                                        : "topology CHANGED:\n");
     for (const Topology_difference& difference : verification.topology_differences)
       std::cout << "  pieces with " << counted(difference.boundary_loops, "boundary loop")
                 << " and Euler characteristic " << difference.euler_characteristic << ": "
                 << difference.pieces_of_original << " before, " << difference.pieces_of_result << " now\n";
     print(*verification.distances, *comparison);
+    std::cout << "what this cannot see:\n";
+    for (const std::string& line : blind_spots(verification, *comparison))
+      std::cout << "  - " << line << '\n';
   }
   std::cout << std::flush;
 }
@@ -157,7 +186,9 @@ Exit_code run(const Request& request)
   if (has_original) {
     const Mesh_file original = read_mesh(request.original);
     report["original"] = input_json(request.original, original);
-    verification = verify(mesh.soup, original.soup);
+    Verify_options options;
+    options.weld_distance = request.weld_distance;
+    verification = verify(mesh.soup, original.soup, options);
     comparison = compare(mesh.soup, original.soup);
   } else {
     verification = verify(mesh.soup);
@@ -166,8 +197,10 @@ Exit_code run(const Request& request)
       has_original ? verification->accepted() && comparison->layers.swaps.empty() : verification->embedded();
   const Exit_code code = is_good ? exit_done : exit_not_verified;
   add_verification(report, *verification, has_original);
-  if (comparison)
+  if (comparison) {
     add_comparison(report, *comparison);
+    report["cannot_see"] = blind_spots(*verification, *comparison);
+  }
   report["memory"] = {{"peak_bytes", peak_memory_bytes()}};
   report["exit_code"] = int(code);
   if (request.is_json)
@@ -189,6 +222,12 @@ Action add_verify(CLI::App& command)
       ->type_name("");
   command.add_option("--against", request->original, "The original that MESH was made from")
       ->type_name("FILE");
+  command
+      .add_option("--weld", request->weld_distance,
+                  "Borders of the original that lie within this length may have been joined: as simplify was "
+                  "told, where MESH does not keep pieces apart (STL, --sewn)")
+      ->check(in_range(0))
+      ->type_name("EPS");
   CLI::Option* const report =
       command.add_option("--report", request->report, "Write the verdict as JSON, beside the text")
           ->type_name("FILE");
@@ -199,14 +238,12 @@ Action add_verify(CLI::App& command)
       "  selvedge verify jacket.obj                          is it embedded?\n"
       "  selvedge verify small.obj --against jacket.obj      is anything wrong that was not wrong before?\n"
       "  selvedge verify small.obj --json | jq .verified.pairs\n\n"
-      "Exit code 0 when MESH is embedded; with an original, when no offending pair is new; pieces, boundary\n"
-      "loops and Euler characteristics are the same; and no two layers were found in another order. That "
-      "order\n"
-      "is looked at along lines and does not see everything: replay a log where there is one. All else that "
-      "is\n"
-      "said of the two is for you to judge. A mesh that was rounded (STL, GLB) is compared best with an "
-      "original\n"
-      "in the same format. Triangles are counted from 1, after polygons were cut.");
+      "Exit code 0 when MESH is embedded; with an original, when no offending pair is new, every piece is "
+      "one\n"
+      "of the original's (same boundary loops, Euler characteristic and names, and lies where it lay), and "
+      "no\n"
+      "two layers were found in another order. What that cannot see is listed. All else that is said of the\n"
+      "two is for you to judge. Triangles and pieces are counted from 1, after polygons were cut.");
   return [request] {
     const Thread_limit limit(request->threads);
     return run(*request);

@@ -25,7 +25,7 @@ int main(int argc, char** argv)
     options.ratio = 0.3;
     const selvedge::Simplified_soup result = selvedge::simplify_soup(input, options);
 
-    const selvedge::Verification verdict = selvedge::verify(result.soup, input.soup, input.offending_pairs);
+    const selvedge::Verification verdict = selvedge::verify(result, input);
     std::cout << result.report.faces_input << " faces to " << result.report.faces_output << " ("
               << result.report.outcome() << "), " << verdict.new_pairs.size() << " new offending pairs\n";
     selvedge::write_mesh(argv[2], result.soup);

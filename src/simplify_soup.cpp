@@ -430,15 +430,19 @@ std::vector<Simplified_soup> simplify_lods(const Prepared_soup& prepared, const 
 
 Verification verify(const Simplified_soup& result, const Prepared_soup& original)
 {
+  Verify_options options;
+  options.are_shapes_judged = false; // limits see to these, or the user wants none
   if (original.obstacle.triangles.empty())
-    return verify(result.soup, original.soup, original.offending_pairs);
+    return verify(result.soup, original.soup, original.offending_pairs, options);
   const Triangle_soup both = geometry_of_both(result.soup, original.obstacle);
   Verification verification;
   verification.pairs = offending_pairs(both);
   verification.new_pairs = new_pairs(
       both, verification.pairs, geometry_of_both(original.soup, original.obstacle), original.offending_pairs);
   verification.pieces = pieces(result.soup);
-  verification.topology_differences = topology_differences(verification.pieces, pieces(original.soup));
+  verification.matching = match_pieces(result.soup, original.soup, options);
+  verification.topology_differences =
+      topology_differences(verification.pieces, verification.matching.pieces_of_original);
   verification.distances = distances(result.soup, original.soup);
   return verification;
 }

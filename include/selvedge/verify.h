@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 // The judge: of any mesh by itself, or of a result against its original. It shares no code with the policies
@@ -103,10 +104,102 @@ struct Topology_difference
 /// What two meshes differ in by kinds of pieces, a kind being a number of boundary loops with an Euler
 /// characteristic; empty when they have the same topology, as far as this tells.
 ///
-/// **Not promised.** A file does not say which piece became which, so pieces that swapped their kinds pass.
-/// Orientability is no part of a kind: a torus and a Klein bottle are alike.
+/// **Not promised.** These are counts, so pieces that exchanged their kinds pass here; `match_pieces` sees
+/// them. Orientability is no part of a kind: a torus and a Klein bottle are alike.
 std::vector<Topology_difference> topology_differences(const std::vector<Piece>& result,
                                                       const std::vector<Piece>& original);
+
+/// How a piece of a result was recognised as what became of a piece of the original.
+enum class Matched_by {
+  vertices,  ///< at least half of its vertices lie at vertices of that piece, and the kind is the same
+  positions, ///< several pieces at once: joined where their positions coincide, they are of the same kinds
+  borders,   ///< likewise, with borders within the weld distance joined; kinds are not compared
+  distance   ///< of all pieces of the same kind it lies nearest
+};
+
+/// Pieces of the original, and those of the result that they became: one and one, unless they were matched by
+/// positions or borders.
+struct Piece_match
+{
+  std::vector<Index> of_original; ///< numbers of pieces of the original
+  std::vector<Index> of_result;   ///< numbers of pieces of the result
+  Matched_by by;
+
+  /// The root mean square distance of the vertices of the one to the surface of the other, whichever way is
+  /// larger, as a share of the diagonal of the bounding box of `of_original`.
+  double distance = 0;
+  /// The share of the area of `of_result` whose normal is more than 90° from that of the nearest face of
+  /// `of_original`.
+  double turned = 0;
+};
+
+/// What is wrong with pieces that should be those of the original.
+enum class Mismatch {
+  missing,  ///< a piece of the original has become no piece of the result
+  added,    ///< a piece of the result has come from no piece of the original
+  topology, ///< pieces lie where those of the original do, but are of other kinds
+  name,     ///< faces have a group, object or material that the original has elsewhere, or a name is gone
+  far,      ///< pieces are farther from those of the original than a quarter of their size
+  turned    ///< inside is outside
+};
+
+struct Piece_mismatch
+{
+  Mismatch what;
+  std::vector<Index> of_original; ///< numbers of pieces of the original
+  std::vector<Index> of_result;   ///< numbers of pieces of the result
+  std::string message; ///< one line for a person: which pieces, how many faces, where; counted from 1
+};
+
+/// Which piece of a result came from which piece of the original, one to one.
+struct Piece_matching
+{
+  std::vector<Piece> pieces_of_original;
+  std::vector<Piece_match> matches;
+  std::vector<Piece_mismatch> mismatches;
+  /// The kinds of names that were compared, of "group", "object" and "material".
+  std::vector<std::string> names_compared;
+  /// Those that could not be: only one mesh has them, or no name is common.
+  std::vector<std::string> names_not_compared;
+
+  bool is_complete() const { return mismatches.empty(); }
+};
+
+struct Verify_options
+{
+  /// Borders of the original within this distance of each other, or of a third, in the unit of the
+  /// coordinates, may have been joined where a result does not keep pieces apart by vertex numbers. 0: only
+  /// borders that coincide.
+  double weld_distance = 0;
+
+  /// Whether matched pieces may be `Mismatch::far` or `Mismatch::turned`, and have figures.
+  bool are_shapes_judged = true;
+};
+
+/// Matches the pieces of a result with those of its original, one to one, in this order:
+/// 1. by vertices: at least half of the positions of the one are positions of the other, and the kinds are
+///    the same. Of several such, the one with most common positions, and of those one with the same names;
+/// 2. by positions: what is left over, and all that has faces in common with it by positions, is joined where
+///    positions coincide. Files that number vertices otherwise (STL, seams of textures in glTF) pass here;
+/// 3. by distance, for results whose vertices are not the original's: pieces of one kind of which each is, up
+///    to a factor of two, the nearest to the other, no farther than a quarter of the size of the original's;
+/// 4. by positions and distance together.
+///
+/// Where the coordinates of the result are 32-bit floats and those of the original are not, those of the
+/// original are rounded for this. A piece without any triangle of three distinct positions is none.
+///
+/// Names (groups, objects, materials, each where both meshes have such and at least one name in common) are
+/// judged by patches: triangles with common vertex numbers and one name. At least half of the triangles of a
+/// patch must have their three corners at positions, or their centre nearest to a triangle of the matched
+/// pieces, where the original has the same name or none; and no name of a matched piece may be gone. The
+/// names of glTF primitives count without the numbers (`/0`, `#2`) that tell them apart.
+///
+/// **Not promised.** A piece may have lost a part at its border, or be another of the same kind whose
+/// vertices are near: distances say how far. Positions where more than 64 pieces meet tell nothing.
+/// **Exactness.** Positions are compared exactly, distances in floating point.
+/// **Complexity.** O(n log n) in practice.
+Piece_matching match_pieces(const Triangle_soup& result, const Triangle_soup& original,
+                            const Verify_options& options = {});
 
 /// How far the vertices of one mesh are from the surface of another.
 struct Distance
@@ -147,23 +240,26 @@ struct Verification
   /// Those that the original does not have; all of them where no original was given.
   std::vector<Offending_pair> new_pairs;
   std::vector<Piece> pieces;
-  /// These two stay empty where no original was given.
+  /// These stay empty where no original was given.
   std::vector<Topology_difference> topology_differences;
+  Piece_matching matching;
   std::optional<Distances> distances;
 
   bool embedded() const { return pairs.empty(); }
+  /// As many pieces of every kind, by vertex numbers.
   bool same_topology() const { return topology_differences.empty(); }
 
   /// Nothing is wrong that was not wrong before.
-  bool accepted() const { return new_pairs.empty() && same_topology(); }
+  bool accepted() const { return new_pairs.empty() && matching.is_complete(); }
 };
 
 Verification verify(const Triangle_soup& mesh);
-Verification verify(const Triangle_soup& result, const Triangle_soup& original);
+Verification verify(const Triangle_soup& result, const Triangle_soup& original,
+                    const Verify_options& options = {});
 
 /// The same, for who knows the offending pairs of the original already.
 Verification verify(const Triangle_soup& result, const Triangle_soup& original,
-                    const std::vector<Offending_pair>& pairs_of_original);
+                    const std::vector<Offending_pair>& pairs_of_original, const Verify_options& options = {});
 
 } // namespace selvedge
 

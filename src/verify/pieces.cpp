@@ -1,7 +1,9 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include <selvedge/verify.h>
+#include "pieces.h"
+
+#include "Disjoint_sets.h"
 
 #include <algorithm>
 #include <map>
@@ -10,32 +12,10 @@
 #include <utility>
 
 namespace selvedge {
+
+using namespace internal;
+
 namespace {
-
-class Disjoint_sets
-{
-public:
-  explicit Disjoint_sets(std::size_t size) : m_parent(size)
-  {
-    std::iota(m_parent.begin(), m_parent.end(), std::size_t(0));
-  }
-
-  std::size_t find(std::size_t element)
-  {
-    while (m_parent[element] != element)
-      element = m_parent[element] = m_parent[m_parent[element]];
-    return element;
-  }
-
-  void unite(std::size_t a, std::size_t b)
-  {
-    std::tie(a, b) = std::minmax({find(a), find(b)});
-    m_parent[b] = a;
-  }
-
-private:
-  std::vector<std::size_t> m_parent;
-};
 
 /// The side of a triangle, from the end with the lower vertex number to the other. A corner is 3 · triangle +
 /// 0, 1 or 2.
@@ -51,9 +31,8 @@ bool is_face(const Index_triple& corners)
 }
 
 /// By their lower ends in linear time, and the few of one lower end by the other, then by the corner.
-std::vector<Side> sorted_sides(const Triangle_soup& soup)
+std::vector<Side> sorted_sides(const std::vector<Index_triple>& triangles, std::size_t vertices)
 {
-  const std::vector<Index_triple>& triangles = soup.triangles;
   const auto for_each_side = [&](const auto& function) {
     for (std::size_t triangle = 0; triangle < triangles.size(); ++triangle)
       for (int i = 0; is_face(triangles[triangle]) && i < 3; ++i) {
@@ -63,13 +42,13 @@ std::vector<Side> sorted_sides(const Triangle_soup& soup)
         function(from < to ? Side{from, to, corner_from, corner_to} : Side{to, from, corner_to, corner_from});
       }
   };
-  std::vector<std::size_t> places(soup.points.size() + 1, 0);
+  std::vector<std::size_t> places(vertices + 1, 0);
   for_each_side([&](const Side& side) { ++places[side.low + 1]; });
   std::partial_sum(places.begin(), places.end(), places.begin());
   std::vector<Side> sides(places.back());
   for_each_side([&](const Side& side) { sides[places[side.low]++] = side; });
   auto first = sides.begin();
-  for (std::size_t low = 0; low < soup.points.size(); ++low) {
+  for (std::size_t low = 0; low < vertices; ++low) {
     const auto beyond = sides.begin() + std::ptrdiff_t(places[low]);
     std::sort(first, beyond, [](const Side& a, const Side& b) {
       return std::tie(a.high, a.corner_at_low) < std::tie(b.high, b.corner_at_low);
@@ -81,31 +60,33 @@ std::vector<Side> sorted_sides(const Triangle_soup& soup)
 
 } // namespace
 
-std::vector<Piece> pieces(const Triangle_soup& soup)
+Numbered_pieces internal::numbered_pieces(const std::vector<Index_triple>& triangles, std::size_t vertices)
 {
-  Disjoint_sets connected(soup.points.size());
-  for (const Index_triple& triangle : soup.triangles)
+  Disjoint_sets connected(vertices);
+  for (const Index_triple& triangle : triangles)
     if (is_face(triangle)) {
       connected.unite(triangle[0], triangle[1]);
       connected.unite(triangle[0], triangle[2]);
     }
 
-  std::vector<Piece> result;
-  constexpr Index none = -1;
-  std::vector<Index> piece_of_set(soup.points.size(), none);
-  const auto piece_of = [&](Index vertex) -> Piece& { return result[piece_of_set[connected.find(vertex)]]; };
-  std::vector<bool> used(soup.points.size());
-  for (Index i = 0; i < soup.triangles.size(); ++i)
-    if (is_face(soup.triangles[i])) {
-      Index& number = piece_of_set[connected.find(soup.triangles[i][0])];
-      if (number == none) {
-        number = static_cast<Index>(result.size());
-        result.push_back(Piece{i, 0, 0, 0, 0, 0, 0});
+  Numbered_pieces result;
+  std::vector<Piece>& pieces = result.pieces;
+  result.of_triangle.assign(triangles.size(), no_piece);
+  std::vector<Index> piece_of_set(vertices, no_piece);
+  const auto piece_of = [&](Index vertex) -> Piece& { return pieces[piece_of_set[connected.find(vertex)]]; };
+  std::vector<bool> used(vertices);
+  for (Index i = 0; i < triangles.size(); ++i)
+    if (is_face(triangles[i])) {
+      Index& number = piece_of_set[connected.find(triangles[i][0])];
+      if (number == no_piece) {
+        number = static_cast<Index>(pieces.size());
+        pieces.push_back(Piece{i, 0, 0, 0, 0, 0, 0});
       }
-      Piece& piece = result[number];
+      result.of_triangle[i] = number;
+      Piece& piece = pieces[number];
       ++piece.faces;
       ++piece.euler_characteristic;
-      for (const Index vertex : soup.triangles[i])
+      for (const Index vertex : triangles[i])
         if (!used[vertex]) {
           used[vertex] = true;
           ++piece.vertices;
@@ -114,9 +95,9 @@ std::vector<Piece> pieces(const Triangle_soup& soup)
     }
 
   // The fans of faces around the vertices, as sets of corners.
-  Disjoint_sets fans(3 * soup.triangles.size());
+  Disjoint_sets fans(3 * triangles.size());
   std::vector<Side> borders;
-  const std::vector<Side> sides = sorted_sides(soup);
+  const std::vector<Side> sides = sorted_sides(triangles, vertices);
   for (auto first = sides.begin(), last = first; first != sides.end(); first = last) {
     for (; last != sides.end() && last->low == first->low && last->high == first->high; ++last) {
       fans.unite(first->corner_at_low, last->corner_at_low);
@@ -134,7 +115,7 @@ std::vector<Piece> pieces(const Triangle_soup& soup)
   // A border edge leads from one fan to another; a loop is what hangs together that way.
   for (const Side& border : borders)
     fans.unite(border.corner_at_low, border.corner_at_high);
-  std::vector<bool> counted(3 * soup.triangles.size());
+  std::vector<bool> counted(3 * triangles.size());
   for (const Side& border : borders) {
     const std::size_t loop = fans.find(border.corner_at_low);
     if (!counted[loop])
@@ -142,6 +123,11 @@ std::vector<Piece> pieces(const Triangle_soup& soup)
     counted[loop] = true;
   }
   return result;
+}
+
+std::vector<Piece> pieces(const Triangle_soup& soup)
+{
+  return numbered_pieces(soup.triangles, soup.points.size()).pieces;
 }
 
 std::vector<Topology_difference> topology_differences(const std::vector<Piece>& result,

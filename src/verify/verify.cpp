@@ -5,6 +5,8 @@
 
 #include <oneapi/tbb/parallel_invoke.h>
 
+#include <utility>
+
 namespace selvedge {
 
 Verification verify(const Triangle_soup& mesh)
@@ -15,20 +17,22 @@ Verification verify(const Triangle_soup& mesh)
   return verification;
 }
 
-Verification verify(const Triangle_soup& result, const Triangle_soup& original)
+Verification verify(const Triangle_soup& result, const Triangle_soup& original, const Verify_options& options)
 {
-  return verify(result, original, offending_pairs(original));
+  return verify(result, original, offending_pairs(original), options);
 }
 
 Verification verify(const Triangle_soup& result, const Triangle_soup& original,
-                    const std::vector<Offending_pair>& pairs_of_original)
+                    const std::vector<Offending_pair>& pairs_of_original, const Verify_options& options)
 {
   Verification verification;
-  std::vector<Piece> pieces_of_original;
+  Piece_matching matching;
   tbb::parallel_invoke([&] { verification = verify(result); },
-                       [&] { pieces_of_original = pieces(original); });
+                       [&] { matching = match_pieces(result, original, options); });
+  verification.matching = std::move(matching);
   verification.new_pairs = new_pairs(result, verification.pairs, original, pairs_of_original);
-  verification.topology_differences = topology_differences(verification.pieces, pieces_of_original);
+  verification.topology_differences =
+      topology_differences(verification.pieces, verification.matching.pieces_of_original);
   verification.distances = distances(result, original);
   return verification;
 }

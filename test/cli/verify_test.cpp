@@ -3,9 +3,14 @@
 
 #include "App_run.h"
 
+#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/mesh/selection.h>
+#include <selvedge/verify.h>
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace selvedge::test {
 namespace {
@@ -86,6 +91,145 @@ TEST(App_verify, LayersThatChangedPlacesAreNotVerified)
   EXPECT_EQ(report["topology"]["same"], true);
   EXPECT_GT(report["layers"]["swaps"], 0);
   EXPECT_EQ(report["layers"]["first_swaps"].size(), std::min<std::size_t>(100, report["layers"]["swaps"]));
+}
+
+/// Without the triangles of one piece.
+Triangle_soup without_piece(Triangle_soup soup, Index number)
+{
+  const Piece gone = pieces(soup).at(number);
+  std::vector<Index> kept;
+  for (Index t = 0; t < soup.triangles.size(); ++t)
+    if (t < gone.first_triangle || t >= gone.first_triangle + gone.faces)
+      kept.push_back(t);
+  keep_triangles(soup, kept);
+  return soup;
+}
+
+TEST(App_verify, ALayerThatIsMissingOrReplacedIsNotVerified)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("sheets", "in.obj", 1000, 3), small = folder / "small.obj";
+  ASSERT_EQ(run_app({"simplify", in, "-o", small, "--ratio", "0.3", "--quiet"}).code, 0);
+  Triangle_soup soup = without_piece(read_mesh(small).soup, 1);
+  const std::string wrong = folder / "wrong.off";
+  write_mesh(wrong, soup);
+  const App_result missing = run_app({"verify", wrong, "--against", in});
+  EXPECT_EQ(missing.code, 1);
+  EXPECT_NE(missing.out.find("  piece 2 ("), std::string::npos) << missing.out;
+  EXPECT_NE(missing.out.find(") of the original is not in the result"), std::string::npos) << missing.out;
+
+  // A triangle elsewhere has the kind of the layer that is gone.
+  const Index first = Index(soup.points.size());
+  for (const Point_3& corner : {Point_3(50, 50, 50), Point_3(51, 50, 50), Point_3(50, 51, 50)})
+    soup.points.push_back(corner);
+  Triangle_soup replaced;
+  replaced.points = soup.points;
+  replaced.triangles = soup.triangles;
+  replaced.triangles.push_back({first, first + 1, first + 2});
+  write_mesh(wrong, replaced);
+  const App_result elsewhere = run_app({"verify", wrong, "--against", in});
+  EXPECT_EQ(elsewhere.code, 1);
+  EXPECT_NE(elsewhere.out.find("topology: as in the original"), std::string::npos) << "the control";
+  EXPECT_NE(elsewhere.out.find("pieces WRONG"), std::string::npos) << elsewhere.out;
+  EXPECT_NE(elsewhere.out.find("(1 face around (50.5, 50.5, 50)) of the result is no piece of the original"),
+            std::string::npos)
+      << elsewhere.out;
+  const nlohmann::json report =
+      nlohmann::json::parse(run_app({"verify", wrong, "--against", in, "--json"}).out);
+  EXPECT_EQ(report["matching"]["complete"], false);
+  EXPECT_EQ(report["matching"]["mismatches"], 2);
+  EXPECT_EQ(report["matching"]["first_mismatches"][0]["what"], "missing");
+  EXPECT_EQ(report["matching"]["first_mismatches"][0]["of_original"], nlohmann::json::array({2}));
+  EXPECT_EQ(report["matching"]["first_mismatches"][1]["what"], "added");
+}
+
+TEST(App_verify, ExchangedNamesAreNotVerified)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("skirt", "in.obj", 3000, 3), small = folder / "small.obj";
+  ASSERT_EQ(run_app({"simplify", in, "-o", small, "--ratio", "0.3", "--quiet"}).code, 0);
+  Triangle_soup soup = read_mesh(small).soup;
+  std::vector<std::string>& names = soup.groups.names;
+  const auto lining = std::find(names.begin(), names.end(), "lining_front"),
+             shell = std::find(names.begin(), names.end(), "shell_front");
+  ASSERT_TRUE(lining != names.end() && shell != names.end());
+  std::swap(*lining, *shell);
+  write_mesh(folder / "wrong.obj", soup);
+  const App_result result = run_app({"verify", folder / "wrong.obj", "--against", in});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_NE(result.out.find("of the result is 'lining_front', where the original has 'shell_front'"),
+            std::string::npos)
+      << result.out;
+}
+
+// Files that number vertices in other ways, hold floats, or know no names.
+TEST(App_verify, AcceptsWhatSimplifyMakesInEveryFormat)
+{
+  const Workspace folder;
+  for (const char* const scene : {"skirt", "seams", "nested"}) {
+    const std::string in = folder.generate(scene, std::string(scene) + ".obj", 2000, 3);
+    for (const char* const format : {"obj", "off", "ply", "stl", "glb"}) {
+      const std::string out = folder / (std::string("out.") + format);
+      for (const bool is_sewn : {false, true}) {
+        std::vector<std::string> command{"simplify", in, "-o", out, "--ratio", "0.3", "--quiet"};
+        if (is_sewn)
+          command.push_back("--sewn");
+        ASSERT_EQ(run_app(command).code, 0);
+        const App_result result = run_app({"verify", out, "--against", in});
+        EXPECT_EQ(result.code, 0) << scene << ' ' << format << ' ' << is_sewn << '\n' << result.out;
+      }
+    }
+  }
+}
+
+TEST(App_verify, AcceptsClosedSeamsThatItIsToldOf)
+{
+  const Workspace folder;
+  // Two squares with a gap of 0.0625 between them.
+  write_text(folder / "in.obj",
+             "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1.0625 0 0\nv 2 0 0\nv 2 1 0\nv 1.0625 1 0\n"
+             "f 1 2 3 4\nf 5 6 7 8\n");
+  const auto verdict = [&](const std::string& out, bool is_sewn, const std::vector<std::string>& weld) {
+    std::vector<std::string> command{"simplify", folder / "in.obj", "-o",    folder / out, "--ratio",
+                                     "1",        "--weld",          "0.125", "--quiet"};
+    if (is_sewn)
+      command.push_back("--sewn");
+    EXPECT_EQ(run_app(command).code, 0);
+    std::vector<std::string> judged{"verify", folder / out, "--against", folder / "in.obj"};
+    judged.insert(judged.end(), weld.begin(), weld.end());
+    return run_app(judged);
+  };
+  EXPECT_EQ(verdict("out.obj", false, {}).code, 0) << "pieces stay apart by vertex numbers";
+  for (const char* const out : {"out.stl", "sewn.obj"}) {
+    const App_result refused = verdict(out, out[0] == 's', {});
+    EXPECT_EQ(refused.code, 1);
+    EXPECT_NE(refused.out.find("give the weld distance"), std::string::npos) << refused.out;
+    const App_result accepted = verdict(out, out[0] == 's', {"--weld", "0.125"});
+    EXPECT_EQ(accepted.code, 0) << accepted.out;
+    EXPECT_NE(accepted.out.find("whose borders were joined, and whether these borders should have been"),
+              std::string::npos)
+        << accepted.out;
+    EXPECT_EQ(verdict(out, out[0] == 's', {"--weld", "0.01"}).code, 1);
+  }
+}
+
+TEST(App_verify, ListsWhatItCannotSee)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("skirt", "in.obj", 1000);
+  const App_result named = run_app({"verify", in, "--against", in});
+  EXPECT_EQ(named.code, 0);
+  EXPECT_NE(named.out.find("what this cannot see:\n  - what happened on the way"), std::string::npos)
+      << named.out;
+  EXPECT_EQ(named.out.find("exchanged names of groups"), std::string::npos) << named.out;
+  ASSERT_EQ(run_app({"simplify", in, "-o", folder / "out.off", "--ratio", "1", "--quiet"}).code, 0);
+  const nlohmann::json report =
+      nlohmann::json::parse(run_app({"verify", folder / "out.off", "--against", in, "--json"}).out);
+  const auto& lines = report["cannot_see"];
+  EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [](const nlohmann::json& line) {
+    return line.get<std::string>().find("exchanged names of groups") == 0;
+  })) << lines;
+  EXPECT_EQ(run_app({"verify", in}).out.find("what this cannot see"), std::string::npos);
 }
 
 TEST(App_verify, SaysWhatIsLeftOfTheOriginal)

@@ -32,7 +32,8 @@ TEST(Judge, AcceptsAnEmbeddedMesh)
 TEST(Judge, AcceptsAResultWhoseDefectsAreThoseOfItsOriginal)
 {
   const Triangle_soup original = joined(crossing(), sheet(4, 4, 20));
-  const Triangle_soup result = joined(crossing(), sheet(1, 1, 20));
+  const auto four_times = [](const Point_3& p) { return Point_3(4 * p.x(), 4 * p.y(), p.z()); };
+  const Triangle_soup result = joined(crossing(), mapped(sheet(1, 1, 20), four_times));
   const Verification found = verify(result, original);
   EXPECT_FALSE(found.embedded());
   EXPECT_TRUE(found.new_pairs.empty());
@@ -40,7 +41,7 @@ TEST(Judge, AcceptsAResultWhoseDefectsAreThoseOfItsOriginal)
   EXPECT_TRUE(found.accepted());
   ASSERT_TRUE(found.distances.has_value());
   EXPECT_EQ(found.distances->result_to_original.maximum, 0);
-  EXPECT_GT(found.distances->original_to_result.maximum, 0);
+  EXPECT_EQ(found.distances->original_to_result.maximum, 0);
 }
 
 TEST(Judge, RefusesANewPair)
@@ -52,6 +53,19 @@ TEST(Judge, RefusesANewPair)
   EXPECT_FALSE(found.new_pairs.empty());
   EXPECT_TRUE(found.same_topology());
   EXPECT_FALSE(found.accepted());
+}
+
+// As many pieces of every kind, each with vertices of the original's alone: one of them is a part of what it
+// was.
+TEST(Judge, RefusesAPieceThatIsAPartOfWhatItWas)
+{
+  const Triangle_soup original = joined(sheet(4, 4), sheet(4, 4, 20));
+  const Verification found = verify(joined(sheet(4, 4), sheet(1, 1, 20)), original);
+  EXPECT_TRUE(found.embedded());
+  EXPECT_TRUE(found.same_topology());
+  EXPECT_FALSE(found.accepted());
+  ASSERT_EQ(found.matching.mismatches.size(), 1u);
+  EXPECT_EQ(found.matching.mismatches[0].what, Mismatch::far);
 }
 
 TEST(Judge, RefusesAnotherTopology)

@@ -52,8 +52,7 @@ inline Reduction reduce(Triangle_soup soup, const Simplify_options& options)
   Reduction reduction;
   reduction.prepared = prepare(std::move(soup));
   reduction.simplified = simplify_soup(reduction.prepared, options);
-  reduction.verification =
-      verify(reduction.simplified.soup, reduction.prepared.soup, reduction.prepared.offending_pairs);
+  reduction.verification = verify(reduction.simplified, reduction.prepared);
   return reduction;
 }
 

@@ -1,0 +1,21 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_APPS_BLIND_SPOTS_H
+#define SELVEDGE_APPS_BLIND_SPOTS_H
+
+#include <selvedge/compare.h>
+#include <selvedge/verify.h>
+
+#include <string>
+#include <vector>
+
+namespace selvedge::app {
+
+/// What the judge cannot see of a result and its original: those gaps that are always there, and those that
+/// these two meshes leave. One line each.
+std::vector<std::string> blind_spots(const Verification& verification, const Comparison& comparison);
+
+} // namespace selvedge::app
+
+#endif // SELVEDGE_APPS_BLIND_SPOTS_H

@@ -1,0 +1,95 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SRC_VERIFY_SHAPE_H
+#define SELVEDGE_SRC_VERIFY_SHAPE_H
+
+#include "Lists.h"
+#include "Surface_tree.h"
+
+#include <map>
+#include <memory>
+
+namespace selvedge::internal {
+
+/// Some triangles of a soup, at least one, with their points divided by 2^exponent: to be measured. Numbers
+/// of triangles are places in their list.
+class Shape
+{
+public:
+  template <class Triangles>
+  Shape(const Triangle_soup& soup, const Triangles& triangles, int exponent)
+      : m_soup(cut_out(soup, {triangles.begin(), triangles.end()})), m_surface(m_soup, exponent),
+        m_tree(m_surface)
+  {
+    for (const Point_3& point : m_surface.points)
+      m_box += point.bbox();
+  }
+  Shape(const Shape&) = delete;
+  Shape& operator=(const Shape&) = delete;
+
+  const std::vector<Point_3>& points() const { return m_surface.points; }
+  double diagonal() const { return std::hypot(m_box.x_span(), m_box.y_span(), m_box.z_span()); }
+  Index nearest(const Point_3& point, Index guess = 0) const { return m_tree.nearest(point, guess).triangle; }
+
+  /// From the points of this to the surface of another.
+  double root_mean_square_distance(const Shape& to) const;
+
+  /// The share of the area of this whose normal is more than 90° from that of the nearest triangle of
+  /// another.
+  double turned_against(const Shape& other) const;
+
+private:
+  static Triangle_soup cut_out(const Triangle_soup& soup, const std::vector<Index>& triangles);
+
+  Triangle_soup m_soup;
+  Surface m_surface;
+  Surface_tree m_tree;
+  CGAL::Bbox_3 m_box;
+};
+
+/// The shapes of pieces, made when they are asked for.
+class Shapes
+{
+public:
+  /// All must outlive this.
+  Shapes(const Triangle_soup& soup, const Lists& triangles_of_pieces, int exponent)
+      : m_soup(soup), m_triangles(triangles_of_pieces), m_exponent(exponent)
+  {
+  }
+
+  const Shape& operator[](Index piece)
+  {
+    std::unique_ptr<Shape>& shape = m_shapes[piece];
+    if (!shape)
+      shape = std::make_unique<Shape>(m_soup, m_triangles[piece], m_exponent);
+    return *shape;
+  }
+
+private:
+  const Triangle_soup& m_soup;
+  const Lists& m_triangles;
+  int m_exponent;
+  std::map<Index, std::unique_ptr<Shape>> m_shapes;
+};
+
+/// Finds which piece of a mesh, at least one, is nearest.
+class Nearest_pieces
+{
+public:
+  Nearest_pieces(const Triangle_soup& soup, const std::vector<Index>& piece_of_triangle, int exponent);
+
+  Index piece_near(const Point_3& point) const;
+
+  /// The pieces that are nearest to points of a shape, at most 16 of them: those with most points.
+  std::vector<Index> pieces_near(const Shape& shape) const;
+
+private:
+  std::vector<Index> m_triangles;
+  std::vector<Index> m_pieces; // of these
+  Shape m_shape;
+};
+
+} // namespace selvedge::internal
+
+#endif // SELVEDGE_SRC_VERIFY_SHAPE_H

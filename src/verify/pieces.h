@@ -1,0 +1,25 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SRC_VERIFY_PIECES_H
+#define SELVEDGE_SRC_VERIFY_PIECES_H
+
+#include <selvedge/verify.h>
+
+namespace selvedge::internal {
+
+constexpr Index no_piece = -1;
+
+struct Numbered_pieces
+{
+  std::vector<Piece> pieces;
+  /// For each triangle the number of its piece; `no_piece` where it names a vertex twice.
+  std::vector<Index> of_triangle;
+};
+
+/// The same as `pieces`, of triangles whose vertices have numbers below `vertices`.
+Numbered_pieces numbered_pieces(const std::vector<Index_triple>& triangles, std::size_t vertices);
+
+} // namespace selvedge::internal
+
+#endif // SELVEDGE_SRC_VERIFY_PIECES_H

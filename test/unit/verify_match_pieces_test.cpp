@@ -1,0 +1,444 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <selvedge/mesh/rounding.h>
+#include <selvedge/verify.h>
+
+#include "support/soups.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace selvedge {
+namespace {
+
+using namespace test;
+
+Triangle_soup moved(const Triangle_soup& soup, double x, double y, double z)
+{
+  return mapped(soup, [&](const Point_3& p) { return Point_3(p.x() + x, p.y() + y, p.z() + z); });
+}
+
+Triangle_soup stretched(const Triangle_soup& soup, double factor)
+{
+  return mapped(soup,
+                [&](const Point_3& p) { return Point_3(factor * p.x(), factor * p.y(), factor * p.z()); });
+}
+
+/// A square of side 8 at height z, as a sheet of `squares` × `squares`.
+Triangle_soup layer(Index squares, double z)
+{
+  return moved(stretched(sheet(squares, squares), 8.0 / squares), 0, 0, z);
+}
+
+/// Three layers and a box beside them, in fine and in coarse: as a reduction would leave them.
+Triangle_soup layers(Index squares)
+{
+  const Triangle_soup box = moved(tetrahedron(), 20, 0, 0);
+  return joined(joined(joined(layer(squares, 0), layer(squares, 1)), layer(squares, 2)), box);
+}
+
+Triangle_soup fine()
+{
+  return layers(8);
+}
+Triangle_soup coarse()
+{
+  return layers(4);
+}
+
+/// Takes away the triangles of one piece, by its number.
+Triangle_soup without_piece(Triangle_soup soup, Index number)
+{
+  const std::vector<Piece> all = pieces(soup);
+  const auto begin = soup.triangles.begin() + all[number].first_triangle;
+  soup.triangles.erase(begin, begin + std::ptrdiff_t(all[number].faces));
+  return soup;
+}
+
+/// Gives each piece, in which all triangles follow each other, a group of this name.
+Triangle_soup named(Triangle_soup soup, const std::vector<std::string>& names)
+{
+  soup.groups.names = names;
+  soup.groups.of_triangle.clear();
+  const std::vector<Piece> all = pieces(soup);
+  for (Index i = 0; i < all.size(); ++i)
+    soup.groups.of_triangle.insert(soup.groups.of_triangle.end(), all[i].faces, i);
+  return soup;
+}
+
+std::vector<Mismatch> mismatches(const Piece_matching& matching)
+{
+  std::vector<Mismatch> result;
+  for (const Piece_mismatch& mismatch : matching.mismatches)
+    result.push_back(mismatch.what);
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+std::vector<Mismatch> mismatches(const Triangle_soup& result, const Triangle_soup& original)
+{
+  return mismatches(match_pieces(result, original));
+}
+
+using Mismatches = std::vector<Mismatch>;
+
+/// How all pieces were matched, if all were, and in the same way.
+std::optional<Matched_by> way(const Piece_matching& matching)
+{
+  if (!matching.is_complete() || matching.matches.empty())
+    return std::nullopt;
+  for (const Piece_match& match : matching.matches)
+    if (match.by != matching.matches.front().by)
+      return std::nullopt;
+  return matching.matches.front().by;
+}
+
+TEST(MatchPieces, OneToOneByTheirVertices)
+{
+  const Piece_matching matching = match_pieces(coarse(), fine());
+  EXPECT_EQ(way(matching), Matched_by::vertices);
+  ASSERT_EQ(matching.matches.size(), 4u);
+  for (const Piece_match& match : matching.matches) {
+    EXPECT_EQ(match.of_original, match.of_result);
+    EXPECT_EQ(match.distance, 0);
+    EXPECT_EQ(match.turned, 0);
+  }
+  // Whatever order they come in.
+  const Triangle_soup other =
+      joined(joined(moved(tetrahedron(), 20, 0, 0), layer(4, 2)), joined(layer(4, 0), layer(4, 1)));
+  const Piece_matching turned_round = match_pieces(other, fine());
+  EXPECT_EQ(way(turned_round), Matched_by::vertices);
+  const std::vector<Index> places{2, 3, 1, 0};
+  for (const Piece_match& match : turned_round.matches)
+    EXPECT_EQ(match.of_result.at(0), places.at(match.of_original.at(0)));
+}
+
+TEST(MatchPieces, NameAMissingPiece)
+{
+  const Piece_matching matching = match_pieces(without_piece(coarse(), 1), fine());
+  ASSERT_EQ(mismatches(matching), Mismatches{Mismatch::missing});
+  EXPECT_EQ(matching.mismatches[0].of_original, std::vector<Index>{1});
+  EXPECT_TRUE(matching.mismatches[0].of_result.empty());
+  EXPECT_EQ(matching.mismatches[0].message,
+            "piece 2 (128 faces around (4, 4, 1)) of the original is not in the result");
+}
+
+// All that a count of pieces and kinds can see is the same as in the original.
+TEST(MatchPieces, FindAPieceReplacedByATriangleElsewhere)
+{
+  const Triangle_soup result = joined(without_piece(coarse(), 1), moved(one_triangle(), 30, 30, 30));
+  EXPECT_TRUE(topology_differences(pieces(result), pieces(fine())).empty()) << "the control";
+  EXPECT_EQ(mismatches(result, fine()), (Mismatches{Mismatch::missing, Mismatch::added}));
+}
+
+TEST(MatchPieces, FindAPieceReplacedByATriangleOfItsOwn)
+{
+  Triangle_soup result = coarse();
+  result.triangles.erase(result.triangles.begin() + 1, result.triangles.begin() + 32);
+  EXPECT_TRUE(topology_differences(pieces(result), pieces(fine())).empty()) << "the control";
+  EXPECT_EQ(mismatches(result, fine()), Mismatches{Mismatch::far});
+}
+
+TEST(MatchPieces, FindACopyOfAnotherInThePlaceOfOne)
+{
+  const Triangle_soup result = joined(without_piece(coarse(), 1), layer(4, 0.001));
+  EXPECT_EQ(mismatches(result, fine()), (Mismatches{Mismatch::missing, Mismatch::added}));
+}
+
+TEST(MatchPieces, FindADoubledPiece)
+{
+  const Piece_matching matching = match_pieces(joined(coarse(), layer(2, 2)), fine());
+  ASSERT_EQ(mismatches(matching), Mismatches{Mismatch::added});
+  EXPECT_EQ(matching.mismatches[0].message,
+            "piece 5 (8 faces around (4, 4, 2)) of the result is no piece of the original");
+}
+
+TEST(MatchPieces, FindAnotherTopology)
+{
+  Triangle_soup holed = coarse();
+  holed.triangles.erase(holed.triangles.begin() + 10);
+  const Piece_matching matching = match_pieces(holed, fine());
+  ASSERT_EQ(mismatches(matching), Mismatches{Mismatch::topology});
+  EXPECT_EQ(
+      matching.mismatches[0].message,
+      "piece 1 (128 faces around (4, 4, 0)) of the original is piece 1 (31 faces around (4, 4, 0)) of the "
+      "result, which has 2 boundary loops and Euler characteristic 0 instead of 1 boundary loop and "
+      "Euler characteristic 1");
+}
+
+// A ring lost its hole, and a sheet got one: the counts of kinds are the same.
+TEST(MatchPieces, FindKindsThatWereExchanged)
+{
+  Triangle_soup original = fine(), result = coarse();
+  original.triangles.erase(original.triangles.begin() + 36, original.triangles.begin() + 38);
+  result.triangles.erase(result.triangles.begin() + 32 + 10, result.triangles.begin() + 32 + 12);
+  EXPECT_TRUE(topology_differences(pieces(result), pieces(original)).empty()) << "the control";
+  EXPECT_EQ(mismatches(result, original), (Mismatches{Mismatch::topology, Mismatch::topology}));
+}
+
+TEST(MatchPieces, FindExchangedNames)
+{
+  const std::vector<std::string> names{"shell", "interlining", "lining", "button"};
+  const Triangle_soup original = named(fine(), names);
+  const Piece_matching right = match_pieces(named(coarse(), names), original);
+  EXPECT_EQ(way(right), Matched_by::vertices);
+  EXPECT_EQ(right.names_compared, std::vector<std::string>{"group"});
+
+  const Piece_matching wrong =
+      match_pieces(named(coarse(), {"lining", "interlining", "shell", "button"}), original);
+  EXPECT_EQ(mismatches(wrong), (Mismatches{Mismatch::name, Mismatch::name}));
+  EXPECT_EQ(
+      wrong.mismatches[0].message,
+      "the group of 32 faces of piece 1 ('lining', 32 faces around (4, 4, 0)) of the result is 'lining', "
+      "where the original has 'shell'");
+  EXPECT_EQ(mismatches(named(coarse(), {"shell", "interlining", "lining", ""}), original),
+            Mismatches{Mismatch::name});
+}
+
+TEST(MatchPieces, FindExchangedNamesOfObjectsAndMaterialsToo)
+{
+  const Triangle_soup original = named(fine(), {"a", "b", "c", "d"});
+  for (Triangle_labels Triangle_soup::*labels : {&Triangle_soup::objects, &Triangle_soup::materials}) {
+    Triangle_soup before = fine(), now = coarse();
+    before.*labels = original.groups;
+    now.*labels = named(coarse(), {"a", "c", "b", "d"}).groups;
+    EXPECT_EQ(mismatches(now, before), (Mismatches{Mismatch::name, Mismatch::name}));
+  }
+}
+
+// Two halves of one piece.
+TEST(MatchPieces, FindExchangedNamesWithinAPiece)
+{
+  const auto halves = [](Index squares, const std::string& left, const std::string& right) {
+    Triangle_soup soup = layer(squares, 0);
+    soup.groups.names = {left, right};
+    for (const Index_triple& triangle : soup.triangles) {
+      const Point_3 centre =
+          CGAL::centroid(soup.points[triangle[0]], soup.points[triangle[1]], soup.points[triangle[2]]);
+      soup.groups.of_triangle.push_back(centre.x() > 4);
+    }
+    return soup;
+  };
+  const Triangle_soup original = halves(8, "left", "right");
+  EXPECT_TRUE(mismatches(halves(4, "left", "right"), original).empty());
+  EXPECT_TRUE(mismatches(moved(halves(4, "left", "right"), 0, 0, 0.125), original).empty());
+  EXPECT_EQ(mismatches(halves(4, "right", "left"), original), (Mismatches{Mismatch::name, Mismatch::name}));
+  EXPECT_EQ(mismatches(moved(halves(4, "right", "left"), 0, 0, 0.125), original),
+            (Mismatches{Mismatch::name, Mismatch::name}));
+  EXPECT_EQ(mismatches(halves(4, "left", "left"), original), (Mismatches{Mismatch::name}));
+}
+
+TEST(MatchPieces, DemandNoNamesThatOnlyOneHas)
+{
+  const Triangle_soup with_names = named(fine(), {"a", "b", "c", "d"});
+  for (const auto& [result, original] :
+       {std::pair(coarse(), with_names), std::pair(named(coarse(), {"x", "y", "x", "y"}), fine()),
+        std::pair(named(coarse(), {"x", "y", "x", "y"}), with_names)}) {
+    const Piece_matching matching = match_pieces(result, original);
+    EXPECT_TRUE(matching.is_complete());
+    EXPECT_TRUE(matching.names_compared.empty());
+    EXPECT_EQ(matching.names_not_compared, std::vector<std::string>{"group"});
+  }
+}
+
+// As files do that have no vertex numbers, or cut a texture's seams: both ways round.
+TEST(MatchPieces, ByPositionsWhereVerticesAreNumberedDifferently)
+{
+  Triangle_soup result = unshared(coarse());
+  EXPECT_EQ(way(match_pieces(result, fine())), Matched_by::positions);
+  EXPECT_EQ(way(match_pieces(fine(), unshared(fine()))), Matched_by::positions);
+  const Piece_matching matching = match_pieces(result, fine());
+  EXPECT_EQ(matching.matches.size(), 4u);
+
+  // What is missing there is missing all the same.
+  result = unshared(without_piece(coarse(), 2));
+  EXPECT_EQ(mismatches(result, fine()), Mismatches{Mismatch::missing});
+  result = unshared(coarse());
+  result.triangles.erase(result.triangles.begin() + 10);
+  const Piece_matching holed = match_pieces(result, fine());
+  ASSERT_FALSE(holed.is_complete());
+  EXPECT_EQ(holed.mismatches[0].what, Mismatch::topology);
+}
+
+/// A band of `squares` × 1 squares between heights 8 and 9, on the border of `layer(squares, 0)`.
+Triangle_soup band(Index squares)
+{
+  const double side = 8.0 / squares;
+  return mapped(sheet(squares, 1), [&](const Point_3& p) { return Point_3(side * p.x(), 8 + p.y(), 0); });
+}
+
+TEST(MatchPieces, OfPiecesThatAreJoinedWhereTheyMeet)
+{
+  const Triangle_soup original = joined(layer(8, 0), band(8));
+  const Triangle_soup apart = joined(layer(4, 0), band(4));
+  EXPECT_EQ(way(match_pieces(apart, original)), Matched_by::vertices);
+  // The same with one vertex at each position, as an STL file has it.
+  Triangle_soup result = layer(4, 0);
+  const Triangle_soup upper = band(4);
+  for (const Index_triple& triangle : upper.triangles) {
+    Index_triple corners;
+    for (int place = 0; place < 3; ++place) {
+      const Point_3& point = upper.points[triangle[place]];
+      const auto found = std::find(result.points.begin(), result.points.end(), point);
+      corners[place] = Index(found - result.points.begin());
+      if (found == result.points.end())
+        result.points.push_back(point);
+    }
+    result.triangles.push_back(corners);
+  }
+  ASSERT_EQ(pieces(result).size(), 1u);
+  const Piece_matching matching = match_pieces(result, original);
+  EXPECT_EQ(way(matching), Matched_by::positions);
+  EXPECT_EQ(matching.matches.at(0).of_original, (std::vector<Index>{0, 1}));
+
+  // Without the band the kind of the whole is the same, but a piece is missing.
+  EXPECT_EQ(mismatches(layer(4, 0), original), Mismatches{Mismatch::missing});
+}
+
+TEST(MatchPieces, OfBordersThatWereJoinedNeedTheDistance)
+{
+  const double gap = 0.01;
+  const Triangle_soup original = joined(layer(8, 0), moved(band(8), 0, gap, 0));
+  // The band's lower border went to the layer's; then all was joined where it meets.
+  Triangle_soup result = joined(layer(4, 0), band(4));
+  for (Index_triple& triangle : result.triangles)
+    for (Index& vertex : triangle)
+      vertex = Index(std::find(result.points.begin(), result.points.end(), result.points[vertex]) -
+                     result.points.begin());
+  result = mapped(result, [&](const Point_3& p) { return p.y() == 9 ? Point_3(p.x(), 9 + gap, 0) : p; });
+  ASSERT_EQ(pieces(result).size(), 1u);
+
+  const Piece_matching refused = match_pieces(result, original);
+  EXPECT_FALSE(refused.is_complete());
+  Verify_options options;
+  options.weld_distance = 0.02;
+  EXPECT_EQ(way(match_pieces(result, original, options)), Matched_by::borders);
+  // What else is wrong is found with it as well.
+  EXPECT_EQ(mismatches(match_pieces(layer(4, 0), original, options)), Mismatches{Mismatch::missing});
+}
+
+// Pieces that were joined elsewhere than at their borders are not.
+TEST(MatchPieces, OfLayersThatWereJoinedInside)
+{
+  Triangle_soup result = coarse();
+  result.triangles.push_back({12, 13, 25 + 12});
+  Verify_options options;
+  options.weld_distance = 1.5;
+  EXPECT_EQ(mismatches(match_pieces(result, fine())), Mismatches{Mismatch::topology});
+  EXPECT_EQ(mismatches(match_pieces(result, fine(), options)), Mismatches{Mismatch::topology});
+}
+
+TEST(MatchPieces, OfAResultThatWasRounded)
+{
+  const auto odd = [](const Triangle_soup& soup) {
+    return mapped(soup, [](const Point_3& p) { return Point_3(p.x() / 3, p.y() / 7, p.z() + 0.1); });
+  };
+  Triangle_soup result = odd(coarse());
+  round_to_float32(result);
+  ASSERT_NE(result.points[2], odd(coarse()).points[2]);
+  EXPECT_EQ(way(match_pieces(result, odd(fine()))), Matched_by::vertices);
+}
+
+// As programs leave them that place vertices where they like.
+TEST(MatchPieces, ByDistanceWhereNoVertexIsTheOriginals)
+{
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> noise(-0.3, 0.3);
+  const auto shaken = [&](const Triangle_soup& soup) {
+    return mapped(soup, [&](const Point_3& p) {
+      return Point_3(p.x() + noise(random), p.y() + noise(random), p.z() + noise(random));
+    });
+  };
+  const Piece_matching matching = match_pieces(shaken(coarse()), fine());
+  EXPECT_EQ(way(matching), Matched_by::distance);
+  for (const Piece_match& match : matching.matches)
+    EXPECT_EQ(match.of_original, match.of_result);
+  EXPECT_EQ(
+      way(match_pieces(
+          unshared(mapped(coarse(), [](const Point_3& p) { return Point_3(p.x() + 0.01, p.y(), p.z()); })),
+          fine())),
+      Matched_by::positions);
+
+  EXPECT_EQ(mismatches(shaken(without_piece(coarse(), 0)), fine()), Mismatches{Mismatch::missing});
+  EXPECT_EQ(mismatches(shaken(joined(coarse(), layer(4, 1))), fine()), Mismatches{Mismatch::added});
+}
+
+TEST(MatchPieces, FindAPieceThatIsElsewhere)
+{
+  const Triangle_soup result = joined(without_piece(coarse(), 2), layer(4, 9));
+  EXPECT_EQ(mismatches(result, fine()), (Mismatches{Mismatch::missing, Mismatch::added}));
+}
+
+TEST(MatchPieces, FindAPieceThatIsTurnedInsideOut)
+{
+  Triangle_soup result = coarse();
+  for (Index t = 0; t < 32; ++t)
+    std::swap(result.triangles[t][0], result.triangles[t][1]);
+  EXPECT_EQ(mismatches(result, fine()), Mismatches{Mismatch::turned});
+  Verify_options options;
+  options.are_shapes_judged = false;
+  EXPECT_TRUE(match_pieces(result, fine(), options).is_complete());
+}
+
+TEST(MatchPieces, ThatCoincide)
+{
+  const Triangle_soup twice = joined(layer(4, 0), layer(4, 0));
+  EXPECT_EQ(way(match_pieces(twice, twice)), Matched_by::vertices);
+  const std::vector<std::string> ab{"a", "b"}, ba{"b", "a"};
+  EXPECT_TRUE(match_pieces(named(twice, ba), named(twice, ab)).is_complete()) << "there is no way to tell";
+  EXPECT_EQ(mismatches(layer(4, 0), twice), Mismatches{Mismatch::missing});
+}
+
+// The first piece of the result could be either of the original's, the second only the one that the first
+// would take.
+TEST(MatchPieces, GivesWayWhereAnotherHasNoChoice)
+{
+  const Triangle_soup original = joined(
+      soup({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, -4, 0}, {8, 0, 0}}, {{0, 3, 1}, {3, 4, 1}, {1, 4, 2}}),
+      soup({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}}, {{0, 1, 2}}));
+  const Triangle_soup result = joined(soup({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}}, {{0, 1, 2}}),
+                                      soup({{0, -4, 0}, {8, 0, 0}, {4, 1, 1}}, {{0, 1, 2}}));
+  Verify_options options;
+  options.are_shapes_judged = false;
+  const Piece_matching matching = match_pieces(result, original, options);
+  EXPECT_EQ(way(matching), Matched_by::vertices);
+  ASSERT_EQ(matching.matches.size(), 2u);
+  EXPECT_EQ(matching.matches[0].of_original, std::vector<Index>{1});
+  EXPECT_EQ(matching.matches[1].of_original, std::vector<Index>{0});
+}
+
+TEST(MatchPieces, OfNothing)
+{
+  EXPECT_TRUE(match_pieces({}, {}).is_complete());
+  EXPECT_EQ(mismatches({}, one_triangle()), Mismatches{Mismatch::missing});
+  EXPECT_EQ(mismatches(one_triangle(), {}), Mismatches{Mismatch::added});
+  // Triangles with two corners at one position are no piece.
+  const Triangle_soup needle = soup({{5, 5, 5}, {5, 5, 5}, {6, 6, 6}}, {{0, 1, 2}});
+  EXPECT_TRUE(match_pieces(one_triangle(), joined(one_triangle(), needle)).is_complete());
+  EXPECT_TRUE(match_pieces(joined(one_triangle(), needle), one_triangle()).is_complete());
+  EXPECT_TRUE(match_pieces(needle, needle).is_complete());
+}
+
+// More pieces at one position than are looked at.
+TEST(MatchPieces, ManyAtOnePosition)
+{
+  Triangle_soup fan;
+  for (int i = 0; i < 200; ++i)
+    fan = joined(fan, soup({{0, 0, 0},
+                            {std::cos(i * 0.03), std::sin(i * 0.03), 0},
+                            {std::cos(i * 0.03 + 0.01), std::sin(i * 0.03 + 0.01), 0}},
+                           {{0, 1, 2}}));
+  EXPECT_EQ(way(match_pieces(fan, fan)), Matched_by::vertices);
+  EXPECT_EQ(mismatches(without_piece(fan, 77), fan), Mismatches{Mismatch::missing});
+}
+
+} // namespace
+} // namespace selvedge
