@@ -55,7 +55,7 @@ TEST(App_replay, AcceptsItsOwnLogAndMakesTheSameFile)
   EXPECT_NE(result.out.find("\nACCEPTED: limits of the log, input bound, result bound\n"), std::string::npos)
       << result.out;
   EXPECT_NE(
-      result.out.find("\nlimits judged: normal_change 45°, aspect_ratio 0.2, border_turn 8°, seam_turn 60°, "
+      result.out.find("\nlimits judged: normal_change 45°, aspect_ratio 0.05, border_turn 8°, seam_turn 60°, "
                       "border_drift 0.002 of the diagonal\n"),
       std::string::npos)
       << result.out;
@@ -86,7 +86,7 @@ TEST(App_replay, NamesWhatALogWithoutTermsLeavesOpen)
 
 TEST(App_replay, LimitsOfTheJudgeTakeThePlaceOfTheLogs)
 {
-  const Logged_run run({"--ratio", "0.4", "--normal-change", "120"});
+  const Logged_run run({"--ratio", "0.4", "--normal-change", "120", "--aspect-ratio", "0.2"});
   const auto replay = [&](const std::string& limits) {
     return run_app({"replay", run.original, run.log, "--limits", limits});
   };

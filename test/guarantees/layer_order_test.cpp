@@ -73,7 +73,9 @@ TEST(Layers, KeepTheirOrderInGuardedReductions)
       EXPECT_TRUE(guarded.swaps.empty());
       EXPECT_GT(guarded.compared, guarded.pairs / 2) << "it can hardly tell";
     }
-    EXPECT_FALSE(order_after(soup, without_check(to_ratio(0.1))).swaps.empty()) << "the control";
+    Simplify_options control = without_check(to_ratio(0.1));
+    control.min_aspect_ratio = 0.2; // rounder triangles fit folds less well
+    EXPECT_FALSE(order_after(soup, control).swaps.empty()) << "the control";
   }
 }
 

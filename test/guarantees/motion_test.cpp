@@ -139,7 +139,9 @@ TEST(Motion, OrderOfLayersIsKept)
   const int before = order(sheets);
   ASSERT_NE(before, 0);
   EXPECT_EQ(order(reduce(sheets, to_ratio(0.1)).simplified.soup), before);
-  EXPECT_EQ(order(reduce(sheets, without_check(to_ratio(0.1))).simplified.soup), 0) << "the control";
+  Simplify_options control = without_check(to_ratio(0.1));
+  control.min_aspect_ratio = 0.2; // rounder triangles fit waves less well
+  EXPECT_EQ(order(reduce(sheets, control).simplified.soup), 0) << "the control";
 }
 
 } // namespace
