@@ -1,0 +1,158 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "Hull.h"
+
+#include <CGAL/intersections.h>
+
+#include <algorithm>
+
+namespace selvedge::test {
+
+Hull::Hull(const Place& p, const Place& q, const Place& r)
+    : m_corners{p, q, r, r}, m_size(3), m_orientation(CGAL::COPLANAR)
+{
+  add_triangle(0, 1, 2);
+}
+
+Hull::Hull(const Place& m, const Place& t, const Place& a, const Place& b)
+    : m_corners{m, t, a, b}, m_size(4), m_orientation(CGAL::orientation(m.at, t.at, a.at, b.at))
+{
+  for (std::size_t opposite = 0; opposite < 4; ++opposite) {
+    m_opposite_corners[m_triangle_count] = opposite;
+    add_triangle(opposite == 0 ? 1 : 0, opposite <= 1 ? 2 : 1, opposite <= 2 ? 3 : 2);
+  }
+}
+
+// Only proper triangles are added. Those of four coplanar points cover the hull of these.
+void Hull::add_triangle(std::size_t i, std::size_t j, std::size_t k)
+{
+  const Point_3 &p = m_corners[i].at, &q = m_corners[j].at, &r = m_corners[k].at;
+  if (m_orientation != CGAL::COPLANAR || !CGAL::collinear(p, q, r))
+    m_triangles[m_triangle_count++] = Triangle(p, q, r);
+}
+
+bool Hull::has_corner(const Place& place) const
+{
+  return std::any_of(m_corners.begin(), m_corners.begin() + m_size,
+                     [&](const Place& corner) { return corner.position == place.position; });
+}
+
+bool Hull::contains(const Point_3& point) const
+{
+  if (m_orientation == CGAL::COPLANAR)
+    return std::any_of(m_triangles.begin(), m_triangles.begin() + m_triangle_count,
+                       [&](const Triangle& triangle) { return CGAL::do_intersect(triangle, point); });
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Triangle& facet = m_triangles[i];
+    const Point_3& inside = m_corners[m_opposite_corners[i]].at;
+    if (CGAL::orientation(facet[0], facet[1], facet[2], point) ==
+        -CGAL::orientation(facet[0], facet[1], facet[2], inside))
+      return false;
+  }
+  return true;
+}
+
+template <class Object>
+bool Hull::meets(const Object& object) const
+{
+  return std::any_of(m_triangles.begin(), m_triangles.begin() + m_triangle_count,
+                     [&](const Triangle& triangle) { return CGAL::do_intersect(triangle, object); }) ||
+         (m_orientation != CGAL::COPLANAR && contains(object[0]));
+}
+
+// Whether the part of the boundary through which rays from a corner leave meets an object that is no point.
+template <class Object>
+bool Hull::side_without_meets(const Place& corner, const Object& object) const
+{
+  if (m_orientation != CGAL::COPLANAR) {
+    for (std::size_t i = 0; i < 4; ++i)
+      if (m_corners[m_opposite_corners[i]].position == corner.position)
+        return CGAL::do_intersect(m_triangles[i], object);
+  }
+  for (std::size_t i = 0; i < m_size; ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const Segment side(m_corners[i].at, m_corners[j].at);
+      if (!side.has_on(corner.at) && CGAL::do_intersect(side, object))
+        return true;
+    }
+  return false;
+}
+
+// Beyond its source, which is a corner.
+bool Hull::meets_segment_beyond(const Place& shared, const Place& end) const
+{
+  return contains(end.at) || side_without_meets(shared, Segment(shared.at, end.at));
+}
+
+// Of a proper face (x, y, z) whose edge xy is between two corners.
+bool Hull::meets_face_at_edge(const Place& x, const Place& y, const Place& z) const
+{
+  std::array<Point_3, 2> others;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < m_size; ++i)
+    if (m_corners[i].position != x.position && m_corners[i].position != y.position)
+      others[count++] = m_corners[i].at;
+  if (m_orientation != CGAL::COPLANAR) {
+    // At inner points of the edge the tetrahedron is a wedge between two of its facets.
+    const auto& [p, q] = others;
+    const CGAL::Orientation inward = CGAL::orientation(x.at, y.at, p, q);
+    return CGAL::orientation(x.at, y.at, p, z.at) != -inward &&
+           CGAL::orientation(x.at, y.at, z.at, q) != -inward;
+  }
+  return std::any_of(others.begin(), others.begin() + count, [&](const Point_3& p) {
+    return !CGAL::collinear(x.at, y.at, p) && CGAL::coplanar(x.at, y.at, p, z.at) &&
+           CGAL::coplanar_orientation(x.at, y.at, p, z.at) == CGAL::POSITIVE;
+  });
+}
+
+bool Hull::meets_collinear_face(const Standing_face& face) const
+{
+  Standing_face f = face; // its middle first
+  for (std::size_t k = 0; k < 3; ++k)
+    if (CGAL::collinear_are_strictly_ordered_along_line(face[(k + 1) % 3].at, face[k].at,
+                                                        face[(k + 2) % 3].at))
+      f = {face[k], face[(k + 1) % 3], face[(k + 2) % 3]};
+  const bool is_shared[3] = {has_corner(f[0]), has_corner(f[1]), has_corner(f[2])};
+  if (!is_shared[0] && is_shared[1] != is_shared[2])
+    return is_shared[1] ? meets_segment_beyond(f[1], f[2]) : meets_segment_beyond(f[2], f[1]);
+  if (!is_shared[0])
+    return !is_shared[1] && meets(Segment(f[1].at, f[2].at));
+  return (!is_shared[1] && meets_segment_beyond(f[0], f[1])) ||
+         (!is_shared[2] && meets_segment_beyond(f[0], f[2]));
+}
+
+bool Hull::meets_beyond_shared(const Standing_face& face) const
+{
+  Standing_face f = face; // what is shared first
+  const auto end_of_shared =
+      std::stable_partition(f.begin(), f.end(), [this](const Place& place) { return has_corner(place); });
+  const auto shared = end_of_shared - f.begin();
+  if (shared == 3)
+    return true;
+  if (CGAL::collinear(f[0].at, f[1].at, f[2].at))
+    return meets_collinear_face(face);
+  if (shared == 2)
+    return meets_face_at_edge(f[0], f[1], f[2]);
+  const Triangle triangle(f[0].at, f[1].at, f[2].at);
+  if (shared == 1)
+    return meets(Segment(f[1].at, f[2].at)) || side_without_meets(f[0], triangle);
+  return meets(triangle);
+}
+
+bool Hull::meets_beyond_shared(const Standing_edge& edge) const
+{
+  const bool is_first_shared = has_corner(edge[0]), is_second_shared = has_corner(edge[1]);
+  if (is_first_shared && is_second_shared)
+    return false;
+  if (is_first_shared || is_second_shared)
+    return meets_segment_beyond(edge[is_first_shared ? 0 : 1], edge[is_first_shared ? 1 : 0]);
+  return meets(Segment(edge[0].at, edge[1].at));
+}
+
+bool degenerates_on_the_way(const Point_3& m, const Point_3& t, const Point_3& a, const Point_3& b)
+{
+  return CGAL::coplanar(m, t, a, b) && CGAL::coplanar_orientation(a, b, m, t) != CGAL::POSITIVE;
+}
+
+} // namespace selvedge::test

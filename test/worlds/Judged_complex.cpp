@@ -1,0 +1,396 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "Judged_complex.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <string>
+
+namespace selvedge::test {
+namespace {
+
+std::string faces_named(Index f, Index g)
+{
+  return "faces " + std::to_string(f) + " and " + std::to_string(g);
+}
+
+} // namespace
+
+Judged_complex::Judged_complex(const Triangle_soup& own, const Triangle_soup& obstacle)
+    : m_own_alive(own.triangles.size())
+{
+  std::map<std::array<double, 3>, Index> positions; // compares doubles, so that the zeros are one
+  for (const auto* soup : {&own, &obstacle})
+    for (const Point_3& p : soup->points) {
+      const auto [entry, is_new] = positions.emplace(std::array{p.x(), p.y(), p.z()}, Index(m_points.size()));
+      if (is_new)
+        m_points.push_back(p);
+      m_position_of_vertex.push_back(entry->second);
+    }
+  m_faces_at.resize(m_points.size());
+  m_is_frozen.assign(m_points.size(), false);
+  for (const auto* soup : {&own, &obstacle}) {
+    const Index first_vertex = soup == &own ? 0 : Index(own.points.size());
+    for (const Index_triple& v : soup->triangles) {
+      Face face;
+      for (std::size_t k = 0; k < 3; ++k) {
+        face.positions[k] = m_position_of_vertex[first_vertex + v[k]];
+        m_faces_at[face.positions[k]].push_back(Index(m_faces.size()));
+      }
+      face.box = box_of(face.positions);
+      face.is_own = soup == &own;
+      face.is_alive = true;
+      m_faces.push_back(face);
+    }
+  }
+  for (Index f = Index(own.triangles.size()); f < m_faces.size(); ++f)
+    freeze(f);
+}
+
+void Judged_complex::freeze(Index face)
+{
+  for (const Index p : m_faces[face].positions)
+    m_is_frozen[p] = true;
+}
+
+Judged_complex::Box Judged_complex::box_of(const Index_triple& positions) const
+{
+  Box box;
+  for (int i = 0; i < 3; ++i) {
+    const double a = m_points[positions[0]][i], b = m_points[positions[1]][i], c = m_points[positions[2]][i];
+    box.low[i] = std::min({a, b, c});
+    box.high[i] = std::max({a, b, c});
+  }
+  return box;
+}
+
+namespace {
+
+template <class Box>
+bool do_overlap(const Box& a, const Box& b)
+{
+  return a.low[0] <= b.high[0] && b.low[0] <= a.high[0] && a.low[1] <= b.high[1] && b.low[1] <= a.high[1] &&
+         a.low[2] <= b.high[2] && b.low[2] <= a.high[2];
+}
+
+template <class Box>
+void add(Box& box, const Point_3& p)
+{
+  for (int i = 0; i < 3; ++i) {
+    box.low[i] = std::min(box.low[i], p[i]);
+    box.high[i] = std::max(box.high[i], p[i]);
+  }
+}
+
+} // namespace
+
+Standing_face Judged_complex::places(Index face) const
+{
+  const Index_triple& p = m_faces[face].positions;
+  return {place(p[0]), place(p[1]), place(p[2])};
+}
+
+bool Judged_complex::has(Index face, Index position) const
+{
+  const Index_triple& p = m_faces[face].positions;
+  return p[0] == position || p[1] == position || p[2] == position;
+}
+
+// In their order, which begins after `position`.
+std::array<Index, 2> Judged_complex::others(Index face, Index position) const
+{
+  const Index_triple& p = m_faces[face].positions;
+  if (p[0] == position)
+    return {p[1], p[2]};
+  return p[1] == position ? std::array{p[2], p[0]} : std::array{p[0], p[1]};
+}
+
+std::set<std::pair<Index, Index>> Judged_complex::offending_pairs() const
+{
+  std::set<std::pair<Index, Index>> pairs;
+  std::vector<char> is_proper;
+  for (Index f = 0; f < m_faces.size(); ++f) {
+    const auto [a, b, c] = places(f);
+    is_proper.push_back(!CGAL::collinear(a.at, b.at, c.at));
+    if (!is_proper[f])
+      pairs.insert({f, f});
+  }
+  for (Index f = 0; f < m_faces.size(); ++f)
+    for (Index g = 0; g < f; ++g) {
+      if (!do_overlap(m_faces[f].box, m_faces[g].box) || !(is_proper[f] || is_proper[g]))
+        continue;
+      const auto [a, b, c] = places(is_proper[f] ? f : g);
+      if (Hull(a, b, c).meets_beyond_shared(places(is_proper[f] ? g : f)))
+        pairs.insert({g, f});
+    }
+  return pairs;
+}
+
+std::vector<Judged_complex::Edge> Judged_complex::edges_at(Index position) const
+{
+  std::vector<Edge> edges;
+  const auto edge_to = [&](Index neighbour) -> Edge& {
+    for (Edge& edge : edges)
+      if (edge.neighbour == neighbour)
+        return edge;
+    return edges.emplace_back(Edge{neighbour});
+  };
+  for (const Index f : m_faces_at[position]) {
+    const auto [ahead, behind] = others(f, position);
+    edge_to(ahead).outgoing += m_faces[f].is_own;
+    edge_to(behind).incoming += m_faces[f].is_own;
+  }
+  return edges;
+}
+
+void Judged_complex::find_seams(const Triangle_soup& own)
+{
+  const auto differ = [](const auto& values, Index corner_a, Index corner_b) {
+    return !values.empty() && values.values[values.of_triangle[corner_a / 3][corner_a % 3]] !=
+                                  values.values[values.of_triangle[corner_b / 3][corner_b % 3]];
+  };
+  const auto differ_in_label = [](const Triangle_labels& labels, Index f, Index g) {
+    return !labels.empty() && labels.of_triangle[f] != labels.of_triangle[g];
+  };
+  const auto corner_at = [&](Index f, Index position) {
+    const Index_triple& p = m_faces[f].positions;
+    return Index(3 * f + (p[0] == position ? 0 : p[1] == position ? 1 : 2));
+  };
+  for (Index p = 0; p < m_points.size(); ++p)
+    for (const Edge& edge : edges_at(p)) {
+      if (edge.neighbour < p || edge.is_border())
+        continue;
+      std::vector<Index> pair;
+      for (const Index f : m_faces_at[p])
+        if (m_faces[f].is_own && has(f, edge.neighbour))
+          pair.push_back(f);
+      bool is_line = differ_in_label(own.groups, pair[0], pair[1]) ||
+                     differ_in_label(own.objects, pair[0], pair[1]) ||
+                     differ_in_label(own.materials, pair[0], pair[1]);
+      for (const Index end : {p, edge.neighbour}) {
+        const Index a = corner_at(pair[0], end), b = corner_at(pair[1], end);
+        is_line = is_line || own.triangles[a / 3][a % 3] != own.triangles[b / 3][b % 3] ||
+                  differ(own.uvs, a, b) || differ(own.normals, a, b);
+      }
+      if (is_line)
+        m_seams.insert({p, edge.neighbour});
+    }
+}
+
+bool Judged_complex::is_one_fan(Index position) const
+{
+  const std::vector<Edge> edges = edges_at(position);
+  std::vector<Index> reached, waiting = m_faces_at[position];
+  reached.push_back(waiting.back());
+  waiting.pop_back();
+  for (std::size_t i = 0; i < reached.size(); ++i)
+    for (const Index neighbour : others(reached[i], position)) {
+      const auto edge =
+          std::find_if(edges.begin(), edges.end(), [&](const Edge& e) { return e.neighbour == neighbour; });
+      if (edge->is_border())
+        continue;
+      const auto beyond =
+          std::partition(waiting.begin(), waiting.end(), [&](Index f) { return !has(f, neighbour); });
+      reached.insert(reached.end(), beyond, waiting.end());
+      waiting.erase(beyond, waiting.end());
+    }
+  return waiting.empty();
+}
+
+std::optional<Broken_promise> Judged_complex::judge_link(Index removed, Index kept) const
+{
+  if (!is_one_fan(removed))
+    return Broken_promise{Promise::topology, "what moves holds several sheets together"};
+  const std::vector<Edge> at_removed = edges_at(removed), at_kept = edges_at(kept);
+  bool is_joined_at_border = false, is_removed_on_border = false, is_kept_on_border = false;
+  for (const Edge& edge : at_kept)
+    is_kept_on_border = is_kept_on_border || edge.is_border();
+  for (const Edge& edge : at_removed) {
+    is_removed_on_border = is_removed_on_border || edge.is_border();
+    if (edge.neighbour == kept) {
+      is_joined_at_border = edge.is_border();
+      continue;
+    }
+    const auto other = std::find_if(at_kept.begin(), at_kept.end(),
+                                    [&](const Edge& e) { return e.neighbour == edge.neighbour; });
+    if (other == at_kept.end())
+      continue;
+    const auto& faces = m_faces_at[removed];
+    if (std::none_of(faces.begin(), faces.end(),
+                     [&](Index f) { return has(f, kept) && has(f, edge.neighbour); }))
+      return Broken_promise{Promise::topology, "both have an edge to a third position, and no face with it"};
+    if (edge.is_border() && other->is_border())
+      return Broken_promise{Promise::topology, "a face with two other edges on borders would go"};
+  }
+  if (is_removed_on_border && is_kept_on_border && !is_joined_at_border)
+    return Broken_promise{Promise::topology, "both are on a border, and their edge is not"};
+  return std::nullopt;
+}
+
+std::optional<Broken_promise> Judged_complex::judge_line(Index removed, Index kept) const
+{
+  std::vector<Edge> lines;
+  const Edge* along = nullptr;
+  for (const Edge& edge : edges_at(removed))
+    if (edge.is_border() || is_seam(removed, edge.neighbour))
+      lines.push_back(edge);
+  for (const Edge& edge : lines)
+    if (edge.neighbour == kept)
+      along = &edge;
+  if (lines.empty())
+    return std::nullopt;
+  if (!along || lines.size() != 2)
+    return Broken_promise{Promise::seams,
+                          "what moves is on a line, and leaves it, or is an end or corner of it"};
+  if (lines[0].is_border() != lines[1].is_border())
+    return Broken_promise{Promise::seams, "what moves is where a border becomes a seam"};
+  return std::nullopt;
+}
+
+std::optional<Broken_promise> Judged_complex::judge_motion(Index moved, Index kept) const
+{
+  const Place m = place(moved), t = place(kept);
+  std::vector<Index> moving;
+  for (const Index f : m_faces_at[moved])
+    if (!has(f, kept))
+      moving.push_back(f);
+  for (const Index f : moving) {
+    const auto [a, b] = others(f, moved);
+    if (degenerates_on_the_way(m.at, t.at, m_points[a], m_points[b]))
+      return Broken_promise{CGAL::collinear(t.at, m_points[a], m_points[b]) ? Promise::embedded
+                                                                            : Promise::motion,
+                            "face " + std::to_string(f) + " has no area at some time"};
+  }
+  // The end first, which is easier to see.
+  std::vector<Hull> ends;
+  for (const Index f : moving) {
+    const auto [a, b] = others(f, moved);
+    ends.emplace_back(t, place(a), place(b));
+  }
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    const auto [a, b] = others(moving[i], moved);
+    const Box end_box = box_of({kept, a, b});
+    for (Index f = 0; f < m_faces.size(); ++f)
+      if (m_faces[f].is_alive && do_overlap(end_box, m_faces[f].box) && !has(f, moved) &&
+          ends[i].meets_beyond_shared(places(f)))
+        return Broken_promise{Promise::embedded, faces_named(moving[i], f) + " meet afterwards"};
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto [c, d] = others(moving[j], moved);
+      if (ends[i].meets_beyond_shared(Standing_face{t, place(c), place(d)}))
+        return Broken_promise{Promise::embedded, faces_named(moving[i], moving[j]) + " meet afterwards"};
+    }
+  }
+  for (const Index f : moving) {
+    const auto [a, b] = others(f, moved);
+    Box sweep_box = m_faces[f].box;
+    add(sweep_box, t.at);
+    const Hull sweep(m, t, place(a), place(b));
+    for (Index g = 0; g < m_faces.size(); ++g)
+      if (m_faces[g].is_alive && do_overlap(sweep_box, m_faces[g].box) && !has(g, moved) &&
+          sweep.meets_beyond_shared(places(g)))
+        return Broken_promise{Promise::motion, faces_named(f, g) + " meet on the way"};
+    // Two faces with one apex meet beyond what they share where the side of one, opposite to it, meets the
+    // other.
+    for (const Index g : m_faces_at[moved]) {
+      const auto [c, d] = others(g, moved);
+      if (f != g && sweep.meets_beyond_shared(Standing_edge{place(c), place(d)}))
+        return Broken_promise{Promise::motion, faces_named(f, g) + " of one star meet on the way"};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Broken_promise> Judged_complex::snap(Index moved, Index kept)
+{
+  if (moved == kept || m_faces_at[moved].empty() || m_faces_at[kept].empty())
+    return Broken_promise{Promise::seams, "a snap between positions that are one, or have no face"};
+  if (m_is_frozen[moved] || m_is_frozen[kept])
+    return Broken_promise{Promise::frozen, "a snap of what is frozen, or to it"};
+  for (const Index f : m_faces_at[moved])
+    if (has(f, kept))
+      return Broken_promise{Promise::seams, "a snap along an edge"};
+  const std::vector<Edge> at_moved = edges_at(moved), at_kept = edges_at(kept);
+  for (const auto* edges : {&at_moved, &at_kept})
+    if (std::none_of(edges->begin(), edges->end(), [](const Edge& edge) { return edge.is_border(); }))
+      return Broken_promise{Promise::seams, "a snap of what is on no border, or to it"};
+  for (const Edge& edge : at_moved)
+    for (const Edge& other : at_kept)
+      if (edge.neighbour == other.neighbour &&
+          (edge.outgoing + other.outgoing != 1 || edge.incoming + other.incoming != 1))
+        return Broken_promise{Promise::seams, "a snap makes one edge of what is not two borders"};
+  if (auto broken = judge_motion(moved, kept))
+    return broken;
+  move(moved, kept);
+  for (Index& position : m_position_of_vertex)
+    if (position == moved)
+      position = kept;
+  return std::nullopt;
+}
+
+std::optional<Broken_promise> Judged_complex::collapse(Index removed, Index kept)
+{
+  const auto& faces = m_faces_at[removed];
+  if (removed == kept || std::none_of(faces.begin(), faces.end(), [&](Index f) { return has(f, kept); }))
+    return Broken_promise{Promise::topology, "no edge joins the two"};
+  if (m_is_frozen[removed])
+    return Broken_promise{Promise::frozen, "what moves is locked, kept, frozen, or of an obstacle"};
+  for (const auto judge :
+       {&Judged_complex::judge_link, &Judged_complex::judge_line, &Judged_complex::judge_motion})
+    if (auto broken = (this->*judge)(removed, kept))
+      return broken;
+  for (const Edge& edge : edges_at(removed)) {
+    if (m_seams.erase(std::minmax(removed, edge.neighbour)) > 0 && edge.neighbour != kept)
+      m_seams.insert(std::minmax(kept, edge.neighbour));
+  }
+  move(removed, kept);
+  return std::nullopt;
+}
+
+void Judged_complex::move(Index moved, Index kept)
+{
+  for (const Index f : m_faces_at[moved]) {
+    Face& face = m_faces[f];
+    if (has(f, kept)) {
+      face.is_alive = false;
+      m_own_alive -= face.is_own;
+      for (const Index p : face.positions)
+        if (p != moved)
+          m_faces_at[p].erase(std::find(m_faces_at[p].begin(), m_faces_at[p].end(), f));
+    } else {
+      std::replace(face.positions.begin(), face.positions.end(), moved, kept);
+      face.box = box_of(face.positions);
+      m_faces_at[kept].push_back(f);
+    }
+  }
+  m_faces_at[moved].clear();
+}
+
+std::vector<Index> Judged_complex::regions() const
+{
+  std::vector<Index> region(m_faces.size());
+  std::iota(region.begin(), region.end(), Index(0));
+  const auto root = [&](Index f) {
+    while (region[f] != f)
+      f = region[f] = region[region[f]];
+    return f;
+  };
+  for (Index p = 0; p < m_points.size(); ++p)
+    for (const Edge& edge : edges_at(p)) {
+      if (edge.neighbour < p || edge.is_border() || is_seam(p, edge.neighbour))
+        continue;
+      Index first = Index(-1);
+      for (const Index f : m_faces_at[p])
+        if (m_faces[f].is_own && has(f, edge.neighbour)) {
+          if (first == Index(-1))
+            first = f;
+          region[root(f)] = root(first);
+        }
+    }
+  for (Index f = 0; f < region.size(); ++f)
+    region[f] = root(f);
+  return region;
+}
+
+} // namespace selvedge::test

@@ -1,0 +1,97 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_TEST_WORLDS_JUDGED_COMPLEX_H
+#define SELVEDGE_TEST_WORLDS_JUDGED_COMPLEX_H
+
+#include "Broken_promise.h"
+#include "Hull.h"
+
+#include <selvedge/mesh/Triangle_soup.h>
+
+#include <array>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace selvedge::test {
+
+/// Triangles over positions, own ones and those of an obstacle, that judge every motion by brute force before
+/// they do it: whatever does not change is compared with nothing again, all that changes with every face
+/// there is.
+///
+/// No triangle has two corners at one position. Own triangles come first.
+class Judged_complex
+{
+public:
+  Judged_complex(const Triangle_soup& own, const Triangle_soup& obstacle);
+
+  /// Pairs of faces that meet beyond what they share, and faces without an area as pairs with themselves.
+  /// Pairs in which both have none are left out.
+  std::set<std::pair<Index, Index>> offending_pairs() const;
+
+  /// Nothing at the corners of this face moves from now on.
+  void freeze(Index face);
+
+  /// Of a vertex; those of the obstacle follow those of the soup.
+  Index position(Index vertex) const { return m_position_of_vertex[vertex]; }
+  bool is_alive(Index face) const { return m_faces[face].is_alive; }
+  const Index_triple& positions_of(Index face) const { return m_faces[face].positions; }
+  const Point_3& point(Index position) const { return m_points[position]; }
+  std::size_t own_faces_alive() const { return m_own_alive; }
+
+  /// Lines of the soup: edges across which a number, label or value changes. To be called after snaps.
+  void find_seams(const Triangle_soup& own);
+
+  /// Everything at one position goes to another. What is wrong with that is told, and then it is not done.
+  std::optional<Broken_promise> snap(Index moved, Index kept);
+  std::optional<Broken_promise> collapse(Index removed, Index kept);
+
+  /// Numbers of regions: faces that hang together across edges that are no lines.
+  std::vector<Index> regions() const;
+
+private:
+  struct Box
+  {
+    std::array<double, 3> low, high;
+  };
+  struct Face
+  {
+    Index_triple positions;
+    Box box;
+    bool is_own, is_alive;
+  };
+  struct Edge
+  {
+    Index neighbour;
+    int outgoing = 0, incoming = 0; // own faces; nothing is sewn to an obstacle
+
+    bool is_border() const { return outgoing != 1 || incoming != 1; }
+  };
+
+  Place place(Index position) const { return {position, m_points[position]}; }
+  Standing_face places(Index face) const;
+  bool has(Index face, Index position) const;
+  std::array<Index, 2> others(Index face, Index position) const;
+  Box box_of(const Index_triple& positions) const;
+  std::vector<Edge> edges_at(Index position) const;
+  bool is_seam(Index p, Index q) const { return m_seams.count(std::minmax(p, q)) > 0; }
+  bool is_one_fan(Index position) const;
+  std::optional<Broken_promise> judge_link(Index removed, Index kept) const;
+  std::optional<Broken_promise> judge_line(Index removed, Index kept) const;
+  std::optional<Broken_promise> judge_motion(Index moved, Index kept) const;
+  void move(Index moved, Index kept);
+
+  std::vector<Point_3> m_points; // by position
+  std::vector<Index> m_position_of_vertex;
+  std::vector<Face> m_faces;
+  std::vector<std::vector<Index>> m_faces_at;
+  std::vector<char> m_is_frozen; // by position
+  std::set<std::pair<Index, Index>> m_seams;
+  std::size_t m_own_alive = 0;
+};
+
+} // namespace selvedge::test
+
+#endif // SELVEDGE_TEST_WORLDS_JUDGED_COMPLEX_H

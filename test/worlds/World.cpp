@@ -1,0 +1,223 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "World.h"
+
+#include <nlohmann/json.hpp>
+
+#include <charconv>
+#include <fstream>
+#include <stdexcept>
+
+namespace selvedge::test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* s_extensions[] = {"obj", "off", "ply", "stl", "glb", "gltf"}; // by Mesh_format
+
+std::string extension(Mesh_format format)
+{
+  return s_extensions[std::size_t(format)];
+}
+
+std::string text_of(double number)
+{
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, number).ptr};
+}
+
+template <class Value>
+Json optional_json(const std::optional<Value>& value)
+{
+  return value ? Json(*value) : Json(nullptr);
+}
+
+template <class Value>
+void read_optional(const Json& json, std::optional<Value>& value)
+{
+  if (!json.is_null())
+    value = json.get<Value>();
+}
+
+Mesh_format format_of(const Json& json)
+{
+  return mesh_format("mesh." + json.get<std::string>());
+}
+
+} // namespace
+
+Prepare_options World::prepare_options() const
+{
+  Prepare_options prepare;
+  prepare.round_to_float32 = needs_float32(soup, output_format);
+  prepare.is_strict = is_strict;
+  prepare.weld_distance = weld_distance;
+  return prepare;
+}
+
+void write_world(const World& world, const std::filesystem::path& folder)
+{
+  std::filesystem::create_directories(folder);
+  write_mesh(folder / ("mesh." + extension(world.input_format)), world.soup);
+  if (!world.obstacle.triangles.empty())
+    write_mesh(folder / "obstacle.obj", world.obstacle);
+  const Simplify_options& options = world.options;
+  Json ratios = Json::array();
+  for (const Simplify_intent::Part_ratio& part : world.intent.ratios)
+    ratios.push_back({{"name", part.name}, {"ratio", part.ratio}});
+  const Json json = {{"seed", world.seed},
+                     {"scene", world.scene},
+                     {"command", command_line(world)},
+                     {"input", extension(world.input_format)},
+                     {"has_obstacle", !world.obstacle.triangles.empty()},
+                     {"output", extension(world.output_format)},
+                     {"sewn", world.is_sewn},
+                     {"strict", world.is_strict},
+                     {"weld", world.weld_distance},
+                     {"ratio", optional_json(options.ratio)},
+                     {"faces", optional_json(options.faces)},
+                     {"error", optional_json(options.max_error)},
+                     {"normal_change", options.max_normal_change},
+                     {"aspect_ratio", options.min_aspect_ratio},
+                     {"border_turn", options.max_border_turn},
+                     {"seam_turn", options.max_seam_turn},
+                     {"border_drift", options.max_border_drift},
+                     {"check_intersections", options.check_intersections},
+                     {"check_uv_orientation", options.check_uv_orientation},
+                     {"uv_weight", options.uv_weight},
+                     {"is_loop_own", options.loop == Collapse_loop::own},
+                     {"is_index_packed", options.index == Face_index::packed},
+                     {"faces_per_cluster", options.faces_per_cluster},
+                     {"faces_per_cell", options.faces_per_cell},
+                     {"border_weight", options.cost.border_weight},
+                     {"stabiliser", options.cost.stabiliser},
+                     {"locked", world.intent.locked},
+                     {"kept", world.intent.kept},
+                     {"ratios", ratios},
+                     {"weights", world.intent.weights},
+                     {"lods", world.lods},
+                     {"questions", optional_json(world.questions)}};
+  write_file(folder / "world.json", json.dump(1) + '\n');
+}
+
+World read_world(const std::filesystem::path& folder)
+{
+  std::ifstream stream(folder / "world.json");
+  if (!stream)
+    throw std::runtime_error((folder / "world.json").string() + " cannot be read");
+  const Json json = Json::parse(stream);
+  World world;
+  world.seed = json["seed"];
+  world.scene = json["scene"];
+  world.input_format = format_of(json["input"]);
+  world.soup = read_mesh(folder / ("mesh." + extension(world.input_format))).soup;
+  if (json["has_obstacle"])
+    world.obstacle = read_mesh(folder / "obstacle.obj").soup;
+  world.output_format = format_of(json["output"]);
+  world.is_sewn = json["sewn"];
+  world.is_strict = json["strict"];
+  world.weld_distance = json["weld"];
+  Simplify_options& options = world.options;
+  read_optional(json["ratio"], options.ratio);
+  read_optional(json["faces"], options.faces);
+  read_optional(json["error"], options.max_error);
+  options.max_normal_change = json["normal_change"];
+  options.min_aspect_ratio = json["aspect_ratio"];
+  options.max_border_turn = json["border_turn"];
+  options.max_seam_turn = json["seam_turn"];
+  options.max_border_drift = json["border_drift"];
+  options.check_intersections = json["check_intersections"];
+  options.check_uv_orientation = json["check_uv_orientation"];
+  options.uv_weight = json["uv_weight"];
+  options.loop = json["is_loop_own"] ? Collapse_loop::own : Collapse_loop::cgal;
+  options.index = json["is_index_packed"] ? Face_index::packed : Face_index::clusters;
+  options.faces_per_cluster = json["faces_per_cluster"];
+  options.faces_per_cell = json["faces_per_cell"];
+  options.cost.border_weight = json["border_weight"];
+  options.cost.stabiliser = json["stabiliser"];
+  world.intent.locked = json["locked"].get<std::vector<std::string>>();
+  world.intent.kept = json["kept"].get<std::vector<std::string>>();
+  for (const Json& part : json["ratios"])
+    world.intent.ratios.push_back({part["name"], part["ratio"]});
+  world.intent.weights = json["weights"];
+  world.lods = json["lods"].get<std::vector<double>>();
+  read_optional(json["questions"], world.questions);
+  return world;
+}
+
+std::string command_line(const World& world)
+{
+  const Simplify_options &options = world.options, plain;
+  std::string command = "selvedge simplify mesh." + extension(world.input_format) + " -o out" +
+                        (world.lods.empty() ? "." : "_{lod}.") + extension(world.output_format),
+              beyond;
+  const auto add = [&](const char* option, const std::string& value) {
+    command += std::string(" ") + option + ' ' + value;
+  };
+  const auto quoted = [](const std::string& text) { return '\'' + text + '\''; };
+  const auto add_if_other = [&](const char* option, double value, double default_value) {
+    if (value != default_value)
+      add(option, text_of(value));
+  };
+  if (!world.obstacle.triangles.empty())
+    add("--obstacle", "obstacle.obj");
+  if (options.ratio)
+    add("--ratio", text_of(*options.ratio));
+  for (const Simplify_intent::Part_ratio& part : world.intent.ratios)
+    add("--ratio", quoted(part.name + '=' + text_of(part.ratio)));
+  if (options.faces)
+    add("--faces", std::to_string(*options.faces));
+  if (options.max_error)
+    add("--error", text_of(*options.max_error));
+  std::string lods;
+  for (const double lod : world.lods)
+    lods += (lods.empty() ? "" : ",") + text_of(lod);
+  if (!lods.empty())
+    add("--lods", lods);
+  if (!options.ratio && !options.faces && !options.max_error && world.intent.ratios.empty() && lods.empty())
+    add("--ratio", "0");
+  for (const std::string& name : world.intent.locked)
+    add("--lock", quoted(name));
+  for (const std::string& name : world.intent.kept)
+    add("--keep", quoted(name));
+  if (!world.intent.weights.empty())
+    add("--weights", quoted(world.intent.weights));
+  add_if_other("--normal-change", options.max_normal_change, plain.max_normal_change);
+  add_if_other("--aspect-ratio", options.min_aspect_ratio, plain.min_aspect_ratio);
+  add_if_other("--border-turn", options.max_border_turn, plain.max_border_turn);
+  add_if_other("--seam-turn", options.max_seam_turn, plain.max_seam_turn);
+  add_if_other("--border-drift", options.max_border_drift, plain.max_border_drift);
+  add_if_other("--uv-weight", options.uv_weight, plain.uv_weight);
+  add_if_other("--border-weight", options.cost.border_weight, plain.cost.border_weight);
+  add_if_other("--stabiliser", options.cost.stabiliser, plain.cost.stabiliser);
+  add_if_other("--weld", world.weld_distance, 0);
+  if (options.loop != plain.loop)
+    add("--loop", "cgal");
+  if (options.index != plain.index)
+    add("--index", "clusters --cluster-size " + std::to_string(options.faces_per_cluster));
+  if (!options.check_intersections)
+    add("--no-intersection-check", "");
+  if (world.is_sewn)
+    add("--sewn", "");
+  if (world.is_strict)
+    add("--strict", "");
+  if (options.faces_per_cell > 0) {
+    add("--cells", "");
+    beyond += "; cells of " + std::to_string(options.faces_per_cell) + " faces";
+  }
+  if (!options.check_uv_orientation)
+    beyond += "; the texture may turn over";
+  if (world.questions)
+    beyond += "; stopped at question " + std::to_string(*world.questions + 1);
+  return command + (beyond.empty() ? "" : " #" + beyond.substr(1));
+}
+
+std::string describe(const World& world)
+{
+  return "seed " + std::to_string(world.seed) + ": " + world.scene + ", " +
+         std::to_string(world.soup.triangles.size()) + " faces, " +
+         std::to_string(world.obstacle.triangles.size()) + " of an obstacle: " + command_line(world);
+}
+
+} // namespace selvedge::test

@@ -1,0 +1,59 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_TEST_WORLDS_WORLD_H
+#define SELVEDGE_TEST_WORLDS_WORLD_H
+
+#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/simplify_soup.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace selvedge::test {
+
+/// A small hard input, an obstacle, and everything that a reduction can be asked for.
+struct World
+{
+  std::uint64_t seed = 0;
+  std::string scene; ///< what it is made of, for a person
+
+  Triangle_soup soup;
+  Mesh_format input_format = Mesh_format::obj; ///< of a file that reads as the soup
+  Triangle_soup obstacle;
+
+  Mesh_format output_format = Mesh_format::obj;
+  bool is_sewn = false; ///< the file has one number for what lies at one position
+  bool is_strict = false;
+  double weld_distance = 0;
+  Simplify_options options; ///< without who is to be told or asked
+  Simplify_intent intent;
+  std::vector<double> lods;
+
+  /// How often the reduction may ask whether it should stop before it is told so.
+  std::optional<std::size_t> questions;
+
+  Prepare_options prepare_options() const;
+};
+
+/// Writes the world as files: the mesh, the obstacle if there is one, and `world.json` with all that was
+/// asked for.
+void write_world(const World& world, const std::filesystem::path& folder);
+
+/// Reads what `write_world` has written.
+World read_world(const std::filesystem::path& folder);
+
+/// The run of `selvedge` that does what the world asks for, in the folder of its files. What the program has
+/// no option for is named behind `#`.
+std::string command_line(const World& world);
+
+/// One line for a person.
+std::string describe(const World& world);
+
+} // namespace selvedge::test
+
+#endif // SELVEDGE_TEST_WORLDS_WORLD_H

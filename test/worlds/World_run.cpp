@@ -1,0 +1,86 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "World_run.h"
+#include "support/Temporary_folder.h"
+
+#include <selvedge/Error.h>
+#include <selvedge/collapse_log.h>
+#include <selvedge/mesh/snapping.h>
+
+#include <sstream>
+
+namespace selvedge::test {
+namespace {
+
+void reduce(const World& world, const Prepared_soup& prepared, Reduction_log* log, World_run& run)
+{
+  Simplify_options options = world.options;
+  options.on_collapse = [&](std::size_t removed, std::size_t kept) {
+    run.collapses.emplace_back(removed, kept);
+    if (log)
+      log->add_collapse(removed, kept);
+  };
+  if (world.questions)
+    options.should_stop = [&run, left = *world.questions](const Simplify_progress&) mutable {
+      return run.is_told_to_stop = run.is_told_to_stop || left-- == 0;
+    };
+  run.result = simplify_soup(prepared, options, world.intent);
+}
+
+const char* file_name(const World& world)
+{
+  static constexpr const char* s_names[] = {"out.obj", "out.off", "out.ply",
+                                            "out.stl", "out.glb", "out.gltf"};
+  return s_names[std::size_t(world.output_format)];
+}
+
+} // namespace
+
+World_run run(const World& world)
+{
+  World_run run;
+  const Prepare_options prepare_options = world.prepare_options();
+  try {
+    run.prepared = prepare(world.soup, prepare_options, world.obstacle);
+    if (world.weld_distance > 0) {
+      Prepare_options without = prepare_options;
+      without.weld_distance = 0;
+      run.unsnapped = prepare(world.soup, without, world.obstacle);
+    } else {
+      run.unsnapped = run.prepared;
+    }
+  } catch (const Input_error& error) {
+    run.refusal = error.what();
+    return run;
+  }
+
+  const Log_numbering numbering(world.soup, world.input_format == Mesh_format::stl);
+  Log_header header;
+  header.vertices = numbering.size();
+  header.triangles = world.soup.triangles.size();
+  header.is_rounded_to_float32 = prepare_options.round_to_float32;
+  std::ostringstream stream;
+  Reduction_log log(stream, header, numbering, run.prepared, world.options);
+  reduce(world, run.prepared, &log, run);
+  log.finish(run.result);
+  run.log = stream.str();
+  run.verification = verify(run.result, run.prepared);
+
+  if (!run.result.soup.triangles.empty()) {
+    const Temporary_folder folder;
+    write_mesh(folder / file_name(world),
+               world.is_sewn ? joined_at_positions(run.result.soup) : run.result.soup);
+    run.read_back = read_mesh(folder / file_name(world)).soup;
+  }
+  return run;
+}
+
+World_run run_again(const World& world, const Prepared_soup& prepared)
+{
+  World_run run;
+  reduce(world, prepared, nullptr, run);
+  return run;
+}
+
+} // namespace selvedge::test

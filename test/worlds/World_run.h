@@ -1,0 +1,42 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_TEST_WORLDS_WORLD_RUN_H
+#define SELVEDGE_TEST_WORLDS_WORLD_RUN_H
+
+#include "World.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace selvedge::test {
+
+/// What came of a world, to be judged; a test may change it before that.
+struct World_run
+{
+  /// Why the input was not accepted; nothing else is set then.
+  std::optional<std::string> refusal;
+
+  Prepared_soup unsnapped; ///< as it would be with no weld distance
+  Prepared_soup prepared;
+  std::vector<std::pair<Index, Index>>
+      collapses; ///< vertices of the soup; those that go, and those to which they go
+  bool is_told_to_stop = false;
+  Simplified_soup result;
+  Verification verification;
+  std::string log;
+  Triangle_soup read_back; ///< from the file written
+};
+
+/// Does what a world asks for, up to the file; without levels of detail. Throws what the library throws,
+/// except for `Input_error` from `prepare`.
+World_run run(const World& world);
+
+/// Once more from the same `Prepared_soup`, with other options; only `collapses` and `result` are set.
+World_run run_again(const World& world, const Prepared_soup& prepared);
+
+} // namespace selvedge::test
+
+#endif // SELVEDGE_TEST_WORLDS_WORLD_RUN_H

@@ -1,0 +1,745 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "judge_world.h"
+#include "Judged_complex.h"
+#include "Random.h"
+
+#include <selvedge/Error.h>
+#include <selvedge/collapse_log.h>
+#include <selvedge/mesh/Parts.h>
+#include <selvedge/mesh/selection.h>
+#include <selvedge/replay.h>
+#include <selvedge/verify.h>
+
+#include <CGAL/Kernel/global_functions.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <exception>
+#include <map>
+#include <numeric>
+#include <set>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace selvedge::test {
+
+const char* name(Promise promise)
+{
+  static constexpr const char* s_names[] = {"preparation", "embedded",    "motion", "topology", "seams",
+                                            "attributes",  "frozen",      "stop",   "verdict",  "log replay",
+                                            "written",     "determinism", "refusal"};
+  return s_names[std::size_t(promise)];
+}
+
+Judgement_counts& Judgement_counts::operator+=(const Judgement_counts& other)
+{
+  worlds += other.worlds;
+  refused_worlds += other.refused_worlds;
+  collapses += other.collapses;
+  snaps += other.snaps;
+  twins += other.twins;
+  return *this;
+}
+
+namespace {
+
+using Coordinates = std::array<double, 3>;
+using Verdict = std::optional<Broken_promise>;
+
+Coordinates coordinates(const Point_3& p)
+{
+  return {p.x(), p.y(), p.z()};
+}
+
+bool has_same_bits(const Point_3& p, const Point_3& q)
+{
+  const Coordinates a = coordinates(p), b = coordinates(q);
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+/// For every point the first of those with equal coordinates.
+std::vector<Index> first_at_position(const std::vector<Point_3>& points)
+{
+  std::map<Coordinates, Index> first;
+  std::vector<Index> result;
+  for (Index v = 0; v < points.size(); ++v)
+    result.push_back(first.emplace(coordinates(points[v]), v).first->second);
+  return result;
+}
+
+bool has_three_positions(const Index_triple& triangle, const std::vector<Index>& positions)
+{
+  const Index a = positions[triangle[0]], b = positions[triangle[1]], c = positions[triangle[2]];
+  return a != b && b != c && c != a;
+}
+
+Point_3 rounded(const Point_3& p)
+{
+  // In memory: GCC 12 takes conversions to float and back that stand side by side for none.
+  const volatile float x = float(p.x()), y = float(p.y()), z = float(p.z());
+  return {x, y, z};
+}
+
+// Before the reduction
+// ----------------------------------------------------------------------------------------------------------
+
+/// What `prepare` should come to, found by looking at everything.
+struct Expected_start
+{
+  explicit Expected_start(const World& world)
+  {
+    const bool is_rounded = world.prepare_options().round_to_float32;
+    soup.points = world.soup.points;
+    const std::vector<Index> first = first_at_position(soup.points);
+    std::vector<Index_triple> kept;
+    std::copy_if(world.soup.triangles.begin(), world.soup.triangles.end(), std::back_inserter(kept),
+                 [&](const Index_triple& t) { return has_three_positions(t, first); });
+    std::vector<Point_3> before = soup.points;
+    if (is_rounded)
+      for (Point_3& p : soup.points)
+        p = rounded(p);
+    const std::vector<Index> first_after = first_at_position(soup.points);
+    std::copy_if(kept.begin(), kept.end(), std::back_inserter(soup.triangles),
+                 [&](const Index_triple& t) { return has_three_positions(t, first_after); });
+    obstacle.points = world.obstacle.points;
+    const std::vector<Index> first_of_obstacle = first_at_position(obstacle.points);
+    std::copy_if(world.obstacle.triangles.begin(), world.obstacle.triangles.end(),
+                 std::back_inserter(obstacle.triangles),
+                 [&](const Index_triple& t) { return has_three_positions(t, first_of_obstacle); });
+
+    // Vertices of different positions that rounding has brought to one.
+    std::vector<Point_3> after = soup.points;
+    for (auto* points : {&before, &after})
+      points->insert(points->end(), obstacle.points.begin(), obstacle.points.end());
+    std::vector<char> is_used(after.size(), false);
+    for (const Index_triple& t : soup.triangles)
+      for (const Index v : t)
+        is_used[v] = true;
+    for (const Index_triple& t : obstacle.triangles)
+      for (const Index v : t)
+        is_used[soup.points.size() + v] = true;
+    std::map<Coordinates, std::set<Coordinates>> merged;
+    for (std::size_t v = 0; v < after.size(); ++v)
+      if (is_used[v])
+        merged[coordinates(after[v])].insert(coordinates(before[v]));
+    for (std::size_t v = 0; v < soup.points.size(); ++v)
+      is_merged.push_back(is_used[v] && merged[coordinates(after[v])].size() > 1);
+  }
+
+  Triangle_soup soup, obstacle; // points and triangles alone
+  std::vector<char> is_merged;  // by own vertex
+};
+
+Verdict judge_refusal(const World& world, const std::string& message)
+{
+  const bool is_rounded = world.prepare_options().round_to_float32;
+  if (is_rounded)
+    for (const Point_3& p : world.soup.points)
+      if (!std::isfinite(rounded(p).x()) || !std::isfinite(rounded(p).y()) || !std::isfinite(rounded(p).z()))
+        return std::nullopt;
+  if (world.is_strict) {
+    const std::vector<Index> first = first_at_position(world.soup.points),
+                             first_of_obstacle = first_at_position(world.obstacle.points);
+    for (const Index_triple& t : world.soup.triangles)
+      if (!has_three_positions(t, first))
+        return std::nullopt;
+    for (const Index_triple& t : world.obstacle.triangles)
+      if (!has_three_positions(t, first_of_obstacle))
+        return std::nullopt;
+    if (!Judged_complex(world.soup, world.obstacle).offending_pairs().empty())
+      return std::nullopt;
+  }
+  if (Expected_start(world).soup.triangles.empty())
+    return std::nullopt;
+  return Broken_promise{Promise::refusal, message};
+}
+
+Verdict judge_preparation(const World& world, const World_run& run, const Expected_start& expected,
+                          Judged_complex& complex)
+{
+  const auto broken = [](const std::string& what) { return Broken_promise{Promise::preparation, what}; };
+  const Prepared_soup& unsnapped = run.unsnapped;
+  if (unsnapped.soup.triangles != expected.soup.triangles ||
+      unsnapped.obstacle.triangles != expected.obstacle.triangles)
+    return broken("the triangles left are not those with three positions");
+  for (const auto& [found, wanted] : {std::pair(&unsnapped.soup.points, &expected.soup.points),
+                                      std::pair(&unsnapped.obstacle.points, &expected.obstacle.points)})
+    if (found->size() != wanted->size() ||
+        !std::equal(found->begin(), found->end(), wanted->begin(), has_same_bits))
+      return broken("points are not those of the input, rounded where that was asked for");
+
+  const std::size_t own = expected.soup.triangles.size();
+  const auto pairs = complex.offending_pairs();
+  std::set<std::pair<Index, Index>> found;
+  const auto is_degenerate = [&](Index f) { return pairs.count({f, f}) > 0; };
+  for (const Offending_pair& pair : unsnapped.offending_pairs)
+    if (pair.first == pair.second || !is_degenerate(pair.first) || !is_degenerate(pair.second))
+      found.insert({pair.first, pair.second});
+  if (found != pairs)
+    return broken(std::to_string(found.size()) + " offending pairs found, and there are " +
+                  std::to_string(pairs.size()));
+  if (world.is_strict && world.prepare_options().round_to_float32 == false && !pairs.empty())
+    return Broken_promise{Promise::refusal, "an input that is not embedded was accepted, though strict"};
+
+  std::vector<char> is_frozen(own + expected.obstacle.triangles.size(), false);
+  for (const auto& [f, g] : pairs)
+    is_frozen[f] = is_frozen[g] = true;
+  for (std::size_t t = 0; t < own; ++t)
+    for (const Index v : expected.soup.triangles[t])
+      is_frozen[t] |= expected.is_merged[v];
+  for (Index f = 0; f < is_frozen.size(); ++f)
+    if (is_frozen[f] || f >= own) {
+      complex.freeze(f);
+      for (const Prepared_soup* prepared : {&unsnapped, &run.prepared})
+        if (f >= prepared->is_frozen.size() || !prepared->is_frozen[f])
+          return Broken_promise{Promise::frozen,
+                                "triangle " + std::to_string(f) + " should be frozen, and is not"};
+    }
+  return std::nullopt;
+}
+
+Verdict judge_snaps(const World& world, const World_run& run, Judged_complex& complex,
+                    Judgement_counts& counts)
+{
+  for (const Snap& snap : run.prepared.snapping.snaps) {
+    const Index from = complex.position(snap.from), to = complex.position(snap.to);
+    const Point_3 &p = complex.point(from), &q = complex.point(to);
+    if (!(std::hypot(p.x() - q.x(), p.y() - q.y(), p.z() - q.z()) <= world.weld_distance * (1 + 1e-12)))
+      return Broken_promise{Promise::seams, "a snap goes further than the distance"};
+    ++counts.snaps;
+    if (auto broken = complex.snap(from, to)) {
+      broken->message += " in the snap of " + std::to_string(snap.from) + " to " + std::to_string(snap.to);
+      return broken;
+    }
+  }
+  const Triangle_soup& soup = run.prepared.soup;
+  if (soup.triangles != run.unsnapped.soup.triangles ||
+      soup.points.size() != run.unsnapped.soup.points.size())
+    return Broken_promise{Promise::seams, "snapping changes more than coordinates"};
+  for (Index v = 0; v < soup.points.size(); ++v)
+    if (soup.points[v] != complex.point(complex.position(v)))
+      return Broken_promise{Promise::seams, "vertex " + std::to_string(v) + " is not where the snaps lead"};
+  return std::nullopt;
+}
+
+// The reduction
+// ----------------------------------------------------------------------------------------------------------
+
+std::vector<char> held(const World& world, const Triangle_soup& soup, bool with_locked)
+{
+  std::vector<char> is_held(soup.triangles.size(), false);
+  for (const auto* names : {&world.intent.kept, with_locked ? &world.intent.locked : &world.intent.kept})
+    for (const std::string& name : *names) {
+      const std::vector<char> is_named = triangles_named(soup, name);
+      for (std::size_t t = 0; t < is_held.size(); ++t)
+        is_held[t] |= is_named[t];
+    }
+  return is_held;
+}
+
+Verdict judge_collapses(const World_run& run, Judged_complex& complex, Judgement_counts& counts)
+{
+  for (std::size_t i = 0; i < run.collapses.size(); ++i) {
+    const auto& [removed, kept] = run.collapses[i];
+    ++counts.collapses;
+    if (auto broken = complex.collapse(complex.position(removed), complex.position(kept))) {
+      broken->message += " in collapse " + std::to_string(i + 1) + ", " + std::to_string(removed) + " to " +
+                         std::to_string(kept);
+      return broken;
+    }
+  }
+  return std::nullopt;
+}
+
+// The end
+// ----------------------------------------------------------------------------------------------------------
+
+template <class Values>
+bool has_same_value(const Values& result, Index triangle, const Values& original, Index corner, std::size_t k)
+{
+  if (result.empty() || original.empty())
+    return result.empty() == original.empty();
+  return std::memcmp(&result.values[result.of_triangle[triangle][k]],
+                     &original.values[original.of_triangle[corner / 3][corner % 3]],
+                     sizeof original.values[0]) == 0;
+}
+
+bool has_same_label(const Triangle_labels& result, Index triangle, const Triangle_labels& original,
+                    Index from)
+{
+  if (result.empty() || original.empty())
+    return result.empty() == original.empty();
+  return result.names[result.of_triangle[triangle]] == original.names[original.of_triangle[from]];
+}
+
+bool have_same_rows(const std::vector<Attribute>& result, Index row, const std::vector<Attribute>& original,
+                    Index from)
+{
+  if (result.size() != original.size())
+    return false;
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const std::size_t size = row_size(original[i]);
+    if (result[i].name != original[i].name || result[i].rows.size() < (row + 1) * size ||
+        std::memcmp(result[i].rows.data() + row * size, original[i].rows.data() + from * size, size) != 0)
+      return false;
+  }
+  return true;
+}
+
+CGAL::Orientation uv_orientation(const Corner_values<2>& uvs, Index triangle)
+{
+  const auto point = [&](std::size_t k) {
+    const auto& uv = uvs.values[uvs.of_triangle[triangle][k]];
+    return Kernel::Point_2(uv[0], uv[1]);
+  };
+  return CGAL::orientation(point(0), point(1), point(2));
+}
+
+Verdict judge_attributes(const World& world, const World_run& run, const Judged_complex& complex,
+                         const std::vector<Index>& regions, const std::vector<char>& is_held)
+{
+  const Triangle_soup &result = run.result.soup, &original = run.prepared.soup;
+  if (result.triangles.size() != complex.own_faces_alive() ||
+      run.result.triangles.size() != result.triangles.size() ||
+      run.result.corners.size() != result.triangles.size())
+    return Broken_promise{Promise::attributes, "the result has not the triangles that the collapses leave"};
+  std::map<Index, Index> original_vertex, vertex_of_original;
+  for (Index i = 0; i < result.triangles.size(); ++i) {
+    const Index t = run.result.triangles[i];
+    const auto broken = [&](const char* what) {
+      return Broken_promise{Promise::attributes, "triangle " + std::to_string(i) + " of the result: " + what};
+    };
+    if (!complex.is_alive(t) || (i > 0 && run.result.triangles[i - 1] >= t))
+      return broken("gone, or out of order");
+    if (!has_same_label(result.groups, i, original.groups, t) ||
+        !has_same_label(result.objects, i, original.objects, t) ||
+        !has_same_label(result.materials, i, original.materials, t) ||
+        !has_same_label(result.smoothing_groups, i, original.smoothing_groups, t) ||
+        !have_same_rows(result.triangle_attributes, i, original.triangle_attributes, t))
+      return broken("labels or attributes of another");
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index corner = run.result.corners[i][k], from = original.triangles[corner / 3][corner % 3],
+                  v = result.triangles[i][k];
+      if (complex.position(from) != complex.positions_of(t)[k])
+        return broken("a corner from another position");
+      if (regions[corner / 3] != regions[t])
+        return broken("a corner from the other side of a line");
+      if (!has_same_bits(result.points[v], original.points[from]))
+        return broken("a point of another vertex");
+      if (original_vertex.emplace(v, from).first->second != from ||
+          vertex_of_original.emplace(from, v).first->second != v)
+        return broken("vertices joined or split");
+      if (!has_same_value(result.uvs, i, original.uvs, corner, k) ||
+          !has_same_value(result.normals, i, original.normals, corner, k) ||
+          !have_same_rows(result.vertex_attributes, v, original.vertex_attributes, from))
+        return broken("a value that its corner has not");
+      if (is_held[t] && corner != 3 * t + k)
+        return Broken_promise{Promise::frozen, "triangle " + std::to_string(t) + " has another corner"};
+    }
+    if (world.options.check_uv_orientation && !original.uvs.empty() &&
+        uv_orientation(original.uvs, t) != CGAL::COLLINEAR &&
+        uv_orientation(original.uvs, t) != uv_orientation(result.uvs, i))
+      return broken("turned over in the texture");
+  }
+  return std::nullopt;
+}
+
+// By the numbers of vertices; a result's piece is known by the piece of its triangles.
+Verdict judge_pieces(const World_run& run)
+{
+  const std::vector<Part_kind> kinds = part_kinds(run.prepared.soup);
+  const std::vector<Index>& piece_of = kinds.front().of_triangle;
+  std::map<Index, Piece> before, after;
+  for (const Piece& piece : pieces(run.prepared.soup))
+    before[piece_of[piece.first_triangle]] = piece;
+  for (const Piece& piece : pieces(run.result.soup)) {
+    const Index number = piece_of[run.result.triangles[piece.first_triangle]];
+    if (!after.emplace(number, piece).second)
+      return Broken_promise{Promise::topology, "piece " + std::to_string(number) + " has come apart"};
+  }
+  for (const auto& [number, piece] : before) {
+    const auto found = after.find(number);
+    if (found == after.end())
+      return Broken_promise{Promise::topology, "piece " + std::to_string(number) + " is gone"};
+    if (found->second.boundary_loops != piece.boundary_loops ||
+        found->second.euler_characteristic != piece.euler_characteristic)
+      return Broken_promise{Promise::topology,
+                            "piece " + std::to_string(number) + " has other borders or holes"};
+  }
+  return std::nullopt;
+}
+
+Verdict judge_stop(const World& world, const World_run& run)
+{
+  const auto broken = [](const std::string& what) { return Broken_promise{Promise::stop, what}; };
+  const Simplify_report& report = run.result.report;
+  const Triangle_soup& soup = run.prepared.soup;
+  if (report.collapses != run.collapses.size())
+    return broken("the report counts other collapses");
+  if (report.faces_input != soup.triangles.size() || report.faces_output != run.result.soup.triangles.size())
+    return broken("the report counts other faces");
+  if (report.is_stopped != run.is_told_to_stop)
+    return broken("told to stop, and not so reported, or the other way round");
+
+  // A face of several shares is of the last.
+  std::vector<std::size_t> share_of(soup.triangles.size(), 0);
+  std::vector<double> ratios{world.options.ratio.value_or(0)};
+  const auto add = [&](const std::string& part, double ratio) {
+    const std::vector<char> is_named = triangles_named(soup, part);
+    for (std::size_t t = 0; t < share_of.size(); ++t)
+      if (is_named[t])
+        share_of[t] = ratios.size();
+    ratios.push_back(ratio);
+  };
+  for (const Simplify_intent::Part_ratio& part : world.intent.ratios)
+    add(part.name, part.ratio);
+  for (const std::string& part : world.intent.kept)
+    add(part, 1);
+  std::size_t target = 0, to_go = 0;
+  for (std::size_t share = 0; share < ratios.size(); ++share) {
+    const std::size_t before = std::size_t(std::count(share_of.begin(), share_of.end(), share));
+    std::size_t aim = std::size_t(std::llround(ratios[share] * double(before)));
+    if (share == 0)
+      aim = std::max(aim, world.options.faces.value_or(0));
+    const std::size_t now =
+        std::size_t(std::count_if(run.result.triangles.begin(), run.result.triangles.end(),
+                                  [&](Index t) { return share_of[t] == share; }));
+    target += aim;
+    to_go += now - std::min(now, aim);
+    // The last collapse may take two faces where one was to go.
+    if (now + 1 < std::min(aim, before))
+      return broken("a share has " + std::to_string(now) + " faces left, and was to keep " +
+                    std::to_string(aim));
+  }
+  if (report.faces_target != target || report.faces_to_go != to_go || report.is_reached() != (to_go == 0))
+    return broken("the report has another target, or distance to it");
+  if ((report.outcome() == "reached") != (to_go == 0))
+    return broken("the outcome is \"" + report.outcome() + '"');
+  return std::nullopt;
+}
+
+Verdict judge_replay(const World& world, const World_run& run)
+{
+  std::istringstream stream(run.log);
+  Log_reader reader(stream, "log");
+  const Replay_verdict verdict = replay(world.soup, world.input_format == Mesh_format::stl, reader);
+  const auto broken = [](const std::string& what) { return Broken_promise{Promise::log_replay, what}; };
+  if (!verdict.violations.empty()) {
+    const Violation& first = verdict.violations.front();
+    return broken(name(first.kind) + (": " + first.message) + " at step " + std::to_string(first.step));
+  }
+  if (!verdict.is_accepted() || !verdict.is_result_stated)
+    return broken("not accepted, or the result is not stated");
+  if (verdict.soup.triangles != run.result.soup.triangles ||
+      !std::equal(verdict.soup.points.begin(), verdict.soup.points.end(), run.result.soup.points.begin(),
+                  run.result.soup.points.end()) ||
+      verdict.soup.uvs.of_triangle != run.result.soup.uvs.of_triangle ||
+      verdict.soup.uvs.values != run.result.soup.uvs.values ||
+      verdict.soup.normals.of_triangle != run.result.soup.normals.of_triangle)
+    return broken("the log leads to another result");
+  return std::nullopt;
+}
+
+using Corner_points = std::array<Coordinates, 3>;
+
+std::vector<Corner_points> corner_points(const Triangle_soup& soup, bool in_any_order)
+{
+  std::vector<Corner_points> result;
+  for (const auto& [a, b, c] : soup.triangles) {
+    result.push_back({coordinates(soup.points[a]), coordinates(soup.points[b]), coordinates(soup.points[c])});
+    for (Coordinates& point : result.back())
+      for (double& x : point)
+        x += 0.; // one zero
+    if (in_any_order)
+      std::rotate(result.back().begin(), std::min_element(result.back().begin(), result.back().end()),
+                  result.back().end());
+  }
+  if (in_any_order)
+    std::sort(result.begin(), result.end());
+  return result;
+}
+
+Verdict judge_file(const World& world, const World_run& run)
+{
+  const Triangle_soup &result = run.result.soup, &file = run.read_back;
+  const bool is_scene = world.output_format == Mesh_format::glb || world.output_format == Mesh_format::gltf;
+  if (corner_points(result, is_scene) != corner_points(file, is_scene))
+    return Broken_promise{Promise::written, "the file has other triangles"};
+  if (is_scene || world.is_sewn || world.output_format == Mesh_format::stl)
+    return std::nullopt;
+  if (file.triangles != result.triangles || file.points.size() != result.points.size() ||
+      !std::equal(file.points.begin(), file.points.end(), result.points.begin(), has_same_bits))
+    return Broken_promise{Promise::written, "the file has other numbers or bits"};
+  if (world.output_format != Mesh_format::obj)
+    return std::nullopt;
+  for (Index i = 0; i < result.triangles.size(); ++i) {
+    bool is_same = has_same_label(file.groups, i, result.groups, i) &&
+                   has_same_label(file.objects, i, result.objects, i) &&
+                   has_same_label(file.materials, i, result.materials, i);
+    for (Index k = 0; k < 3; ++k)
+      is_same = is_same && has_same_value(file.uvs, i, result.uvs, 3 * i + k, k) &&
+                has_same_value(file.normals, i, result.normals, 3 * i + k, k);
+    if (!is_same)
+      return Broken_promise{Promise::written, "the file has other values or labels"};
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
+Verdict judge(const World& world, const World_run& run, Judgement_counts& counts)
+{
+  if (run.refusal)
+    return judge_refusal(world, *run.refusal);
+  const Expected_start expected(world);
+  Judged_complex complex(expected.soup, expected.obstacle);
+  if (auto broken = judge_preparation(world, run, expected, complex))
+    return broken;
+  if (auto broken = judge_snaps(world, run, complex, counts))
+    return broken;
+  const std::vector<char> is_held = held(world, run.prepared.soup, true);
+  for (Index t = 0; t < is_held.size(); ++t)
+    if (is_held[t])
+      complex.freeze(t);
+  complex.find_seams(run.prepared.soup);
+  const std::vector<Index> regions = complex.regions();
+  if (auto broken = judge_collapses(run, complex, counts))
+    return broken;
+  if (auto broken = judge_attributes(world, run, complex, regions, is_held))
+    return broken;
+  if (auto broken = judge_pieces(run))
+    return broken;
+  if (auto broken = judge_stop(world, run))
+    return broken;
+  if (!run.verification.accepted())
+    return Broken_promise{Promise::verdict, std::to_string(run.verification.new_pairs.size()) +
+                                                " new pairs, topology " +
+                                                (run.verification.same_topology() ? "kept" : "changed")};
+  if (auto broken = judge_replay(world, run))
+    return broken;
+  return judge_file(world, run);
+}
+
+// Twins
+// ----------------------------------------------------------------------------------------------------------
+
+namespace {
+
+Verdict compare(const World_run& twin, const World_run& run, const std::string& what)
+{
+  const auto broken = [&](const char* how) { return Broken_promise{Promise::determinism, what + how}; };
+  if (twin.refusal.has_value() != run.refusal.has_value())
+    return broken(": one of them is refused");
+  if (twin.collapses != run.collapses) {
+    const auto differ = std::mismatch(twin.collapses.begin(), twin.collapses.end(), run.collapses.begin(),
+                                      run.collapses.end());
+    return Broken_promise{Promise::determinism,
+                          what + ": other collapses from number " +
+                              std::to_string(differ.first - twin.collapses.begin() + 1)};
+  }
+  if (twin.result.triangles != run.result.triangles || twin.result.corners != run.result.corners ||
+      twin.result.soup.triangles != run.result.soup.triangles)
+    return broken(": another result");
+  return std::nullopt;
+}
+
+Verdict compare_bits(const World_run& twin, const World_run& run, const std::string& what)
+{
+  if (auto broken = compare(twin, run, what))
+    return broken;
+  const auto &a = twin.result.soup.points, &b = run.result.soup.points;
+  if (a.size() != b.size() || !std::equal(a.begin(), a.end(), b.begin(), has_same_bits))
+    return Broken_promise{Promise::determinism, what + ": other points"};
+  return std::nullopt;
+}
+
+template <class Function>
+World with_points(const World& world, Function function)
+{
+  World twin = world;
+  for (Triangle_soup* soup : {&twin.soup, &twin.obstacle})
+    for (Point_3& p : soup->points)
+      p = Point_3(function(p.x()), function(p.y()), function(p.z()));
+  return twin;
+}
+
+/// A power of two by which all coordinates can be multiplied without loss; none when there is none but 1.
+std::optional<int> random_exponent(const World& world, Random& random)
+{
+  int low = 2000, high = -2000;
+  const auto add = [&](double x) {
+    if (x != 0) {
+      low = std::min(low, std::ilogb(x));
+      high = std::max(high, std::ilogb(x));
+    }
+  };
+  for (const Triangle_soup* soup : {&world.soup, &world.obstacle})
+    for (const Point_3& p : soup->points)
+      for (int i = 0; i < 3; ++i)
+        add(p[i]);
+  add(world.weld_distance);
+  const bool is_rounded = world.prepare_options().round_to_float32;
+  const int least = is_rounded ? -100 : -960, most = is_rounded ? 120 : 960;
+  if (low > high || low < least || high > most)
+    return std::nullopt;
+  return random.between(least - low, most - high);
+}
+
+template <class Value>
+std::vector<Value> reordered(const std::vector<Value>& values, const std::vector<Index>& order)
+{
+  std::vector<Value> result;
+  for (std::size_t i = 0; i < std::min(order.size(), values.size()); ++i)
+    result.push_back(values[order[i]]);
+  return result;
+}
+
+void reorder(std::vector<Attribute>& attributes, const std::vector<Index>& order)
+{
+  for (Attribute& attribute : attributes) {
+    const std::size_t size = row_size(attribute);
+    std::vector<unsigned char> rows;
+    for (const Index i : order)
+      rows.insert(rows.end(), attribute.rows.begin() + i * size, attribute.rows.begin() + (i + 1) * size);
+    attribute.rows = std::move(rows);
+  }
+}
+
+std::vector<Index> random_order(std::size_t size, Random& random)
+{
+  std::vector<Index> order(size);
+  std::iota(order.begin(), order.end(), Index(0));
+  for (std::size_t i = size; i > 1; --i)
+    std::swap(order[i - 1], order[random.below(i)]);
+  return order;
+}
+
+Triangle_soup permuted(Triangle_soup soup, Random& random)
+{
+  const std::vector<Index> vertices = random_order(soup.points.size(), random),
+                           triangles = random_order(soup.triangles.size(), random);
+  std::vector<Index> number(vertices.size());
+  for (Index i = 0; i < vertices.size(); ++i)
+    number[vertices[i]] = i;
+  soup.points = reordered(soup.points, vertices);
+  reorder(soup.vertex_attributes, vertices);
+  soup.triangles = reordered(soup.triangles, triangles);
+  soup.uvs.of_triangle = reordered(soup.uvs.of_triangle, triangles);
+  soup.normals.of_triangle = reordered(soup.normals.of_triangle, triangles);
+  reorder(soup.triangle_attributes, triangles);
+  for (auto* labels : {&soup.groups, &soup.objects, &soup.materials, &soup.smoothing_groups})
+    labels->of_triangle = reordered(labels->of_triangle, triangles);
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    for (Index& v : soup.triangles[t])
+      v = number[v];
+    const std::size_t first = random.below(3);
+    for (auto* triple : {&soup.triangles, &soup.uvs.of_triangle, &soup.normals.of_triangle})
+      if (!triple->empty())
+        std::rotate((*triple)[t].begin(), (*triple)[t].begin() + first, (*triple)[t].end());
+  }
+  return soup;
+}
+
+Verdict judge_levels(const World& world, const World_run& run)
+{
+  const std::vector<Simplified_soup> levels =
+      simplify_lods(run.prepared, world.options, world.lods, world.intent);
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    World alone = world;
+    alone.options.ratio = world.lods[i];
+    alone.questions.reset(); // levels come from one run
+    World_run level;
+    level.result = levels[i];
+    World_run run_alone = run_again(alone, run.prepared);
+    run_alone.collapses.clear(); // levels of one run have no log
+    if (auto broken =
+            compare_bits(level, run_alone, "level " + std::to_string(i + 1) + " and a run to it alone"))
+      return broken;
+    if (levels[i].report.outcome() != run_alone.result.report.outcome())
+      return Broken_promise{Promise::stop,
+                            "level " + std::to_string(i + 1) + " has another outcome than a run to it alone"};
+    if (!verify(levels[i], run.prepared).accepted())
+      return Broken_promise{Promise::verdict, "level " + std::to_string(i + 1)};
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
+Verdict judge_twins(const World& world, const World_run& run, Judgement_counts& counts)
+{
+  if (run.refusal)
+    return std::nullopt;
+  Random random(world.seed + 1);
+  const bool is_scene = bool(world.soup.scene);
+  if (random.one_in(2)) {
+    ++counts.twins;
+    World twin = world;
+    twin.options.index =
+        world.options.index == Face_index::packed ? Face_index::clusters : Face_index::packed;
+    twin.options.faces_per_cluster = std::size_t(random.between(1, 30));
+    if (auto broken = compare_bits(run_again(twin, run.prepared), run, "the other index"))
+      return broken;
+  }
+  if ((world.options.faces_per_cell > 0 || random.one_in(8)) && !world.questions) {
+    ++counts.twins;
+    World_run twin;
+    const int threads = random.between(2, 5);
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
+    tbb::task_arena(threads).execute([&] { twin = run_again(world, run.prepared); });
+    if (auto broken = compare_bits(twin, run, "more threads"))
+      return broken;
+  }
+  if (random.one_in(4) && !is_scene && world.input_format != Mesh_format::stl) {
+    ++counts.twins;
+    const World twin = with_points(world, [&](double x) { return x == 0 && random.one_in(2) ? -x : x; });
+    if (auto broken = compare(test::run(twin), run, "zeros of another sign"))
+      return broken;
+  }
+  if (!getenv("NOSCALE") && random.one_in(2) && !is_scene)
+    if (const std::optional<int> exponent = random_exponent(world, random)) {
+      ++counts.twins;
+      World twin = with_points(world, [&](double x) { return std::ldexp(x, *exponent); });
+      twin.weld_distance = std::ldexp(world.weld_distance, *exponent);
+      if (auto broken = compare(test::run(twin), run, "2^" + std::to_string(*exponent) + " times as large"))
+        return broken;
+    }
+  if (random.one_in(4) && !is_scene && world.input_format != Mesh_format::stl) {
+    ++counts.twins;
+    World twin = world;
+    twin.soup = permuted(world.soup, random);
+    twin.obstacle = permuted(world.obstacle, random);
+    if (auto broken = judge(twin, test::run(twin), counts)) {
+      broken->message += ", in another order";
+      return broken;
+    }
+  }
+  if (!world.lods.empty()) {
+    ++counts.twins;
+    return judge_levels(world, run);
+  }
+  return std::nullopt;
+}
+
+Verdict judge(const World& world, Judgement_counts& counts)
+{
+  try {
+    const World_run run = test::run(world);
+    ++(run.refusal ? counts.refused_worlds : counts.worlds);
+    if (auto broken = judge(world, run, counts))
+      return broken;
+    return judge_twins(world, run, counts);
+  } catch (const std::exception& error) {
+    return Broken_promise{Promise::refusal, error.what()};
+  }
+}
+
+} // namespace selvedge::test

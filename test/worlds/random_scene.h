@@ -1,0 +1,42 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_TEST_WORLDS_RANDOM_SCENE_H
+#define SELVEDGE_TEST_WORLDS_RANDOM_SCENE_H
+
+#include "Random.h"
+
+#include <selvedge/mesh/Triangle_soup.h>
+
+#include <string>
+
+namespace selvedge::test {
+
+/// A shape of at most some hundred faces, with small integer coordinates as a rule, and what it is called:
+/// layers, wheels, fins, closed surfaces, patchwork and others, or two of them in one place.
+struct Scene
+{
+  std::string name;
+  Triangle_soup soup;
+};
+
+Scene random_scene(Random& random);
+
+/// Spoils some of a soup: drops, doubles and turns triangles, splits, joins and moves vertices, adds
+/// triangles without an area and vertices without a triangle.
+void spoil(Triangle_soup& soup, Random& random);
+
+/// Puts points elsewhere: scaled, far from the origin, on the other side, sheared, at distances of units in
+/// the last place, between 32-bit floats, with zeros of either sign. Returns what was done.
+std::string displace(Triangle_soup& soup, Random& random);
+
+/// Groups, objects, materials, texture coordinates, normals, and weights `w` of vertices, as an OBJ file
+/// holds them.
+void decorate(Triangle_soup& soup, Random& random);
+
+/// Something beside, under, in or at a soup that stands in its way.
+Triangle_soup random_obstacle(const Triangle_soup& soup, Random& random);
+
+} // namespace selvedge::test
+
+#endif // SELVEDGE_TEST_WORLDS_RANDOM_SCENE_H

@@ -1,0 +1,237 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "random_world.h"
+#include "random_scene.h"
+#include "support/Temporary_folder.h"
+
+#include <selvedge/mesh/rounding.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace selvedge::test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+bool fits_float32(const Triangle_soup& soup)
+{
+  return std::all_of(soup.points.begin(), soup.points.end(), [](const Point_3& p) {
+    return std::max({std::fabs(p.x()), std::fabs(p.y()), std::fabs(p.z())}) <=
+           double(std::numeric_limits<float>::max());
+  });
+}
+
+Triangle_soup through_file(const Triangle_soup& soup, const char* name)
+{
+  const Temporary_folder folder;
+  write_mesh(folder / name, soup);
+  return read_mesh(folder / name).soup;
+}
+
+/// The soup as a glTF scene whose nodes are scaled, turned, mirrored, moved, and children of one another.
+Triangle_soup as_scene(Triangle_soup soup, Random& random)
+{
+  round_to_float32(soup);
+  soup.vertex_attributes.clear();
+  const Temporary_folder folder;
+  write_mesh(folder / "mesh.gltf", soup);
+  Json json;
+  {
+    std::ifstream stream(folder / "mesh.gltf");
+    json = Json::parse(stream);
+  }
+  Json& nodes = json["nodes"];
+  for (Json& node : nodes)
+    switch (random.below(4)) {
+    case 0:
+      break;
+    case 1:
+      node["translation"] = {random.between(-3, 3), random.between(-3, 3),
+                             0.1f * float(random.between(0, 3))};
+      break;
+    case 2:
+      node["scale"] = {random.one_of({1., -1., 0.5}), 1, random.one_of({1., 2., 0.3})};
+      node["rotation"] = random.one_in(2) ? Json({0, 0, 0.6, 0.8}) : Json({0, 0.70710678, 0, 0.70710678});
+      break;
+    default:
+      node["matrix"] = {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, random.between(-2, 2), 0.5, 0, 1};
+    }
+  if (nodes.size() > 1 && random.one_in(2)) { // the last is a child of the first
+    nodes[0]["children"] = {nodes.size() - 1};
+    Json& roots = json["scenes"][0]["nodes"];
+    roots.erase(std::remove(roots.begin(), roots.end(), Json(nodes.size() - 1)), roots.end());
+  }
+  return read_mesh(json.dump(), Mesh_format::gltf, "mesh.gltf").soup;
+}
+
+// Of parts that have a triangle with an area to speak of: of others a reduction does not know.
+std::vector<std::string> part_names(const Triangle_soup& soup)
+{
+  const auto has_area = [&](const Index_triple& triangle) {
+    const auto corner = [&](std::size_t k) {
+      const Point_3& p = soup.points[triangle[k]];
+      return std::array{float(p.x()), float(p.y()), float(p.z())};
+    };
+    return corner(0) != corner(1) && corner(1) != corner(2) && corner(2) != corner(0);
+  };
+  std::set<std::string> names;
+  for (const auto* labels : {&soup.groups, &soup.objects, &soup.materials})
+    for (std::size_t t = 0; t < labels->of_triangle.size(); ++t)
+      if (const std::string& name = labels->names[labels->of_triangle[t]];
+          !name.empty() && has_area(soup.triangles[t]))
+        names.insert(name);
+  return {names.begin(), names.end()};
+}
+
+double diagonal(const Triangle_soup& soup)
+{
+  CGAL::Bbox_3 box;
+  for (const Index_triple& triangle : soup.triangles)
+    for (const Index v : triangle)
+      box += soup.points[v].bbox();
+  return soup.triangles.empty()
+             ? 0
+             : std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
+}
+
+void choose_limits(Simplify_options& options, Random& random)
+{
+  if (!random.one_in(3)) { // let through what they would hide
+    options.max_normal_change = 180;
+    options.min_aspect_ratio = 0;
+    options.max_border_turn = 180;
+    options.max_seam_turn = 180;
+    options.max_border_drift = 10;
+  }
+  const auto sometimes = [&](double& limit, std::initializer_list<double> values) {
+    if (random.one_in(8))
+      limit = random.one_of(values);
+  };
+  sometimes(options.max_normal_change, {0, 1, 30, 45, 90, 120, 180});
+  sometimes(options.min_aspect_ratio, {0, 0.01, 0.2, 0.7, 1});
+  sometimes(options.max_border_turn, {0, 1, 8, 60, 90, 180});
+  sometimes(options.max_seam_turn, {0, 1, 8, 60, 90, 180});
+  sometimes(options.max_border_drift, {0, 1e-9, 0.002, 0.05, 10});
+  sometimes(options.uv_weight, {0, 1e-3, 0.1, 10});
+  sometimes(options.cost.border_weight, {0, 0.1, 1, 100});
+  sometimes(options.cost.stabiliser, {0, 1e-5, 0.1, 1});
+  if (random.one_in(8))
+    options.max_error = random.one_of({0., 1e-6, 1e-3, 0.02, 0.5});
+  options.check_uv_orientation = !random.one_in(10);
+}
+
+void choose_target(World& world, Random& random)
+{
+  Simplify_options& options = world.options;
+  options.ratio = random.one_in(2) ? 0 : random.share();
+  if (random.one_in(12))
+    options.faces = random.below(world.soup.triangles.size() + 4);
+  if (random.one_in(12))
+    options.ratio.reset();
+  if (random.one_in(30))
+    world.questions = random.below(4);
+}
+
+void choose_means(World& world, Random& random)
+{
+  Simplify_options& options = world.options;
+  if (random.one_in(6))
+    options.loop = Collapse_loop::cgal;
+  if (random.one_in(4))
+    options.index = Face_index::clusters;
+  if (random.one_in(3))
+    options.faces_per_cluster = std::size_t(random.between(1, 40));
+  if (random.one_in(4))
+    options.faces_per_cell = std::size_t(random.one_of({1, 4, 8, 16, 32, 64, 128}));
+}
+
+void choose_parts(World& world, Random& random)
+{
+  const std::vector<std::string> names = part_names(world.soup);
+  Simplify_intent& intent = world.intent;
+  if (!names.empty() && random.one_in(3)) {
+    if (random.one_in(2))
+      intent.locked.push_back(random.one_of(names));
+    if (random.one_in(3))
+      intent.kept.push_back(random.one_of(names));
+    if (random.one_in(2) && world.options.faces_per_cell == 0)
+      for (int i = random.between(1, 2); i > 0; --i)
+        intent.ratios.push_back({random.one_of(names), random.one_in(3) ? 0 : random.share()});
+  }
+  for (const Attribute& attribute : world.soup.vertex_attributes)
+    if (attribute.name == "w" && random.one_in(2))
+      intent.weights = attribute.name;
+}
+
+} // namespace
+
+World random_world(std::uint64_t seed)
+{
+  Random random(seed * 0x9e3779b97f4a7c15 + 1);
+  World world;
+  world.seed = seed;
+  Scene scene = random_scene(random);
+  world.scene = scene.name;
+  Triangle_soup& soup = world.soup;
+  soup = std::move(scene.soup);
+  if (random.one_in(3)) {
+    spoil(soup, random);
+    world.scene += ", spoiled";
+  }
+  if (soup.triangles.empty())
+    soup.triangles.push_back({0, Index(1 % soup.points.size()), Index(2 % soup.points.size())});
+  if (const std::string done = displace(soup, random); !done.empty())
+    world.scene += ", " + done;
+  decorate(soup, random);
+  if (random.one_in(3))
+    world.obstacle = random_obstacle(soup, random);
+
+  if (fits_float32(soup) && random.one_in(3)) {
+    world.output_format = random.one_of({Mesh_format::stl, Mesh_format::glb, Mesh_format::gltf});
+    if (random.one_in(3)) {
+      soup = as_scene(std::move(soup), random);
+      world.input_format = Mesh_format::gltf;
+      world.scene += ", a scene with transforms";
+    } else if (random.one_in(6)) {
+      Triangle_soup rounded = soup;
+      round_to_float32(rounded);
+      soup = through_file(rounded, "mesh.stl");
+      world.input_format = Mesh_format::stl;
+    }
+  } else if (random.one_in(6)) {
+    world.output_format = random.one_of({Mesh_format::ply, Mesh_format::off});
+    if (random.one_in(2)) {
+      soup = through_file(soup, "mesh.ply");
+      world.input_format = Mesh_format::ply;
+    }
+  }
+
+  choose_limits(world.options, random);
+  choose_target(world, random);
+  choose_means(world, random);
+  choose_parts(world, random);
+  if (random.one_in(5))
+    world.weld_distance = diagonal(soup) * random.one_of({1e-12, 1e-6, 1e-3, 0.02, 0.1});
+  if (!std::isfinite(world.weld_distance))
+    world.weld_distance = 0;
+  if (random.one_in(12) && !world.options.faces) {
+    for (int i = random.between(1, 3); i > 0; --i)
+      world.lods.push_back(random.share());
+    world.options.ratio.reset();
+  }
+  world.is_sewn = random.one_in(12);
+  world.is_strict = random.one_in(25);
+  return world;
+}
+
+} // namespace selvedge::test

@@ -1,0 +1,20 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_TEST_WORLDS_RANDOM_WORLD_H
+#define SELVEDGE_TEST_WORLDS_RANDOM_WORLD_H
+
+#include "World.h"
+
+#include <cstdint>
+
+namespace selvedge::test {
+
+/// The world of a seed: a scene, spoiled or not, displaced, decorated, in a file of some format, beside an
+/// obstacle or not, and every option of a reduction, most of them as they are by default. The same on every
+/// machine.
+World random_world(std::uint64_t seed);
+
+} // namespace selvedge::test
+
+#endif // SELVEDGE_TEST_WORLDS_RANDOM_WORLD_H
