@@ -107,7 +107,9 @@ public:
         header.is_rounded_to_float32 = m_words[1] == "float32";
         is_rounding_known = true;
       } else if (m_words[0] == "obstacle" && !header.obstacle) {
-        read_mesh(header.obstacle.emplace(), "obstacle VERTICES TRIANGLES SHA256");
+        Log_header::Obstacle obstacle;
+        read_mesh(obstacle, "obstacle VERTICES TRIANGLES SHA256");
+        header.obstacle = obstacle;
       } else if (m_words[0] == "limit") {
         read_limit();
       } else {
