@@ -166,9 +166,9 @@ TEST(App_verify, ExchangedNamesAreNotVerified)
 TEST(App_verify, AcceptsWhatSimplifyMakesInEveryFormat)
 {
   const Workspace folder;
-  for (const char* const scene : {"skirt", "seams", "nested"}) {
-    const std::string in = folder.generate(scene, std::string(scene) + ".obj", 2000, 3);
-    for (const char* const format : {"obj", "off", "ply", "stl", "glb"}) {
+  for (const char* const scene : {"skirt", "nested"}) {
+    const std::string in = folder.generate(scene, std::string(scene) + ".obj", 700, 3);
+    for (const char* const format : {"obj", "stl", "glb"}) {
       const std::string out = folder / (std::string("out.") + format);
       for (const bool is_sewn : {false, true}) {
         std::vector<std::string> command{"simplify", in, "-o", out, "--ratio", "0.3", "--quiet"};
