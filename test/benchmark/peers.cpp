@@ -5,6 +5,7 @@
 // with the same cost, placement and cheap filters, OpenMesh, and meshoptimizer, on the same meshes, in turns.
 
 #include "Mesh.h"
+#include "Openmesh_decimater.h"
 #include "Table.h"
 #include "interleaved.h"
 
@@ -15,11 +16,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <OpenMesh/Core/Mesh/DefaultTriMesh.hh>
-#include <OpenMesh/Tools/Decimater/DecimaterT.hh>
-#include <OpenMesh/Tools/Decimater/ModAspectRatioT.hh>
-#include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
-#include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 #include <meshoptimizer.h>
 
 #include <algorithm>
@@ -85,51 +81,14 @@ Outcome run_ours(const Prepared_soup& prepared, const Simplify_options& options)
 
 Outcome run_openmesh(const Triangle_soup& soup, const Simplify_options& options)
 {
-  using Mesh = OpenMesh::TriMesh;
-  using Decimater = OpenMesh::Decimater::DecimaterT<Mesh>;
-
-  Mesh mesh;
-  mesh.reserve(soup.points.size(), soup.triangles.size() * 3 / 2, soup.triangles.size());
-  for (const Point_3& p : soup.points)
-    mesh.add_vertex(Mesh::Point(p.x(), p.y(), p.z()));
-  for (const auto& [a, b, c] : soup.triangles)
-    mesh.add_face(mesh.vertex_handle(a), mesh.vertex_handle(b), mesh.vertex_handle(c));
-  mesh.request_face_normals();
-  mesh.update_face_normals();
-
-  Decimater decimater(mesh);
-  OpenMesh::Decimater::ModQuadricT<Mesh>::Handle quadric;
-  OpenMesh::Decimater::ModNormalFlippingT<Mesh>::Handle normal;
-  OpenMesh::Decimater::ModAspectRatioT<Mesh>::Handle aspect_ratio;
-  decimater.add(quadric);
-  decimater.add(normal);
-  decimater.add(aspect_ratio);
-  decimater.module(quadric).unset_max_err();
-  decimater.module(normal).set_max_normal_deviation(options.max_normal_change);
-  // Its equilateral triangle does not have 1.
-  decimater.module(aspect_ratio)
-      .set_aspect_ratio(static_cast<float>(2 / std::sqrt(3.0) / options.min_aspect_ratio));
-
+  Openmesh_decimater openmesh(soup, options);
   const std::size_t faces =
       static_cast<std::size_t>(std::ceil(*options.ratio * static_cast<double>(soup.triangles.size())));
   const Stopwatch stopwatch;
-  decimater.initialize();
-  const std::size_t collapses = decimater.decimate_to_faces(0, faces);
-  const double seconds = stopwatch.seconds();
-
-  mesh.garbage_collection();
-  Outcome outcome{{}, seconds, collapses};
-  for (const auto v : mesh.vertices()) {
-    const Mesh::Point& p = mesh.point(v);
-    outcome.soup.points.emplace_back(p[0], p[1], p[2]);
-  }
-  for (const auto f : mesh.faces()) {
-    Index_triple corners;
-    std::size_t place = 0;
-    for (const auto v : mesh.fv_range(f))
-      corners[place++] = static_cast<Index>(v.idx());
-    outcome.soup.triangles.push_back(corners);
-  }
+  const std::size_t collapses = openmesh.reduce_to(faces);
+  Outcome outcome{{}, stopwatch.seconds(), collapses};
+  outcome.soup.points = soup.points;
+  outcome.soup.triangles = openmesh.triangles();
   return outcome;
 }
 
