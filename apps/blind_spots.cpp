@@ -28,6 +28,10 @@ std::vector<std::string> blind_spots(const Verification& verification, const Com
       "what happened on the way: a layer that passed through another and came back; a log shows it, see "
       "selvedge replay"};
 
+  if (verification.is_original_rounded)
+    lines.push_back(
+        "what rounding did to the original: it was rounded to 32-bit floats before it was compared");
+
   const Layer_order& layers = comparison.layers;
   lines.push_back("the order of layers between the " + counted(layers.lines, "line") +
                   " that were drawn, and at " + with_commas(layers.pairs - layers.compared) + " of " +

@@ -153,6 +153,8 @@ void print(const Request& request, const Mesh_file& mesh, const Verification& ve
       std::cout << "  and " << with_commas(pairs.size() - named) << " more\n";
   }
   if (has_original) {
+    if (verification.is_original_rounded)
+      std::cout << "the original was rounded to 32-bit floats, as the result is\n";
     print(verification.matching);
     std::cout << (verification.same_topology()          ? "topology: as in the original\n"
                   : verification.matching.is_complete() ? "topology: other numbers of vertices:\n"
@@ -189,6 +191,7 @@ Exit_code run(const Request& request)
     Verify_options options;
     options.weld_distance = request.weld_distance;
     verification = verify(mesh.soup, original.soup, options);
+    report["original"]["rounded"] = verification->is_original_rounded;
     comparison = compare(mesh.soup, original.soup);
   } else {
     verification = verify(mesh.soup);

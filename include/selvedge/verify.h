@@ -182,7 +182,8 @@ struct Verify_options
 /// 2. by positions: what is left over, and all that has faces in common with it by positions, is joined where
 ///    positions coincide. Files that number vertices otherwise (STL, seams of textures in glTF) pass here;
 /// 3. by distance, for results whose vertices are not the original's: pieces of one kind of which each is, up
-///    to a factor of two, the nearest to the other, no farther than a quarter of the size of the original's;
+///    to a factor of two, the nearest to the vertices of the other, and no farther from them than a quarter
+///    of the size of the original's;
 /// 4. by positions and distance together.
 ///
 /// Where the coordinates of the result are 32-bit floats and those of the original are not, those of the
@@ -244,6 +245,8 @@ struct Verification
   std::vector<Topology_difference> topology_differences;
   Piece_matching matching;
   std::optional<Distances> distances;
+  /// All of this is about an original rounded to 32-bit floats, as the result is.
+  bool is_original_rounded = false;
 
   bool embedded() const { return pairs.empty(); }
   /// As many pieces of every kind, by vertex numbers.
@@ -254,6 +257,10 @@ struct Verification
 };
 
 Verification verify(const Triangle_soup& mesh);
+
+/// When all coordinates of the result are 32-bit floats and those of the original are not, the original is
+/// rounded first, so that what it had before it was written to a format that stores those is not taken for
+/// new. Pairs that rounding itself makes are then not new either.
 Verification verify(const Triangle_soup& result, const Triangle_soup& original,
                     const Verify_options& options = {});
 

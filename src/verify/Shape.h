@@ -12,6 +12,14 @@
 
 namespace selvedge::internal {
 
+/// Of a triangle whose points are divided by 2^exponent.
+inline Point_3 centre(const Triangle_soup& soup, Index triangle, int exponent)
+{
+  const auto& [a, b, c] = soup.triangles[triangle];
+  return CGAL::centroid(scaled(soup.points[a], -exponent), scaled(soup.points[b], -exponent),
+                        scaled(soup.points[c], -exponent));
+}
+
 /// Some triangles of a soup, at least one, with their points divided by 2^exponent: to be measured. Numbers
 /// of triangles are places in their list.
 class Shape

@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "Disjoint_sets.h"
-#include "Lists.h"
+#include "Piece_mesh.h"
 #include "Shape.h"
+#include "match_names.h"
 #include "one_to_one.h"
 #include "part_names.h"
-#include "pieces.h"
 #include "positions.h"
+#include "rounded.h"
 
 #include <oneapi/tbb/parallel_for.h>
 
@@ -27,10 +28,6 @@ using namespace internal;
 
 namespace {
 
-// Where more pieces than this meet in a position, it tells nothing; so no list of pairs is longer than
-// linear.
-constexpr std::size_t most_at_a_position = 64;
-
 // How far a piece may be from the original's, as a share of its size.
 constexpr double most_distance = 0.25;
 // How much farther than the nearest a piece may be and still be meant.
@@ -39,108 +36,12 @@ constexpr double most_excess = 2;
 // reduced far has half of it nearest to its other side.
 constexpr double least_turned = 0.9;
 
-using Kind = std::pair<std::size_t, long>;
-
-Kind kind(const Piece& piece)
-{
-  return {piece.boundary_loops, piece.euler_characteristic};
-}
-
-/// One of the two meshes: its triangles of three distinct positions, and their pieces.
-struct Mesh
-{
-  Mesh(const Triangle_soup& mesh, const Index* positions_of_vertices)
-      : soup(mesh), positions(positions_of_vertices),
-        numbered(numbered_pieces(soup.triangles, soup.points.size()))
-  {
-    std::vector<Pair> pairs;
-    for (Index t = 0; t < soup.triangles.size(); ++t) {
-      const Index a = position(t, 0), b = position(t, 1), c = position(t, 2);
-      if (a == b || b == c || c == a)
-        numbered.of_triangle[t] = no_piece;
-      else
-        pairs.emplace_back(numbered.of_triangle[t], t);
-    }
-    triangles = Lists(numbered.pieces.size(), std::move(pairs));
-  }
-
-  Index position(Index triangle, int place) const { return positions[soup.triangles[triangle][place]]; }
-  Index piece(Index triangle) const { return numbered.of_triangle[triangle]; }
-  const std::vector<Piece>& pieces() const { return numbered.pieces; }
-
-  /// Which pieces there are at each position.
-  Lists pieces_at(std::size_t positions_in_all) const
-  {
-    std::vector<Pair> pairs;
-    std::vector<bool> is_done(soup.points.size());
-    for (Index t = 0; t < soup.triangles.size(); ++t)
-      for (int place = 0; piece(t) != no_piece && place < 3; ++place) {
-        const Index vertex = soup.triangles[t][place];
-        if (!is_done[vertex])
-          pairs.emplace_back(positions[vertex], piece(t));
-        is_done[vertex] = true;
-      }
-    return Lists(positions_in_all, std::move(pairs));
-  }
-
-  std::vector<Index> triangles_of(const std::vector<Index>& some_pieces) const
-  {
-    std::vector<Index> result;
-    for (const Index piece : some_pieces)
-      result.insert(result.end(), triangles[piece].begin(), triangles[piece].end());
-    return result;
-  }
-
-  /// The kinds of what some triangles are when they are joined where their positions coincide, in order.
-  std::vector<Kind> kinds_by_position(const std::vector<Index>& some_triangles) const
-  {
-    std::vector<Index_triple> by_position;
-    std::vector<Index> numbers;
-    for (const Index t : some_triangles)
-      by_position.push_back({position(t, 0), position(t, 1), position(t, 2)});
-    for (const Index_triple& triple : by_position)
-      numbers.insert(numbers.end(), triple.begin(), triple.end());
-    std::sort(numbers.begin(), numbers.end());
-    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-    for (Index_triple& triple : by_position)
-      for (Index& number : triple)
-        number = Index(std::lower_bound(numbers.begin(), numbers.end(), number) - numbers.begin());
-    std::vector<Kind> kinds;
-    for (const Piece& piece : numbered_pieces(by_position, numbers.size()).pieces)
-      kinds.push_back(kind(piece));
-    std::sort(kinds.begin(), kinds.end());
-    return kinds;
-  }
-
-  const Triangle_soup& soup;
-  const Index* positions; ///< of the vertices, with common numbers
-  Numbered_pieces numbered;
-  Lists triangles; ///< of each piece
-};
-
-bool is_float(const Point_3& p)
-{
-  return p.x() == float(p.x()) && p.y() == float(p.y()) && p.z() == float(p.z());
-}
-
-bool has_floats_alone(const Triangle_soup& soup)
-{
-  for (const Index vertex : used_vertices(soup))
-    if (!is_float(soup.points[vertex]))
-      return false;
-  return true;
-}
-
 /// The positions of two soups, those of the second following those of the first. When only those of the first
 /// have been rounded to 32-bit floats, the others count as if they had been, too.
 std::vector<Index> common_positions(const Triangle_soup& result, const Triangle_soup& original)
 {
-  std::vector<Point_3> points = result.points;
-  points.insert(points.end(), original.points.begin(), original.points.end());
-  if (has_floats_alone(result) && !has_floats_alone(original))
-    for (std::size_t i = result.points.size(); i < points.size(); ++i)
-      points[i] = Point_3(float(points[i].x()), float(points[i].y()), float(points[i].z()));
-  return position_numbers(points);
+  return is_only_first_rounded(result, original) ? position_numbers(result, rounded(original))
+                                                 : position_numbers(result, original);
 }
 
 class Matching
@@ -168,7 +69,7 @@ public:
         std::remove_if(m_matching.matches.begin(), m_matching.matches.end(),
                        [](const Piece_match& match) { return match.of_original.empty(); }),
         m_matching.matches.end());
-    judge_names();
+    match_names(m_matching, m_result, m_original, m_position_count, m_exponent);
     if (m_options.are_shapes_judged)
       judge_shapes();
     m_matching.pieces_of_original = m_original.pieces();
@@ -367,7 +268,8 @@ private:
         for (const Index o : match.of_original)
           unite(r, o);
 
-    std::vector<bool> is_broken(results), is_owner(originals), owns_nothing(results, true);
+    std::vector<bool> is_broken(results), is_owner(originals), is_touched(originals),
+        owns_nothing(results, true);
     std::vector<Pair> owned;
     std::optional<Nearest_pieces> nearest;
     for (Index t = 0; t < m_result.soup.triangles.size(); ++t) {
@@ -378,9 +280,16 @@ private:
       if (is_by_distance && !found.is_known) {
         if (!nearest)
           nearest.emplace(m_original.soup, m_original.numbered.of_triangle, m_exponent);
-        found = {true, true, nearest->piece_near(centre(t))};
+        found = {true, true, nearest->piece_near(centre(m_result.soup, t, m_exponent))};
       }
-      is_broken[r] = is_broken[r] || found.is_broken();
+      if (found.is_broken()) {
+        is_broken[r] = true;
+        for (int place = 0; place < 3; ++place)
+          if (const auto here = reach[m_result.position(t, place)]; here.size() == 1) {
+            owned.emplace_back(r, *here.begin());
+            is_touched[*here.begin()] = true;
+          }
+      }
       if (found.is_one) {
         owned.emplace_back(r, found.piece);
         is_owner[found.piece] = true;
@@ -420,9 +329,10 @@ private:
       const std::vector<Index> before = m_original.triangles_of(of_original),
                                now = m_result.triangles_of(of_result);
       const bool is_told =
-          !is_by_distance && (std::any_of(of_original.begin(), of_original.end(),
-                                          [&](Index o) { return is_owner[o] && is_left(o); }) ||
-                              std::count_if(of_result.begin(), of_result.end(), is_left_now) > 1);
+          !is_by_distance &&
+          (std::any_of(of_original.begin(), of_original.end(),
+                       [&](Index o) { return (is_owner[o] || is_touched[o]) && is_left(o); }) ||
+           std::count_if(of_result.begin(), of_result.end(), is_left_now) > 1);
       if (is_whole && m_original.kinds_by_position(before) == m_result.kinds_by_position(now) &&
           (!is_by_distance || are_near(of_original, now)))
         match(std::move(of_original), std::move(of_result), Matched_by::positions);
@@ -431,14 +341,6 @@ private:
       else if (is_told)
         m_groups.push_back({std::move(of_original), std::move(of_result), has_broken});
     }
-  }
-
-  Point_3 centre(Index triangle) const
-  {
-    const auto& [a, b, c] = m_result.soup.triangles[triangle];
-    return CGAL::centroid(scaled(m_result.soup.points[a], -m_exponent),
-                          scaled(m_result.soup.points[b], -m_exponent),
-                          scaled(m_result.soup.points[c], -m_exponent));
   }
 
   // Whether some triangles of the result and pieces of the original are within a quarter of these pieces'
@@ -466,12 +368,15 @@ private:
       return;
     Shapes now(m_result.soup, m_result.triangles, m_exponent);
     Shapes before(m_original.soup, m_original.triangles, m_exponent);
-    std::map<Pair, double> distances; // of a piece of the result and one of the original
+    struct Distances_of_pair
+    {
+      double to_original, to_result;
+    };
+    std::map<Pair, Distances_of_pair> distances; // of a piece of the result and one of the original
     const auto add = [&](Index r, Index o) {
-      const auto [it, is_new] = distances.emplace(Pair(r, o), 0);
-      if (is_new)
-        it->second = std::max(now[r].root_mean_square_distance(before[o]),
-                              before[o].root_mean_square_distance(now[r]));
+      if (distances.count({r, o}) == 0)
+        distances[{r, o}] = {now[r].root_mean_square_distance(before[o]),
+                             before[o].root_mean_square_distance(now[r])};
     };
     {
       const Nearest_pieces in_original(m_original.soup, m_original.numbered.of_triangle, m_exponent);
@@ -483,23 +388,24 @@ private:
         for (const Index r : in_result.pieces_near(before[o]))
           add(r, o);
     }
-    std::map<Index, double> least_of_result, least_of_original;
+    std::map<Index, double> least_to_original, least_to_result;
     for (const auto& [pair, distance] : distances) {
-      const auto lower = [value = distance](std::map<Index, double>& least, Index piece) {
+      const auto lower = [](std::map<Index, double>& least, Index piece, double value) {
         double& entry = least.emplace(piece, value).first->second;
         entry = std::min(entry, value);
       };
-      lower(least_of_result, pair.first);
-      lower(least_of_original, pair.second);
+      lower(least_to_original, pair.first, distance.to_original);
+      lower(least_to_result, pair.second, distance.to_result);
     }
     std::vector<Possible_match> possible;
     for (const auto& [pair, distance] : distances) {
       const auto [r, o] = pair;
       if (is_left_of_result(r) && is_left_of_original(o) &&
           kind(m_result.pieces()[r]) == kind(m_original.pieces()[o]) &&
-          distance <= most_excess * least_of_result[r] && distance <= most_excess * least_of_original[o] &&
-          distance <= most_distance * before[o].diagonal())
-        possible.push_back({distance, false, r, o});
+          distance.to_original <= most_excess * least_to_original[r] &&
+          distance.to_result <= most_excess * least_to_result[o] &&
+          std::max(distance.to_original, distance.to_result) <= most_distance * before[o].diagonal())
+        possible.push_back({distance.to_original, false, r, o});
     }
     for (const auto& [r, o] :
          one_to_one(std::move(possible), m_result.pieces().size(), m_original.pieces().size()))
@@ -507,43 +413,6 @@ private:
   }
 
   // ---- Telling
-
-  static std::string counted(std::size_t count, const char* noun)
-  {
-    return std::to_string(count) + ' ' + noun + (count == 1 ? "" : "s");
-  }
-
-  static std::string describe(const Kind& kind)
-  {
-    return counted(kind.first, "boundary loop") + " and Euler characteristic " + std::to_string(kind.second);
-  }
-
-  /// "piece 3 ('lining', 421 faces around (0.1, 0.9, 0))"
-  static std::string describe(const Mesh& mesh, Index piece)
-  {
-    const Lists::Range triangles = mesh.triangles[piece];
-    CGAL::Bbox_3 box;
-    for (const Index t : triangles)
-      for (const Index vertex : mesh.soup.triangles[t])
-        box += mesh.soup.points[vertex].bbox();
-    char place[96];
-    std::snprintf(place, sizeof place, "(%.4g, %.4g, %.4g)", box.xmin() / 2 + box.xmax() / 2,
-                  box.ymin() / 2 + box.ymax() / 2, box.zmin() / 2 + box.zmax() / 2);
-    const std::string name = Part_names(mesh.soup).of(*triangles.begin());
-    return "piece " + std::to_string(piece + 1) + " (" + (name.empty() ? "" : "'" + name + "', ") +
-           counted(triangles.size(), "face") + " around " + place + ")";
-  }
-
-  static std::string describe(const Mesh& mesh, const std::vector<Index>& pieces)
-  {
-    constexpr std::size_t most = 3;
-    std::string text = describe(mesh, pieces.front());
-    for (std::size_t i = 1; i < std::min(pieces.size(), most); ++i)
-      text += ", " + describe(mesh, pieces[i]);
-    if (pieces.size() > most)
-      text += " and " + std::to_string(pieces.size() - most) + " more";
-    return text;
-  }
 
   void add_mismatch(Mismatch what, std::vector<Index> of_original, std::vector<Index> of_result,
                     std::string message)
@@ -593,6 +462,12 @@ private:
       if (group.is_broken && m_options.weld_distance == 0)
         message += "; if borders were joined on purpose, give the weld distance";
       add_mismatch(Mismatch::topology, group.of_original, group.of_result, std::move(message));
+      // What has matched in it has done so by chance.
+      for (const Index o : group.of_original)
+        if (const Index match = std::exchange(m_match_of_original[o], no_piece); match != no_piece)
+          m_matching.matches[match] = {};
+      for (const Index r : group.of_result)
+        m_match_of_result[r] = no_piece;
     }
     for (const Index o : left_of_original())
       if (!is_told_of_original[o])
@@ -602,133 +477,6 @@ private:
       if (!is_told_of_result[r])
         add_mismatch(Mismatch::added, {}, {r},
                      describe(m_result, r) + " of the result is no piece of the original");
-  }
-
-  // ---- Names
-
-  void judge_names()
-  {
-    const auto judge = [&](const char* what, const Triangle_labels& now, const Triangle_labels& before) {
-      if (now.empty() && before.empty())
-        return;
-      if (now.empty() || before.empty()) {
-        m_matching.names_not_compared.push_back(what);
-        return;
-      }
-      const Common_names names(m_result.soup, now, m_original.soup, before);
-      if (!names.is_any_common()) {
-        m_matching.names_not_compared.push_back(what);
-        return;
-      }
-      m_matching.names_compared.push_back(what);
-      judge_names(what, names);
-    };
-    judge("group", m_result.soup.groups, m_original.soup.groups);
-    judge("object", m_result.soup.objects, m_original.soup.objects);
-    judge("material", m_result.soup.materials, m_original.soup.materials);
-  }
-
-  void judge_names(const char* what, const Common_names& names)
-  {
-    if (names.is_one())
-      return;
-    std::vector<Pair> pairs;
-    for (Index t = 0; t < m_original.soup.triangles.size(); ++t)
-      for (int place = 0; m_original.piece(t) != no_piece && place < 3; ++place) {
-        const Pair pair(m_original.position(t, place), names.before(t));
-        if (pairs.empty() || pairs.back() != pair)
-          pairs.push_back(pair);
-      }
-    const Lists names_at(m_position_count, std::move(pairs));
-    for (const Piece_match& match : m_matching.matches)
-      judge_names(what, names, names_at, match);
-  }
-
-  void judge_names(const char* what, const Common_names& names, const Lists& names_at,
-                   const Piece_match& match)
-  {
-    const std::vector<Index> now = m_result.triangles_of(match.of_result),
-                             before = m_original.triangles_of(match.of_original);
-    std::map<Index, Index> is_there; // the names of the original, with a triangle of each
-    for (const Index t : before)
-      is_there.emplace(names.before(t), t);
-    std::map<Index, Index> is_left;
-    for (const Index t : now)
-      is_left.emplace(names.now(t), t);
-    if (is_there.size() == 1 && is_left.size() == 1 && is_there.begin()->first == is_left.begin()->first)
-      return;
-
-    std::optional<Shape> shape;
-    // The name that the original has where a triangle of the result is, or the triangle's own if that is one
-    // of several.
-    const auto name_before = [&](Index t) {
-      const Index name = names.now(t);
-      bool is_known = false, is_here = true;
-      for (int place = 0; place < 3; ++place) {
-        const Lists::Range here = names_at[m_result.position(t, place)];
-        if (here.size() == 0 || here.size() > most_at_a_position)
-          continue;
-        is_known = true;
-        is_here = is_here && (std::binary_search(here.begin(), here.end(), name) ||
-                              std::binary_search(here.begin(), here.end(), names.none()));
-      }
-      if (is_known && is_here)
-        return name;
-      if (!shape)
-        shape.emplace(m_original.soup, before, m_exponent);
-      const Index nearest = names.before(before[shape->nearest(centre(t))]);
-      return nearest == names.none() ? name : nearest;
-    };
-
-    // Patches: triangles of one name with common vertices.
-    std::vector<std::tuple<Index, Index, Index>> corners; // vertex, name, number in `now`
-    for (Index i = 0; i < now.size(); ++i)
-      for (const Index vertex : m_result.soup.triangles[now[i]])
-        corners.emplace_back(vertex, names.now(now[i]), i);
-    std::sort(corners.begin(), corners.end());
-    Disjoint_sets patches(now.size());
-    for (std::size_t i = 1; i < corners.size(); ++i)
-      if (std::get<0>(corners[i]) == std::get<0>(corners[i - 1]) &&
-          std::get<1>(corners[i]) == std::get<1>(corners[i - 1]))
-        patches.unite(std::get<2>(corners[i]), std::get<2>(corners[i - 1]));
-    struct Patch
-    {
-      std::size_t faces = 0, right = 0;
-      std::map<Index, std::size_t> others;
-    };
-    std::map<std::size_t, Patch> found;
-    for (Index i = 0; i < now.size(); ++i) {
-      Patch& patch = found[patches.find(i)];
-      ++patch.faces;
-      const Index name = name_before(now[i]);
-      if (name == names.now(now[i]))
-        ++patch.right;
-      else
-        ++patch.others[name];
-    }
-    const auto quoted = [&](Index name) {
-      return name == names.none() ? "no name" : "'" + names.text(name) + "'";
-    };
-    bool is_any_wrong = false;
-    for (const auto& [first, patch] : found) {
-      if (2 * patch.right >= patch.faces)
-        continue;
-      is_any_wrong = true;
-      const auto most = std::max_element(patch.others.begin(), patch.others.end(),
-                                         [](const auto& a, const auto& b) { return a.second < b.second; });
-      add_mismatch(Mismatch::name, match.of_original, match.of_result,
-                   std::string("the ") + what + " of " + counted(patch.faces, "face") + " of " +
-                       describe(m_result, m_result.piece(now[first])) + " of the result is " +
-                       quoted(names.now(now[first])) + ", where the original has " + quoted(most->first));
-    }
-    if (is_any_wrong)
-      return;
-    for (const auto& [name, triangle] : is_there)
-      if (name != names.none() && is_left.count(name) == 0)
-        add_mismatch(Mismatch::name, match.of_original, match.of_result,
-                     std::string("the ") + what + ' ' + quoted(name) + " of " +
-                         describe(m_original, m_original.piece(triangle)) +
-                         " of the original has no face left in the result");
   }
 
   // ---- Shapes
@@ -770,7 +518,7 @@ private:
   Verify_options m_options;
   std::vector<Index> m_positions;
   std::size_t m_position_count;
-  Mesh m_result, m_original;
+  Piece_mesh m_result, m_original;
   int m_exponent;
   Lists m_original_at; ///< the pieces of the original at each position
   std::vector<Index> m_match_of_result, m_match_of_original;

@@ -3,6 +3,8 @@
 
 #include <selvedge/verify.h>
 
+#include "rounded.h"
+
 #include <oneapi/tbb/parallel_invoke.h>
 
 #include <utility>
@@ -19,7 +21,12 @@ Verification verify(const Triangle_soup& mesh)
 
 Verification verify(const Triangle_soup& result, const Triangle_soup& original, const Verify_options& options)
 {
-  return verify(result, original, offending_pairs(original), options);
+  if (!internal::is_only_first_rounded(result, original))
+    return verify(result, original, offending_pairs(original), options);
+  const Triangle_soup rounded = internal::rounded(original);
+  Verification verification = verify(result, rounded, offending_pairs(rounded), options);
+  verification.is_original_rounded = true;
+  return verification;
 }
 
 Verification verify(const Triangle_soup& result, const Triangle_soup& original,

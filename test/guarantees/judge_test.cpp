@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <selvedge/mesh/mesh_files.h>
+#include <selvedge/mesh/rounding.h>
 #include <selvedge/verify.h>
 
 #include "support/soups.h"
@@ -42,6 +43,22 @@ TEST(Judge, AcceptsAResultWhoseDefectsAreThoseOfItsOriginal)
   ASSERT_TRUE(found.distances.has_value());
   EXPECT_EQ(found.distances->result_to_original.maximum, 0);
   EXPECT_EQ(found.distances->original_to_result.maximum, 0);
+}
+
+// Offending pairs are known by positions, which rounding moves.
+TEST(Judge, AcceptsTheDefectsOfAnOriginalThatWasRoundedForTheResult)
+{
+  const auto odd = [](const Point_3& p) { return Point_3(p.x() / 3, p.y() / 7, p.z() + 0.1); };
+  const Triangle_soup original = mapped(joined(crossing(), sheet(4, 4, 20)), odd);
+  Triangle_soup result = original;
+  round_to_float32(result);
+  const Verification found = verify(result, original);
+  EXPECT_TRUE(found.is_original_rounded);
+  EXPECT_EQ(found.pairs.size(), 1u);
+  EXPECT_TRUE(found.accepted());
+  EXPECT_EQ(verify(result, original, offending_pairs(original)).new_pairs.size(), 1u) << "the control";
+  EXPECT_FALSE(verify(original, original).is_original_rounded);
+  EXPECT_FALSE(verify(result, result).is_original_rounded);
 }
 
 TEST(Judge, RefusesANewPair)

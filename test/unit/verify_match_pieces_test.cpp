@@ -264,8 +264,7 @@ TEST(MatchPieces, ByPositionsWhereVerticesAreNumberedDifferently)
   result = unshared(coarse());
   result.triangles.erase(result.triangles.begin() + 10);
   const Piece_matching holed = match_pieces(result, fine());
-  ASSERT_FALSE(holed.is_complete());
-  EXPECT_EQ(holed.mismatches[0].what, Mismatch::topology);
+  EXPECT_EQ(mismatches(holed), Mismatches{Mismatch::topology});
 }
 
 /// A band of `squares` × 1 squares between heights 8 and 9, on the border of `layer(squares, 0)`.
@@ -317,10 +316,14 @@ TEST(MatchPieces, OfBordersThatWereJoinedNeedTheDistance)
   ASSERT_EQ(pieces(result).size(), 1u);
 
   const Piece_matching refused = match_pieces(result, original);
-  EXPECT_FALSE(refused.is_complete());
+  ASSERT_EQ(mismatches(refused), Mismatches{Mismatch::topology});
+  EXPECT_NE(refused.mismatches[0].message.find("give the weld distance"), std::string::npos);
   Verify_options options;
   options.weld_distance = 0.02;
   EXPECT_EQ(way(match_pieces(result, original, options)), Matched_by::borders);
+  options.weld_distance = 0.004;
+  EXPECT_EQ(mismatches(match_pieces(result, original, options)), Mismatches{Mismatch::topology});
+  options.weld_distance = 0.02;
   // What else is wrong is found with it as well.
   EXPECT_EQ(mismatches(match_pieces(layer(4, 0), original, options)), Mismatches{Mismatch::missing});
 }
@@ -369,6 +372,25 @@ TEST(MatchPieces, ByDistanceWhereNoVertexIsTheOriginals)
 
   EXPECT_EQ(mismatches(shaken(without_piece(coarse(), 0)), fine()), Mismatches{Mismatch::missing});
   EXPECT_EQ(mismatches(shaken(joined(coarse(), layer(4, 1))), fine()), Mismatches{Mismatch::added});
+}
+
+// Layers lie closer together than the original lies to any layer of the result.
+TEST(MatchPieces, ByDistanceWhereLayersAreClose)
+{
+  const auto layered = [](Index squares) {
+    Triangle_soup result;
+    for (int i = 0; i < 3; ++i)
+      result = joined(result, layer(squares, 0.05 * i));
+    return mapped(result, [&](const Point_3& p) {
+      return Point_3(p.x(), p.y(), p.z() + std::sin(p.x()) * std::sin(p.y()));
+    });
+  };
+  const Triangle_soup result =
+      mapped(layered(8), [](const Point_3& p) { return Point_3(p.x(), p.y(), p.z() + 1e-6); });
+  const Piece_matching matching = match_pieces(result, layered(64));
+  EXPECT_EQ(way(matching), Matched_by::distance);
+  for (const Piece_match& match : matching.matches)
+    EXPECT_EQ(match.of_original, match.of_result);
 }
 
 TEST(MatchPieces, FindAPieceThatIsElsewhere)

@@ -1,0 +1,173 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "match_names.h"
+
+#include "Disjoint_sets.h"
+#include "Shape.h"
+#include "part_names.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+namespace selvedge::internal {
+namespace {
+
+class Name_matching
+{
+public:
+  Name_matching(Piece_matching& matching, const Piece_mesh& result, const Piece_mesh& original,
+                std::size_t position_count, int exponent)
+      : m_matching(matching), m_result(result), m_original(original), m_position_count(position_count),
+        m_exponent(exponent)
+  {
+  }
+
+  void run()
+  {
+    const auto judge = [&](const char* what, const Triangle_labels& now, const Triangle_labels& before) {
+      if (now.empty() && before.empty())
+        return;
+      if (now.empty() || before.empty()) {
+        m_matching.names_not_compared.push_back(what);
+        return;
+      }
+      const Common_names names(m_result.soup, now, m_original.soup, before);
+      if (!names.is_any_common()) {
+        m_matching.names_not_compared.push_back(what);
+        return;
+      }
+      m_matching.names_compared.push_back(what);
+      judge_names(what, names);
+    };
+    judge("group", m_result.soup.groups, m_original.soup.groups);
+    judge("object", m_result.soup.objects, m_original.soup.objects);
+    judge("material", m_result.soup.materials, m_original.soup.materials);
+  }
+
+private:
+  void judge_names(const char* what, const Common_names& names)
+  {
+    if (names.is_one())
+      return;
+    std::vector<Pair> pairs;
+    for (Index t = 0; t < m_original.soup.triangles.size(); ++t)
+      for (int place = 0; m_original.piece(t) != no_piece && place < 3; ++place) {
+        const Pair pair(m_original.position(t, place), names.before(t));
+        if (pairs.empty() || pairs.back() != pair)
+          pairs.push_back(pair);
+      }
+    const Lists names_at(m_position_count, std::move(pairs));
+    for (const Piece_match& match : m_matching.matches)
+      judge_names(what, names, names_at, match);
+  }
+
+  void judge_names(const char* what, const Common_names& names, const Lists& names_at,
+                   const Piece_match& match)
+  {
+    const std::vector<Index> now = m_result.triangles_of(match.of_result),
+                             before = m_original.triangles_of(match.of_original);
+    std::map<Index, Index> is_there; // the names of the original, with a triangle of each
+    for (const Index t : before)
+      is_there.emplace(names.before(t), t);
+    std::map<Index, Index> is_left;
+    for (const Index t : now)
+      is_left.emplace(names.now(t), t);
+    if (is_there.size() == 1 && is_left.size() == 1 && is_there.begin()->first == is_left.begin()->first)
+      return;
+
+    std::optional<Shape> shape;
+    // The name that the original has where a triangle of the result is, or the triangle's own if that is one
+    // of several.
+    const auto name_before = [&](Index t) {
+      const Index name = names.now(t);
+      bool is_known = false, is_here = true;
+      for (int place = 0; place < 3; ++place) {
+        const Lists::Range here = names_at[m_result.position(t, place)];
+        if (here.size() == 0 || here.size() > most_at_a_position)
+          continue;
+        is_known = true;
+        is_here = is_here && (std::binary_search(here.begin(), here.end(), name) ||
+                              std::binary_search(here.begin(), here.end(), names.none()));
+      }
+      if (is_known && is_here)
+        return name;
+      if (!shape)
+        shape.emplace(m_original.soup, before, m_exponent);
+      const Index nearest = names.before(before[shape->nearest(centre(m_result.soup, t, m_exponent))]);
+      return nearest == names.none() ? name : nearest;
+    };
+
+    // Patches: triangles of one name with common vertices.
+    std::vector<std::tuple<Index, Index, Index>> corners; // vertex, name, number in `now`
+    for (Index i = 0; i < now.size(); ++i)
+      for (const Index vertex : m_result.soup.triangles[now[i]])
+        corners.emplace_back(vertex, names.now(now[i]), i);
+    std::sort(corners.begin(), corners.end());
+    Disjoint_sets patches(now.size());
+    for (std::size_t i = 1; i < corners.size(); ++i)
+      if (std::get<0>(corners[i]) == std::get<0>(corners[i - 1]) &&
+          std::get<1>(corners[i]) == std::get<1>(corners[i - 1]))
+        patches.unite(std::get<2>(corners[i]), std::get<2>(corners[i - 1]));
+    struct Patch
+    {
+      std::size_t faces = 0, right = 0;
+      std::map<Index, std::size_t> others;
+    };
+    std::map<std::size_t, Patch> found;
+    for (Index i = 0; i < now.size(); ++i) {
+      Patch& patch = found[patches.find(i)];
+      ++patch.faces;
+      const Index name = name_before(now[i]);
+      if (name == names.now(now[i]))
+        ++patch.right;
+      else
+        ++patch.others[name];
+    }
+    const auto quoted = [&](Index name) {
+      return name == names.none() ? "no name" : "'" + names.text(name) + "'";
+    };
+    bool is_any_wrong = false;
+    for (const auto& [first, patch] : found) {
+      if (2 * patch.right >= patch.faces)
+        continue;
+      is_any_wrong = true;
+      const auto most = std::max_element(patch.others.begin(), patch.others.end(),
+                                         [](const auto& a, const auto& b) { return a.second < b.second; });
+      add(match, std::string("the ") + what + " of " + counted(patch.faces, "face") + " of " +
+                     describe(m_result, m_result.piece(now[first])) + " of the result is " +
+                     quoted(names.now(now[first])) + ", where the original has " + quoted(most->first));
+    }
+    if (is_any_wrong)
+      return;
+    for (const auto& [name, triangle] : is_there)
+      if (name != names.none() && is_left.count(name) == 0)
+        add(match, std::string("the ") + what + ' ' + quoted(name) + " of " +
+                       describe(m_original, m_original.piece(triangle)) +
+                       " of the original has no face left in the result");
+  }
+
+  void add(const Piece_match& match, std::string message)
+  {
+    m_matching.mismatches.push_back({Mismatch::name, match.of_original, match.of_result, std::move(message)});
+  }
+
+  Piece_matching& m_matching;
+  const Piece_mesh& m_result;
+  const Piece_mesh& m_original;
+  std::size_t m_position_count;
+  int m_exponent;
+};
+
+} // namespace
+
+void match_names(Piece_matching& matching, const Piece_mesh& result, const Piece_mesh& original,
+                 std::size_t position_count, int exponent)
+{
+  Name_matching(matching, result, original, position_count, exponent).run();
+}
+
+} // namespace selvedge::internal
