@@ -19,6 +19,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -166,7 +167,7 @@ private:
   // ---- 2 and 4: joined where positions coincide
 
   // For every position the pieces of the original there, and, for positions of the result, those with a
-  // border vertex within the weld distance.
+  // border vertex within the weld distance, or of which such a one leads there over borders of other pieces.
   Lists within_reach() const
   {
     std::vector<Pair> pairs;
@@ -200,27 +201,44 @@ private:
           }
     }
     const Triangle_tree tree(original.points, borders);
+    const bool is_rounded = has_float32_alone(m_result.soup);
+    const auto visit_near = [&](const Point_3& p, const auto& visit) {
+      const double largest = std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
+      const double reach = m_options.weld_distance * (1 + 1e-9) + (is_rounded ? largest * 0x1p-22 : 0);
+      const CGAL::Bbox_3 box(p.x() - reach, p.y() - reach, p.z() - reach, p.x() + reach, p.y() + reach,
+                             p.z() + reach);
+      tree.visit([&](const CGAL::Bbox_3& other) { return CGAL::do_overlap(box, other); },
+                 [&](Index border) {
+                   const Point_3& q = original.points[borders[border][0]];
+                   if (std::hypot(p.x() - q.x(), p.y() - q.y(), p.z() - q.z()) <= reach)
+                     visit(q, pieces[border]);
+                 });
+    };
     std::vector<bool> is_done(m_position_count);
     for (const Index vertex : used_vertices(m_result.soup)) {
       const Index position = m_result.positions[vertex];
       if (is_done[position] || m_original_at[position].size() == 0)
         continue;
       is_done[position] = true;
-      const Point_3& p = m_result.soup.points[vertex];
-      const double largest = std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
-      // Two borders may have gone to one that lies between them, and have been rounded to 32-bit floats.
-      const double reach = 2 * m_options.weld_distance * (1 + 1e-9) + largest * 0x1p-22;
-      const CGAL::Bbox_3 box(p.x() - reach, p.y() - reach, p.z() - reach, p.x() + reach, p.y() + reach,
-                             p.z() + reach);
-      const std::size_t first = pairs.size();
-      tree.visit([&](const CGAL::Bbox_3& other) { return CGAL::do_overlap(box, other); },
-                 [&](Index border) {
-                   const Point_3& q = original.points[borders[border][0]];
-                   if (std::hypot(p.x() - q.x(), p.y() - q.y(), p.z() - q.z()) <= reach)
-                     pairs.emplace_back(position, pieces[border]);
-                 });
-      std::sort(pairs.begin() + std::ptrdiff_t(first), pairs.end());
-      pairs.erase(std::unique(pairs.begin() + std::ptrdiff_t(first), pairs.end()), pairs.end());
+      // Where several pieces meet, a border may have gone on with the one that it was joined to: from every
+      // piece in reach to those in reach of its border.
+      const Lists::Range here = m_original_at[position];
+      std::set<Index> reached(here.begin(), here.end());
+      std::vector<Point_3> at{m_result.soup.points[vertex]}, next;
+      for (; !at.empty() && reached.size() <= most_at_a_position; at.swap(next)) {
+        const std::set<Index> before = reached;
+        next.clear();
+        for (const Point_3& p : at)
+          visit_near(p, [&](const Point_3& q, Index piece) {
+            if (before.count(piece) > 0)
+              return;
+            reached.insert(piece);
+            next.push_back(q);
+          });
+      }
+      for (const Index piece : reached)
+        if (!std::binary_search(here.begin(), here.end(), piece))
+          pairs.emplace_back(position, piece);
     }
   }
 

@@ -8,23 +8,31 @@
 
 #include <selvedge/mesh/rounding.h>
 
+#include <cmath>
 #include <limits>
 
 namespace selvedge::internal {
 
-/// Whether all coordinates that the triangles of one soup use are 32-bit floats, and not all of another,
-/// which could be rounded to such.
+/// Whether all coordinates that the triangles of a soup use are 32-bit floats.
+inline bool has_float32_alone(const Triangle_soup& soup)
+{
+  for (const Index vertex : used_vertices(soup))
+    for (int axis = 0; axis < 3; ++axis)
+      if (!is_float32(soup.points[vertex][axis]))
+        return false;
+  return true;
+}
+
+/// Whether that holds for one soup, and not for another, which could be rounded to such.
 inline bool is_only_first_rounded(const Triangle_soup& first, const Triangle_soup& second)
 {
-  const auto are_all = [](const Triangle_soup& soup, const auto& holds) {
-    for (const Index vertex : used_vertices(soup))
-      for (int axis = 0; axis < 3; ++axis)
-        if (!holds(soup.points[vertex][axis]))
-          return false;
-    return true;
-  };
-  const auto is_in_range = [](double value) { return std::abs(value) <= std::numeric_limits<float>::max(); };
-  return are_all(first, is_float32) && !are_all(second, is_float32) && are_all(second, is_in_range);
+  if (!has_float32_alone(first) || has_float32_alone(second))
+    return false;
+  for (const Index vertex : used_vertices(second))
+    for (int axis = 0; axis < 3; ++axis)
+      if (std::abs(second.points[vertex][axis]) > std::numeric_limits<float>::max())
+        return false;
+  return true;
 }
 
 /// The triangles of a soup and their names, rounded to 32-bit floats.

@@ -209,7 +209,8 @@ TEST(App_verify, AcceptsClosedSeamsThatItIsToldOf)
     EXPECT_NE(accepted.out.find("whose borders were joined, and whether these borders should have been"),
               std::string::npos)
         << accepted.out;
-    EXPECT_EQ(verdict(out, out[0] == 's', {"--weld", "0.01"}).code, 1);
+    for (const char* const too_near : {"0.01", "0.04", "0.0624"})
+      EXPECT_EQ(verdict(out, out[0] == 's', {"--weld", too_near}).code, 1);
   }
 }
 

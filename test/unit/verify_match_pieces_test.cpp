@@ -321,11 +321,33 @@ TEST(MatchPieces, OfBordersThatWereJoinedNeedTheDistance)
   Verify_options options;
   options.weld_distance = 0.02;
   EXPECT_EQ(way(match_pieces(result, original, options)), Matched_by::borders);
-  options.weld_distance = 0.004;
-  EXPECT_EQ(mismatches(match_pieces(result, original, options)), Mismatches{Mismatch::topology});
+  for (const double too_near : {0.004, 0.006, 0.0099}) {
+    options.weld_distance = too_near;
+    EXPECT_EQ(mismatches(match_pieces(result, original, options)), Mismatches{Mismatch::topology});
+  }
   options.weld_distance = 0.02;
   // What else is wrong is found with it as well.
   EXPECT_EQ(mismatches(match_pieces(layer(4, 0), original, options)), Mismatches{Mismatch::missing});
+}
+
+// Three borders in a row come to one: the farthest has gone two ways.
+TEST(MatchPieces, OfBordersThatWereJoinedOverAThird)
+{
+  const double gap = 0.01;
+  const auto corner = [](double x, double y, double to_x, double to_y) {
+    return soup({{x, y, 0}, {to_x, to_y, 0}, {to_x - to_y, to_y + to_x, 0}}, {{0, 1, 2}});
+  };
+  const Triangle_soup first = corner(0, 0, 3, 0);
+  const Triangle_soup original = joined(joined(first, corner(-gap, 0, -3, 0)), corner(-2 * gap, 0, -3, -4));
+  Triangle_soup result = original;
+  for (Index_triple& triangle : result.triangles)
+    triangle[0] = 0;
+  ASSERT_EQ(pieces(result).size(), 1u);
+  Verify_options options;
+  options.weld_distance = 0.011;
+  EXPECT_EQ(way(match_pieces(result, original, options)), Matched_by::borders);
+  options.weld_distance = 0.009;
+  EXPECT_FALSE(match_pieces(result, original, options).is_complete());
 }
 
 // Pieces that were joined elsewhere than at their borders are not.
