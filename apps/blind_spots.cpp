@@ -60,8 +60,8 @@ std::vector<std::string> blind_spots(const Verification& verification, const Com
     lines.push_back("exchanged names of " + kind +
                     "s: only one of the files has any, or they have none in common");
   lines.push_back("names that were exchanged in less than half of a patch of faces of one name");
-  lines.push_back("exchanged values of attributes such as texture coordinates: those that are not the "
-                  "original's at their position are counted, and not judged");
+  lines.push_back("values of attributes such as texture coordinates that are gone, exchanged or not the "
+                  "original's at their position: they are counted, and not judged");
   lines.push_back(
       "pairs of pieces that lie at the same positions and have exchanged their places in the file");
   return lines;

@@ -178,7 +178,8 @@ struct Verify_options
 
 /// Matches the pieces of a result with those of its original, one to one, in this order:
 /// 1. by vertices: at least half of the positions of the one are positions of the other, and the kinds are
-///    the same. Of several such, the one with most common positions, and of those one with the same names;
+///    the same: boundary loops, Euler characteristic, and whether some edge has more than two faces. Of
+///    several such, the one with most common positions, and of those one with the same names;
 /// 2. by positions: what is left over, and all that has faces in common with it by positions, is joined where
 ///    positions coincide. Files that number vertices otherwise (STL, seams of textures in glTF) pass here;
 /// 3. by distance, for results whose vertices are not the original's: pieces of one kind of which each is, up

@@ -76,7 +76,9 @@ std::string counted(std::size_t count, const char* noun)
 
 std::string describe(const Kind& kind)
 {
-  return counted(kind.first, "boundary loop") + " and Euler characteristic " + std::to_string(kind.second);
+  const auto [loops, euler_characteristic, is_non_manifold] = kind;
+  return counted(loops, "boundary loop") + (is_non_manifold ? ", edges of more than two faces" : "") +
+         " and Euler characteristic " + std::to_string(euler_characteristic);
 }
 
 std::string describe(const Piece_mesh& mesh, Index piece)

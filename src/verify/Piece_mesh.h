@@ -9,7 +9,7 @@
 
 #include <cstddef>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 namespace selvedge::internal {
@@ -18,12 +18,12 @@ namespace selvedge::internal {
 /// linear.
 constexpr std::size_t most_at_a_position = 64;
 
-/// Boundary loops, and the Euler characteristic.
-using Kind = std::pair<std::size_t, long>;
+/// Boundary loops, the Euler characteristic, and whether some edge has more than two faces.
+using Kind = std::tuple<std::size_t, long, bool>;
 
 inline Kind kind(const Piece& piece)
 {
-  return {piece.boundary_loops, piece.euler_characteristic};
+  return {piece.boundary_loops, piece.euler_characteristic, piece.non_manifold_edges > 0};
 }
 
 /// One of two meshes whose pieces are matched: its triangles of three distinct positions, and their pieces.
@@ -54,7 +54,7 @@ struct Piece_mesh
 /// "1 face", "2000 faces".
 std::string counted(std::size_t count, const char* noun);
 
-/// "2 boundary loops and Euler characteristic 0"
+/// "2 boundary loops and Euler characteristic 0", "1 boundary loop, edges of more than two faces and ..."
 std::string describe(const Kind& kind);
 
 /// "piece 3 ('lining', 421 faces around (0.1, 0.9, 0))"

@@ -174,6 +174,18 @@ TEST(MatchPieces, FindAnotherTopology)
       "Euler characteristic 1");
 }
 
+// Its border meets that of the layer, so that there are as many loops, and the Euler characteristic stays.
+TEST(MatchPieces, FindAFinOnAnInnerEdge)
+{
+  Triangle_soup result = coarse();
+  result.points.emplace_back(1, 1, 0.5);
+  const Index top = Index(result.points.size() - 1);
+  ASSERT_EQ(result.triangles[0], (Index_triple{0, 1, 6}));
+  result.triangles.push_back({0, 6, top});
+  EXPECT_TRUE(topology_differences(pieces(result), pieces(fine())).empty()) << "the control";
+  EXPECT_EQ(mismatches(result, fine()), Mismatches{Mismatch::topology});
+}
+
 // A ring lost its hole, and a sheet got one: the counts of kinds are the same.
 TEST(MatchPieces, FindKindsThatWereExchanged)
 {
