@@ -15,11 +15,22 @@ using Point_2 = Kernel::Point_2;
 /// same size; any choice is good in which ears can be cut.
 int widest_view(const std::vector<Point_3>& points, const std::vector<Index>& corners)
 {
+  // At one size areas neither overflow nor vanish.
+  double largest = 0;
+  for (const Index corner : corners)
+    for (int axis = 0; axis < 3; ++axis)
+      largest = std::max(largest, std::abs(points[corner][axis]));
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  const auto from_first = [&, &first = points[corners[0]]](Index corner) {
+    const auto side = [&](int axis) {
+      return std::ldexp(points[corner][axis], -exponent) - std::ldexp(first[axis], -exponent);
+    };
+    return Kernel::Vector_3(side(0), side(1), side(2));
+  };
   std::array<double, 3> area = {0, 0, 0};
-  const Point_3& origin = points[corners[0]];
   for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-    const Kernel::Vector_3 normal =
-        CGAL::cross_product(points[corners[i]] - origin, points[corners[i + 1]] - origin);
+    const Kernel::Vector_3 normal = CGAL::cross_product(from_first(corners[i]), from_first(corners[i + 1]));
     for (int axis = 0; axis < 3; ++axis)
       area[axis] += normal[axis];
   }

@@ -91,7 +91,18 @@ std::string message_of_limit(Violation_kind kind, double limit)
 
 void Limits::set_size(const Coordinates& low, const Coordinates& high)
 {
-  m_diagonal = length(difference(high, low));
+  double largest = 0;
+  for (const Coordinates& corner : {low, high})
+    for (const double coordinate : corner)
+      largest = std::max(largest, std::abs(coordinate));
+  std::frexp(largest, &m_exponent);
+  m_diagonal = length(difference(scaled(high), scaled(low)));
+}
+
+Coordinates Limits::scaled(const Coordinates& point) const
+{
+  return {std::ldexp(point[0], -m_exponent), std::ldexp(point[1], -m_exponent),
+          std::ldexp(point[2], -m_exponent)};
 }
 
 std::optional<Violation_kind> Limits::judge(const Complex& complex, Index removed, Index kept,
@@ -125,15 +136,16 @@ std::optional<Violation_kind> Limits::judge_line(const Complex& complex, Index m
   const Complex::Edge& behind = lines[ahead == lines.begin() ? 1 : 0];
   if (behind.is_border() != ahead->is_border())
     return Violation_kind::line;
-  const Coordinates &m = complex.point(mover), &u = complex.point(behind.neighbour);
+  const Coordinates m = scaled(complex.point(mover)), u = scaled(complex.point(behind.neighbour)),
+                    p = scaled(place);
   const auto& turn = ahead->is_border() ? m_limits.border_turn : m_limits.seam_turn;
-  if (turn && !is_angle_within(difference(m, u), difference(place, m), *turn))
+  if (turn && !is_angle_within(difference(m, u), difference(p, m), *turn))
     return ahead->is_border() ? Violation_kind::border_turn : Violation_kind::seam_turn;
   if (!m_limits.border_drift)
     return std::nullopt;
   const double most = *m_limits.border_drift * m_diagonal * (1 + limit_tolerance);
-  const auto is_far = [&](const Coordinates& p) { return distance_to_segment(p, u, place) > most; };
-  if (is_far(m))
+  const auto is_far = [&](const Coordinates& q) { return distance_to_segment(scaled(q), u, p) > most; };
+  if (is_far(complex.point(mover)))
     return Violation_kind::border_drift;
   for (const Index neighbour : {behind.neighbour, other})
     if (const auto* passed = complex.passed(mover, neighbour))
@@ -152,11 +164,12 @@ std::optional<Violation_kind> Limits::judge_shapes(const Complex& complex, Index
       if (complex.has(f, other))
         continue;
       const auto [p, q] = complex.opposite_side(f, mover);
-      const Coordinates &m = complex.point(mover), &a = complex.point(p), &b = complex.point(q);
+      const Vector m = scaled(complex.point(mover)), a = scaled(complex.point(p)),
+                   b = scaled(complex.point(q)), goal = scaled(place);
       least_before = std::min(least_before, aspect_ratio(m, a, b));
-      least_after = std::min(least_after, aspect_ratio(place, a, b));
+      least_after = std::min(least_after, aspect_ratio(goal, a, b));
       const Vector before = cross(difference(a, m), difference(b, m));
-      const Vector after = cross(difference(a, place), difference(b, place));
+      const Vector after = cross(difference(a, goal), difference(b, goal));
       if (m_limits.normal_change && length(before) > 0)
         is_turned =
             is_turned || !(length(after) > 0) || !is_angle_within(before, after, *m_limits.normal_change);

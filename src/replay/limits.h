@@ -32,7 +32,8 @@ class Limits
 public:
   explicit Limits(const Reduction_limits& limits) : m_limits(limits) {}
 
-  /// The bounding box that the drift is a share of.
+  /// The bounding box that the drift is a share of, and by the largest coordinate of which all coordinates
+  /// are brought to one size: areas and their squares then neither overflow nor vanish.
   void set_size(const Coordinates& low, const Coordinates& high);
 
   /// The first limit that is not kept when `removed` and `kept` merge at `place`.
@@ -49,6 +50,9 @@ private:
                                              const Coordinates& place, bool is_kept_still) const;
 
   Reduction_limits m_limits;
+  Coordinates scaled(const Coordinates& point) const;
+
+  int m_exponent = 0;
   double m_diagonal = 0;
 };
 
