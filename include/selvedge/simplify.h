@@ -29,6 +29,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <sstream>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -239,6 +240,7 @@ public:
         m_normal_change(options.max_normal_change, m_aspect_ratio),
         m_uv({options.check_uv_orientation ? &observer : nullptr, m_rule}, m_normal_change)
   {
+    refuse_out_of_range();
     if (!(options.uv_weight >= 0 && std::isfinite(options.uv_weight)))
       throw Argument_error("the weight of the texture is at least 0, and finite");
     m_quadrics.weigh(constraints.vertex_weights);
@@ -557,14 +559,38 @@ private:
     return targets;
   }
 
-  static double diagonal(const TriangleMesh& mesh)
+  static CGAL::Bbox_3 bounding_box(const TriangleMesh& mesh)
   {
     CGAL::Bbox_3 box;
     for (const auto v : vertices(mesh))
       box += get(get(CGAL::vertex_point, mesh), v).bbox();
+    return box;
+  }
+
+  static double diagonal(const TriangleMesh& mesh)
+  {
+    const CGAL::Bbox_3 box = bounding_box(mesh);
     return box.xmin() <= box.xmax()
                ? std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin())
                : 0;
+  }
+
+  // All that is computed about quality is a sum of less than 2^40 products of at most four lengths, none
+  // longer than the diagonal D = 2^d, and of factors that make less than 2^10, weights aside: it is less than
+  // 2^(4d + 50), and does not overflow for d up to 200. The length of the normal of a triangle, twice its
+  // area A, is squared for comparisons; the square keeps all digits where 2A > 2^-500. With d at least -200
+  // that holds for all triangles with an area of more than 2^-100 D².
+  void refuse_out_of_range() const
+  {
+    if (m_diagonal == 0 || (m_diagonal >= 0x1p-200 && m_diagonal <= 0x1p200))
+      return;
+    const CGAL::Bbox_3 box = bounding_box(m_mesh);
+    std::ostringstream text;
+    text
+        << "the bounding box of the mesh, " << box << ", is too " << (m_diagonal < 1 ? "small" : "large")
+        << ": its diagonal is to be from 2^-200 to 2^200, so that squares of areas are numbers; multiply all "
+           "coordinates by a power of two, which loses no digit, and those of the result by its inverse";
+    throw Argument_error(text.str());
   }
 
   Refusals refusals() const
@@ -664,9 +690,11 @@ private:
 /// for soups below does that.)
 ///
 /// **Preconditions** the caller must ensure: the faces are triangles; `TriangleMesh` is a mutable face graph
-/// whose points are of a kernel with exact predicates. Checked at run time: options in range, no edge of
-/// length zero
-/// (`Argument_error`).
+/// whose points are of a kernel with exact predicates. Checked at run time (`Argument_error`): options in
+/// range, no edge of length zero, the diagonal of the bounding box 0 or from 2^-200 to 2^200. Within that
+/// range nothing about quality overflows, and nothing vanishes but areas of less than 2^-100 of the squared
+/// diagonal; where there are none, the steps of a mesh and of one that is larger by a power of two are the
+/// same. Soups (simplify_soup.h) may have any size.
 ///
 /// **Exactness** Everything about intersections, by exact predicates alone; everything about quality, in
 /// floating point.
