@@ -27,12 +27,13 @@ using Triangle_3 = Kernel::Triangle_3;
 
 constexpr std::size_t s_pieces_reported = 100;
 
-double diagonal(const Triangle_soup& soup)
+// At the scale, as are all points in this file.
+double diagonal(const Triangle_soup& soup, const Scale& scale)
 {
   CGAL::Bbox_3 box;
   for (const Index_triple& triangle : soup.triangles)
     for (const Index v : triangle)
-      box += soup.points[v].bbox();
+      box += scale(soup.points[v]).bbox();
   const double length = std::hypot(box.x_span(), box.y_span(), box.z_span());
   return length > 0 ? length : 1;
 }
@@ -43,10 +44,10 @@ std::array<Uv, 3> uvs_of(const Triangle_soup& soup, Index t)
   return {soup.uvs.values[uv[0]], soup.uvs.values[uv[1]], soup.uvs.values[uv[2]]};
 }
 
-Triangle_3 triangle_of(const Triangle_soup& soup, Index t)
+Triangle_3 triangle_of(const Triangle_soup& soup, Index t, const Scale& scale)
 {
   const auto& [a, b, c] = soup.triangles[t];
-  return {soup.points[a], soup.points[b], soup.points[c]};
+  return {scale(soup.points[a]), scale(soup.points[b]), scale(soup.points[c])};
 }
 
 bool has_texture(const Triangle_soup& soup, Index t)
@@ -129,13 +130,13 @@ std::vector<double> uv_displacements(const Simplified_soup& result, const Prepar
 {
   const Triangle_soup& original = prepared.soup;
   std::vector<double> displacements;
-  const double unit = uv_unit(original) / diagonal(original);
+  const double unit = uv_unit(original, prepared.scale) / diagonal(original, prepared.scale);
   if (!(unit > 0))
     return displacements;
   const std::vector<Index> charts_of_original = charts_of(original);
   std::map<Index, Chart> charts;
   for (Index i = 0; i < result.triangles.size(); ++i)
-    charts[charts_of_original[result.triangles[i]]].insert(triangle_of(result.soup, i),
+    charts[charts_of_original[result.triangles[i]]].insert(triangle_of(result.soup, i, prepared.scale),
                                                            uvs_of(result.soup, i));
   for (auto& [number, chart] : charts)
     chart.build();
@@ -146,7 +147,7 @@ std::vector<double> uv_displacements(const Simplified_soup& result, const Prepar
     if (!has_texture(original, t) || chart == charts.end() || chart->second.empty())
       return;
     const auto [a, b, c] = uvs_of(original, t);
-    const Triangle_3 triangle = triangle_of(original, t);
+    const Triangle_3 triangle = triangle_of(original, t, prepared.scale);
     const Uv now = chart->second.uv_near(CGAL::centroid(triangle[0], triangle[1], triangle[2]));
     displacements[t] =
         unit * std::hypot(now[0] - (a[0] + b[0] + c[0]) / 3, now[1] - (a[1] + b[1] + c[1]) / 3);
@@ -154,14 +155,14 @@ std::vector<double> uv_displacements(const Simplified_soup& result, const Prepar
   return displacements;
 }
 
-std::optional<Uv_deviation> deviation_of(const std::vector<double>& displacements, const Triangle_soup& soup,
-                                         const std::vector<Index>& triangles)
+std::optional<Uv_deviation> deviation_of(const std::vector<double>& displacements,
+                                         const Prepared_soup& original, const std::vector<Index>& triangles)
 {
   double area = 0, sum = 0, maximum = 0;
   for (const Index t : triangles) {
-    if (displacements.empty() || !has_texture(soup, t))
+    if (displacements.empty() || !has_texture(original.soup, t))
       continue;
-    const double weight = std::sqrt(triangle_of(soup, t).squared_area());
+    const double weight = std::sqrt(triangle_of(original.soup, t, original.scale).squared_area());
     area += weight;
     sum += weight * displacements[t];
     maximum = std::max(maximum, displacements[t]);
@@ -174,7 +175,7 @@ std::optional<Uv_deviation> deviation_of(const std::vector<double>& displacement
 /// The geometry of some parts, each as a soup of its own.
 std::vector<Triangle_soup> cut_out(const Triangle_soup& soup,
                                    const std::vector<std::vector<Index>>& triangles_of_part,
-                                   const std::vector<Index>& parts)
+                                   const std::vector<Index>& parts, const Scale& scale)
 {
   constexpr Index none = std::numeric_limits<Index>::max();
   std::vector<Index> last_users(soup.points.size(), none), numbers(soup.points.size());
@@ -186,7 +187,7 @@ std::vector<Triangle_soup> cut_out(const Triangle_soup& soup,
         if (last_users[v] != i) {
           last_users[v] = i;
           numbers[v] = Index(cuts[i].points.size());
-          cuts[i].points.push_back(soup.points[v]);
+          cuts[i].points.push_back(scale(soup.points[v]));
         }
         v = numbers[v];
       }
@@ -201,13 +202,13 @@ std::optional<Uv_deviation> uv_deviation(const Simplified_soup& result, const Pr
 {
   std::vector<Index> all(original.soup.triangles.size());
   std::iota(all.begin(), all.end(), Index(0));
-  return deviation_of(uv_displacements(result, original), original.soup, all);
+  return deviation_of(uv_displacements(result, original), original, all);
 }
 
 std::vector<Part_report> part_reports(const Simplified_soup& result, const Prepared_soup& original)
 {
   const std::vector<double> displacements = uv_displacements(result, original);
-  const double unit = diagonal(original.soup);
+  const double unit = diagonal(original.soup, original.scale);
   const std::vector<Part_kind> kinds = part_kinds(original.soup);
   std::vector<Part_report> reports;
   for (std::size_t k = 0; k < kinds.size(); ++k) {
@@ -229,8 +230,8 @@ std::vector<Part_report> part_reports(const Simplified_soup& result, const Prepa
     parts.erase(std::remove_if(parts.begin(), parts.end(),
                                [&](Index part) { return triangles_before[part].empty(); }),
                 parts.end());
-    const std::vector<Triangle_soup> before = cut_out(original.soup, triangles_before, parts);
-    const std::vector<Triangle_soup> after = cut_out(result.soup, triangles_after, parts);
+    const std::vector<Triangle_soup> before = cut_out(original.soup, triangles_before, parts, original.scale);
+    const std::vector<Triangle_soup> after = cut_out(result.soup, triangles_after, parts, original.scale);
     const std::size_t first = reports.size();
     reports.resize(first + parts.size());
     tbb::parallel_for(std::size_t(0), parts.size(), [&](std::size_t i) {
@@ -245,7 +246,7 @@ std::vector<Part_report> part_reports(const Simplified_soup& result, const Prepa
                             triangles_after[part].size(),
                             result.refused_by_part[k][part],
                             distance,
-                            deviation_of(displacements, original.soup, triangles_before[part])};
+                            deviation_of(displacements, original, triangles_before[part])};
     });
   }
   return reports;

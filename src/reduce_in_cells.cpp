@@ -20,7 +20,7 @@ namespace {
 
 constexpr double s_infinity = std::numeric_limits<double>::infinity();
 
-/// An open box, not bounded everywhere.
+/// An open box, not bounded everywhere, in coordinates at the scale of the whole.
 struct Box
 {
   std::array<double, 3> low{-s_infinity, -s_infinity, -s_infinity};
@@ -85,7 +85,7 @@ class Division
 {
 public:
   Division(const Whole& whole, Shared_stop& stop)
-      : m_soup(whole.prepared.soup), m_obstacle(whole.prepared.obstacle),
+      : m_soup(whole.prepared.soup), m_obstacle(whole.prepared.obstacle), m_scale(whole.prepared.scale),
         m_vertices_per_cell(whole.options.faces_per_cell / 2 + whole.options.faces_per_cell % 2), m_stop(stop)
   {
     std::vector<Index> vertices;
@@ -113,7 +113,7 @@ private:
     if (m_stop.ask())
       return;
     const int axis = longest_axis(first, beyond);
-    const auto coordinate = [&](Index v) { return m_soup.points[v][axis]; };
+    const auto coordinate = [&](Index v) { return m_scale(m_soup.points[v][axis]); };
     const Iterator middle = first + count / 2;
     std::nth_element(first, middle, beyond, [&](Index a, Index b) { return coordinate(a) < coordinate(b); });
     const double plane = coordinate(*middle);
@@ -141,7 +141,7 @@ private:
   {
     CGAL::Bbox_3 box;
     for (Iterator v = first; v != beyond; ++v)
-      box += m_soup.points[*v].bbox();
+      box += m_scale(m_soup.points[*v]).bbox();
     int longest = 0;
     for (int i = 1; i < 3; ++i)
       if (box.max(i) - box.min(i) > box.max(longest) - box.min(longest))
@@ -154,11 +154,13 @@ private:
     const bool is_own = t < m_soup.triangles.size();
     const Triangle_soup& soup = is_own ? m_soup : m_obstacle;
     const auto& [a, b, c] = soup.triangles[is_own ? t : t - m_soup.triangles.size()];
-    return std::minmax({soup.points[a][axis], soup.points[b][axis], soup.points[c][axis]});
+    return std::minmax(
+        {m_scale(soup.points[a][axis]), m_scale(soup.points[b][axis]), m_scale(soup.points[c][axis])});
   }
 
   const Triangle_soup& m_soup;
   const Triangle_soup& m_obstacle;
+  const Scale& m_scale;
   std::size_t m_vertices_per_cell;
   Shared_stop& m_stop;
   std::vector<Cell> m_cells;

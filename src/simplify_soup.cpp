@@ -162,7 +162,8 @@ public:
   Soup_reduction(const Prepared_soup& prepared, const Simplify_options& options,
                  const Simplify_intent& intent)
       : m_options(options), m_prepared(prepared), m_start(Clock::now()),
-        m_working(prepared.soup, prepared.positions, frozen(prepared, intent), prepared.obstacle),
+        m_working(prepared.soup, prepared.positions, frozen(prepared, intent), prepared.obstacle,
+                  prepared.scale),
         m_seconds_weld(seconds_since(m_start)),
         m_simplification(m_working.mesh(), m_options, constraints(prepared.soup, intent), m_working)
   {
@@ -214,7 +215,7 @@ private:
     if (!intent.weights.empty())
       m_working.weigh(vertex_weights(soup, intent.weights));
     if (m_options.uv_weight > 0)
-      m_working.measure_uvs(uv_unit(soup));
+      m_working.measure_uvs(uv_unit(soup, m_prepared.scale));
     m_working.count_refusals(part_kinds(soup));
     m_working.tell(m_options.on_collapse);
     return constraints;
@@ -353,6 +354,8 @@ Prepared_soup prepare(Triangle_soup input, const Prepare_options& options, const
     throw Input_error(
         "every triangle of the mesh has two corners at one position; there is nothing to reduce");
 
+  prepared.scale = Scale(soup, prepared.obstacle);
+
   start = Clock::now();
   const std::size_t own_triangles = soup.triangles.size();
   append(soup, prepared.obstacle);
@@ -384,7 +387,7 @@ Prepared_soup prepare(Triangle_soup input, const Prepare_options& options, const
   if (!transforms.empty()) // no node has the positions of an obstacle
     transforms.resize(soup.points.size(), std::numeric_limits<Index>::max());
   prepared.snapping = snap_borders(soup, prepared.positions, prepared.is_frozen, options.weld_distance,
-                                   transforms, prepared.obstacle.triangles.size());
+                                   transforms, prepared.obstacle.triangles.size(), prepared.scale);
   prepared.seconds_snap = seconds_since(start);
   take_away(soup, prepared.obstacle);
   return prepared;

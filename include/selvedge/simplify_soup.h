@@ -6,6 +6,7 @@
 
 #include <selvedge/Simplify_options.h>
 #include <selvedge/Simplify_report.h>
+#include <selvedge/mesh/Scale.h>
 #include <selvedge/mesh/Triangle_soup.h>
 #include <selvedge/mesh/Welding_notes.h>
 #include <selvedge/mesh/rounding.h>
@@ -49,6 +50,9 @@ struct Prepared_soup
   /// vertex of the soup from one of the obstacle.
   std::vector<Index> positions;
 
+  /// By what the reduction divides the points of both. All points here are as they came.
+  Scale scale;
+
   /// What keeps `soup` and `obstacle` together from being embedded; found exactly.
   std::vector<Offending_pair> offending_pairs;
 
@@ -76,7 +80,7 @@ struct Prepared_soup
 ///
 /// Throws `Input_error` when the input has no triangle, when a coordinate overflows in rounding, and, if
 /// strict, when it is not embedded: the message says how many pairs offend and names the first, by triangle
-/// numbers of the input.
+/// numbers of the input; and when coordinates are too far apart for one `Scale`.
 ///
 /// An `obstacle`, a body under the clothes, say, is seen by everything and never changed, not even rounded.
 /// Pairs that offend between it and the input are frozen like others, and so are faces of the input that only
@@ -144,6 +148,9 @@ struct Simplified_soup
 ///    vertex; texture seams and borders between groups are kept like them.
 /// 4. *Texture*: no triangle of the texture turns over.
 /// 5. The triangles left are in the order of the input, each with its first corner first.
+/// 6. *Scale*: a soup multiplied by any power of two, with its obstacle and its weld distance, as long as
+/// that
+///    loses no digit, takes the same steps, and its result is multiplied by the same.
 ///
 /// In cells (`Simplify_options::faces_per_cell`) no part can have a ratio of its own (`Argument_error`).
 Simplified_soup simplify_soup(const Prepared_soup& prepared, const Simplify_options& options,

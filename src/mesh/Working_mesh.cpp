@@ -41,8 +41,9 @@ std::vector<Index> number_positions(const std::vector<Point_3>& points)
 }
 
 Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& positions,
-                           const std::vector<char>& is_frozen, const Triangle_soup& obstacle)
-    : m_soup(soup)
+                           const std::vector<char>& is_frozen, const Triangle_soup& obstacle,
+                           const Scale& scale)
+    : m_soup(soup), m_scale(scale)
 {
   const Index own_vertices = Index(soup.points.size());
   const Index own_corners = Index(3 * soup.triangles.size());
@@ -75,9 +76,9 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
   const std::vector<Mesh::Halfedge_index> halfedges = make_mesh(sewing, [&](Index vertex) {
     const Corner corner = corner_of[vertex];
     if (corner < own_corners)
-      return soup.points[vertex_of(corner)];
+      return scale(soup.points[vertex_of(corner)]);
     const Corner beside = corner - own_corners;
-    return obstacle.points[obstacle.triangles[beside / 3][beside % 3]];
+    return scale(obstacle.points[obstacle.triangles[beside / 3][beside % 3]]);
   });
 
   std::vector<Index> vertices_at(positions.size(), 0); // how many, by position
@@ -111,7 +112,7 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
     CGAL::Bbox_3 box;
     for (const Index_triple& triangle : soup.triangles)
       for (const Index i : triangle)
-        box += soup.points[i].bbox();
+        box += scale(soup.points[i]).bbox();
     m_constraints.diagonal =
         std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
   }
@@ -119,7 +120,7 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
 
 Working_mesh::Working_mesh(const Working_mesh& whole, const Border_rule<Mesh>& rule,
                            const std::vector<Index>& faces)
-    : m_soup(whole.m_soup)
+    : m_soup(whole.m_soup), m_scale(whole.m_scale)
 {
   const Mesh& mesh = whole.m_mesh;
   std::vector<Mesh::Halfedge_index> originals; // by side
@@ -396,7 +397,7 @@ void Working_mesh::measure_uvs(double unit)
     return;
   m_uv_unit = unit;
   const Corner first = m_corners[0][0];
-  const Point_3& origin = m_soup.points[vertex_of(first)];
+  const Point_3 origin = m_scale(m_soup.points[vertex_of(first)]);
   m_origin = {origin.x(), origin.y(), origin.z()};
   m_uv_origin = uv_of(first);
 
@@ -406,7 +407,7 @@ void Working_mesh::measure_uvs(double unit)
       continue;
     const auto& [a, b, c] = m_corners[m_mesh.face(h)];
     const Mesh::Vertex_index v = m_mesh.target(h);
-    const auto point = [this](Corner corner) { return relative(m_soup.points[vertex_of(corner)]); };
+    const auto point = [this](Corner corner) { return relative(m_scale(m_soup.points[vertex_of(corner)])); };
     Wedge& wedge = m_wedges[wedge_at(h)];
     wedge.uv = relative(uv_of(corner_at(h)));
     wedge.quadric.add_triangle({point(a), point(b), point(c)},

@@ -36,9 +36,12 @@ class Border_snapping
 public:
   Border_snapping(const Triangle_soup& soup, const std::vector<Index>& positions,
                   const std::vector<char>& is_frozen, double distance, const std::vector<Index>& transforms,
-                  std::size_t obstacle_triangles)
-      : m_points(soup.points), m_distance(distance), m_moved_to(soup.points.size(), s_none)
+                  std::size_t obstacle_triangles, const Scale& scale)
+      : m_distance(distance), m_moved_to(soup.points.size(), s_none)
   {
+    m_points.reserve(soup.points.size());
+    for (const Point_3& point : soup.points)
+      m_points.push_back(scale(point));
     m_triangles.reserve(soup.triangles.size());
     for (const Index_triple& v : soup.triangles)
       m_triangles.push_back({positions[v[0]], positions[v[1]], positions[v[2]]});
@@ -50,7 +53,6 @@ public:
 
   Snapping_notes run()
   {
-    m_notes.distance = m_distance;
     m_notes.border_vertices = m_sites.size();
     if (m_sites.empty())
       return m_notes;
@@ -443,7 +445,7 @@ private:
     return m_points[a].bbox() + m_points[b].bbox() + m_points[c].bbox();
   }
 
-  const std::vector<Point_3>& m_points;
+  std::vector<Point_3> m_points; // at the scale, as is the distance
   const double m_distance;
   std::vector<Index_triple> m_triangles; // of positions
   std::vector<Side> m_sides;             // of borders
@@ -462,14 +464,18 @@ private:
 template <class FaceIndex>
 Snapping_notes snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
                             const std::vector<char>& is_frozen, double distance,
-                            const std::vector<Index>& transforms, std::size_t obstacle_triangles)
+                            const std::vector<Index>& transforms, std::size_t obstacle_triangles,
+                            const Scale& scale)
 {
   if (!(std::isfinite(distance) && distance >= 0))
     throw Argument_error("the weld distance must be a finite number, 0 or larger");
   if (distance == 0)
     return {};
-  Border_snapping<FaceIndex> snapping(soup, positions, is_frozen, distance, transforms, obstacle_triangles);
+  Border_snapping<FaceIndex> snapping(soup, positions, is_frozen, scale(distance), transforms,
+                                      obstacle_triangles, scale);
   Snapping_notes notes = snapping.run();
+  notes.distance = distance;
+  notes.largest_distance = scale.undone(notes.largest_distance);
 
   const std::vector<Point_3> points = soup.points;
   std::vector<Index> first_at(points.size(), s_none);
@@ -486,10 +492,10 @@ Snapping_notes snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
 
 template Snapping_notes snap_borders<Packed_R_tree>(Triangle_soup&, std::vector<Index>&,
                                                     const std::vector<char>&, double,
-                                                    const std::vector<Index>&, std::size_t);
+                                                    const std::vector<Index>&, std::size_t, const Scale&);
 template Snapping_notes snap_borders<Brute_force_index>(Triangle_soup&, std::vector<Index>&,
                                                         const std::vector<char>&, double,
-                                                        const std::vector<Index>&, std::size_t);
+                                                        const std::vector<Index>&, std::size_t, const Scale&);
 
 Triangle_soup joined_at_positions(const Triangle_soup& soup)
 {

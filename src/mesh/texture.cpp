@@ -11,7 +11,7 @@
 
 namespace selvedge {
 
-double uv_unit(const Triangle_soup& soup)
+double uv_unit(const Triangle_soup& soup, const Scale& scale)
 {
   double area = 0, uv_area = 0;
   for (std::size_t t = 0; t < soup.uvs.of_triangle.size(); ++t) {
@@ -24,7 +24,8 @@ double uv_unit(const Triangle_soup& soup)
       continue; // no texture there
     const auto& [a, b, c] = soup.triangles[t];
     uv_area += std::abs(twice) / 2;
-    area += std::sqrt(CGAL::squared_area(soup.points[a], soup.points[b], soup.points[c]));
+    area +=
+        std::sqrt(CGAL::squared_area(scale(soup.points[a]), scale(soup.points[b]), scale(soup.points[c])));
   }
   return uv_area > 0 ? std::sqrt(area / uv_area) : 0;
 }

@@ -6,6 +6,7 @@
 
 #include <selvedge/Surface_mesh_simplification/Uv_quadric.h>
 #include <selvedge/mesh/Parts.h>
+#include <selvedge/mesh/Scale.h>
 #include <selvedge/mesh/Triangle_soup.h>
 #include <selvedge/mesh/Welding_notes.h>
 #include <selvedge/mesh/selection.h>
@@ -44,13 +45,15 @@ public:
 
   /// `positions[v]` numbers the position of vertex v: what is equal is welded. `is_frozen[t]`: the vertices
   /// of triangle t do not move. In both, as in the faces of the mesh, vertices and triangles of the obstacle
-  /// follow those of the soup; of the obstacle only these count, and all its triangles are frozen.
+  /// follow those of the soup; of the obstacle only these count, and all its triangles are frozen. The points
+  /// of the mesh are those of both, divided by the scale; the result has them as they were.
   ///
   /// **Preconditions** No triangle has two corners at one position. The soup outlives the mesh.
   ///
   /// **Complexity** O(n log n).
   Working_mesh(const Triangle_soup& soup, const std::vector<Index>& positions,
-               const std::vector<char>& is_frozen, const Triangle_soup& obstacle = {});
+               const std::vector<char>& is_frozen, const Triangle_soup& obstacle = {},
+               const Scale& scale = Scale());
 
   /// Makes a mesh of some faces of another, so that a part of that can be reduced apart: its face i is
   /// `faces[i]` there.
@@ -80,7 +83,7 @@ public:
   void weigh(const std::vector<double>& weights);
 
   /// From now on `uv_cost` says how far the texture is displaced; it is 0 before, and where there is no
-  /// texture. Weights that are to count are set before. `unit` is the `uv_unit` of the soup.
+  /// texture. Weights that are to count are set before. `unit` is the `uv_unit` of the soup at the scale.
   void measure_uvs(double unit);
 
   /// From now on refusals are counted by the parts of the soup to which the moving vertex belongs.
@@ -166,6 +169,7 @@ private:
   Uv relative(const Uv& uv) const;
 
   const Triangle_soup& m_soup;
+  Scale m_scale;
   Mesh m_mesh;
   std::vector<Index_triple> m_corners; // by face, which has the number of its triangle
   std::vector<unsigned char> m_places; // by halfedge that is no border: at its target, in its face's corners

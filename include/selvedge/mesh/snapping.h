@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_MESH_SNAPPING_H
 #define SELVEDGE_MESH_SNAPPING_H
 
+#include <selvedge/mesh/Scale.h>
 #include <selvedge/mesh/Triangle_soup.h>
 #include <selvedge/spatial/Packed_R_tree.h>
 
@@ -72,7 +73,8 @@ struct Snapping_notes
 /// for each triangle whether its vertices stand still. `transforms`, empty or one number per vertex, says who
 /// may share a position: vertices with different numbers are not joined, and positions that have several
 /// stay. The last `obstacle_triangles` triangles, which are frozen, are an obstacle's: their borders are none
-/// to be sewn, and take nothing from the borders of the others where they lie along them.
+/// to be sewn, and take nothing from the borders of the others where they lie along them. Distances are
+/// compared after division by the scale.
 ///
 /// **Preconditions** No triangle has two corners at one position. All triangles of offending pairs are
 /// frozen. Throws `Argument_error` unless `distance` is finite and not negative; at 0 there is nothing to do.
@@ -84,7 +86,8 @@ struct Snapping_notes
 template <class FaceIndex = Packed_R_tree>
 Snapping_notes snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
                             const std::vector<char>& is_frozen, double distance,
-                            const std::vector<Index>& transforms = {}, std::size_t obstacle_triangles = 0);
+                            const std::vector<Index>& transforms = {}, std::size_t obstacle_triangles = 0,
+                            const Scale& scale = Scale());
 
 /// Gives all vertices at one position one number, so that pieces that meet there hang together; vertices
 /// whose attributes differ keep their own. Of several, the first stays; those no longer used are dropped.

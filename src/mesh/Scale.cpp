@@ -1,0 +1,94 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <selvedge/mesh/Scale.h>
+
+#include <selvedge/Error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <string>
+
+namespace selvedge {
+namespace {
+
+using Limits = std::numeric_limits<double>;
+
+// Every double is a multiple of 2^s_lowest, and less than 2^s_beyond.
+constexpr int s_lowest = Limits::min_exponent - Limits::digits, s_beyond = Limits::max_exponent;
+
+/// The powers of two between which coordinates lie: they are multiples of 2^lowest, and less than 2^beyond.
+struct Digits
+{
+  int lowest = s_beyond;
+  int beyond = s_lowest;
+
+  explicit Digits(const Triangle_soup& soup)
+  {
+    for (const Index_triple& triangle : soup.triangles)
+      for (const Index v : triangle)
+        for (int axis = 0; axis < 3; ++axis)
+          add(soup.points[v][axis]);
+  }
+
+private:
+  void add(double x)
+  {
+    if (x == 0)
+      return;
+    int exponent = 0;
+    const double fraction = std::frexp(x, &exponent);
+    beyond = std::max(beyond, exponent);
+    int last = exponent - Limits::digits;
+    if (last >= lowest)
+      return;
+    for (auto digits = std::int64_t(std::ldexp(fraction, Limits::digits)); digits % 2 == 0; digits /= 2)
+      ++last;
+    lowest = std::min(lowest, last);
+  }
+};
+
+std::string power_of_two(int exponent)
+{
+  return "2^" + std::to_string(exponent);
+}
+
+} // namespace
+
+Scale::Scale(const Triangle_soup& soup, const Triangle_soup& obstacle)
+{
+  constexpr int tolerance = 140;
+  const Digits own(soup), beside(obstacle);
+  if (own.lowest > own.beyond)
+    return; // all are 0
+  // All exponents in this range are exact, and 0 is one of them, since the coordinates are doubles.
+  const int lowest = std::min(own.lowest, beside.lowest), beyond = std::max(own.beyond, beside.beyond);
+  m_exponent = std::clamp(own.beyond, beyond - s_beyond, lowest - s_lowest);
+  if (std::abs(own.beyond - m_exponent) > tolerance)
+    throw Input_error(
+        "the coordinates are too far apart to be brought to one size: the largest of the mesh is less than " +
+        power_of_two(own.beyond) + ", the largest of all less than " + power_of_two(beyond) +
+        ", and some are no multiples of more than " + power_of_two(lowest) +
+        (beyond > own.beyond ? "; bring mesh and obstacle to one unit"
+                             : "; round the smallest coordinates, to 0, say"));
+}
+
+Point_3 Scale::operator()(const Point_3& point) const
+{
+  return {(*this)(point.x()), (*this)(point.y()), (*this)(point.z())};
+}
+
+double Scale::operator()(double length) const
+{
+  return std::ldexp(length, -m_exponent);
+}
+
+double Scale::undone(double length) const
+{
+  return std::ldexp(length, m_exponent);
+}
+
+} // namespace selvedge
