@@ -27,12 +27,6 @@ namespace {
 
 namespace SMS = CGAL::Surface_mesh_simplification;
 
-Mesh mesh_of(const Triangle_soup& soup)
-{
-  const Prepared_soup prepared = prepare(soup);
-  return Working_mesh(prepared.soup, prepared.positions, prepared.is_frozen).mesh();
-}
-
 Mesh close_layers()
 {
   return mesh_of(sheets(1600, 4, 1e-3));

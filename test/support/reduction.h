@@ -56,6 +56,13 @@ inline Reduction reduce(Triangle_soup soup, const Simplify_options& options)
   return reduction;
 }
 
+/// A soup as a mesh that knows nothing of it.
+inline Mesh mesh_of(const Triangle_soup& soup)
+{
+  const Prepared_soup prepared = prepare(soup);
+  return Working_mesh(prepared.soup, prepared.positions, prepared.is_frozen).mesh();
+}
+
 /// The faces of a mesh as it stands in the middle of a reduction.
 inline Triangle_soup soup_of(const Mesh& mesh)
 {

@@ -138,6 +138,30 @@ struct Expected_start
   std::vector<char> is_merged;  // by own vertex
 };
 
+/// Whether no power of two brings the largest coordinate of the soup between 2^-140 and 2^140 without taking
+/// a digit below the smallest double, or a coordinate beyond the largest.
+bool is_too_far_apart(const Triangle_soup& soup, const Triangle_soup& obstacle)
+{
+  const auto is_fine = [&](int exponent) {
+    double largest = 0;
+    for (const auto* part : {&soup, &obstacle})
+      for (const Index_triple& t : part->triangles)
+        for (const Index v : t)
+          for (const double x : coordinates(part->points[v])) {
+            const double scaled = std::ldexp(x, exponent);
+            if (!std::isfinite(scaled) || std::ldexp(scaled, -exponent) != x)
+              return false;
+            if (part == &soup)
+              largest = std::max(largest, std::abs(scaled));
+          }
+    return largest == 0 || (largest >= 0x1p-141 && largest < 0x1p140);
+  };
+  for (int exponent = -2100; exponent <= 2100; ++exponent)
+    if (is_fine(exponent))
+      return false;
+  return true;
+}
+
 Verdict judge_refusal(const World& world, const std::string& message)
 {
   const bool is_rounded = world.prepare_options().round_to_float32;
@@ -157,7 +181,8 @@ Verdict judge_refusal(const World& world, const std::string& message)
     if (!Judged_complex(world.soup, world.obstacle).offending_pairs().empty())
       return std::nullopt;
   }
-  if (Expected_start(world).soup.triangles.empty())
+  const Expected_start expected(world);
+  if (expected.soup.triangles.empty() || is_too_far_apart(expected.soup, expected.obstacle))
     return std::nullopt;
   return Broken_promise{Promise::refusal, message};
 }
