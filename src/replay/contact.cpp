@@ -182,19 +182,39 @@ std::optional<std::string> point_beyond_shared(const std::vector<Vector>& solid,
 // The fast way
 // ------------------------------------------------------------------------------------------------------
 
+/// Divides numbers by a power of two, where the largest is far from 1, so that it no longer is. The sign of a
+/// determinant of them stays. False when one is not finite.
+template <std::size_t N>
+bool bring_near_one(std::array<double, N>& numbers)
+{
+  double largest = 0;
+  for (const double number : numbers)
+    largest = std::max(largest, std::fabs(number));
+  if (!std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isfinite(number); }))
+    return false;
+  if (largest > 1e-30 && largest < 1e30)
+    return true;
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  for (double& number : numbers)
+    number = std::ldexp(number, -exponent);
+  return true;
+}
+
 /// The sign of orientation(p, q, r, s), or 0 where doubles do not tell.
 ///
 /// The bound is that of stage A in J. R. Shewchuk, Adaptive precision floating-point arithmetic, 1997: (7 +
 /// 56ε)ε of the permanent, with ε = 2^-53. What he leaves to the reader, underflow, is the addend: every
-/// difference is below 1e91 in size, so what six products lose below the smallest double stays below 1e-220
-/// in the end.
+/// difference is below 1e30 in size, so what differences, brought near 1, and six products lose below the
+/// smallest double stays below 1e-220 in the end.
 int certain_orientation(const Coordinates& p, const Coordinates& q, const Coordinates& r,
                         const Coordinates& s)
 {
-  constexpr double largest = 1e90;
-  const double ax = p[0] - s[0], ay = p[1] - s[1], az = p[2] - s[2];
-  const double bx = q[0] - s[0], by = q[1] - s[1], bz = q[2] - s[2];
-  const double cx = r[0] - s[0], cy = r[1] - s[1], cz = r[2] - s[2];
+  std::array<double, 9> differences{p[0] - s[0], p[1] - s[1], p[2] - s[2], q[0] - s[0], q[1] - s[1],
+                                    q[2] - s[2], r[0] - s[0], r[1] - s[1], r[2] - s[2]};
+  if (!bring_near_one(differences))
+    return 0;
+  const auto& [ax, ay, az, bx, by, bz, cx, cy, cz] = differences;
   const double bxcy = bx * cy, cxby = cx * by, cxay = cx * ay, axcy = ax * cy, axby = ax * by, bxay = bx * ay;
   // So that a positive sign means that s is on the side of the plane pqr from which they turn
   // counter-clockwise.
@@ -205,9 +225,6 @@ int certain_orientation(const Coordinates& p, const Coordinates& q, const Coordi
   const double bound = 7.7715611723761027e-16 * permanent + 1e-220;
   if (!(std::fabs(determinant) > bound))
     return 0;
-  for (const double size : {ax, ay, az, bx, by, bz, cx, cy, cz})
-    if (!(std::fabs(size) < largest))
-      return 0;
   return determinant > 0 ? 1 : -1;
 }
 
@@ -222,18 +239,21 @@ int planar_turn(const Place& p, const Place& q, const Place& r, int axis)
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   const auto sign = [](double x) { return (x > 0) - (x < 0); };
   // Whether a difference is zero, and its sign, are exact.
-  const double ax = p.at[u] - r.at[u], ay = p.at[v] - r.at[v];
-  const double bx = q.at[u] - r.at[u], by = q.at[v] - r.at[v];
+  std::array<double, 4> differences{p.at[u] - r.at[u], p.at[v] - r.at[v], q.at[u] - r.at[u],
+                                    q.at[v] - r.at[v]};
+  auto& [ax, ay, bx, by] = differences;
   const int left = sign(ax) * sign(by), right = sign(ay) * sign(bx);
   if (left != right)
     return left > right ? 1 : -1;
   if (left == 0)
     return 0;
   // Stage A of Shewchuk's orient2d, with room for underflow.
-  const double determinant = ax * by - ay * bx;
-  const double bound = 3.3306690738754716e-16 * std::fabs(ax * by + ay * bx) + 1e-300;
-  if (std::isfinite(bound) && std::fabs(determinant) > bound)
-    return sign(determinant);
+  if (bring_near_one(differences)) {
+    const double determinant = ax * by - ay * bx;
+    const double bound = 3.3306690738754716e-16 * std::fabs(ax * by + ay * bx) + 1e-280;
+    if (std::fabs(determinant) > bound)
+      return sign(determinant);
+  }
   const auto difference_of = [](double x, double y) { return Number(Number(x) - Number(y)); };
   const Number exact_determinant = difference_of(p.at[u], r.at[u]) * difference_of(q.at[v], r.at[v]) -
                                    difference_of(p.at[v], r.at[v]) * difference_of(q.at[u], r.at[u]);

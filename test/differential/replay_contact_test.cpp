@@ -11,6 +11,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <random>
 
 namespace selvedge::test {
@@ -30,8 +32,8 @@ struct Counts
   int cases = 0, touching = 0;
 };
 
-// `height` scales one axis: small, it makes layers that are nearly flat.
-void compare(std::mt19937& random, double height, bool is_on_grid, Counts& counts,
+// The units of the axes: where one is small, layers are nearly flat.
+void compare(std::mt19937& random, const std::array<double, 3>& units, bool is_on_grid, Counts& counts,
              reference::Contact_statistics& statistics)
 {
   const auto coordinate = [&] {
@@ -39,7 +41,8 @@ void compare(std::mt19937& random, double height, bool is_on_grid, Counts& count
   };
   std::vector<Place> places;
   const auto some_place = [&] {
-    const reference::Coordinates at{coordinate(), coordinate(), height * coordinate()};
+    const reference::Coordinates at{units[0] * coordinate(), units[1] * coordinate(),
+                                    units[2] * coordinate()};
     for (const Place& place : places)
       if (place.at == at)
         return place;
@@ -100,12 +103,31 @@ TEST(Contact, BothWaysAgreeWithLinearProgramming)
                    std::to_string(height));
       Counts counts;
       for (int i = 0; i < s_cases / (is_on_grid ? 1 : 4) && !HasFatalFailure(); ++i)
-        compare(random, height, is_on_grid, counts, statistics);
+        compare(random, {1, 1, height}, is_on_grid, counts, statistics);
       EXPECT_GT(counts.cases, 100);
       EXPECT_GT(counts.touching, 10);
       EXPECT_GT(counts.cases - counts.touching, 10);
     }
   EXPECT_LT(statistics.exact, statistics.pairs) << "the fast way was never gone";
+}
+
+TEST(Contact, BothWaysAgreeWithLinearProgrammingUpToTheEndsOfTheDoubles)
+{
+  std::mt19937 random(6);
+  reference::Contact_statistics statistics;
+  Counts counts;
+  for (int i = 0; i < s_cases / 4 && !HasFatalFailure(); ++i) {
+    constexpr std::array<int, 8> exponents{-1074, -1060, -700, -360, 0, 340, 700, 1021};
+    std::array<double, 3> units;
+    for (double& unit : units)
+      unit = std::ldexp(1, exponents[random() % exponents.size()]);
+    if (random() % 2 == 0)
+      units = {units[0], units[0], units[0]};
+    compare(random, units, true, counts, statistics);
+  }
+  EXPECT_GT(counts.cases, 100);
+  EXPECT_GT(counts.touching, 10);
+  EXPECT_GT(counts.cases - counts.touching, 10);
 }
 
 } // namespace
