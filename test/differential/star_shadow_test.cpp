@@ -4,9 +4,15 @@
 // What the shadow of a star proves in floating point, against the exact test of every sweep: it may be
 // silent, never wrong.
 
+#include "support/Exact_oracle.h"
+#include "support/reduction.h"
+
 #include <selvedge/geometry/Star_shadow.h>
+#include <selvedge/geometry/star.h>
 #include <selvedge/geometry/sweep.h>
 #include <selvedge/mesh/Triangle_soup.h>
+
+#include <CGAL/Exact_rational.h>
 
 #include <gtest/gtest.h>
 
@@ -220,6 +226,102 @@ TEST(Star_shadow, IsNeverWrongAcrossScales)
       200000);
   EXPECT_GT(counts.stars, 1000u);
   EXPECT_GT(counts.proved, counts.clear / 10);
+}
+
+// The precondition: a star that is embedded at the start
+// ------------------------------------------------------------------------------------------------------------
+
+/// The link winds twice about the vertex, which is the first point.
+Triangle_soup pentagram()
+{
+  Triangle_soup soup;
+  soup.points = {{0, 0, 1}, {8, 0, 0}, {-6, 5, 1}, {2, -8, 0}, {2, 8, 1}, {-6, -5, 0}};
+  soup.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 1}};
+  return soup;
+}
+
+TEST(Star_shadow, SeesNothingWrongInAPentagram)
+{
+  using Number = CGAL::Exact_rational;
+  const auto exact = [](const Point_3& p) {
+    return oracle::Point<Number>{Number(p.x()), Number(p.y()), Number(p.z())};
+  };
+  const Triangle_soup soup = pentagram();
+  const std::vector<Point_3> link(soup.points.begin() + 1, soup.points.end());
+  const Point_3 from = soup.points[0], to(0.25, 0, 2);
+  Vertex_motion<Point_3> motion{from, to, {}, {}};
+  oracle::Star<Number> star{exact(from), exact(to), {}, {}};
+  for (std::size_t i = 0; i < link.size(); ++i) {
+    const Point_3 &a = link[i], &b = link[(i + 1) % link.size()];
+    motion.moving.push_back({a, b});
+    star.moving.push_back({exact(a), exact(b)});
+  }
+  // Its faces meet at the start, on the way and at the end, ...
+  EXPECT_FALSE(oracle::is_star_embedded(star.from, star.moving));
+  EXPECT_FALSE(oracle::is_star_motion_clear(star));
+  // ... and every look at it from above takes it for clear.
+  EXPECT_TRUE(Star(from, to, link).is_seen_clear());
+  EXPECT_EQ(judge_star_motion<Kernel>(motion), Star_verdict::clear_by_view);
+
+  // So its faces are locked, and nothing of it moves.
+  const Reduction reduction = reduce(soup, without_limits(to_ratio(0)));
+  EXPECT_EQ(reduction.prepared.frozen_faces, soup.triangles.size());
+  EXPECT_EQ(reduction.simplified.report.collapses, 0u);
+}
+
+TEST(Star_shadow, IsNeverWrongBesideStarsThatWindTwice)
+{
+  Random random(13);
+  const auto below = [&](std::size_t n) {
+    return std::uniform_int_distribution<std::size_t>(0, n - 1)(random);
+  };
+  const auto draw = [&] {
+    const double x = double(below(9)) - 4, y = double(below(9)) - 4;
+    return Point_3(x, y, double(below(3)));
+  };
+  const Point_3 from(0, 0, 1);
+  const auto turn = [](const Point_3& p, const Point_3& q) {
+    const double angle = std::atan2(q.y(), q.x()) - std::atan2(p.y(), p.x());
+    return angle > 0 ? angle : angle + 2 * CGAL_PI;
+  };
+  Counts counts;
+  for (int i = 0; i < 100000; ++i) {
+    std::vector<Point_3> link;
+    double angle = 0;
+    while (angle < 4 * CGAL_PI) {
+      const Point_3 p = draw();
+      if (p.x() == 0 && p.y() == 0)
+        continue;
+      angle += link.empty() ? 0 : turn(link.back(), p);
+      link.push_back(p);
+    }
+    link.pop_back(); // beyond twice around
+    std::vector<Point_3> sorted = link;
+    std::sort(sorted.begin(), sorted.end());
+    if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+      continue;
+    const Point_3 to = below(2) == 0 ? link[below(link.size())] : Point_3(0.0625 * below(4), 0, below(3));
+    Star star(from, to, link);
+    if (to == from || !star.is_seen_clear())
+      continue;
+    ++counts.stars;
+    for (int repeat = 0; repeat < 20; ++repeat) {
+      std::array<Point_3, 3> face;
+      std::generate(face.begin(), face.end(),
+                    [&] { return below(2) == 0 ? link[below(link.size())] : draw(); });
+      if (std::find(face.begin(), face.end(), from) != face.end() || face[0] == face[1] ||
+          face[1] == face[2] || face[2] == face[0])
+        continue;
+      const bool is_clear = star.is_clear_of(face), is_proved = star.is_seen_clear_of(face);
+      EXPECT_TRUE(is_clear || !is_proved) << "case " << i;
+      counts.clear += is_clear;
+      counts.meeting += !is_clear;
+      counts.proved += is_proved;
+    }
+  }
+  EXPECT_GT(counts.stars, 100u);
+  EXPECT_GT(counts.meeting, 1000u);
+  EXPECT_GT(counts.proved, 100u);
 }
 
 } // namespace

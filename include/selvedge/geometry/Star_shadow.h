@@ -18,9 +18,10 @@ namespace selvedge {
 /// vertex comes from. A cheap way to prove that faces beside the star are clear of all its sweeps at once.
 ///
 /// The star is closed, and seen to be clear: around the vertex all faces turn the same way, before and, but
-/// for the contracted ones, after, so that the link is a simple polygon. Wherever on its way the vertex is,
-/// its faces then cover each point as often as the link winds about it, which does not depend on where it
-/// is: all sweeps lie in the *sectors*, the triangles of the place it comes from and one edge of the link.
+/// for the contracted ones, after. Since it is embedded before, the link winds once about the vertex, and is
+/// a simple polygon. Wherever on its way the vertex is, its faces then cover each point as often as the link
+/// winds about it, which does not depend on where it is: all sweeps lie in the *sectors*, the triangles of
+/// the place it comes from and one edge of the link.
 ///
 /// A face that does not contain the vertex is clear when for each sector it has, in the view, its own corners
 /// beyond a line that has the sector on this side: the line of the link edge, one of the two rays from the
@@ -29,6 +30,15 @@ namespace selvedge {
 /// to the rim of the polygon elsewhere than at its own corners.
 ///
 /// **Guarantees** What `is_clear` answers with yes is so. No means "not proved".
+///
+/// **Preconditions** the caller must ensure: the star is embedded at time 0, where the vertex comes from; its
+/// link is one cycle of distinct positions; its faces turn the same way, as above. The first does not follow
+/// from the last: around a link that winds twice, a pentagram, all faces turn the same way, and intersect.
+/// Of faces beside such a star `is_clear` still tells the truth: where a face of the star covers a point, the
+/// link winds about it, so a sector covers it. But the same view is taken for a proof that the star is clear
+/// of itself, and of a pentagram it proves that wrongly. Who guarantees it: an embedded mesh stays embedded
+/// (G1 in docs/guarantees.md), and in any other the vertices of all faces of offending pairs are locked
+/// (`prepare`; on a mesh of the caller, himself). So no star that moves winds twice.
 ///
 /// **Exactness** As `Certified_view`, whose bound for areas holds for the lines, too.
 ///
