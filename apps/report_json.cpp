@@ -148,22 +148,23 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
   report["cells"] = {{"count", done.cells}, {"collapses", done.collapses_in_cells}};
   report["refused"] = to_json(done.refused);
   report["frozen"] = {{"faces", prepared.frozen_faces}};
-  const Intersection_statistics& index = done.intersections;
+  const Index_statistics& index = done.index;
+  const Intersection_statistics& guard = done.intersections;
   report["index"] = {{"clusters", index.clusters},
                      {"queries", index.queries},
-                     {"faces_visited", index.faces_visited},
+                     {"faces_visited", index.visits},
                      {"cluster_rebuilds", index.cluster_rebuilds},
                      {"top_rebuilds", index.top_rebuilds},
-                     {"motions_judged", index.motions_judged},
-                     {"stars_clear_by_view", index.stars_clear_by_view},
-                     {"faces_near", index.faces_near},
-                     {"faces_clear_by_box", index.faces_clear_by_box},
-                     {"faces_clear_by_view", index.faces_clear_by_view},
-                     {"pairs_clear_by_view", index.pairs_clear_by_view},
-                     {"sweeps_tested", index.sweeps_tested},
-                     {"refused_by_link", index.refused_by_link},
-                     {"refused_by_star", index.refused_by_star},
-                     {"refused_by_sweep", index.refused_by_sweep}};
+                     {"motions_judged", guard.motions_judged},
+                     {"stars_clear_by_view", guard.stars_clear_by_view},
+                     {"faces_near", guard.faces_near},
+                     {"faces_clear_by_box", guard.faces_clear_by_box},
+                     {"faces_clear_by_view", guard.faces_clear_by_view},
+                     {"pairs_clear_by_view", guard.pairs_clear_by_view},
+                     {"sweeps_tested", guard.sweeps_tested},
+                     {"refused_by_link", guard.refused_by_link},
+                     {"refused_by_star", guard.refused_by_star},
+                     {"refused_by_sweep", guard.refused_by_sweep}};
   const Welding_notes& welding = result.welding;
   report["welding"] = {{"unused_vertices", welding.unused_vertices},
                        {"welded_vertices", welding.welded_vertices},

@@ -3,6 +3,8 @@
 
 #include "reduce_in_cells.h"
 
+#include <selvedge/Surface_mesh_simplification/internal/Simplification.h>
+
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/partitioner.h>
 

@@ -3,6 +3,8 @@
 
 #include "reduce_in_cells.h"
 
+#include <selvedge/Surface_mesh_simplification/internal/Simplification.h>
+
 #include <selvedge/simplify_soup.h>
 
 #include <selvedge/Error.h>

@@ -4,6 +4,9 @@
 #ifndef SELVEDGE_SIMPLIFY_REPORT_H
 #define SELVEDGE_SIMPLIFY_REPORT_H
 
+#include <selvedge/Surface_mesh_simplification/Intersection_statistics.h>
+#include <selvedge/spatial/Index_statistics.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -48,26 +51,6 @@ private:
   }
 };
 
-/// What the exact filter and its index did.
-struct Intersection_statistics
-{
-  std::size_t motions_judged = 0;
-  std::size_t stars_clear_by_view = 0; ///< motions whose star one view settled
-  std::size_t faces_near = 0;          ///< stationary faces whose box meets that of a star
-  std::size_t faces_clear_by_box = 0;  ///< of these, clear of the whole star by boxes in the star's view
-  std::size_t faces_clear_by_view = 0; ///< of the others, clear of the whole star in its view
-  std::size_t pairs_clear_by_view = 0; ///< of what remains, pairs of a sweep and a face clear by one plane
-  std::size_t sweeps_tested = 0;       ///< pairs of a sweep and a face that took the exact test
-  std::size_t refused_by_link = 0;     ///< motions that would join what is not joined
-  std::size_t refused_by_star = 0;     ///< motions in which the star would meet itself
-  std::size_t refused_by_sweep = 0;    ///< motions in which a face would meet one that stands still
-  std::size_t clusters = 0;            ///< of the index, or leaves of the packed one
-  std::size_t queries = 0;
-  std::size_t faces_visited = 0;
-  std::size_t cluster_rebuilds = 0;
-  std::size_t top_rebuilds = 0; ///< of the tree over the clusters, or of the whole packed one
-};
-
 /// What a reduction of a mesh did.
 struct Simplify_report
 {
@@ -76,11 +59,11 @@ struct Simplify_report
   std::size_t faces_output = 0;
   std::size_t faces_to_go = 0; ///< by which shares exceed their targets at the end
   std::size_t collapses = 0;
-  std::size_t passes =
-      0; ///< of CGAL's loop; another one begins while edges refused before have become possible
+  std::size_t passes = 0;  ///< of CGAL's loop: another begins while refused edges have become possible
   bool is_stopped = false; ///< by `Simplify_options::should_stop`
-  Refusals refused; ///< with `Simplify_options::faces_per_cell`: after the cells, and so are `intersections`
+  Refusals refused; ///< with `Simplify_options::faces_per_cell`: after the cells, as the next two
   Intersection_statistics intersections;
+  Index_statistics index;
   std::size_t cells = 0;
   std::size_t collapses_in_cells = 0; ///< of `collapses`
   double seconds_cells = 0;           ///< of `seconds_reduce`: until all cells were done and joined

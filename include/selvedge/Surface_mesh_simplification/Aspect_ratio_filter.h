@@ -6,7 +6,6 @@
 
 #include <selvedge/Error.h>
 #include <selvedge/Surface_mesh_simplification/internal/Filter_base.h>
-#include <selvedge/Surface_mesh_simplification/internal/collapse_geometry.h>
 
 #include <CGAL/Kernel/global_functions.h>
 #include <CGAL/number_type_basic.h>
@@ -51,13 +50,14 @@ public:
       throw Argument_error("the least aspect ratio lies between 0 and 1, that of the equilateral triangle");
   }
 
-  template <class Profile, class Point>
-  bool accepts(const Profile& profile, const Point& placement) const
+  template <class Collapse>
+  bool accepts(const Collapse& collapse) const
   {
+    using Point = typename Collapse::Point;
     const auto least = [&](bool is_after) {
       double ratio = 1;
-      internal::all_of_changed_faces(
-          profile, placement, [&](const Point& before, const Point& after, const Point& a, const Point& b) {
+      collapse.all_of_changed_faces(
+          [&](const Point& before, const Point& after, const Point& a, const Point& b) {
             ratio = (std::min)(ratio, aspect_ratio(is_after ? after : before, a, b));
             return true;
           });

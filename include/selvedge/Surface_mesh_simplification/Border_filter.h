@@ -24,10 +24,10 @@ public:
   {
   }
 
-  template <class Profile, class Point>
-  bool accepts(const Profile& profile, const Point& placement) const
+  template <class Collapse>
+  bool accepts(const Collapse& collapse) const
   {
-    return m_rule.allows(profile, placement);
+    return m_rule.allows(collapse);
   }
 
 private:
@@ -45,7 +45,7 @@ public:
   template <class Profile, class OptionalPoint>
   void OnCollapsing(const Profile& profile, const OptionalPoint& placement)
   {
-    m_rule.before_collapse(profile, *placement);
+    m_rule.before_collapse(internal::Collapse<Profile>(profile, *placement));
   }
   template <class Profile, class Vertex>
   void OnCollapsed(const Profile&, const Vertex& kept)

@@ -5,8 +5,8 @@
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_BORDER_RULE_H
 
 #include <selvedge/Error.h>
+#include <selvedge/Surface_mesh_simplification/internal/Collapse.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
-#include <selvedge/Surface_mesh_simplification/internal/collapse_geometry.h>
 
 #include <CGAL/Dynamic_property_map.h>
 #include <CGAL/boost/graph/helpers.h>
@@ -46,9 +46,9 @@ struct Border_rule_options
 /// **Guarantees** for a mesh reduced by halfedge collapses that `allows` accepts:
 /// 1. A locked vertex stays where it is.
 /// 2. A vertex on a line moves only along it, to the next vertex of the same line, and only where the line
-/// turns by
-///    at most `max_border_turn` or `max_seam_turn`. Corners, ends of lines, and vertices where more than two
-///    line edges or lines of both kinds meet never move. No collapse takes the last face between three lines.
+///    turns by at most `max_border_turn` or `max_seam_turn`. Corners, ends of lines, and vertices where more
+///    than two line edges or lines of both kinds meet never move. No collapse takes the last face between
+///    three lines.
 /// 3. Every original vertex of a line lies within `max_drift` of the segment that replaced it.
 ///
 /// **Preconditions** The mesh outlives the rule. Marks and locks are set before the first collapse.
@@ -125,19 +125,18 @@ public:
   bool reaches_neighbours(Vertex kept) const { return get(m_state->freedoms, kept) != Freedom::free; }
   bool reaches(Vertex kept, Edge e) const { return reaches_neighbours(kept) && is_line(e); }
 
-  /// May the ends of the profile's edge merge at `placement`, wherever that is?
+  /// May the ends of an edge merge at a place, wherever that is?
   ///
   /// When it is neither end: inner vertices may go anywhere; where one end is bound, the placement must be
   /// that end; where both are, the edge must be a line, and the line turn by at most the angle at every place
   /// that the merged vertex changes.
   template <class Profile>
-  bool allows(const Profile& profile, const Point& placement) const
+  bool allows(const internal::Collapse<Profile>& collapse) const
   {
+    if (!collapse.are_both_moved())
+      return may_move(collapse.moving());
     const State& state = *m_state;
-    if (!internal::is_v0_moved(profile, placement))
-      return may_move(profile.v1_v0());
-    if (!internal::is_v1_moved(profile, placement))
-      return may_move(profile.v0_v1());
+    const Profile& profile = collapse.profile();
     const bool is_v0_free = get(state.freedoms, profile.v0()) == Freedom::free;
     const bool is_v1_free = get(state.freedoms, profile.v1()) == Freedom::free;
     if (is_v0_free && is_v1_free)
@@ -147,15 +146,15 @@ public:
       return false;
     const std::optional<Halfedge> behind = line_behind(profile.v0_v1());
     const std::optional<Halfedge> ahead = line_behind(profile.v1_v0());
-    return behind && ahead && may_straighten(*behind, profile.v0_v1(), placement) &&
-           may_straighten(*ahead, profile.v1_v0(), placement);
+    return behind && ahead && may_straighten(*behind, profile.v0_v1(), collapse.place()) &&
+           may_straighten(*ahead, profile.v1_v0(), collapse.place());
   }
 
   /// Called by `Border_visitor` before and after every collapse.
   template <class Profile>
-  void before_collapse(const Profile& profile, const Point& placement) const
+  void before_collapse(const internal::Collapse<Profile>& collapse) const
   {
-    m_state->pending = pending_collapse(profile, placement);
+    m_state->pending = pending_collapse(collapse);
   }
   void after_collapse(Vertex kept) const
   {
@@ -291,8 +290,9 @@ private:
   }
 
   template <class Profile>
-  Pending_collapse pending_collapse(const Profile& profile, const Point& placement) const
+  Pending_collapse pending_collapse(const internal::Collapse<Profile>& collapse) const
   {
+    const Profile& profile = collapse.profile();
     const State& state = *m_state;
     const TriangleMesh& mesh = state.mesh;
     Pending_collapse pending;
@@ -306,7 +306,7 @@ private:
     const bool is_along_line = is_line(merged);
     for (const Halfedge at : {profile.v0_v1(), profile.v1_v0()}) {
       const Vertex near_end = source(at, mesh);
-      const bool moves = get(state.points, near_end) != placement;
+      const bool moves = at == profile.v0_v1() ? collapse.is_v0_moved() : collapse.is_v1_moved();
       for (const Halfedge out : CGAL::halfedges_around_source(near_end, mesh)) {
         const Edge e = edge(out, mesh);
         if (e == merged || !is_line(e))

@@ -36,9 +36,11 @@ public:
   {
   }
 
-  template <class Profile, class Point>
-  bool accepts(const Profile& profile, const Point& placement) const
+  template <class Collapse>
+  bool accepts(const Collapse& collapse) const
   {
+    const auto& profile = collapse.profile();
+    const auto& placement = collapse.place();
     const auto& link = profile.link();
     for (std::size_t i = 0; i < link.size(); ++i) {
       const auto before = link[(i + link.size() - 1) % link.size()], here = link[i],

@@ -25,10 +25,10 @@ public:
   {
   }
 
-  template <class Profile, class Point>
-  bool accepts(const Profile& profile, const Point& placement) const
+  template <class Collapse>
+  bool accepts(const Collapse& collapse) const
   {
-    return m_cost.error_at(profile, placement) <= m_max_error;
+    return m_cost.error_at(collapse.profile(), collapse.place()) <= m_max_error;
   }
 
 private:

@@ -5,7 +5,6 @@
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_HALFEDGE_FILTER_H
 
 #include <selvedge/Surface_mesh_simplification/internal/Filter_base.h>
-#include <selvedge/Surface_mesh_simplification/internal/collapse_geometry.h>
 
 #include <utility>
 
@@ -25,10 +24,10 @@ public:
   {
   }
 
-  template <class Profile, class Point>
-  bool accepts(const Profile& profile, const Point& placement) const
+  template <class Collapse>
+  bool accepts(const Collapse& collapse) const
   {
-    return m_predicate(internal::moving_halfedge(profile, placement));
+    return m_predicate(collapse.moving());
   }
 
 private:

@@ -7,7 +7,6 @@
 #include <selvedge/Surface_mesh_simplification/collapse_locality.h>
 #include <selvedge/Surface_mesh_simplification/internal/Filter_base.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
-#include <selvedge/Surface_mesh_simplification/internal/collapse_geometry.h>
 
 #include <CGAL/Dynamic_property_map.h>
 #include <CGAL/Surface_mesh_simplification/Edge_collapse_visitor_base.h>
@@ -198,25 +197,29 @@ public:
   template <class Profile>
   internal::Optional<typename Profile::Point> operator()(const Profile& profile) const
   {
-    using Result = internal::Optional<typename Profile::Point>;
+    using Collapse = internal::Collapse<Profile>;
     State& state = *m_state;
     const Edge e = edge(profile.v0_v1(), state.mesh);
     const bool is_turned = get(state.is_turned, e);
-    Result first = profile.p0(), second = profile.p1();
-    if (!m_placement.is_v0_target_first(profile))
-      std::swap(first, second);
+    const bool is_v0_first = m_placement.is_v0_target_first(profile);
+    const Collapse first = Collapse::along(profile, is_v0_first ? profile.v1_v0() : profile.v0_v1());
+    const Collapse second = Collapse::along(profile, is_v0_first ? profile.v0_v1() : profile.v1_v0());
+    const Collapse& next = is_turned ? second : first;
     if (!state.is_deciding)
-      return is_turned ? second : first;
+      return next.place();
 
-    const auto cost_at = [&](const Result& end) {
-      return *m_placement.cost_along(profile, internal::moving_halfedge(profile, *end));
+    const auto cost_of = [&](const Collapse& collapse) {
+      return *m_placement.cost_along(profile, collapse.moving());
     };
     state.is_deciding = false;
-    state.reached_cost = (std::max)(state.reached_cost, cost_at(is_turned ? second : first));
-    if (const Result accepted = m_filter(profile, first))
-      return accepted;
-    if (cost_at(second) <= state.reached_cost)
-      return m_filter(profile, second);
+    state.reached_cost = (std::max)(state.reached_cost, cost_of(next));
+    if (internal::is_allowed(m_filter, first))
+      return first.place();
+    if (cost_of(second) <= state.reached_cost) {
+      if (internal::is_allowed(m_filter, second))
+        return second.place();
+      return {};
+    }
     put(state.is_turned, e, true);
     ++state.turned;
     return {};

@@ -62,7 +62,6 @@ class Intersection_filter
 
 public:
   using Face = typename boost::graph_traits<TriangleMesh>::face_descriptor;
-  using Statistics = typename Guard::Statistics;
 
   /// Keeps the filter's index true while edges collapse.
   ///
@@ -75,10 +74,22 @@ public:
     template <class Profile, class OptionalPoint>
     void OnCollapsing(const Profile& profile, const OptionalPoint& placement)
     {
-      m_guard->before_collapse(profile, *placement);
+      before_collapse(internal::Collapse<Profile>(profile, *placement));
     }
     template <class Profile, class Vertex>
     void OnCollapsed(const Profile&, const Vertex& kept)
+    {
+      after_collapse(kept);
+    }
+
+    /// The same for a loop that knows which end moves.
+    template <class Collapse>
+    void before_collapse(const Collapse& collapse)
+    {
+      m_guard->before_collapse(collapse);
+    }
+    template <class Vertex>
+    void after_collapse(const Vertex& kept)
     {
       m_guard->after_collapse(kept);
     }
@@ -104,25 +115,24 @@ public:
 
   Visitor visitor() const { return Visitor(m_guard); }
 
-  /// The placement itself when base and filter accept it, none otherwise.
-  template <class Profile, class OptionalPoint>
-  OptionalPoint operator()(const Profile& profile, const OptionalPoint& placement) const
+  template <class Collapse>
+  bool allows(const Collapse& collapse) const
   {
     m_guard->forget_blockers();
-    return internal::Filter_base<Intersection_filter, BaseFilter>::operator()(profile, placement);
+    return internal::Filter_base<Intersection_filter, BaseFilter>::allows(collapse);
   }
 
-  template <class Profile, class Point>
-  bool accepts(const Profile& profile, const Point& placement) const
+  template <class Collapse>
+  bool accepts(const Collapse& collapse) const
   {
-    return m_guard->is_clear(profile, placement);
+    return m_guard->is_clear(collapse);
   }
 
   /// The faces that made this filter refuse the last placement, or one of two ways to it; none where what
   /// lies around the edge alone decided, as always when the base refused.
   auto& blockers() const { return m_guard->blockers(); }
 
-  const Statistics& statistics() const { return m_guard->statistics(); }
+  const Intersection_statistics& statistics() const { return m_guard->statistics(); }
   const FaceIndex& index() const { return m_guard->index(); }
 
 private:

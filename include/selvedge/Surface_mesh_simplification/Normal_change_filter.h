@@ -6,7 +6,6 @@
 
 #include <selvedge/Error.h>
 #include <selvedge/Surface_mesh_simplification/internal/Filter_base.h>
-#include <selvedge/Surface_mesh_simplification/internal/collapse_geometry.h>
 
 #include <CGAL/Kernel/global_functions.h>
 #include <CGAL/number_type_basic.h>
@@ -37,11 +36,12 @@ public:
       throw Argument_error("the change allowed to a normal is an angle between 0 and 180 degrees");
   }
 
-  template <class Profile, class Point>
-  bool accepts(const Profile& profile, const Point& placement) const
+  template <class Collapse>
+  bool accepts(const Collapse& collapse) const
   {
-    return internal::all_of_changed_faces(
-        profile, placement, [this](const Point& before, const Point& after, const Point& a, const Point& b) {
+    using Point = typename Collapse::Point;
+    return collapse.all_of_changed_faces(
+        [this](const Point& before, const Point& after, const Point& a, const Point& b) {
           const auto normal_before = CGAL::cross_product(a - before, b - before);
           const auto normal_after = CGAL::cross_product(a - after, b - after);
           const double length_before = std::sqrt(CGAL::to_double(normal_before.squared_length()));

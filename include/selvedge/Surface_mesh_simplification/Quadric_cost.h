@@ -6,7 +6,6 @@
 
 #include <selvedge/Surface_mesh_simplification/internal/Symmetric_quadric.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
-#include <selvedge/Surface_mesh_simplification/internal/collapse_geometry.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Dynamic_property_map.h>

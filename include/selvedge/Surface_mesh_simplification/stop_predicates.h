@@ -102,6 +102,27 @@ private:
   mutable std::size_t m_calls = 0;
 };
 
+namespace internal {
+
+/// A stop predicate that asks a function of the cost.
+template <class Function>
+class Function_stop
+{
+public:
+  explicit Function_stop(const Function& is_over) : m_is_over(is_over) {}
+
+  template <class FT, class Profile>
+  bool operator()(const FT& cost, const Profile&, std::size_t, std::size_t) const
+  {
+    return m_is_over(cost);
+  }
+
+private:
+  Function m_is_over;
+};
+
+} // namespace internal
+
 /// Stops when any of several predicates does; each is asked every time, in order, until one does.
 ///
 /// A model of CGAL's concept `StopPredicate` when all of `Stops` are.

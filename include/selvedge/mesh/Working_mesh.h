@@ -4,13 +4,15 @@
 #ifndef SELVEDGE_MESH_WORKING_MESH_H
 #define SELVEDGE_MESH_WORKING_MESH_H
 
+#include <selvedge/Surface_mesh_simplification/Border_rule.h>
+#include <selvedge/Surface_mesh_simplification/No_observer.h>
+#include <selvedge/Surface_mesh_simplification/Simplify_constraints.h>
 #include <selvedge/Surface_mesh_simplification/Uv_quadric.h>
 #include <selvedge/mesh/Parts.h>
 #include <selvedge/mesh/Scale.h>
 #include <selvedge/mesh/Triangle_soup.h>
 #include <selvedge/mesh/Welding_notes.h>
 #include <selvedge/mesh/selection.h>
-#include <selvedge/simplify.h>
 
 #include <CGAL/Surface_mesh.h>
 

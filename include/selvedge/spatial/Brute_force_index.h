@@ -4,6 +4,8 @@
 #ifndef SELVEDGE_SPATIAL_BRUTE_FORCE_INDEX_H
 #define SELVEDGE_SPATIAL_BRUTE_FORCE_INDEX_H
 
+#include <selvedge/spatial/Index_statistics.h>
+
 #include <CGAL/Bbox_3.h>
 
 #include <cstddef>
@@ -23,12 +25,6 @@ class Brute_force_index
 {
 public:
   using Id = std::uint32_t;
-
-  struct Statistics
-  {
-    std::size_t queries = 0;
-    std::size_t visits = 0;
-  };
 
   template <class BoxOf>
   void build(const std::vector<Id>& faces, const BoxOf& box_of)
@@ -58,11 +54,11 @@ public:
       }
   }
 
-  const Statistics& statistics() const { return m_statistics; }
+  const Index_statistics& statistics() const { return m_statistics; }
 
 private:
   std::vector<std::optional<CGAL::Bbox_3>> m_boxes;
-  mutable Statistics m_statistics;
+  mutable Index_statistics m_statistics;
 };
 
 } // namespace selvedge

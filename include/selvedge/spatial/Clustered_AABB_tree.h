@@ -6,6 +6,7 @@
 
 #include <selvedge/Error.h>
 #include <selvedge/spatial/internal/Box_tree.h>
+#include <selvedge/spatial/Index_statistics.h>
 
 #include <boost/container_hash/hash.hpp>
 
@@ -48,15 +49,6 @@ public:
   using Id = std::uint32_t;
 
   /// Counts since construction, for reports.
-  struct Statistics
-  {
-    std::size_t clusters = 0;
-    std::size_t queries = 0;
-    std::size_t visits = 0;           ///< faces handed out by the queries
-    std::size_t cluster_rebuilds = 0; ///< trees of single clusters made anew
-    std::size_t top_rebuilds = 0;     ///< the tree over the clusters made anew
-  };
-
   /// `faces_per_cluster` ≥ 1 is what the cell size aims at. Throws `Argument_error` when it is 0.
   explicit Clustered_AABB_tree(std::size_t faces_per_cluster = 100)
       : m_faces_per_cluster(faces_per_cluster), m_cluster_table(std::make_unique<internal::Box_table>()),
@@ -140,7 +132,7 @@ public:
     });
   }
 
-  const Statistics& statistics() const { return m_statistics; }
+  const Index_statistics& statistics() const { return m_statistics; }
 
 private:
   using Cell = std::array<std::int32_t, 3>;
@@ -206,7 +198,7 @@ private:
   std::unordered_map<Cell, Id, boost::hash<Cell>> m_cluster_of_cell;
   std::vector<internal::Box_tree> m_clusters;
   internal::Box_tree m_top;
-  mutable Statistics m_statistics;
+  mutable Index_statistics m_statistics;
 };
 
 } // namespace selvedge

@@ -8,6 +8,7 @@
 #include <selvedge/spatial/internal/Box_block.h>
 #include <selvedge/spatial/internal/Hilbert_curve.h>
 #include <selvedge/spatial/internal/Monotone_box.h>
+#include <selvedge/spatial/Index_statistics.h>
 
 #include <CGAL/Bbox_3.h>
 
@@ -50,14 +51,6 @@ public:
   using Id = std::uint32_t;
 
   /// Counts since construction, for reports.
-  struct Statistics
-  {
-    std::size_t leaves = 0; ///< now
-    std::size_t queries = 0;
-    std::size_t visits = 0;   ///< faces handed out by the queries
-    std::size_t rebuilds = 0; ///< times that the faces moved together
-  };
-
   /// Replaces the content by `faces`, where the box of face `faces[i]` is `box_of(faces[i])`, a
   /// `CGAL::Bbox_3`.
   template <class BoxOf>
@@ -125,7 +118,7 @@ public:
     m_statistics.visits += visits;
   }
 
-  const Statistics& statistics() const { return m_statistics; }
+  const Index_statistics& statistics() const { return m_statistics; }
 
 private:
   using Slot = std::uint32_t;
@@ -218,7 +211,7 @@ private:
 
   void rebuild()
   {
-    ++m_statistics.rebuilds;
+    ++m_statistics.top_rebuilds;
     Content content;
     content.reserve(m_size);
     for (const Leaf& leaf : m_leaves)
@@ -260,7 +253,7 @@ private:
       boxes = bounding_boxes(level, [](const Box_block& block) { return block; });
       m_levels.push_back(std::move(level));
     } while (boxes.size() > 1);
-    m_statistics.leaves = m_leaves.size();
+    m_statistics.clusters = m_leaves.size();
   }
 
   Slot new_slot()
@@ -320,7 +313,7 @@ private:
   std::vector<Slot> m_slots;                    // by face
   std::size_t m_size = 0;
   Slot m_slot_count = 0; // given to a face since the tree was made
-  mutable Statistics m_statistics;
+  mutable Index_statistics m_statistics;
 };
 
 } // namespace selvedge

@@ -5,20 +5,22 @@
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_EDGE_COLLAPSE_H
 
 #include <selvedge/Surface_mesh_simplification/collapse_locality.h>
+#include <selvedge/Surface_mesh_simplification/internal/Collapse.h>
 #include <selvedge/Surface_mesh_simplification/internal/Edge_queue.h>
+#include <selvedge/Surface_mesh_simplification/internal/Filter_base.h>
 #include <selvedge/Surface_mesh_simplification/internal/Lazy_edge_profile.h>
 #include <selvedge/Surface_mesh_simplification/internal/Waiting_edges.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
-#include <selvedge/Surface_mesh_simplification/internal/collapse_geometry.h>
+#include <selvedge/Surface_mesh_simplification/internal/perform_collapse.h>
 
 #include <CGAL/Dynamic_property_map.h>
 #include <CGAL/Surface_mesh_simplification/Edge_collapse_visitor_base.h>
-#include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/iterator.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -61,25 +63,6 @@ struct No_visitor
   void OnNonCollapsable(const Profile&)
   {
   }
-};
-
-/// The edge map for meshes without constrained edges.
-struct No_constrained_edges
-{
-  template <class Edge>
-  friend bool get(const No_constrained_edges&, const Edge&)
-  {
-    return false;
-  }
-};
-
-template <class Cost, class = void>
-struct Is_updated : std::false_type
-{
-};
-template <class Cost>
-struct Is_updated<Cost, std::void_t<typename Cost::Update_tag>> : std::bool_constant<Cost::Update_tag::value>
-{
 };
 
 template <class Filter, class = void>
@@ -125,6 +108,7 @@ class Edge_collapse
   using Edge = typename Graph_traits::edge_descriptor;
   using Face = typename Graph_traits::face_descriptor;
   using Profile = Lazy_edge_profile<TriangleMesh, VertexPointMap, GeomTraits>;
+  using Collapse_of_edge = Collapse<Profile>;
   using Cgal_visitor =
       CGAL::Surface_mesh_simplification::Edge_collapse_visitor_base<TriangleMesh, VertexPointMap, GeomTraits>;
   using FT = typename GeomTraits::FT;
@@ -206,9 +190,9 @@ private:
       return true;
     }
     Edge_record& record = m_records[edge_id];
-    const Optional_point placement = placement_of(of_edge, record);
-    if (placement && m_filter(of_edge, placement)) {
-      collapse(of_edge, edge_id, placement);
+    const std::optional<Collapse_of_edge> collapse = collapse_of(of_edge, record);
+    if (collapse && is_allowed(m_filter, *collapse)) {
+      perform(*collapse, edge_id);
       return true;
     }
     m_visitor.OnNonCollapsable(of_edge);
@@ -226,32 +210,23 @@ private:
     return true;
   }
 
-  void collapse(const Profile& of_edge, Id edge_id, const Optional_point& placement)
+  void perform(const Collapse_of_edge& collapse, Id edge_id)
   {
+    const Profile& of_edge = collapse.profile();
     if constexpr (std::is_convertible_v<const Visitor*, const Cgal_visitor*>)
       of_edge.full(); // it will be asked for when the edge is gone
-    m_visitor.OnCollapsing(of_edge, placement);
     forget(edge_id);
     if (of_edge.left_face_exists())
       forget(of_edge.vL_v0(), of_edge.v1_vL());
     if (of_edge.right_face_exists())
       forget(of_edge.vR_v1(), of_edge.v0_vR());
     if constexpr (Has_blockers<Filter>::value) {
-      if (is_v0_moved(of_edge, *placement))
+      if (collapse.is_v0_moved())
         m_waiting.release_around(of_edge.v0());
-      if (is_v1_moved(of_edge, *placement))
+      if (collapse.is_v1_moved())
         m_waiting.release_around(of_edge.v1());
     }
-    Vertex kept;
-    if constexpr (std::is_same_v<EdgeIsConstrainedMap, No_constrained_edges>)
-      kept = CGAL::Euler::collapse_edge(edge(of_edge.v0_v1(), m_mesh), m_mesh);
-    else
-      kept = CGAL::Euler::collapse_edge(edge(of_edge.v0_v1(), m_mesh), m_mesh, m_is_constrained);
-    put(m_points, kept, *placement);
-    m_visitor.OnCollapsed(of_edge, kept);
-    if constexpr (Is_updated<Cost>::value)
-      m_cost.update_after_collapse(of_edge, kept);
-    refresh_around(kept);
+    refresh_around(perform_collapse(m_mesh, m_points, m_is_constrained, collapse, m_visitor, m_cost));
   }
 
   // An edge that is going.
@@ -340,10 +315,18 @@ private:
     return choice.cost ? FT(*choice.cost) : Optional_cost();
   }
 
-  Optional_point placement_of(const Profile& of_edge, const Edge_record& record) const
+  std::optional<Collapse_of_edge> collapse_of(const Profile& of_edge, const Edge_record& record) const
   {
     if constexpr (Has_choice<Placement, Cost>::value)
-      return record.is_v0 ? of_edge.p0() : of_edge.p1();
+      return Collapse_of_edge::along(of_edge, record.is_v0 ? of_edge.v1_v0() : of_edge.v0_v1());
+    else if (const Optional_point placement = placement_of(of_edge, record))
+      return Collapse_of_edge(of_edge, *placement);
+    else
+      return std::nullopt;
+  }
+
+  Optional_point placement_of(const Profile& of_edge, const Edge_record& record) const
+  {
     if constexpr (Has_second<Placement, Profile>::value)
       if (record.state == State::second)
         return m_placement.second(of_edge);

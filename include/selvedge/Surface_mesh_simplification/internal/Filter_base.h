@@ -4,8 +4,13 @@
 #ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_FILTER_BASE_H
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_FILTER_BASE_H
 
+#include <selvedge/Surface_mesh_simplification/internal/Collapse.h>
+#include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
+
 #include <cstddef>
 #include <memory>
+#include <type_traits>
+#include <utility>
 
 namespace selvedge {
 
@@ -17,33 +22,73 @@ struct No_filter
   {
     return placement;
   }
+
+  template <class Collapse>
+  bool allows(const Collapse&) const
+  {
+    return true;
+  }
 };
 
 namespace internal {
 
-/// What all filters share: ask the base filter first, then the derived class, and count what the latter
-/// refuses. CGAL's loop copies its filter, so the count stands behind a pointer.
+template <class Filter, class Collapse, class = void>
+struct Judges_collapses : std::false_type
+{
+};
+template <class Filter, class Collapse>
+struct Judges_collapses<
+    Filter, Collapse,
+    std::void_t<decltype(std::declval<const Filter&>().allows(std::declval<const Collapse&>()))>>
+    : std::true_type
+{
+};
+
+/// Whether a filter allows a collapse: one of ours, or any model of CGAL's concept `PlacementFilter`.
+template <class Filter, class Collapse>
+bool is_allowed(const Filter& filter, const Collapse& collapse)
+{
+  if constexpr (Judges_collapses<Filter, Collapse>::value)
+    return filter.allows(collapse);
+  else
+    return bool(filter(collapse.profile(), Optional<typename Collapse::Point>(collapse.place())));
+}
+
+/// What all filters share: they ask the base filter first, then `accepts(collapse)` of the derived class, and
+/// count what the latter refuses. CGAL's loop copies its filter, so the count stands behind a pointer.
 template <class Derived, class BaseFilter>
 class Filter_base
 {
 public:
   explicit Filter_base(const BaseFilter& base) : m_base(base), m_refusals(std::make_shared<std::size_t>(0)) {}
 
-  /// The placement itself when base and filter accept it, none otherwise.
+  /// The placement itself when base and filter accept it, none otherwise. A base filter that answers with
+  /// another placement accepts this one.
   template <class Profile, class OptionalPoint>
   OptionalPoint operator()(const Profile& profile, const OptionalPoint& placement) const
   {
-    const OptionalPoint accepted = m_base(profile, placement);
-    if (!accepted || static_cast<const Derived&>(*this).accepts(profile, *accepted))
-      return accepted;
+    return placement && derived().allows(Collapse<Profile>(profile, *placement)) ? placement
+                                                                                 : OptionalPoint();
+  }
+
+  /// The same for a loop that knows which end moves.
+  template <class Collapse>
+  bool allows(const Collapse& collapse) const
+  {
+    if (!is_allowed(m_base, collapse))
+      return false;
+    if (derived().accepts(collapse))
+      return true;
     ++*m_refusals;
-    return {};
+    return false;
   }
 
   /// How many placements this filter refused that its base had accepted; copies count together.
   std::size_t refusals() const { return *m_refusals; }
 
 private:
+  const Derived& derived() const { return static_cast<const Derived&>(*this); }
+
   BaseFilter m_base;
   std::shared_ptr<std::size_t> m_refusals;
 };

@@ -23,15 +23,6 @@ class Selectable_index
 public:
   using Id = Packed_R_tree::Id;
 
-  struct Statistics
-  {
-    std::size_t clusters; ///< or leaves
-    std::size_t queries;
-    std::size_t visits;
-    std::size_t cluster_rebuilds;
-    std::size_t top_rebuilds; ///< or of the whole tree
-  };
-
   explicit Selectable_index(Packed_R_tree index) : m_index(std::move(index)) {}
   explicit Selectable_index(Clustered_AABB_tree index) : m_index(std::move(index)) {}
 
@@ -54,22 +45,13 @@ public:
     std::visit([&](const auto& index) { index.visit_overlapping(box, visit); }, m_index);
   }
 
-  Statistics statistics() const
+  const Index_statistics& statistics() const
   {
-    return std::visit([](const auto& index) { return common(index.statistics()); }, m_index);
+    return std::visit([](const auto& index) -> const Index_statistics& { return index.statistics(); },
+                      m_index);
   }
 
 private:
-  static Statistics common(const Packed_R_tree::Statistics& packed)
-  {
-    return {packed.leaves, packed.queries, packed.visits, 0, packed.rebuilds};
-  }
-  static Statistics common(const Clustered_AABB_tree::Statistics& clustered)
-  {
-    return {clustered.clusters, clustered.queries, clustered.visits, clustered.cluster_rebuilds,
-            clustered.top_rebuilds};
-  }
-
   std::variant<Packed_R_tree, Clustered_AABB_tree> m_index;
 };
 

@@ -1,0 +1,90 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COLLAPSE_H
+#define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COLLAPSE_H
+
+#include <CGAL/boost/graph/helpers.h>
+#include <CGAL/boost/graph/iterator.h>
+
+namespace selvedge {
+namespace internal {
+
+/// One collapse of an edge: its profile, where the merged vertex goes, and which ends move to get there.
+///
+/// Whoever decides on a collapse makes this value once; filters, the border rule and all that listens get it
+/// and need not compare coordinates. It is valid as long as the profile is.
+template <class Profile_>
+class Collapse
+{
+public:
+  using Profile = Profile_;
+  using Point = typename Profile::Point;
+  using Vertex = typename Profile::vertex_descriptor;
+  using Halfedge = typename Profile::halfedge_descriptor;
+
+  /// The source of `moving`, a halfedge of the profile's edge, moves onto its target.
+  static Collapse along(const Profile& profile, Halfedge moving)
+  {
+    const bool is_onto_v0 = moving == profile.v1_v0();
+    return Collapse(profile, is_onto_v0 ? profile.p0() : profile.p1(), !is_onto_v0, is_onto_v0);
+  }
+
+  /// For placements that a policy of somebody else chose. An end moves where it does not stand at the place.
+  Collapse(const Profile& profile, const Point& place)
+      : Collapse(profile, place, place != profile.p0(), place != profile.p1())
+  {
+  }
+
+  const Profile& profile() const { return *m_profile; }
+  const Point& place() const { return m_place; }
+  bool is_v0_moved() const { return m_is_v0_moved; }
+  bool is_v1_moved() const { return m_is_v1_moved; }
+
+  /// Whether the merged vertex goes to neither end.
+  bool are_both_moved() const { return m_is_v0_moved && m_is_v1_moved; }
+
+  /// The halfedge along which a vertex moves, where only one does.
+  Halfedge moving() const { return m_is_v0_moved ? m_profile->v0_v1() : m_profile->v1_v0(); }
+  Vertex mover() const { return m_is_v0_moved ? m_profile->v0() : m_profile->v1(); }
+  Vertex goal() const { return m_is_v0_moved ? m_profile->v1() : m_profile->v0(); }
+
+  /// Calls `is_fine(before, after, a, b)` for every face (v, a, b), counter-clockwise, that this changes but
+  /// keeps, where `before` is the position of v and `after` that of the merged vertex; stops at the first
+  /// false.
+  ///
+  /// Walks halfedges and allocates nothing, unlike `Profile::triangles()`.
+  template <class Predicate>
+  bool all_of_changed_faces(Predicate&& is_fine) const
+  {
+    const auto& mesh = m_profile->surface_mesh();
+    const auto points = m_profile->vertex_point_map();
+    const auto are_fine_around = [&](Vertex vertex, Vertex other, const Point& before) {
+      for (const Halfedge h : CGAL::halfedges_around_target(halfedge(vertex, mesh), mesh)) {
+        if (CGAL::is_border(h, mesh))
+          continue;
+        const Vertex a = target(next(h, mesh), mesh), b = source(h, mesh);
+        if (a != other && b != other && !is_fine(before, m_place, get(points, a), get(points, b)))
+          return false;
+      }
+      return true;
+    };
+    return (!m_is_v0_moved || are_fine_around(m_profile->v0(), m_profile->v1(), m_profile->p0())) &&
+           (!m_is_v1_moved || are_fine_around(m_profile->v1(), m_profile->v0(), m_profile->p1()));
+  }
+
+private:
+  Collapse(const Profile& profile, const Point& place, bool is_v0_moved, bool is_v1_moved)
+      : m_profile(&profile), m_place(place), m_is_v0_moved(is_v0_moved), m_is_v1_moved(is_v1_moved)
+  {
+  }
+
+  const Profile* m_profile;
+  Point m_place;
+  bool m_is_v0_moved, m_is_v1_moved;
+};
+
+} // namespace internal
+} // namespace selvedge
+
+#endif // SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COLLAPSE_H

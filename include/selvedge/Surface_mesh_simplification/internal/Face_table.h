@@ -1,0 +1,135 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_FACE_TABLE_H
+#define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_FACE_TABLE_H
+
+#include <selvedge/internal/instructions.h>
+
+#include <CGAL/Bbox_3.h>
+#include <CGAL/Dynamic_property_map.h>
+#include <CGAL/boost/graph/helpers.h>
+#include <CGAL/boost/graph/iterator.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+namespace selvedge {
+namespace internal {
+
+/// The faces of a mesh, numbered: the corners of each, and an index of their boxes.
+template <class TriangleMesh, class VertexTable, class FaceIndex>
+class Face_table
+{
+  using Graph_traits = boost::graph_traits<TriangleMesh>;
+  using Vertex = typename Graph_traits::vertex_descriptor;
+  using Halfedge = typename Graph_traits::halfedge_descriptor;
+  using Number = typename VertexTable::Number;
+
+public:
+  using Face = typename Graph_traits::face_descriptor;
+  using Id = typename FaceIndex::Id;
+  using Corners = std::array<Number, 3>;
+
+  Face_table(const TriangleMesh& mesh, const VertexTable& vertices, FaceIndex&& empty_index)
+      : m_mesh(mesh), m_vertices(vertices), m_index(std::move(empty_index)),
+        m_ids(get(CGAL::dynamic_face_property_t<Id>(), mesh))
+  {
+    m_faces.reserve(num_faces(mesh));
+    m_corners.reserve(num_faces(mesh));
+    std::vector<Id> ids;
+    ids.reserve(num_faces(mesh));
+    for (const Face face : faces(mesh)) {
+      const Id id = Id(m_faces.size());
+      put(m_ids, face, id);
+      m_faces.push_back(face);
+      m_corners.push_back(find_corners(halfedge(face, mesh)));
+      ids.push_back(id);
+    }
+    m_index.build(ids, [this](Id id) { return box(id); });
+  }
+
+  Face descriptor(Id id) const { return m_faces[id]; }
+  const Corners& corners(Id id) const { return m_corners[id]; }
+  bool is_at(Id id, Number vertex) const
+  {
+    const auto& [a, b, c] = m_corners[id];
+    return a == vertex || b == vertex || c == vertex;
+  }
+
+  /// Finds the faces whose boxes meet a box, without those at the vertex `mover`. Memory is fetched for all
+  /// before any is looked at.
+  void find_near(const CGAL::Bbox_3& box, Number mover, std::vector<Id>& near)
+  {
+    near.clear();
+    m_index.visit_overlapping(box, [&](Id id) {
+      prefetch(m_corners[id]);
+      near.push_back(id);
+    });
+    remove_at(mover, near);
+  }
+
+  /// Adds all faces at `vertex`, each once, but those at `mover`: for a vertex that is judged as if it stood
+  /// elsewhere than the index knows.
+  void add_all_at(Vertex vertex, Number mover, std::vector<Id>& near) const
+  {
+    remove_at(m_vertices.number(vertex), near);
+    for (const Halfedge h : CGAL::halfedges_around_target(halfedge(vertex, m_mesh), m_mesh))
+      if (!CGAL::is_border(h, m_mesh))
+        near.push_back(get(m_ids, face(h, m_mesh)));
+    remove_at(mover, near);
+  }
+
+  /// Called before a collapse frees the face of a halfedge of its edge, if there is one.
+  void on_removing(Halfedge h)
+  {
+    if (!CGAL::is_border(h, m_mesh))
+      m_index.remove(get(m_ids, face(h, m_mesh)));
+  }
+
+  /// Called when vertex table and mesh know the merged vertex.
+  void on_collapsed(Vertex kept)
+  {
+    for (const Halfedge h : CGAL::halfedges_around_target(halfedge(kept, m_mesh), m_mesh))
+      if (!CGAL::is_border(h, m_mesh)) {
+        const Id id = get(m_ids, face(h, m_mesh));
+        m_corners[id] = find_corners(h);
+        m_index.set(id, box(id));
+      }
+  }
+
+  const FaceIndex& index() const { return m_index; }
+
+private:
+  Corners find_corners(Halfedge h) const
+  {
+    return {m_vertices.number(source(h, m_mesh)), m_vertices.number(target(h, m_mesh)),
+            m_vertices.number(target(next(h, m_mesh), m_mesh))};
+  }
+
+  CGAL::Bbox_3 box(Id id) const
+  {
+    const auto& [a, b, c] = m_corners[id];
+    return m_vertices.point(a).bbox() + m_vertices.point(b).bbox() + m_vertices.point(c).bbox();
+  }
+
+  void remove_at(Number vertex, std::vector<Id>& near) const
+  {
+    near.erase(std::remove_if(near.begin(), near.end(), [&](Id id) { return is_at(id, vertex); }),
+               near.end());
+  }
+
+  const TriangleMesh& m_mesh;
+  const VertexTable& m_vertices;
+  FaceIndex m_index;
+  typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<Id>>::const_type m_ids;
+  std::vector<Face> m_faces;      // by number
+  std::vector<Corners> m_corners; // by number: the mesh's own are five look-ups away
+};
+
+} // namespace internal
+} // namespace selvedge
+
+#endif // SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_FACE_TABLE_H

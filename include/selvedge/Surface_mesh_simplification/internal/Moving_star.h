@@ -1,0 +1,199 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_MOVING_STAR_H
+#define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_MOVING_STAR_H
+
+#include <selvedge/geometry/Vertex_motion.h>
+
+#include <CGAL/Bbox_3.h>
+#include <CGAL/boost/graph/helpers.h>
+#include <CGAL/boost/graph/iterator.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace selvedge {
+namespace internal {
+
+/// The faces around one vertex that moves, in points that are numbered for this motion: where the vertex is,
+/// where it goes, then its link, then whatever else is asked about. Points at one position have one number.
+///
+/// Its buffers are kept from motion to motion, so that judging one allocates nothing.
+template <class TriangleMesh, class VertexTable>
+class Moving_star
+{
+  using Graph_traits = boost::graph_traits<TriangleMesh>;
+  using Halfedge = typename Graph_traits::halfedge_descriptor;
+  using Number = typename VertexTable::Number;
+
+public:
+  using Vertex = typename VertexTable::Vertex;
+  using Point = typename VertexTable::Point;
+  using Local = std::uint32_t; ///< the number of a point in this motion
+  static constexpr Local s_from = 0, s_to = 1;
+
+  /// A vertex goes to a place: that of a neighbour with which it merges, or one that is no vertex.
+  struct Motion
+  {
+    Vertex mover;
+    std::optional<Vertex> target; ///< the neighbour
+    Point place;
+    bool is_target_moved; ///< the neighbour is judged as if it stood at `place` already
+  };
+
+  using Link_edge = std::array<Local, 2>; ///< counter-clockwise
+
+  Moving_star(const TriangleMesh& mesh, VertexTable& vertices) : m_mesh(mesh), m_vertices(vertices) {}
+
+  /// Numbers the points of the star. False, and no more may be asked, when a face other than the contracted
+  /// ones has a corner where the mover goes.
+  bool gather(const Motion& motion)
+  {
+    m_vertices.unmark();
+    m_points.clear();
+    m_points.push_back(m_vertices.point(m_vertices.number(motion.mover)));
+    m_points.push_back(motion.place);
+    if (motion.target)
+      m_vertices.mark(m_vertices.number(*motion.target), s_to);
+    m_link.clear();
+    m_is_contracted.clear();
+    m_is_closed = true;
+    m_has_target = motion.target.has_value();
+    for (const Halfedge h : CGAL::halfedges_around_target(halfedge(motion.mover, m_mesh), m_mesh)) {
+      if (CGAL::is_border(h, m_mesh)) {
+        m_is_closed = false;
+        continue;
+      }
+      const Vertex a = target(next(h, m_mesh), m_mesh), b = source(h, m_mesh);
+      const Local first = local(m_vertices.number(a)), second = local(m_vertices.number(b));
+      const bool is_contracted = motion.target && (a == *motion.target || b == *motion.target);
+      if (!is_contracted && motion.target && (first == s_to || second == s_to))
+        return false;
+      m_link.push_back({first, second});
+      m_is_contracted.push_back(is_contracted);
+    }
+    m_size = m_points.size();
+    return true;
+  }
+
+  /// The link condition: every position joined by an edge to both ends is the third corner of a contracted
+  /// face. And the collapse joins no two stretches of a border.
+  bool is_link_condition_met(const Motion& motion) const
+  {
+    if (!motion.target)
+      return true;
+    const Vertex mover = motion.mover, end = *motion.target;
+    std::array<Local, 2> contracted;
+    std::size_t contracted_count = 0;
+    bool is_edge_border = false;
+    for (const Halfedge h : CGAL::halfedges_around_target(halfedge(mover, m_mesh), m_mesh)) {
+      if (source(h, m_mesh) != end)
+        continue;
+      for (const Halfedge side : {h, opposite(h, m_mesh)}) {
+        if (CGAL::is_border(side, m_mesh)) {
+          is_edge_border = true;
+          continue;
+        }
+        const Halfedge next_edge = next(side, m_mesh);
+        if (CGAL::is_border(opposite(next_edge, m_mesh), m_mesh) &&
+            CGAL::is_border(opposite(next(next_edge, m_mesh), m_mesh), m_mesh))
+          return false;
+        contracted[contracted_count++] = m_vertices.mark(m_vertices.number(target(next_edge, m_mesh)));
+      }
+    }
+    const auto is_allowed = [&](Number neighbour) {
+      const auto beyond = contracted.begin() + contracted_count;
+      return !m_vertices.is_marked(neighbour) || // not in the link
+             std::find(contracted.begin(), beyond, m_vertices.mark(neighbour)) != beyond;
+    };
+    bool is_end_on_border = false;
+    const auto are_neighbours_allowed = [&](Vertex at) {
+      for (const Halfedge h : CGAL::halfedges_around_target(halfedge(at, m_mesh), m_mesh)) {
+        is_end_on_border |= CGAL::is_border(h, m_mesh);
+        if (source(h, m_mesh) != mover && !is_allowed(m_vertices.number(source(h, m_mesh))))
+          return false;
+      }
+      return true;
+    };
+    const Number number = m_vertices.number(end);
+    if (!m_vertices.is_coincident(number)) {
+      if (!are_neighbours_allowed(end))
+        return false;
+    } else {
+      const std::vector<Vertex>& all = m_vertices.all_at(number);
+      if (!std::all_of(all.begin(), all.end(), are_neighbours_allowed))
+        return false;
+    }
+    return is_edge_border || m_is_closed || !is_end_on_border;
+  }
+
+  /// The number of a vertex among the points, to which it is added if it is not one of them.
+  Local local(Number v)
+  {
+    if (m_vertices.is_marked(v))
+      return m_vertices.mark(v);
+    const Local point = Local(m_points.size());
+    m_points.push_back(m_vertices.point(v));
+    m_vertices.mark(v, point);
+    return point;
+  }
+
+  const std::vector<Point>& points() const { return m_points; }
+  const Point& operator[](Local point) const { return m_points[point]; }
+
+  /// The points of the star itself are the first so many.
+  std::size_t size() const { return m_size; }
+
+  /// In order around the mover.
+  const std::vector<Link_edge>& link() const { return m_link; }
+
+  /// Whether the face at the j-th edge of the link has `to` as a corner.
+  bool is_contracted(std::size_t j) const { return m_is_contracted[j]; }
+
+  bool is_closed() const { return m_is_closed; }
+
+  /// Whether the link is one cycle of distinct positions.
+  bool is_cycle() const { return m_is_closed && m_size + m_has_target == m_link.size() + 2; }
+
+  /// Bounds the motion of all of its points.
+  CGAL::Bbox_3 box() const
+  {
+    CGAL::Bbox_3 box;
+    for (std::size_t i = 0; i < m_size; ++i)
+      box += m_points[i].bbox();
+    return box;
+  }
+
+  /// The same in points, for `judge_star_motion`.
+  const Vertex_motion<Point>& exact()
+  {
+    m_exact.from = m_points[s_from];
+    m_exact.to = m_points[s_to];
+    m_exact.moving.clear();
+    m_exact.contracted.clear();
+    for (std::size_t j = 0; j < m_link.size(); ++j)
+      (m_is_contracted[j] ? m_exact.contracted : m_exact.moving)
+          .push_back({m_points[m_link[j][0]], m_points[m_link[j][1]]});
+    return m_exact;
+  }
+
+private:
+  const TriangleMesh& m_mesh;
+  VertexTable& m_vertices;
+  std::vector<Point> m_points;
+  std::size_t m_size = 0;
+  std::vector<Link_edge> m_link;
+  std::vector<char> m_is_contracted; // by edge
+  bool m_is_closed = false, m_has_target = false;
+  Vertex_motion<Point> m_exact;
+};
+
+} // namespace internal
+} // namespace selvedge
+
+#endif // SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_MOVING_STAR_H

@@ -1,0 +1,499 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_SIMPLIFICATION_H
+#define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_SIMPLIFICATION_H
+
+#include <selvedge/Simplify_options.h>
+#include <selvedge/Simplify_report.h>
+#include <selvedge/Surface_mesh_simplification/Aspect_ratio_filter.h>
+#include <selvedge/Surface_mesh_simplification/Border_filter.h>
+#include <selvedge/Surface_mesh_simplification/Error_filter.h>
+#include <selvedge/Surface_mesh_simplification/Face_targets.h>
+#include <selvedge/Surface_mesh_simplification/Halfedge_filter.h>
+#include <selvedge/Surface_mesh_simplification/Halfedge_placement.h>
+#include <selvedge/Surface_mesh_simplification/Intersection_filter.h>
+#include <selvedge/Surface_mesh_simplification/Normal_change_filter.h>
+#include <selvedge/Surface_mesh_simplification/Quadric_cost.h>
+#include <selvedge/Surface_mesh_simplification/Simplify_constraints.h>
+#include <selvedge/Surface_mesh_simplification/internal/Cgal_pass.h>
+#include <selvedge/Surface_mesh_simplification/internal/Lazy_edge_profile.h>
+#include <selvedge/Surface_mesh_simplification/internal/perform_collapse.h>
+#include <selvedge/Surface_mesh_simplification/stop_predicates.h>
+#include <selvedge/edge_collapse.h>
+#include <selvedge/spatial/internal/Selectable_index.h>
+
+#include <CGAL/Kernel_traits.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+namespace selvedge {
+namespace internal {
+
+/// One reduction: the border rule, the cost, the chain of filters, and the loop that they are given to. Every
+/// collapse, of whichever loop, is announced to all of them in `before_collapse` and `after_collapse`.
+template <class TriangleMesh, class Observer>
+class Simplification
+{
+  using Graph_traits = boost::graph_traits<TriangleMesh>;
+  using Vertex = typename Graph_traits::vertex_descriptor;
+  using Halfedge = typename Graph_traits::halfedge_descriptor;
+  using Edge = typename Graph_traits::edge_descriptor;
+  using Point_map = typename boost::property_map<TriangleMesh, CGAL::vertex_point_t>::type;
+  using Geom_traits =
+      typename CGAL::Kernel_traits<typename boost::property_traits<Point_map>::value_type>::Kernel;
+  using Rule = Border_rule<TriangleMesh>;
+  using Targets = Face_targets<TriangleMesh>;
+  using Quadrics = Quadric_cost<TriangleMesh, Rule>;
+
+  /// What the quadrics say, and what the texture adds; none for edges between faces that do not count.
+  class Cost
+  {
+  public:
+    using Update_tag = CGAL::Tag_true;
+
+    Cost(const Quadrics& quadrics, const Targets& targets, const Observer& observer, double uv_weight)
+        : m_quadrics(quadrics), m_targets(targets), m_observer(&observer), m_uv_weight(uv_weight)
+    {
+    }
+
+    template <class VertexPointMap, class GeomTraits>
+    void initialize(const TriangleMesh& mesh, const VertexPointMap& points, const GeomTraits& traits) const
+    {
+      m_quadrics.initialize(mesh, points, traits);
+    }
+
+    template <class Profile, class Point>
+    Optional<typename Profile::FT> operator()(const Profile& profile, const Optional<Point>& placement) const
+    {
+      const Optional<double> cost = placement
+                                        ? cost_along(profile, Collapse<Profile>(profile, *placement).moving())
+                                        : Optional<double>();
+      return cost ? typename Profile::FT(*cost) : Optional<typename Profile::FT>();
+    }
+
+    template <class Profile>
+    Optional<double> cost_along(const Profile& profile, Halfedge moving) const
+    {
+      if (!m_targets.is_counted(moving))
+        return {};
+      const Optional<double> cost = m_quadrics.cost_along(profile, moving);
+      return m_uv_weight > 0 ? *cost + m_uv_weight * m_observer->uv_cost(moving) : cost;
+    }
+
+    bool reaches_neighbours(Vertex kept) const { return m_quadrics.reaches_neighbours(kept); }
+    bool reaches(Vertex kept, Edge edge) const { return m_quadrics.reaches(kept, edge); }
+
+    template <class Profile, class Vertex>
+    void update_after_collapse(const Profile& profile, const Vertex& kept) const
+    {
+      m_quadrics.update_after_collapse(profile, kept);
+    }
+
+  private:
+    Quadrics m_quadrics;
+    Targets m_targets;
+    const Observer* m_observer;
+    double m_uv_weight;
+  };
+
+  struct Is_uv_orientation_kept
+  {
+    const Observer* observer; // none: not asked
+    Rule rule;
+
+    template <class Halfedge>
+    bool operator()(const Halfedge& moving) const
+    {
+      return !observer || observer->keeps_uv_orientation(moving, rule);
+    }
+  };
+
+  struct Are_pieces_kept
+  {
+    const Observer* observer;
+    Rule rule;
+
+    template <class Halfedge>
+    bool operator()(const Halfedge& moving) const
+    {
+      return observer->keeps_pieces(moving, rule);
+    }
+  };
+
+  using Line = Border_filter<Rule>;
+  using Border = Halfedge_filter<Are_pieces_kept, Line>;
+  using Target = Halfedge_filter<Targets, Border>;
+  using Error = Error_filter<Quadrics, Target>;
+  using Aspect_ratio = Aspect_ratio_filter<Error>;
+  using Normal_change = Normal_change_filter<Aspect_ratio>;
+  using Uv = Halfedge_filter<Is_uv_orientation_kept, Normal_change>;
+  using Intersection = Intersection_filter<TriangleMesh, Uv, Selectable_index>;
+
+public:
+  Simplification(TriangleMesh& mesh, const Simplify_options& options,
+                 const Simplify_constraints<TriangleMesh>& constraints, Observer& observer)
+      : m_start(Clock::now()), m_mesh(mesh), m_options(options), m_observer(observer),
+        m_diagonal(constraints.diagonal ? *constraints.diagonal : diagonal(mesh)),
+        m_rule(make_rule(constraints)), m_targets(make_targets(constraints)),
+        m_quadrics(mesh, options.cost, m_rule), m_line(m_rule), m_border({&observer, m_rule}, m_line),
+        m_target(m_targets, m_border), m_error(max_error(), m_quadrics, m_target),
+        m_aspect_ratio(options.min_aspect_ratio, m_error),
+        m_normal_change(options.max_normal_change, m_aspect_ratio),
+        m_uv({options.check_uv_orientation ? &observer : nullptr, m_rule}, m_normal_change)
+  {
+    refuse_out_of_range();
+    if (!(options.uv_weight >= 0 && std::isfinite(options.uv_weight)))
+      throw Argument_error("the weight of the texture is at least 0, and finite");
+    m_quadrics.weigh(constraints.vertex_weights);
+    m_report.faces_input = m_targets.total().faces;
+  }
+
+  /// Lets the source of `moving` go to its target, unasked: somebody else knows that this is legal. Before
+  /// `run`.
+  void collapse(Halfedge moving)
+  {
+    const auto points = get(CGAL::vertex_point, m_mesh);
+    const Geom_traits traits;
+    m_quadrics.initialize(m_mesh, points, traits);
+    const Lazy_edge_profile<TriangleMesh, Point_map, Geom_traits> profile(moving, m_mesh, points, traits);
+    ++m_accepted;
+    Visitor visitor(*this);
+    perform_collapse(m_mesh, points, No_constrained_edges(),
+                     Collapse<decltype(profile)>::along(profile, moving), visitor, m_quadrics);
+  }
+
+  double diagonal() const { return m_diagonal; }
+  const Rule& rule() const { return m_rule; }
+  const Targets& targets() const { return m_targets; }
+
+  /// Of the edge that is being considered.
+  double cost() const { return m_cost; }
+
+  Simplify_report run()
+  {
+    return run({}, [](const Simplify_report&) {});
+  }
+
+  /// Calls `on_level(report)` for each of some ratios, from the largest to the smallest, in the state in
+  /// which a run to that ratio alone would have ended, and goes on to the target.
+  template <class On_level>
+  Simplify_report run(const std::vector<double>& ratios, const On_level& on_level)
+  {
+    for (const double ratio : ratios)
+      m_levels.push_back(Face_ratio_stop::face_target(ratio, m_targets.share(0).faces));
+    m_on_level = on_level;
+    build_index();
+    pass_levels();
+
+    const Cost costs(m_quadrics, m_targets, m_observer, m_options.uv_weight);
+    const Directions directions(costs, m_rule);
+    // Until a pass finds that nothing more is possible; the report tells what refused in that.
+    const auto run_passes = [&](auto run_pass) {
+      bool is_promising = true;
+      while (is_promising && !m_targets.is_reached() && !m_report.is_stopped) {
+        const std::size_t collapses_before = m_report.collapses;
+        m_refused_before_pass = refusals();
+        ++m_report.passes;
+        is_promising = run_pass() || m_report.collapses > collapses_before;
+      }
+    };
+    if (m_options.loop == Collapse_loop::own)
+      run_passes([&] {
+        selvedge::edge_collapse(m_mesh, is_over(),
+                                CGAL::parameters::get_cost(costs)
+                                    .get_placement(directions)
+                                    .filter(Filter{this})
+                                    .visitor(Visitor(*this)));
+        return false;
+      });
+    else
+      run_passes(Cgal_pass(
+          m_mesh, costs, directions, Filter{this}, Visitor(*this), [this] { return is_over(); },
+          [this] { return refusals().intersection; }));
+    while (m_next_level < m_levels.size())
+      pass_level();
+    return report();
+  }
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  using Directions = Halfedge_placement<TriangleMesh, Cost, Rule>;
+
+  void build_index()
+  {
+    const Clock::time_point start = Clock::now();
+    if (m_options.check_intersections)
+      m_intersection.emplace(m_mesh, m_uv, empty_index());
+    m_report.seconds_index = seconds_since(start);
+  }
+
+  Selectable_index empty_index() const
+  {
+    Clustered_AABB_tree clustered(m_options.faces_per_cluster); // so that 0 is refused in any case
+    return m_options.index == Face_index::packed ? Selectable_index(Packed_R_tree())
+                                                 : Selectable_index(std::move(clustered));
+  }
+
+  struct Filter
+  {
+    Simplification* simplification;
+
+    template <class Profile>
+    bool allows(const Collapse<Profile>& collapse) const
+    {
+      return simplification->allows(collapse);
+    }
+
+    const std::vector<typename Intersection::Face>& blockers() const
+    {
+      static const std::vector<typename Intersection::Face> none;
+      return simplification->m_intersection ? simplification->m_intersection->blockers() : none;
+    }
+  };
+
+  // The stop of either loop: the target, or somebody's wish.
+  auto is_over()
+  {
+    return Any_stop(Function_stop([this](double cost) {
+                      m_cost = cost;
+                      return m_targets.is_reached();
+                    }),
+                    Hook_stop([this](std::size_t) {
+                      const auto total = m_targets.total();
+                      m_report.is_stopped =
+                          m_options.should_stop &&
+                          m_options.should_stop({m_report.faces_input, total.target, total.faces});
+                      return m_report.is_stopped;
+                    }));
+  }
+
+  struct Visitor : No_visitor
+  {
+    explicit Visitor(Simplification& simplification_) : simplification(&simplification_) {}
+
+    template <class Profile>
+    void before_collapse(const Collapse<Profile>& collapse)
+    {
+      simplification->before_collapse(collapse);
+    }
+    template <class Profile, class OptionalPoint>
+    void OnCollapsing(const Profile& profile, const OptionalPoint& placement)
+    {
+      before_collapse(Collapse<Profile>(profile, *placement));
+    }
+    template <class Profile, class Vertex>
+    void OnCollapsed(const Profile&, const Vertex& kept)
+    {
+      simplification->after_collapse(kept);
+    }
+
+    Simplification* simplification;
+  };
+
+  template <class Profile>
+  bool allows(const Collapse<Profile>& collapse)
+  {
+    if (m_intersection ? m_intersection->allows(collapse) : m_uv.allows(collapse)) {
+      ++m_accepted;
+      return true;
+    }
+    report_refusal(collapse.moving());
+    return false;
+  }
+
+  template <class Profile>
+  void before_collapse(const Collapse<Profile>& collapse)
+  {
+    m_observer.before_collapse(collapse.moving(), m_rule);
+    m_targets.before_collapse(collapse.moving());
+    m_rule.before_collapse(collapse);
+    if (m_intersection)
+      m_intersection->visitor().before_collapse(collapse);
+  }
+
+  template <class Vertex>
+  void after_collapse(const Vertex& kept)
+  {
+    ++m_report.collapses;
+    m_rule.after_collapse(kept);
+    if (m_intersection)
+      m_intersection->visitor().after_collapse(kept);
+    pass_levels();
+  }
+
+  // Levels that are reached. Each is a snapshot: nothing of what follows depends on it.
+  void pass_levels()
+  {
+    while (m_next_level < m_levels.size() && m_targets.share(0).faces <= m_levels[m_next_level])
+      pass_level();
+  }
+  void pass_level()
+  {
+    const std::size_t target = m_targets.share(0).target;
+    m_targets.set_target(0, m_levels[m_next_level++]);
+    m_on_level(report());
+    m_targets.set_target(0, target);
+  }
+
+  template <class Halfedge>
+  void report_refusal(const Halfedge& moving)
+  {
+    Refusals now = refusals();
+    now.by_loop = 0; // what was accepted before this
+    m_observer.on_refused(moving, now - m_refused_until_now);
+    m_refused_until_now = now;
+  }
+
+  Rule make_rule(const Simplify_constraints<TriangleMesh>& constraints) const
+  {
+    Border_rule_options options;
+    options.max_border_turn = m_options.max_border_turn;
+    options.max_seam_turn = m_options.max_seam_turn;
+    options.max_drift = m_options.max_border_drift * m_diagonal;
+    Rule rule(m_mesh, options);
+    for (const auto e : constraints.line_edges)
+      rule.mark(e);
+    for (const auto v : constraints.locked_vertices)
+      rule.lock(v);
+    return rule;
+  }
+
+  double max_error() const
+  {
+    if (!m_options.max_error)
+      return std::numeric_limits<double>::infinity();
+    if (!(*m_options.max_error >= 0))
+      throw Argument_error("the error allowed is a share of the diagonal, at least 0");
+    return *m_options.max_error * m_diagonal;
+  }
+
+  Targets make_targets(const Simplify_constraints<TriangleMesh>& constraints) const
+  {
+    Targets targets(m_mesh);
+    for (const auto& share : constraints.shares) {
+      const std::size_t number = targets.add_share();
+      for (const auto face : share.faces)
+        targets.assign(face, number);
+    }
+    for (const auto face : constraints.uncounted_faces)
+      targets.leave_out(face);
+    for (std::size_t i = 0; i < constraints.shares.size(); ++i)
+      targets.set_target(
+          i + 1, Face_ratio_stop::face_target(constraints.shares[i].ratio, targets.share(i + 1).faces));
+    const std::size_t by_ratio =
+        m_options.ratio ? Face_ratio_stop::face_target(*m_options.ratio, targets.share(0).faces) : 0;
+    targets.set_target(0, (std::max)(m_options.faces.value_or(0), by_ratio));
+    return targets;
+  }
+
+  static CGAL::Bbox_3 bounding_box(const TriangleMesh& mesh)
+  {
+    CGAL::Bbox_3 box;
+    for (const auto v : vertices(mesh))
+      box += get(get(CGAL::vertex_point, mesh), v).bbox();
+    return box;
+  }
+
+  static double diagonal(const TriangleMesh& mesh)
+  {
+    const CGAL::Bbox_3 box = bounding_box(mesh);
+    return box.xmin() <= box.xmax()
+               ? std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin())
+               : 0;
+  }
+
+  // All that is computed about quality is a sum of less than 2^40 products of at most four lengths, none
+  // longer than the diagonal D = 2^d, and of factors that make less than 2^10, weights aside: it is less than
+  // 2^(4d + 50), and does not overflow for d up to 200. The length of the normal of a triangle, twice its
+  // area A, is squared for comparisons; the square keeps all digits where 2A > 2^-500. With d at least -200
+  // that holds for all triangles with an area of more than 2^-100 D².
+  void refuse_out_of_range() const
+  {
+    if (m_diagonal == 0 || (m_diagonal >= 0x1p-200 && m_diagonal <= 0x1p200))
+      return;
+    const CGAL::Bbox_3 box = bounding_box(m_mesh);
+    std::ostringstream text;
+    text
+        << "the bounding box of the mesh, " << box << ", is too " << (m_diagonal < 1 ? "small" : "large")
+        << ": its diagonal is to be from 2^-200 to 2^200, so that squares of areas are numbers; multiply all "
+           "coordinates by a power of two, which loses no digit, and those of the result by its inverse";
+    throw Argument_error(text.str());
+  }
+
+  Refusals refusals() const
+  {
+    Refusals result;
+    result.border = m_line.refusals() + m_border.refusals();
+    result.target = m_target.refusals();
+    result.error = m_error.refusals();
+    result.aspect_ratio = m_aspect_ratio.refusals();
+    result.normal_change = m_normal_change.refusals();
+    result.uv = m_uv.refusals();
+    result.intersection = m_intersection ? m_intersection->refusals() : 0;
+    // What passed the last filter and was not collapsed; a stop comes before the filters.
+    result.by_loop = m_accepted - m_report.collapses;
+    return result;
+  }
+
+  Simplify_report report() const
+  {
+    Simplify_report report = m_report;
+    const auto total = m_targets.total();
+    report.faces_output = total.faces;
+    report.faces_target = total.target;
+    report.faces_to_go = m_targets.total_excess();
+    report.refused = refusals();
+    report.refused_in_last_pass = report.refused - m_refused_before_pass;
+    report.seconds_reduce = seconds_since(m_start);
+    if (m_intersection) {
+      report.intersections = m_intersection->statistics();
+      report.index = m_intersection->index().statistics();
+    }
+    return report;
+  }
+
+  static double seconds_since(Clock::time_point start)
+  {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  }
+
+  Clock::time_point m_start;
+  TriangleMesh& m_mesh;
+  const Simplify_options& m_options;
+  Observer& m_observer;
+  double m_diagonal;
+  Rule m_rule;
+  Targets m_targets;
+  Quadrics m_quadrics;
+  Line m_line;
+  Border m_border;
+  Target m_target;
+  Error m_error;
+  Aspect_ratio m_aspect_ratio;
+  Normal_change m_normal_change;
+  Uv m_uv;
+  std::optional<Intersection> m_intersection;
+  Simplify_report m_report;
+  std::size_t m_accepted = 0;
+  double m_cost = 0;
+  Refusals m_refused_before_pass;
+  Refusals m_refused_until_now;
+  std::vector<std::size_t> m_levels; // face counts of share 0
+  std::size_t m_next_level = 0;
+  std::function<void(const Simplify_report&)> m_on_level;
+};
+
+} // namespace internal
+} // namespace selvedge
+
+#endif // SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_SIMPLIFICATION_H

@@ -1,0 +1,148 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_VERTEX_TABLE_H
+#define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_VERTEX_TABLE_H
+
+#include <selvedge/Error.h>
+#include <selvedge/internal/instructions.h>
+
+#include <CGAL/Dynamic_property_map.h>
+#include <CGAL/boost/graph/helpers.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace selvedge {
+namespace internal {
+
+/// The vertices of a mesh, numbered: where each is, which share a position, and marks for those that take
+/// part in the motion that is judged now.
+///
+/// Throws `Argument_error` for a mesh with an edge of length zero.
+template <class TriangleMesh, class VertexPointMap>
+class Vertex_table
+{
+  using Graph_traits = boost::graph_traits<TriangleMesh>;
+
+public:
+  using Vertex = typename Graph_traits::vertex_descriptor;
+  using Point = typename boost::property_traits<VertexPointMap>::value_type;
+  using Number = std::uint32_t;
+  using Mark = std::uint32_t; ///< less than 2^31
+
+  Vertex_table(const TriangleMesh& mesh, const VertexPointMap& points)
+      : m_points(points), m_numbers(get(CGAL::dynamic_vertex_property_t<Number>(), mesh))
+  {
+    m_records.reserve(num_vertices(mesh));
+    for (const Vertex v : vertices(mesh)) {
+      put(m_numbers, v, Number(m_records.size()));
+      m_records.push_back({get(m_points, v), 0, 0, false});
+    }
+    find_coincident(mesh);
+  }
+
+  Number number(Vertex v) const { return get(m_numbers, v); }
+  const Point& point(Number v) const { return m_records[v].point; }
+
+  /// Whether other vertices are at the same position.
+  bool is_coincident(Number v) const { return m_records[v].is_coincident; }
+
+  /// The vertices at the position of `v`, which is coincident.
+  const std::vector<Vertex>& all_at(Number v) const { return m_classes[m_class_of_vertex[v]]; }
+
+  /// Called after a collapse onto `target`, which lives on as `kept`.
+  void on_collapsed(Vertex target, Vertex kept)
+  {
+    const Number to = number(kept), from = number(target);
+    m_records[to].point = get(m_points, kept);
+    if (!is_coincident(from) || to == from)
+      return;
+    m_records[to].is_coincident = true;
+    m_class_of_vertex[to] = m_class_of_vertex[from];
+    std::vector<Vertex>& all = m_classes[m_class_of_vertex[to]];
+    std::replace(all.begin(), all.end(), target, kept);
+  }
+
+  /// Removes all marks.
+  void unmark()
+  {
+    if (++m_now == 0) { // after four thousand million motions, old marks would count again
+      for (Record& record : m_records)
+        record.marked_at = 0;
+      m_now = 1;
+    }
+  }
+
+  /// Marks a vertex and all others at its position.
+  void mark(Number v, Mark mark)
+  {
+    const auto mark_one = [&](Record& record) {
+      record.marked_at = m_now;
+      record.mark = mark;
+    };
+    if (!is_coincident(v))
+      mark_one(m_records[v]);
+    else
+      for (const Vertex other : all_at(v))
+        mark_one(m_records[number(other)]);
+  }
+
+  bool is_marked(Number v) const { return m_records[v].marked_at == m_now; }
+  Mark mark(Number v) const { return m_records[v].mark; }
+
+  void prefetch(Number v) const { internal::prefetch(m_records[v]); }
+
+private:
+  // All that is asked of a vertex when a face near it is judged, in one line of a cache.
+  struct alignas(32) Record
+  {
+    Point point;
+    std::uint32_t marked_at;
+    std::uint32_t mark : 31;
+    std::uint32_t is_coincident : 1;
+  };
+
+  void find_coincident(const TriangleMesh& mesh)
+  {
+    std::vector<Vertex> sorted;
+    sorted.reserve(num_vertices(mesh));
+    for (const Vertex v : vertices(mesh))
+      if (halfedge(v, mesh) != Graph_traits::null_halfedge())
+        sorted.push_back(v);
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [this](Vertex a, Vertex b) { return get(m_points, a) < get(m_points, b); });
+    for (std::size_t first = 0, beyond; first < sorted.size(); first = beyond) {
+      for (beyond = first + 1; beyond < sorted.size(); ++beyond)
+        if (get(m_points, sorted[beyond]) != get(m_points, sorted[first]))
+          break;
+      if (beyond - first == 1)
+        continue;
+      m_class_of_vertex.resize(m_records.size());
+      for (std::size_t i = first; i < beyond; ++i) {
+        m_class_of_vertex[number(sorted[i])] = Number(m_classes.size());
+        m_records[number(sorted[i])].is_coincident = true;
+      }
+      m_classes.emplace_back(sorted.begin() + first, sorted.begin() + beyond);
+    }
+    for (const auto edge : edges(mesh)) {
+      const auto h = halfedge(edge, mesh);
+      if (get(m_points, source(h, mesh)) == get(m_points, target(h, mesh)))
+        throw Argument_error("the mesh has an edge of length zero; remove its degenerate faces first");
+    }
+  }
+
+  VertexPointMap m_points;
+  typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<Number>>::const_type m_numbers;
+  std::vector<Record> m_records;              // by number
+  std::vector<std::vector<Vertex>> m_classes; // the vertices at one position
+  std::vector<Number> m_class_of_vertex;      // by number; empty where none are coincident
+  std::uint32_t m_now = 0;
+};
+
+} // namespace internal
+} // namespace selvedge
+
+#endif // SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_VERTEX_TABLE_H

@@ -1,0 +1,82 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_PERFORM_COLLAPSE_H
+#define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_PERFORM_COLLAPSE_H
+
+#include <selvedge/Surface_mesh_simplification/internal/Collapse.h>
+#include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
+
+#include <CGAL/boost/graph/Euler_operations.h>
+
+#include <type_traits>
+#include <utility>
+
+namespace selvedge {
+namespace internal {
+
+/// The edge map for meshes without constrained edges.
+struct No_constrained_edges
+{
+  template <class Edge>
+  friend bool get(const No_constrained_edges&, const Edge&)
+  {
+    return false;
+  }
+};
+
+template <class Cost, class = void>
+struct Is_updated : std::false_type
+{
+};
+template <class Cost>
+struct Is_updated<Cost, std::void_t<typename Cost::Update_tag>> : std::bool_constant<Cost::Update_tag::value>
+{
+};
+
+template <class Visitor, class Collapse, class = void>
+struct Takes_collapses : std::false_type
+{
+};
+template <class Visitor, class Collapse>
+struct Takes_collapses<
+    Visitor, Collapse,
+    std::void_t<decltype(std::declval<Visitor&>().before_collapse(std::declval<const Collapse&>()))>>
+    : std::true_type
+{
+};
+
+/// Collapses an edge and returns the merged vertex. Whoever collapses an edge, a loop or a replay of the
+/// collapses of cells, does it here.
+///
+/// Calls in this order: the visitor's `before_collapse(collapse)` or, where it has none, CGAL's
+/// `OnCollapsing`; the visitor's `OnCollapsed`; and `update_after_collapse` of a cost that asks for it.
+template <class TriangleMesh, class VertexPointMap, class EdgeIsConstrainedMap, class Profile, class Visitor,
+          class Cost>
+auto perform_collapse(TriangleMesh& mesh, const VertexPointMap& points,
+                      const EdgeIsConstrainedMap& is_constrained, const Collapse<Profile>& collapse,
+                      Visitor& visitor, const Cost& cost)
+{
+  const Profile& profile = collapse.profile();
+  if constexpr (Takes_collapses<Visitor, Collapse<Profile>>::value)
+    visitor.before_collapse(collapse);
+  else
+    visitor.OnCollapsing(profile, Optional<typename Profile::Point>(collapse.place()));
+  const auto merge = [&] {
+    if constexpr (std::is_same_v<EdgeIsConstrainedMap, No_constrained_edges>)
+      return CGAL::Euler::collapse_edge(edge(profile.v0_v1(), mesh), mesh);
+    else
+      return CGAL::Euler::collapse_edge(edge(profile.v0_v1(), mesh), mesh, is_constrained);
+  };
+  const auto kept = merge();
+  put(points, kept, collapse.place());
+  visitor.OnCollapsed(profile, kept);
+  if constexpr (Is_updated<Cost>::value)
+    cost.update_after_collapse(profile, kept);
+  return kept;
+}
+
+} // namespace internal
+} // namespace selvedge
+
+#endif // SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_PERFORM_COLLAPSE_H
