@@ -26,14 +26,10 @@ Json to_json(const Distance& distance)
 
 Json to_json(const Refusals& refused)
 {
-  return {{"border", refused.border},
-          {"target", refused.target},
-          {"error", refused.error},
-          {"aspect_ratio", refused.aspect_ratio},
-          {"normal_change", refused.normal_change},
-          {"uv", refused.uv},
-          {"intersection", refused.intersection},
-          {"by_loop", refused.by_loop}};
+  Json json;
+  for (const Refusals::Rule& rule : Refusals::rules())
+    json[rule.key] = refused.*rule.count;
+  return json;
 }
 
 Json to_json(const std::optional<Uv_deviation>& deviation)

@@ -395,12 +395,10 @@ private:
                 << (done.is_reached() ? " reached" : " not reached (" + done.outcome() + ")");
     else
       std::cout << "as far as the limits allow";
-    std::cout << "\nrefused: border " << with_commas(done.refused.border) << ", error "
-              << with_commas(done.refused.error) << ", aspect ratio "
-              << with_commas(done.refused.aspect_ratio) << ", normal change "
-              << with_commas(done.refused.normal_change) << ", texture " << with_commas(done.refused.uv)
-              << ", intersection " << with_commas(done.refused.intersection) << ", other "
-              << with_commas(done.refused.target + done.refused.by_loop);
+    std::cout << "\nrefused:";
+    const char* separator = " ";
+    for (const Refusals::Rule& rule : Refusals::rules())
+      std::cout << std::exchange(separator, ", ") << rule.name << ' ' << with_commas(done.refused.*rule.count);
     std::cout << "\njudged: ";
     if (verification.embedded())
       std::cout << "embedded";

@@ -111,33 +111,52 @@ group(
      "contracted faces not looked at"),
 )
 
-guard = headers + "Surface_mesh_simplification/internal/Intersection_guard.h"
+loop = headers + "Surface_mesh_simplification/internal/"
 group(
-    guard,
+    loop + "Intersection_guard.h",
     ("guard_test",),
-    ("if (has_twin(motion.mover) || !gather_star(motion)", "if (!gather_star(motion)", "vertices with twins move"),
-    ("return is_edge_border || m_is_star_closed || !is_end_on_border;", "return true;", "two borders meet"),
-    ("if (!has_twin(end) ? !are_neighbours_allowed(end)", "if (true ? !are_neighbours_allowed(end)",
-     "neighbours of twins not looked at"),
-    ("if (!m_vertices[v].has_twin)", "if (true)", "twins are not one point"),
-    ("m_is_star_closed && m_star_size + motion.target.has_value() == m_link.size() + 2;", "m_is_star_closed;",
-     "links that wind twice are cycles"),
-    ("(!m_is_contracted[j] && m_view.side(s_to, a, b) != 1))", "(!m_is_contracted[j] && m_view.side(s_to, a, b) == -1))",
-     "the star not surely clear after the motion"),
-    ("m_index.set(id, face_box(id));", "", "the index does not follow"),
-    ("m_corners[id] = face_corners(h);", "", "corners do not follow"),
-    ("std::replace(twins(kept).begin(), twins(kept).end(), m_target, kept);", "", "classes of twins do not follow"),
+    ("if (is_coincident(motion.mover) || !m_star.gather(motion)", "if (!m_star.gather(motion)", "coincident vertices move"),
     ("return !face_at_place;", "return true;", "a place where another vertex is"),
-    ("for (std::size_t i = 0; i < m_star_size; ++i)", "for (std::size_t i = 0; i < 2; ++i)", "only the way is asked of the index"),
-    ("m_has_shadow = m_is_in_view && is_star_clear_in_view(motion);", "m_has_shadow = m_is_in_view && m_is_star_closed && m_link.size() <= 64;",
-     "the shadow of a star that is not clear"),
     ("if (verdict == Star_verdict::refused) {", "if (false) {", "what the star says is not heard"),
+    ("return !is_coincident(v0) && !is_coincident(v1) &&", "return !is_coincident(v0) &&",
+     "a coincident vertex moves to a new place"),
+)
+group(
+    loop + "Moving_star.h",
+    ("guard_test",),
+    ("return is_edge_border || m_is_closed || !is_end_on_border;", "return true;", "two borders meet"),
+    ("if (!m_vertices.is_coincident(number)) {", "if (true) {", "neighbours of coincident vertices not looked at"),
+    ("m_is_closed && m_size + m_has_target == m_link.size() + 2;", "m_is_closed;", "links that wind twice are cycles"),
+    ("for (std::size_t i = 0; i < m_size; ++i)", "for (std::size_t i = 0; i < 2; ++i)", "only the way is asked of the index"),
     ("if (!is_contracted && motion.target && (first == s_to || second == s_to))", "if (false)",
      "a face beside the edge has a corner at the target"),
-    ("return !has_twin(profile.v0()) && !has_twin(profile.v1()) &&", "return !has_twin(profile.v0()) &&",
-     "a twin moves to a new place"),
+)
+group(
+    loop + "Star_view.h",
+    ("guard_test",),
+    ("(!m_star.is_contracted(j) && m_view.side(s_to, a, b) != 1)", "(!m_star.is_contracted(j) && m_view.side(s_to, a, b) == -1)",
+     "the star not surely clear after the motion"),
+    ("        return false;\n    }\n    m_shadow.begin", "        break;\n    }\n    m_shadow.begin", "a star that is not clear counts as clear"),
     ("m_star_mask = m_view.mask(m_star_points);", "m_star_mask = m_view.mask(m_star_points) | 1;",
      "stars of more points than bits are known by one"),
+)
+group(
+    loop + "Vertex_table.h",
+    ("guard_test",),
+    ("if (!is_coincident(v))\n      mark_one", "if (true)\n      mark_one", "coincident vertices are not one point"),
+    ("std::replace(all.begin(), all.end(), target, kept);", "", "classes of coincident vertices do not follow"),
+)
+group(
+    loop + "Face_table.h",
+    ("guard_test",),
+    ("m_index.set(id, box(id));", "", "the index does not follow"),
+    ("m_corners[id] = find_corners(h);", "", "corners do not follow"),
+)
+group(
+    loop + "Collapse.h",
+    ("guard_test", "policies_test", "motion_test"),
+    ("place != profile.p0(), place != profile.p1())", "place != profile.p0(), place == profile.p0())", "the second motion to a new place is not judged"),
+    ("!is_onto_v0, is_onto_v0)", "is_onto_v0, !is_onto_v0)", "the wrong end moves"),
 )
 
 group(
@@ -166,7 +185,6 @@ group(
      "boxes of clusters do not grow"),
 )
 
-loop = headers + "Surface_mesh_simplification/internal/"
 group(
     loop + "Edge_collapse.h",
     ("loop_test",),

@@ -4,7 +4,7 @@
 #ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_NO_OBSERVER_H
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_NO_OBSERVER_H
 
-#include <selvedge/Simplify_report.h>
+#include <selvedge/Surface_mesh_simplification/Refusals.h>
 
 namespace selvedge {
 

@@ -1,0 +1,64 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_REFUSALS_H
+#define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_REFUSALS_H
+
+#include <array>
+#include <cstddef>
+
+namespace selvedge {
+
+/// Refusals per rule: each direction of an edge that the loop considers is counted by the first rule that
+/// refuses it, and again when it is considered again. Rules are in the order in which they are asked, cheap
+/// ones first.
+struct Refusals
+{
+  std::size_t border = 0; ///< borders, seams, locked vertices
+  std::size_t target = 0; ///< a face would go of which enough have gone; see `Simplify_constraints::shares`
+  std::size_t error = 0;  ///< `Simplify_options::max_error`
+  std::size_t aspect_ratio = 0;
+  std::size_t normal_change = 0;
+  std::size_t uv = 0; ///< a texture triangle would turn over
+  std::size_t intersection = 0;
+  std::size_t by_loop = 0; ///< accepted by all rules, refused by a geometric test of CGAL's loop
+
+  struct Rule
+  {
+    const char* key;  ///< in reports and outcomes
+    const char* name; ///< in sentences
+    std::size_t Refusals::*count;
+  };
+
+  /// All of them.
+  static constexpr std::array<Rule, 8> rules();
+
+  friend Refusals& operator+=(Refusals& a, const Refusals& b)
+  {
+    for (const Rule& rule : rules())
+      a.*rule.count += b.*rule.count;
+    return a;
+  }
+  friend Refusals operator-(Refusals a, const Refusals& b)
+  {
+    for (const Rule& rule : rules())
+      a.*rule.count -= b.*rule.count;
+    return a;
+  }
+};
+
+constexpr std::array<Refusals::Rule, 8> Refusals::rules()
+{
+  return {{{"border", "border", &Refusals::border},
+           {"target", "parts at their target", &Refusals::target},
+           {"error", "error", &Refusals::error},
+           {"aspect_ratio", "aspect ratio", &Refusals::aspect_ratio},
+           {"normal_change", "normal change", &Refusals::normal_change},
+           {"uv", "texture", &Refusals::uv},
+           {"intersection", "intersection", &Refusals::intersection},
+           {"by_loop", "CGAL's loop", &Refusals::by_loop}}};
+}
+
+} // namespace selvedge
+
+#endif // SELVEDGE_SURFACE_MESH_SIMPLIFICATION_REFUSALS_H
