@@ -9,6 +9,7 @@
 #include "text.h"
 
 #include <selvedge/Error.h>
+#include <selvedge/Sha256.h>
 #include <selvedge/Simplify_options.h>
 #include <selvedge/mesh/mesh_files.h>
 #include <selvedge/replay.h>

@@ -11,6 +11,8 @@
 #include "threads.h"
 
 #include <selvedge/Error.h>
+#include <selvedge/Reduction_log.h>
+#include <selvedge/Sha256.h>
 #include <selvedge/collapse_log.h>
 #include <selvedge/mesh/mesh_files.h>
 #include <selvedge/simplify_soup.h>
@@ -398,7 +400,8 @@ private:
     std::cout << "\nrefused:";
     const char* separator = " ";
     for (const Refusals::Rule& rule : Refusals::rules())
-      std::cout << std::exchange(separator, ", ") << rule.name << ' ' << with_commas(done.refused.*rule.count);
+      std::cout << std::exchange(separator, ", ") << rule.name << ' '
+                << with_commas(done.refused.*rule.count);
     std::cout << "\njudged: ";
     if (verification.embedded())
       std::cout << "embedded";

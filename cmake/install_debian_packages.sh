@@ -16,6 +16,7 @@ packages=(
   libtinygltf-dev       # glTF documents
   nlohmann-json3-dev    # glTF documents, reports of the app
   libgtest-dev          # tests
+  python3               # tests: whether includes go one way
   libeigen3-dev         # tests: the Garland-Heckbert policies of CGAL, beside which ours must work
 )
 if [[ "${1:-}" == benchmark ]]; then

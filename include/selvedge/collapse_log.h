@@ -9,12 +9,10 @@
 
 #include <array>
 #include <cstddef>
-#include <filesystem>
 #include <iosfwd>
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace selvedge {
@@ -173,53 +171,6 @@ private:
 /// with `#`. Throws `Input_error`, which names `name` and the line, where there is anything else, and when
 /// there is no limit.
 Reduction_limits read_limits(std::istream& stream, const std::string& name);
-
-struct Prepared_soup;
-struct Simplified_soup;
-
-/// Writes the log of a reduction by `simplify_soup`. Of an obstacle it holds only that there was one.
-class Reduction_log
-{
-public:
-  /// `header` names the file, its rounding, and the file of the obstacle if there is one; the limits are
-  /// added from the options, the weld distance and an obstacle without a file from `prepared`. Writes snaps
-  /// and welds. All arguments but the header and the options outlive the log.
-  Reduction_log(std::ostream& stream, Log_header header, const Log_numbering& numbering,
-                const Prepared_soup& prepared, const Simplify_options& options);
-
-  /// To be called by `Simplify_options::on_collapse`.
-  void add_collapse(std::size_t removed, std::size_t kept);
-
-  void finish(const Simplified_soup& result);
-
-private:
-  Log_writer m_writer;
-  const Log_numbering& m_numbering;
-  const Prepared_soup& m_prepared;
-  std::size_t m_collapses = 0;
-};
-
-/// The SHA-256 of bytes that come in parts, as FIPS 180-4 defines it.
-class Sha256
-{
-public:
-  Sha256();
-  ~Sha256();
-  Sha256(const Sha256&) = delete;
-  Sha256& operator=(const Sha256&) = delete;
-
-  void add(std::string_view bytes);
-
-  /// In 64 lowercase hexadecimal digits. To be asked once.
-  std::string digest();
-
-private:
-  struct Implementation;
-  std::unique_ptr<Implementation> m_implementation;
-};
-
-/// The SHA-256 of a file's bytes. Throws `Input_error` when it cannot be read.
-std::string sha256_of_file(const std::filesystem::path& path);
 
 } // namespace selvedge
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <selvedge/Error.h>
-#include <selvedge/collapse_log.h>
+#include <selvedge/Sha256.h>
 
 #include <openssl/evp.h>
 

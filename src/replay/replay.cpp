@@ -10,6 +10,7 @@
 #include "snap.h"
 
 #include <selvedge/Error.h>
+#include <selvedge/Sha256.h>
 #include <selvedge/mesh/rounding.h>
 #include <selvedge/mesh/selection.h>
 #include <selvedge/verify.h>

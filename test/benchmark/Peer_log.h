@@ -5,6 +5,7 @@
 #define SELVEDGE_BENCHMARK_PEER_LOG_H
 
 #include <selvedge/Error.h>
+#include <selvedge/Sha256.h>
 #include <selvedge/collapse_log.h>
 #include <selvedge/mesh/mesh_files.h>
 

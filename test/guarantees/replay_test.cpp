@@ -9,6 +9,7 @@
 #include "support/soups.h"
 
 #include <selvedge/Error.h>
+#include <selvedge/Sha256.h>
 #include <selvedge/mesh/mesh_files.h>
 
 #include <gtest/gtest.h>

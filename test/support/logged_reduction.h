@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_TEST_SUPPORT_LOGGED_REDUCTION_H
 #define SELVEDGE_TEST_SUPPORT_LOGGED_REDUCTION_H
 
+#include <selvedge/Reduction_log.h>
 #include <selvedge/collapse_log.h>
 #include <selvedge/replay.h>
 #include <selvedge/simplify_soup.h>

@@ -5,6 +5,7 @@
 #include "support/Temporary_folder.h"
 
 #include <selvedge/Error.h>
+#include <selvedge/Reduction_log.h>
 #include <selvedge/collapse_log.h>
 #include <selvedge/mesh/snapping.h>
 

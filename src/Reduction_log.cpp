@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include <selvedge/collapse_log.h>
-#include <selvedge/simplify_soup.h>
+#include <selvedge/Reduction_log.h>
+#include <selvedge/Sha256.h>
 
 #include <algorithm>
 #include <map>

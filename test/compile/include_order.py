@@ -1,0 +1,77 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026 the Selvedge authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tells whether includes go one way: `include_order.py TREE`.
+
+LEVELS is the way of a file through the program, read backwards: a file may include those of its own level and of the
+levels before it. JUDGE names what judges results, which shares nothing with the filter that it judges. Exit status 1
+when an include breaks a rule, or a file belongs to no level.
+"""
+import os
+import pathlib
+import re
+import sys
+
+LEVELS = [
+    ("basics", ["include/selvedge/Error.h", "include/selvedge/internal/"]),
+    ("geometry", ["include/selvedge/geometry/", "include/selvedge/spatial/"]),
+    ("policies", ["include/selvedge/Surface_mesh_simplification/", "include/selvedge/edge_collapse.h", "include/selvedge/simplify.h",
+                  "include/selvedge/Simplify_options.h", "include/selvedge/Simplify_report.h"]),
+    ("soups", ["include/selvedge/mesh/", "src/mesh/"]),
+    ("files", ["src/files/", "include/selvedge/generate.h", "src/generate/"]),
+    ("judge", ["include/selvedge/verify.h", "include/selvedge/compare.h", "src/verify/"]),
+    ("logs", ["include/selvedge/Reduction_limits.h", "include/selvedge/collapse_log.h", "include/selvedge/Sha256.h", "src/log/"]),
+    ("replay", ["include/selvedge/replay.h", "src/replay/"]),
+    ("reduction", ["include/selvedge/simplify_soup.h", "include/selvedge/Reduction_log.h", "include/selvedge/part_report.h", "src/"]),
+    ("app", ["apps/"]),
+]
+JUDGE = ["src/verify/", "src/replay/", "include/selvedge/verify.h", "include/selvedge/compare.h", "include/selvedge/replay.h"]
+FILTER = ["include/selvedge/geometry/", "include/selvedge/spatial/", "include/selvedge/Surface_mesh_simplification/",
+          "include/selvedge/edge_collapse.h", "include/selvedge/simplify.h"]
+
+
+def is_in(file, places):
+    return any(file == place or place.endswith("/") and file.startswith(place) for place in places)
+
+
+def level(file):
+    return next((i for i, (_, places) in enumerate(LEVELS) if is_in(file, places)), None)
+
+
+def includes(tree, file):
+    """Yields the files of the tree that a file includes."""
+    for name in re.findall(r'^#include [<"]([^>"]+)[>"]', (tree / file).read_text(encoding="utf-8"), re.MULTILINE):
+        for folder in ("include", os.path.dirname(file), "src", "apps"):
+            candidate = os.path.normpath(os.path.join(folder, name))
+            if (tree / candidate).is_file():
+                yield candidate
+                break
+
+
+def reached(tree, file, seen):
+    for included in includes(tree, file):
+        if included not in seen:
+            seen.add(included)
+            reached(tree, included, seen)
+    return seen
+
+
+def main():
+    tree = pathlib.Path(sys.argv[1])
+    files = sorted(str(f.relative_to(tree)) for folder in ("include", "src", "apps")
+                   for ending in ("h", "cpp") for f in (tree / folder).rglob("*." + ending))
+    errors = [f"{file}: belongs to no level; add it to LEVELS" for file in files if level(file) is None]
+    for file in files:
+        for included in includes(tree, file):
+            if level(file) is not None and level(included) is not None and level(included) > level(file):
+                errors.append(f"{file} ({LEVELS[level(file)][0]}) includes {included} ({LEVELS[level(included)][0]}), "
+                              "which comes later on the way")
+        if is_in(file, JUDGE):
+            errors += [f"{file} judges, and includes {included}, which is a part of the filter"
+                       for included in sorted(reached(tree, file, set())) if is_in(included, FILTER)]
+    print("\n".join(errors) if errors else f"{len(files)} files: all includes go one way")
+    return 1 if errors or not files else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
