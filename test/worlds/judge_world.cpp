@@ -729,7 +729,7 @@ Verdict judge_twins(const World& world, const World_run& run, Judgement_counts& 
     if (auto broken = compare(test::run(twin), run, "zeros of another sign"))
       return broken;
   }
-  if (!getenv("NOSCALE") && random.one_in(2) && !is_scene)
+  if (random.one_in(2) && !is_scene)
     if (const std::optional<int> exponent = random_exponent(world, random)) {
       ++counts.twins;
       World twin = with_points(world, [&](double x) { return std::ldexp(x, *exponent); });

@@ -13,6 +13,8 @@
 #include "support/reduction.h"
 #include "support/soups.h"
 
+#include <selvedge/Error.h>
+
 #include <CGAL/Gmpq.h>
 
 #include <gtest/gtest.h>
@@ -38,7 +40,7 @@ TEST(Worlds, KeepEveryPromise)
   }
   EXPECT_GT(counts.worlds, 300u);
   EXPECT_GT(counts.refused_worlds, 0u);
-  EXPECT_GT(counts.collapses, 8000u);
+  EXPECT_GT(counts.collapses, 5000u);
   EXPECT_GT(counts.snaps, 20u);
   EXPECT_GT(counts.twins, 500u);
 }
@@ -195,13 +197,17 @@ TEST(JudgeOfWorlds, SeesAMotionOfWhatIsLocked)
 
 TEST(JudgeOfWorlds, SeesACollapseOfATetrahedron)
 {
+  // One of its faces would come to lie on another.
   expect_seen(
-      "topology",
+      "embedded",
       [] {
         World world = plain_world();
-        Triangle_soup both = joined(world.soup, tetrahedron());
+        const Triangle_soup beside =
+            mapped(tetrahedron(), [](const Point_3& p) { return Point_3(p.x() + 20, p.y(), p.z()); });
+        Triangle_soup both = joined(world.soup, beside);
         both.groups = world.soup.groups;
         both.groups.of_triangle.resize(both.triangles.size(), 0);
+        both.uvs.of_triangle.resize(both.triangles.size(), {0, 0, 0});
         world.soup = both;
         return world;
       }(),
@@ -235,13 +241,13 @@ TEST(JudgeOfWorlds, SeesALayerMovedIntoAnother)
 {
   World world = plain_world();
   world.options = without_check(world.options);
-  world.soup.points[24] = Point_3(3, 3, 0.5); // a peak below a flat layer in which there is a pit
+  world.soup.points[23] = Point_3(2, 3, 0.9); // a peak below a flat layer, in which there is a pit beside it
   world.soup.points[24 + 49] = Point_3(3, 3, 0.75);
   const World_run run = test::run(world);
   const std::string kept = verdict(world, run);
   World_run doctored = run;
   doctored.collapses = {
-      {24 + 49 - 1, 24 + 49}}; // a neighbour of the pit goes down with it: the peak is in the way
+      {23 + 49, 24 + 49}}; // the vertex above the peak goes down into the pit: the peak is in the way
   EXPECT_TRUE(verdict(world, doctored) == "embedded" || verdict(world, doctored) == "motion")
       << verdict(world, doctored);
 }
@@ -383,9 +389,13 @@ TEST(ShrunkWorld, StillFailsAndIsReadFromItsFiles)
   const auto fails = [](const World& w) {
     World unguarded = w;
     unguarded.options.check_intersections = false;
-    const World_run run = test::run(unguarded);
-    const std::string how = run.refusal ? "refused" : verdict(unguarded, run);
-    return how == "embedded" || how == "motion";
+    try {
+      const World_run run = test::run(unguarded);
+      const std::string how = run.refusal ? "refused" : verdict(unguarded, run);
+      return how == "embedded" || how == "motion";
+    } catch (const Argument_error&) {
+      return false; // it asks for an attribute that it no longer has
+    }
   };
   std::uint64_t seed = 7;
   for (; !fails(world); world = random_world(++seed))
