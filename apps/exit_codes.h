@@ -13,7 +13,8 @@ enum Exit_code {
   exit_usage = 2,        ///< the command line asks for something that does not exist or makes no sense
   exit_bad_input = 3,    ///< the input cannot be read, is unacceptable, or too large for the memory
   exit_not_written = 4,  ///< the output or the report could not be written
-  exit_interrupted = 5   ///< stopped by a signal; what was reached is written and verified
+  exit_interrupted =
+      5 ///< stopped by a signal; what a reduction has reached is verified and written, else nothing
 };
 
 } // namespace selvedge::app

@@ -23,8 +23,10 @@ extern "C" void remember_signal(int)
 
 void watch_for_interruption()
 {
-  std::signal(SIGINT, remember_signal);
-  std::signal(SIGTERM, remember_signal);
+  struct sigaction action = {};
+  action.sa_handler = remember_signal;
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
 }
 
 bool is_interrupted()

@@ -6,7 +6,8 @@
 
 namespace selvedge::app {
 
-/// From now on the first SIGINT or SIGTERM is remembered, and the next one kills as it always does.
+/// From now on the first SIGINT or SIGTERM is remembered, and the next one kills as it always does. Calls of
+/// the system that wait end when the first comes.
 void watch_for_interruption();
 
 bool is_interrupted();

@@ -1,8 +1,10 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include "interruption.h"
 #include "subcommands.h"
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
 
 #include <algorithm>
@@ -73,8 +75,12 @@ Exit_code run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+  watch_for_interruption();
+  const selvedge::Cancellation_scope scope(is_interrupted);
   try {
     return run(argc, argv);
+  } catch (const selvedge::Interrupted& error) {
+    return fail(exit_interrupted, error.what() + std::string("; nothing was written"));
   } catch (const selvedge::Argument_error& error) {
     return fail(exit_usage, error.what());
   } catch (const selvedge::Output_error& error) {

@@ -8,12 +8,14 @@
 #include "subcommands.h"
 #include "text.h"
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
 #include <selvedge/Sha256.h>
 #include <selvedge/Simplify_options.h>
 #include <selvedge/mesh/mesh_files.h>
 #include <selvedge/replay.h>
 
+#include <atomic>
 #include <fstream>
 #include <iostream>
 #include <map>
@@ -171,11 +173,13 @@ Exit_code run(const Request& request)
   Log_reader log(stream, request.log);
   const Mesh_file original = read_mesh(request.original);
 
-  watch_for_interruption();
+  // What was judged until a signal is told; what is interrupted before or afterwards tells nothing.
+  std::atomic<bool> is_kept = false;
+  const Cancellation_scope scope([&] { return is_interrupted() && !is_kept; });
   options.are_limits_judged = !request.is_free_of_limits;
   options.sha256_of_original = sha256_of_file(request.original);
   options.is_all_wanted = request.is_all_wanted;
-  options.should_stop = [](std::size_t) { return is_interrupted(); };
+  options.should_stop = [&](std::size_t) { return is_kept = is_interrupted(); };
   const Replay_verdict verdict = [&] {
     try {
       return replay(original.soup, original.format == Mesh_format::stl, log, options);
@@ -200,7 +204,7 @@ Exit_code run(const Request& request)
     write_file(request.report, to_text(report));
   if (!request.scene.empty() && !verdict.violations.empty())
     write_file(request.scene, verdict.violations.front().scene);
-  if (!request.output.empty())
+  if (!request.output.empty() && !verdict.is_stopped)
     write_output(request.output, verdict.soup, request.is_ascii);
   return code;
 }

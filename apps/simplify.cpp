@@ -10,6 +10,7 @@
 #include "text.h"
 #include "threads.h"
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
 #include <selvedge/Reduction_log.h>
 #include <selvedge/Sha256.h>
@@ -19,6 +20,7 @@
 #include <selvedge/verify.h>
 
 #include <algorithm>
+#include <atomic>
 #include <charconv>
 #include <chrono>
 #include <iostream>
@@ -183,17 +185,22 @@ public:
 
   Exit_code run()
   {
-    m_report["input"] = nullptr;
-    const Prepared_soup prepared = read_and_prepare();
-    if (is_interrupted()) {
-      complain("interrupted before the reduction began; nothing was written");
+    const Cancellation_scope scope([this] { return is_interrupted() && !m_is_kept; });
+    try {
+      m_report["input"] = nullptr;
+      const Prepared_soup prepared = read_and_prepare();
+      std::vector<Level> levels = reduce(prepared);
+      judge(levels, prepared);
+      write(levels);
+      report(prepared, levels);
+      return m_outcome.exit_code();
+    } catch (const Interrupted&) {
+      m_bar.clear();
+      if (m_files_written == 0)
+        throw;
+      complain("interrupted after " + counted(m_files_written, "file") + " had been written");
       return exit_interrupted;
     }
-    std::vector<Level> levels = reduce(prepared);
-    judge(levels, prepared);
-    write(levels);
-    report(prepared, levels);
-    return m_outcome.exit_code();
   }
 
 private:
@@ -235,6 +242,7 @@ private:
     Simplify_options options = m_request.options;
     options.should_stop = [this](const Simplify_progress& progress) {
       m_bar.update(progress);
+      m_is_kept = true;
       return is_interrupted();
     };
     std::optional<Reduction_log> log;
@@ -249,6 +257,11 @@ private:
       results.push_back(simplify_soup(prepared, options, m_request.intent));
     else
       results = simplify_lods(prepared, options, m_request.lods, m_request.intent);
+    const auto is_stopped = [](const Simplified_soup& result) { return result.report.is_stopped; };
+    const auto is_untouched = [](const Simplified_soup& result) { return result.report.collapses == 0; };
+    m_is_kept = std::any_of(results.begin(), results.end(), is_stopped);
+    if (m_is_kept && std::all_of(results.begin(), results.end(), is_untouched))
+      throw Interrupted("interrupted before the reduction began");
     if (log)
       log->finish(results.back());
     m_seconds["check"] = prepared.seconds_check;
@@ -288,13 +301,17 @@ private:
     if (m_outcome.is_written()) {
       m_bar.begin("writing");
       // Numbers of vertices are all that joining changes: the verdict on positions stands.
-      for (const auto& [output, result, verification] : levels)
+      for (const auto& [output, result, verification] : levels) {
         write_output(output, m_request.is_sewn ? joined_at_positions(result.soup) : result.soup,
                      m_request.is_ascii);
+        ++m_files_written;
+      }
     }
     // Also of a result that was refused: the log is what shows why.
-    if (!m_request.log.empty())
+    if (!m_request.log.empty()) {
       write_file(m_request.log, m_log.str());
+      ++m_files_written;
+    }
     m_seconds["write"] = seconds_since(start);
     m_bar.clear();
     for (const Level& level : levels)
@@ -446,6 +463,8 @@ private:
   Log_header m_log_header;
   std::ostringstream m_log;
   std::map<std::string, double> m_seconds;
+  std::atomic<bool> m_is_kept = false; // what the reduction has reached, when a signal comes
+  std::size_t m_files_written = 0;
 };
 
 } // namespace
@@ -640,13 +659,14 @@ Action add_simplify(CLI::App& command)
       "  selvedge simplify draped.obj -o small.obj --ratio 0.3 --weld 0.0001    close seams that gape by a "
       "hair\n\n"
       "The result is always judged before it is written. A target that cannot be reached is no failure: the\n"
-      "file is written, and summary and report say what held it back. Ctrl-C writes what was reached.");
+      "file is written, and summary and report say what held it back. Ctrl-C, once edges collapse, writes "
+      "what was\n"
+      "reached, and before and after writes nothing.");
   return [request] {
     request->options.check_intersections = !request->is_unguarded;
     request->options.faces_per_cell = request->is_in_cells ? faces_per_cell : 0;
     read_ratios(*request);
     check(*request);
-    watch_for_interruption();
     const Thread_limit limit(request->threads);
     return Reduction(*request).run();
   };

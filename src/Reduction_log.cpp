@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <selvedge/Reduction_log.h>
+
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/Sha256.h>
 
 #include <algorithm>
@@ -16,14 +18,18 @@ std::vector<Index> smallest_numbers(const std::vector<Point_3>& points, const Lo
 {
   std::map<std::array<double, 3>, Index> smallest; // compares doubles, so that the zeros are one
   const auto place = [&](Index v) { return std::array{points[v].x(), points[v].y(), points[v].z()}; };
+  Cancellation_poll poll;
   for (Index v = 0; v < points.size(); ++v) {
+    poll();
     const auto [entry, is_new] = smallest.emplace(place(v), numbering.number(v));
     entry->second = std::min(entry->second, numbering.number(v));
   }
   std::vector<Index> result;
   result.reserve(points.size());
-  for (Index v = 0; v < points.size(); ++v)
+  for (Index v = 0; v < points.size(); ++v) {
+    poll();
     result.push_back(smallest.at(place(v)));
+  }
   return result;
 }
 

@@ -5,6 +5,7 @@
 
 #include "verify/Surface_tree.h"
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/mesh/texture.h>
 
 #include <oneapi/tbb/parallel_for.h>
@@ -142,7 +143,9 @@ std::vector<double> uv_displacements(const Simplified_soup& result, const Prepar
     chart.build();
 
   displacements.assign(original.triangles.size(), 0);
-  tbb::parallel_for(Index(0), Index(original.triangles.size()), [&](Index t) {
+  const auto measure = [&](Index t) {
+    static thread_local Cancellation_poll poll;
+    poll();
     const auto chart = charts.find(charts_of_original[t]);
     if (!has_texture(original, t) || chart == charts.end() || chart->second.empty())
       return;
@@ -151,7 +154,8 @@ std::vector<double> uv_displacements(const Simplified_soup& result, const Prepar
     const Uv now = chart->second.uv_near(CGAL::centroid(triangle[0], triangle[1], triangle[2]));
     displacements[t] =
         unit * std::hypot(now[0] - (a[0] + b[0] + c[0]) / 3, now[1] - (a[1] + b[1] + c[1]) / 3);
-  });
+  };
+  tbb::parallel_for(Index(0), Index(original.triangles.size()), Cancellation_scope::inherited(measure));
   return displacements;
 }
 
@@ -234,7 +238,7 @@ std::vector<Part_report> part_reports(const Simplified_soup& result, const Prepa
     const std::vector<Triangle_soup> after = cut_out(result.soup, triangles_after, parts, original.scale);
     const std::size_t first = reports.size();
     reports.resize(first + parts.size());
-    tbb::parallel_for(std::size_t(0), parts.size(), [&](std::size_t i) {
+    const auto report = [&](std::size_t i) {
       const Index part = parts[i];
       Distance distance = selvedge::distance(before[i], after[i]);
       distance.root_mean_square /= unit;
@@ -247,7 +251,8 @@ std::vector<Part_report> part_reports(const Simplified_soup& result, const Prepa
                             result.refused_by_part[k][part],
                             distance,
                             deviation_of(displacements, original, triangles_before[part])};
-    });
+    };
+    tbb::parallel_for(std::size_t(0), parts.size(), Cancellation_scope::inherited(report));
   }
   return reports;
 }

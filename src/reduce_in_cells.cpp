@@ -3,6 +3,7 @@
 
 #include "reduce_in_cells.h"
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/Surface_mesh_simplification/internal/Simplification.h>
 
 #include <oneapi/tbb/parallel_for.h>
@@ -49,8 +50,10 @@ public:
   /// Whether to stop, when so many faces more are gone. Nobody is asked again who once said yes.
   bool ask(std::size_t gone = 0)
   {
-    if (!m_should_stop)
+    if (!m_should_stop) {
+      Cancellation_scope::check();
       return false;
+    }
     const std::lock_guard lock(m_mutex);
     m_progress.faces -= std::min(m_progress.faces, gone);
     return m_is_stopped = m_is_stopped || m_should_stop(m_progress);
@@ -262,9 +265,9 @@ Cell_collapses reduce_in_cells(const Whole& whole)
   if (cells.size() < 2)
     return result;
   std::vector<Cell_run> runs(cells.size());
-  tbb::parallel_for(
-      std::size_t(0), cells.size(), [&](std::size_t i) { runs[i] = run_cell(whole, cells[i], stop); },
-      tbb::simple_partitioner());
+  const auto reduce = [&](std::size_t i) { runs[i] = run_cell(whole, cells[i], stop); };
+  tbb::parallel_for(std::size_t(0), cells.size(), Cancellation_scope::inherited(reduce),
+                    tbb::simple_partitioner());
   result.is_stopped = stop.is_stopped();
   const double limit = result.is_stopped ? s_infinity : common_cost(runs);
   for (const Cell_run& run : runs)

@@ -414,6 +414,10 @@ std::vector<Simplified_soup> simplify_lods(const Prepared_soup& prepared, const 
     for (std::size_t i = 0; i < ratios.size(); ++i) {
       to_level.ratio = ratios[i];
       levels[i] = simplify_soup(prepared, to_level, intent);
+      if (levels[i].report.is_stopped) {
+        std::fill(levels.begin() + std::ptrdiff_t(i) + 1, levels.end(), levels[i]);
+        break;
+      }
     }
     return levels;
   }

@@ -38,6 +38,13 @@ public:
   using Error::Error;
 };
 
+/// Somebody wanted the call to end: see Cancellation_scope.h.
+class Interrupted : public Error
+{
+public:
+  using Error::Error;
+};
+
 } // namespace selvedge
 
 #endif // SELVEDGE_ERROR_H

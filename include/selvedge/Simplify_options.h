@@ -102,7 +102,8 @@ struct Simplify_options
   std::function<void(std::size_t removed, std::size_t kept)> on_collapse;
 
   /// Asked now and then; when it returns true, the reduction ends with the mesh as it is. It may be empty. In
-  /// cells it is asked by several threads, one at a time.
+  /// cells it is asked by several threads, one at a time. To end all work without a result, see
+  /// Cancellation_scope.h.
   std::function<bool(const Simplify_progress&)> should_stop;
 };
 

@@ -3,12 +3,14 @@
 
 #include "files/Atomic_file.h"
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
 
 #include <cerrno>
 #include <system_error>
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -30,9 +32,7 @@ Atomic_file::Atomic_file(const std::filesystem::path& path) : m_name(path.string
   if (exists && ::access(m_target.c_str(), W_OK) != 0)
     fail(errno);
   if (exists && !S_ISREG(status.st_mode)) {
-    m_descriptor = ::open(m_target.c_str(), O_WRONLY | O_CLOEXEC);
-    if (m_descriptor < 0)
-      fail(errno);
+    open_device(S_ISFIFO(status.st_mode));
     return;
   }
   open_temporary();
@@ -47,6 +47,20 @@ Atomic_file::~Atomic_file()
     ::close(m_descriptor);
   if (!m_temporary.empty())
     ::unlink(m_temporary.c_str());
+}
+
+// A pipe has nobody at its other end at first (ENXIO), and then may be full; both are waited for.
+void Atomic_file::open_device(bool is_pipe)
+{
+  for (;;) {
+    Cancellation_scope::check();
+    m_descriptor = ::open(m_target.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK);
+    if (m_descriptor >= 0)
+      return;
+    if (!(errno == EINTR || (is_pipe && errno == ENXIO)))
+      fail(errno);
+    ::poll(nullptr, 0, s_milliseconds);
+  }
 }
 
 void Atomic_file::open_temporary()
@@ -70,8 +84,13 @@ void Atomic_file::write(const char* data, std::size_t size)
 {
   while (size != 0) {
     const ssize_t written = ::write(m_descriptor, data, size);
-    if (written < 0 && errno != EINTR)
+    if (written < 0 && errno == EAGAIN) {
+      Cancellation_scope::check();
+      pollfd ready{m_descriptor, POLLOUT, 0};
+      ::poll(&ready, 1, s_milliseconds);
+    } else if (written < 0 && errno != EINTR) {
       fail(errno);
+    }
     if (written > 0) {
       data += written;
       size -= static_cast<std::size_t>(written);

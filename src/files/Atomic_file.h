@@ -11,7 +11,8 @@
 namespace selvedge::files {
 
 /// A file that appears whole, on `commit`, or not at all; until then its contents are in a new file of the
-/// same folder. Every function throws `Output_error`, after which the destructor removes that file.
+/// same folder. Every function throws `Output_error`, or `Interrupted`, after which the destructor removes
+/// that file.
 class Atomic_file
 {
 public:
@@ -25,7 +26,10 @@ public:
 
 private:
   [[noreturn]] void fail(int error) const;
+  void open_device(bool is_pipe);
   void open_temporary();
+
+  static constexpr int s_milliseconds = 100; // between two questions whether to go on waiting
 
   std::string m_name;
   std::filesystem::path m_target;

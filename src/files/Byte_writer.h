@@ -6,6 +6,8 @@
 
 #include "files/Atomic_file.h"
 
+#include <selvedge/Cancellation_scope.h>
+
 #include <array>
 #include <charconv>
 #include <cstdint>
@@ -64,6 +66,7 @@ public:
     *this << std::string_view(bytes.data(), bytes.size());
   }
 
+  /// Nothing ends this once the last bytes are there.
   void commit()
   {
     flush();
@@ -75,6 +78,7 @@ private:
 
   void flush()
   {
+    Cancellation_scope::check();
     m_file.write(m_buffer.data(), m_size);
     m_size = 0;
   }

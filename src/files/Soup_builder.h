@@ -7,6 +7,7 @@
 #include "files/row_unlike.h"
 #include "files/triangulate_polygon.h"
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
 #include <selvedge/mesh/mesh_files.h>
 
@@ -30,6 +31,7 @@ public:
   template <class Fail>
   void add_point(double x, double y, double z, int first_number, const Fail& fail)
   {
+    m_poll();
     std::vector<Point_3>& points = m_file.soup.points;
     if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
       fail("vertex " + std::to_string(points.size() + first_number) +
@@ -44,6 +46,7 @@ public:
   std::size_t add_face(const std::vector<Index>& corners, const std::vector<Index>& uvs = {},
                        const std::vector<Index>& normals = {})
   {
+    m_poll();
     Triangle_soup& mesh = m_file.soup;
     if (corners.size() < 3) {
       ++m_file.notes.fewer_than_three;
@@ -128,6 +131,7 @@ private:
 
   Mesh_file m_file;
   std::vector<Index_triple> m_cut;
+  Cancellation_poll m_poll;
 };
 
 } // namespace selvedge::files

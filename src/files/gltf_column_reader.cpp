@@ -3,6 +3,8 @@
 
 #include "files/gltf_column_reader.h"
 
+#include <selvedge/Cancellation_scope.h>
+
 #include <cmath>
 
 namespace selvedge::files {
@@ -47,12 +49,15 @@ Gltf_scene::Column Gltf_column_reader::read(int number, const std::string& name,
     column.rows.assign(count * column.row_size, '\0');
   if (accessor.sparse.isSparse)
     put_sparse_values(accessor, column, count);
+  Cancellation_poll poll;
   if (column.component_type == type_float32)
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < count; ++i) {
+      poll();
       for (std::size_t k = 0; k < column.components; ++k)
         if (!std::isfinite(component(column, i, k)))
           fail(m_place + ": " + name + " of vertex " + std::to_string(i) +
                " is not finite; remove or repair it");
+    }
   return column;
 }
 
@@ -83,8 +88,11 @@ std::string Gltf_column_reader::rows(int number, std::size_t offset, std::size_t
          "; export the file again");
   std::string result;
   result.reserve(count * row_size);
-  for (std::size_t i = 0; i < count; ++i)
+  Cancellation_poll poll;
+  for (std::size_t i = 0; i < count; ++i) {
+    poll();
     result.append(bytes, offset + i * stride, row_size);
+  }
   return result;
 }
 

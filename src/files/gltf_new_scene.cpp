@@ -4,6 +4,8 @@
 #include "files/columns.h"
 #include "files/gltf_scene.h"
 
+#include <selvedge/Cancellation_scope.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -54,7 +56,9 @@ struct Rows
   Rows(const Corner_values<dimension>& values, const Round& round)
   {
     std::map<Row, Index> first;
+    Cancellation_poll poll;
     for (const auto& value : values.values) {
+      poll();
       rows.push_back(round(value));
       numbers.push_back(first.emplace(rows.back(), Index(numbers.size())).first->second);
     }
@@ -134,14 +138,19 @@ private:
     for (std::size_t t = 0; t < m_soup.triangles.size(); ++t)
       for (std::size_t corner = 0; corner < 3; ++corner)
         vertices.push_back(vertex(t, corner));
+    Cancellation_scope::check();
     std::sort(vertices.begin(), vertices.end());
+    Cancellation_scope::check();
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    Cancellation_poll poll;
     for (const Vertex& v : vertices) {
+      poll();
       if (m_kinds.empty() || !(m_kinds.back() == v.kind))
         begin_block(v.kind);
       add(v);
     }
     for (std::size_t t = 0; t < m_soup.triangles.size(); ++t) {
+      poll();
       Index_triple& triangle = m_result.triangles.emplace_back();
       for (std::size_t corner = 0; corner < 3; ++corner)
         triangle[corner] =

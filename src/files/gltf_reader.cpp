@@ -5,6 +5,7 @@
 #include "files/gltf_column_reader.h"
 #include "files/row_unlike.h"
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
 #include <selvedge/mesh/selection.h>
 
@@ -279,6 +280,7 @@ private:
         fail("the scene has more than 4294967295 vertices; split it");
       instance.first = Index(soup().points.size());
       for (Index i = 0; i < block.size; ++i) {
+        m_poll();
         const Point_3 point = world_position(instance.to_world, block.attributes.front(), i);
         if (!std::isfinite(point.x()) || !std::isfinite(point.y()) || !std::isfinite(point.z()))
           fail("a vertex has no finite position in the scene; correct the transforms of its node");
@@ -304,6 +306,7 @@ private:
     const std::vector<Index> corners = corners_of(primitive, part);
     const std::size_t size = corners.size();
     const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
+      m_poll();
       if (instance.is_mirrored)
         std::swap(b, c);
       const Index_triple triangle = {instance.first + corners[a], instance.first + corners[b],
@@ -351,6 +354,7 @@ private:
       part.index_json = indices.accessor;
       const std::size_t count = indices.rows.size() / indices.row_size;
       for (std::size_t i = 0; i < count; ++i) {
+        m_poll();
         const double index = component(indices, i, 0);
         if (index >= block.size)
           fail("an index names vertex " + std::to_string(std::uint64_t(index)) + ", but there are only " +
@@ -363,6 +367,7 @@ private:
     remark("primitives without indices, whose vertices are one where they agree in everything");
     std::unordered_map<std::string, Index> first_of;
     for (Index i = 0; i < block.size; ++i) {
+      m_poll();
       std::string row;
       const auto append = [&](const std::vector<Column>& columns) {
         for (const Column& column : columns)
@@ -431,8 +436,10 @@ private:
       if (!column || column->components != dimension)
         continue;
       first[i] = Index(result.values.size());
-      for (Index row = 0; row < block.size; ++row)
+      for (Index row = 0; row < block.size; ++row) {
+        m_poll();
         result.values.push_back(value(instance, *column, row));
+      }
     }
     if (result.values.empty())
       return;
@@ -441,6 +448,7 @@ private:
       result.values.push_back(row_unlike(result.values));
     }
     for (std::size_t t = 0; t < soup().triangles.size(); ++t) {
+      m_poll();
       const Index instance = m_scene->parts[soup().groups.of_triangle[t]].instance;
       Index_triple& corners = result.of_triangle.emplace_back(soup().triangles[t]);
       for (Index& corner : corners)
@@ -540,6 +548,7 @@ private:
   Mesh_file m_file;
   std::shared_ptr<Gltf_scene> m_scene = std::make_shared<Gltf_scene>();
   std::vector<const tinygltf::Primitive*> m_sources; // of parts
+  Cancellation_poll m_poll;
   std::set<std::string> m_group_names;
   std::map<std::tuple<Index, std::map<std::string, int>, std::vector<std::map<std::string, int>>>, Index>
       m_block_numbers;

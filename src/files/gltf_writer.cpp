@@ -4,6 +4,7 @@
 #include "files/formats.h"
 #include "files/gltf_scene.h"
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
 
 #include <algorithm>
@@ -25,7 +26,9 @@ std::string base64(const std::string& bytes)
   static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string result;
   result.reserve((bytes.size() + 2) / 3 * 4);
+  Cancellation_poll poll;
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    poll();
     std::uint32_t bits = 0;
     for (std::size_t k = 0; k < 3; ++k)
       bits = bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
@@ -104,10 +107,13 @@ private:
     if (m_soup.groups.of_triangle.size() != m_soup.triangles.size() ||
         m_soup.groups.names.size() != m_scene.parts.size())
       refuse("its groups are not the primitives of the file");
-    for (std::size_t t = 0; t < m_soup.triangles.size(); ++t)
+    Cancellation_poll poll;
+    for (std::size_t t = 0; t < m_soup.triangles.size(); ++t) {
+      poll();
       for (const Index v : m_soup.triangles[t])
         if (instance_of(m_soup.scene_vertices[v]) != m_scene.parts[m_soup.groups.of_triangle[t]].instance)
           refuse("triangle " + std::to_string(t) + " has a vertex of another primitive");
+    }
   }
 
   // Where the vertex lies in its node: where the file says, or where it says of another vertex under the same
@@ -166,12 +172,15 @@ private:
         Column left = {column.name,       column.accessor, column.component_type,
                        column.components, column.row_size, {}};
         left.rows.reserve(vertices[i].size() * column.row_size);
-        for (const Index v : vertices[i])
+        Cancellation_poll poll;
+        for (const Index v : vertices[i]) {
+          poll();
           left.rows.append(is_position
                                ? local_position(v)
                                : std::string_view(column.rows)
                                      .substr((m_soup.scene_vertices[v] - instance.first) * column.row_size,
                                              column.row_size));
+        }
         return put_accessor(left, vertices[i].size(), s_vertices);
       };
       for (const Column& column : block(instance).attributes)
@@ -187,7 +196,9 @@ private:
   void put_triangles()
   {
     std::vector<std::vector<Index>> corners(m_scene.parts.size());
+    Cancellation_poll poll;
     for (std::size_t t = 0; t < m_soup.triangles.size(); ++t) {
+      poll();
       const Index group = m_soup.groups.of_triangle[t];
       auto [a, b, c] = m_soup.triangles[t];
       if (m_scene.instances[m_scene.parts[group].instance].is_mirrored)

@@ -1,16 +1,17 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
 #include <selvedge/mesh/mesh_files.h>
 #include <selvedge/mesh/rounding.h>
 
+#include "files/Input_descriptor.h"
 #include "files/columns.h"
 #include "files/formats.h"
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 
 namespace selvedge {
@@ -25,26 +26,23 @@ std::string read_contents(const std::filesystem::path& path)
     throw Input_error(name + ": there is no such file");
   if (std::filesystem::is_directory(status))
     throw Input_error(name + ": is a folder; name a mesh file in it");
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream)
-    throw Input_error(name + ": cannot be opened; check its permissions");
+  files::Input_descriptor file(path);
   std::string contents;
   if (const auto size = std::filesystem::file_size(path, error); !error)
     contents.resize(size);
-  std::size_t read = 0;
-  for (;;) {
-    // A file that grows meanwhile, or has no size beforehand (a pipe), is read to its end all the same.
-    if (read == contents.size() && stream.peek() != std::ifstream::traits_type::eof())
-      contents.resize(std::max<std::size_t>(2 * read, 1 << 16));
-    stream.read(contents.data() + read, static_cast<std::streamsize>(contents.size() - read));
-    read += static_cast<std::size_t>(stream.gcount());
-    if (stream.bad())
-      throw Input_error(name + ": cannot be read to its end; check the disk");
-    if (stream.eof() || stream.fail())
-      break;
+  // A file that grows meanwhile, or has no size beforehand (a pipe), is read to its end all the same.
+  constexpr std::size_t least = 1 << 16, most = 1 << 24;
+  for (std::size_t read = 0;;) {
+    Cancellation_scope::check();
+    if (contents.size() - read < least)
+      contents.resize(std::max(2 * read, read + least));
+    const std::size_t count = file.read(contents.data() + read, std::min(contents.size() - read, most));
+    read += count;
+    if (count == 0) {
+      contents.resize(read);
+      return contents;
+    }
   }
-  contents.resize(read);
-  return contents;
 }
 
 bool is_gltf(Mesh_format format)

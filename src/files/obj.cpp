@@ -43,10 +43,15 @@ public:
 
   Mesh_file read()
   {
-    for (Text_reader text(m_contents, m_name); text.to_next_statement(); text.skip_line())
+    Cancellation_poll poll;
+    for (Text_reader text(m_contents, m_name); text.to_next_statement(); text.skip_line()) {
+      poll();
       read_vertex_statement(text);
-    for (Text_reader text(m_contents, m_name); text.to_next_statement(); text.skip_line())
+    }
+    for (Text_reader text(m_contents, m_name); text.to_next_statement(); text.skip_line()) {
+      poll();
       read_face_statement(text);
+    }
     for (const Label_reader& reader : m_labels)
       if (reader.is_unused)
         m_builder.ignore(reader.plural + " without faces");

@@ -353,9 +353,12 @@ private:
   template <class Values>
   static void skip_element(Values& values, const Element& element)
   {
-    for (std::uint64_t i = 0; i < element.count && !element.properties.empty(); ++i)
+    Cancellation_poll poll;
+    for (std::uint64_t i = 0; i < element.count && !element.properties.empty(); ++i) {
+      poll();
       for (const Property& property : element.properties)
         skip_property(values, property);
+    }
   }
 
   /// Where the values of a property go: to a number, to an attribute, or, when they are a list, nowhere.

@@ -3,6 +3,8 @@
 
 #include "files/triangulate_polygon.h"
 
+#include <selvedge/Cancellation_scope.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -80,6 +82,8 @@ bool cut_ears(const std::vector<Point_2>& points, std::vector<Index_triple>& tri
   std::vector<char> is_refused(size, false);
   Index corner = 1, refused = 0;
   for (Index left = size; left > 3;) {
+    if (size > 1000) // each look at a corner may take as many steps
+      Cancellation_scope::check();
     const Index following = next[corner];
     if (!is_refused[corner] && is_ear(corner)) {
       triangles.push_back({previous[corner], corner, following});

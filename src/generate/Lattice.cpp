@@ -118,8 +118,10 @@ void Lattice::disturb(Random& random)
 {
   u.resize(width * (rows + 1));
   v.resize(u.size());
+  Cancellation_poll poll;
   for (std::size_t j = 0; j <= rows; ++j)
     for (std::size_t i = 0; i < width; ++i) {
+      poll();
       const double right = random.symmetric() / 8;
       const double up = random.symmetric() / 8;
       u[vertex(i, j)] =
@@ -216,7 +218,8 @@ std::pair<std::size_t, std::size_t> Closed_surface::divide(std::size_t faces, do
 Closed_surface::Closed_surface(std::size_t columns_, std::size_t bands_, Random& random)
     : columns(columns_), bands(bands_), m_turns(columns_ * (bands_ - 1)), m_diagonals(columns_ * bands_)
 {
-  for (std::size_t k = 0; k < m_turns.size(); ++k)
+  Cancellation_poll poll;
+  for (std::size_t k = 0; k < m_turns.size(); ++k, poll())
     m_turns[k] = (static_cast<double>(k % columns) + random.symmetric() / 4) / static_cast<double>(columns);
   for (char& diagonal : m_diagonals)
     diagonal = random.coin();

@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_GENERATE_SOUP_BUILDER_H
 #define SELVEDGE_GENERATE_SOUP_BUILDER_H
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/mesh/Triangle_soup.h>
 
 #include <cmath>
@@ -37,6 +38,7 @@ public:
 
   Index add_point(const Vector& p)
   {
+    m_poll();
     m_soup.points.emplace_back(p.x(), p.y(), p.z());
     return static_cast<Index>(m_soup.points.size() - 1);
   }
@@ -54,6 +56,7 @@ public:
 
   void add_triangle(const Index_triple& triangle, const Index_triple& uv_triangle)
   {
+    m_poll();
     m_soup.triangles.push_back(triangle);
     m_soup.uvs.of_triangle.push_back(uv_triangle);
     m_soup.groups.of_triangle.push_back(static_cast<Index>(m_tile));
@@ -63,6 +66,7 @@ public:
 
 private:
   Triangle_soup m_soup;
+  Cancellation_poll m_poll;
   std::size_t m_tiles;
   std::size_t m_tile = 0;
 };

@@ -107,7 +107,9 @@ struct Tube
 
   void shape(const Frame& frame, Lattice& lattice) const
   {
+    Cancellation_poll poll;
     for (std::size_t k = 0; k < lattice.u.size(); ++k) {
+      poll();
       const double turns = first_turn + (last_turn - first_turn) * lattice.u[k];
       const double height = bottom + (top - bottom) * lattice.v[k];
       const Vector d = frame.radial(turns);
@@ -358,8 +360,10 @@ private:
       const Vector n = CGAL::cross_product(e, f);
       return (n * d) / std::sqrt(n.squared_length());
     };
+    Cancellation_poll poll;
     for (std::size_t j = 0; j < lattice.rows; ++j)
       for (std::size_t i = 0; i < lattice.columns; ++i) {
+        poll();
         const std::size_t corners[] = {lattice.vertex(i, j), lattice.vertex(i + 1, j),
                                        lattice.vertex(i + 1, j + 1), lattice.vertex(i, j + 1)};
         double least = std::numeric_limits<double>::max();
@@ -442,8 +446,10 @@ private:
     // A triangle that comes under the button has all its corners within the radius and its longest edge.
     double longest = 0;
     const auto position = [&](std::size_t k) { return lattice.base[k] + outer[k] * lattice.direction[k]; };
+    Cancellation_poll poll;
     for (std::size_t j = 0; j < lattice.rows; ++j)
       for (std::size_t i = 0; i < lattice.columns; ++i) {
+        poll();
         const Vector p = position(lattice.vertex(i, j));
         const Vector q = position(lattice.vertex(i + 1, j));
         const Vector r = position(lattice.vertex(i + 1, j + 1));

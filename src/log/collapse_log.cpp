@@ -3,6 +3,7 @@
 
 #include <selvedge/collapse_log.h>
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
 
 #include <charconv>
@@ -183,6 +184,7 @@ private:
   bool next_line()
   {
     while (std::getline(m_stream, m_line)) {
+      m_poll();
       ++m_line_number;
       if (!m_line.empty() && m_line.back() == '\r')
         m_line.pop_back();
@@ -286,6 +288,7 @@ private:
   }
 
   std::istream& m_stream;
+  Cancellation_poll m_poll;
   std::string m_name;
   std::string m_line;
   std::vector<std::string_view> m_words;

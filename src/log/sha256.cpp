@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
 #include <selvedge/Sha256.h>
 
@@ -51,8 +52,10 @@ std::string sha256_of_file(const std::filesystem::path& path)
     throw Input_error(path.string() + ": cannot be opened");
   Sha256 sha256;
   std::vector<char> buffer(1 << 16);
-  while (file.read(buffer.data(), std::streamsize(buffer.size())) || file.gcount() > 0)
+  while (file.read(buffer.data(), std::streamsize(buffer.size())) || file.gcount() > 0) {
+    Cancellation_scope::check();
     sha256.add({buffer.data(), std::size_t(file.gcount())});
+  }
   if (file.bad())
     throw Input_error(path.string() + ": cannot be read");
   return sha256.digest();

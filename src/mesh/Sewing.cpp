@@ -3,6 +3,8 @@
 
 #include "Sewing.h"
 
+#include <selvedge/Cancellation_scope.h>
+
 #include <algorithm>
 #include <numeric>
 #include <tuple>
@@ -37,7 +39,9 @@ public:
       const auto [low, high] = ends(side);
       sides[places[low]++] = {high, side};
     }
+    Cancellation_poll poll;
     for (Index low = 0, first = 0; low < position_count; first = places[low++]) {
+      poll();
       const auto begin = sides.begin() + first, end = sides.begin() + places[low];
       std::sort(begin, end, [](const Side& a, const Side& b) {
         return std::tie(a.high, a.side) < std::tie(b.high, b.side);
@@ -110,7 +114,9 @@ void Sewing::number_vertices()
 {
   m_vertices.assign(m_mates.size(), none);
   m_vertex_count = 0;
+  Cancellation_poll poll;
   for (Index first = 0; first < m_vertices.size(); ++first) {
+    poll();
     if (m_vertices[first] != none)
       continue;
     const Index vertex = m_vertex_count++;

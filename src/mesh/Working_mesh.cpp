@@ -5,6 +5,8 @@
 
 #include "Sewing.h"
 
+#include <selvedge/Cancellation_scope.h>
+
 #include <CGAL/Kernel/global_functions.h>
 
 #include <oneapi/tbb/parallel_sort.h>
@@ -30,9 +32,11 @@ std::vector<Index> number_positions(const std::vector<Point_3>& points)
   const auto coordinates = [&](Index v) {
     return std::make_tuple(points[v].x(), points[v].y(), points[v].z());
   };
+  Cancellation_scope::check();
   tbb::parallel_sort(sorted.begin(), sorted.end(), [&](Index a, Index b) {
     return std::make_pair(coordinates(a), a) < std::make_pair(coordinates(b), b);
   });
+  Cancellation_scope::check();
   std::vector<Index> numbers(points.size());
   for (std::size_t i = 0; i < sorted.size(); ++i)
     numbers[sorted[i]] =
@@ -70,6 +74,7 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
   }
 
   const Sewing sewing(triangles, own_corners, Index(positions.size()), m_notes);
+  Cancellation_scope::check();
   std::vector<Corner> corner_of(sewing.vertex_count()); // the first of each vertex
   for (Corner corner = corner_count; corner-- > 0;)
     corner_of[sewing.vertex(corner)] = corner;
@@ -101,6 +106,7 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
     is_locked[sewing.vertex(corner)] |= is_frozen[corner / 3];
   lock(is_locked);
 
+  Cancellation_scope::check();
   for (Index side = 0; side < own_corners; ++side) {
     const Index mate = sewing.mate(side), end = Sewing::next(side);
     if (mate != s_none && side < mate && (is_line(side, Sewing::next(mate)) || is_line(end, mate)))
@@ -402,7 +408,9 @@ void Working_mesh::measure_uvs(double unit)
   m_uv_origin = uv_of(first);
 
   const std::vector<Mesh::Vertex_index> vertices = number_wedges();
+  Cancellation_poll poll;
   for (const Mesh::Halfedge_index h : m_mesh.halfedges()) {
+    poll();
     if (m_mesh.is_border(h) || !is_own(m_mesh.face(h)))
       continue;
     const auto& [a, b, c] = m_corners[m_mesh.face(h)];
@@ -497,6 +505,7 @@ Working_mesh::Result Working_mesh::result() const
     result.triangles.push_back(face);
     result.corners.push_back(m_corners[face]);
   }
+  Cancellation_scope::check();
   result.soup = selected(m_soup, result.triangles, result.corners);
   return result;
 }

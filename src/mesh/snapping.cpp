@@ -3,6 +3,7 @@
 
 #include <selvedge/mesh/snapping.h>
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
 #include <selvedge/geometry/Vertex_motion.h>
 #include <selvedge/geometry/star.h>
@@ -63,8 +64,10 @@ public:
 
     for (bool is_changed = true; is_changed;) {
       is_changed = false;
-      for (const Pair& pair : mutual_partners())
+      for (const Pair& pair : mutual_partners()) {
+        Cancellation_scope::check();
         is_changed |= join(pair);
+      }
       drop_sewn_sides();
     }
     count();
@@ -132,7 +135,9 @@ private:
     for (std::size_t face = 0; face < own_triangles; ++face)
       for (std::size_t k = 0; k < 3; ++k)
         m_sides.push_back({m_triangles[face][k], m_triangles[face][(k + 1) % 3]});
+    Cancellation_scope::check();
     drop_shared(m_sides);
+    Cancellation_scope::check();
     m_sides.shrink_to_fit();
 
     m_site_at.assign(m_points.size(), s_none);
@@ -147,9 +152,10 @@ private:
 
   void gather_faces(const std::vector<char>& is_frozen)
   {
+    Cancellation_poll poll;
     for (Index face = 0; face < m_triangles.size(); ++face)
       for (const Index position : m_triangles[face])
-        if (m_site_at[position] != s_none) {
+        if (poll(); m_site_at[position] != s_none) {
           Site& site = m_sites[m_site_at[position]];
           site.faces.push_back(face);
           site.is_frozen |= is_frozen[face] != 0;
@@ -205,6 +211,7 @@ private:
     index.build(on_border, [this](Index i) { return point(m_sites[i]).bbox(); });
 
     std::vector<Pair> nearest(m_sites.size(), {0, s_none, s_none});
+    Cancellation_poll poll;
     for (const Index i : on_border) {
       Site& site = m_sites[i];
       // Twice as far, so that rounding the box loses none.
@@ -213,6 +220,7 @@ private:
       const CGAL::Bbox_3 box(p.x() - reach, p.y() - reach, p.z() - reach, p.x() + reach, p.y() + reach,
                              p.z() + reach);
       index.visit_overlapping(box, [&](Index j) {
+        poll();
         if (i == j || distance(site, m_sites[j]) > m_distance || have_common_face(site, m_sites[j]))
           return;
         site.is_near = true;
@@ -512,7 +520,9 @@ Triangle_soup joined_at_positions(const Triangle_soup& soup)
   // Per position the first vertex of each set of attributes: few.
   std::vector<std::vector<Index>> firsts(soup.points.size());
   std::vector<Index> joined(soup.points.size());
+  Cancellation_poll poll;
   for (Index v = 0; v < joined.size(); ++v) {
+    poll();
     std::vector<Index>& known = firsts[positions[v]];
     const auto it =
         std::find_if(known.begin(), known.end(), [&](Index w) { return have_same_attributes(v, w); });

@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_SRC_REPLAY_BOX_TREE_H
 #define SELVEDGE_SRC_REPLAY_BOX_TREE_H
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/mesh/Triangle_soup.h>
 
 #include <algorithm>
@@ -105,6 +106,7 @@ private:
   {
     if (first == beyond)
       return;
+    m_poll();
     if (node >= m_leaves) {
       m_faces[node - m_leaves] = order[first];
       m_leaf_of[order[first]] = node - m_leaves;
@@ -127,6 +129,7 @@ private:
     place(order, boxes, middle, beyond, 2 * node + 1);
   }
 
+  Cancellation_poll m_poll;
   std::size_t m_leaves = 0;
   std::vector<Box> m_boxes; // node k has the children 2k and 2k + 1
   std::vector<Index> m_faces;

@@ -3,6 +3,7 @@
 
 #include "Complex.h"
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/mesh/selection.h>
 
 #include <algorithm>
@@ -23,9 +24,12 @@ std::vector<Index> first_at_position(const std::vector<Point_3>& points)
   std::map<Coordinates, Index> first; // compares doubles, so that the zeros are one
   std::vector<Index> result;
   result.reserve(points.size());
-  for (Index v = 0; v < points.size(); ++v)
+  Cancellation_poll poll;
+  for (Index v = 0; v < points.size(); ++v) {
+    poll();
     result.push_back(
         first.emplace(Coordinates{points[v].x(), points[v].y(), points[v].z()}, v).first->second);
+  }
   return result;
 }
 
@@ -36,7 +40,9 @@ Complex::Complex(const Triangle_soup& soup)
   std::iota(m_snapped_to.begin(), m_snapped_to.end(), Index(0));
   for (const Point_3& p : soup.points)
     m_points.push_back({p.x(), p.y(), p.z()});
+  Cancellation_poll poll;
   for (Index f = 0; f < soup.triangles.size(); ++f) {
+    poll();
     Face face;
     for (Index k = 0; k < 3; ++k) {
       face.positions[k] = m_position_of_vertex[soup.triangles[f][k]];
@@ -130,8 +136,10 @@ bool Complex::is_seam_between(Index a, Index b) const
 void Complex::find_seams()
 {
   m_has_seams = true;
+  Cancellation_poll poll;
   for (Index f = 0; f < m_faces.size(); ++f)
     for (std::size_t k = 0; k < 3; ++k) {
+      poll();
       const Index from = m_faces[f].positions[k], to = m_faces[f].positions[next(k)];
       std::size_t count = 0;
       Index other = f;

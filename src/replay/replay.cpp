@@ -9,6 +9,7 @@
 #include "limits.h"
 #include "snap.h"
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
 #include <selvedge/Sha256.h>
 #include <selvedge/mesh/rounding.h>
@@ -184,8 +185,11 @@ public:
                               : options.limits           ? Limits_source::judge
                                                          : Limits_source::log;
     m_boxes.resize(m_complex.size());
-    for (Index f = 0; f < m_boxes.size(); ++f)
+    Cancellation_poll poll;
+    for (Index f = 0; f < m_boxes.size(); ++f) {
+      poll();
       m_boxes[f] = box_of(m_complex.triangle(f));
+    }
     build_tree();
   }
 
@@ -203,7 +207,7 @@ public:
       if ((!m_verdict.violations.empty() && !m_options.is_all_wanted))
         break;
       m_verdict.is_stopped =
-          m_options.should_stop && m_verdict.steps % 256 == 0 && m_options.should_stop(m_verdict.steps);
+          m_options.should_stop && m_verdict.steps % 16 == 0 && m_options.should_stop(m_verdict.steps);
       if (m_verdict.is_stopped)
         break;
     }
@@ -484,6 +488,7 @@ private:
     });
     // First what is wrong at the end, which is easier to see, then what was on the way.
     for (const Moving& face : moving) {
+      Cancellation_scope::check();
       const Box end = box_of(face.after);
       for (const Index f : m_standing)
         if (end.overlaps(m_boxes[f]) && !m_offences.has(face.face, f) &&
@@ -497,6 +502,7 @@ private:
                                 other.after, meeting_point(face.after, other.after));
     }
     for (const Moving& face : moving) {
+      Cancellation_scope::check();
       for (const Index f : m_standing) {
         if (!face.box.overlaps(m_boxes[f]) || m_offences.has(face.face, f))
           continue;
@@ -654,12 +660,15 @@ private:
   std::string digest() const
   {
     std::vector<Index> smallest(m_start.soup.points.size(), Index(-1)); // by position
+    Cancellation_poll poll;
     for (Index number = 0; number < m_numbering.size(); ++number) {
+      poll();
       Index& first = smallest[position(number)];
       first = std::min(first, number);
     }
     Sha256 sha256;
     for (Index f = 0; f < m_complex.size(); ++f) {
+      poll();
       if (!m_complex.face(f).is_alive)
         continue;
       const Index_triple& p = m_complex.face(f).positions;

@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_SRC_VERIFY_LISTS_H
 #define SELVEDGE_SRC_VERIFY_LISTS_H
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/mesh/Triangle_soup.h>
 
 #include <algorithm>
@@ -36,7 +37,9 @@ public:
   /// Of pairs of a key, below `keys`, and a number.
   Lists(std::size_t keys, std::vector<Pair> pairs) : m_first(keys + 1)
   {
+    Cancellation_scope::check();
     std::sort(pairs.begin(), pairs.end());
+    Cancellation_scope::check();
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     m_numbers.reserve(pairs.size());
     for (const auto& [key, number] : pairs) {

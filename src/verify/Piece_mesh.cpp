@@ -5,6 +5,8 @@
 
 #include "part_names.h"
 
+#include <selvedge/Cancellation_scope.h>
+
 #include <CGAL/Bbox_3.h>
 
 #include <algorithm>
@@ -59,6 +61,7 @@ std::vector<Kind> Piece_mesh::kinds_by_position(const std::vector<Index>& some_t
     numbers.insert(numbers.end(), triple.begin(), triple.end());
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  Cancellation_scope::check();
   for (Index_triple& triple : by_position)
     for (Index& number : triple)
       number = Index(std::lower_bound(numbers.begin(), numbers.end(), number) - numbers.begin());

@@ -5,6 +5,8 @@
 
 #include "pieces.h"
 
+#include <selvedge/Cancellation_scope.h>
+
 namespace selvedge::internal {
 
 Triangle_soup Shape::cut_out(const Triangle_soup& soup, const std::vector<Index>& triangles)
@@ -30,7 +32,9 @@ double Shape::root_mean_square_distance(const Shape& to) const
 {
   double sum = 0;
   Index guess = 0;
+  Cancellation_poll poll;
   for (const Point_3& point : points()) {
+    poll();
     const Surface_tree::Nearest nearest = to.m_tree.nearest(point, guess);
     sum += CGAL::squared_distance(point, nearest.point);
     guess = nearest.triangle;
@@ -42,7 +46,9 @@ double Shape::turned_against(const Shape& other) const
 {
   double all = 0, turned = 0;
   Index guess = 0;
+  Cancellation_poll poll;
   for (Index t = 0; t < m_surface.triangles.size(); ++t) {
+    poll();
     const Vector_3 normal = m_surface.normal(t);
     const double area = std::sqrt(normal.squared_length());
     const Triangle_3 triangle = m_surface.triangle(t);
@@ -85,7 +91,9 @@ std::vector<Index> Nearest_pieces::pieces_near(const Shape& shape) const
   constexpr std::size_t most = 16;
   std::map<Index, std::size_t> votes;
   Index guess = 0;
+  Cancellation_poll poll;
   for (const Point_3& point : shape.points()) {
+    poll();
     guess = m_shape.nearest(point, guess);
     ++votes[m_pieces[guess]];
   }

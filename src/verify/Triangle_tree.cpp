@@ -30,7 +30,9 @@ public:
       sort(first_part, middle_part);
       sort(middle_part, beyond_part);
     } else {
-      tbb::parallel_invoke([=] { sort(first_part, middle_part); }, [=] { sort(middle_part, beyond_part); });
+      Cancellation_scope::check();
+      tbb::parallel_invoke(Cancellation_scope::inherited([=] { sort(first_part, middle_part); }),
+                           Cancellation_scope::inherited([=] { sort(middle_part, beyond_part); }));
     }
   }
 
@@ -76,6 +78,7 @@ Triangle_tree::Triangle_tree(const std::vector<Point_3>& points, const std::vect
   while (leaf_count * s_leaf_size < triangles.size())
     leaf_count *= 2;
   const auto for_each_triangle = [&](const auto& function) {
+    Cancellation_scope::check();
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, triangles.size(), s_task_size),
                       [&](const tbb::blocked_range<std::size_t>& range) {
                         for (std::size_t i = range.begin(); i < range.end(); ++i)

@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_SRC_VERIFY_TRIANGLE_TREE_H
 #define SELVEDGE_SRC_VERIFY_TRIANGLE_TREE_H
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/mesh/Triangle_soup.h>
 
 #include <CGAL/Bbox_3.h>
@@ -115,6 +116,8 @@ private:
   template <class Function>
   void pairs_within(std::size_t node, std::size_t size, const Function& function) const
   {
+    if (size >= s_task_size)
+      Cancellation_scope::check();
     if (node >= leaves()) {
       for_each_in(node, [&](std::size_t i) {
         for (std::size_t j = first_of(node - leaves()); j < i; ++j)
@@ -158,7 +161,7 @@ private:
     if (size < s_task_size)
       (tasks(), ...);
     else
-      tbb::parallel_invoke(tasks...);
+      tbb::parallel_invoke(Cancellation_scope::inherited(tasks)...);
   }
 
   template <class Is_wanted, class Function>

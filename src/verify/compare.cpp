@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/compare.h>
 
 #include "Surface_tree.h"
@@ -58,6 +59,7 @@ Normal_deviation normal_deviation(const Triangle_soup& result, const Triangle_so
   Surface_tree tree(before);
   Face_samples samples(after);
   double sum = 0, sum_of_squares = 0, turned = 0;
+  Cancellation_poll poll;
   for (Index face = 0; face < after.triangles.size(); ++face) {
     if (!(areas[face] > 0))
       continue;
@@ -65,6 +67,7 @@ Normal_deviation normal_deviation(const Triangle_soup& result, const Triangle_so
     const auto count = 1 + static_cast<std::size_t>(spread_by_area * (areas[face] / area_of_all));
     const double weight = areas[face] / static_cast<double>(count) / area_of_all;
     for (std::size_t k = 0; k < count; ++k) {
+      poll();
       const Point_3 point = samples.next(face);
       Index nearest = tree.nearest(point).triangle;
       if (!(directions[nearest] * normal > 0)) {
@@ -102,25 +105,28 @@ Comparison compare(const Triangle_soup& result, const Triangle_soup& original)
   };
 
   Bounds forth, back;
-  tbb::parallel_invoke(
-      [&] { forth = maximum_distance(original, result); }, [&] { back = maximum_distance(result, original); },
-      [&] {
-        const Borders_and_seams before = borders_and_seams(original), after = borders_and_seams(result);
-        comparison.borders = make_lines_relative(compare_lines(after.borders, before.borders));
-        comparison.seams = make_lines_relative(compare_lines(after.seams, before.seams));
-        const Gaps gaps = find_gaps(after, before);
-        comparison.gaps = {gaps.open_edges, gaps.length / unit, gaps.width / unit};
-      },
-      [&] { compare_values(comparison, result, original); });
+  tbb::parallel_invoke(Cancellation_scope::inherited([&] { forth = maximum_distance(original, result); }),
+                       Cancellation_scope::inherited([&] { back = maximum_distance(result, original); }),
+                       Cancellation_scope::inherited([&] {
+                         const Borders_and_seams before = borders_and_seams(original),
+                                                 after = borders_and_seams(result);
+                         comparison.borders =
+                             make_lines_relative(compare_lines(after.borders, before.borders));
+                         comparison.seams = make_lines_relative(compare_lines(after.seams, before.seams));
+                         const Gaps gaps = find_gaps(after, before);
+                         comparison.gaps = {gaps.open_edges, gaps.length / unit, gaps.width / unit};
+                       }),
+                       Cancellation_scope::inherited([&] { compare_values(comparison, result, original); }));
   comparison.original_to_result = make_relative(forth);
   comparison.result_to_original = make_relative(back);
 
   const double largest = std::max(forth.upper, back.upper);
-  tbb::parallel_invoke([&] { comparison.normals = normal_deviation(result, original, largest); },
-                       [&] {
+  tbb::parallel_invoke(Cancellation_scope::inherited(
+                           [&] { comparison.normals = normal_deviation(result, original, largest); }),
+                       Cancellation_scope::inherited([&] {
                          const double reach = std::clamp(2.5 * largest, 1e-9 * unit, 0.25 * unit);
                          comparison.layers = layer_order(result, original, reach);
-                       });
+                       }));
   return comparison;
 }
 

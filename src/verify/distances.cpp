@@ -3,6 +3,7 @@
 
 #include "Surface_tree.h"
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/compare.h>
 #include <selvedge/verify.h>
 
@@ -42,15 +43,17 @@ void for_each_nearest(const std::vector<Index>& vertices, const Surface& from, c
   while (4 * parts < queries.size())
     parts *= 2;
   sort_by_halves(queries, parts);
-  tbb::parallel_for(std::size_t(0), (queries.size() + chunk - 1) / chunk, [&](std::size_t number) {
+  const auto ask = [&](std::size_t number) {
     Index guess = 0;
+    Cancellation_scope::check();
     for (std::size_t i = chunk * number; i < (std::min)(chunk * (number + 1), queries.size()); ++i) {
       const Index vertex = queries[i].number;
       const Surface_tree::Nearest nearest = to.nearest(from.points[vertex], guess);
       function(i, vertex, nearest);
       guess = nearest.triangle;
     }
-  });
+  };
+  tbb::parallel_for(std::size_t(0), (queries.size() + chunk - 1) / chunk, Cancellation_scope::inherited(ask));
 }
 
 /// A part of a triangle: its corners, and for each the nearest triangle of the other mesh.
@@ -183,7 +186,9 @@ Bounds maximum_distance(const Triangle_soup& from, const Triangle_soup& to)
     return 0.0;
   };
   double upper = lower; // of what is no longer looked at
+  Cancellation_poll poll;
   for (const Index_triple& triangle : source.triangles) {
+    poll();
     const auto& [a, b, c] = triangle;
     upper = std::max(upper, keep({{source.points[a], source.points[b], source.points[c]},
                                   {nearest[a], nearest[b], nearest[c]},
@@ -191,6 +196,7 @@ Bounds maximum_distance(const Triangle_soup& from, const Triangle_soup& to)
   }
   std::size_t budget = from.triangles.size() + 500'000;
   for (; !parts.empty() && parts.top().upper > good_enough() && budget > 0; --budget) {
+    poll();
     const Part part = parts.top();
     parts.pop();
     const auto [place, point] = cut_of(part, surface);

@@ -5,6 +5,8 @@
 
 #include "positions.h"
 
+#include <selvedge/Cancellation_scope.h>
+
 #include <algorithm>
 #include <cstring>
 #include <functional>
@@ -86,13 +88,18 @@ Combinations combinations(const Triangle_soup& soup, const Index* positions, con
                           Value_numbers& numbers)
 {
   Combinations result;
+  Cancellation_poll poll;
   for (Index triangle = 0; triangle < soup.triangles.size(); ++triangle)
     for (int place = 0; place < 3; ++place) {
+      poll();
       const auto value = numbers.emplace(column.value(triangle, place), static_cast<Index>(numbers.size()));
       const Index position = column.is_by_position ? positions[soup.triangles[triangle][place]] : 0;
       result.emplace_back(position, value.first->second);
     }
-  std::sort(result.begin(), result.end());
+  std::sort(result.begin(), result.end(), [&](const auto& a, const auto& b) {
+    poll();
+    return a < b;
+  });
   result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
 }

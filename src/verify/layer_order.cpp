@@ -7,6 +7,8 @@
 #include "face_samples.h"
 #include "positions.h"
 
+#include <selvedge/Cancellation_scope.h>
+
 #include <CGAL/Exact_rational.h>
 
 #include <algorithm>
@@ -185,7 +187,9 @@ std::vector<Index> positions_in_original(const Surface& result, const Surface& o
     for (const Index vertex : triangle)
       is_original[of_original[vertex]] = true;
   std::vector<Index> found(positions.begin(), of_original);
-  for (const Index vertex : vertices)
+  Cancellation_poll poll;
+  for (const Index vertex : vertices) {
+    poll();
     if (!is_original[found[vertex]]) {
       const Point_3& point = result.points[vertex];
       const Index_triple& corners = original.triangles[tree.nearest(point).triangle];
@@ -193,6 +197,7 @@ std::vector<Index> positions_in_original(const Surface& result, const Surface& o
         return CGAL::has_smaller_distance_to_point(point, original.points[v], original.points[w]);
       })];
     }
+  }
   return found;
 }
 
@@ -221,6 +226,7 @@ Layer_order layer_order(const Triangle_soup& result, const Triangle_soup& origin
   std::vector<Index_triple> layers;
   std::vector<Index> wanted;
   for (std::size_t line = 0; line < lines && graph.work() < most_work; ++line) {
+    Cancellation_scope::check();
     const Index face = faces_in_turn(line);
     const Vector_3 normal = before.normal(face);
     const double length = std::sqrt(normal.squared_length());

@@ -6,6 +6,8 @@
 #include "Surface_tree.h"
 #include "positions.h"
 
+#include <selvedge/Cancellation_scope.h>
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -41,7 +43,9 @@ std::vector<Side> sorted_sides(const Triangle_soup& soup)
       sides.push_back(side);
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+  Cancellation_poll poll;
+  std::sort(sides.begin(), sides.end(), [&](const Side& a, const Side& b) {
+    poll();
     return std::tie(a.low, a.high, a.corner_at_low) < std::tie(b.low, b.high, b.corner_at_low);
   });
   return sides;
@@ -89,7 +93,9 @@ Borders_and_seams borders_and_seams(const Triangle_soup& soup)
     lines.opposite.push_back(soup.triangles[side.corner_at_low / 3][opposite]);
   };
   const std::vector<Side> sides = sorted_sides(soup);
+  Cancellation_poll poll;
   for (auto first = sides.begin(), last = first; first != sides.end(); first = last) {
+    poll();
     bool is_seam = false;
     for (; last != sides.end() && last->low == first->low && last->high == first->high; ++last)
       is_seam = is_seam || differ(soup, first->corner_at_low, last->corner_at_low) ||
@@ -130,7 +136,9 @@ Gaps find_gaps(const Borders_and_seams& result, const Borders_and_seams& origina
 
   Lines open = {{}, {}};
   open.edges.points = result.borders.edges.points;
+  Cancellation_poll poll;
   for (Index edge = 0; edge < edges.triangles.size(); ++edge) {
+    poll();
     const Point_3 &a = edges.corner(edge, 0), &b = edges.corner(edge, 1);
     const double of_ends = excess(a) + excess(b);
     if (of_ends > 0 || (of_ends == 0 && excess(CGAL::midpoint(a, b)) > 0)) {
@@ -148,6 +156,7 @@ Gaps find_gaps(const Borders_and_seams& result, const Borders_and_seams& origina
     directions.push_back(inwards(open_edges, open, edge));
   Surface_tree tree(open_edges);
   for (Index edge = 0; edge < gaps.open_edges; ++edge) {
+    poll();
     const Point_3 &a = open_edges.corner(edge, 0), &b = open_edges.corner(edge, 1);
     gaps.length += std::sqrt(CGAL::squared_distance(a, b));
     const Point_3 middle = CGAL::midpoint(a, b);

@@ -7,6 +7,8 @@
 #include "Shape.h"
 #include "part_names.h"
 
+#include <selvedge/Cancellation_scope.h>
+
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -53,6 +55,7 @@ private:
   {
     if (names.is_one())
       return;
+    Cancellation_scope::check();
     std::vector<Pair> pairs;
     for (Index t = 0; t < m_original.soup.triangles.size(); ++t)
       for (int place = 0; m_original.piece(t) != no_piece && place < 3; ++place) {
@@ -106,6 +109,7 @@ private:
     for (Index i = 0; i < now.size(); ++i)
       for (const Index vertex : m_result.soup.triangles[now[i]])
         corners.emplace_back(vertex, names.now(now[i]), i);
+    Cancellation_scope::check();
     std::sort(corners.begin(), corners.end());
     Disjoint_sets patches(now.size());
     for (std::size_t i = 1; i < corners.size(); ++i)
@@ -118,7 +122,9 @@ private:
       std::map<Index, std::size_t> others;
     };
     std::map<std::size_t, Patch> found;
+    Cancellation_poll poll;
     for (Index i = 0; i < now.size(); ++i) {
+      poll();
       Patch& patch = found[patches.find(i)];
       ++patch.faces;
       const Index name = name_before(now[i]);

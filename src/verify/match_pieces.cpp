@@ -10,6 +10,8 @@
 #include "positions.h"
 #include "rounded.h"
 
+#include <selvedge/Cancellation_scope.h>
+
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -62,9 +64,13 @@ public:
   Piece_matching run()
   {
     match_by_vertices();
+    Cancellation_scope::check();
     match_joined(false);
+    Cancellation_scope::check();
     match_by_distance();
+    Cancellation_scope::check();
     match_joined(true);
+    Cancellation_scope::check();
     tell_what_is_left();
     m_matching.matches.erase(
         std::remove_if(m_matching.matches.begin(), m_matching.matches.end(),
@@ -133,7 +139,9 @@ private:
     const Lists result_at = m_result.pieces_at(m_position_count);
     std::vector<std::size_t> sizes(m_result.pieces().size());
     std::vector<Pair> hits;
+    Cancellation_poll poll;
     for (std::size_t position = 0; position < m_position_count; ++position) {
+      poll();
       if (result_at[position].size() > most_at_a_position ||
           m_original_at[position].size() > most_at_a_position)
         continue;
@@ -202,6 +210,7 @@ private:
     }
     const Triangle_tree tree(original.points, borders);
     const bool is_rounded = has_float32_alone(m_result.soup);
+    Cancellation_poll poll;
     const auto visit_near = [&](const Point_3& p, const auto& visit) {
       const double largest = std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
       const double reach = m_options.weld_distance * (1 + 1e-9) + (is_rounded ? largest * 0x1p-22 : 0);
@@ -209,6 +218,7 @@ private:
                              p.z() + reach);
       tree.visit([&](const CGAL::Bbox_3& other) { return CGAL::do_overlap(box, other); },
                  [&](Index border) {
+                   poll();
                    const Point_3& q = original.points[borders[border][0]];
                    if (std::hypot(p.x() - q.x(), p.y() - q.y(), p.z() - q.z()) <= reach)
                      visit(q, pieces[border]);
@@ -217,6 +227,7 @@ private:
     std::vector<bool> is_done(m_position_count);
     for (const Index vertex : used_vertices(m_result.soup)) {
       const Index position = m_result.positions[vertex];
+      poll();
       if (is_done[position] || m_original_at[position].size() == 0)
         continue;
       is_done[position] = true;
@@ -290,7 +301,9 @@ private:
         owns_nothing(results, true);
     std::vector<Pair> owned;
     std::optional<Nearest_pieces> nearest;
+    Cancellation_poll poll;
     for (Index t = 0; t < m_result.soup.triangles.size(); ++t) {
+      poll();
       const Index r = m_result.piece(t);
       if (r == no_piece)
         continue;
@@ -501,7 +514,7 @@ private:
 
   void judge_shapes()
   {
-    tbb::parallel_for(std::size_t(0), m_matching.matches.size(), [&](std::size_t i) {
+    const auto judge = [&](std::size_t i) {
       Piece_match& match = m_matching.matches[i];
       const Shape before(m_original.soup, m_original.triangles_of(match.of_original), m_exponent);
       const Shape now(m_result.soup, m_result.triangles_of(match.of_result), m_exponent);
@@ -509,7 +522,8 @@ private:
           std::max(before.root_mean_square_distance(now), now.root_mean_square_distance(before)) /
           before.diagonal();
       match.turned = now.turned_against(before);
-    });
+    };
+    tbb::parallel_for(std::size_t(0), m_matching.matches.size(), Cancellation_scope::inherited(judge));
     for (const Piece_match& match : m_matching.matches) {
       const auto what = [&] {
         return describe(m_original, match.of_original) + " of the original and " +

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/verify.h>
 
 #include <algorithm>
@@ -60,7 +61,9 @@ std::vector<Offending_pair> new_pairs(const Triangle_soup& result,
   std::vector<std::size_t> numbers;
   const std::vector<Known_pair> before = known(original, pairs_of_original);
   auto old = before.begin();
+  Cancellation_poll poll;
   for (const Known_pair& pair : known(result, pairs_of_result)) {
+    poll();
     while (old != before.end() && *old < pair)
       ++old;
     if (old != before.end() && !(pair < *old))

@@ -3,6 +3,7 @@
 
 #include "verify/Triangle_tree.h"
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/verify.h>
 
 #include <CGAL/intersections.h>
@@ -152,6 +153,7 @@ class Judge
 public:
   explicit Judge(const Triangle_soup& soup) : m_soup(soup), m_degenerate(soup.triangles.size())
   {
+    Cancellation_scope::check();
     const tbb::blocked_range<std::size_t> all(0, soup.triangles.size(), 4096);
     tbb::parallel_for(all, [&](const tbb::blocked_range<std::size_t>& range) {
       for (std::size_t i = range.begin(); i < range.end(); ++i) {
@@ -169,6 +171,8 @@ public:
       if (m_degenerate[i])
         report(Offending_pair{i, i, Offence::degenerate});
     Triangle_tree(m_soup.points, m_soup.triangles).for_each_pair([&](Index a, Index b) {
+      static thread_local Cancellation_poll poll;
+      poll();
       if (const std::optional<Offence> offence = judge(a, b))
         report(Offending_pair{std::min(a, b), std::max(a, b), *offence});
     });
@@ -217,7 +221,9 @@ std::vector<Offending_pair> offending_pairs(const Triangle_soup& soup)
   std::vector<Offending_pair> pairs;
   for (const std::vector<Offending_pair>& some : found)
     pairs.insert(pairs.end(), some.begin(), some.end());
-  std::sort(pairs.begin(), pairs.end(), [](const Offending_pair& a, const Offending_pair& b) {
+  Cancellation_poll poll;
+  std::sort(pairs.begin(), pairs.end(), [&](const Offending_pair& a, const Offending_pair& b) {
+    poll();
     return std::tie(a.first, a.second) < std::tie(b.first, b.second);
   });
   return pairs;

@@ -5,6 +5,8 @@
 
 #include "Disjoint_sets.h"
 
+#include <selvedge/Cancellation_scope.h>
+
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -48,7 +50,9 @@ std::vector<Side> sorted_sides(const std::vector<Index_triple>& triangles, std::
   std::vector<Side> sides(places.back());
   for_each_side([&](const Side& side) { sides[places[side.low]++] = side; });
   auto first = sides.begin();
+  Cancellation_poll poll;
   for (std::size_t low = 0; low < vertices; ++low) {
+    poll();
     const auto beyond = sides.begin() + std::ptrdiff_t(places[low]);
     std::sort(first, beyond, [](const Side& a, const Side& b) {
       return std::tie(a.high, a.corner_at_low) < std::tie(b.high, b.corner_at_low);
@@ -98,7 +102,9 @@ Numbered_pieces internal::numbered_pieces(const std::vector<Index_triple>& trian
   Disjoint_sets fans(3 * triangles.size());
   std::vector<Side> borders;
   const std::vector<Side> sides = sorted_sides(triangles, vertices);
+  Cancellation_poll poll;
   for (auto first = sides.begin(), last = first; first != sides.end(); first = last) {
+    poll();
     for (; last != sides.end() && last->low == first->low && last->high == first->high; ++last) {
       fans.unite(first->corner_at_low, last->corner_at_low);
       fans.unite(first->corner_at_high, last->corner_at_high);
@@ -113,6 +119,7 @@ Numbered_pieces internal::numbered_pieces(const std::vector<Index_triple>& trian
   }
 
   // A border edge leads from one fan to another; a loop is what hangs together that way.
+  Cancellation_scope::check();
   for (const Side& border : borders)
     fans.unite(border.corner_at_low, border.corner_at_high);
   std::vector<bool> counted(3 * triangles.size());

@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_VERIFY_POSITIONS_H
 #define SELVEDGE_VERIFY_POSITIONS_H
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/mesh/Triangle_soup.h>
 
 #include <algorithm>
@@ -17,8 +18,10 @@ inline std::vector<Index> position_numbers(const std::vector<Point_3>& points)
 {
   std::vector<Index> order(points.size()), numbers(points.size());
   std::iota(order.begin(), order.end(), Index(0));
+  Cancellation_scope::check();
   std::sort(order.begin(), order.end(),
             [&](Index v, Index w) { return CGAL::lexicographically_xyz_smaller(points[v], points[w]); });
+  Cancellation_scope::check();
   Index number = 0;
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (i > 0 && points[order[i]] != points[order[i - 1]])

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/verify.h>
 
 #include "rounded.h"
@@ -14,8 +15,9 @@ namespace selvedge {
 Verification verify(const Triangle_soup& mesh)
 {
   Verification verification;
-  tbb::parallel_invoke([&] { verification.pairs = verification.new_pairs = offending_pairs(mesh); },
-                       [&] { verification.pieces = pieces(mesh); });
+  tbb::parallel_invoke(Cancellation_scope::inherited(
+                           [&] { verification.pairs = verification.new_pairs = offending_pairs(mesh); }),
+                       Cancellation_scope::inherited([&] { verification.pieces = pieces(mesh); }));
   return verification;
 }
 
@@ -34,8 +36,9 @@ Verification verify(const Triangle_soup& result, const Triangle_soup& original,
 {
   Verification verification;
   Piece_matching matching;
-  tbb::parallel_invoke([&] { verification = verify(result); },
-                       [&] { matching = match_pieces(result, original, options); });
+  tbb::parallel_invoke(
+      Cancellation_scope::inherited([&] { verification = verify(result); }),
+      Cancellation_scope::inherited([&] { matching = match_pieces(result, original, options); }));
   verification.matching = std::move(matching);
   verification.new_pairs = new_pairs(result, verification.pairs, original, pairs_of_original);
   verification.topology_differences =

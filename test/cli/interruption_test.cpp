@@ -6,6 +6,16 @@
 #include <selvedge/mesh/mesh_files.h>
 #include <selvedge/verify.h>
 
+#include <csignal>
+#include <filesystem>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 namespace selvedge::test {
 namespace {
 
@@ -68,6 +78,56 @@ TEST(App_interruption, TheSecondKills)
   process.send(SIGINT);
   EXPECT_EQ(process.wait(), -SIGINT) << process.err();
   EXPECT_EQ(contents_of(folder / "out.ply"), "precious");
+}
+
+// A pipe with nobody at its other end holds a command up for as long as the test wants, at a place that is
+// known: when it has been opened from this side as well, the command waits in it.
+class Pipe
+{
+public:
+  Pipe(const std::string& path, int mode) : m_path(path), m_mode(mode) { ::mkfifo(path.c_str(), 0600); }
+  ~Pipe() { ::close(m_descriptor); }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+
+  void wait_for_other_end() { m_descriptor = ::open(m_path.c_str(), m_mode); }
+
+private:
+  std::string m_path;
+  int m_mode;
+  int m_descriptor = -1;
+};
+
+TEST(App_interruption, OfEveryCommandWritesNothing)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("sheets", "in.ply", 20'000);
+  write_text(folder / "steps.log", "selvedge-log 1\ninput 10404 20000 -\nrounding none\n");
+  const std::string source = folder / "source.ply", target = folder / "target.ply";
+  const std::vector<std::vector<std::string>> reading = {
+      {"simplify", source, "-o", folder / "out.ply", "--ratio", "0.5", "--quiet"},
+      {"simplify", in, "-o", folder / "out.ply", "--ratio", "0.5", "--obstacle", source, "--quiet"},
+      {"verify", source},
+      {"verify", in, "--against", source, "--report", folder / "report.json"},
+      {"replay", source, folder / "steps.log", "-o", folder / "out.ply"}};
+  const std::vector<std::vector<std::string>> writing = {
+      {"simplify", in, "-o", target, "--ratio", "0.9", "--quiet"},
+      {"generate", "skirt", "-o", target, "--quiet"}};
+  for (const auto& [commands, path, mode] :
+       {std::tuple(reading, source, O_WRONLY), std::tuple(writing, target, O_RDONLY)})
+    for (const std::vector<std::string>& command : commands)
+      for (const int signal : {SIGINT, SIGTERM}) {
+        Pipe pipe(path, mode);
+        const std::size_t files = folder.files();
+        App_process process(command);
+        pipe.wait_for_other_end();
+        process.send(signal);
+        EXPECT_EQ(process.wait(), 5) << command[0];
+        EXPECT_EQ(process.err(), "selvedge: interrupted; nothing was written\n");
+        EXPECT_EQ(process.out(), "");
+        EXPECT_EQ(folder.files(), files);
+        std::filesystem::remove(path);
+      }
 }
 
 } // namespace

@@ -13,7 +13,7 @@ import re
 import sys
 
 LEVELS = [
-    ("basics", ["include/selvedge/Error.h", "include/selvedge/internal/"]),
+    ("basics", ["include/selvedge/Cancellation_scope.h", "include/selvedge/Error.h", "include/selvedge/internal/"]),
     ("geometry", ["include/selvedge/geometry/", "include/selvedge/spatial/"]),
     ("policies", ["include/selvedge/Surface_mesh_simplification/", "include/selvedge/edge_collapse.h", "include/selvedge/simplify.h",
                   "include/selvedge/Simplify_options.h", "include/selvedge/Simplify_report.h"]),

@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_QUADRIC_COST_H
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_QUADRIC_COST_H
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/Surface_mesh_simplification/internal/Symmetric_quadric.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
 
@@ -103,10 +104,14 @@ public:
       box += get(points, v).bbox();
     for (int i = 0; i < 3 && box.min(i) <= box.max(i); ++i)
       m_state->origin[i] = 0.5 * box.min(i) + 0.5 * box.max(i);
-    for (const auto face : faces(mesh))
+    Cancellation_poll poll;
+    for (const auto face : faces(mesh)) {
+      poll();
       add_face(halfedge(face, mesh), mesh, points);
+    }
     auto weight = m_state->weights.begin();
     for (const Vertex v : vertices(mesh)) {
+      poll();
       Quadric sum = quadric(v);
       if (!m_state->weights.empty())
         sum *= *weight++;

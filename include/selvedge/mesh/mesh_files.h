@@ -160,7 +160,8 @@ struct Write_options
 ///
 /// The whole file is written to a new file in the same folder, brought to the disk, and only then renamed to
 /// `path`. When anything fails (no room, no permission) that new file is removed, what stood at `path` is
-/// untouched, and `Output_error` is thrown. A symbolic link is followed (one that leads nowhere is
+/// untouched, and `Output_error` is thrown; so with `Interrupted` when the call is cancelled, see
+/// Cancellation_scope.h. A symbolic link is followed (one that leads nowhere is
 /// replaced); what is neither a file nor a link to one (a device, a pipe) is written to directly.
 ///
 /// OBJ and OFF hold the shortest decimals that read back as the same doubles. PLY positions, normals and

@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_CGAL_PASS_H
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_CGAL_PASS_H
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/Surface_mesh_simplification/Halfedge_placement.h>
 #include <selvedge/Surface_mesh_simplification/stop_predicates.h>
 
@@ -63,6 +64,11 @@ private:
     }
 
     void OnStarted(TriangleMesh&) { placement.on_started(); }
+    template <class Profile, class OptionalCost>
+    void OnCollected(const Profile&, const OptionalCost&)
+    {
+      poll();
+    }
     template <class Profile, class OptionalCost, class Size>
     void OnSelected(const Profile&, const OptionalCost&, Size, Size)
     {
@@ -76,6 +82,7 @@ private:
     }
 
     Placement placement;
+    Cancellation_poll poll;
   };
 
   // In this pass.

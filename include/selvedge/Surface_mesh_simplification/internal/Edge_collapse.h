@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_EDGE_COLLAPSE_H
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_EDGE_COLLAPSE_H
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/Surface_mesh_simplification/collapse_locality.h>
 #include <selvedge/Surface_mesh_simplification/internal/Collapse.h>
 #include <selvedge/Surface_mesh_simplification/internal/Edge_queue.h>
@@ -157,7 +158,9 @@ private:
     entries.reserve(num_edges(m_mesh));
     for (const Vertex v : vertices(m_mesh))
       put(m_has_stale_edges, v, false);
+    Cancellation_poll poll;
     for (const Edge e : edges(m_mesh)) {
+      poll();
       const Halfedge h = halfedge(e, m_mesh);
       m_halfedges[id(h)] = h;
       m_records[id(h)].state = State::first;

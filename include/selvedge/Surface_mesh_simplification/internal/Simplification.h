@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_SIMPLIFICATION_H
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_SIMPLIFICATION_H
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/Simplify_options.h>
 #include <selvedge/Simplify_report.h>
 #include <selvedge/Surface_mesh_simplification/Aspect_ratio_filter.h>
@@ -200,6 +201,7 @@ public:
     const auto run_passes = [&](auto run_pass) {
       bool is_promising = true;
       while (is_promising && !m_targets.is_reached() && !m_report.is_stopped) {
+        Cancellation_scope::check();
         const std::size_t collapses_before = m_report.collapses;
         m_refused_before_pass = refusals();
         ++m_report.passes;
@@ -232,8 +234,10 @@ private:
   void build_index()
   {
     const Clock::time_point start = Clock::now();
+    Cancellation_scope::check();
     if (m_options.check_intersections)
       m_intersection.emplace(m_mesh, m_uv, empty_index());
+    Cancellation_scope::check();
     m_report.seconds_index = seconds_since(start);
   }
 
@@ -264,17 +268,19 @@ private:
   // The stop of either loop: the target, or somebody's wish.
   auto is_over()
   {
-    return Any_stop(Function_stop([this](double cost) {
-                      m_cost = cost;
-                      return m_targets.is_reached();
-                    }),
-                    Hook_stop([this](std::size_t) {
-                      const auto total = m_targets.total();
-                      m_report.is_stopped =
-                          m_options.should_stop &&
-                          m_options.should_stop({m_report.faces_input, total.target, total.faces});
-                      return m_report.is_stopped;
-                    }));
+    return Any_stop(
+        Function_stop([this](double cost) {
+          m_cost = cost;
+          return m_targets.is_reached();
+        }),
+        Hook_stop([this](std::size_t) {
+          const auto total = m_targets.total();
+          if (m_options.should_stop)
+            m_report.is_stopped = m_options.should_stop({m_report.faces_input, total.target, total.faces});
+          else
+            Cancellation_scope::check();
+          return m_report.is_stopped;
+        }));
   }
 
   struct Visitor : No_visitor
