@@ -243,7 +243,11 @@ private:
     options.should_stop = [this](const Simplify_progress& progress) {
       m_bar.update(progress);
       m_is_kept = true;
-      return is_interrupted();
+      if (!is_interrupted())
+        return false;
+      if (!std::exchange(m_is_stop_told, true))
+        complain("stopping: what was reached is judged and written; interrupt again to end at once");
+      return true;
     };
     std::optional<Reduction_log> log;
     if (!m_request.log.empty()) {
@@ -463,6 +467,7 @@ private:
   Log_header m_log_header;
   std::ostringstream m_log;
   std::map<std::string, double> m_seconds;
+  bool m_is_stop_told = false;
   std::atomic<bool> m_is_kept = false; // what the reduction has reached, when a signal comes
   std::size_t m_files_written = 0;
 };

@@ -45,6 +45,7 @@ TEST(App_interruption, WritesAndVerifiesWhatWasReached)
     App_process process({"simplify", in, "-o", folder / "out.ply", "--ratio", "0.001"}, true);
     ASSERT_TRUE(process.shows("removed/s")) << process.err();
     process.send(signal);
+    EXPECT_TRUE(process.shows("selvedge: stopping: what was reached is judged")) << process.err();
     EXPECT_EQ(process.wait(), 5) << process.err();
     EXPECT_NE(process.err().find("selvedge: interrupted at"), std::string::npos) << process.err();
     const Triangle_soup before = read_mesh(in).soup, after = read_mesh(folder / "out.ply").soup;

@@ -261,7 +261,7 @@ group(
     "src/replay/contact.cpp",
     ("replay_flat_test", "replay_contact_test"),
     ("7.7715611723761027e-16 * permanent + 1e-220", "1e-220", "signs without a bound"),
-    ("3.3306690738754716e-16 * std::fabs(ax * by + ay * bx) + 1e-300", "1e-300", "planar signs without a bound"),
+    ("3.3306690738754716e-16 * std::fabs(ax * by + ay * bx) + 1e-280", "1e-280", "planar signs without a bound"),
     ("return dot(normal(m, a, b), normal(t, a, b)) <= 0;", "return dot(normal(m, a, b), normal(t, a, b)) < 0;",
      "a face may end without an area"),
     ("if (left == 0)\n    return 0;", "", "no turn where both products are zero"),
