@@ -297,7 +297,7 @@ group(
     "src/replay/limits.cpp",
     ("replay_test",),
     ("if (ahead == lines.end() || lines.size() != 2)", "if (ahead == lines.end())", "corners of lines move"),
-    ("if (is_far(m))", "if (false)", "the vertex that moves may drift"),
+    ("if (is_far(complex.point(mover)))", "if (false)", "the vertex that moves may drift"),
     ("if (std::any_of(passed->begin(), passed->end(), is_far))", "if (false)", "what was passed before may drift"),
     ("least_after <= least_before * (1 - limit_tolerance))", "false)", "triangles get thin"),
     ("if (behind.is_border() != ahead->is_border())", "if (false)", "from a border on to a seam"),
