@@ -69,13 +69,10 @@ void expect_same_but_for_rounding(const Index& index, const Brute_force_index& j
   }
 }
 
-std::size_t rebuilds(const Clustered_AABB_tree& index)
+template <class Index>
+std::size_t rebuilds(const Index& index)
 {
   return index.statistics().cluster_rebuilds + index.statistics().top_rebuilds;
-}
-std::size_t rebuilds(const Packed_R_tree& index)
-{
-  return index.statistics().rebuilds;
 }
 
 template <class MakeIndex>
