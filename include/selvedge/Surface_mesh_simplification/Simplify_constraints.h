@@ -40,8 +40,8 @@ struct Simplify_constraints
   /// Faces of which no target and no count of the report knows: obstacles. Lock their vertices.
   std::vector<Face> uncounted_faces;
 
-  /// Of which the shares of the diagonal in the options are shares; none: that of the mesh. For a mesh that
-  /// is a part of another.
+  /// The length that lengths in the options are shares of; where there is none, the diagonal of the mesh. A
+  /// mesh that is a part of another takes the diagonal of the whole.
   std::optional<double> diagonal;
 };
 

@@ -15,8 +15,7 @@ namespace selvedge {
 /// 1. *Same steps*: two meshes of which one is the other multiplied by a power of two, obstacle and all, have
 ///    the same points after division, bit for bit.
 /// 2. *Exact*: dividing the points that triangles of either soup use loses no digit, and gives finite
-/// numbers.
-///    So every exact predicate has the same answer before and after: each is made of comparisons of
+///    numbers. So every exact predicate has the same answer before and after: each is made of comparisons of
 ///    coordinates and of signs of polynomials all of whose terms have one degree d, and division by 2^k
 ///    divides such a polynomial by 2^(kd), which is positive, and keeps every comparison.
 /// 3. *Size*: the largest coordinate of the mesh's own triangles comes as near to a number from 1/2 to 1 as 2
