@@ -1,7 +1,8 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// CGAL's own simplification, with cost and placement of CGAL, in which nothing pierces anything:
+// Runs CGAL's own simplification, with CGAL's cost and placement, and refuses every collapse in which layers
+// would touch or pass through each other.
 //   filter_for_cgal IN.off OUT.off
 #include <selvedge/Surface_mesh_simplification/Intersection_filter.h>
 #include <selvedge/Surface_mesh_simplification/stop_predicates.h>
@@ -28,12 +29,12 @@ int main(int argc, char** argv)
   const selvedge::Intersection_filter<Mesh> filter(mesh);
   const int collapses = SMS::edge_collapse(
       mesh, selvedge::Face_ratio_stop(0.5, mesh),
-      CGAL::parameters::filter(filter).visitor(filter.visitor())); // both: the visitor keeps the index true
+      CGAL::parameters::filter(filter).visitor(filter.visitor())); // give both: the visitor updates the index
   std::cout << collapses << " collapses, " << filter.refusals()
-            << " refused since something would have pierced something\n";
+            << " refused because layers would have touched\n";
 
   mesh.collect_garbage();
   std::ofstream out(argv[2]);
-  out.precision(17); // as many digits as it takes: what was judged is what stands in the file
+  out.precision(17); // as many digits as a double needs: the file holds exactly what was judged
   return CGAL::IO::write_OFF(out, mesh) ? 0 : 1;
 }

@@ -1,7 +1,8 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Whether any two triangles touch or cross where they should not, exactly:
+// Lists the pairs of triangles that touch or cross where they should not, decided exactly, and the pieces of
+// the mesh. Triangles are counted from 0.
 //   judge_a_mesh MESH
 #include <selvedge/Error.h>
 #include <selvedge/mesh/mesh_files.h>
@@ -16,7 +17,7 @@ int main(int argc, char** argv)
     return 2;
   }
   try {
-    // A soup is two arrays: points of doubles, and triples of indices. Your own will do as well.
+    // A soup is two arrays: points of doubles, and triples of indices. You may fill one from your own mesh.
     const selvedge::Triangle_soup soup = selvedge::read_mesh(argv[1]).soup;
     for (const selvedge::Offending_pair& pair : selvedge::offending_pairs(soup))
       std::cout << "triangles " << pair.first << " and " << pair.second << '\n';

@@ -1,9 +1,9 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// naive_simplifier in.obj ratio > out.log: shortest edges first, in floats, and nothing looks out for other
-// layers. Stands for the program that you want to have judged; docs/validate_your_simplifier.md does it with
-// this one.
+// Collapses the shortest edges first, in floats, without looking at other layers, and logs every collapse:
+//   naive_simplifier IN.obj RATIO > OUT.log
+// It stands for the program that you want to have judged; docs/validate_your_simplifier.md judges this one.
 
 #include <algorithm>
 #include <array>
@@ -29,7 +29,7 @@ int main(int argc, char** argv)
     if (word == "f" && faces.emplace_back().size() == 3)
       for (int& corner : faces.back()) {
         words >> word;
-        corner = std::stoi(word) - 1; // whatever follows a slash is of no interest here
+        corner = std::stoi(word) - 1; // what follows a slash is texture and normal
       }
   }
   std::cout << "selvedge-log 1\ninput " << points.size() << ' ' << faces.size() << " -\n";

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A file in, a file with 30 % of the faces out, pieces and seams as they were:
+// Reads a mesh, reduces it to 30 % of its faces, judges the result, and writes it.
 //   simplify_a_file IN OUT
 #include <selvedge/Error.h>
 #include <selvedge/mesh/mesh_files.h>

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the Selvedge authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws the picture of the README: a generated skirt of three layers, the same reduced to 10 % without the
-exact filter, and with it. All figures in its captions are read from the reports of these runs.
+"""Draws the picture of the README: a generated skirt of three layers, the same skirt reduced to 10 % without
+the exact filter, and with it. The figures in the captions are read from the reports of these runs.
 
     apt-get install python3-vtk9 xvfb xauth
     xvfb-run -a /usr/bin/python3 docs/picture/make.py build/release/apps/selvedge docs/picture/layers.png
@@ -21,11 +21,11 @@ GENERATE = ["generate", "skirt", "--faces", "60000", "--layers", "3", "--thickne
 RATIO = "0.1"
 COLOURS = {"lining": (0.85, 0.18, 0.20), "interlining": (0.98, 0.76, 0.20), "shell": (0.22, 0.40, 0.62),
            "pocket": (0.22, 0.40, 0.62), "waistband": (0.15, 0.28, 0.46), "loop": (0.15, 0.28, 0.46),
-           "button": (0.85, 0.68, 0.30), "body": (0.88, 0.78, 0.70)}
+           "button": (0.15, 0.28, 0.46), "body": (0.88, 0.78, 0.70)}
 PANEL = (400, 330)
 AZIMUTH = 0.4
 TOWARDS = (math.cos(AZIMUTH), math.sin(AZIMUTH))
-# Position, focal point, angle of view in degrees; the garment stands along z.
+# Where the camera stands, where it looks, its angle of view in degrees. The garment stands along z.
 WHOLE = ((3 * TOWARDS[0], 3 * TOWARDS[1], 1.0), (0, 0, 0.9), 24)
 CLOSE_UP = ((3 * TOWARDS[0], 3 * TOWARDS[1], 1.20), (0.2 * TOWARDS[0], 0.2 * TOWARDS[1], 0.93), 5)
 
@@ -51,7 +51,7 @@ def layers(path):
     return points, cells_by_colour
 
 
-def panel(path, viewport, camera, shows_edges, caption=""):
+def panel(path, viewport, camera, shows_edges, caption):
     renderer = vtkRenderer()
     renderer.SetBackground(1, 1, 1)
     renderer.SetViewport(*viewport)
@@ -73,13 +73,17 @@ def panel(path, viewport, camera, shows_edges, caption=""):
             look.EdgeVisibilityOn()
             look.SetEdgeColor(*[0.55 * part for part in COLOURS[name]])
         renderer.AddActor(actor)
-    if caption:
-        text = vtkTextActor()
-        text.SetInput(caption)
-        text.SetPosition(12, PANEL[1] - 66)
-        text.GetTextProperty().SetFontSize(16)
-        text.GetTextProperty().SetColor(0.1, 0.1, 0.1)
-        renderer.AddActor2D(text)
+    text = vtkTextActor()
+    text.SetInput(caption)
+    text.SetPosition(10, 8 if camera is CLOSE_UP else PANEL[1] - 8)
+    look = text.GetTextProperty()
+    if camera is WHOLE:
+        look.SetVerticalJustificationToTop()
+    look.SetFontSize(17)
+    look.SetColor(0.1, 0.1, 0.1)
+    look.SetBackgroundColor(1, 1, 1)
+    look.SetBackgroundOpacity(0.85)
+    renderer.AddActor2D(text)
     view = renderer.GetActiveCamera()
     position, focus, angle = camera
     view.SetPosition(*position)
@@ -94,24 +98,30 @@ def main(program, picture):
     with tempfile.TemporaryDirectory() as folder:
         files = [Path(folder) / name for name in ("original.obj", "unguarded.obj", "guarded.obj")]
         run(program, *GENERATE, "-o", files[0])
-        captions = []
-        for file, title, options in ((files[1], "Nothing guarded", ["--no-intersection-check"]),
-                                     (files[2], "Selvedge", [])):
+        captions, close_ups = [], ["Close-up: the blue outer layer\nhides a yellow and a red one"]
+        for file, title, seen, options in (
+                (files[1], "unguarded", "Yellow: the layer beneath\npokes through",
+                 ["--no-intersection-check"]),
+                (files[2], "by Selvedge", "Nothing pokes through", [])):
             report = file.with_suffix(".json")
             run(program, "simplify", files[0], "-o", file, "--ratio", RATIO, "--report", report, *options)
             figures = json.loads(report.read_text())
-            captions.append(f"{title}\n{figures['faces']['output']:,} faces\n"
-                            f"{figures['verified']['new_pairs']:,} pairs pierce")
-        captions.insert(0, f"Three layers\n{figures['faces']['input']:,} faces")
+            captions.append(f"Reduced to 10 %,\n{title}:\n"
+                            f"{figures['verified']['new_pairs']:,} pairs of\ntriangles intersect")
+            close_ups.append(seen)
+        captions.insert(0, f"Input: a skirt in\nthree layers,\n{figures['faces']['input']:,} triangles")
 
         window = vtkRenderWindow()
         window.SetOffScreenRendering(1)
         window.SetMultiSamples(8)
         window.SetSize(3 * PANEL[0], 2 * PANEL[1])
-        for column, (file, caption) in enumerate(zip(files, captions)):
-            left, right = column / 3, (column + 1) / 3
-            window.AddRenderer(panel(file, (left, 0.5, right, 1), WHOLE, False, caption))
-            window.AddRenderer(panel(file, (left, 0, right, 0.5), CLOSE_UP, column > 0))
+        between_panels = vtkRenderer()
+        between_panels.SetBackground(1, 1, 1)
+        window.AddRenderer(between_panels)
+        for column, file in enumerate(files):
+            left, right = column / 3 + 0.003, (column + 1) / 3 - 0.003
+            window.AddRenderer(panel(file, (left, 0.5, right, 1), WHOLE, False, captions[column]))
+            window.AddRenderer(panel(file, (left, 0, right, 0.5), CLOSE_UP, column > 0, close_ups[column]))
         window.Render()
         image = vtkWindowToImageFilter()
         image.SetInput(window)
