@@ -18,8 +18,8 @@
 
 namespace selvedge::app {
 
-/// One line on stderr that says what is being done, how fast, and for how long still. Nothing unless stderr
-/// is a terminal.
+/// Shows one line on stderr: what is being done, how fast, and how long it will take. It shows nothing unless
+/// stderr is a terminal.
 class Progress_bar
 {
   using Clock = std::chrono::steady_clock;
@@ -30,7 +30,7 @@ public:
   Progress_bar(const Progress_bar&) = delete;
   Progress_bar& operator=(const Progress_bar&) = delete;
 
-  /// Begins the next piece of work.
+  /// Begins a phase, which the line names.
   void begin(const char* phase)
   {
     m_is_reducing = false;

@@ -25,8 +25,8 @@ std::vector<std::string> blind_spots(const Verification& verification, const Com
 {
   const Piece_matching& matching = verification.matching;
   std::vector<std::string> lines{
-      "what happened on the way: a layer that passed through another and came back; a log shows it, see "
-      "selvedge replay"};
+      "what happened on the way, such as a layer that passed through another and came back; a log shows it "
+      "(selvedge replay)"};
 
   if (verification.is_original_rounded)
     lines.push_back(
@@ -40,15 +40,16 @@ std::vector<std::string> blind_spots(const Verification& verification, const Com
   double farthest = 0;
   for (const Piece_match& match : matching.matches)
     farthest = (std::max)(farthest, match.distance);
+  lines.push_back("what a piece has lost or gained at its borders, and where it has moved to, up to a "
+                  "quarter of its size "
+                  "on average; the most of any piece is " +
+                  with_digits(100 * farthest) + " %");
   lines.push_back(
-      "parts that a piece has lost at its borders or got there, and places to which it has moved, "
-      "up to a quarter of its size in the mean; the most of any piece is " +
-      with_digits(100 * farthest) + " %");
-  lines.push_back("faces that turned over, unless nine tenths of a piece did; the normals say how many");
+      "faces that turned over, unless they make up nine tenths of a piece; the normals say how many");
 
   if (const std::string some = pieces_matched(matching, Matched_by::distance); !some.empty())
     lines.push_back("whether " + some +
-                    " without the original's vertices are what became of the pieces that lie nearest");
+                    " without the original's vertices come from the pieces of the original that lie nearest");
   if (const std::string some = pieces_matched(matching, Matched_by::positions); !some.empty())
     lines.push_back("cuts and joins between vertices at one position, in " + some +
                     ": the files number vertices differently there");
@@ -59,11 +60,10 @@ std::vector<std::string> blind_spots(const Verification& verification, const Com
   for (const std::string& kind : matching.names_not_compared)
     lines.push_back("exchanged names of " + kind +
                     "s: only one of the files has any, or they have none in common");
-  lines.push_back("names that were exchanged in less than half of a patch of faces of one name");
-  lines.push_back("values of attributes such as texture coordinates that are gone, exchanged or not the "
-                  "original's at their position: they are counted, and not judged");
-  lines.push_back(
-      "pairs of pieces that lie at the same positions and have exchanged their places in the file");
+  lines.push_back("names that were exchanged in less than half of a patch of faces with one name");
+  lines.push_back("values of attributes, such as texture coordinates, that are missing, exchanged or not the "
+                  "original's at their position: they are counted, not judged");
+  lines.push_back("pieces at the same positions that have changed places in the file");
   return lines;
 }
 

@@ -12,8 +12,8 @@
 
 namespace selvedge::app {
 
-/// What the judge cannot see of a result and its original: those gaps that are always there, and those that
-/// these two meshes leave. One line each.
+/// Lists what the judge cannot see of a result and its original, one line each: the gaps that every
+/// comparison has, and those of these two meshes.
 std::vector<std::string> blind_spots(const Verification& verification, const Comparison& comparison);
 
 } // namespace selvedge::app

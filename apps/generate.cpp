@@ -37,21 +37,22 @@ Exit_code run(const Request& request)
     return exit_done;
   }
   if (request.name.empty())
-    throw Argument_error("say what to generate; --list names all there is");
+    throw Argument_error("say what to generate; selvedge generate --list names all scenes");
   if (request.output.empty())
-    throw Argument_error("say where to write it: -o FILE");
+    throw Argument_error("say where to write the mesh: -o FILE");
   const Mesh_format format = output_format(request.output);
   require_writable(request.output);
 
   Triangle_soup soup = generate(request.name, request.options);
   if (stores_float32(format) && round_to_float32(soup).coordinates > 0 && !is_embedded(soup))
     throw Output_error(request.output +
-                       ": not written: rounded to the 32-bit floats of this format, the mesh would not be "
-                       "embedded any more; choose .ply or .obj, or a larger gap");
+                       ": not written, because rounding to the 32-bit floats of this format would make "
+                       "triangles touch; choose .ply or .obj, or a larger --gap");
   write_output(request.output, soup, request.is_ascii);
   if (!request.is_quiet)
-    std::cout << request.output << ": " << counted(soup.triangles.size(), "face") << " of '" << request.name
-              << "', embedded by construction" << std::endl;
+    std::cout << request.output << ": '" << request.name << "' with "
+              << counted(soup.triangles.size(), "face") << ", free of intersections by construction"
+              << std::endl;
   return exit_done;
 }
 
@@ -61,35 +62,36 @@ Action add_generate(CLI::App& command)
 {
   const auto request = std::make_shared<Request>();
   Generate_options& options = request->options;
-  command.add_option("NAME", request->name, "What to make; --list names all there is")->type_name("");
-  command.add_option("-o,--output", request->output, "Where it goes: .obj, .off, .ply, .stl, .glb or .gltf")
+  command.add_option("NAME", request->name, "Scene to make; --list names all of them.")->type_name("");
+  command.add_option("-o,--output", request->output, "File to write: .obj, .off, .ply, .stl, .glb or .gltf.")
       ->type_name("FILE");
-  command.add_flag("--list", request->is_list, "Name all that can be made");
-  command.add_option("--faces", options.faces, "Faces, within 2 %")
+  command.add_flag("--list", request->is_list, "List all scenes.");
+  command.add_option("--faces", options.faces, "Number of faces, within 2 %.")
       ->check(in_range(0))
       ->type_name("N")
       ->capture_default_str();
-  command.add_option("--layers", options.layers, "Layers on top of one another")
-      ->type_name("L")
-      ->capture_default_str();
-  command.add_option("--thickness", options.thickness, "Thickness of a garment's cloth in metres; 0: sheets")
+  command.add_option("--layers", options.layers, "Number of layers.")->type_name("L")->capture_default_str();
+  command
+      .add_option("--thickness", options.thickness,
+                  "Thickness of a garment's cloth in metres. 0 makes each layer a single sheet.")
       ->type_name("T")
       ->capture_default_str();
-  command.add_option("--gap", options.gap, "Smallest distance of two layers in metres")
+  command.add_option("--gap", options.gap, "Smallest distance between two layers in metres.")
       ->type_name("G")
       ->capture_default_str();
-  command.add_option("--fold-depth", options.fold_depth, "Amplitude of folds and waves in metres")
+  command.add_option("--fold-depth", options.fold_depth, "Amplitude of folds and waves in metres.")
       ->type_name("D")
       ->capture_default_str();
-  command.add_option("--folds", options.folds, "Folds around a garment, waves along a sheet")
+  command
+      .add_option("--folds", options.folds, "Number of folds around a garment, or of waves along a sheet.")
       ->type_name("N")
       ->capture_default_str();
-  command.add_option("--seed", options.seed, "Of what is irregular")
+  command.add_option("--seed", options.seed, "Seed of the random irregularities.")
       ->check(in_range(0))
       ->type_name("S")
       ->capture_default_str();
-  command.add_flag("--quiet", request->is_quiet, "No summary");
-  command.add_flag("--ascii", request->is_ascii, "Write PLY and STL as text");
+  command.add_flag("--quiet", request->is_quiet, "Print no summary.");
+  command.add_flag("--ascii", request->is_ascii, "Write PLY and STL as text.");
   command.footer("Examples:\n"
                  "  selvedge generate --list\n"
                  "  selvedge generate skirt -o skirt.obj --faces 50000 --layers 3\n"

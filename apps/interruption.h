@@ -6,10 +6,11 @@
 
 namespace selvedge::app {
 
-/// From now on the first SIGINT or SIGTERM is remembered, and the next one kills as it always does. Calls of
-/// the system that wait end when the first comes.
+/// Remembers the first SIGINT or SIGTERM that comes from now on; the next one kills the process as usual. The
+/// first one also ends system calls that wait.
 void watch_for_interruption();
 
+/// Whether such a signal has come.
 bool is_interrupted();
 
 } // namespace selvedge::app

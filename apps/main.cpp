@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include "Help_formatter.h"
 #include "interruption.h"
 #include "subcommands.h"
 
@@ -11,15 +12,17 @@
 #include <array>
 #include <exception>
 #include <iostream>
+#include <memory>
 #include <new>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace {
 
 using namespace selvedge::app;
 
-/// One line, whatever is in a file name.
+/// Prints the message as one line, whatever characters the name of a file has.
 Exit_code fail(Exit_code code, std::string message)
 {
   std::replace_if(
@@ -30,19 +33,21 @@ Exit_code fail(Exit_code code, std::string message)
 
 Exit_code run(int argc, char** argv)
 {
-  CLI::App app("Reduces triangle meshes that lie close together so that no layer ever pierces another, "
-               "decided exactly.");
+  CLI::App app("Reduces triangle meshes whose layers lie close together, such as garments, so that no layer\n"
+               "ever pierces, touches or passes through another. Every such decision is exact.");
   app.name("selvedge");
+  app.formatter(std::make_shared<Help_formatter>());
   app.set_version_flag("--version", "selvedge " SELVEDGE_VERSION);
   app.require_subcommand(1);
-  app.footer(
-      "Examples:\n"
-      "  selvedge generate skirt -o skirt.obj --faces 50000 --layers 3\n"
-      "  selvedge simplify skirt.obj -o small.obj --ratio 0.2\n"
-      "  selvedge verify small.obj --against skirt.obj\n"
-      "`selvedge COMMAND --help` says more.\n\n"
-      "Exit codes: 0 done and verified, 1 not verified (or target missed with --require-target), 2 usage,\n"
-      "3 unreadable or unacceptable input, 4 output not written, 5 interrupted.");
+  std::string footer = "Examples:\n"
+                       "  selvedge generate skirt -o skirt.obj --faces 50000 --layers 3\n"
+                       "  selvedge simplify skirt.obj -o small.obj --ratio 0.2\n"
+                       "  selvedge verify small.obj --against skirt.obj\n"
+                       "`selvedge SUBCOMMAND --help` explains its options.\n\n"
+                       "Exit codes:";
+  for (const auto& [code, meaning] : exit_code_descriptions)
+    footer += "\n  " + std::to_string(code) + "  " + meaning;
+  app.footer(footer);
 
   struct Command
   {
@@ -54,18 +59,21 @@ Exit_code run(int argc, char** argv)
     return Command{command, declare(*command)};
   };
   const std::array<Command, 4> commands{
-      add("simplify", "Reduce a mesh, judge the result, and write it.", add_simplify),
-      add("verify", "Judge a mesh, or a result against its original.", add_verify),
-      add("replay", "Judge a reduction step by step, by its log.", add_replay),
-      add("generate", "Make a layered garment or a hard scene, embedded by construction.", add_generate)};
+      add("simplify", "Reduce a mesh to fewer faces, judge the result, and write it.", add_simplify),
+      add("verify", "Judge a mesh, or compare a reduced mesh with its original.", add_verify),
+      add("replay", "Judge every step of a reduction, from its log.", add_replay),
+      add("generate", "Make a garment in layers or another test scene, free of intersections.",
+          add_generate)};
 
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& wish) {
-    app.exit(wish); // help or version, on stdout
+    app.exit(wish); // prints the help or the version on stdout
     return exit_done;
   } catch (const CLI::ParseError& error) {
-    return fail(exit_usage, std::string(error.what()) + " (selvedge --help says more)");
+    const std::vector<CLI::App*> named = app.get_subcommands();
+    const std::string command = named.empty() ? "" : named.front()->get_name() + ' ';
+    return fail(exit_usage, error.what() + (" (see selvedge " + command + "--help)"));
   }
   return std::find_if(commands.begin(), commands.end(), [](const Command& c) { return c.app->parsed(); })
       ->action();

@@ -40,7 +40,7 @@ struct Request
   bool is_json = false;
 };
 
-/// The limits that the judge imposes, if any. The words go before files of the same name.
+/// Returns the limits that the judge imposes, if any. 'seed' and 'default' are never names of files.
 std::optional<Reduction_limits> imposed_limits(const std::string& what)
 {
   if (what.empty())
@@ -93,19 +93,20 @@ std::string describe(const Reduction_limits& limits)
 void print_terms(const Replay_verdict& verdict)
 {
   const auto bound = [](bool is_bound) {
-    return is_bound ? "bound by its SHA-256" : "NOT BOUND by a SHA-256";
+    return is_bound ? "bound (the log has its SHA-256)" : "NOT BOUND (no SHA-256 ties the log to it)";
   };
   std::cout << "limits judged: " << describe(verdict.limits) << '\n';
   if (verdict.limits_source != Limits_source::log)
-    std::cout << "limits that the log declares, set aside: " << describe(verdict.header.limits) << '\n';
+    std::cout << "limits declared by the log, but not judged: " << describe(verdict.header.limits) << '\n';
   std::cout << "input: " << bound(verdict.is_input_stated)
             << (verdict.header.is_rounded_to_float32 ? "; rounded to 32-bit floats" : "");
   if (verdict.offending_pairs > 0)
-    std::cout << "; " << counted(verdict.offending_pairs, "offending pair") << ", which stay";
+    std::cout << "; " << counted(verdict.offending_pairs, "offending pair") << " that must stay as they are";
   std::cout << "\nresult: " << bound(verdict.is_result_stated) << '\n';
   if (verdict.snaps > 0)
-    std::cout << "snaps: up to " << with_digits(verdict.largest_snap) << " long; together they took a vertex "
-              << with_digits(verdict.largest_way_of_snaps) << " at most\n";
+    std::cout << "snaps: at most " << with_digits(verdict.largest_snap)
+              << " long; together they moved a vertex by at most "
+              << with_digits(verdict.largest_way_of_snaps) << '\n';
   for (const Not_judged& open : not_judged(verdict))
     std::cout << "not judged: " << open.key << ": " << open.sentence << '\n';
 }
@@ -125,12 +126,13 @@ void print(const Request& request, const Replay_verdict& verdict)
   std::cout << request.log << ": " << counted(verdict.snaps, "snap") << ", "
             << counted(verdict.collapses, "collapse") << "; "
             << counted(verdict.soup.triangles.size(), "triangle") << " left\n"
-            << "judged: " << with_commas(verdict.pairs_judged) << " pairs, "
+            << "judged: " << with_commas(verdict.pairs_judged) << " pairs of triangles, "
             << with_commas(verdict.pairs_judged_in_rationals) << " of them in rational numbers; "
             << with_digits(verdict.seconds_prepare) << " s for the original, "
             << with_digits(verdict.seconds_steps) << " s for the steps";
   if (verdict.steps > 0)
-    std::cout << ", " << with_digits(1e6 * verdict.seconds_steps / double(verdict.steps)) << " us each";
+    std::cout << ", " << with_digits(1e6 * verdict.seconds_steps / double(verdict.steps), "%.1f")
+              << " us each";
   std::cout << '\n';
   print_terms(verdict);
   if (verdict.is_accepted()) {
@@ -138,7 +140,7 @@ void print(const Request& request, const Replay_verdict& verdict)
     return;
   }
   if (verdict.violations.empty()) {
-    std::cout << "interrupted; no violation so far" << std::endl;
+    std::cout << "interrupted: no violation was found until then" << std::endl;
     return;
   }
   std::cout << "REFUSED; the first violation:\n";
@@ -164,16 +166,17 @@ Exit_code run(const Request& request)
       require_writable(path);
   for (const std::string& other : {request.original, request.log, request.output, request.scene})
     if (!request.report.empty() && !other.empty() && is_same_file(request.report, other))
-      throw Argument_error("--report names the same file as something else: " + request.report);
+      throw Argument_error("--report: this file has another purpose in this run; name another one: " +
+                           request.report);
   Replay_options options;
   options.limits = imposed_limits(request.limits);
   std::ifstream stream(request.log, std::ios::binary);
   if (!stream)
-    throw Input_error(request.log + ": cannot be opened");
+    throw Input_error(request.log + ": cannot be opened; check its name and permissions");
   Log_reader log(stream, request.log);
   const Mesh_file original = read_mesh(request.original);
 
-  // What was judged until a signal is told; what is interrupted before or afterwards tells nothing.
+  // A signal during the steps keeps the verdict until then. At any other time it ends the run without one.
   std::atomic<bool> is_kept = false;
   const Cancellation_scope scope([&] { return is_interrupted() && !is_kept; });
   options.are_limits_judged = !request.is_free_of_limits;
@@ -214,45 +217,47 @@ Exit_code run(const Request& request)
 Action add_replay(CLI::App& command)
 {
   const auto request = std::make_shared<Request>();
-  command.add_option("ORIGINAL", request->original, "The mesh that was reduced")->required()->type_name("");
-  command.add_option("LOG", request->log, "What was done to it: a log of collapses")
-      ->required()
-      ->type_name("");
-  command.add_option("-o,--output", request->output, "Where the mesh goes that the steps lead to")
+  command.add_option("ORIGINAL", request->original, "Mesh that was reduced.")->required()->type_name("");
+  command.add_option("LOG", request->log, "Log of the collapses that reduced it.")->required()->type_name("");
+  command.add_option("-o,--output", request->output, "File for the mesh to which the steps lead.")
       ->type_name("FILE");
   CLI::Option* const limits =
       command
-          .add_option("--limits", request->limits,
-                      "Judge these limits in place of those that the log declares: 'limit NAME NUMBER' lines "
-                      "as in a log, the paper's, or the defaults of `simplify`")
+          .add_option(
+              "--limits", request->limits,
+              "Limits to judge in place of those that the log declares: a file with lines 'limit NAME "
+              "NUMBER', those of the paper (seed), or the defaults of `simplify` (default).")
           ->type_name("FILE|seed|default");
   command
       .add_flag("--no-limits", request->is_free_of_limits,
-                "Judge links and geometry alone, not angles, shapes and lines; of snaps their length, too")
+                "Judge topology and intersections alone, not angles, shapes and drift. The length of snaps "
+                "is judged "
+                "all the same.")
       ->excludes(limits);
-  command.add_flag("--all", request->is_all_wanted, "Go on after a bad step, and list them all");
-  command.add_option("--scene", request->scene, "Write the first violation's faces as an OBJ file")
+  command.add_flag("--all", request->is_all_wanted, "Continue after a bad step, and list all bad steps.");
+  command.add_option("--scene", request->scene, "Write the triangles of the first violation to an OBJ file.")
       ->type_name("FILE");
   CLI::Option* const report =
-      command.add_option("--report", request->report, "Write the verdict as JSON, beside the text")
+      command
+          .add_option("--report", request->report, "Write a JSON report, and print the text all the same.")
           ->type_name("FILE");
-  command.add_flag("--json", request->is_json, "Print the verdict as JSON instead of text")->excludes(report);
-  command.add_flag("--ascii", request->is_ascii, "Write PLY and STL as text");
+  command.add_flag("--json", request->is_json, "Print the JSON report instead of the text.")
+      ->excludes(report);
+  command.add_flag("--ascii", request->is_ascii, "Write PLY and STL as text.");
   command.footer(
       "Examples:\n"
       "  selvedge simplify jacket.obj -o small.obj --ratio 0.3 --log jacket.log\n"
       "  selvedge replay jacket.obj jacket.log -o again.obj && cmp small.obj again.obj\n"
-      "  selvedge replay jacket.obj jacket.log --limits seed        by the judge's limits, not the log's\n"
+      "  selvedge replay jacket.obj jacket.log --limits seed    # the paper's limits, not the log's\n"
       "  selvedge replay jacket.obj of_my_own_program.log --no-limits --all\n"
       "  selvedge replay jacket.obj jacket.log --json | jq .terms\n\n"
-      "Exit code 0 when every step is accepted and the result is what the log says, 1 when not. Accepted is "
+      "The exit code is 0 when every step is accepted and the result is what the log says. A verdict covers "
       "only\n"
-      "what the verdict says was judged: which limits with which values; whether input and result are bound "
-      "by\n"
-      "their SHA-256; and it lists what was not judged. The log's format is documented in collapse_log.h, "
-      "how "
-      "to\n"
-      "write one in docs/validate_your_simplifier.md, the JSON in docs/report.md.");
+      "what it says was judged: it names the limits with their values, says whether the log holds the "
+      "SHA-256 of\n"
+      "ORIGINAL and of the result, and lists what was not judged. docs/validate_your_simplifier.md explains "
+      "how to\n"
+      "write a log, collapse_log.h defines its format, and docs/report.md the JSON report.");
   return [request] { return run(*request); };
 }
 

@@ -20,7 +20,7 @@
 
 namespace selvedge::app {
 
-/// Keys stay in the order in which docs/report.md has them.
+/// A JSON value whose keys keep the order in which they are set.
 using Json = nlohmann::ordered_json;
 
 /// The head of every report: schema, version, command.

@@ -66,19 +66,22 @@ struct Request
   std::optional<std::size_t> threads;
 };
 
-// So many that the walls hold up little, so few that what a cell holds stays in a processor's cache.
+// Large enough that few vertices lie on cell walls, small enough that a cell stays in a processor's cache.
 constexpr std::size_t faces_per_cell = 50'000;
 
 constexpr std::string_view level_mark = "{lod}";
 
-/// Where each level goes: its number, from 1, in place of the mark. The name as it is without levels.
+/// Returns the output file of each level: the name with the level's number, from 1, in place of the mark.
+/// Without levels it is the name as given.
 std::vector<std::string> outputs(const Request& request)
 {
   if (request.lods.empty())
     return {request.output};
   const std::size_t place = request.output.find(level_mark);
   if (place == std::string::npos)
-    throw Argument_error("with --lods the output's name must hold {lod}, as in 'jacket_{lod}.obj'");
+    throw Argument_error(
+        "--lods: the name of the output must contain {lod}, which stands for the number of the level: -o "
+        "'jacket_{lod}.obj'");
   std::vector<std::string> names;
   for (std::size_t level = 1; level <= request.lods.size(); ++level)
     names.push_back(std::string(request.output).replace(place, level_mark.size(), std::to_string(level)));
@@ -90,7 +93,7 @@ double ratio_in(const std::string& text)
   double ratio = -1;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), ratio);
   if (error != std::errc() || end != text.data() + text.size() || !(ratio >= 0 && ratio <= 1))
-    throw Argument_error("--ratio: '" + text + "' is no number from 0 to 1");
+    throw Argument_error("--ratio: '" + text + "' is not a number from 0 to 1");
   return ratio;
 }
 
@@ -100,7 +103,8 @@ void read_ratios(Request& request)
     if (const std::size_t equals = text.rfind('='); equals != std::string::npos)
       request.intent.ratios.push_back({text.substr(0, equals), ratio_in(text.substr(equals + 1))});
     else if (request.options.ratio)
-      throw Argument_error("--ratio: a second ratio without a part's name: '" + text + "'");
+      throw Argument_error("--ratio: '" + text +
+                           "' is a second ratio for the whole mesh; name a part, as in PART=" + text);
     else
       request.options.ratio = ratio_in(text);
 }
@@ -140,21 +144,23 @@ Json options_json(const Request& request)
           {"strict", request.is_strict}};
 }
 
-/// What can be refused before any work is.
+/// Refuses what can be refused before any work is done.
 void check(const Request& request)
 {
   if (!request.options.ratio && !request.options.faces && !request.options.max_error &&
       request.intent.ratios.empty() && request.lods.empty())
-    throw Argument_error("say how far to reduce: --ratio, --faces, --error or --lods");
+    throw Argument_error("say how far to reduce the mesh: give --ratio, --faces, --error or --lods");
   if (!request.lods.empty() && (request.options.ratio || request.options.faces))
-    throw Argument_error("--lods says how far to reduce; --ratio R and --faces say it again");
+    throw Argument_error("--lods already says how far to reduce the mesh; leave out --ratio R and --faces");
   if (request.is_in_cells && !request.intent.ratios.empty())
-    throw Argument_error("--cells: with it no part can have a ratio of its own, as --ratio PART=R asks");
+    throw Argument_error(
+        "--cells: parts cannot have ratios of their own; leave out --cells or --ratio PART=R");
   for (const std::string& output : outputs(request)) {
     output_format(output);
     if (!request.report.empty() &&
         (is_same_file(request.report, output) || is_same_file(request.report, request.input)))
-      throw Argument_error("--report names the same file as a mesh: " + request.report);
+      throw Argument_error("--report: this file is also a mesh of this run; name another one: " +
+                           request.report);
     require_writable(output);
   }
   if (!request.report.empty())
@@ -162,14 +168,26 @@ void check(const Request& request)
   if (request.log.empty())
     return;
   if (!request.lods.empty())
-    throw Argument_error("--log writes down one reduction, and --lods asks for several");
+    throw Argument_error(
+        "--log: a log holds one reduction, but --lods asks for several; leave out one of the two");
   for (const std::string& other : {request.output, request.input, request.report})
     if (!other.empty() && is_same_file(request.log, other))
-      throw Argument_error("--log names the same file as something else: " + request.log);
+      throw Argument_error("--log: this file has another purpose in this run; name another one: " +
+                           request.log);
   require_writable(request.log);
 }
 
-/// A result, where it goes, and what the judge says of it.
+/// Says in a clause why a reduction ended before its target.
+std::string why_missed(const Simplify_report& report)
+{
+  const std::string outcome = report.outcome();
+  for (const Refusals::Rule& rule : Refusals::rules())
+    if (outcome == rule.key)
+      return std::string("of the collapses left, the rule '") + rule.name + "' refuses most";
+  return report.is_stopped ? "it was interrupted" : "every collapse left would change the topology";
+}
+
+/// One level of detail: its result, its output file, and the verdict of the judge.
 struct Level
 {
   std::string output;
@@ -177,7 +195,7 @@ struct Level
   Verification verification;
 };
 
-/// One reduction, from file to file, or to several.
+/// Reduces one file to one output, or to one for each level of detail.
 class Reduction
 {
 public:
@@ -198,7 +216,8 @@ public:
       m_bar.clear();
       if (m_files_written == 0)
         throw;
-      complain("interrupted after " + counted(m_files_written, "file") + " had been written");
+      complain("interrupted; " + counted(m_files_written, "output file") +
+               (m_files_written == 1 ? " was" : " were") + " written before");
       return exit_interrupted;
     }
   }
@@ -246,7 +265,7 @@ private:
       if (!is_interrupted())
         return false;
       if (!std::exchange(m_is_stop_told, true))
-        complain("stopping: what was reached is judged and written; interrupt again to end at once");
+        complain("stopping: what was reached is judged and written next; interrupt again to end at once");
       return true;
     };
     std::optional<Reduction_log> log;
@@ -274,7 +293,7 @@ private:
     const std::vector<std::string> names = outputs(m_request);
     std::vector<Level> levels;
     for (std::size_t i = 0; i < results.size(); ++i) {
-      // Of levels on one way the last has the time of all.
+      // When one run passes through all levels, the last one has the time of all.
       m_seconds["weld"] = std::max(m_seconds["weld"], prepared.seconds_weld + results[i].seconds_weld);
       m_seconds["index"] = std::max(m_seconds["index"], results[i].report.seconds_index);
       m_seconds["cells"] = std::max(m_seconds["cells"], results[i].report.seconds_cells);
@@ -304,14 +323,14 @@ private:
     const Clock::time_point start = Clock::now();
     if (m_outcome.is_written()) {
       m_bar.begin("writing");
-      // Numbers of vertices are all that joining changes: the verdict on positions stands.
+      // Merging changes nothing but vertex numbers: the verdict on positions stands.
       for (const auto& [output, result, verification] : levels) {
         write_output(output, m_request.is_sewn ? joined_at_positions(result.soup) : result.soup,
                      m_request.is_ascii);
         ++m_files_written;
       }
     }
-    // Also of a result that was refused: the log is what shows why.
+    // The log is written even when the result was refused, because it shows why.
     if (!m_request.log.empty()) {
       write_file(m_request.log, m_log.str());
       ++m_files_written;
@@ -333,17 +352,17 @@ private:
             counted(verification.new_pairs.size(), "new offending pair") +
             (verification.same_topology() ? "" : ", topology changed") +
             (verification.matching.is_complete() ? "" : ", " + verification.matching.mismatches[0].message) +
-            "; this is a bug in selvedge, please report it with the input and the options");
+            "; this is a bug in selvedge: please report it with the input and the options");
     } else if (!m_outcome.is_guarded) {
-      complain(where + "not verified: the intersection check was off (" +
-               counted(verification.new_pairs.size(), "new offending pair") + "); written all the same");
+      complain(where + "written but not verified, because of --no-intersection-check: " +
+               counted(verification.new_pairs.size(), "new offending pair"));
     } else if (result.report.is_stopped) {
       complain(where + "interrupted at " + counted(result.soup.triangles.size(), "face") +
-               "; these are verified and written");
+               "; this result is verified and written");
     } else if (m_request.is_target_required && !result.report.is_reached()) {
-      complain(where + "the target of " + counted(result.report.faces_target, "face") + " was missed, " +
-               with_commas(result.soup.triangles.size()) + " are left (held back by " +
-               result.report.outcome() + "); written all the same");
+      complain(where + "the target of " + counted(result.report.faces_target, "face") +
+               " was missed: " + with_commas(result.soup.triangles.size()) + " are left, because " +
+               why_missed(result.report) + "; the result is written");
     }
   }
 
@@ -396,12 +415,14 @@ private:
     for (const Json& note : m_report["input"]["notes"])
       std::cout << "  " << note.get<std::string>() << '\n';
     if (prepared.rounding.coordinates > 0)
-      std::cout << "  rounded to 32-bit floats, as this format stores no more: "
-                << counted(prepared.rounding.coordinates, "coordinate") << '\n';
+      std::cout << "  " << counted(prepared.rounding.coordinates, "coordinate")
+                << " rounded to 32-bit floats, because the output's format stores nothing more precise\n";
     if (m_request.weld_distance > 0)
       print_snapping(prepared.snapping);
+    const char* separator = "  not in the output, because its format cannot hold them: ";
     for (const std::string& what : dropped)
-      std::cout << "  not in the output, whose format has no place for it: " << what << '\n';
+      std::cout << std::exchange(separator, ", ") << what;
+    std::cout << (dropped.empty() ? "" : "\n");
   }
 
   void print_summary(const Prepared_soup& prepared, const Level& level)
@@ -415,42 +436,46 @@ private:
     if (m_request.options.ratio || m_request.options.faces || !m_request.lods.empty() ||
         !m_request.intent.ratios.empty())
       std::cout << "target " << with_commas(done.faces_target)
-                << (done.is_reached() ? " reached" : " not reached (" + done.outcome() + ")");
+                << (done.is_reached() ? " reached" : " not reached: " + why_missed(done));
     else
       std::cout << "as far as the limits allow";
-    std::cout << "\nrefused:";
+    std::cout << "\ncollapses refused, by rule:";
     const char* separator = " ";
     for (const Refusals::Rule& rule : Refusals::rules())
-      std::cout << std::exchange(separator, ", ") << rule.name << ' '
-                << with_commas(done.refused.*rule.count);
-    std::cout << "\njudged: ";
+      if (done.refused.*rule.count > 0)
+        std::cout << std::exchange(separator, ", ") << rule.name << ' '
+                  << with_commas(done.refused.*rule.count);
+    std::cout << (*separator == ' ' ? " none" : "") << "\njudged: ";
     if (verification.embedded())
-      std::cout << "embedded";
+      std::cout << "embedded (no triangles touch or cross)";
     else
       std::cout << counted(verification.pairs.size(), "offending pair") << ", "
                 << with_commas(verification.new_pairs.size()) << " of them new";
-    std::cout << ", topology " << (verification.same_topology() ? "kept" : "CHANGED") << ", distance "
-              << with_digits(verification.distances->original_to_result.root_mean_square) << " RMS, "
-              << with_digits(verification.distances->original_to_result.maximum)
-              << " at most, of the diagonal\n"
+    std::cout << ", topology " << (verification.same_topology() ? "kept" : "CHANGED")
+              << ", distance from the original's vertices "
+              << with_digits(100 * verification.distances->original_to_result.root_mean_square)
+              << " % of the size (RMS), at most "
+              << with_digits(100 * verification.distances->original_to_result.maximum) << " %\n"
               << (m_outcome.is_written() ? "written: " : "NOT written: ") << output << std::endl;
   }
 
   static void print_snapping(const Snapping_notes& notes)
   {
     std::cout << "  seams closed: " << with_commas(notes.sewn) << " of " << with_commas(notes.partnered)
-              << " border vertices with a partner, " << counted(notes.seam_edges, "edge")
-              << ", the widest gap " << with_digits(notes.largest_distance) << '\n';
+              << " border vertices that have a partner, along " << counted(notes.seam_edges, "edge")
+              << "; the widest gap was " << with_digits(notes.largest_distance) << '\n';
     const auto print = [](std::size_t count, const char* why) {
       if (count > 0)
-        std::cout << "  not closed: " << with_commas(count) << " border vertices, " << why << '\n';
+        std::cout << "  not closed: " << with_commas(count) << " border "
+                  << (count == 1 ? "vertex" : "vertices") << ", because " << why << '\n';
     };
-    print(notes.left_blocked, "since another part of the mesh lies in the gap");
-    print(notes.left_folding, "since a face would degenerate or fold over");
-    print(notes.left_unmanifold, "since more than two faces would meet at an edge");
-    print(notes.left_frozen, "since they belong to frozen faces");
-    print(notes.left_ambiguous, "whose partners have nearer ones");
-    print(notes.near_without_edge, "near another border, but without an edge that could be sewn");
+    print(notes.left_blocked, "another part of the mesh lies in the gap");
+    print(notes.left_folding, "a face would degenerate or fold over");
+    print(notes.left_unmanifold, "more than two faces would meet at an edge");
+    print(notes.left_frozen, "a face there is frozen");
+    print(notes.left_foreign, "the partner belongs to a node with another transform");
+    print(notes.left_ambiguous, "every partner has a nearer one");
+    print(notes.near_without_edge, "no edge beside them can be sewn to the border that is near");
   }
 
   void complain(const std::string& message)
@@ -463,12 +488,12 @@ private:
   Progress_bar m_bar;
   Outcome m_outcome;
   Json m_report = new_report("simplify");
-  std::optional<Log_numbering> m_numbering; // these three only where a log is wanted
+  std::optional<Log_numbering> m_numbering; // these three are used only when a log is written
   Log_header m_log_header;
   std::ostringstream m_log;
   std::map<std::string, double> m_seconds;
   bool m_is_stop_told = false;
-  std::atomic<bool> m_is_kept = false; // what the reduction has reached, when a signal comes
+  std::atomic<bool> m_is_kept = false; // a signal keeps what the reduction has reached
   std::size_t m_files_written = 0;
 };
 
@@ -478,153 +503,170 @@ Action add_simplify(CLI::App& command)
 {
   const auto request = std::make_shared<Request>();
   Simplify_options& options = request->options;
-  command.add_option("IN", request->input, "Mesh to reduce: .obj, .off, .ply, .stl, .glb or .gltf")
+  command.add_option("IN", request->input, "Mesh to reduce: .obj, .off, .ply, .stl, .glb or .gltf.")
       ->required()
       ->type_name("");
-  command.add_option("-o,--output", request->output, "Where the result goes; may be IN")
+  command
+      .add_option("-o,--output", request->output,
+                  "File to write; its ending chooses the format. It may be IN.")
       ->required()
       ->type_name("FILE");
 
-  const char* const how_far = "How far (with several, whichever is met first)";
+  const char* const how_far =
+      "How far to reduce (with several of these, the reduction stops at the first one that is met)";
   command
       .add_option(
           "--ratio", request->ratios,
-          "Share of the faces to keep, 0 to 1; PART=R for a group, object or material alone: it stops "
-          "there, and the plain R is for all others. May be given for several")
+          "Share of the faces to keep, from 0 to 1. PART=R is the share of one group, object or material; "
+          "R alone is then for all others. May be given several times.")
       ->type_name("[PART=]R")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->group(how_far);
-  command.add_option("--faces", options.faces, "Faces to keep")
+  command.add_option("--faces", options.faces, "Number of faces to keep.")
       ->check(in_range(0))
       ->type_name("N")
       ->group(how_far);
-  command.add_option("--error", options.max_error, "Largest error of a collapse, as a share of the diagonal")
+  command
+      .add_option("--error", options.max_error,
+                  "Largest error that a collapse may make, as a share of the diagonal of the bounding box.")
       ->check(in_range(0))
       ->type_name("E")
       ->group(how_far);
 
   command
-      .add_option("--lods", request->lods,
-                  "Levels of detail in one run, each as a run to it alone: -o 'jacket_{lod}.obj' names them "
-                  "by number")
+      .add_option(
+          "--lods", request->lods,
+          "Ratios of several levels of detail, made in one run. Each is what a run for it alone gives. "
+          "In the name of the output, {lod} stands for the number of the level.")
       ->delimiter(',')
       ->check(in_range(0, 1))
-      ->type_name("R,R,...")
+      ->type_name("R,R")
       ->group(how_far);
 
-  const char* const parts = "Parts, by the names of groups, objects and materials";
+  const char* const parts = "Parts (PART names a group, an object or a material)";
   command
       .add_option("--lock", request->intent.locked,
-                  "Vertices of these do not move; their faces count for the target")
-      ->type_name("PART ...")
+                  "Parts whose vertices must not move. Their faces count towards the target.")
+      ->type_name("PART")
       ->group(parts);
   command
-      .add_option("--keep", request->intent.kept, "No face of these changes; the target is for the others")
-      ->type_name("PART ...")
+      .add_option("--keep", request->intent.kept,
+                  "Parts whose faces must not change. The target is for the other faces.")
+      ->type_name("PART")
       ->group(parts);
   command
       .add_option("--weights", request->intent.weights,
-                  "Vertex attribute that says how dear each vertex is, as a share of the largest")
+                  "Vertex attribute that makes vertices costly to remove, relative to its largest value.")
       ->type_name("NAME")
       ->group(parts);
   command
       .add_option("--obstacle", request->obstacle,
-                  "Mesh that nothing may pierce: never changed, not in the output, not counted")
+                  "Mesh that no face may touch or pass through, such as a body. It is not changed, counted "
+                  "or written.")
       ->type_name("FILE")
       ->group(parts);
 
-  const char* const limits = "What a collapse may not do";
+  const char* const limits = "Limits of a collapse";
   command
-      .add_option("--normal-change", options.max_normal_change, "Turn a face by more than this, in degrees")
+      .add_option("--normal-change", options.max_normal_change,
+                  "Largest turn of the normal of a face, in degrees.")
       ->check(in_range(0, 180))
       ->type_name("DEG")
       ->capture_default_str()
       ->group(limits);
   command
-      .add_option(
-          "--aspect-ratio", options.min_aspect_ratio,
-          "Make a face thinner than this, unless it was; 0 to 1. 0.2 keeps faces round for a simulation")
+      .add_option("--aspect-ratio", options.min_aspect_ratio,
+                  "Smallest aspect ratio of a face that becomes thinner, from 0 (a line) to 1 (equilateral). "
+                  "0.2 keeps "
+                  "faces round enough for a simulation.")
       ->check(in_range(0, 1))
       ->type_name("A")
       ->capture_default_str()
       ->group(limits);
-  command.add_option("--border-turn", options.max_border_turn, "Cut a corner of a border of more than this")
+  command
+      .add_option("--border-turn", options.max_border_turn,
+                  "Largest turn of a border at a vertex that is removed, in degrees.")
       ->check(in_range(0, 180))
       ->type_name("DEG")
       ->capture_default_str()
       ->group(limits);
   command
       .add_option("--seam-turn", options.max_seam_turn,
-                  "The same for a seam: a line with surface on both sides")
+                  "The same for a seam, which has surface on both sides.")
       ->check(in_range(0, 180))
       ->type_name("DEG")
       ->capture_default_str()
       ->group(limits);
   command
       .add_option("--border-drift", options.max_border_drift,
-                  "Take a border or seam further away, as a share of the diagonal")
+                  "Largest distance of a border or seam from where it was, as a share of the diagonal.")
       ->check(in_range(0))
       ->type_name("D")
       ->capture_default_str()
       ->group(limits);
   command
       .add_flag("--no-intersection-check", request->is_unguarded,
-                "Let layers pierce each other: a control. Exit code 1, since nothing is vouched for")
+                "Let layers pierce each other, to see what the check does. The exit code is 1, because the "
+                "result is "
+                "not verified.")
       ->group(limits);
 
   const char* const seams = "Seams";
   command
       .add_option("--weld", request->weld_distance,
-                  "Close seams whose two sides lie within this length, in the unit of the file")
+                  "Close seams that gape: snap a border vertex onto its partner on another border within "
+                  "this length, in "
+                  "the unit of the file.")
       ->check(in_range(0))
       ->type_name("EPS")
       ->group(seams);
   command
       .add_flag(
           "--sewn", request->is_sewn,
-          "Leave pieces that meet joined, with common vertices where attributes allow; else they come out "
-          "separate, as they went in")
+          "Merge the vertices of pieces that meet, where their attributes allow it. Without this option, "
+          "pieces that are separate in the input are separate in the output.")
       ->group(seams);
 
   const char* const tuning = "Tuning";
   command
       .add_option("--index", options.index,
-                  "The index of faces: a packed tree, or clusters of faces as the reference")
-      ->transform(
-          CLI::CheckedTransformer(std::map<std::string, Face_index>{{"packed", Face_index::packed},
-                                                                    {"clusters", Face_index::clusters}})
-              .description(""))
+                  "Index that finds the faces nearby: a packed R-tree, or clusters of faces with a CGAL AABB "
+                  "tree each. "
+                  "The result is the same.")
+      ->transform(one_of<Face_index>({{"packed", Face_index::packed}, {"clusters", Face_index::clusters}}))
       ->type_name("packed|clusters")
       ->default_str("packed")
       ->group(tuning);
-  command.add_option("--cluster-size", options.faces_per_cluster, "Faces per cluster, with --index clusters")
+  command.add_option("--cluster-size", options.faces_per_cluster, "Faces per cluster, for --index clusters.")
       ->check(in_range(1))
       ->type_name("N")
       ->capture_default_str()
       ->group(tuning);
   command
-      .add_option("--loop", options.loop, "The loop that collapses edges: own, or CGAL's as the reference")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, Collapse_loop>{{"own", Collapse_loop::own},
-                                                                               {"cgal", Collapse_loop::cgal}})
-                      .description(""))
+      .add_option("--loop", options.loop,
+                  "Loop that collapses edges: Selvedge's own, or CGAL's for comparison.")
+      ->transform(one_of<Collapse_loop>({{"own", Collapse_loop::own}, {"cgal", Collapse_loop::cgal}}))
       ->type_name("own|cgal")
       ->default_str("own")
       ->group(tuning);
   command
-      .add_option("--stabiliser", options.cost.stabiliser, "Pull to the original vertices, where all is flat")
+      .add_option("--stabiliser", options.cost.stabiliser,
+                  "Weight of the distance to the original vertices in the cost; it decides where the surface "
+                  "is flat.")
       ->check(in_range(0))
       ->type_name("W")
       ->capture_default_str()
       ->group(tuning);
   command
       .add_option("--uv-weight", options.uv_weight,
-                  "Weight of a texture that swims, against the surface; 0: none")
+                  "Weight of the displacement of the texture in the cost, relative to that of the surface; 0 "
+                  "ignores it.")
       ->check(in_range(0))
       ->type_name("W")
       ->capture_default_str()
       ->group(tuning);
-  command.add_option("--border-weight", options.cost.border_weight, "Weight of borders in the cost")
+  command.add_option("--border-weight", options.cost.border_weight, "Weight of borders in the cost.")
       ->check(in_range(0))
       ->type_name("W")
       ->capture_default_str()
@@ -633,40 +675,42 @@ Action add_simplify(CLI::App& command)
   const char* const conduct = "Conduct";
   command
       .add_flag("--strict", request->is_strict,
-                "Refuse an input that is not embedded, instead of freezing what offends")
+                "Refuse an input with intersecting, duplicate or degenerate faces, instead of leaving these "
+                "faces as they are.")
       ->group(conduct);
-  command.add_flag("--require-target", request->is_target_required, "Exit code 1 when the target is missed")
+  command
+      .add_flag("--require-target", request->is_target_required,
+                "End with exit code 1 when the target is missed.")
       ->group(conduct);
   Thread_limit::add_option(command, request->threads)->group(conduct);
   command
       .add_flag("--cells", request->is_in_cells,
-                "Reduce boxes of space at once, on all threads, then the rest: for large meshes. Changes the "
-                "result, as threads do not")
+                "For large meshes: first reduce boxes of space at once, on all threads, then the whole. This "
+                "changes the result, but the number of threads does not.")
       ->group(conduct);
-  command.add_option("--report", request->report, "Write a report as JSON")
+  command.add_option("--report", request->report, "Write a JSON report of the run.")
       ->type_name("FILE")
       ->group(conduct);
-  command.add_option("--log", request->log, "Write down every collapse, for `selvedge replay`")
+  command.add_option("--log", request->log, "Write a log of every collapse, for `selvedge replay`.")
       ->type_name("FILE")
       ->group(conduct);
-  command.add_flag("--quiet", request->is_quiet, "No summary and no progress bar")->group(conduct);
-  command.add_flag("--ascii", request->is_ascii, "Write PLY and STL as text")->group(conduct);
+  command.add_flag("--quiet", request->is_quiet, "Print no summary and no progress bar.")->group(conduct);
+  command.add_flag("--ascii", request->is_ascii, "Write PLY and STL as text.")->group(conduct);
 
   command.footer(
       "Examples:\n"
       "  selvedge simplify jacket.obj -o small.obj --ratio 0.3\n"
       "  selvedge simplify jacket.obj -o small.ply --faces 20000 --report small.json\n"
-      "  selvedge simplify jacket.obj -o jacket.obj --error 0.0005      as far as 0.05 % of the size allows\n"
+      "  selvedge simplify jacket.obj -o jacket.obj --error 0.0005    # errors up to 0.05 % of the size\n"
       "  selvedge simplify jacket.obj -o 'jacket_{lod}.obj' --lods 0.5,0.25,0.1\n"
       "  selvedge simplify jacket.obj -o small.obj --ratio 0.2 --ratio collar=0.8 --keep logo --obstacle "
       "body.obj\n"
       "  selvedge simplify jacket.obj -o small.obj --ratio 0.1 --require-target || echo missed\n"
-      "  selvedge simplify draped.obj -o small.obj --ratio 0.3 --weld 0.0001    close seams that gape by a "
-      "hair\n\n"
-      "The result is always judged before it is written. A target that cannot be reached is no failure: the\n"
-      "file is written, and summary and report say what held it back. Ctrl-C, once edges collapse, writes "
-      "what was\n"
-      "reached, and before and after writes nothing.");
+      "  selvedge simplify draped.obj -o small.obj --ratio 0.3 --weld 0.0001    # close narrow gaps\n\n"
+      "The result is always judged before it is written. A target that cannot be reached is no error: the\n"
+      "result is written, and summary and report say what prevented more. Ctrl-C during the reduction stops "
+      "it,\n"
+      "and what was reached is judged and written; at any other time nothing is written.");
   return [request] {
     request->options.check_intersections = !request->is_unguarded;
     request->options.faces_per_cell = request->is_in_cells ? faces_per_cell : 0;

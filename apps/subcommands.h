@@ -10,19 +10,21 @@
 
 #include <functional>
 #include <limits>
+#include <map>
+#include <string>
 
 namespace selvedge::app {
 
-/// What a subcommand does once its options are read.
+/// Carries out a subcommand once its options are read.
 using Action = std::function<Exit_code()>;
 
-/// Each declares the options of its subcommand and returns what carries it out.
+/// Each of these declares the options of its subcommand and returns the action that carries it out.
 Action add_simplify(CLI::App& command);
 Action add_verify(CLI::App& command);
 Action add_replay(CLI::App& command);
 Action add_generate(CLI::App& command);
 
-/// Accepts a number in [least, most]; unlike CLI::Range no NaN.
+/// Accepts a number in [least, most]. Unlike `CLI::Range` it refuses NaN.
 inline CLI::Validator in_range(double least, double most = std::numeric_limits<double>::infinity())
 {
   return CLI::Validator(
@@ -32,9 +34,31 @@ inline CLI::Validator in_range(double least, double most = std::numeric_limits<d
           return {};
         const std::string range =
             most == std::numeric_limits<double>::infinity()
-                ? "at least " + CLI::detail::to_string(least)
+                ? "of at least " + CLI::detail::to_string(least)
                 : "from " + CLI::detail::to_string(least) + " to " + CLI::detail::to_string(most);
         return "'" + text + "' is not a number " + range;
+      },
+      "");
+}
+
+/// Accepts one of a few words, and puts the value that it stands for in its place.
+template <class Value>
+CLI::Validator one_of(const std::map<std::string, Value>& values)
+{
+  return CLI::Validator(
+      [=](std::string& text) -> std::string {
+        const auto found = values.find(text);
+        if (found != values.end()) {
+          text = std::to_string(static_cast<int>(found->second));
+          return {};
+        }
+        std::string message = "'" + text + "' is none of";
+        const char* separator = " ";
+        for (const auto& [word, value] : values) {
+          message += separator + word;
+          separator = ", ";
+        }
+        return message;
       },
       "");
 }

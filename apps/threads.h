@@ -13,8 +13,8 @@
 
 namespace selvedge::app {
 
-/// How many threads may work, the main one included: as many as `--threads` says while this lives, all cores
-/// without.
+/// Limits the number of threads, the main one included, to that of `--threads` as long as it lives. Without
+/// the option all cores are used.
 class Thread_limit
 {
 public:
@@ -26,7 +26,7 @@ public:
 
   static CLI::Option* add_option(CLI::App& command, std::optional<std::size_t>& count)
   {
-    return command.add_option("--threads", count, "Threads to use; the result does not depend on them")
+    return command.add_option("--threads", count, "Number of threads. The result does not depend on it.")
         ->check(CLI::Range(std::size_t(1), std::size_t(1024)).description(""))
         ->default_str("all cores")
         ->type_name("N");

@@ -41,26 +41,28 @@ void print(const char* what, const Line_comparison& lines)
             << (lines.edges_of_original == 0 ? none : counted(lines.edges_of_original, "edge")) << " before, "
             << (lines.edges_of_result == 0 ? none : with_commas(lines.edges_of_result)) << " now";
   if (lines.edges_of_original > 0 && lines.edges_of_result > 0)
-    std::cout << "; " << with_digits(lines.original_to_result.of_ends.root_mean_square) << " RMS, at most "
-              << with_digits(lines.original_to_result.maximum.upper) << " and back "
-              << with_digits(lines.result_to_original.maximum.upper) << ", of the diagonal";
+    std::cout << "; moved by " << with_digits(lines.original_to_result.of_ends.root_mean_square)
+              << " RMS, at most "
+              << with_digits((std::max)(lines.original_to_result.maximum.upper,
+                                        lines.result_to_original.maximum.upper));
   std::cout << '\n';
 }
 
 void print(const Distances& distances, const Comparison& comparison)
 {
+  std::cout << "lengths, as shares of the bounding box's diagonal of " << with_digits(distances.diagonal)
+            << ":\n";
   const auto print_distance = [](const char* what, const Distance& of_vertices, const Bounds& maximum) {
-    std::cout << "distance, " << what << ": " << with_digits(of_vertices.root_mean_square)
-              << " RMS of the vertices, at most " << with_digits(maximum.upper)
-              << " anywhere, of the diagonal\n";
+    std::cout << "  distance from " << what << ": " << with_digits(of_vertices.root_mean_square)
+              << " RMS at the vertices, at most " << with_digits(maximum.upper) << " anywhere\n";
   };
   print_distance("original to result", distances.original_to_result, comparison.original_to_result);
   print_distance("result to original", distances.result_to_original, comparison.result_to_original);
-  print("borders", comparison.borders);
-  print("seams", comparison.seams);
+  print("  borders", comparison.borders);
+  print("  seams", comparison.seams);
   if (comparison.gaps.open_edges > 0)
-    std::cout << "GAPS: " << counted(comparison.gaps.open_edges, "edge") << " of seams open, "
-              << with_digits(comparison.gaps.length) << " of the diagonal in all, up to "
+    std::cout << "  GAPS: " << counted(comparison.gaps.open_edges, "edge") << " of seams open, "
+              << with_digits(comparison.gaps.length) << " long in all, up to "
               << with_digits(comparison.gaps.width) << " wide\n";
 
   std::cout << "vertices: " << with_commas(comparison.original_vertices) << " of "
@@ -68,16 +70,17 @@ void print(const Distances& distances, const Comparison& comparison)
   for (const Kept_attribute& attribute : comparison.attributes)
     if (attribute.original < attribute.combinations)
       std::cout << attribute.name << ": " << with_commas(attribute.combinations - attribute.original)
-                << " of " << with_commas(attribute.combinations) << " NOT as in the original\n";
+                << " of " << with_commas(attribute.combinations) << " values are NOT the original's\n";
   if (!comparison.lost_attributes.empty()) {
     std::cout << "attributes LOST:";
+    const char* separator = " ";
     for (const std::string& name : comparison.lost_attributes)
-      std::cout << ' ' << name;
+      std::cout << std::exchange(separator, ", ") << name;
     std::cout << '\n';
   }
 
   const Normal_deviation& normals = comparison.normals;
-  std::cout << "normals: " << with_digits(normals.mean) << "° off in the mean, "
+  std::cout << "normals: turned by " << with_digits(normals.mean) << "° on average, "
             << with_digits(normals.root_mean_square) << "° RMS, at most " << with_digits(normals.maximum)
             << "°";
   if (normals.turned > 0)
@@ -88,15 +91,14 @@ void print(const Distances& distances, const Comparison& comparison)
   if (layers.crossing == 0) {
     std::cout << "layers: none lie close enough to have changed places\n";
   } else if (layers.swaps.empty()) {
-    std::cout << "layers: in order, at " << with_commas(layers.compared) << " of "
-              << with_commas(layers.pairs) << " places where two could be compared\n";
+    std::cout << "layers: in order, at all " << with_commas(layers.compared)
+              << " places where two could be compared, of " << with_commas(layers.pairs) << '\n';
   } else {
     const Layer_swap& first = layers.swaps.front();
-    std::cout << "layers SWAPPED, at " << with_commas(layers.swaps.size()) << " of "
-              << with_commas(layers.compared) << " places where two were compared: triangles "
-              << first.of_original[0] + 1 << " and " << first.of_original[1] + 1
-              << " of the original are now " << first.of_result[0] + 1 << " and " << first.of_result[1] + 1
-              << ", in the other order\n";
+    std::cout << "layers SWAPPED at " << with_commas(layers.swaps.size()) << " of "
+              << with_commas(layers.compared) << " places where two were compared; the first: triangles "
+              << first.of_original[0] + 1 << " and " << first.of_original[1] + 1 << " of the original became "
+              << first.of_result[0] + 1 << " and " << first.of_result[1] + 1 << ", in the other order\n";
   }
 }
 
@@ -107,7 +109,7 @@ void print(const Piece_matching& matching)
   std::size_t pieces[4] = {};
   for (const Piece_match& match : matching.matches)
     pieces[int(match.by)] += match.of_original.size();
-  std::cout << (matching.is_complete() ? "pieces: each is one of the original's" : "pieces WRONG");
+  std::cout << (matching.is_complete() ? "pieces: all match those of the original" : "pieces WRONG");
   const char* separator = "; matched ";
   for (const Matched_by by :
        {Matched_by::vertices, Matched_by::positions, Matched_by::borders, Matched_by::distance})
@@ -139,7 +141,7 @@ void print(const Request& request, const Mesh_file& mesh, const Verification& ve
     std::cout << "  " << note << '\n';
 
   if (verification.embedded()) {
-    std::cout << "embedded: no two faces touch or cross\n";
+    std::cout << "embedded: no triangles touch or cross, and none is degenerate\n";
   } else {
     std::cout << "NOT embedded: " << counted(verification.pairs.size(), "offending pair");
     if (has_original)
@@ -154,10 +156,11 @@ void print(const Request& request, const Mesh_file& mesh, const Verification& ve
   }
   if (has_original) {
     if (verification.is_original_rounded)
-      std::cout << "the original was rounded to 32-bit floats, as the result is\n";
+      std::cout << "the original was rounded to 32-bit floats before the comparison, because the result "
+                   "stores only these\n";
     print(verification.matching);
     std::cout << (verification.same_topology()          ? "topology: as in the original\n"
-                  : verification.matching.is_complete() ? "topology: other numbers of vertices:\n"
+                  : verification.matching.is_complete() ? "topology: the files number vertices differently:\n"
                                                         : "topology CHANGED:\n");
     for (const Topology_difference& difference : verification.topology_differences)
       std::cout << "  pieces with " << counted(difference.boundary_loops, "boundary loop")
@@ -177,7 +180,8 @@ Exit_code run(const Request& request)
   if (!request.report.empty()) {
     if (is_same_file(request.report, request.mesh) ||
         (has_original && is_same_file(request.report, request.original)))
-      throw Argument_error("--report names the same file as a mesh: " + request.report);
+      throw Argument_error("--report: this file is also a mesh of this run; name another one: " +
+                           request.report);
     require_writable(request.report);
   }
   const Mesh_file mesh = read_mesh(request.mesh);
@@ -220,33 +224,40 @@ Exit_code run(const Request& request)
 Action add_verify(CLI::App& command)
 {
   const auto request = std::make_shared<Request>();
-  command.add_option("MESH", request->mesh, "Mesh to judge: .obj, .off, .ply, .stl, .glb or .gltf")
+  command.add_option("MESH", request->mesh, "Mesh to judge: .obj, .off, .ply, .stl, .glb or .gltf.")
       ->required()
       ->type_name("");
-  command.add_option("--against", request->original, "The original that MESH was made from")
+  command.add_option("--against", request->original, "Original mesh, of which MESH is a reduction.")
       ->type_name("FILE");
   command
-      .add_option("--weld", request->weld_distance,
-                  "Borders of the original that lie within this length may have been joined: as simplify was "
-                  "told, where MESH does not keep pieces apart (STL, --sewn)")
+      .add_option(
+          "--weld", request->weld_distance,
+          "Accept that borders of the original within this length of each other were joined. Give the "
+          "value that `simplify` was given, if MESH does not separate pieces (STL, --sewn).")
       ->check(in_range(0))
       ->type_name("EPS");
   CLI::Option* const report =
-      command.add_option("--report", request->report, "Write the verdict as JSON, beside the text")
+      command
+          .add_option("--report", request->report, "Write a JSON report, and print the text all the same.")
           ->type_name("FILE");
-  command.add_flag("--json", request->is_json, "Print the verdict as JSON instead of text")->excludes(report);
+  command.add_flag("--json", request->is_json, "Print the JSON report instead of the text.")
+      ->excludes(report);
   Thread_limit::add_option(command, request->threads);
   command.footer(
       "Examples:\n"
-      "  selvedge verify jacket.obj                          is it embedded?\n"
-      "  selvedge verify small.obj --against jacket.obj      is anything wrong that was not wrong before?\n"
+      "  selvedge verify jacket.obj                        # do any triangles touch or cross?\n"
+      "  selvedge verify small.obj --against jacket.obj    # is anything wrong that was not wrong before?\n"
       "  selvedge verify small.obj --json | jq .verified.pairs\n\n"
-      "Exit code 0 when MESH is embedded; with an original, when no offending pair is new, every piece is "
-      "one\n"
-      "of the original's (same boundary loops, Euler characteristic and names, and lies where it lay), and "
-      "no\n"
-      "two layers were found in another order. What that cannot see is listed. All else that is said of the\n"
-      "two is for you to judge. Triangles and pieces are counted from 1, after polygons were cut.");
+      "Without --against the exit code is 0 when MESH is embedded: no triangles touch or cross where they "
+      "should\n"
+      "not, and none is degenerate. With --against it is 0 when no such pair is new, every piece matches one "
+      "of\n"
+      "the original's (same boundary loops, Euler characteristic and names, and in the same place), and no "
+      "two\n"
+      "layers were found in another order. The other figures are for you to judge. The text lists what a\n"
+      "comparison of two meshes cannot see. Triangles and pieces are counted from 1; polygons are first cut "
+      "into\n"
+      "triangles.");
   return [request] {
     const Thread_limit limit(request->threads);
     return run(*request);

@@ -54,9 +54,10 @@ void refuse_unless_embedded(const Triangle_soup& soup)
 {
   const std::vector<Offending_pair> pairs = offending_pairs(soup);
   if (!pairs.empty())
-    throw Input_error("the mesh is not embedded: " + std::to_string(pairs.size()) +
-                      " offending pairs of triangles, the first: " + describe(pairs.front()) +
-                      "; repair it, or do without strict to have them left as they are");
+    throw Input_error(
+        "the mesh is not embedded: " + describe(pairs.front()) +
+        (pairs.size() == 1 ? "" : ", and " + std::to_string(pairs.size() - 1) + " more such pairs") +
+        "; repair it, or leave out the strict option to keep these triangles as they are");
 }
 
 // Puts points and triangles of an obstacle behind those of a soup, and takes them away again.
@@ -141,7 +142,7 @@ std::vector<double> vertex_weights(const Triangle_soup& soup, const std::string&
     for (const Attribute& attribute : soup.vertex_attributes)
       known += (known.empty() ? "" : ", ") + attribute.name;
     throw Argument_error("no attribute of vertices is called '" + name + "'; " +
-                         (known.empty() ? "the mesh has none" : "known are: " + known));
+                         (known.empty() ? "the mesh has none" : "there are " + known));
   }
   std::vector<double> weights;
   double largest = 0;
@@ -149,7 +150,7 @@ std::vector<double> vertex_weights(const Triangle_soup& soup, const std::string&
     weights.push_back(first_component(*found, v));
     if (weights.back() < 0 || std::isinf(weights.back()))
       throw Argument_error("the weight '" + name + "' of vertex " + std::to_string(v + 1) +
-                           " is not a finite number of at least 0");
+                           " is not a finite number of at least 0; correct it");
     largest = std::max(largest, weights.back()); // NaN is never larger
   }
   for (double& weight : weights)
@@ -399,7 +400,7 @@ Simplified_soup simplify_soup(const Prepared_soup& prepared, const Simplify_opti
                               const Simplify_intent& intent)
 {
   if (options.faces_per_cell > 0 && !intent.ratios.empty())
-    throw Argument_error("in cells no part can have a ratio of its own: do without one or the other");
+    throw Argument_error("in cells no part can have a ratio of its own; leave out one of the two options");
   return Soup_reduction(prepared, options, intent).run();
 }
 
@@ -407,7 +408,7 @@ std::vector<Simplified_soup> simplify_lods(const Prepared_soup& prepared, const 
                                            const std::vector<double>& ratios, const Simplify_intent& intent)
 {
   if (options.faces)
-    throw Argument_error("levels of detail are ratios; a number of faces cannot be asked for as well");
+    throw Argument_error("levels of detail are ratios; leave out the number of faces");
   std::vector<Simplified_soup> levels(ratios.size());
   Simplify_options to_level = options;
   if (!intent.ratios.empty() || options.faces_per_cell > 0) {

@@ -203,7 +203,7 @@ private:
     // Relative indices count back from the latest element above the face.
     const std::int64_t index = number > 0 ? number - 1 : static_cast<std::int64_t>(above) + number;
     if (number == 0)
-      start.fail(std::string("a face names ") + kind + " 0, but OBJ files count from 1");
+      start.fail(std::string("a face names ") + kind + " 0, but OBJ files count from 1; correct the face");
     if (index < 0 || static_cast<std::uint64_t>(index) >= count)
       start.fail(std::string("a face names ") + kind + " " + std::to_string(number) +
                  ", but there are only " + std::to_string(number > 0 ? count : above) +

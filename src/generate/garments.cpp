@@ -247,7 +247,7 @@ public:
     if (static_cast<double>(count(coarse)) > room)
       throw Argument_error("this garment in " + std::to_string(m_layers) + " layers needs at least " +
                            std::to_string(std::max(count(coarse) * 100 / 92 + 1, count(coarse) + least)) +
-                           " faces");
+                           " faces; ask for more faces or fewer layers");
     for (int k = 0; k < 60; ++k) {
       const double middle = (coarse + fine) / 2;
       (static_cast<double>(count(middle)) <= room ? coarse : fine) = middle;
@@ -488,8 +488,8 @@ void require_thin(const Generate_options& options, double room)
   const double stack = stack_of(options);
   if (stack > room)
     throw Argument_error("the layers with their gaps are " + std::to_string(stack) +
-                         " m thick together, this garment has room for " + std::to_string(room) +
-                         "; reduce layers, thickness or gap");
+                         " m thick together, but this garment has room for " + std::to_string(room) +
+                         " m; reduce layers, thickness or gap");
 }
 
 const Frame UPRIGHT{Vector(0, 0, 0), Vector(1, 0, 0), Vector(0, 1, 0), Vector(0, 0, 1)};

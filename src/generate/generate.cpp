@@ -55,7 +55,8 @@ void require_range(const char* option, double value, double least, double most)
   if (value >= least && value <= most)
     return;
   std::ostringstream message;
-  message << option << " is " << value << ", it must be in [" << least << ", " << most << "]";
+  message.precision(10);
+  message << option << ": " << value << " is out of range; give a number from " << least << " to " << most;
   throw Argument_error(message.str());
 }
 
@@ -86,12 +87,15 @@ Triangle_soup generate(std::string_view name, const Generate_options& options)
     require_range("folds", options.folds, 0, 200);
     if (options.faces < 20 * static_cast<std::size_t>(options.layers))
       throw Argument_error(std::to_string(options.layers) + " layers need more than " +
-                           std::to_string(options.faces) + " faces");
+                           std::to_string(options.faces) + " faces; ask for more faces or fewer layers");
     return scene.make(options);
   }
-  std::string message = "there is no scene called '" + std::string(name) + "', only";
-  for (const Scene_description& scene : scenes())
-    message += " " + std::string(scene.name);
+  std::string message = "there is no scene called '" + std::string(name) + "'; there are";
+  const char* separator = " ";
+  for (const Scene_description& scene : scenes()) {
+    message += separator + std::string(scene.name);
+    separator = ", ";
+  }
   throw Argument_error(message);
 }
 

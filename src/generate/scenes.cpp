@@ -127,7 +127,7 @@ Triangle_soup internal::folded(const Generate_options& options)
   const auto rows = static_cast<std::size_t>(std::floor(cells / static_cast<double>(columns) + 0.5));
   if (rows == 0)
     throw Argument_error(std::to_string(runs) + " folds need more than " + std::to_string(options.faces) +
-                         " faces");
+                         " faces; ask for more faces or fewer folds");
   Lattice lattice(columns, rows, false);
   lattice.disturb(random);
 

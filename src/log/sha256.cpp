@@ -49,7 +49,7 @@ std::string sha256_of_file(const std::filesystem::path& path)
 {
   std::ifstream file(path, std::ios::binary);
   if (!file)
-    throw Input_error(path.string() + ": cannot be opened");
+    throw Input_error(path.string() + ": cannot be opened; check its permissions");
   Sha256 sha256;
   std::vector<char> buffer(1 << 16);
   while (file.read(buffer.data(), std::streamsize(buffer.size())) || file.gcount() > 0) {
@@ -57,7 +57,7 @@ std::string sha256_of_file(const std::filesystem::path& path)
     sha256.add({buffer.data(), std::size_t(file.gcount())});
   }
   if (file.bad())
-    throw Input_error(path.string() + ": cannot be read");
+    throw Input_error(path.string() + ": cannot be read to its end; check the disk");
   return sha256.digest();
 }
 

@@ -109,7 +109,7 @@ std::vector<char> triangles_named(const Triangle_soup& soup, const std::string& 
   for (const std::string& label : known)
     list += (list.empty() ? "" : ", ") + label;
   throw Argument_error("no group, object or material is called '" + name + "'; " +
-                       (list.empty() ? "the mesh names none" : "known are: " + list));
+                       (list.empty() ? "the mesh names none" : "there are " + list));
 }
 
 } // namespace selvedge

@@ -68,12 +68,13 @@ Scale::Scale(const Triangle_soup& soup, const Triangle_soup& obstacle)
   const int lowest = std::min(own.lowest, beside.lowest), beyond = std::max(own.beyond, beside.beyond);
   m_exponent = std::clamp(own.beyond, beyond - s_beyond, lowest - s_lowest);
   if (std::abs(own.beyond - m_exponent) > tolerance)
-    throw Input_error(
-        "the coordinates are too far apart to be brought to one size: the largest of the mesh is less than " +
-        power_of_two(own.beyond) + ", the largest of all less than " + power_of_two(beyond) +
-        ", and some are no multiples of more than " + power_of_two(lowest) +
-        (beyond > own.beyond ? "; bring mesh and obstacle to one unit"
-                             : "; round the smallest coordinates, to 0, say"));
+    throw Input_error("the coordinates differ too much in size to be scaled without loss: the largest of the "
+                      "mesh is below " +
+                      power_of_two(own.beyond) + ", the largest of mesh and obstacle is below " +
+                      power_of_two(beyond) + ", and the smallest binary digit stands for " +
+                      power_of_two(lowest) +
+                      (beyond > own.beyond ? "; bring mesh and obstacle to one unit"
+                                           : "; round the smallest coordinates to 0"));
 }
 
 Point_3 Scale::operator()(const Point_3& point) const

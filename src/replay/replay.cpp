@@ -532,7 +532,8 @@ private:
   static std::string scene(const Place& m, const Place& t, const std::array<Place, 3>& after,
                            const std::array<Place, 3>* other)
   {
-    std::string text = "# What moves, before and after; what it meets; the way of the vertex.\n";
+    std::string text =
+        "# The moving triangle before and after, the triangle that it meets, and the way of the vertex.\n";
     std::size_t vertices = 0;
     const auto add = [&](const char* object, const char* element, const std::vector<Place>& places) {
       text += std::string("o ") + object + '\n';

@@ -104,7 +104,7 @@ TEST(App_replay, LimitsOfTheJudgeTakeThePlaceOfTheLogs)
   EXPECT_EQ(accepted.code, 0);
   EXPECT_NE(accepted.out.find("\nlimits judged: normal_change 120°, seam_turn 60°\n"), std::string::npos)
       << accepted.out;
-  EXPECT_NE(accepted.out.find("\nlimits that the log declares, set aside: normal_change 120°"),
+  EXPECT_NE(accepted.out.find("\nlimits declared by the log, but not judged: normal_change 120°"),
             std::string::npos)
       << accepted.out;
   EXPECT_NE(accepted.out.find("\nACCEPTED: limits of the judge, input bound, result bound\n"),
@@ -123,12 +123,12 @@ TEST(App_replay, AcceptsTheDefaultsByTheDefaults)
   const Logged_run run;
   const App_result result = run_app({"replay", run.original, run.log, "--limits", "default"});
   EXPECT_EQ(result.code, 0) << result.out;
-  const std::size_t first = result.out.find("limits judged: "), second = result.out.find("set aside: ");
+  const std::size_t first = result.out.find("limits judged: "), second = result.out.find("but not judged: ");
   ASSERT_NE(second, std::string::npos);
   const auto rest_of_line = [&](std::size_t at) {
     return result.out.substr(at, result.out.find('\n', at) - at);
   };
-  EXPECT_EQ(rest_of_line(first + 15), rest_of_line(second + 11))
+  EXPECT_EQ(rest_of_line(first + 15), rest_of_line(second + 16))
       << "simplify declares what default stands for";
 }
 

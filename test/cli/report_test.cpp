@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "App_run.h"
+#include "Documentation.h"
 
 #include <selvedge/mesh/mesh_files.h>
 
@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <iterator>
 #include <set>
-#include <sstream>
 
 namespace selvedge::test {
 namespace {
@@ -27,18 +26,18 @@ void collect_keys(const Json& object, const std::string& prefix, std::set<std::s
       keys.insert(prefix + name);
 }
 
-// The keys that the tables of the documentation name under the heading of a command.
+// The keys that docs/report.md lists for every report and for that of a command.
 std::set<std::string> documented_keys(const std::string& command)
 {
-  std::istringstream lines(contents_of(SELVEDGE_REPORT_SCHEMA));
+  const auto is_wanted = [&](const std::string& heading) {
+    return heading == "## Keys of every report" ||
+           (heading.rfind("## ", 0) == 0 && heading.find("`selvedge " + command) != std::string::npos);
+  };
   std::set<std::string> keys;
-  bool is_inside = false;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.rfind("## ", 0) == 0)
-      is_inside = line.find("`selvedge " + command) != std::string::npos;
-    if (is_inside && line.rfind("| `", 0) == 0)
-      keys.insert(line.substr(3, line.find('`', 3) - 3));
-  }
+  for (const Row& row : documented_rows("docs/report.md", is_wanted))
+    if (row[0][0] == '`') {
+      EXPECT_TRUE(keys.insert(row[0].substr(1, row[0].find('`', 1) - 1)).second) << row[0];
+    }
   return keys;
 }
 

@@ -198,10 +198,10 @@ void PrintTo(const Spoiled& spoiled, std::ostream* stream)
   *stream << spoiled.name;
 }
 
-const char* const parts = "parts that a piece has lost at its borders or got there";
-const char* const turned = "faces that turned over, unless nine tenths";
+const char* const parts = "what a piece has lost or gained at its borders";
+const char* const turned = "faces that turned over, unless they make up nine tenths";
 const char* const joins = "cuts and joins between vertices at one position";
-const char* const values = "values of attributes such as texture coordinates";
+const char* const values = "values of attributes, such as texture coordinates, that are missing";
 const char* const rounding = "what rounding did to the original";
 
 const std::vector<Spoiled> ways = {

@@ -8,7 +8,7 @@ namespace {
 
 TEST(App_usage, HelpTeachesByExample)
 {
-  for (const char* command : {"", "simplify", "verify", "generate"}) {
+  for (const char* command : {"", "simplify", "verify", "replay", "generate"}) {
     std::vector<std::string> arguments{"--help"};
     if (*command)
       arguments.insert(arguments.begin(), command);
@@ -51,7 +51,8 @@ TEST(App_usage, RefusesWhatMakesNoSense)
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--seam-turn", "999"}, "--seam-turn"},
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--border-drift", "-1"}, "--border-drift"},
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--cluster-size", "0"}, "--cluster-size"},
-      {{"simplify", in, "-o", out, "--ratio", "0.5", "--index", "none"}, "--index"},
+      {{"simplify", in, "-o", out, "--ratio", "0.5", "--index", "none"},
+       "--index: 'none' is none of clusters, packed"},
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--stabiliser", "-1"}, "--stabiliser"},
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--border-weight", "x"}, "--border-weight"},
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--threads", "0"}, "--threads"},
