@@ -8,7 +8,7 @@
 
 namespace selvedge::app {
 
-/// How a reduction ended, and what follows from it.
+/// Says how a reduction ended, and decides what follows from it.
 struct Outcome
 {
   bool is_guarded = true;  ///< the intersection filter was on
@@ -17,11 +17,11 @@ struct Outcome
   bool is_reached = true;
   bool is_target_required = false;
 
-  /// A guarded result that the judge refuses is a bug of ours: it must not take the place of a good file. An
-  /// unguarded one is what was asked for.
+  /// A guarded result that the judge refuses is a bug of ours, and must not replace a good file. An unguarded
+  /// one is written, because the user asked for it.
   bool is_written() const { return is_accepted || !is_guarded; }
 
-  /// An unguarded result is never called verified: the judge sees its end, not the way there.
+  /// An unguarded result is never called verified, because the judge sees the result and not the way there.
   Exit_code exit_code() const
   {
     if (!is_accepted || !is_guarded)

@@ -10,17 +10,18 @@
 
 namespace selvedge::app {
 
-/// The format that an output file's name stands for. Throws `Argument_error` when it stands for none.
+/// Returns the format that the name of an output file stands for. Throws `Argument_error` when it stands for
+/// none.
 Mesh_format output_format(const std::filesystem::path& path);
 
-/// Throws `Output_error` when it is clear before any work that `path` cannot be written.
+/// Throws `Output_error` when `path` cannot be written, as far as that is clear before any work is done.
 void require_writable(const std::filesystem::path& path);
 
-/// Whether both name one file, existing or not.
+/// Returns whether both paths name one file, which need not exist.
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
-/// `write_mesh`, for which a mesh that the format cannot hold is an `Output_error`: nothing is wrong with the
-/// command line.
+/// Writes a mesh as `write_mesh` does, but throws `Output_error` when the format cannot hold it: the command
+/// line is not at fault then.
 void write_output(const std::filesystem::path& path, const Triangle_soup& soup, bool is_ascii);
 
 } // namespace selvedge::app

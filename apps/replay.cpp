@@ -93,7 +93,7 @@ std::string describe(const Reduction_limits& limits)
 void print_terms(const Replay_verdict& verdict)
 {
   const auto bound = [](bool is_bound) {
-    return is_bound ? "bound (the log has its SHA-256)" : "NOT BOUND (no SHA-256 ties the log to it)";
+    return is_bound ? "bound (the log has its SHA-256)" : "NOT BOUND (no SHA-256 was compared)";
   };
   std::cout << "limits judged: " << describe(verdict.limits) << '\n';
   if (verdict.limits_source != Limits_source::log)

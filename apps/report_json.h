@@ -23,13 +23,14 @@ namespace selvedge::app {
 /// A JSON value whose keys keep the order in which they are set.
 using Json = nlohmann::ordered_json;
 
-/// The head of every report: schema, version, command.
+/// Returns the first keys of every report: `schema`, `version` and `command`.
 Json new_report(const std::string& command);
 
+/// Returns what a report says of a file that was read.
 Json input_json(const std::filesystem::path& path, const Mesh_file& file);
 
-/// Sets `faces`, `target`, `collapses`, `passes`, `refused`, `frozen`, `index`, `welding`, `snap` and
-/// `rounding`.
+/// Sets `faces`, `target`, `collapses`, `passes`, `cells`, `refused`, `frozen`, `index`, `welding`, `snap`
+/// and `rounding`.
 void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified_soup& result);
 
 /// Sets `verified`, `pieces`, and `topology`, `matching` and `distance` where there is an original.
@@ -47,9 +48,11 @@ std::map<std::string, std::size_t> count_by_kind(const std::vector<Violation>& v
 /// Sets `verdict`, `terms`, `steps`, `faces`, `frozen`, `snap`, `violations`, `pairs` and `seconds`.
 void add_replay(Json& report, const Replay_verdict& verdict);
 
+/// Returns the largest amount of memory that this process has had in use.
 std::size_t peak_memory_bytes();
 
-/// What is written, ending in a line break. Names that are no UTF-8 are mended, infinite numbers are null.
+/// Returns the report as text that ends in a line break. It replaces bytes that are not UTF-8, and infinite
+/// numbers by null.
 std::string to_text(const Json& report);
 
 } // namespace selvedge::app

@@ -183,7 +183,7 @@ std::string why_missed(const Simplify_report& report)
   const std::string outcome = report.outcome();
   for (const Refusals::Rule& rule : Refusals::rules())
     if (outcome == rule.key)
-      return std::string("of the collapses left, the rule '") + rule.name + "' refuses most";
+      return std::string("the rule '") + rule.name + "' refuses most of the collapses left";
   return report.is_stopped ? "it was interrupted" : "every collapse left would change the topology";
 }
 
@@ -449,12 +449,13 @@ private:
     if (verification.embedded())
       std::cout << "embedded (no triangles touch or cross)";
     else
-      std::cout << counted(verification.pairs.size(), "offending pair") << ", "
+      std::cout << counted(verification.pairs.size(), "offending pair")
+                << " (triangles that touch or cross, or are degenerate), "
                 << with_commas(verification.new_pairs.size()) << " of them new";
     std::cout << ", topology " << (verification.same_topology() ? "kept" : "CHANGED")
-              << ", distance from the original's vertices "
+              << "\ndistance from the original's vertices: "
               << with_digits(100 * verification.distances->original_to_result.root_mean_square)
-              << " % of the size (RMS), at most "
+              << " % of the diagonal (RMS), at most "
               << with_digits(100 * verification.distances->original_to_result.maximum) << " %\n"
               << (m_outcome.is_written() ? "written: " : "NOT written: ") << output << std::endl;
   }

@@ -12,7 +12,7 @@
 
 namespace selvedge::app {
 
-/// 1234567 as 1,234,567.
+/// Returns 1234567 as 1,234,567.
 inline std::string with_commas(std::size_t number)
 {
   std::string text = std::to_string(number);
@@ -21,7 +21,7 @@ inline std::string with_commas(std::size_t number)
   return text;
 }
 
-/// "1 face", "2,000 faces".
+/// Returns a number with its noun: "1 face", "2,000 faces".
 inline std::string counted(std::size_t number, const std::string& noun)
 {
   return with_commas(number) + ' ' + noun + (number == 1 ? "" : "s");
@@ -81,7 +81,7 @@ inline const char* name(Mismatch what)
   return "";
 }
 
-/// Triangles are counted from 1, for a person.
+/// Describes a pair in words, with triangles counted from 1.
 inline std::string describe(const Offending_pair& pair)
 {
   const std::string first = std::to_string(pair.first + 1);

@@ -91,8 +91,8 @@ void print(const Distances& distances, const Comparison& comparison)
   if (layers.crossing == 0) {
     std::cout << "layers: none lie close enough to have changed places\n";
   } else if (layers.swaps.empty()) {
-    std::cout << "layers: in order, at all " << with_commas(layers.compared)
-              << " places where two could be compared, of " << with_commas(layers.pairs) << '\n';
+    std::cout << "layers: in order at all " << with_commas(layers.compared)
+              << " places where two could be compared (of " << with_commas(layers.pairs) << ")\n";
   } else {
     const Layer_swap& first = layers.swaps.front();
     std::cout << "layers SWAPPED at " << with_commas(layers.swaps.size()) << " of "

@@ -29,7 +29,7 @@ TEST(App_simplify, ReducesVerifiesAndSaysSo)
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(result.err, "");
   for (const char* word : {"reduced to", "target 1,800 reached", "collapses refused, by rule: border ",
-                           "judged: embedded (no triangles touch or cross), topology kept", "written: "})
+                           "judged: embedded (no triangles touch or cross), topology kept\n", "written: "})
     EXPECT_NE(result.out.find(word), std::string::npos) << result.out;
   const Triangle_soup before = read_mesh(in).soup, after = read_mesh(folder / "out.obj").soup;
   EXPECT_LE(after.triangles.size(), before.triangles.size() * 6 / 10 + 1);
@@ -162,8 +162,7 @@ TEST(App_simplify, WritesWhenTheTargetIsOutOfReach)
   const App_result lenient = run_app({"simplify", in, "-o", out, "--faces", "1"});
   EXPECT_EQ(lenient.code, 0);
   EXPECT_EQ(lenient.err, "");
-  EXPECT_NE(lenient.out.find("target 1 not reached: of the collapses left, the rule '"), std::string::npos)
-      << lenient.out;
+  EXPECT_NE(lenient.out.find("target 1 not reached: the rule '"), std::string::npos) << lenient.out;
   const std::string written = contents_of(out);
   std::filesystem::remove(out);
   expect_refused({"simplify", in, "-o", out, "--faces", "1", "--require-target", "--quiet"}, 1, "was missed");
