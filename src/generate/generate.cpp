@@ -35,16 +35,17 @@ const std::vector<Scene>& known_scenes()
        1e-9,
        internal::shorts},
       {{"sheets", "wavy sheets above one another, as close as doubles allow"}, 1e-15, internal::sheets},
-      {{"folded", "one cloth folded over itself like a pile of shirts"}, 1e-15, internal::folded},
+      {{"folded", "one cloth that is folded over itself many times"}, 1e-15, internal::folded},
       {{"nested", "closed spheres inside one another"}, 1e-12, internal::nested},
-      {{"seams", "flat pieces sewn together: a T-junction, three on one edge, one turned over"},
+      {{"seams", "flat pieces that meet: at a T-junction, three at one edge, and one turned over"},
        0,
        internal::seams},
-      {{"tunnel", "shallow bumps over small patches: one collapse each passes through and ends embedded"},
+      {{"tunnel",
+        "shallow bumps over small patches; one collapse of each bump passes through its patch unseen"},
        0,
        internal::tunnels},
       {{"grid", "a flat regular grid, where every quadric error is zero"}, 0, internal::grid},
-      {{"needles", "sheets of triangles a million times as long as wide"}, 1e-15, internal::needles},
+      {{"needles", "sheets of triangles that are a million times as long as wide"}, 1e-15, internal::needles},
   };
   return known;
 }

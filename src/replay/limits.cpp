@@ -189,7 +189,7 @@ std::optional<Violation_kind> Limits::judge_shapes(const Complex& complex, Index
 std::string Limits::message(Violation_kind kind) const
 {
   if (kind == Violation_kind::line)
-    return "what moves is on a border or seam, and leaves it, or is a corner or an end of it";
+    return "the vertex that moves leaves its border or seam, or is a corner or an end of it";
   return message_of_limit(kind, *(m_limits.*limit_of(kind)->value));
 }
 

@@ -14,14 +14,14 @@ std::vector<Not_judged> not_judged(const Replay_verdict& verdict)
       result.push_back({limit.key, std::string(limit.bounds) + ": there is no limit"});
   if (!limits.border_turn && !limits.seam_turn && !limits.border_drift)
     result.push_back(
-        {"lines", "whether borders and seams move only along themselves: no limit of theirs is set"});
+        {"lines", "whether borders and seams move only along themselves: there is no limit on them"});
   if (verdict.snaps > 0)
     result.push_back({"limits_of_snaps", "what snaps do to angles and shapes of triangles, and to borders: "
                                          "the weld distance is their only limit"});
   if (verdict.header.obstacle)
     result.push_back({"obstacle",
-                      "the obstacle that the log names: the log does not hold its triangles, and none "
-                      "of them was looked at"});
+                      "whether the steps keep clear of the obstacle that the log names: the log does "
+                      "not hold its triangles"});
   if (!verdict.is_input_stated)
     result.push_back(
         {"input", verdict.header.sha256.empty()
@@ -29,9 +29,9 @@ std::vector<Not_judged> not_judged(const Replay_verdict& verdict)
                       : "whether the log was made from this file: its SHA-256 is not known"});
   if (!verdict.is_result_stated)
     result.push_back({"result",
-                      "whether these triangles are the writer's result: no digest of it was found to "
-                      "be that of the triangles left"});
-  result.push_back({"attributes", "what hangs on vertices and triangles, as texture coordinates do"});
+                      "whether the triangles left are the writer's result: no digest of the log was "
+                      "found to match them"});
+  result.push_back({"attributes", "values attached to vertices and triangles, such as texture coordinates"});
   return result;
 }
 

@@ -358,18 +358,20 @@ private:
   {
     if (m_complex.faces_at(removed).empty() || m_complex.faces_at(kept).empty()) {
       const Index gone = m_complex.faces_at(removed).empty() ? m_step->removed : m_step->kept;
-      report(Violation_kind::no_edge, "vertex " + std::to_string(gone) + " belongs to no triangle any more");
+      report(Violation_kind::no_edge,
+             "vertex " + std::to_string(gone) + " no longer belongs to any triangle");
       return false;
     }
     if (removed == kept) {
-      report(Violation_kind::no_edge, "both are at one position");
+      report(Violation_kind::no_edge, "both vertices are at one position");
       return false;
     }
     const auto& faces = m_complex.faces_at(removed);
     const bool is_edge =
         std::any_of(faces.begin(), faces.end(), [&](Index f) { return m_complex.has(f, kept); });
     if (is_edge == is_snap) {
-      report(Violation_kind::no_edge, is_snap ? "an edge joins the two" : "no edge joins the two");
+      report(Violation_kind::no_edge,
+             is_snap ? "an edge joins the two vertices" : "no edge joins the two vertices");
       return false;
     }
     return true;
@@ -380,11 +382,11 @@ private:
     if (m_start.is_locked[position])
       report(Violation_kind::locked,
              m_step->kind == Log_step::Kind::snap
-                 ? "one of the two belongs to a triangle that offends in the original"
-                 : "what moves belongs to a triangle that offends in the original",
+                 ? "one of the two vertices belongs to an offending triangle of the original"
+                 : "the vertex that moves belongs to an offending triangle of the original",
              m_complex.faces_at(position));
     else if (m_step->kind == Log_step::Kind::collapse && !m_complex.is_one_fan(position))
-      report(Violation_kind::locked, "what moves holds several sheets together",
+      report(Violation_kind::locked, "the vertex that moves holds several sheets together",
              m_complex.faces_at(position));
   }
 
@@ -428,16 +430,17 @@ private:
       if (!other)
         continue;
       if (apexes.count(edge.neighbour) == 0)
-        return report(Violation_kind::link, "both have an edge to a third vertex, and no triangle with it");
+        return report(Violation_kind::link,
+                      "both vertices have an edge to a third one, but no triangle joins the three");
       if (edge.is_border() && other->is_border())
-        return report(Violation_kind::link, "a triangle with two border edges would go");
+        return report(Violation_kind::link, "a triangle with two border edges would vanish");
     }
     const auto is_on_border = [](const std::vector<Complex::Edge>& edges) {
       return std::any_of(edges.begin(), edges.end(),
                          [](const Complex::Edge& edge) { return edge.is_border(); });
     };
     if (is_on_border(at_removed) && is_on_border(at_kept) && !edge_to(at_removed, kept)->is_border())
-      report(Violation_kind::link, "both are on a border, and their edge is not");
+      report(Violation_kind::link, "both vertices are on a border, but their edge is not");
   }
 
   // Contacts

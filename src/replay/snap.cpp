@@ -93,8 +93,8 @@ std::optional<Snap_objection> judge_snap(const Complex& complex, Index moved, In
   if (!weld_distance)
     return Snap_objection{
         Violation_kind::weld_distance,
-        "nothing may snap, since there is no limit weld_distance: the log must declare one, "
-        "or the judge's own limits"};
+        "no snap is allowed without a limit weld_distance: the log must declare one, or the "
+        "judge impose one"};
   const Partners partners(complex, *weld_distance);
   if (!partners.are_near(moved, kept))
     return Snap_objection{Violation_kind::weld_distance,
@@ -103,19 +103,19 @@ std::optional<Snap_objection> judge_snap(const Complex& complex, Index moved, In
   const auto are_no_partners = [](const char* why) { return Snap_objection{Violation_kind::partner, why}; };
   const Border of_moved(complex, moved), of_kept(complex, kept);
   if (of_moved.is_empty())
-    return are_no_partners("what snaps is not on a border");
+    return are_no_partners("the vertex that snaps is not on a border");
   if (of_kept.is_empty())
-    return are_no_partners("what it snaps to is not on a border");
+    return are_no_partners("the vertex that it snaps to is not on a border");
   if (!partners.is_edge_sewable(of_moved, of_kept) && !partners.is_edge_sewable(of_kept, of_moved))
     return are_no_partners(
-        "beside the two there are no border edges that could be sewn: none run in opposite "
-        "ways with their other ends within the weld distance");
+        "no border edges beside the two vertices could be sewn: none run in opposite directions "
+        "with their other ends within the weld distance");
   if (partners.is_shortly_followed(moved, kept) || partners.is_shortly_followed(kept, moved))
-    return are_no_partners("a stretch of border of at most twice the weld distance joins the two");
+    return are_no_partners("a stretch of border of at most twice the weld distance joins the two vertices");
 
   if (!is_link_condition_met(complex, moved, kept))
     return Snap_objection{Violation_kind::link,
-                          "an edge would get a third triangle, or two that run along it the same way"};
+                          "an edge would get a third triangle, or two triangles that face opposite ways"};
   return std::nullopt;
 }
 
