@@ -7,8 +7,8 @@
 
 #include <selvedge/Error.h>
 #include <selvedge/generate.h>
-#include <selvedge/mesh/mesh_files.h>
-#include <selvedge/mesh/rounding.h>
+#include <selvedge/mesh_files.h>
+#include <selvedge/rounding.h>
 #include <selvedge/verify.h>
 
 #include <iostream>

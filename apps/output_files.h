@@ -4,7 +4,7 @@
 #ifndef SELVEDGE_APPS_OUTPUT_FILES_H
 #define SELVEDGE_APPS_OUTPUT_FILES_H
 
-#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/mesh_files.h>
 
 #include <filesystem>
 

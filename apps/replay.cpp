@@ -12,7 +12,7 @@
 #include <selvedge/Error.h>
 #include <selvedge/Sha256.h>
 #include <selvedge/Simplify_options.h>
-#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/mesh_files.h>
 #include <selvedge/replay.h>
 
 #include <atomic>

@@ -161,18 +161,18 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
                      {"refused_by_link", guard.refused_by_link},
                      {"refused_by_star", guard.refused_by_star},
                      {"refused_by_sweep", guard.refused_by_sweep}};
-  const Welding_notes& welding = result.welding;
+  const Sewing_notes& welding = result.sewing;
   report["welding"] = {{"unused_vertices", welding.unused_vertices},
-                       {"welded_vertices", welding.welded_vertices},
+                       {"welded_vertices", welding.coincident_vertices},
                        {"seam_edges", welding.seam_edges},
                        {"non_manifold_edges", welding.non_manifold_edges},
                        {"misoriented_edges", welding.misoriented_edges},
-                       {"unwelded_positions", welding.unwelded_positions},
+                       {"unwelded_positions", welding.unsewn_positions},
                        {"left_out_faces", prepared.left_out_faces}};
   const Snapping_notes& snap = prepared.snapping;
   report["snap"] = {{"border_vertices", snap.border_vertices},
                     {"partnered", snap.partnered},
-                    {"sewn", snap.sewn},
+                    {"sewn", snap.snapped},
                     {"left_ambiguous", snap.left_ambiguous},
                     {"left_frozen", snap.left_frozen},
                     {"left_unmanifold", snap.left_unmanifold},

@@ -5,9 +5,9 @@
 #define SELVEDGE_APPS_REPORT_JSON_H
 
 #include <selvedge/compare.h>
-#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/mesh_files.h>
 #include <selvedge/replay.h>
-#include <selvedge/simplify_soup.h>
+#include <selvedge/simplify.h>
 #include <selvedge/verify.h>
 
 #include <nlohmann/json.hpp>

@@ -15,8 +15,9 @@
 #include <selvedge/Reduction_log.h>
 #include <selvedge/Sha256.h>
 #include <selvedge/collapse_log.h>
-#include <selvedge/mesh/mesh_files.h>
-#include <selvedge/simplify_soup.h>
+#include <selvedge/merge.h>
+#include <selvedge/mesh_files.h>
+#include <selvedge/simplify.h>
 #include <selvedge/verify.h>
 
 #include <algorithm>
@@ -289,12 +290,12 @@ private:
       log->finish(results.back());
     m_seconds["check"] = prepared.seconds_check;
     m_seconds["snap"] = prepared.seconds_snap;
-    m_seconds["weld"] = prepared.seconds_weld;
+    m_seconds["weld"] = prepared.seconds_positions;
     const std::vector<std::string> names = outputs(m_request);
     std::vector<Level> levels;
     for (std::size_t i = 0; i < results.size(); ++i) {
       // When one run passes through all levels, the last one has the time of all.
-      m_seconds["weld"] = std::max(m_seconds["weld"], prepared.seconds_weld + results[i].seconds_weld);
+      m_seconds["weld"] = std::max(m_seconds["weld"], prepared.seconds_positions + results[i].seconds_sew);
       m_seconds["index"] = std::max(m_seconds["index"], results[i].report.seconds_index);
       m_seconds["cells"] = std::max(m_seconds["cells"], results[i].report.seconds_cells);
       m_seconds["reduce"] = std::max(m_seconds["reduce"], results[i].report.seconds_reduce);
@@ -325,7 +326,7 @@ private:
       m_bar.begin("writing");
       // Merging changes nothing but vertex numbers: the verdict on positions stands.
       for (const auto& [output, result, verification] : levels) {
-        write_output(output, m_request.is_sewn ? joined_at_positions(result.soup) : result.soup,
+        write_output(output, m_request.is_sewn ? merged_at_positions(result.soup) : result.soup,
                      m_request.is_ascii);
         ++m_files_written;
       }
@@ -462,7 +463,7 @@ private:
 
   static void print_snapping(const Snapping_notes& notes)
   {
-    std::cout << "  seams closed: " << with_commas(notes.sewn) << " of " << with_commas(notes.partnered)
+    std::cout << "  seams closed: " << with_commas(notes.snapped) << " of " << with_commas(notes.partnered)
               << " border vertices that have a partner, along " << counted(notes.seam_edges, "edge")
               << "; the widest gap was " << with_digits(notes.largest_distance) << '\n';
     const auto print = [](std::size_t count, const char* why) {

@@ -10,7 +10,7 @@
 
 #include <selvedge/Error.h>
 #include <selvedge/compare.h>
-#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/mesh_files.h>
 #include <selvedge/verify.h>
 
 #include <algorithm>

@@ -6,8 +6,8 @@
 // it.
 //   clustered_index IN.off OUT.off [FACES_PER_CLUSTER]
 #include <selvedge/Surface_mesh_simplification/Intersection_filter.h>
+#include <selvedge/Surface_mesh_simplification/edge_collapse.h>
 #include <selvedge/Surface_mesh_simplification/stop_predicates.h>
-#include <selvedge/edge_collapse.h>
 #include <selvedge/spatial/Clustered_AABB_tree.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -5,7 +5,7 @@
 // the mesh. Triangles are counted from 0.
 //   judge_a_mesh MESH
 #include <selvedge/Error.h>
-#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/mesh_files.h>
 #include <selvedge/verify.h>
 
 #include <iostream>

@@ -4,8 +4,8 @@
 // Reads a mesh, reduces it to 30 % of its faces, judges the result, and writes it.
 //   simplify_a_file IN OUT
 #include <selvedge/Error.h>
-#include <selvedge/mesh/mesh_files.h>
-#include <selvedge/simplify_soup.h>
+#include <selvedge/mesh_files.h>
+#include <selvedge/simplify.h>
 
 #include <iostream>
 

@@ -11,30 +11,31 @@
 
 namespace selvedge {
 
-/// Makes long calls of this library end early: while an object of this class lives, what its thread calls
-/// asks a hook now and then, and throws `Interrupted` as soon as the hook returns true.
+/// Ends long calls of this library early. While an object of this class lives, the calls that its thread
+/// makes ask a hook from time to time, and throw `Interrupted` as soon as the hook returns true.
 ///
 ///     selvedge::Cancellation_scope scope([&] { return is_cancelled.load(); });
 ///     const selvedge::Mesh_file file = selvedge::read_mesh(path);
 ///
-/// Everything that takes long asks: reading, preparing, reducing, judging, comparing, replaying, generating
-/// and writing. For a million triangles on an ordinary processor the time between two questions is well below
-/// a second; it grows about linearly, with single sorts and copies of large arrays.
+/// All work that takes long asks the hook: reading, preparing, reducing, judging, comparing, replaying,
+/// generating and writing. For a million triangles on an ordinary processor, the time between two calls of
+/// the hook is well below a second. It grows about linearly with the mesh, because no single sort or copy of
+/// a large array is interrupted.
 ///
 /// **Guarantees**
-/// 1. *Nothing half done*: a call that throws `Interrupted` has given nothing back, and a file that it was to
-///    write is as it was before (`write_mesh`). A mesh that was being reduced in place (simplify.h) is one in
-///    which some of the collapses were done, as with any stop.
-/// 2. *No handler*: the library installs no handler of signals, and changes none. The hook may read what a
+/// 1. *Nothing half done*: a call that throws `Interrupted` returns nothing, and a file that it was to write
+///    is as it was before (`write_mesh`). A mesh that was being reduced in place (`simplify_mesh`) has
+///    undergone some of its collapses, as with any stop.
+/// 2. *No handler*: the library neither installs nor changes a signal handler. The hook may read what a
 ///    handler of yours has set.
-/// 3. *Threads*: what the library does in other threads on behalf of the call asks as well. Calls of other
-///    threads do not.
+/// 3. *Threads*: work that the library does in other threads on behalf of the call asks the hook, too. Calls
+///    that other threads make do not.
 ///
-/// Of nested scopes the innermost is asked. The hook is called by several threads at once, and many times: it
-/// should be quick. Once true, it should stay true.
+/// Of nested scopes, only the innermost is asked. Several threads may call the hook at once, and they call it
+/// often: it should be quick. Once it has returned true, it should go on returning true.
 ///
 /// To end a reduction early and keep what it has reached, use `Simplify_options::should_stop` instead. Where
-/// both are in use, the hook here should return false from the first question of the other on.
+/// both are in use, this hook should return false from the first call of `should_stop` on.
 class Cancellation_scope
 {
 public:
@@ -47,15 +48,17 @@ public:
   Cancellation_scope(const Cancellation_scope&) = delete;
   Cancellation_scope& operator=(const Cancellation_scope&) = delete;
 
-  /// Throws `Interrupted` when the hook of the scope that this thread is in says so.
+  /// Asks the hook of the scope that this thread is in, if any, and throws `Interrupted` when it returns
+  /// true.
   static void check()
   {
     if (s_current)
       s_current->ask();
   }
 
-  /// A function that does what another does, in the scope of the thread that calls `inherited`, whichever
-  /// thread calls it: for what is handed to other threads while the scope lives.
+  /// Returns a function that does what `function` does, in the scope that the calling thread is in now,
+  /// whichever thread calls the function later. Use it for work that is handed to other threads while the
+  /// scope lives.
   template <class Function>
   static auto inherited(Function function)
   {
@@ -66,7 +69,7 @@ public:
   }
 
 private:
-  // Apart, so that it does not keep a compiler from inlining who asks now and then.
+  // Not inlined, so that compilers inline `check` into its callers.
   [[gnu::noinline]] void ask() const
   {
     if (m_should_stop && m_should_stop())
@@ -91,7 +94,7 @@ private:
   const Cancellation_scope* m_outer;
 };
 
-/// For loops of many short steps: asks once in every 1024 calls.
+/// Calls `Cancellation_scope::check` once in every 1024 of its own calls: for loops of many short steps.
 class Cancellation_poll
 {
 public:

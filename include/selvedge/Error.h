@@ -9,8 +9,8 @@
 
 namespace selvedge {
 
-/// What every exception of this library derives from. `what()` is one line for a person: which file or
-/// argument, which element of it, and what would mend it.
+/// The base class of all exceptions of this library. `what()` is one line for a person: which file or
+/// argument is wrong, which element of it, and how to mend it.
 class Error : public std::runtime_error
 {
 public:
@@ -24,21 +24,22 @@ public:
   using Error::Error;
 };
 
-/// The result could not be written; what stood at its path before still stands there.
+/// The output could not be written. What stood at its path before still stands there.
 class Output_error : public Error
 {
 public:
   using Error::Error;
 };
 
-/// A precondition on an argument that is checked at run time, in every build, was not met.
+/// An argument does not meet a precondition. Preconditions documented with this exception are checked at run
+/// time, in every build.
 class Argument_error : public Error
 {
 public:
   using Error::Error;
 };
 
-/// Somebody wanted the call to end: see Cancellation_scope.h.
+/// The hook of a `Cancellation_scope` has ended the call.
 class Interrupted : public Error
 {
 public:

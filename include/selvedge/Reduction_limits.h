@@ -11,8 +11,8 @@ namespace selvedge {
 
 struct Simplify_options;
 
-/// Limits of quality that a reduction keeps to, or is judged by. A limit without a value is not judged.
-/// `Simplify_options` and `Prepare_options` say exactly what each one bounds.
+/// Limits of quality that a reduction keeps to, or by which it is judged. A limit without a value is not
+/// judged. `Simplify_options` and `Prepare_options` say exactly what each limit bounds.
 struct Reduction_limits
 {
   std::optional<double> normal_change; ///< degrees
@@ -23,7 +23,8 @@ struct Reduction_limits
   std::optional<double> weld_distance; ///< length in the unit of the coordinates
 };
 
-/// Describes one limit: what it is called in logs, reports and sentences. No other place says it again.
+/// Describes one limit: its names in logs and reports, and the words for it in messages. They are written in
+/// no other place.
 struct Limit_description
 {
   std::optional<double> Reduction_limits::*value;
@@ -57,13 +58,13 @@ constexpr const Limit_description& describe(std::optional<double> Reduction_limi
   return limit_descriptions[i];
 }
 
-/// Returns the limits that `simplify_soup` keeps to under `options`. There is no weld distance among them:
-/// it belongs to `Prepare_options`.
+/// Returns the limits that `simplify_soup` keeps to under `options`. The weld distance is not among them: it
+/// belongs to `Prepare_options`.
 Reduction_limits limits_of(const Simplify_options& options);
 
-/// Returns the limits of Derichs, Misiak and Fuhrmann: 45° of normal change, an aspect ratio of 0.2, and 8°
-/// of turn. They reduce pieces that are not sewn, so that a seam is a border of two of them: 8° holds for
-/// both kinds of line. They bound no drift, and do not weld.
+/// Returns the limits that Derichs, Misiak and Fuhrmann use: 45° of normal change, an aspect ratio of 0.2,
+/// and 8° of turn. The pieces that they reduce are not sewn, so that every seam is a border of two pieces;
+/// therefore 8° holds for borders and seams alike. There is no limit of drift, and no weld distance.
 Reduction_limits limits_of_seed();
 
 } // namespace selvedge

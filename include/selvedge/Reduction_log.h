@@ -5,26 +5,30 @@
 #define SELVEDGE_REDUCTION_LOG_H
 
 #include <selvedge/collapse_log.h>
-#include <selvedge/simplify_soup.h>
+#include <selvedge/simplify.h>
 
 #include <cstddef>
 #include <ostream>
 
 namespace selvedge {
 
-/// Writes the log of a reduction by `simplify_soup`. Of an obstacle it holds only that there was one.
+/// Writes the log of a reduction by `simplify_soup`, in the format of collapse_log.h. For an obstacle, the
+/// log only records that there was one.
 class Reduction_log
 {
 public:
-  /// `header` names the file, its rounding, and the file of the obstacle if there is one; the limits are
-  /// added from the options, the weld distance and an obstacle without a file from `prepared`. Writes snaps
-  /// and welds. All arguments but the header and the options outlive the log.
+  /// Writes the header, the snaps, and the groups of coincident vertices. `header` describes the input file,
+  /// its rounding, and the file of the obstacle, if there is one. The limits are added from `options`; the
+  /// weld distance, and an obstacle that has no file, are added from `prepared`.
+  ///
+  /// **Preconditions** `stream`, `numbering` and `prepared` outlive the log.
   Reduction_log(std::ostream& stream, Log_header header, const Log_numbering& numbering,
                 const Prepared_soup& prepared, const Simplify_options& options);
 
-  /// Called by `Simplify_options::on_collapse`.
+  /// Writes one collapse. To be called by `Simplify_options::on_collapse`.
   void add_collapse(std::size_t removed, std::size_t kept);
 
+  /// Writes the last line, which describes the result.
   void finish(const Simplified_soup& result);
 
 private:

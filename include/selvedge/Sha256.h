@@ -11,7 +11,7 @@
 
 namespace selvedge {
 
-/// The SHA-256 of bytes that come in parts, as FIPS 180-4 defines it.
+/// Computes the SHA-256 (FIPS 180-4) of bytes that are added part by part.
 class Sha256
 {
 public:
@@ -22,7 +22,7 @@ public:
 
   void add(std::string_view bytes);
 
-  /// In 64 lowercase hexadecimal digits. To be asked once.
+  /// Returns the digest in 64 lowercase hexadecimal digits. To be called once, after the last `add`.
   std::string digest();
 
 private:
@@ -30,7 +30,8 @@ private:
   std::unique_ptr<Implementation> m_implementation;
 };
 
-/// The SHA-256 of a file's bytes. Throws `Input_error` when it cannot be read.
+/// Returns the SHA-256 of a file's bytes, in the same form. Throws `Input_error` when the file cannot be
+/// read.
 std::string sha256_of_file(const std::filesystem::path& path);
 
 } // namespace selvedge

@@ -4,7 +4,7 @@
 #ifndef SELVEDGE_SIMPLIFY_OPTIONS_H
 #define SELVEDGE_SIMPLIFY_OPTIONS_H
 
-#include <selvedge/Surface_mesh_simplification/Quadric_cost.h>
+#include <selvedge/Surface_mesh_simplification/Quadric_cost_options.h>
 
 #include <cstddef>
 #include <functional>
@@ -12,18 +12,18 @@
 
 namespace selvedge {
 
-/// How far a reduction has come, for whoever watches it.
+/// How far a reduction has come.
 struct Simplify_progress
 {
   std::size_t faces_input;
   std::size_t faces_target;
-  std::size_t faces; ///< now
+  std::size_t faces; ///< faces left now
 };
 
 /// Which loop takes edges from a queue and collapses them.
 enum class Collapse_loop {
   own, ///< `selvedge::edge_collapse`
-  cgal ///< `CGAL::Surface_mesh_simplification::edge_collapse`, in as many passes as it takes: the reference
+  cgal ///< `CGAL::Surface_mesh_simplification::edge_collapse`, repeated as long as it helps: the reference
 };
 
 /// Which index finds the faces near a motion.
@@ -32,10 +32,11 @@ enum class Face_index {
   clusters ///< `Clustered_AABB_tree`: the reference
 };
 
-/// What `simplify` is asked to do. Values outside the ranges given throw `Argument_error`.
+/// The options of `simplify_soup` and `simplify_mesh`. Values outside the ranges given throw
+/// `Argument_error`.
 ///
-/// The target is the largest of the face counts that `ratio` and `faces` name; with neither it is no face at
-/// all, and the limits decide.
+/// The target is the larger of the face counts that `ratio` and `faces` name. With neither, the target is 0
+/// faces, and the limits decide where the reduction ends.
 struct Simplify_options
 {
   /// Faces to keep, as a share of the input's, in [0, 1].
@@ -44,65 +45,73 @@ struct Simplify_options
   /// Faces to keep.
   std::optional<std::size_t> faces;
 
-  /// The largest error of a collapse, as a share of the diagonal of the bounding box, at least 0: the root
-  /// mean square distance, weighted by area, of the merged vertex to the planes of the original faces that it
-  /// stands for.
+  /// The largest error of a collapse, as a share of the diagonal of the bounding box, at least 0. The error
+  /// is the root mean square distance, weighted by area, of the merged vertex to the planes of the original
+  /// faces that it stands for.
   std::optional<double> max_error;
 
   /// The largest change of a face's normal in one collapse, in degrees from 0 to 180.
   double max_normal_change = 45;
 
-  /// The least aspect ratio of a face, in [0, 1], unless it is better than before. The default is what looks
-  /// best: folds keep their long, thin triangles. For a result that is simulated, 0.2 keeps triangles
-  /// rounder, which is the value of Derichs, Misiak and Fuhrmann; at 10 % of the faces it costs 1.3 to 2
-  /// times the error.
+  /// The least aspect ratio (`aspect_ratio()`: 1 for the equilateral triangle) that a collapse may leave
+  /// among the faces that it changes, in [0, 1]. A smaller one is accepted when it was smaller still before.
+  ///
+  /// The default looks best, because folds keep their long, thin triangles. For cloth that is to be
+  /// simulated, 0.2 keeps triangles rounder, which is the value of Derichs, Misiak and Fuhrmann; at 10 % of
+  /// the faces, the error is then 1.3 to 2 times as large.
   double min_aspect_ratio = 0.05;
 
-  /// The largest turn of a border at a vertex that leaves it, in degrees from 0 to 180.
+  /// The largest turn that a border may have at a vertex that a collapse removes from it, in degrees from 0
+  /// to 180.
   double max_border_turn = 8;
 
-  /// The same for a line inside the surface: a sewn seam, a texture seam, a border between groups. There is
-  /// no outline to fray there, and such lines are often bent: with 8° they would keep most of their vertices.
+  /// The same for a line inside the surface: a sewn seam, or a chain of edges across which texture
+  /// coordinates, normals, groups, objects or materials change. The default is larger than for borders,
+  /// because no outline frays there, and such lines are often bent: with 8° they would keep most of their
+  /// vertices.
   double max_seam_turn = 60;
 
-  /// The largest distance of an original border or seam vertex to the segment that replaced it, as a share of
-  /// the diagonal, at least 0.
+  /// The largest distance from an original vertex of a border or seam to the segment that replaces it, as a
+  /// share of the diagonal of the bounding box, at least 0.
   double max_border_drift = 0.002;
 
-  /// Whether layers are kept from piercing each other. Without, everything else stays the same: a control.
+  /// Whether layers are kept from piercing each other. False changes nothing else; it is meant as a control.
   bool check_intersections = true;
 
-  /// Whether triangles of the texture are kept from turning over, where a mesh has texture coordinates.
-  /// Without, everything else stays the same: a control.
+  /// Whether triangles of the texture are kept from turning over, where a mesh has texture coordinates. False
+  /// changes nothing else; it is meant as a control.
   bool check_uv_orientation = true;
 
-  /// How much a texture that swims counts in the cost, at least 0, against the same distance of the surface
-  /// itself: the displacement of the texture in the plane of the texture, in units of the mesh. 0 turns it
-  /// off.
+  /// The weight of texture displacement in the cost, relative to the same displacement of the surface itself:
+  /// finite, at least 0. Displacement is measured in the plane of the texture, in units of the mesh. 0 turns
+  /// this part of the cost off.
   double uv_weight = 0.1;
 
-  /// Both loops give the guarantees; the own one is faster.
+  /// The loop that does the collapses. Both loops give the guarantees; `own` is faster.
   Collapse_loop loop = Collapse_loop::own;
 
-  /// Both indices give the same result; the packed one is faster and smaller.
+  /// The index of faces. Both indices give the same result; `packed` is faster and smaller.
   Face_index index = Face_index::packed;
 
-  /// What the cells of the clustered index aim at, at least 1.
+  /// How many faces a cluster of `Face_index::clusters` should have, at least 1.
   std::size_t faces_per_cluster = 100;
 
-  /// Reduces a soup in *cells* first: disjoint boxes of space of at most about so many faces each, on as many
-  /// threads as TBB has; then what is left, as without. 0: not. Every guarantee holds as without, and the
-  /// result never depends on the number of threads; but it is another.
+  /// The number of faces per *cell*, or 0 for a reduction without cells. With cells, a soup is first reduced
+  /// in disjoint boxes of space, each of at most about this many faces, on as many threads as oneTBB grants;
+  /// then what is left is reduced as a whole. Every guarantee holds as without cells. The result differs from
+  /// that without cells, but never depends on the number of threads. `simplify_mesh` has no cells, and throws
+  /// `Argument_error`.
   std::size_t faces_per_cell = 0;
 
   Quadric_cost_options cost;
 
-  /// Told of every collapse of a soup, before it: a vertex of the soup at the position that goes, and one at
-  /// that to which it goes; what a log (collapse_log.h) holds. It may be empty.
+  /// Called before each collapse of a soup with two of its vertices: one at the position that is removed, and
+  /// one at the position that is kept, as `Reduction_log` takes them. It may be empty. With `simplify_mesh`
+  /// it must be empty (`Argument_error`); use an observer there.
   std::function<void(std::size_t removed, std::size_t kept)> on_collapse;
 
-  /// Asked now and then; when it returns true, the reduction ends with the mesh as it is. It may be empty. In
-  /// cells it is asked by several threads, one at a time. To end all work without a result, see
+  /// Called from time to time; when it returns true, the reduction ends with the mesh as it is then. It may
+  /// be empty. In cells, several threads call it, one at a time. To end all work without a result, see
   /// Cancellation_scope.h.
   std::function<bool(const Simplify_progress&)> should_stop;
 };

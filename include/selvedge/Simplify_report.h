@@ -14,31 +14,34 @@
 
 namespace selvedge {
 
-/// What a reduction of a mesh did.
+/// What a reduction did, in counts and seconds.
 struct Simplify_report
 {
   std::size_t faces_input = 0;
   std::size_t faces_target = 0;
   std::size_t faces_output = 0;
-  std::size_t faces_to_go = 0; ///< by which shares exceed their targets at the end
+  std::size_t faces_to_go = 0; ///< faces above the target at the end, summed over all parts with a target
   std::size_t collapses = 0;
-  std::size_t passes = 0;  ///< of CGAL's loop: another begins while refused edges have become possible
+  std::size_t passes = 0;  ///< of the loop: another begins while more collapses may be possible
   bool is_stopped = false; ///< by `Simplify_options::should_stop`
-  Refusals refused; ///< with `Simplify_options::faces_per_cell`: after the cells, as the next two
+
+  /// With `Simplify_options::faces_per_cell`, these three are of the reduction after the cells.
+  Refusals refused;
   Intersection_statistics intersections;
   Index_statistics index;
   std::size_t cells = 0;
-  std::size_t collapses_in_cells = 0; ///< of `collapses`
-  double seconds_cells = 0;           ///< of `seconds_reduce`: until all cells were done and joined
-  double seconds_index = 0;           ///< for building the index
-  double seconds_reduce = 0;          ///< in all, the index included
+  std::size_t collapses_in_cells = 0; ///< how many of `collapses` were found in cells
+  double seconds_cells = 0;           ///< part of `seconds_reduce`, until all cells were done and joined
+  double seconds_index = 0;           ///< part of `seconds_reduce`, for building the index
+  double seconds_reduce = 0;          ///< in all
 
-  /// What was refused in the last pass alone, when everything still possible was tried once more.
+  /// Refusals in the last pass alone, which tried once more everything that was left.
   Refusals refused_in_last_pass;
 
   bool is_reached() const { return faces_to_go == 0; }
 
-  /// "reached", "stopped", or the rule that refused most in the last pass.
+  /// Returns "reached", "stopped", or the key of the rule that refused most in the last pass; "topology" when
+  /// no rule refused anything in it.
   std::string outcome() const
   {
     if (is_reached())

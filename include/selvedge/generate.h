@@ -4,7 +4,7 @@
 #ifndef SELVEDGE_GENERATE_H
 #define SELVEDGE_GENERATE_H
 
-#include <selvedge/mesh/Triangle_soup.h>
+#include <selvedge/Triangle_soup.h>
 
 #include <cstddef>
 #include <string>
@@ -13,25 +13,25 @@
 
 namespace selvedge {
 
-/// What a generated mesh looks like. Lengths are in metres; garments are about one metre tall, scenes about
-/// one metre wide. Numbers out of range are refused, and so are numbers that are in range but do not fit
+/// The options of `generate`. Lengths are in metres; garments are about one metre tall, scenes about one
+/// metre wide. Numbers out of range are refused (`Argument_error`), and so are numbers that do not fit
 /// together: more layers than the faces can make, or a stack of layers too thick for the body that it
 /// surrounds.
 struct Generate_options
 {
-  /// Triangles wanted, in [100, 20,000,000]; what comes is within 2 % of it.
+  /// The number of triangles, in [100, 20,000,000]; the mesh has it within 2 %.
   std::size_t faces = 100'000;
 
   /// Layers of cloth, sheets, spheres or folds on top of one another, in [1, 100].
   int layers = 3;
 
-  /// Thickness of the cloth of a garment, 0 or in [1e-9, 0.01]. Cloth with thickness has an outer and an
-  /// inner side and is closed at its hems; at 0 each cloth is one sheet. Only garments have it.
+  /// Thickness of the cloth of a garment, 0 or in [1e-9, 0.01]. Cloth with a thickness has an outer and an
+  /// inner side, and is closed at its hems; at 0 each cloth is one sheet. Only garments have it.
   double thickness = 5e-4;
 
-  /// Smallest distance of two layers along the direction in which they are stacked, at most 0.01 and at least
-  /// 1e-9 for garments, 1e-12 for nested spheres, 1e-15 for sheets and folded cloth. Garments widen it to
-  /// twice as much in places.
+  /// Smallest distance of two layers in the direction in which they are stacked. At most 0.01; at least 1e-9
+  /// for garments, 1e-12 for nested spheres, 1e-15 for sheets and folded cloth. In garments it is up to twice
+  /// as large in places.
   double gap = 1e-3;
 
   /// Amplitude of folds and waves, in [0, 0.03].
@@ -40,7 +40,7 @@ struct Generate_options
   /// Folds around a garment, waves along a sheet, in [0, 200].
   int folds = 14;
 
-  /// Of the vertices' irregularity and of the shape of the folds.
+  /// Seed of the random numbers that place vertices irregularly and shape the folds.
   unsigned seed = 1;
 };
 
@@ -50,35 +50,35 @@ struct Scene_description
   std::string_view description;
 };
 
-/// Every name that `generate` knows, garments first, with one line each.
+/// Returns every name that `generate` knows, garments first, with a description of one line.
 const std::vector<Scene_description>& scenes();
 
 /// Makes a garment of several layers, or a scene that is hard to reduce without intersections.
 ///
 /// **Guarantees**
-/// 1. *Embedded*: any two triangles meet exactly in the positions that they share, and none is degenerate,
-///    for the coordinates as they stand, rounded to doubles. By construction: nothing is searched or
-///    repaired.
-/// 2. *Pieces*: pattern pieces have vertices of their own; where two are sewn together their vertices have
-///    bit-identical positions. Every piece has a group name and its own place in texture space.
+/// 1. *Embedded*: any two triangles meet exactly in the positions that they share, and none is degenerate.
+///    This holds for the coordinates as they stand, rounded to doubles, and by construction: nothing is
+///    searched or repaired.
+/// 2. *Pieces*: every pattern piece has vertices of its own. Where two pieces are sewn together, their
+///    vertices have bit-identical positions. Every piece has a group name and its own place in texture space.
 /// 3. *Texture*: every triangle is positively oriented in texture space, inside [0,1]²; pieces do not overlap
 ///    there.
-/// 4. *Deterministic*: same name and options, same bytes, for any build, since only operations that IEEE 754
-///    defines to the last bit are used.
+/// 4. *Deterministic*: the same name and options give the same bytes in any build, because only operations
+///    are used that IEEE 754 defines to the last bit.
 ///
-/// **Complexity**: linear in the faces; beside the soup itself at most two thirds of its memory, for thick
-/// cloth in several layers a fifth.
+/// **Complexity** Linear time in the number of faces. Memory, beside the soup itself, is at most two thirds
+/// of the soup's; for thick cloth in several layers it is a fifth.
 ///
-/// \throws Argument_error when the name is unknown (the message lists those that are known) or an option is
-/// out of range.
+/// Throws `Argument_error` when the name is unknown (the message lists the known ones) or an option is out of
+/// range.
 Triangle_soup generate(std::string_view name, const Generate_options& options = {});
 
-/// A shallow bump over a small separate patch, with the one collapse that tunnels: moving `moving` along the
-/// edge to `target` leaves an embedded mesh, but the faces at `moving` pass through the patch, which lies
-/// under the bump before and above the sheet after. Nothing else speaks against that collapse: `moving` is
-/// the only interior vertex, the link condition holds, normals turn by at most 17°, and no triangle's shape
-/// becomes worse than 0.2. Every other vertex is a corner of a border, so a border rule leaves no other
-/// collapse.
+/// A scene in which one collapse tunnels: a shallow bump over a small separate patch. Moving `moving` along
+/// the edge to `target` leaves an embedded mesh, but on the way the faces at `moving` pass through the patch,
+/// which lies under the bump before and above the sheet after. No other rule refuses this collapse: `moving`
+/// is the only interior vertex, the link condition holds, normals turn by at most 17°, and no triangle gets
+/// an aspect ratio below 0.2. Every other vertex is a corner of a border, so that a border rule allows no
+/// other collapse.
 struct Tunnel_scene
 {
   Triangle_soup soup;

@@ -4,8 +4,8 @@
 #ifndef SELVEDGE_PART_REPORT_H
 #define SELVEDGE_PART_REPORT_H
 
-#include <selvedge/mesh/Parts.h>
-#include <selvedge/simplify_soup.h>
+#include <selvedge/Parts.h>
+#include <selvedge/simplify.h>
 
 #include <cstddef>
 #include <optional>
@@ -14,22 +14,23 @@
 
 namespace selvedge {
 
-/// How far a texture has swum: for the centre of each triangle of the original, the distance in the plane of
-/// the texture between its texture coordinates and those of the nearest point of the result on the same
-/// chart, in units in which the texture is as large as the surface; as shares of the diagonal of the
-/// original.
+/// How far the texture has been displaced on the surface. The displacement is measured at the centre of each
+/// triangle of the original: it is the distance, in the plane of the texture, between the texture coordinates
+/// there and those of the nearest point of the result on the same chart. The texture is scaled such that it
+/// is as large as the surface, and displacements are shares of the diagonal of the original.
 struct Uv_deviation
 {
   double mean; ///< weighted by area
   double maximum;
 };
 
-/// None where nothing has a texture. A chart is what hangs together by texture coordinates and vertices.
+/// Returns the displacement of the texture over the whole original; none when nothing has a texture. A
+/// *chart* is a set of triangles that are connected by both vertices and texture coordinates.
 ///
 /// **Exactness** Floating point. **Complexity** O(n log n) in practice.
 std::optional<Uv_deviation> uv_deviation(const Simplified_soup& result, const Prepared_soup& original);
 
-/// What became of a part of a soup.
+/// What became of one part of a soup.
 struct Part_report
 {
   Part_kind::Name kind;
@@ -37,14 +38,16 @@ struct Part_report
   Index first_triangle; ///< of the original
   std::size_t faces_input = 0;
   std::size_t faces_output = 0;
-  Refusals refused;  ///< to its vertices
-  Distance distance; ///< from its original vertices to what is left of it, as shares of the diagonal of the
-                     ///< original
+  Refusals refused; ///< see `Simplified_soup::refused_by_part`
+
+  /// From the original vertices of the part to what is left of it, as shares of the diagonal of the original;
+  /// infinite when nothing is left.
+  Distance distance;
   std::optional<Uv_deviation> uv_deviation;
 };
 
-/// One for each piece, group, object and material that has triangles, by kinds; of the pieces only the
-/// largest hundred.
+/// Returns a report for each piece, group, object and material that has triangles, kind by kind. Of the
+/// pieces, only the hundred largest have one.
 std::vector<Part_report> part_reports(const Simplified_soup& result, const Prepared_soup& original);
 
 } // namespace selvedge

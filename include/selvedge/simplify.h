@@ -4,55 +4,102 @@
 #ifndef SELVEDGE_SIMPLIFY_H
 #define SELVEDGE_SIMPLIFY_H
 
-#include <selvedge/Surface_mesh_simplification/No_observer.h>
-#include <selvedge/Surface_mesh_simplification/Simplify_constraints.h>
-#include <selvedge/Surface_mesh_simplification/internal/Simplification.h>
+#include <selvedge/Sewing_notes.h>
+#include <selvedge/Simplify_options.h>
+#include <selvedge/Simplify_report.h>
+#include <selvedge/prepare.h>
 
-#include <type_traits>
+#include <string>
+#include <vector>
 
 namespace selvedge {
 
-/// Reduces a triangle mesh by halfedge collapses until a target is reached or no collapse is allowed any
-/// more, without letting anything touch or pass through anything.
-///
-/// **Guarantees** for an embedded mesh (every face a proper triangle, no two with the same three positions,
-/// any two meeting exactly in the positions that they share, and the edge between two of them):
-/// 1. *Embedded*: it is embedded after every collapse, so also at the end, however that came.
-/// 2. *Motion*: on the way nothing passes through anything; the order of layers is kept.
-/// 3. *Topology*: components, boundary loops and Euler characteristic are kept.
-/// 4. *Seams*: borders and line edges change only along themselves, within the turn and the drift allowed.
-/// 5. *Stop*: the target is reached, or the report says what refused how often.
-/// 6. *Determinism*: the same mesh and options give the same result.
-///
-/// For a mesh that is not embedded, lock the vertices of every face of an offending pair: then the offending
-/// pairs of the result are those of the input, and between all other faces the guarantees hold. (The function
-/// for soups below does that.)
-///
-/// **Preconditions** the caller must ensure: the faces are triangles; `TriangleMesh` is a mutable face graph
-/// whose points are of a kernel with exact predicates. Checked at run time (`Argument_error`): options in
-/// range, no edge of length zero, the diagonal of the bounding box 0 or from 2^-200 to 2^200. Within that
-/// range nothing about quality overflows, and nothing vanishes but areas of less than 2^-100 of the squared
-/// diagonal; where there are none, the steps of a mesh and of one that is larger by a power of two are the
-/// same. Soups (simplify_soup.h) may have any size.
-///
-/// **Exactness** Everything about intersections, by exact predicates alone; everything about quality, in
-/// floating point.
-///
-/// **Complexity** O(n log n) for n faces as a rule; with layers very close, more.
-///
-/// For `CGAL::Surface_mesh` the removed elements stay as garbage: `mesh.collect_garbage()` removes them.
-///
-/// **Reference** Derichs, Misiak, Fuhrmann: Intersection-free mesh decimation for high resolution cloth
-/// models.
-template <class TriangleMesh, class Observer = No_observer>
-Simplify_report simplify(TriangleMesh& mesh, const Simplify_options& options,
-                         const Simplify_constraints<TriangleMesh>& constraints = {},
-                         Observer&& observer = Observer())
+/// What the user wants for single parts of a soup. Parts are given by the names of groups, objects and
+/// materials, as in `triangles_named`. A name that the soup does not have throws `Argument_error`, with a
+/// message that lists the names that it has.
+struct Simplify_intent
 {
-  return internal::Simplification<TriangleMesh, std::remove_reference_t<Observer>>(mesh, options, constraints,
-                                                                                   observer)
-      .run();
-}
+  /// Parts whose vertices do not move. Their faces count for the target like all others, so that more of the
+  /// other faces have to go.
+  std::vector<std::string> locked;
+
+  /// Parts of which no face changes, and which do not count for the target: it is for the other faces alone.
+  /// As everywhere, nothing comes to touch them or passes through them.
+  std::vector<std::string> kept;
+
+  /// Parts with a ratio of their own, in [0, 1], of their own faces. A part that has reached its ratio loses
+  /// no further face, while the others go on. The target of the options is then for the faces that belong to
+  /// no such part. A triangle that belongs to several of these parts counts for the one named last.
+  struct Part_ratio
+  {
+    std::string name;
+    double ratio;
+  };
+  std::vector<Part_ratio> ratios;
+
+  /// The name of the vertex attribute whose first component says how costly it is to collapse each vertex,
+  /// relative to the largest of these numbers. They must be finite and at least 0 (`Argument_error`); NaN
+  /// counts as the largest. When the name is empty, all vertices are alike.
+  std::string weights;
+};
+
+/// A reduced soup, and how it was made. *The original* is `Prepared_soup::soup`.
+struct Simplified_soup
+{
+  Triangle_soup soup;
+
+  /// For every triangle of `soup`: the triangle of the original that it was, and, for each of its corners,
+  /// the corner of the original that it now is, as 3 × triangle + place in it.
+  std::vector<Index> triangles;
+  std::vector<Index_triple> corners;
+
+  Sewing_notes sewing;
+  Simplify_report report;
+
+  /// Refusals by part: for each of the `part_kinds` of the original, for each part of this kind. A refusal
+  /// counts for the parts of one face beside the edge.
+  std::vector<std::vector<Refusals>> refused_by_part;
+
+  double seconds_sew = 0; ///< for sewing, and for taking the pieces apart again
+};
+
+/// Reduces a soup.
+///
+/// **Guarantees** All of `simplify_mesh` (Surface_mesh_simplification/simplify_mesh.h), and:
+/// 1. *Embedded*: the offending pairs of the result are among those of the input, so there are none when the
+///    input has none.
+/// 2. *Attributes*: every corner of the result has the vertex number, texture coordinate and group that some
+///    corner of the input has at the same position on the same side; coordinates are the same bits.
+/// 3. *Seams*: coincident borders of pieces are sewn before the reduction and separate after it, and they
+///    coincide at every vertex. Texture seams and borders between groups are kept in the same way.
+/// 4. *Texture*: no triangle of the texture turns over.
+/// 5. *Order*: the triangles left are in the order of the input, each with its first corner first.
+/// 6. *Scale*: a soup that is multiplied by a power of two, together with its obstacle and its weld distance,
+///    takes the same steps, and its result is multiplied by the same power, as long as the multiplication
+///    loses no digit.
+///
+/// Throws `Argument_error` when an option is out of range, or when a part has a ratio of its own in a
+/// reduction in cells (`Simplify_options::faces_per_cell`).
+Simplified_soup simplify_soup(const Prepared_soup& prepared, const Simplify_options& options,
+                              const Simplify_intent& intent = {});
+
+/// Makes levels of detail. For each of `ratios`, which replace `Simplify_options::ratio`, the result is
+/// exactly what `simplify_soup` returns for this ratio alone, apart from the seconds.
+///
+/// All levels are states through which one reduction passes. Only in cells, and when parts have ratios of
+/// their own, each level is a reduction of its own. When `should_stop` ends a reduction, all levels that it
+/// has not reached are the mesh as it is then.
+///
+/// Throws `Argument_error` when the options name a number of faces as well, and as `simplify_soup` does.
+std::vector<Simplified_soup> simplify_lods(const Prepared_soup& prepared, const Simplify_options& options,
+                                           const std::vector<double>& ratios,
+                                           const Simplify_intent& intent = {});
+
+/// Judges a result against its original, as `verify` of verify.h does. Offending pairs are those of the
+/// result and the obstacle together, whose triangles are numbered after those of the result. Pieces, topology
+/// and distances are those of the result alone. Shapes of pieces are not judged
+/// (`Verify_options::are_shapes_judged`).
+Verification verify(const Simplified_soup& result, const Prepared_soup& original);
 
 } // namespace selvedge
 

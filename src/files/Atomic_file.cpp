@@ -14,6 +14,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+// Writes a file so that it appears whole or not at all, whatever fails or interrupts the writing.
+
 namespace selvedge::files {
 
 Atomic_file::Atomic_file(const std::filesystem::path& path) : m_name(path.string()), m_target(path)
@@ -37,7 +39,7 @@ Atomic_file::Atomic_file(const std::filesystem::path& path) : m_name(path.string
   }
   open_temporary();
   if (exists && ::fchmod(m_descriptor, status.st_mode & 07777) != 0) {
-    // The new file keeps the permissions of any new file.
+    // The new file then has the permissions of any new file.
   }
 }
 
@@ -49,7 +51,8 @@ Atomic_file::~Atomic_file()
     ::unlink(m_temporary.c_str());
 }
 
-// A pipe has nobody at its other end at first (ENXIO), and then may be full; both are waited for.
+// Opens a device or a pipe. A pipe may have no reader at first (ENXIO) and may be full later; both are waited
+// for.
 void Atomic_file::open_device(bool is_pipe)
 {
   for (;;) {

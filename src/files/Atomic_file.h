@@ -10,9 +10,9 @@
 
 namespace selvedge::files {
 
-/// A file that appears whole, on `commit`, or not at all; until then its contents are in a new file of the
-/// same folder. Every function throws `Output_error`, or `Interrupted`, after which the destructor removes
-/// that file.
+/// The file that `write_mesh` writes. It appears whole, on `commit`, or not at all: until then its contents
+/// are in a new file of the same folder. What is no regular file, such as a pipe, is written to directly.
+/// Every function may throw `Output_error` or `Interrupted`; the destructor then removes the new file.
 class Atomic_file
 {
 public:
@@ -29,7 +29,7 @@ private:
   void open_device(bool is_pipe);
   void open_temporary();
 
-  static constexpr int s_milliseconds = 100; // between two questions whether to go on waiting
+  static constexpr int s_milliseconds = 100; // between two checks for cancellation during a wait
 
   std::string m_name;
   std::filesystem::path m_target;

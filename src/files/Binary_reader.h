@@ -11,8 +11,8 @@
 
 namespace selvedge::files {
 
-/// Takes numbers of a given byte order from the front of a memory. Copies are cheap bookmarks.
-/// Precondition of every function: as many bytes as it passes remain.
+/// Reads numbers of a given byte order from bytes in memory, for the readers of binary formats. Copies are
+/// cheap bookmarks. Precondition of every function: as many bytes as it passes remain.
 class Binary_reader
 {
 public:

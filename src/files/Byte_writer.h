@@ -18,7 +18,7 @@
 
 namespace selvedge::files {
 
-/// Writes text and binary numbers to a file, through a buffer.
+/// Writes text and binary numbers to an `Atomic_file` through a buffer. The writers of all formats use it.
 class Byte_writer
 {
 public:
@@ -39,7 +39,8 @@ public:
 
   Byte_writer& operator<<(char c) { return *this << std::string_view(&c, 1); }
 
-  /// An integer as decimal, a double as the shortest decimal that reads back as the same double.
+  /// Writes an integer as a decimal, and a floating-point number as the shortest decimal that reads back as
+  /// the same number.
   template <class Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>
   Byte_writer& operator<<(Number number)
   {
@@ -51,7 +52,8 @@ public:
     return *this;
   }
 
-  /// The bytes of an unsigned integer or of a floating-point number, the least significant first or last.
+  /// Writes the bytes of an unsigned integer or of a floating-point number, the least significant first, or
+  /// last when `big_endian`.
   template <class Number>
   void binary(Number number, bool big_endian = false)
   {
@@ -66,7 +68,8 @@ public:
     *this << std::string_view(bytes.data(), bytes.size());
   }
 
-  /// Nothing ends this once the last bytes are there.
+  /// Writes what is left in the buffer and makes the file appear. Once the last bytes are written, this is
+  /// not cancelled.
   void commit()
   {
     flush();

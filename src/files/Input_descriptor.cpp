@@ -15,7 +15,7 @@
 
 namespace selvedge::files {
 
-// Without O_NONBLOCK, opening a pipe that nobody writes to yet would wait.
+// Opens a file to read. Without O_NONBLOCK, opening a pipe that nobody writes to yet would wait.
 Input_descriptor::Input_descriptor(const std::filesystem::path& path)
     : m_name(path.string()), m_descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK))
 {

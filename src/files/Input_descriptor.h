@@ -10,8 +10,9 @@
 
 namespace selvedge::files {
 
-/// A file that is open for reading. What has nothing to read for now, such as a pipe, is waited for, and the
-/// wait can be cancelled. Throws `Input_error`.
+/// A file that `read_mesh` reads. Where nothing can be read yet, as from a pipe, reading waits, and the wait
+/// can be cancelled. Throws `Input_error` when the file cannot be read, and `Interrupted` when the wait is
+/// cancelled.
 class Input_descriptor
 {
 public:
@@ -20,7 +21,7 @@ public:
   Input_descriptor(const Input_descriptor&) = delete;
   Input_descriptor& operator=(const Input_descriptor&) = delete;
 
-  /// Reads some bytes, at most `size`; 0 at the end.
+  /// Reads at most `size` bytes and returns their number; 0 at the end of the file.
   std::size_t read(char* data, std::size_t size);
 
 private:

@@ -9,7 +9,7 @@
 
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
-#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/mesh_files.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,8 @@
 
 namespace selvedge::files {
 
-/// Fills a `Mesh_file`, whatever its format: cuts polygons, and takes the notes.
+/// Fills the `Mesh_file` that the readers of all formats but glTF return: cuts polygons into triangles, and
+/// counts what the notes report.
 class Soup_builder
 {
 public:
@@ -26,8 +27,8 @@ public:
   Triangle_soup& soup() { return m_file.soup; }
   void ignore(const std::string& name, std::size_t count = 1) { m_file.notes.ignored[name] += count; }
 
-  /// `first_number` is what the format counts vertices from, `fail(message)` reports an error at the present
-  /// place of the file and does not return.
+  /// Adds a vertex. `first_number` is the number of the format's first vertex, for messages. `fail(message)`
+  /// reports an error at the present place of the file and does not return.
   template <class Fail>
   void add_point(double x, double y, double z, int first_number, const Fail& fail)
   {
@@ -68,7 +69,8 @@ public:
     return m_cut.size();
   }
 
-  /// Values of every vertex, in their order, become values of all corners. Called after the last face.
+  /// Gives the values of every vertex, in the order of the vertices, to all its corners. Called after the
+  /// last face.
   template <std::size_t dimension>
   void set_vertex_values(Corner_values<dimension>& values,
                          std::vector<std::array<double, dimension>> of_vertex)
@@ -76,6 +78,7 @@ public:
     values = {std::move(of_vertex), m_file.soup.triangles};
   }
 
+  /// Returns what was built. Throws `Input_error` when it has no triangle.
   Mesh_file take(const std::string& name)
   {
     if (m_file.soup.triangles.empty())
@@ -100,7 +103,7 @@ private:
       values.of_triangle.push_back({numbers[a], numbers[b], numbers[c]});
   }
 
-  /// Gives triangles without values one that stands for none.
+  /// Gives triangles without values a value that stands for none.
   template <std::size_t dimension>
   void close(Corner_values<dimension>& values, const std::string& name)
   {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -18,7 +19,7 @@
 
 namespace selvedge::files {
 
-/// A part of a file's text in quotes, short and printable whatever stands there.
+/// Returns a part of a file's text in quotes for a message: short and printable, whatever the text is.
 inline std::string in_quotes(std::string_view text)
 {
   constexpr std::size_t longest = 40;
@@ -28,7 +29,8 @@ inline std::string in_quotes(std::string_view text)
   return "'" + result + (text.size() > longest ? "...'" : "'");
 }
 
-/// Walks over a text in memory, word by word and line by line. Copies are cheap bookmarks.
+/// Reads a text in memory word by word and line by line, for the readers of text formats. Copies are cheap
+/// bookmarks.
 class Text_reader
 {
 public:
@@ -72,7 +74,7 @@ public:
     return m_at == m_end || *m_at == '\n' || *m_at == '#';
   }
 
-  /// Passes everything up to the first line that holds something; false at the end of the text.
+  /// Passes lines that hold nothing or only a comment. Returns false at the end of the text.
   bool to_next_statement()
   {
     while (at_line_end() && m_at != m_end)
@@ -101,7 +103,7 @@ public:
     }
   }
 
-  /// The next word, empty at the end of the line.
+  /// Returns the next word; an empty one at the end of the line.
   std::string_view word()
   {
     skip_blanks();
@@ -111,7 +113,7 @@ public:
     return {first, static_cast<std::size_t>(m_at - first)};
   }
 
-  /// The rest of the physical line without blanks at its ends.
+  /// Returns the rest of the physical line without blanks at its ends.
   std::string_view line()
   {
     skip_blanks();
@@ -124,8 +126,8 @@ public:
     return content.substr(0, size);
   }
 
-  /// The rest of the statement without blanks and backslashes at its end; a continued line end counts as a
-  /// blank.
+  /// Returns the rest of the statement without blanks and backslashes at its end; a continued line end counts
+  /// as a blank.
   std::string statement() const
   {
     Text_reader first = *this, last = *this;
@@ -142,7 +144,7 @@ public:
     return result;
   }
 
-  /// The next word as the number nearest to it; infinite when that overflows.
+  /// Returns the number nearest to the next word; infinite when that overflows.
   template <class Number = double>
   Number real()
   {
@@ -160,7 +162,7 @@ public:
     return value;
   }
 
-  /// The next word as an integer.
+  /// Returns the next word as an integer.
   std::int64_t integer()
   {
     const Text_reader start = *this;
@@ -170,7 +172,7 @@ public:
     return value;
   }
 
-  /// The integer that the next word begins with.
+  /// Returns the integer that the next word begins with.
   std::int64_t integer_prefix()
   {
     skip_blanks();
@@ -185,6 +187,7 @@ public:
   /// Whether a word ends here.
   bool at_word_end() const { return at_separator(m_at); }
 
+  /// Throws an `Input_error` that names the file and the line.
   [[noreturn]] void fail(const std::string& message) const
   {
     throw Input_error(*m_name + ":" + std::to_string(1 + std::count(m_begin, m_at, '\n')) + ": " + message);
@@ -198,7 +201,7 @@ private:
     return at == m_end || is_blank(*at) || *at == '\n' || continuation(at) != 0;
   }
 
-  /// The length of a continued line end that begins at `at`, 0 when there is none.
+  /// Returns the length of a continued line end that begins at `at`; 0 when there is none.
   std::size_t continuation(const char* at) const
   {
     if (at == m_end || *at != '\\')
@@ -209,20 +212,21 @@ private:
     return end != m_end && *end == '\n' ? static_cast<std::size_t>(end + 1 - at) : 0;
   }
 
-  /// Where a number begins for from_chars, which accepts no plus sign.
+  /// Returns where a number begins for from_chars, which accepts no plus sign.
   const char* number_begin() const
   {
     const bool plus = m_end - m_at >= 2 && *m_at == '+' && m_at[1] != '-';
     return plus ? m_at + 1 : m_at;
   }
 
-  /// from_chars says neither which way a number is out of range nor, below, what it rounds to.
+  /// Returns the value of a number that from_chars finds out of range; it tells neither overflow from
+  /// underflow nor what a tiny number rounds to.
   static double out_of_range_value(const std::string& number)
   {
     std::istringstream stream(number);
     stream.imbue(std::locale::classic());
     double value = 0;
-    return stream >> value ? value : std::numeric_limits<double>::infinity();
+    return stream >> value ? value : std::copysign(std::numeric_limits<double>::infinity(), value);
   }
 
   [[noreturn]] void fail_at_word(const std::string& kind) const

@@ -4,7 +4,7 @@
 #ifndef SELVEDGE_SRC_FILES_COLUMNS_H
 #define SELVEDGE_SRC_FILES_COLUMNS_H
 
-#include <selvedge/mesh/Triangle_soup.h>
+#include <selvedge/Triangle_soup.h>
 
 #include <cstring>
 #include <limits>
@@ -12,6 +12,8 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+
+// Access to the numbers of attributes, which readers store and writers write as bytes of their own types.
 
 namespace selvedge::files {
 
@@ -47,7 +49,7 @@ void append_number(std::vector<unsigned char>& rows, Number number)
   std::memcpy(rows.data() + size, &number, sizeof number);
 }
 
-/// One component of an attribute.
+/// One component of an attribute, row by row.
 struct Column
 {
   const Attribute* attribute = nullptr;
@@ -64,7 +66,7 @@ struct Column
     });
   }
 
-  /// The number in a row as a double; a fraction where the attribute is normalized.
+  /// Returns the number in a row as a double; a fraction where the attribute is normalized.
   double real(std::size_t row) const
   {
     return with(row, [this](auto number) {
@@ -77,7 +79,7 @@ struct Column
   }
 };
 
-/// The column of one component that has this name.
+/// Returns the attribute of one component that has this name.
 inline std::optional<Column> find_column(const std::vector<Attribute>& attributes, std::string_view name)
 {
   for (const Attribute& attribute : attributes)
@@ -86,7 +88,7 @@ inline std::optional<Column> find_column(const std::vector<Attribute>& attribute
   return std::nullopt;
 }
 
-/// Red, green, blue and, where there is one, alpha; empty when the vertices have no colours.
+/// Returns red, green, blue and, where there is one, alpha; nothing when the vertices have no colours.
 inline std::vector<Column> find_colours(const std::vector<Attribute>& attributes)
 {
   std::vector<Column> columns;

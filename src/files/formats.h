@@ -6,11 +6,12 @@
 
 #include "files/Byte_writer.h"
 
-#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/mesh_files.h>
 
 namespace selvedge::files {
 
-// One reader and one writer per format; `name` stands for the file in messages.
+// One reader and one writer for each format, behind `read_mesh` and `write_mesh`. `name` stands for the file
+// in messages.
 Mesh_file read_obj(std::string_view contents, const std::string& name);
 Mesh_file read_off(std::string_view contents, const std::string& name);
 Mesh_file read_ply(std::string_view contents, const std::string& name);
@@ -26,16 +27,14 @@ void write_ply(Byte_writer& out, const Triangle_soup& soup, const Write_options&
 void write_stl(Byte_writer& out, const Triangle_soup& soup, const Write_options& options);
 void write_gltf(Byte_writer& out, const Triangle_soup& soup, Mesh_format format);
 
-/// For a soup with a scene; see mesh_files.h.
-std::vector<Index> transforms_of_vertices(const Triangle_soup& soup);
-
-/// What of this scene only glTF files hold.
+/// Names what only glTF files hold of this scene.
 const std::vector<std::string>& only_in_gltf(const Gltf_scene& scene);
 
 /// Whether an OBJ file of this soup holds this attribute of its vertices: a colour, or else a weight.
 bool is_in_obj(const Triangle_soup& soup, const Attribute& attribute);
 
-/// The normal of every vertex, as PLY has them; empty when there are none, or a vertex has several.
+/// Returns the normal of every vertex, as PLY stores them; nothing when there are none, a corner has none, or
+/// a vertex has several.
 std::vector<std::array<double, 3>> values_of_vertices(const Corner_values<3>& values,
                                                       const Triangle_soup& soup);
 

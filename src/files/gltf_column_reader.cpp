@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+// Copies rows of numbers out of the buffers of a glTF file, and checks that the file has them.
+
 namespace selvedge::files {
 
 Gltf_scene::Column Gltf_column_reader::read(int number, const std::string& name, std::size_t count) const

@@ -8,27 +8,27 @@
 
 namespace selvedge::files {
 
-/// Reads the accessors and buffer views of a document. Every function throws `Input_error` where they are not
-/// there, reach beyond the bytes that they lie in or hold what a column cannot.
+/// Reads the accessors and buffer views of a document, for `read_gltf`. Every function throws `Input_error`
+/// when one is not there, reaches beyond the bytes that it lies in, or holds what a column cannot.
 class Gltf_column_reader
 {
 public:
-  /// Keeps the document by reference. `place` stands in messages for what refers to the accessors.
+  /// Keeps the document by reference. `place` names in messages what refers to the accessors.
   Gltf_column_reader(const Gltf_document& document, std::string place)
       : m_document(document), m_place(std::move(place))
   {
   }
 
-  /// The accessor of this number, which must have `count` rows, as a column of this name.
+  /// Returns the accessor of this number, which must have `count` rows, as a column of this name.
   Gltf_scene::Column read(int number, const std::string& name, std::size_t count) const;
 
-  /// The bytes of the buffer view of this number.
+  /// Returns the bytes of the buffer view of this number.
   std::string_view view(int number) const;
 
 private:
   using Column = Gltf_scene::Column;
 
-  // The rows in a buffer view, one after the other.
+  // Returns the rows in a buffer view without the gaps between them.
   std::string rows(int number, std::size_t offset, std::size_t row_size, std::size_t count,
                    bool may_have_gaps = false) const;
   void put_sparse_values(const tinygltf::Accessor& accessor, Column& column, std::size_t count) const;

@@ -12,6 +12,9 @@
 #include <fstream>
 #include <map>
 
+// Reads glTF and GLB up to the transforms of the nodes, and refuses documents that are not valid or not
+// supported.
+
 namespace selvedge::files {
 namespace {
 
@@ -20,7 +23,7 @@ using Matrix = Gltf_scene::Matrix;
 
 constexpr const char* s_embedded_buffer = "glb-buffer";
 
-/// What a file consists of.
+/// The parts that a file consists of.
 struct Chunks
 {
   std::string_view json;
@@ -59,7 +62,7 @@ Chunks split(std::string_view contents, const Gltf_document& document)
 
 void parse(std::string_view json, Gltf_document& document)
 {
-  // Further down, functions call themselves once per level.
+  // Functions that visit the JSON call themselves once per level, so the depth is limited.
   const auto limit_depth = [&document](int depth, Json::parse_event_t, const Json&) {
     if (depth > 100)
       document.fail("its JSON is nested more than 100 levels deep; simplify it");
@@ -108,7 +111,7 @@ void refuse_extensions(const Gltf_document& document)
 struct Buffer_sources
 {
   std::string_view embedded;
-  const std::filesystem::path* folder; // none when the document is not a file
+  const std::filesystem::path* folder; // null when the document is not a file
 };
 
 bool buffer_exists(const std::string& name, void* user)
@@ -133,7 +136,7 @@ bool read_buffer(std::vector<unsigned char>* bytes, std::string* message, const 
   return message->empty();
 }
 
-/// A copy without what tinygltf would only have to get wrong.
+/// Returns a copy without extras and extensions, which tinygltf could only get wrong.
 Json without_extensions(const Json& value)
 {
   if (!value.is_structured())
@@ -177,7 +180,8 @@ void load(const std::optional<std::string_view>& embedded, const std::filesystem
   }
 }
 
-/// What tinygltf lets pass: lists out of step with the document, and transforms that are none.
+/// Refuses what tinygltf lets pass: lists that do not correspond to those of the document, and invalid
+/// transforms.
 void check_lists(const Gltf_document& document)
 {
   const tinygltf::Model& model = document.model;
@@ -216,7 +220,8 @@ void check_lists(const Gltf_document& document)
   }
 }
 
-/// Its rotation is not normalised; that keeps every entry one formula of the numbers in the file.
+/// Returns the transform of a node. The rotation is not normalised, so that every entry is one fixed formula
+/// of the numbers in the file.
 Matrix local_matrix(const tinygltf::Node& node)
 {
   Matrix result = identity_matrix;
@@ -241,7 +246,7 @@ Matrix local_matrix(const tinygltf::Node& node)
   return result;
 }
 
-/// See mesh_files.h for the formula.
+/// Multiplies two transforms in the order of operations that mesh_files.h states.
 Matrix product(const Matrix& a, const Matrix& b)
 {
   Matrix result;
@@ -254,7 +259,7 @@ Matrix product(const Matrix& a, const Matrix& b)
   return result;
 }
 
-/// Global transforms of the nodes of the scene, which must be a forest.
+/// Computes the global transforms of the nodes of the scene, which must be a forest.
 void place_nodes(Gltf_document& document)
 {
   const tinygltf::Model& model = document.model;

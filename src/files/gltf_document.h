@@ -6,7 +6,7 @@
 
 #include "files/gltf_scene.h"
 
-#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/mesh_files.h>
 
 #include <tiny_gltf.h>
 
@@ -14,8 +14,9 @@
 
 namespace selvedge::files {
 
-/// A glTF file, as JSON and as tinygltf understands it. The lists of both are in step, the nodes of the scene
-/// are a forest. What accessors and buffer views say of themselves is not checked yet.
+/// A glTF file as JSON and as tinygltf understands it, before `read_gltf` makes a soup of it. The lists of
+/// both correspond, and the nodes of the scene are a forest. What accessors and buffer views say of
+/// themselves is not checked yet.
 struct Gltf_document
 {
   std::string name; ///< stands for the file in messages
@@ -27,12 +28,12 @@ struct Gltf_document
   [[noreturn]] void fail(const std::string& message) const;
 };
 
-/// Throws `Input_error` or an exception of the JSON library where the file is not one that can be read.
-/// `folder` is where buffers in files of their own are looked for; null when there is none.
+/// Reads a glTF file. Throws `Input_error`, or an exception of the JSON library, when the file cannot be
+/// read. `folder` is where buffers in files of their own are looked for; null when there is none.
 Gltf_document read_gltf_document(std::string_view contents, Mesh_format format, const std::string& name,
                                  const std::filesystem::path* folder);
 
-/// A list in an object; an empty one where it is not there.
+/// Returns a list in an object; an empty one when it is not there.
 const Gltf_scene::Json& member(const Gltf_scene::Json& object, const char* name);
 
 } // namespace selvedge::files

@@ -14,6 +14,8 @@
 #include <numeric>
 #include <tuple>
 
+// Makes a glTF document for a soup that was not read from one, which `write_gltf` then writes.
+
 namespace selvedge::files {
 namespace {
 
@@ -45,8 +47,8 @@ Gltf_scene::Column column(const std::string& name, int component_type, std::size
   return result;
 }
 
-/// Rows as they will be written, and for each the first like it: some files write a row at every corner that
-/// has it.
+/// Values as they will be written, and for each the number of the first equal one: some files repeat a value
+/// at every corner that has it.
 template <std::size_t dimension>
 struct Rows
 {
@@ -74,7 +76,7 @@ public:
   explicit New_scene(const Triangle_soup& soup)
       : m_soup(soup), m_scene(std::make_shared<Gltf_scene>()),
         m_colours(find_colours(soup.vertex_attributes)),
-        // The second coordinate points down here, up elsewhere.
+        // The second texture coordinate points down in glTF, up in other formats.
         m_uvs(soup.uvs,
               [](const auto& uv) {
                 return std::array<float, 2>{float(uv[0]), float(1 - uv[1])};
@@ -94,7 +96,7 @@ public:
   }
 
 private:
-  // What shares vertices: a group, or the part of it in which corners have the same kinds of values.
+  // Triangles of one kind share vertices: those of a group whose corners have the same kinds of values.
   struct Kind
   {
     Index group;
@@ -175,7 +177,7 @@ private:
       columns.push_back(column("COLOR_0", colour_type(), m_colours.size(), colour_type() != type_float32));
   }
 
-  // Integers stay what they are where the format has their kind.
+  // Normalised integers keep their type where glTF has it for colours; all others become floats.
   int colour_type() const
   {
     const auto are_all = [this](Attribute::Type type) {
@@ -206,7 +208,7 @@ private:
       std::apply(put, m_uvs.rows[v.uv]);
     for (const Column& colour : m_colours)
       if (next->component_type == type_float32)
-        // Vertices without a colour are white, as are those of a whole mesh without.
+        // Vertices without a colour are white, like a mesh without colours.
         append_little_endian(
             next->rows, static_cast<float>(std::isfinite(colour.real(v.vertex)) ? colour.real(v.vertex) : 1));
       else
@@ -223,7 +225,7 @@ private:
                 {"scene", 0},
                 {"scenes", {{{"nodes", Json::array()}}}}};
     document["nodes"] = document["meshes"] = Json::array();
-    // Materials are numbered as they are in the soup, apart from the one that stands for none.
+    // Materials are numbered as in the soup, without the one that stands for none.
     std::vector<int> materials;
     for (const std::string& name :
          m_soup.materials.empty() ? std::vector<std::string>() : m_soup.materials.names) {

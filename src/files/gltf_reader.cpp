@@ -5,9 +5,9 @@
 #include "files/gltf_column_reader.h"
 #include "files/row_unlike.h"
 
+#include "soup/selection.h"
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
-#include <selvedge/mesh/selection.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +17,9 @@
 #include <numeric>
 #include <set>
 #include <unordered_map>
+
+// Reads glTF and GLB: all triangles of the scene become one soup in world space. The rest of the document is
+// kept in a `Gltf_scene`, so that the reduced triangles can be written back into it.
 
 namespace selvedge::files {
 namespace {
@@ -31,7 +34,8 @@ bool is_mirroring(const Matrix& m)
   return CGAL::orientation(Point_3(0, 0, 0), column(0), column(1), column(2)) == CGAL::NEGATIVE;
 }
 
-/// The normal's direction, by the matrix of cofactors; as it is where that is the identity.
+/// Returns the direction of a normal in world space, computed by the matrix of cofactors; the normal itself
+/// where the transform neither turns nor scales.
 std::array<double, 3> world_normal(const Matrix& m, bool is_mirrored, const std::array<double, 3>& n)
 {
   Matrix linear = m;
@@ -182,7 +186,7 @@ private:
     return as_label(name, m_group_names);
   }
 
-  // A name that OBJ files can hold, and that no other has.
+  // Returns a name that OBJ files can hold and that no other element has.
   static std::string as_label(std::string name, std::set<std::string>& taken)
   {
     for (char& c : name)
@@ -236,8 +240,8 @@ private:
     return result;
   }
 
-  // The numbers of accessors and buffer views that only the triangles of the soup need, and the bytes of all
-  // others.
+  // Finds the accessors and buffer views that only the triangles of the soup need, and keeps the bytes of all
+  // other views.
   void set_free()
   {
     for (const Json& animation : member(json(), "animations"))
@@ -314,7 +318,7 @@ private:
       const bool is_repeated =
           triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0];
       if (is_repeated && primitive.mode != TINYGLTF_MODE_TRIANGLES)
-        return; // they stitch a strip together
+        return; // such triangles only stitch a strip together
       m_file.notes.repeated_corner += is_repeated;
       soup().triangles.push_back(triangle);
       soup().groups.of_triangle.push_back(Index(number));
@@ -363,7 +367,7 @@ private:
       }
       return result;
     }
-    // Without indices no two triangles share a vertex; those that agree in everything are one.
+    // Without indices no two triangles share a vertex; vertices that agree in everything are merged.
     remark("primitives without indices, whose vertices are one where they agree in everything");
     std::unordered_map<std::string, Index> first_of;
     for (Index i = 0; i < block.size; ++i) {
@@ -394,7 +398,7 @@ private:
           as_label(name.empty() ? "material " + std::to_string(i) : name, taken));
     }
     if (std::any_of(m_sources.begin(), m_sources.end(), has_none))
-      soup().materials.names.emplace_back(); // the name of none
+      soup().materials.names.emplace_back(); // stands for no material
     for (const Index group : soup().groups.of_triangle) {
       const int material = m_sources[group]->material;
       if (material >= int(materials.size()))
@@ -424,7 +428,8 @@ private:
     }
   }
 
-  // Of the vertices that have them; triangles without refer to a value that stands for none.
+  // Sets the values of one attribute at all corners. Triangles without it refer to a value that stands for
+  // none.
   template <std::size_t dimension, class Value>
   void set_corner_values(Corner_values<dimension>& result, const std::string& name, const Value& value)
   {
@@ -459,7 +464,7 @@ private:
 
   void add_uvs()
   {
-    // Elsewhere the second coordinate points up, here it points down.
+    // The second texture coordinate points down in glTF, up in other formats.
     set_corner_values(soup().uvs, "TEXCOORD_0",
                       [](const Gltf_scene::Instance&, const Column& column, Index row) {
                         return std::array<double, 2>{fraction(column, row, 0), 1 - fraction(column, row, 1)};
@@ -476,7 +481,7 @@ private:
                       });
   }
 
-  // Further attributes that all vertices have, in the same form.
+  // Adds the further attributes that all vertices have in the same form.
   void add_attributes()
   {
     const std::map<int, Attribute::Type> types = {
@@ -547,7 +552,7 @@ private:
   Gltf_document m_document;
   Mesh_file m_file;
   std::shared_ptr<Gltf_scene> m_scene = std::make_shared<Gltf_scene>();
-  std::vector<const tinygltf::Primitive*> m_sources; // of parts
+  std::vector<const tinygltf::Primitive*> m_sources; // the primitive of each part
   Cancellation_poll m_poll;
   std::set<std::string> m_group_names;
   std::map<std::tuple<Index, std::map<std::string, int>, std::vector<std::map<std::string, int>>>, Index>

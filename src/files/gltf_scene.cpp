@@ -5,8 +5,11 @@
 
 #include "files/Binary_reader.h"
 #include "files/formats.h"
+#include "files/transforms_of_vertices.h"
 
 #include <map>
+
+// What the reader and the writer of glTF share: the numbers in columns, and positions in world space.
 
 namespace selvedge::files {
 
@@ -53,8 +56,25 @@ const std::vector<std::string>& only_in_gltf(const Gltf_scene& scene)
   return scene.only_in_gltf;
 }
 
+Point_3 world_position(const Gltf_scene::Matrix& to_world, const Gltf_scene::Column& positions,
+                       std::size_t row)
+{
+  const double x = component(positions, row, 0), y = component(positions, row, 1),
+               z = component(positions, row, 2);
+  const auto coordinate = [&](const std::array<double, 4>& m) {
+    return m[0] * x + m[1] * y + m[2] * z + m[3];
+  };
+  return {coordinate(to_world[0]), coordinate(to_world[1]), coordinate(to_world[2])};
+}
+
+} // namespace selvedge::files
+
+namespace selvedge {
+
 std::vector<Index> transforms_of_vertices(const Triangle_soup& soup)
 {
+  if (!soup.scene)
+    return {};
   const Gltf_scene& scene = *soup.scene;
   std::map<Gltf_scene::Matrix, Index> numbers;
   std::vector<Index> of_scene_vertex;
@@ -68,15 +88,4 @@ std::vector<Index> transforms_of_vertices(const Triangle_soup& soup)
   return result;
 }
 
-Point_3 world_position(const Gltf_scene::Matrix& to_world, const Gltf_scene::Column& positions,
-                       std::size_t row)
-{
-  const double x = component(positions, row, 0), y = component(positions, row, 1),
-               z = component(positions, row, 2);
-  const auto coordinate = [&](const std::array<double, 4>& m) {
-    return m[0] * x + m[1] * y + m[2] * z + m[3];
-  };
-  return {coordinate(to_world[0]), coordinate(to_world[1]), coordinate(to_world[2])};
-}
-
-} // namespace selvedge::files
+} // namespace selvedge

@@ -4,7 +4,7 @@
 #ifndef SELVEDGE_SRC_FILES_GLTF_SCENE_H
 #define SELVEDGE_SRC_FILES_GLTF_SCENE_H
 
-#include <selvedge/mesh/Triangle_soup.h>
+#include <selvedge/Triangle_soup.h>
 
 #include <nlohmann/json.hpp>
 
@@ -15,9 +15,9 @@
 
 namespace selvedge {
 
-/// A glTF document without the vertices and indices of the triangles that stand in a soup, and these apart,
-/// as their bytes. Whatever else the document says, it says unchanged, numbers of accessors and buffer views
-/// included.
+/// What `read_gltf` keeps of a file, so that `write_gltf` can put the reduced triangles back: the document
+/// without the vertices and indices of the triangles in the soup, and these apart, as their bytes. Everything
+/// else in the document is unchanged, numbers of accessors and buffer views included.
 struct Gltf_scene
 {
   using Json = nlohmann::ordered_json;
@@ -34,7 +34,7 @@ struct Gltf_scene
     std::string rows;
   };
 
-  /// Vertices, as several primitives of a mesh may share them. The first of the attributes is the position.
+  /// Vertices that several primitives of a mesh may share. The first of the attributes is the position.
   struct Block
   {
     Index size = 0;
@@ -68,7 +68,7 @@ struct Gltf_scene
   std::vector<Block> blocks;
   std::vector<Instance> instances;
   std::vector<Part> parts;
-  std::vector<std::string> only_in_gltf; ///< what of this no other format holds, as names
+  std::vector<std::string> only_in_gltf; ///< names of what no other format holds
 };
 
 namespace files {
@@ -86,18 +86,18 @@ constexpr Index s_none = std::numeric_limits<Index>::max();
 
 constexpr Gltf_scene::Matrix identity_matrix = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 
-/// Zero for types that the format does not know.
+/// Returns the number of bytes of a component; zero for types that glTF does not know.
 std::size_t component_size(int component_type);
 
-/// The number that a component stands for, integers as they are.
+/// Returns a component as a number; normalised integers are not divided.
 double component(const Gltf_scene::Column& column, std::size_t row, std::size_t place);
 
-/// ((m0 x + m1 y) + m2 z) + m3 in doubles, for each row m of the matrix.
+/// Returns ((m0 x + m1 y) + m2 z) + m3 in doubles, for each row m of the matrix.
 Point_3 world_position(const Gltf_scene::Matrix& to_world, const Gltf_scene::Column& positions,
                        std::size_t row);
 
-/// The same triangles with a new document, one node for each group, whose vertices are split where corners
-/// differ in texture coordinates or normals. Positions are 32-bit floats.
+/// Returns the same triangles with a new document: one node for each group, and vertices split where corners
+/// differ in texture coordinates or normals. Precondition: coordinates are 32-bit floats.
 Triangle_soup with_gltf_scene(const Triangle_soup& soup);
 
 } // namespace files

@@ -19,7 +19,7 @@ namespace {
 using Json = Gltf_scene::Json;
 using Column = Gltf_scene::Column;
 
-constexpr int s_vertices = 34962, s_indices = 34963; // what buffer views are for
+constexpr int s_vertices = 34962, s_indices = 34963; // targets of buffer views
 
 std::string base64(const std::string& bytes)
 {
@@ -38,7 +38,7 @@ std::string base64(const std::string& bytes)
   return result;
 }
 
-/// Puts a soup into the document of its scene.
+/// Writes a reduced soup back into the glTF document of its scene.
 class Gltf_writer
 {
 public:
@@ -116,8 +116,8 @@ private:
     }
   }
 
-  // Where the vertex lies in its node: where the file says, or where it says of another vertex under the same
-  // transform that lies where this one lies now.
+  // Returns the bytes of a vertex's position in its node: those that the file has for it or, when it has
+  // moved, those of another vertex under the same transform that lies where this one lies now.
   std::string_view local_position(Index vertex)
   {
     const Index scene_vertex = m_soup.scene_vertices[vertex];
@@ -218,7 +218,7 @@ private:
       for (std::size_t k = 0; k < m_targets[part.instance].size(); ++k)
         for (const auto& [name, accessor] : m_targets[part.instance][k].items())
           primitive["targets"][k][name] = accessor;
-      // The largest value of a type is no index.
+      // glTF does not allow the largest value of a type as an index.
       const std::size_t size = m_sizes[part.instance];
       const int type = part.index_type != 0 ? part.index_type
                        : size < 0xffff      ? int(type_uint16)
@@ -235,7 +235,7 @@ private:
     }
   }
 
-  // Numbers that were in use are used again first, so that all others stay.
+  // Returns a number for a new element. Free numbers are used first, so that all others stay.
   static std::size_t next(std::vector<Index>& free, std::size_t size)
   {
     if (free.empty())
@@ -305,7 +305,7 @@ private:
     return number;
   }
 
-  // Numbers left over by primitives that are gone.
+  // Puts the smallest valid accessor or buffer view where a removed primitive has left a number.
   void fill_free()
   {
     for (const Index number : m_free_accessors)
@@ -343,7 +343,7 @@ private:
     }
   }
 
-  // All buffer views in one buffer, each from a multiple of four bytes.
+  // Puts all buffer views into one buffer, each at a multiple of four bytes.
   std::string put_buffer()
   {
     std::string bytes;
@@ -379,6 +379,8 @@ private:
 
 void write_gltf(Byte_writer& out, const Triangle_soup& soup, Mesh_format format)
 {
+  if (soup.triangles.empty())
+    throw Argument_error("a glTF file cannot hold a mesh without triangles; write OBJ, OFF or PLY");
   if (soup.scene)
     return Gltf_writer(soup, *soup.scene).write(out, format);
   const Triangle_soup of_scene = with_gltf_scene(soup);

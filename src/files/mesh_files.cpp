@@ -3,8 +3,8 @@
 
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
-#include <selvedge/mesh/mesh_files.h>
-#include <selvedge/mesh/rounding.h>
+#include <selvedge/mesh_files.h>
+#include <selvedge/rounding.h>
 
 #include "files/Input_descriptor.h"
 #include "files/columns.h"
@@ -13,6 +13,9 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+
+// Reads and writes mesh files, the first and the last step of the program. The extension selects the format,
+// whose own file does the rest.
 
 namespace selvedge {
 namespace {
@@ -69,7 +72,7 @@ std::vector<std::string> not_carried_by_gltf(const Triangle_soup& soup)
 {
   std::vector<std::string> names;
   if (soup.scene)
-    return names; // it came from there
+    return names; // it was read from glTF
   if (!soup.objects.empty())
     names.push_back("objects");
   if (!soup.smoothing_groups.empty())
@@ -120,11 +123,6 @@ bool stores_float32(Mesh_format format)
 bool needs_float32(const Triangle_soup& soup, Mesh_format format)
 {
   return stores_float32(format) && !(is_gltf(format) && soup.scene);
-}
-
-std::vector<Index> transforms_of_vertices(const Triangle_soup& soup)
-{
-  return soup.scene ? files::transforms_of_vertices(soup) : std::vector<Index>();
 }
 
 std::vector<std::string> describe(const Read_notes& notes)
@@ -237,7 +235,7 @@ std::vector<std::string> missing_material_libraries(const std::filesystem::path&
   };
   std::vector<std::string> missing;
   for (const std::string& libraries : soup.material_libraries) {
-    // A statement holds one name, perhaps with blanks in it, or several without.
+    // A statement holds one name, perhaps with blanks in it, or several names without blanks.
     if (is_there(libraries))
       continue;
     std::istringstream words(libraries);

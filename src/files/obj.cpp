@@ -12,6 +12,9 @@
 #include <set>
 #include <unordered_map>
 
+// Reads and writes OBJ: positions with colours or weights, texture coordinates, normals, and the labels of
+// faces.
+
 namespace selvedge::files {
 namespace {
 
@@ -22,8 +25,8 @@ struct Label_reader
   std::string plural;
   Triangle_labels& labels;
   Index current = 0;
-  bool is_begun = false;  // a statement stands above
-  bool is_unused = false; // no face stands below it
+  bool is_begun = false;  // a statement stands above the present line
+  bool is_unused = false; // no face has followed it yet
   std::unordered_map<std::string, Index> numbers = {};
 
   Index number(const std::string& name)
@@ -35,7 +38,8 @@ struct Label_reader
   }
 };
 
-/// Reads the text twice: first the vertices, then the faces, which need all vertices for cutting polygons.
+/// Reads the text twice: first the vertices, then the faces, because a polygon can be cut only when all its
+/// vertices are known.
 class Obj_reader
 {
 public:
@@ -93,8 +97,8 @@ private:
     values.values.push_back(value);
   }
 
-  /// One number is a weight, three are a colour, four a colour with its alpha. Takes a copy of the reader:
-  /// skip_line must see the whole line.
+  /// Reads what follows the coordinates of a vertex: one number is a weight, three are a colour, four a
+  /// colour with its alpha. Takes a copy of the reader, because skip_line must see the whole line.
   void read_further_columns(Text_reader text)
   {
     std::array<double, 4> numbers;
@@ -104,7 +108,7 @@ private:
       const std::string_view word = text.word();
       double number = 0;
       const auto [last, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-      // NaN is what vertices without the column have.
+      // NaN marks vertices without the column, so it is not read as a value.
       is_known = is_known && size < 4 && error == std::errc() && last == word.data() + word.size() &&
                  !std::isnan(number);
       if (is_known)
@@ -253,7 +257,7 @@ private:
   std::set<std::string> m_unknown;
 };
 
-/// Whether a reader finds the same text again behind a keyword.
+/// Whether a text written behind a keyword is read back unchanged.
 bool is_statement_text(const std::string& text)
 {
   const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; };
@@ -298,7 +302,7 @@ void write_values(Byte_writer& out, std::string_view keyword, const Corner_value
     }
 }
 
-/// The number of a value in the file, from 1; 0 when there is none.
+/// Returns the number of a value in the file, from 1; 0 when there is none.
 template <std::size_t dimension>
 std::uint64_t written_number(const Corner_values<dimension>& values, std::size_t triangle, std::size_t corner)
 {
@@ -310,7 +314,8 @@ std::uint64_t written_number(const Corner_values<dimension>& values, std::size_t
   return std::uint64_t{number} + 1 - (values.missing && number > *values.missing ? 1 : 0);
 }
 
-/// Writes the statements that must stand between two triangles. Some readers forget all others at an object.
+/// Writes the label statements that must stand before a triangle. After a new object all others are repeated,
+/// because some readers forget them there.
 class Label_writer
 {
 public:

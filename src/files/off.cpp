@@ -5,10 +5,12 @@
 #include "files/Text_reader.h"
 #include "files/formats.h"
 
+// Reads and writes OFF: points and triangles alone.
+
 namespace selvedge::files {
 namespace {
 
-/// Whether the next word is no number.
+/// Whether the next word holds a letter, as keywords do and counts do not.
 bool at_keyword(Text_reader text)
 {
   const std::string_view word = text.word();
@@ -16,7 +18,8 @@ bool at_keyword(Text_reader text)
                      [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); });
 }
 
-/// A count of the header; refused when that many elements of `least_bytes` each cannot follow.
+/// Reads a count. Refuses it when the rest of the file is too short for so many elements of `least_bytes`
+/// each.
 std::size_t read_count(Text_reader& text, const std::string& kind, std::size_t least_bytes)
 {
   const std::int64_t count = text.integer();
@@ -40,7 +43,8 @@ Mesh_file read_off(std::string_view contents, const std::string& name)
            "; it is cut short");
   };
 
-  // The keyword may be missing, and what its prefixes announce is recognised by the further columns.
+  // The keyword may be missing. Its prefixes announce further columns, which are noted where they stand and
+  // not carried.
   if (!text.to_next_statement())
     fail("the file has no header; an OFF file begins with OFF");
   if (at_keyword(text)) {

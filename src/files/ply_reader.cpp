@@ -13,6 +13,9 @@
 #include <optional>
 #include <unordered_map>
 
+// Reads PLY, text and binary: positions, normals, texture coordinates, and all other properties as
+// attributes.
+
 namespace selvedge::files {
 namespace {
 
@@ -49,8 +52,8 @@ struct Element
   }
 };
 
-/// The values of a binary body, one after the other. Every function throws when the file ends before the
-/// value.
+/// Reads the values of a binary body, one after the other. Every function throws when the file ends before
+/// the value.
 class Binary_values
 {
 public:
@@ -119,7 +122,7 @@ private:
   const std::string* m_name;
 };
 
-/// The values of an ascii body.
+/// Reads the values of an ASCII body, one after the other.
 class Text_values
 {
 public:
@@ -280,7 +283,8 @@ private:
     m_text.fail("the header has an unknown type " + in_quotes(name) + "; convert the file");
   }
 
-  /// Reads the vertices first, wherever they stand: cutting polygons needs them.
+  /// Reads the vertices before the faces, whichever come first in the file, because cutting polygons needs
+  /// them.
   template <class Values>
   void read_body(Values values)
   {
@@ -318,7 +322,7 @@ private:
       read_faces(*faces_begin, *faces);
   }
 
-  /// Nothing is believed of a count before the bytes are there.
+  /// Refuses a number of elements that the rest of the file cannot hold, before memory is reserved for them.
   template <class Values>
   void check_count(const Values& values, const Element& element) const
   {
@@ -540,7 +544,7 @@ private:
       number = values.real(list.type);
   }
 
-  /// Texture coordinates of a face's corners; equal ones get the number of the first of them.
+  /// Numbers the texture coordinates of a face's corners; equal ones get the number of the first of them.
   template <class Values>
   void number_uvs(const Values& values, const std::vector<double>& uvs, std::size_t corners,
                   std::uint64_t face, std::vector<Index>& numbers)
@@ -565,8 +569,8 @@ private:
     }
   }
 
-  /// The row that a face has added to each attribute becomes one for each of its triangles. A polygon with
-  /// many corners and many attributes has the product of both, which nothing in the file accounts for.
+  /// Repeats the row that a face has added to each attribute for each of its triangles. The rows of a polygon
+  /// with many corners and many attributes may be far larger than the file, so their size is limited.
   template <class Values>
   void repeat_last_rows(const Values& values, std::size_t triangles)
   {

@@ -4,14 +4,15 @@
 #ifndef SELVEDGE_SRC_FILES_PLY_TYPES_H
 #define SELVEDGE_SRC_FILES_PLY_TYPES_H
 
-#include <selvedge/mesh/Triangle_soup.h>
+#include <selvedge/Triangle_soup.h>
 
 #include <array>
 #include <string_view>
 
 namespace selvedge::files {
 
-/// What headers call each type: the name that is written, and another that is read as well.
+/// The names of types in PLY headers, in the order of `Attribute::Type`: the one that is written, then
+/// another that is read as well.
 constexpr std::array<std::array<std::string_view, 2>, 8> ply_type_names = {{{"char", "int8"},
                                                                             {"uchar", "uint8"},
                                                                             {"short", "int16"},

@@ -7,11 +7,13 @@
 #include "files/ply_types.h"
 
 #include <selvedge/Error.h>
-#include <selvedge/mesh/rounding.h>
+#include <selvedge/rounding.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+// Writes PLY, text and binary: positions, normals, texture coordinates, and attributes as properties.
 
 namespace selvedge::files {
 namespace {
@@ -39,7 +41,8 @@ public:
 
   void write_real(double value, bool as_float32)
   {
-    // The same text in both cases: a decimal is read as the double nearest to it.
+    // As text, a 32-bit float gets the digits of a double too, because a decimal is read as the double
+    // nearest to it.
     if (as_float32 && m_encoding != Encoding::ascii)
       write(static_cast<float>(value));
     else
@@ -76,13 +79,13 @@ struct Named_column
   Column column;
 };
 
-/// Whether a reader finds the same name again.
+/// Whether a property of this name is read back with the same name.
 bool is_property_name(const std::string& name)
 {
   return name.find_first_of(" \t\r\v\f\n") == std::string::npos && (name.empty() || name.back() != '\\');
 }
 
-/// The components of attributes, one property each.
+/// Returns the components of attributes, one property each.
 std::vector<Named_column> columns_of(const std::vector<Attribute>& attributes)
 {
   std::vector<Named_column> columns;
@@ -110,7 +113,7 @@ void write_properties(Byte_writer& out, bool as_float32, std::initializer_list<s
     out << "property " << (as_float32 ? "float " : "double ") << name << '\n';
 }
 
-/// What a PLY file says of a soup, and where.
+/// Decides which values of a soup a PLY file holds, and whether at vertices or at faces.
 struct Ply_layout
 {
   explicit Ply_layout(const Triangle_soup& soup)
@@ -161,7 +164,7 @@ void write_ply(Byte_writer& out, const Triangle_soup& soup, const Write_options&
   const Ply_layout layout(soup);
   const bool as_float32 = are_float32(soup.points, 3), float32_normals = are_float32(layout.normals, 3),
              float32_uvs = are_float32(soup.uvs.values, 2);
-  // Many readers know only signed indices.
+  // Many readers know only signed indices, so these are written while they suffice.
   const bool is_small =
       soup.points.size() <= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
   out << "ply\nformat "

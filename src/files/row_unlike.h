@@ -13,7 +13,7 @@
 namespace selvedge::files {
 
 /// Returns a row of numbers that is none of these: the first of (0, 0, …), (−1, 0, …), (−2, 0, …) that is
-/// free. Linear in the number of rows.
+/// free. Readers use it as the value of corners that have none. Linear in the number of rows.
 template <std::size_t dimension>
 std::array<double, dimension> row_unlike(const std::vector<std::array<double, dimension>>& rows)
 {

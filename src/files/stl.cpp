@@ -6,19 +6,24 @@
 #include "files/Text_reader.h"
 #include "files/formats.h"
 
+// Reads and writes STL, text and binary: facets without vertex numbers, so that equal positions become one
+// vertex.
+
 namespace selvedge::files {
 namespace {
 
 constexpr std::size_t header_bytes = 84;
 constexpr std::size_t facet_bytes = 50;
 
-/// Numbers positions by their first occurrence, −0 and 0 being one. An open hash table of vertex numbers.
+/// Numbers positions in the order in which they first occur; −0 is 0. It is a hash table of vertex numbers
+/// with open addressing.
 class Position_numbers
 {
 public:
   explicit Position_numbers(std::vector<Point_3>& points) : m_points(points), m_slots(1024, free_slot) {}
 
-  /// The number of this position if it has occurred, else `m_points.size()`: the caller then adds it there.
+  /// Returns the number of this position if it has occurred, else `m_points.size()`: the caller then adds it
+  /// there.
   Index find_or_reserve(const Point_3& point)
   {
     if (2 * m_points.size() >= m_slots.size())
@@ -68,7 +73,8 @@ public:
 
   Mesh_file read()
   {
-    // Some binary files begin with "solid" too; then the count of facets gives them away.
+    // Some binary files begin with "solid" too; their size, which follows from the number of facets, shows
+    // it.
     const std::uint64_t facets =
         m_contents.size() < header_bytes
             ? 0
@@ -169,7 +175,8 @@ private:
   std::vector<Index> m_corners = {0, 0, 0};
 };
 
-/// The unit normal, zero where the triangle has none. Coordinates are floats: no double on the way overflows.
+/// Returns the unit normal; zero where the triangle has none. Coordinates are floats, so no double on the way
+/// overflows.
 std::array<float, 3> unit_normal(const Point_3& a, const Point_3& b, const Point_3& c)
 {
   const Kernel::Vector_3 normal = CGAL::cross_product(b - a, c - a);

@@ -8,16 +8,18 @@
 #include <algorithm>
 #include <cmath>
 
+// Cuts the polygons of a file into triangles when it is read; all signs are exact.
+
 namespace selvedge::files {
 namespace {
 
 using Point_2 = Kernel::Point_2;
 
-/// The coordinate axis along which the polygon looks largest. Rounding may choose another one of nearly the
-/// same size; any choice is good in which ears can be cut.
+/// Returns the coordinate axis along which the polygon looks largest. Rounding may select another one of
+/// nearly the same size; any axis is good along which ears can be cut.
 int widest_view(const std::vector<Point_3>& points, const std::vector<Index>& corners)
 {
-  // At one size areas neither overflow nor vanish.
+  // Coordinates are brought to one size, at which areas neither overflow nor vanish.
   double largest = 0;
   for (const Index corner : corners)
     for (int axis = 0; axis < 3; ++axis)
@@ -43,9 +45,8 @@ int widest_view(const std::vector<Point_3>& points, const std::vector<Index>& co
   return widest;
 }
 
-/// Cuts ears off a polygon of the plane until a triangle remains; false when that does not work out, which
-/// never happens to a simple polygon: any triangulation of one has two ears, and cutting one leaves a simple
-/// polygon.
+/// Cuts ears off a polygon of the plane until a triangle remains; false when that fails. It never fails for a
+/// simple polygon, because any triangulation of one has two ears, and cutting one leaves a simple polygon.
 bool cut_ears(const std::vector<Point_2>& points, std::vector<Index_triple>& triangles)
 {
   const Index size = static_cast<Index>(points.size());
@@ -62,7 +63,7 @@ bool cut_ears(const std::vector<Point_2>& points, std::vector<Index_triple>& tri
   if (inside == CGAL::COLLINEAR)
     return false;
 
-  // Only corners that do not turn inwards can obstruct an ear, and cutting ears makes no new ones.
+  // Only reflex and straight corners can obstruct an ear, and cutting ears makes no new ones.
   std::vector<Index> obstacles;
   for (Index i = 0; i < size; ++i)
     if (turn_at(i) != inside)
@@ -78,11 +79,11 @@ bool cut_ears(const std::vector<Point_2>& points, std::vector<Index_triple>& tri
     });
   };
 
-  // What was no ear is none until one of its neighbours goes.
+  // A corner that is no ear stays so until one of its neighbours is cut off.
   std::vector<char> is_refused(size, false);
   Index corner = 1, refused = 0;
   for (Index left = size; left > 3;) {
-    if (size > 1000) // each look at a corner may take as many steps
+    if (size > 1000) // each look at a corner may take this many steps
       Cancellation_scope::check();
     const Index following = next[corner];
     if (!is_refused[corner] && is_ear(corner)) {

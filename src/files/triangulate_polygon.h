@@ -4,14 +4,14 @@
 #ifndef SELVEDGE_SRC_FILES_TRIANGULATE_POLYGON_H
 #define SELVEDGE_SRC_FILES_TRIANGULATE_POLYGON_H
 
-#include <selvedge/mesh/Triangle_soup.h>
+#include <selvedge/Triangle_soup.h>
 
 #include <vector>
 
 namespace selvedge::files {
 
-/// Cuts a polygon of at least three corners into triangles by the rule that mesh_files.h states. The
-/// triangles name corners by their place in `corners`.
+/// Cuts a polygon of at least three corners into triangles, by the rule that mesh_files.h states; readers
+/// call it through `Soup_builder`. The triangles name corners by their places in `corners`.
 std::vector<Index_triple> triangulate_polygon(const std::vector<Point_3>& points,
                                               const std::vector<Index>& corners);
 

@@ -5,16 +5,20 @@
 
 #include <algorithm>
 
+// Lays out the panels and closed surfaces of generated meshes: their vertices, triangles and texture
+// coordinates.
+
 namespace selvedge::internal {
 
 namespace {
 
-/// A rectangle of a tile of the texture.
+/// A rectangle within a piece's tile of the texture.
 struct Frame
 {
   double left, right, bottom, top;
 };
 
+/// The vertices of one side of a panel, numbered row by row.
 struct Side
 {
   Index first;
@@ -72,7 +76,8 @@ Side add_side(Soup_builder& builder, const Lattice& lattice, const Panel& panel,
   return side;
 }
 
-/// Closes one border between the two sides; `outer` and `inner` run along it with the cloth at their left.
+/// Adds the triangles between the two sides of a panel at one border. `outer` and `inner` run along it with
+/// the cloth at their left.
 void add_hem(Soup_builder& builder, const std::vector<Index>& outer, const std::vector<Index>& inner,
              const Frame& frame)
 {
@@ -80,7 +85,7 @@ void add_hem(Soup_builder& builder, const std::vector<Index>& outer, const std::
   Index previous_outer = 0;
   Index previous_inner = 0;
   for (std::size_t k = 0; k <= edges; ++k) {
-    // The hem is seen from outside with its inner side up, when it runs from right to left.
+    // Seen from outside with its inner side up, the hem runs from right to left.
     const double u =
         frame.right + (frame.left - frame.right) * (static_cast<double>(k) / static_cast<double>(edges));
     const Index uv_outer = builder.add_uv(u, frame.bottom);
@@ -235,7 +240,8 @@ void Closed_surface::add(Soup_builder& builder, std::string name, const std::vec
       first = point;
   }
   const double width = static_cast<double>(columns);
-  // Row k of the texture: the ring's vertices, the first of them once more at the end; poles once per column.
+  // Row k of the texture: the vertices of ring k, the first of them once more at the end; a pole has one per
+  // column.
   std::vector<Index> rows;
   for (std::size_t k = 0; k <= bands; ++k)
     for (std::size_t i = 0; i <= columns; ++i) {

@@ -10,8 +10,8 @@
 
 namespace selvedge::internal {
 
-/// Random numbers that are the same with every standard library: the engine's output is specified by the
-/// standard, that of its distributions is not.
+/// Random numbers for generated meshes, the same with every standard library: the standard specifies the
+/// output of the engine, but not that of its distributions.
 class Random
 {
 public:
@@ -29,8 +29,8 @@ private:
   std::mt19937_64 m_engine;
 };
 
-/// Cosine and sine of an angle in full turns. The mathematics library's may differ in the last bit between
-/// machines; this uses only operations that are rounded correctly everywhere.
+/// Returns cosine and sine of an angle in full turns. Those of the mathematics library may differ in the last
+/// bit between machines; this uses only operations that are rounded correctly everywhere.
 inline std::array<double, 2> cosine_sine(double turns)
 {
   const double quarters = std::floor(4 * turns + 0.5);

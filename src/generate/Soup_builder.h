@@ -5,7 +5,7 @@
 #define SELVEDGE_GENERATE_SOUP_BUILDER_H
 
 #include <selvedge/Cancellation_scope.h>
-#include <selvedge/mesh/Triangle_soup.h>
+#include <selvedge/Triangle_soup.h>
 
 #include <cmath>
 #include <string>
@@ -15,11 +15,12 @@ namespace selvedge::internal {
 
 using Vector = Kernel::Vector_3;
 
-/// Collects a soup piece by piece; each piece has a group and a square tile of the texture.
+/// Collects the soup of a generated mesh piece by piece; each piece has a group and a square tile of the
+/// texture.
 class Soup_builder
 {
 public:
-  /// At least `pieces` tiles are laid out.
+  /// Lays out at least `pieces` tiles, and reserves memory for about `faces` triangles.
   Soup_builder(std::size_t pieces, std::size_t faces)
       : m_tiles(static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(pieces)))))
   {
@@ -43,7 +44,7 @@ public:
     return static_cast<Index>(m_soup.points.size() - 1);
   }
 
-  /// In the tile of the piece, which is [0,1]².
+  /// Adds a texture coordinate. (u, v) lies in [0,1]², which is mapped to the tile of the present piece.
   Index add_uv(double u, double v)
   {
     const double size = 1 / static_cast<double>(m_tiles);

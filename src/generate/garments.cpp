@@ -12,6 +12,9 @@
 #include <memory>
 #include <optional>
 
+// Makes garments in layers (skirt, jacket, shorts) on bodies, as inputs of known properties for tests and
+// benchmarks.
+
 namespace selvedge {
 
 namespace {
@@ -24,7 +27,7 @@ using internal::Random;
 using internal::Soup_builder;
 using internal::Vector;
 
-/// Height and radius, joined by smooth steps.
+/// Heights with their radii, joined by smooth steps.
 using Profile = std::vector<std::array<double, 2>>;
 
 double radius_at(const Profile& profile, double height)
@@ -41,7 +44,7 @@ double radius_at(const Profile& profile, double height)
   return profile.back()[1];
 }
 
-/// A pattern piece by its place in the parameters of its part.
+/// A pattern piece, given by its range of the parameters (u, v) of its part.
 struct Pattern
 {
   std::string name;
@@ -72,19 +75,19 @@ struct Part
   std::string name;
   std::string body_name;
   bool closed;
-  /// Typical extent in metres, for the share of faces.
+  /// Typical extent in metres; the bodies share their faces by these areas.
   double width, height;
-  /// Columns and rows for cells of a size.
+  /// Returns columns and rows for cells of a given size.
   std::function<Division(double cell)> divide;
-  /// Gives base and direction to a lattice that has its parameters.
+  /// Sets base and direction of a lattice that has its parameters.
   std::function<void(Lattice& lattice)> shape;
   std::vector<Pattern> patterns;
   /// Patches over the outermost layer, level over level; those of one level lie apart.
   std::vector<std::vector<Pattern>> patches;
-  /// Angles (in turns) and heights of buttons, in the frame in which the body stands as well.
+  /// Angles (in turns) and heights of buttons, in the frame of the body.
   std::vector<std::array<double, 2>> buttons;
   std::function<Frame(const Lattice& lattice)> frame;
-  /// The body's radius where the cloth leaves room.
+  /// The radius of the body, unless the cloth leaves less room.
   Profile body;
 };
 
@@ -95,10 +98,10 @@ std::size_t cells_along(double length, double cell, double least)
 
 /// A tube around an axis, all around or open along a line.
 ///
-/// Its layers are graphs over the cylinder of (angle, height): in the frame the direction of stacking is
-/// radial, and the radii of neighbouring vertices differ by less than 1.8 : 1, which with vertices off their
-/// lattice by an eighth of a cell makes every triangle seen from its front by the directions of its corners,
-/// as Lattice asks. Whatever the radii, the base never comes near itself across the cylinder.
+/// Its layers are graphs over the cylinder of angle and height. In the frame, the direction of stacking is
+/// radial, and the radii of neighbouring vertices differ by less than 1.8 : 1. Although vertices are off
+/// their lattice by up to an eighth of a cell, every triangle therefore shows its front to the directions of
+/// its corners, as `Lattice` asks. Whatever the radii, the base never comes near itself across the cylinder.
 struct Tube
 {
   double first_turn, last_turn;
@@ -135,7 +138,8 @@ Part tube(const Tube& shape, const Frame& frame, double width, double height)
 
 Panel place(const Pattern& pattern, const std::string& name, const Division& division)
 {
-  // Coarse lattices: what is inside stays inside, so that neighbours keep at least one cell each.
+  // In coarse lattices, a line inside the part stays inside, so that the pieces on both sides keep a cell at
+  // least.
   const auto line = [](double parameter, std::size_t cells) {
     const auto nearest = static_cast<std::size_t>(std::floor(parameter * static_cast<double>(cells) + 0.5));
     if (parameter <= 0 || parameter >= 1)
@@ -181,7 +185,8 @@ std::string layer_name(std::size_t layer, std::size_t layers)
   return layer == 0 ? "lining" : "interlining_" + std::to_string(layer);
 }
 
-/// A flat disc over the outermost layer. It lies beyond a plane that no triangle near it reaches.
+/// Adds a button, a flat disc over the outermost layer. It lies beyond a plane that no triangle near it
+/// reaches.
 void add_button(Soup_builder& builder, std::string name, const Vector& middle, const Vector& axis,
                 const Vector& up, double radius, double distance, double thickness, std::size_t corners)
 {
@@ -227,6 +232,7 @@ void add_button(Soup_builder& builder, std::string name, const Vector& middle, c
   }
 }
 
+/// Puts a garment together from its parts: cloths in layers, patches, buttons, and the bodies inside.
 class Garment
 {
 public:
@@ -238,7 +244,7 @@ public:
 
   Triangle_soup make()
   {
-    // Bodies take what the cloth leaves, about a twelfth, and so make the number of faces exact.
+    // Bodies take the faces that the cloth leaves, about a twelfth, so that the total is the number wanted.
     const std::size_t least = 50 * m_parts.size();
     const double room = std::min(0.92 * static_cast<double>(m_options.faces),
                                  static_cast<double>(m_options.faces) - static_cast<double>(least));
@@ -266,7 +272,7 @@ public:
     std::vector<Lattice> lattices;
     for (const Part& part : m_parts)
       lattices.push_back(add_cloths(builder, part, coarse));
-    // The largest body comes last and makes up for what the others were off.
+    // The largest body comes last and makes up for the differences that the others have left.
     std::size_t left = rest;
     for (std::size_t k = m_parts.size(); k-- > 0;) {
       const Part& part = m_parts[k];
@@ -310,7 +316,7 @@ private:
       else
         add_sheet(builder, lattice, panel, offset, diagonals);
     };
-    // Widths depend on the place only, so that sewn parts agree where they meet.
+    // The distance of two layers depends on the place only, so that sewn parts agree where they meet.
     const auto rise = [&](double wave) {
       for (std::size_t k = 0; k < offset.size(); ++k) {
         const Vector& p = lattice.base[k];
@@ -350,9 +356,9 @@ private:
     return lattice;
   }
 
-  /// Cells in which a layer may have the other diagonal. Between the two lies at most the distance of the
-  /// midpoints of the diagonals; where a quarter of the gap, measured across the cloth, is more than that,
-  /// layers stay apart.
+  /// Marks the cells in which a layer may have the other diagonal. The two ways to divide a cell are at most
+  /// as far apart as the midpoints of its diagonals; where that is less than a quarter of the gap, measured
+  /// across the cloth, layers stay apart.
   std::vector<char> loose_cells(const Lattice& lattice) const
   {
     std::vector<char> loose(lattice.columns * lattice.rows);
@@ -381,9 +387,11 @@ private:
     return loose;
   }
 
-  /// The body keeps to nine tenths of the smallest distance of the cloth from the axis anywhere between a
-  /// ring's neighbours, less what straight edges cut off from the circle: so the cone between two rings does
-  /// as well.
+  /// Adds the body of a part and returns its number of faces.
+  ///
+  /// The radius of a ring is at most nine tenths of the smallest distance of the cloth from the axis anywhere
+  /// between the neighbours of the ring, less what straight edges cut off from the circle. So the cone
+  /// between two rings stays inside the cloth as well.
   std::size_t add_body(Soup_builder& builder, const Part& part, const Lattice& lattice, std::size_t faces)
   {
     const double low = part.body.front()[0];
@@ -443,7 +451,7 @@ private:
     const Vector axis = radial / std::sqrt(radial.squared_length());
     const Vector middle = frame.origin + height * frame.axis;
 
-    // A triangle that comes under the button has all its corners within the radius and its longest edge.
+    // A triangle under the button has all its corners within the radius plus the longest edge.
     double longest = 0;
     const auto position = [&](std::size_t k) { return lattice.base[k] + outer[k] * lattice.direction[k]; };
     Cancellation_poll poll;
@@ -476,13 +484,13 @@ private:
   double m_phase;
 };
 
-/// The space that all layers, pockets and bands take at most.
+/// Returns the largest thickness that all layers, pockets and bands have together.
 double stack_of(const Generate_options& options)
 {
   return (options.layers + 3) * (options.thickness + 2 * options.gap);
 }
 
-/// It must be far smaller than the tubes are wide.
+/// Refuses a stack that is thicker than `room`, which is far less than the width of the tubes.
 void require_thin(const Generate_options& options, double room)
 {
   const double stack = stack_of(options);
@@ -496,8 +504,8 @@ const Frame UPRIGHT{Vector(0, 0, 0), Vector(1, 0, 0), Vector(0, 1, 0), Vector(0,
 
 /// A hole in the torso's lattice for a sleeve.
 ///
-/// Around it the directions lean away from the hole, so that at its edge they are halfway between the normals
-/// of torso and sleeve and both surfaces are seen from their fronts. They lean less and less over twice the
+/// Around it the directions lean away from the hole. At its edge they are halfway between the normals of
+/// torso and sleeve, so that both surfaces show their fronts to them. They lean less and less over twice the
 /// room that the stack has, so leaning never turns a triangle over.
 struct Armhole
 {
@@ -512,7 +520,7 @@ struct Armhole
     return place({"", first, last, bottom, top, Panel::NONE}, "", division);
   }
 
-  /// Half the width of what fits through the hole.
+  /// Returns half the width of what fits through the hole.
   double radius(const Lattice& torso) const
   {
     const std::vector<std::size_t> edge = ring(torso);
@@ -536,13 +544,14 @@ struct Armhole
     return sum / static_cast<double>(edge.size());
   }
 
-  /// The frame of the sleeve: its axis starts in the middle of the hole.
+  /// Returns the frame of the sleeve, whose axis starts in the middle of the hole.
   Frame frame(const Lattice& torso) const
   {
     return {middle(torso), forward, CGAL::cross_product(arm, forward), arm};
   }
 
-  /// The vertices around the hole, counter-clockwise from outside, from the lower corner at its left.
+  /// Returns the vertices around the hole, counter-clockwise as seen from outside, from the lower left
+  /// corner.
   std::vector<std::size_t> ring(const Lattice& lattice) const
   {
     const Panel panel = place_in({lattice.columns, lattice.rows});
@@ -617,7 +626,8 @@ Triangle_soup internal::skirt(const Generate_options& options)
   return Garment(options, {part}).make();
 }
 
-// The sleeves are sewn in: the vertices of a hole in the torso's lattice are the first ring of the sleeve's.
+// The sleeves are sewn in: the vertices around a hole in the torso's lattice are the first ring of the
+// sleeve's.
 Triangle_soup internal::jacket(const Generate_options& options)
 {
   require_thin(options, 0.03);
@@ -725,10 +735,10 @@ Triangle_soup internal::jacket(const Generate_options& options)
   return Garment(options, {torso, sleeve(left, "left"), sleeve(right, "right")}).make();
 }
 
-// Hips are a tube; each leg begins with half of the hips' lower ring and a crotch seam in the plane x = 0,
-// which both legs share. In use the directions of a leg never point up, and lean to the other leg less than
-// the leg has already moved away from it: so the layers of the legs stay under the hips', and on their own
-// sides of that plane.
+// The hips are a tube. Each leg begins with half of the lower ring of the hips and with a crotch seam in the
+// plane x = 0, which both legs share. The directions of a leg never point up, and lean towards the other leg
+// by less than the leg has already moved away from it. So the layers of the legs stay below those of the hips
+// and on their own sides of that plane.
 Triangle_soup internal::shorts(const Generate_options& options)
 {
   require_thin(options, 0.025);
@@ -798,7 +808,7 @@ Triangle_soup internal::shorts(const Generate_options& options)
       const Vector front = side > 0 ? ring.front() : ring.back();
       const Vector back = side > 0 ? ring.back() : ring.front();
       for (std::size_t i = 1; i < crotch; ++i) {
-        // Counted from the front in both legs, so that both compute the same.
+        // Counted from the front in both legs, so that both compute the same bits.
         const double s = static_cast<double>(side > 0 ? crotch - i : i) / static_cast<double>(crotch);
         const auto [c, d] = cosine_sine(s / 2);
         ring.emplace_back(0, front.y() + (back.y() - front.y()) * s, crotch_height - 0.24 * s * (1 - s));
@@ -827,7 +837,7 @@ Triangle_soup internal::shorts(const Generate_options& options)
         const double crease = cosine_sine(std::floor(options.folds * 0.5) * turns + phase + t)[0];
         const double radius = 0.085 - 0.15 * options.fold_depth * t * (1 + crease);
         const Vector radial = frame.radial(turns);
-        // Away from the crotch first, then down: a vault.
+        // The leg leads away from the crotch first, then down, like a vault.
         const double out = t * (2 - t);
         const double down = t * (1 + t) / 2;
         const Vector top = mix(ring);

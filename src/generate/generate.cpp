@@ -9,6 +9,8 @@
 #include <cmath>
 #include <sstream>
 
+// Makes a mesh by the name of its scene. Generated meshes take the place of a file that is read.
+
 namespace selvedge {
 
 namespace {
@@ -50,7 +52,7 @@ const std::vector<Scene>& known_scenes()
   return known;
 }
 
-/// NaN is out of every range.
+/// Throws `Argument_error` when a value is out of its range; NaN is out of every range.
 void require_range(const char* option, double value, double least, double most)
 {
   if (value >= least && value <= most)

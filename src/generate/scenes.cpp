@@ -9,6 +9,8 @@
 
 #include <algorithm>
 
+// Makes scenes that are hard to reduce without intersections, as inputs for tests and benchmarks.
+
 namespace selvedge {
 
 namespace {
@@ -21,8 +23,8 @@ using internal::Random;
 using internal::Soup_builder;
 using internal::Vector;
 
-// Heights on a fixed binary grid can be moved by whole gaps without rounding: sheets that are translates of
-// one another then keep their distance exactly, down to the spacing of doubles.
+// Heights on a fixed binary grid can be moved by whole gaps without rounding. So sheets that are translates
+// of one another keep their distance exactly, down to the spacing of doubles.
 constexpr double HEIGHT_UNIT = 0x1p-52;
 
 double on_grid(double height)
@@ -30,7 +32,7 @@ double on_grid(double height)
   return std::floor(height / HEIGHT_UNIT) * HEIGHT_UNIT;
 }
 
-/// The gap, rounded up to an even number of units.
+/// Returns the gap, rounded up to an even number of units.
 double gap_on_grid(double gap)
 {
   return std::ceil(gap / (2 * HEIGHT_UNIT)) * (2 * HEIGHT_UNIT);
@@ -47,7 +49,7 @@ Lattice square(std::size_t faces, double aspect)
   return Lattice(columns, rows, false);
 }
 
-/// Translates of one graph over a rectangle one wide and `length` deep.
+/// Makes sheets that are translates of one graph over a rectangle one wide and `length` deep.
 Triangle_soup stacked_sheets(const Generate_options& options, double length)
 {
   const auto layers = static_cast<std::size_t>(options.layers);
@@ -92,7 +94,7 @@ Triangle_soup internal::grid(const Generate_options& options)
     for (std::size_t i = 0; i <= lattice.columns; ++i) {
       lattice.u.push_back(static_cast<double>(i) / static_cast<double>(lattice.columns));
       lattice.v.push_back(static_cast<double>(j) / static_cast<double>(lattice.rows));
-      // Steps of a power of two: every cell is the same square to the last bit.
+      // Steps are a power of two, so every cell is the same square to the last bit.
       lattice.base.emplace_back(static_cast<double>(i) * 0x1p-10, static_cast<double>(j) * 0x1p-10, 0);
       lattice.direction.emplace_back(0, 0, 1);
     }
@@ -103,8 +105,9 @@ Triangle_soup internal::grid(const Generate_options& options)
   return builder.take();
 }
 
-// A line that is folded back and forth, drawn along y. All its vertices between two columns lie in one plane
-// exactly, as their x and z are the column's; so the cloth is embedded as soon as the line is.
+// The cloth is a line in the plane of x and z, folded back and forth, and drawn along y. The vertices of a
+// column all have its x and z, so the vertices of two neighbouring columns lie in one plane exactly, and the
+// cloth is embedded as soon as the line is.
 Triangle_soup internal::folded(const Generate_options& options)
 {
   const auto runs = static_cast<std::size_t>(options.layers);
@@ -155,7 +158,7 @@ Triangle_soup internal::folded(const Generate_options& options)
   return builder.take();
 }
 
-// Concentric scaled copies of one star-shaped surface.
+// Concentric spheres: scaled copies of one closed surface.
 Triangle_soup internal::nested(const Generate_options& options)
 {
   const auto layers = static_cast<std::size_t>(options.layers);
@@ -182,9 +185,9 @@ Triangle_soup internal::nested(const Generate_options& options)
   return builder.take();
 }
 
-// Five flat pieces. Left meets lower and upper in one line, where these two meet each other: a T-junction.
-// Upright stands on the lower half of that line: three sheets on one edge. Turned continues lower, with its
-// front where lower has its back.
+// Five flat pieces. `left` meets `lower` and `upper` in the line where these begin, one above the other: a
+// T-junction. `upright` stands on the lower half of that line: three sheets on one edge. `turned` continues
+// `lower`, with its front where `lower` has its back.
 Triangle_soup internal::seams(const Generate_options& options)
 {
   Random random(options.seed);
@@ -214,8 +217,8 @@ Triangle_soup internal::seams(const Generate_options& options)
     for (std::size_t j = 0; j <= piece.rows; ++j)
       for (std::size_t i = 0; i <= piece.columns; ++i) {
         const std::size_t k = lattice.vertex(i, j);
-        // Border vertices take whole numbers of the same unit in every piece: sewn vertices agree to the last
-        // bit.
+        // Border vertices are at multiples of the same unit in every piece, so sewn vertices agree to the
+        // last bit.
         if (i == 0 || j == 0 || i == piece.columns || j == piece.rows) {
           lattice.u[k] = static_cast<double>(i) / static_cast<double>(piece.columns);
           lattice.v[k] = static_cast<double>(j) / static_cast<double>(piece.rows);
@@ -238,7 +241,7 @@ Triangle_soup internal::seams(const Generate_options& options)
 
 namespace {
 
-/// A hexagon with its middle raised, and a triangle between it and the ground.
+/// Adds a hexagon with its middle raised, and a triangle between it and the ground.
 void add_bump(Soup_builder& builder, std::size_t number, double x, double y)
 {
   const auto add = [&](double u, double v, double height) {

@@ -6,6 +6,8 @@
 
 #include <selvedge/generate.h>
 
+// One function for each scene that `generate` knows.
+
 namespace selvedge::internal {
 
 // Garments.
@@ -13,7 +15,7 @@ Triangle_soup skirt(const Generate_options& options);
 Triangle_soup jacket(const Generate_options& options);
 Triangle_soup shorts(const Generate_options& options);
 
-// Scenes that hurt.
+// Scenes that are hard to reduce without intersections.
 Triangle_soup sheets(const Generate_options& options);
 Triangle_soup needles(const Generate_options& options);
 Triangle_soup grid(const Generate_options& options);

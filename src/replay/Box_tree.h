@@ -5,7 +5,7 @@
 #define SELVEDGE_SRC_REPLAY_BOX_TREE_H
 
 #include <selvedge/Cancellation_scope.h>
-#include <selvedge/mesh/Triangle_soup.h>
+#include <selvedge/Triangle_soup.h>
 
 #include <algorithm>
 #include <array>
@@ -16,6 +16,7 @@
 
 namespace selvedge::reference {
 
+/// An axis-parallel box; empty until something is added.
 struct Box
 {
   std::array<double, 3> low{s_infinity, s_infinity, s_infinity};
@@ -49,8 +50,8 @@ private:
   static constexpr double s_infinity = std::numeric_limits<double>::infinity();
 };
 
-/// The boxes of the faces in a balanced binary tree, kept exact at every change; built anew, by whoever owns
-/// it, when half of the faces are gone.
+/// The boxes of faces in a balanced binary tree, in which `replay` finds the faces near a motion. `set` keeps
+/// all boxes exact. The owner builds the tree anew when half of the faces are gone.
 class Box_tree
 {
 public:
@@ -100,7 +101,7 @@ private:
     m_boxes[node].add(m_boxes[2 * node + 1]);
   }
 
-  // Halves the faces by the widest extent of their boxes, down to one face for each leaf.
+  // Halves the faces along the widest axis of their boxes, down to one face for each leaf.
   void place(std::vector<Index>& order, const std::vector<Box>& boxes, std::size_t first, std::size_t beyond,
              std::size_t node)
   {

@@ -3,11 +3,14 @@
 
 #include "Complex.h"
 
+#include "soup/selection.h"
 #include <selvedge/Cancellation_scope.h>
-#include <selvedge/mesh/selection.h>
 
 #include <algorithm>
 #include <numeric>
+
+// The mesh of `replay`: what snaps and collapses do to faces, seams and corners, computed apart from the
+// reduction.
 
 namespace selvedge::reference {
 namespace {
@@ -21,7 +24,7 @@ std::size_t next(std::size_t k)
 
 std::vector<Index> first_at_position(const std::vector<Point_3>& points)
 {
-  std::map<Coordinates, Index> first; // compares doubles, so that the zeros are one
+  std::map<Coordinates, Index> first; // compares doubles, so that −0 is 0
   std::vector<Index> result;
   result.reserve(points.size());
   Cancellation_poll poll;
@@ -121,7 +124,7 @@ bool Complex::is_one_fan(Index position) const
 
 bool Complex::is_seam_between(Index a, Index b) const
 {
-  // By value, for files that write a number twice.
+  // Compares values, since some files give one value several numbers.
   const auto differ = [&](const auto& values) {
     return !values.empty() &&
            values.values[values.of_triangle[a / 3][a % 3]] != values.values[values.of_triangle[b / 3][b % 3]];
@@ -148,7 +151,7 @@ void Complex::find_seams()
           ++count;
           other = g;
         }
-      // Where not just two faces meet that run along it in opposite ways, it is a border.
+      // An edge is a border unless exactly two faces meet at it and run along it in opposite directions.
       if (count == 1 && m_faces[other].positions[next(slot(other, to))] == from)
         m_faces[f].is_seam[k] =
             is_seam_between(m_faces[f].corners[k], m_faces[other].corners[slot(other, from)]) ||
@@ -190,8 +193,9 @@ std::vector<Index> Complex::collapse(Index removed, Index kept)
   return contracted;
 }
 
-// From a contracted face, across edges at `removed` that are no seams, as far as that goes. Where both
-// contracted faces would serve, the one that runs from `removed` to `kept` does.
+// Gives the moving faces the corner that a contracted face has at `kept`, in place of theirs at `removed`. It
+// is handed on from face to face across edges at `removed` that are no seams. Where both contracted faces
+// would serve, the one that runs from `removed` to `kept` does.
 void Complex::carry_corners(const std::vector<Index>& contracted, std::vector<Index> moving, Index removed,
                             Index kept)
 {
@@ -207,7 +211,7 @@ void Complex::carry_corners(const std::vector<Index>& contracted, std::vector<In
       const auto sides = opposite_side(f, removed);
       const std::size_t at = slot(f, removed);
       const auto is_next = [&](Index g) {
-        // Neighbours run along their common edge in opposite ways.
+        // Neighbours run along their common edge in opposite directions.
         const auto others = opposite_side(g, removed);
         return (others[1] == sides[0] && !m_faces[f].is_seam[at]) ||
                (others[0] == sides[1] && !m_faces[f].is_seam[next(next(at))]);
@@ -225,7 +229,7 @@ void Complex::carry_corners(const std::vector<Index>& contracted, std::vector<In
     m_faces[f].corners[slot(f, removed)] = corner;
 }
 
-// Where a contracted face was, its two other edges are one, and a seam if one of them was.
+// The two other edges of a contracted face become one, which is a seam if one of them was.
 void Complex::carry_seams(const std::vector<Index>& contracted, Index removed, Index kept)
 {
   for (const Index f : contracted) {
@@ -247,6 +251,7 @@ void Complex::carry_seams(const std::vector<Index>& contracted, Index removed, I
   }
 }
 
+// Carries the points that lines have passed from the edges at `removed` to the edges that replace them.
 void Complex::carry_passed(const std::vector<Edge>& edges, Index removed, Index kept)
 {
   const auto take = [&](Index a, Index b, std::vector<Coordinates>& points) {
@@ -287,7 +292,7 @@ Triangle_soup Complex::result() const
 {
   Triangle_soup moved = m_soup;
   for (Index v = 0; v < moved.points.size(); ++v) {
-    // Bits stay, down to the sign of a zero, where nothing has moved.
+    // A point that has not moved keeps its bits, down to the sign of a zero.
     const Coordinates& now = m_points[position(v)];
     const Point_3 place(now[0], now[1], now[2]);
     if (moved.points[v] != place)

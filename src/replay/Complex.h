@@ -6,7 +6,7 @@
 
 #include "contact.h"
 
-#include <selvedge/mesh/Triangle_soup.h>
+#include <selvedge/Triangle_soup.h>
 
 #include <array>
 #include <map>
@@ -15,8 +15,8 @@
 
 namespace selvedge::reference {
 
-/// Triangles over positions, each of which knows its faces. No halfedges: what is a border, a fan or a seam
-/// is counted when it is asked for.
+/// The mesh on which `replay` repeats a log: triangles over positions, and the faces at each position. It has
+/// no halfedges: borders, fans and seams are counted when they are asked for.
 class Complex
 {
 public:
@@ -28,11 +28,11 @@ public:
     bool is_alive = true;
   };
 
-  /// What the faces at a position say of the edge to a neighbour.
+  /// The edge from a position to a neighbour, as the faces at the position show it.
   struct Edge
   {
     Index neighbour;
-    int outgoing = 0, incoming = 0; // faces that run along it away from the position, and to it
+    int outgoing = 0, incoming = 0; // faces that run along it from the position, and to it
     bool is_seam = false;
 
     bool is_border() const { return outgoing != 1 || incoming != 1; }
@@ -41,7 +41,8 @@ public:
 
   explicit Complex(const Triangle_soup& soup);
 
-  /// Where a vertex of the soup is now, or was when a collapse removed it.
+  /// Returns the position of a vertex of the soup; for one that a collapse has removed, the position that it
+  /// had.
   Index position(Index vertex) const
   {
     Index position = m_position_of_vertex[vertex];
@@ -59,12 +60,12 @@ public:
   const std::vector<Index>& faces_at(Index position) const { return m_faces_at[position]; }
   bool has(Index face, Index position) const;
 
-  /// The other two corners of a face, in its order, which begins after `position`.
+  /// Returns the other two corners of a face, in the order of the face, from the one after `position`.
   std::array<Index, 2> opposite_side(Index face, Index position) const;
 
   std::vector<Edge> edges_at(Index position) const;
 
-  /// Whether the faces at a position hang together across edges of two faces each.
+  /// Whether the faces at a position are connected across edges that are no borders.
   bool is_one_fan(Index position) const;
 
   /// Marks the edges across which a vertex number, a label or a value of the soup's corners changes.
@@ -73,17 +74,17 @@ public:
 
   void move(Index position, const Coordinates& point) { m_points[position] = point; }
 
-  /// All vertices and faces at one position go to the other, where there is no edge between.
+  /// Moves all vertices and faces at one position to the other. No edge may join the two.
   void snap(Index moved, Index kept);
 
-  /// All faces at one position go to the other; those that have both are gone, and returned. Corners get what
-  /// hangs on `kept`, on their side of the seams.
+  /// Moves all faces at `removed` to `kept`. The faces that have both are removed and returned. The corners
+  /// that move get the values of `kept` on their side of the seams.
   std::vector<Index> collapse(Index removed, Index kept);
 
-  /// Points of lines that an edge has replaced.
+  /// Returns the points of lines that the edge ab has replaced; null when there are none.
   const std::vector<Coordinates>* passed(Index a, Index b) const;
 
-  /// The soup of the faces left.
+  /// Returns the soup of the faces that are left.
   Triangle_soup result() const;
 
 private:
@@ -106,7 +107,7 @@ private:
   std::map<std::pair<Index, Index>, std::vector<Coordinates>> m_passed;
 };
 
-/// For every vertex the smallest number of one with equal coordinates (−0 is 0).
+/// Returns, for every vertex, the smallest number of a vertex with equal coordinates (−0 is 0).
 std::vector<Index> first_at_position(const std::vector<Point_3>& points);
 
 } // namespace selvedge::reference

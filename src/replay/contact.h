@@ -4,7 +4,7 @@
 #ifndef SELVEDGE_SRC_REPLAY_CONTACT_H
 #define SELVEDGE_SRC_REPLAY_CONTACT_H
 
-#include <selvedge/mesh/Triangle_soup.h>
+#include <selvedge/Triangle_soup.h>
 
 #include <array>
 #include <cstddef>

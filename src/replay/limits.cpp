@@ -7,6 +7,8 @@
 #include <charconv>
 #include <cmath>
 
+// Computes angles, shapes and drift anew for `replay`, and compares them with the limits that a log declares.
+
 namespace selvedge::reference {
 namespace {
 

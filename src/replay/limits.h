@@ -14,29 +14,30 @@
 
 namespace selvedge::reference {
 
-/// The share of what is compared by which a limit may be missed: programs that add in another order do not
-/// differ about a limit.
+/// The relative tolerance of comparisons with a limit, so that programs that round differently agree about
+/// it.
 inline constexpr double limit_tolerance = 1e-9;
 
 double distance(const Coordinates& a, const Coordinates& b);
 
-/// Returns the limit that a violation is of; null where it is of none.
+/// Returns the limit that a violation of this kind breaks; null when it breaks none.
 const Limit_description* limit_of(Violation_kind kind);
 
 /// Returns a sentence for a step that breaks a limit.
 std::string message_of_limit(Violation_kind kind, double limit);
 
-/// Judges collapses by limits of quality, in floating point.
+/// Judges, for `replay`, whether a collapse keeps the limits of quality, in floating point.
 class Limits
 {
 public:
   explicit Limits(const Reduction_limits& limits) : m_limits(limits) {}
 
-  /// The bounding box that the drift is a share of, and by the largest coordinate of which all coordinates
-  /// are brought to one size: areas and their squares then neither overflow nor vanish.
+  /// Sets the corners of the bounding box. Its diagonal is the unit of the drift. Its largest coordinate
+  /// determines the power of two by which all coordinates are divided, so that areas and their squares
+  /// neither overflow nor vanish.
   void set_size(const Coordinates& low, const Coordinates& high);
 
-  /// The first limit that is not kept when `removed` and `kept` merge at `place`.
+  /// Returns the first limit that is broken when `removed` and `kept` merge at `place`.
   std::optional<Violation_kind> judge(const Complex& complex, Index removed, Index kept,
                                       const Coordinates& place, bool is_kept_still) const;
 

@@ -3,6 +3,8 @@
 
 #include <selvedge/replay.h>
 
+// Lists what a verdict of `replay` does not cover, so that reports can state it.
+
 namespace selvedge {
 
 std::vector<Not_judged> not_judged(const Replay_verdict& verdict)
@@ -10,7 +12,7 @@ std::vector<Not_judged> not_judged(const Replay_verdict& verdict)
   const Reduction_limits& limits = verdict.limits;
   std::vector<Not_judged> result;
   for (const Limit_description& limit : limit_descriptions)
-    if (limit.value != &Reduction_limits::weld_distance && !(limits.*limit.value)) // no snap goes without
+    if (limit.value != &Reduction_limits::weld_distance && !(limits.*limit.value)) // without it nothing snaps
       result.push_back({limit.key, std::string(limit.bounds) + ": there is no limit"});
   if (!limits.border_turn && !limits.seam_turn && !limits.border_drift)
     result.push_back(

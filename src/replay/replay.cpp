@@ -9,11 +9,11 @@
 #include "limits.h"
 #include "snap.h"
 
+#include "soup/selection.h"
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
 #include <selvedge/Sha256.h>
-#include <selvedge/mesh/rounding.h>
-#include <selvedge/mesh/selection.h>
+#include <selvedge/rounding.h>
 #include <selvedge/verify.h>
 
 #include <algorithm>
@@ -23,6 +23,9 @@
 #include <set>
 #include <unordered_map>
 #include <utility>
+
+// Repeats a log on the original and judges every step, exactly and apart from the reduction that wrote it.
+// replay.h states what an accepted log guarantees.
 
 namespace selvedge {
 
@@ -67,7 +70,7 @@ double seconds_since(Clock::time_point start)
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// What keeps two faces of a mesh from being as they should be; f == g for a face without an area.
+/// The pairs of faces that offend at present; f == g for a face without an area.
 class Offences
 {
 public:
@@ -101,8 +104,8 @@ private:
   std::unordered_map<Index, std::set<Index>> m_partners;
 };
 
-/// The original as the log says that it was taken: rounded, and without triangles that have two corners at
-/// one position.
+/// The original as the writer of the log took it: rounded if the log says so, and without triangles that have
+/// two corners at one position.
 struct Start
 {
   Triangle_soup soup;
@@ -146,7 +149,7 @@ Start prepare(const Triangle_soup& original, bool is_rounded)
     start.offences.add(pair.first, pair.second);
     ++start.offending_pairs;
   }
-  // What only rounding has brought to one position was never one.
+  // Where rounding alone has made several positions one, the faces there are frozen.
   std::vector<char> is_merged(first.size(), false);
   for (Index v = 0; v < first.size(); ++v)
     if (before[v] != before[first[v]])
@@ -161,13 +164,15 @@ Start prepare(const Triangle_soup& original, bool is_rounded)
   return start;
 }
 
-/// One motion of what is at a position: to another, with which it merges, or to a place that is none.
+/// A motion of the vertices at a position: to another position, with which they merge, or to a place that is
+/// no position.
 struct Motion
 {
   Index mover;
   Place target;
 };
 
+/// Takes the steps of a log one after the other and judges each before it changes the mesh.
 class Replay
 {
 public:
@@ -227,7 +232,7 @@ private:
     const Reduction_limits limits = options.limits.value_or(header.limits);
     if (options.are_limits_judged)
       return limits;
-    Reduction_limits needed; // without its distance a snap could be anything
+    Reduction_limits needed; // without the weld distance a snap could go anywhere
     needed.weld_distance = limits.weld_distance;
     return needed;
   }
@@ -291,7 +296,7 @@ private:
       judge_lock(kept);
       judge_link(removed, kept);
       judge_limits_before_motion(removed, kept, *place);
-      // The one that goes first stands at the place when the other comes.
+      // The first to move already stands at the place when the other comes.
       const bool is_at_removed = *place == m_complex.point(removed);
       const Index first = step.is_removed_first ? removed : kept,
                   second = step.is_removed_first ? kept : removed;
@@ -310,7 +315,7 @@ private:
 
   static constexpr Index no_position() { return Index(-1); }
 
-  /// A place worth the name: not where KEPT is anyhow.
+  /// Returns the place that a step names; none when `kept` is there already, so that only `removed` moves.
   std::optional<Coordinates> place_of(const Log_step& step, Index /*removed*/, Index kept) const
   {
     if (!step.place || *step.place == m_complex.point(kept))
@@ -318,7 +323,8 @@ private:
     return step.place;
   }
 
-  /// What is only known once vertices no longer snap.
+  /// Measures the snaps, finds the seams and sets the size of the mesh, which all depend on the last snap.
+  /// Called before every collapse; only the first call does anything.
   void begin_collapses()
   {
     if (m_complex.has_seams())
@@ -331,8 +337,7 @@ private:
     m_limits.set_size(box.low, box.high);
   }
 
-  // What is wrong
-  // ---------------------------------------------------------------------------------------------------
+  // ---- Locks, snaps and links
 
   void report(Violation_kind kind, const std::string& message, const std::vector<Index>& faces = {},
               const std::string& point = {}, const std::string& scene = {})
@@ -398,7 +403,8 @@ private:
         std::max(m_verdict.largest_snap, distance(m_complex.point(moved), m_complex.point(kept)));
   }
 
-  // Before the first collapse, which may leave vertices where no triangle is.
+  // Measures how far the snaps took the vertices. Called before the first collapse, since collapses move
+  // vertices too.
   void measure_snaps()
   {
     if (m_verdict.snaps == 0 || std::exchange(m_are_snaps_measured, true))
@@ -443,8 +449,7 @@ private:
       report(Violation_kind::link, "both vertices are on a border, but their edge is not");
   }
 
-  // Contacts
-  // ----------------------------------------------------------------------------------------------------------
+  // ---- Contacts
 
   void judge(const Motion& motion)
   {
@@ -459,7 +464,7 @@ private:
       std::array<Place, 3> after;
     };
     std::vector<Moving> moving;
-    std::vector<std::pair<Index, Standing>> sides; // of all faces at m, opposite to it
+    std::vector<std::pair<Index, Standing>> sides; // of all faces at m, the sides opposite it
     Box box;
     box.add(m.at);
     box.add(motion.target.at);
@@ -489,7 +494,7 @@ private:
       if (!m_complex.has(f, motion.mover))
         m_standing.push_back(f);
     });
-    // First what is wrong at the end, which is easier to see, then what was on the way.
+    // The end comes before the way, since what is wrong there is easier to see.
     for (const Moving& face : moving) {
       Cancellation_scope::check();
       const Box end = box_of(face.after);
@@ -560,8 +565,7 @@ private:
     return text;
   }
 
-  // Limits
-  // ------------------------------------------------------------------------------------------------------------
+  // ---- Limits
 
   void judge_limits(Index removed, Index kept, const Coordinates& place, bool is_kept_still)
   {
@@ -571,7 +575,7 @@ private:
       report(*kind, m_limits.message(*kind), m_complex.faces_at(removed));
   }
 
-  // Limits compare with what was before the first of two motions, and are told after both.
+  // A step of two motions is compared with what was before the first, and reported after both.
   void judge_limits_before_motion(Index removed, Index kept, const Coordinates& place)
   {
     m_pending_limit.reset();
@@ -584,8 +588,7 @@ private:
       report(*m_pending_limit, m_limits.message(*m_pending_limit), m_complex.faces_at(removed));
   }
 
-  // What changes
-  // ------------------------------------------------------------------------------------------------------
+  // ---- Changes of the mesh
 
   void shift(Index position, const Coordinates& place)
   {
@@ -637,8 +640,7 @@ private:
     }
   }
 
-  // The end
-  // -----------------------------------------------------------------------------------------------------------
+  // ---- The result
 
   void judge_result()
   {
@@ -695,7 +697,7 @@ private:
   Contact_statistics m_statistics;
   Replay_verdict m_verdict;
 
-  const Log_step* m_step = nullptr; // the one at hand, and what is known of it
+  const Log_step* m_step = nullptr; // the present step, and what is known of it
   bool m_is_bad = false;
   bool m_are_snaps_measured = false;
   std::optional<Violation_kind> m_pending_limit;

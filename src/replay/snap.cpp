@@ -8,10 +8,13 @@
 #include <algorithm>
 #include <vector>
 
+// Judges the snaps of a log: whether each took a border vertex to a partner, no farther than the weld
+// distance.
+
 namespace selvedge::reference {
 namespace {
 
-/// Neighbours of a position along the borders through it, in the order in which the faces run.
+/// The neighbours of a position along the borders through it, in the direction in which the faces run.
 struct Border
 {
   std::vector<Index> next, previous;
@@ -25,7 +28,7 @@ struct Border
   bool is_empty() const { return next.empty() && previous.empty(); }
 };
 
-/// Partners, as snapping.h defines them, among positions as they are now.
+/// Tells whether positions are partners, as snapping.h defines them, in the present state of the mesh.
 class Partners
 {
 public:
@@ -33,7 +36,8 @@ public:
 
   bool are_near(Index a, Index b) const { return distance(a, b) <= m_distance * (1 + limit_tolerance); }
 
-  // Whether a border edge that starts at `a` and one that ends at `b` have their other ends together.
+  // Whether a border edge that starts at `a` and one that ends at `b` have other ends that are near or the
+  // same.
   bool is_edge_sewable(const Border& a, const Border& b) const
   {
     return std::any_of(a.next.begin(), a.next.end(), [&](Index p) {
@@ -42,13 +46,13 @@ public:
     });
   }
 
-  // Whether the border leads from `a` to `b` without a branch, within twice the distance.
+  // Whether the border leads from `a` to `b` without a branch, within twice the weld distance.
   bool is_shortly_followed(Index a, Index b) const
   {
     double length = 0;
     for (Index at = a;;) {
       const Border border(m_complex, at);
-      // Without branches the walk ends, at the latest where it began.
+      // Without branches the walk returns to its start, if nothing ends it before.
       if (border.next.size() != 1 || (at != a && border.previous.size() != 1))
         return false;
       const Index next = border.next.front();
@@ -71,8 +75,8 @@ private:
   const double m_distance;
 };
 
-// Whether every edge that both have to a third position is of one face each, which run along it in opposite
-// ways.
+// Whether the edges from both to any third position can become one: each has one face, and these faces run
+// along them in opposite directions.
 bool is_link_condition_met(const Complex& complex, Index moved, Index kept)
 {
   const std::vector<Complex::Edge> at_kept = complex.edges_at(kept);

@@ -13,17 +13,17 @@
 
 namespace selvedge::reference {
 
-/// What is wrong with a snap, apart from what its faces run into.
+/// Why `replay` rejects a snap, apart from what its faces run into.
 struct Snap_objection
 {
   Violation_kind kind;
   std::string message;
 };
 
-/// Returns the first reason why what is at `moved` may not snap to `kept`, where no edge joins the two: there
-/// is no weld distance or they lie further apart, they are no partners, or an edge would not be one of two
-/// faces that run along it in opposite ways. Distances are compared in floating point, with the tolerance of
-/// the limits.
+/// Returns the first reason why the vertices at `moved` may not snap to `kept`, to which no edge leads: there
+/// is no weld distance; they lie farther apart; they are no partners; or an edge would get other faces than
+/// two that run along it in opposite directions. Distances are compared in floating point, with the tolerance
+/// of the limits.
 std::optional<Snap_objection> judge_snap(const Complex& complex, Index moved, Index kept,
                                          const std::optional<double>& weld_distance);
 

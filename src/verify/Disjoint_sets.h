@@ -12,7 +12,8 @@
 
 namespace selvedge::internal {
 
-/// Sets of numbers that are united step by step; each is named by its smallest number.
+/// A partition of the numbers below `size` into sets that can be united (union-find), with which the judge
+/// finds connected pieces. A set is named by its smallest number.
 class Disjoint_sets
 {
 public:

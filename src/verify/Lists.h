@@ -5,7 +5,7 @@
 #define SELVEDGE_SRC_VERIFY_LISTS_H
 
 #include <selvedge/Cancellation_scope.h>
-#include <selvedge/mesh/Triangle_soup.h>
+#include <selvedge/Triangle_soup.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -16,7 +16,8 @@ namespace selvedge::internal {
 
 using Pair = std::pair<Index, Index>;
 
-/// A list of numbers for each key: in order, each number once.
+/// Holds a list of numbers for each key, sorted and without duplicates, in two flat arrays. The judge keeps
+/// in it, for example, the triangles of each piece.
 class Lists
 {
 public:
@@ -34,7 +35,7 @@ public:
 
   Lists() = default;
 
-  /// Of pairs of a key, below `keys`, and a number.
+  /// Takes pairs of a key, which is below `keys`, and a number, in any order and with repetitions.
   Lists(std::size_t keys, std::vector<Pair> pairs) : m_first(keys + 1)
   {
     Cancellation_scope::check();

@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <cstdio>
 
+// Prepares a result, or its original, for `match_pieces`, and describes its pieces in messages of the judge.
+
 namespace selvedge::internal {
 
 Piece_mesh::Piece_mesh(const Triangle_soup& mesh, const Index* positions_of_vertices)

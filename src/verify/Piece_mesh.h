@@ -14,11 +14,12 @@
 
 namespace selvedge::internal {
 
-/// Where more pieces than this meet in a position, it tells nothing; so no list of pairs is longer than
-/// linear.
+/// Positions where more pieces than this meet are not used for matching, so that the number of pairs of
+/// pieces stays linear in the number of positions.
 constexpr std::size_t most_at_a_position = 64;
 
-/// Boundary loops, the Euler characteristic, and whether some edge has more than two faces.
+/// The topology of a piece: its number of boundary loops, its Euler characteristic, and whether some edge has
+/// more than two faces.
 using Kind = std::tuple<std::size_t, long, bool>;
 
 inline Kind kind(const Piece& piece)
@@ -26,27 +27,29 @@ inline Kind kind(const Piece& piece)
   return {piece.boundary_loops, piece.euler_characteristic, piece.non_manifold_edges > 0};
 }
 
-/// One of two meshes whose pieces are matched: its triangles of three distinct positions, and their pieces.
+/// One of the two meshes, result and original, whose pieces `match_pieces` matches: its triangles with three
+/// distinct positions, grouped by piece.
 struct Piece_mesh
 {
-  /// `positions` numbers the positions of the vertices, in common with those of the other mesh; both must
-  /// outlive this.
+  /// `positions_of_vertices` holds the number of each vertex's position; the other mesh uses the same
+  /// numbers. Both arguments must outlive this object.
   Piece_mesh(const Triangle_soup& mesh, const Index* positions_of_vertices);
 
   Index position(Index triangle, int place) const { return positions[soup.triangles[triangle][place]]; }
   Index piece(Index triangle) const { return numbered.of_triangle[triangle]; }
   const std::vector<Piece>& pieces() const { return numbered.pieces; }
 
-  /// Which pieces there are at each position.
+  /// Returns the pieces at each position; `positions_in_all` is the number of positions of both meshes.
   Lists pieces_at(std::size_t positions_in_all) const;
 
   std::vector<Index> triangles_of(const std::vector<Index>& some_pieces) const;
 
-  /// The kinds of what some triangles are when they are joined where their positions coincide, in order.
+  /// Returns the kinds of the pieces that some triangles form when positions connect them instead of vertex
+  /// numbers, sorted.
   std::vector<Kind> kinds_by_position(const std::vector<Index>& some_triangles) const;
 
   const Triangle_soup& soup;
-  const Index* positions; ///< of the vertices, with common numbers
+  const Index* positions; ///< of each vertex, numbered in common with the other mesh
   Numbered_pieces numbered;
   Lists triangles; ///< of each piece
 };
@@ -60,7 +63,7 @@ std::string describe(const Kind& kind);
 /// "piece 3 ('lining', 421 faces around (0.1, 0.9, 0))"
 std::string describe(const Piece_mesh& mesh, Index piece);
 
-/// The first three of several.
+/// Describes the first three pieces and counts the others.
 std::string describe(const Piece_mesh& mesh, const std::vector<Index>& pieces);
 
 } // namespace selvedge::internal

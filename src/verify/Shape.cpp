@@ -7,9 +7,11 @@
 
 #include <selvedge/Cancellation_scope.h>
 
+// Measures how far pieces of a result lie from pieces of its original, for `match_pieces`.
+
 namespace selvedge::internal {
 
-Triangle_soup Shape::cut_out(const Triangle_soup& soup, const std::vector<Index>& triangles)
+Triangle_soup Shape::submesh(const Triangle_soup& soup, const std::vector<Index>& triangles)
 {
   std::vector<Index> vertices;
   for (const Index t : triangles)

@@ -12,7 +12,7 @@
 
 namespace selvedge::internal {
 
-/// Of a triangle whose points are divided by 2^exponent.
+/// Returns the centroid of a triangle whose points are divided by 2^exponent.
 inline Point_3 centre(const Triangle_soup& soup, Index triangle, int exponent)
 {
   const auto& [a, b, c] = soup.triangles[triangle];
@@ -20,14 +20,14 @@ inline Point_3 centre(const Triangle_soup& soup, Index triangle, int exponent)
                         scaled(soup.points[c], -exponent));
 }
 
-/// Some triangles of a soup, at least one, with their points divided by 2^exponent: to be measured. Numbers
-/// of triangles are places in their list.
+/// A part of a mesh whose distance from parts of another mesh the judge measures: at least one triangle of a
+/// soup, with all points divided by 2^exponent. Triangles are numbered by their places in the list given.
 class Shape
 {
 public:
   template <class Triangles>
   Shape(const Triangle_soup& soup, const Triangles& triangles, int exponent)
-      : m_soup(cut_out(soup, {triangles.begin(), triangles.end()})), m_surface(m_soup, exponent),
+      : m_soup(submesh(soup, {triangles.begin(), triangles.end()})), m_surface(m_soup, exponent),
         m_tree(m_surface)
   {
     for (const Point_3& point : m_surface.points)
@@ -40,15 +40,16 @@ public:
   double diagonal() const { return std::hypot(m_box.x_span(), m_box.y_span(), m_box.z_span()); }
   Index nearest(const Point_3& point, Index guess = 0) const { return m_tree.nearest(point, guess).triangle; }
 
-  /// From the points of this to the surface of another.
+  /// Returns the root mean square distance from the points of this shape to the surface of `to`, in scaled
+  /// coordinates.
   double root_mean_square_distance(const Shape& to) const;
 
-  /// The share of the area of this whose normal is more than 90° from that of the nearest triangle of
-  /// another.
+  /// Returns the share of this shape's area whose normal is more than 90° from that of the triangle of
+  /// `other` that is nearest to the centroid of its own triangle.
   double turned_against(const Shape& other) const;
 
 private:
-  static Triangle_soup cut_out(const Triangle_soup& soup, const std::vector<Index>& triangles);
+  static Triangle_soup submesh(const Triangle_soup& soup, const std::vector<Index>& triangles);
 
   Triangle_soup m_soup;
   Surface m_surface;
@@ -56,11 +57,11 @@ private:
   CGAL::Bbox_3 m_box;
 };
 
-/// The shapes of pieces, made when they are asked for.
+/// Makes the shape of each piece when it is first asked for, and keeps it.
 class Shapes
 {
 public:
-  /// All must outlive this.
+  /// `soup` and `triangles_of_pieces` must outlive this object.
   Shapes(const Triangle_soup& soup, const Lists& triangles_of_pieces, int exponent)
       : m_soup(soup), m_triangles(triangles_of_pieces), m_exponent(exponent)
   {
@@ -81,7 +82,7 @@ private:
   std::map<Index, std::unique_ptr<Shape>> m_shapes;
 };
 
-/// Finds which piece of a mesh, at least one, is nearest.
+/// Finds the piece of a mesh that is nearest to a point. The mesh must have a piece.
 class Nearest_pieces
 {
 public:
@@ -89,12 +90,13 @@ public:
 
   Index piece_near(const Point_3& point) const;
 
-  /// The pieces that are nearest to points of a shape, at most 16 of them: those with most points.
+  /// Returns the pieces that are nearest to some point of a shape, those nearest to most points first, at
+  /// most 16.
   std::vector<Index> pieces_near(const Shape& shape) const;
 
 private:
   std::vector<Index> m_triangles;
-  std::vector<Index> m_pieces; // of these
+  std::vector<Index> m_pieces; // the piece of each of these triangles
   Shape m_shape;
 };
 

@@ -6,7 +6,7 @@
 
 #include "Triangle_tree.h"
 
-#include <selvedge/mesh/Triangle_soup.h>
+#include <selvedge/Triangle_soup.h>
 
 #include <CGAL/intersections.h>
 
@@ -16,13 +16,16 @@
 #include <utility>
 #include <vector>
 
+// The surface of a soup in a tree of boxes. `verify` and `compare` ask it for nearest points, and `compare`
+// for the triangles that a line crosses.
+
 namespace selvedge::internal {
 
 using Vector_3 = Kernel::Vector_3;
 using Segment_3 = Kernel::Segment_3;
 using Triangle_3 = Kernel::Triangle_3;
 
-/// The vertices that triangles name, each once, in the order in which they are named first.
+/// Returns the vertices that triangles use, each once, in the order of their first use.
 inline std::vector<Index> used_vertices(const Triangle_soup& soup)
 {
   std::vector<bool> used(soup.points.size());
@@ -36,8 +39,9 @@ inline std::vector<Index> used_vertices(const Triangle_soup& soup)
   return vertices;
 }
 
-/// The exponent of the power of two by which two soups are brought to a size at which squares neither
-/// overflow nor vanish, without the loss of a digit.
+/// Returns the exponent of a power of two. Divided by it, the largest coordinate of both soups lies between
+/// 1/2 and 1, so that squares of lengths neither overflow nor vanish. The division rounds nothing unless a
+/// coordinate becomes subnormal.
 inline int common_exponent(const Triangle_soup& first, const Triangle_soup& second)
 {
   double largest = 0;
@@ -55,7 +59,7 @@ inline Point_3 scaled(const Point_3& p, int exponent)
   return Point_3(std::ldexp(p.x(), exponent), std::ldexp(p.y(), exponent), std::ldexp(p.z(), exponent));
 }
 
-/// The triangles of a soup with their points divided by 2^exponent.
+/// The triangles of a soup, which must outlive this, with all points divided by 2^exponent.
 struct Surface
 {
   Surface(const Triangle_soup& soup, int exponent) : triangles(soup.triangles)
@@ -70,7 +74,7 @@ struct Surface
   {
     return Triangle_3(corner(number, 0), corner(number, 1), corner(number, 2));
   }
-  /// Perpendicular to the triangle, twice as long as its area.
+  /// Returns a normal whose length is twice the area of the triangle.
   Vector_3 normal(Index triangle) const
   {
     return CGAL::cross_product(corner(triangle, 1) - corner(triangle, 0),
@@ -93,8 +97,8 @@ inline Point_3 nearest_on_segment(const Point_3& query, const Point_3& from, con
   return position <= 0 ? from : position >= 1 ? to : from + position * direction;
 }
 
-/// The nearest point of a triangle, degenerate ones included; whatever rounding does, it is one of the
-/// triangle.
+/// Returns the point of a triangle, which may be degenerate, that is nearest to `query`. Rounding may choose
+/// another point of the triangle, so a distance may come out too large, but not too small.
 inline Point_3 nearest_on_triangle(const Point_3& query, const Triangle_3& triangle)
 {
   Point_3 nearest = triangle[0];
@@ -115,7 +119,8 @@ inline Point_3 nearest_on_triangle(const Point_3& query, const Triangle_3& trian
   return nearest;
 }
 
-/// The triangles of a surface, degenerate ones included, in a tree of boxes.
+/// Finds nearest points on a surface, and the triangles that meet a segment, in a tree of boxes. The surface
+/// may have degenerate triangles.
 class Surface_tree
 {
 public:
@@ -131,7 +136,8 @@ public:
     Index triangle;
   };
 
-  /// The last answer is the first guess, so queries near each other should follow each other.
+  /// Returns the nearest point. The search starts from the last answer, so it is fast when successive queries
+  /// are near each other.
   Nearest nearest(const Point_3& query)
   {
     const Nearest nearest = this->nearest(query, m_last);
@@ -139,7 +145,7 @@ public:
     return nearest;
   }
 
-  /// The same, with a triangle for a first guess.
+  /// Returns the nearest point. The search starts from the triangle `guess`.
   Nearest nearest(const Point_3& query, Index guess) const
   {
     Nearest nearest{nearest_on_triangle(query, m_surface.triangle(guess)), guess};
@@ -147,8 +153,8 @@ public:
     return nearest;
   }
 
-  /// The nearest, no farther than `limit`, among triangles whose entry in `directions` has a positive product
-  /// with `direction`.
+  /// Returns the nearest point that is nearer than `limit`, among the triangles whose entry in `directions`
+  /// has a positive scalar product with `direction`; none if there is none.
   std::optional<Nearest> nearest_facing(const Point_3& query, const std::vector<Vector_3>& directions,
                                         const Vector_3& direction, double limit) const
   {
@@ -159,7 +165,7 @@ public:
     return nearest.triangle == none ? std::nullopt : std::optional(nearest);
   }
 
-  /// All triangles that are not degenerate and meet a segment; decided exactly.
+  /// Outputs all triangles that are not degenerate and meet a segment; decided exactly.
   template <class Output_iterator>
   void crossed(const Segment_3& segment, Output_iterator output) const
   {

@@ -11,6 +11,7 @@
 namespace selvedge {
 namespace {
 
+/// Sorts points for `sort_by_halves`, which orders the leaves of the judge's trees of boxes.
 class Halving
 {
 public:

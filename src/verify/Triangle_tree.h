@@ -5,7 +5,7 @@
 #define SELVEDGE_SRC_VERIFY_TRIANGLE_TREE_H
 
 #include <selvedge/Cancellation_scope.h>
-#include <selvedge/mesh/Triangle_soup.h>
+#include <selvedge/Triangle_soup.h>
 
 #include <CGAL/Bbox_3.h>
 
@@ -19,26 +19,28 @@
 
 namespace selvedge {
 
-/// A point with a number, to be sorted.
+/// A point with a number, for `sort_by_halves`.
 struct Numbered_point
 {
   std::array<double, 3> coordinates;
   Index number;
 };
 
-/// Sorts points so that neighbours in the order are neighbours in space: in `parts` equal shares, a power of
-/// two, by halves along the widest axis. The order depends on nothing but the points.
+/// Sorts points so that neighbours in the order are neighbours in space: halves them along their widest axis
+/// until there are `parts` equal shares; `parts` is a power of two. The order depends on nothing but the
+/// points.
 void sort_by_halves(std::vector<Numbered_point>& points, std::size_t parts);
 
-/// The boxes of triangles in a balanced binary tree. Built, and asked for pairs, by as many threads as oneTBB
-/// grants; the answers do not depend on them.
+/// The boxes of triangles in a balanced binary tree. The judge finds in it pairs of triangles that may meet,
+/// and triangles near a point. As many threads as oneTBB grants build the tree and search for pairs; the
+/// answers do not depend on their number.
 class Triangle_tree
 {
 public:
-  /// Both must outlive the tree.
+  /// Neither argument needs to outlive the tree.
   Triangle_tree(const std::vector<Point_3>& points, const std::vector<Index_triple>& triangles);
 
-  /// Calls `function(i, j)` for each pair of triangles whose boxes meet, once, in no particular order, and
+  /// Calls `function(i, j)` once for each pair of triangles whose boxes meet, in no particular order and
   /// concurrently.
   template <class Function>
   void for_each_pair(const Function& function) const
@@ -46,8 +48,8 @@ public:
     pairs_within(1, m_triangles.size(), function);
   }
 
-  /// Calls `function(i)` for each triangle whose box, a `CGAL::Bbox_3`, is wanted; so must be all boxes that
-  /// hold a wanted one.
+  /// Calls `function(i)` for each triangle whose box satisfies `is_wanted`, a predicate of `CGAL::Bbox_3`.
+  /// Every box that contains a wanted box must be wanted too.
   template <class Is_wanted, class Function>
   void visit(const Is_wanted& is_wanted, const Function& function) const
   {
@@ -55,8 +57,8 @@ public:
       visit(is_wanted, function, 1);
   }
 
-  /// Calls `function(i)` for triangles whose boxes are nearer to a point than the root of `squared_bound`,
-  /// which the function is to lower, nearer boxes first as a rule.
+  /// Calls `function(i)` for triangles whose boxes are nearer to `query` than the root of `squared_bound`, as
+  /// a rule nearer boxes first. The function lowers the bound when it finds something nearer.
   template <class Function>
   void approach(const Point_3& query, const double& squared_bound, const Function& function) const
   {
@@ -133,7 +135,7 @@ private:
         [&] { pairs_between(left, right, size / 2, function); });
   }
 
-  // Nodes of one level.
+  // Both nodes are on one level.
   template <class Function>
   void pairs_between(std::size_t a, std::size_t b, std::size_t size, const Function& function) const
   {
@@ -202,7 +204,7 @@ private:
   }
 
   std::vector<Index> m_triangles; // in the order of the leaves, each of which has an equal share
-  std::vector<Box> m_boxes;       // of these
+  std::vector<Box> m_boxes;       // in the same order
   std::vector<Box> m_nodes;       // node k has the children 2k and 2k + 1, all leaves are on the last level
 };
 

@@ -15,6 +15,10 @@
 #include <algorithm>
 #include <cmath>
 
+// Compares a result with its original: distances, borders, seams, gaps, kept attributes, normals and the
+// order of layers. It measures and gives no verdict; `verify` gives one. The figures are defined in
+// compare.h.
+
 namespace selvedge {
 
 using namespace internal;
@@ -35,7 +39,8 @@ double angle(const Vector_3& a, const Vector_3& b)
   return degrees * std::atan2(std::sqrt(CGAL::cross_product(a, b).squared_length()), a * b);
 }
 
-/// `largest_distance` is that of either from the other.
+/// Measures the angles between the faces of the result and the faces of the original nearest to them, see
+/// `Normal_deviation`. No point of either mesh is farther from the other than `largest_distance`.
 Normal_deviation normal_deviation(const Triangle_soup& result, const Triangle_soup& original,
                                   double largest_distance)
 {

@@ -17,6 +17,9 @@
 #include <queue>
 #include <utility>
 
+// Measures distances between two surfaces: at vertices, for `verify`, and anywhere with two bounds, for
+// `compare`.
+
 namespace selvedge {
 
 using namespace internal;
@@ -25,9 +28,9 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Calls `function(i, vertex, nearest)` for the i-th of some vertices, with what is nearest to it: in an
-/// order in which neighbours follow each other, so that the last answer is a good guess at the next, and
-/// concurrently. The answers depend on nothing but the arguments.
+/// Calls `function(i, vertex, nearest)` concurrently for each of some vertices, with the point of `to` that
+/// is nearest to it; i is its place in an order in which neighbours follow each other, so that the last
+/// answer is a good guess at the next. The answers depend on nothing but the arguments.
 template <class Function>
 void for_each_nearest(const std::vector<Index>& vertices, const Surface& from, const Surface_tree& to,
                       const Function& function)
@@ -61,13 +64,14 @@ struct Part
 {
   std::array<Point_3, 3> corners;
   Index_triple nearest;
-  double upper; // of the squared distance
+  double upper; // bound of the squared distance from any point of the part
   int cuts = 0;
 
   bool operator<(const Part& other) const { return upper < other.upper; }
 };
 
-/// The distance to one convex set is convex, so it is largest at a corner.
+/// Returns an upper bound of the squared distance from any point of a part to `to`. The distance to one
+/// triangle is convex, so it is largest at a corner.
 double upper_bound(const Part& part, const Surface& to)
 {
   double bound = part.upper;
@@ -81,7 +85,7 @@ double upper_bound(const Part& part, const Surface& to)
   return bound;
 }
 
-/// Where two triangles are equally far from a point of a segment, or none.
+/// Returns a point of a segment that is equally far from two triangles, or none.
 std::optional<Point_3> equally_far(const Point_3& from, const Point_3& to, const Triangle_3& of_from,
                                    const Triangle_3& of_to)
 {
@@ -90,7 +94,7 @@ std::optional<Point_3> equally_far(const Point_3& from, const Point_3& to, const
     return CGAL::squared_distance(point, nearest_on_triangle(point, of_from)) -
            CGAL::squared_distance(point, nearest_on_triangle(point, of_to));
   };
-  // Nearer to an end than this a cut would leave the part almost as large as it was.
+  // A cut nearer to an end would leave a part almost as large as the whole.
   double low = 1 / 16.0, high = 15 / 16.0;
   if (excess(low) > 0 || excess(high) <= 0)
     return std::nullopt;
@@ -101,8 +105,9 @@ std::optional<Point_3> equally_far(const Point_3& from, const Point_3& to, const
   return from + low * (to - from);
 }
 
-/// Which side of a part to cut, by its first corner, and where: where the nearest triangle changes, so that
-/// parts come to lie over one triangle each; else the longest in its middle.
+/// Returns the side of a part to cut, by its first corner, and the point of the cut: where the nearest
+/// triangle changes, so that each half comes to lie over one triangle; else, and in every second cut, the
+/// middle of the longest side.
 std::pair<int, Point_3> cut_of(const Part& part, const Surface& to)
 {
   std::array<int, 3> sides = {0, 1, 2};
@@ -140,7 +145,7 @@ Distance distance(const Triangle_soup& from, const Triangle_soup& to)
                    [&](std::size_t i, Index vertex, const Surface_tree::Nearest& nearest) {
                      squared_distances[i] = CGAL::squared_distance(source.points[vertex], nearest.point);
                    });
-  // In one order, whichever came first.
+  // Summed in a fixed order, whatever the threads do.
   const double sum = std::accumulate(squared_distances.begin(), squared_distances.end(), 0.0);
   const double maximum = *std::max_element(squared_distances.begin(), squared_distances.end());
   const double mean = sum / static_cast<double>(vertices.size());
@@ -185,7 +190,7 @@ Bounds maximum_distance(const Triangle_soup& from, const Triangle_soup& to)
       return part.upper;
     return 0.0;
   };
-  double upper = lower; // of what is no longer looked at
+  double upper = lower; // of the parts that are no longer examined
   Cancellation_poll poll;
   for (const Index_triple& triangle : source.triangles) {
     poll();
@@ -205,7 +210,7 @@ Bounds maximum_distance(const Triangle_soup& from, const Triangle_soup& to)
     for (const int replaced : {place, (place + 1) % 3}) {
       Part half = part;
       ++half.cuts;
-      for (int k = 0; k < 3; ++k) // a segment has two corners at one end
+      for (int k = 0; k < 3; ++k) // a triangle (a, b, b), which is a segment, has two corners at one end
         if (part.corners[k] == part.corners[replaced]) {
           half.corners[k] = point;
           half.nearest[k] = to_point.triangle;

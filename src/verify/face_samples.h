@@ -10,7 +10,8 @@
 
 namespace selvedge::internal {
 
-/// Points inside triangles, one after another, that cover a triangle evenly however many it gets.
+/// Yields the points of triangles at which `compare` looks at normals and layers. The points of one triangle
+/// cover it evenly, however many it gets.
 ///
 /// **Reference** Roberts, *The unreasonable effectiveness of quasirandom sequences*, 2018.
 class Face_samples

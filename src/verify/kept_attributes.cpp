@@ -14,10 +14,12 @@
 #include <unordered_map>
 #include <utility>
 
+// Counts, for `compare`, how many vertices and attribute values of a result its original has too.
+
 namespace selvedge::internal {
 namespace {
 
-/// What a soup says of each corner of each triangle under one name, as bytes that can be compared.
+/// The values that one attribute has at the corners of triangles, as bytes that can be compared.
 struct Column
 {
   std::string name;
@@ -55,7 +57,7 @@ void add_column(std::vector<Column>& columns, const char* name, const Triangle_l
 std::string row(const Attribute& attribute, Index number, std::size_t rows)
 {
   const std::size_t size = attribute.rows.size() / rows;
-  // What is stored in another type is another value.
+  // Equal numbers of different types count as different values.
   std::string bytes = std::to_string(static_cast<int>(attribute.type)) + ' ';
   return bytes.append(reinterpret_cast<const char*>(attribute.rows.data()) + size * number, size);
 }
@@ -80,7 +82,7 @@ std::vector<Column> columns_of(const Triangle_soup& soup)
   return columns;
 }
 
-/// Pairs of a position and a value, both as numbers, in order, each once.
+/// Pairs of a position and a value, both as numbers, sorted and without duplicates.
 using Combinations = std::vector<std::pair<Index, Index>>;
 using Value_numbers = std::unordered_map<std::string, Index>;
 

@@ -8,7 +8,8 @@
 
 namespace selvedge::internal {
 
-/// Sets `vertices`, `original_vertices`, `attributes` and `lost_attributes`.
+/// Compares vertices and attributes, a step of `compare`: sets `vertices`, `original_vertices`, `attributes`
+/// and `lost_attributes` of `comparison`.
 void compare_values(Comparison& comparison, const Triangle_soup& result, const Triangle_soup& original);
 
 } // namespace selvedge::internal

@@ -16,12 +16,16 @@
 #include <iterator>
 #include <numeric>
 
+// Draws lines through the layers of an original and its result, and finds layers that have changed places,
+// for `compare`. `Layer_order` in compare.h states the rule.
+
 namespace selvedge::internal {
 namespace {
 
 constexpr Index none = -1;
 
-/// The edges of a mesh as a graph of positions, in which floods from several triangles meet.
+/// The edges of the original as a graph of positions. A search that starts at several triangles, one per
+/// layer, tells from which of them a position is reached first.
 class Position_graph
 {
 public:
@@ -43,7 +47,7 @@ public:
     for_each_side([&](Index from, Index to) { m_neighbours[next[from]++] = to; });
   }
 
-  /// Finds for every wanted position from which of some triangles it is reached with the fewest edges.
+  /// Finds, for every wanted position, from which of some triangles it is reached over the fewest edges.
   void flood(const std::vector<Index_triple>& triangles, const std::vector<Index>& wanted)
   {
     ++m_time;
@@ -73,7 +77,7 @@ public:
     Index last_ring = none;
     for (std::size_t i = 0; i < m_queue.size() && m_queue.size() < enough; ++i) {
       const Index position = m_queue[i];
-      // The ring is gone round to its end: another layer may reach the same positions.
+      // The last ring is completed, since another layer may reach the same positions.
       if (missing == 0 && last_ring == none)
         last_ring = m_ring[m_queue.back()];
       if (m_ring[position] == last_ring)
@@ -83,24 +87,24 @@ public:
     }
   }
 
-  /// The layer of a position after a flood, or none.
+  /// Returns the layer of a position after a flood; none where several layers reach it first, or no layer.
   Index layer(Index position) const { return m_reached[position] == m_time ? m_layer[position] : none; }
 
-  /// Positions that were reached so far, in all floods.
+  /// Returns how many positions all floods have reached so far.
   std::size_t work() const { return m_work; }
 
 private:
   std::vector<Index> m_positions; // of the vertices of the triangles
   std::vector<std::size_t> m_first;
   std::vector<Index> m_neighbours;
-  std::vector<Index> m_reached, m_wanted; // when
+  std::vector<Index> m_reached, m_wanted; // number of the last flood that did
   std::vector<Index> m_ring, m_layer;
   std::vector<Index> m_queue;
   Index m_time = 0;
   std::size_t m_work = 0;
 };
 
-/// All of some numbers, one after another, so that the first of them are spread over all.
+/// Enumerates the numbers below `size`, each once, so that the first few of them are spread over all.
 class Stride
 {
 public:
@@ -115,7 +119,7 @@ private:
   std::size_t m_size, m_step;
 };
 
-/// Where a segment crosses the plane of a triangle: 0 at its source, 1 at its target.
+/// Returns where a segment crosses the plane of a triangle: 0 at its source, 1 at its target.
 template <class Number>
 Number crossing(const Surface& surface, Index triangle, const Segment_3& segment)
 {
@@ -145,8 +149,9 @@ struct Crossing
   bool operator<(const Crossing& other) const { return place < other.place; }
 };
 
-/// Whether one layer may be crossed here before and there after: steeply, from the same side, and not farther
-/// away than two fifths of the line, which is twice as far as any point of one mesh is from the other.
+/// Whether a crossing in the result and one in the original may be of the same layer: both are at most 60°
+/// from the normal, from the same side, and not farther apart than two fifths of the line. Unless `compare`
+/// has limited its length, that is twice the largest distance of either mesh from the other.
 bool is_alike(const Crossing& now, const Crossing& old)
 {
   return std::min(std::abs(now.cosine), std::abs(old.cosine)) >= 0.5 && now.cosine * old.cosine > 0 &&
@@ -169,14 +174,15 @@ std::vector<Crossing> crossings(const Surface_tree& tree, const Surface& surface
   return result;
 }
 
-/// Whether a segment truly crosses one triangle before another.
+/// Whether a segment crosses one triangle before another; decided exactly.
 bool is_before(const Surface& surface, Index first, Index second, const Segment_3& segment)
 {
   using Exact = CGAL::Exact_rational;
   return crossing<Exact>(surface, first, segment) < crossing<Exact>(surface, second, segment);
 }
 
-/// For every vertex of the result its position in the original, or the nearest.
+/// Returns, for every vertex of the result, its position in the original, or that of the nearest vertex
+/// there.
 std::vector<Index> positions_in_original(const Surface& result, const Surface& original, Surface_tree& tree,
                                          const std::vector<Index>& positions, Index size,
                                          const std::vector<Index>& vertices)
@@ -264,7 +270,7 @@ Layer_order layer_order(const Triangle_soup& result, const Triangle_soup& origin
           layer == graph.layer(stand_ins[corners[2]]))
         places[layer] = places[layer] == nowhere && is_alike(now[place], old[layer]) ? place : several;
     }
-    std::size_t last = nowhere; // of the layers that are crossed once
+    std::size_t last = nowhere; // the last layer that is crossed once
     for (std::size_t layer = 0; layer < old.size(); ++layer) {
       if (places[layer] >= now.size())
         continue;

@@ -8,7 +8,8 @@
 
 namespace selvedge::internal {
 
-/// Draws lines of `reach` to both sides.
+/// Compares the order of layers along lines through the original's faces, a step of `compare`. The lines
+/// reach `reach`, in the unit of the coordinates, to both sides of a face.
 Layer_order layer_order(const Triangle_soup& result, const Triangle_soup& original, double reach);
 
 } // namespace selvedge::internal

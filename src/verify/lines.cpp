@@ -12,11 +12,14 @@
 #include <cmath>
 #include <tuple>
 
+// Finds the borders and seams of a result and its original, measures how far apart they are, and finds seams
+// that have opened, for `compare`.
+
 namespace selvedge::internal {
 namespace {
 
-/// The side of a triangle, from the end with the lower position to the other. A corner is 3 · triangle + 0, 1
-/// or 2.
+/// The side of a triangle, from the end with the lower position number to the other. Corner i of triangle t
+/// has the number 3t + i.
 struct Side
 {
   Index low, high;
@@ -51,7 +54,8 @@ std::vector<Side> sorted_sides(const Triangle_soup& soup)
   return sides;
 }
 
-/// Whether something that the file says of two corners at one position differs.
+/// Whether two corners at one position differ in vertex number, texture coordinate, group, object or
+/// material.
 bool differ(const Triangle_soup& soup, std::size_t a, std::size_t b)
 {
   const auto differ_in_label = [&](const Triangle_labels& labels) {
@@ -70,7 +74,7 @@ Line_distance line_distance(const Lines& from, const Lines& to)
   return {distance(from.edges, to.edges), maximum_distance(from.edges, to.edges)};
 }
 
-/// From the middle of an edge across its face, at right angles to the edge.
+/// Returns the direction from an edge across its face, at right angles to the edge.
 Vector_3 inwards(const Surface& edges, const Lines& lines, Index edge)
 {
   const Vector_3 along = edges.corner(edge, 1) - edges.corner(edge, 0);
@@ -126,7 +130,7 @@ Gaps find_gaps(const Borders_and_seams& result, const Borders_and_seams& origina
   std::optional<Surface_tree> border_tree;
   if (!borders.triangles.empty())
     border_tree.emplace(borders);
-  // Farther from the border than from a seam: positive.
+  // Positive when a point is farther from the original's border than from its seams.
   const auto excess = [&](const Point_3& point) {
     const auto distance_to = [&](Surface_tree& tree) {
       return std::sqrt(CGAL::squared_distance(point, tree.nearest(point).point));

@@ -10,11 +10,12 @@
 
 namespace selvedge::internal {
 
-/// Edges of one kind, each as a triangle (a, b, b) that is a segment, and the corner across it.
+/// The borders or the seams of a mesh, as `compare` measures them. Each edge is stored as a triangle (a, b,
+/// b), which is a segment, with the corner opposite it.
 struct Lines
 {
   Triangle_soup edges;
-  std::vector<Index> opposite; ///< in the first of its triangles
+  std::vector<Index> opposite; ///< of each edge, in the first of its triangles
 };
 
 struct Borders_and_seams
@@ -22,7 +23,8 @@ struct Borders_and_seams
   Lines borders, seams;
 };
 
-/// Edges are told by their positions. Those of triangles that have two corners at one position do not count.
+/// Finds borders and seams. Edges are identified by their positions; triangles that have two corners at one
+/// position do not count.
 Borders_and_seams borders_and_seams(const Triangle_soup& soup);
 
 Line_comparison compare_lines(const Lines& result, const Lines& original);

@@ -18,6 +18,8 @@
 namespace selvedge::internal {
 namespace {
 
+/// Judges whether matched pieces have kept their groups, objects and materials, a part of the verdict of
+/// `verify`.
 class Name_matching
 {
 public:
@@ -83,8 +85,8 @@ private:
       return;
 
     std::optional<Shape> shape;
-    // The name that the original has where a triangle of the result is, or the triangle's own if that is one
-    // of several.
+    // Returns the name that the original has at the place of a triangle of the result. This is the triangle's
+    // own name when the original has it there, perhaps among others, and when it has no name there.
     const auto name_before = [&](Index t) {
       const Index name = names.now(t);
       bool is_known = false, is_here = true;

@@ -11,8 +11,8 @@ namespace selvedge::internal {
 /// Judges the names of matched pieces: adds mismatches, and sets which names were compared; see
 /// `match_pieces`.
 ///
-/// Positions are numbered below `position_count`; `exponent` brings both meshes to a size at which squares
-/// neither overflow nor vanish.
+/// `position_count` is the number of positions of both meshes. Division by 2^`exponent` brings both to a size
+/// at which squares neither overflow nor vanish.
 void match_names(Piece_matching& matching, const Piece_mesh& result, const Piece_mesh& original,
                  std::size_t position_count, int exponent);
 

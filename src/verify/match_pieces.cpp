@@ -25,28 +25,32 @@
 #include <tuple>
 #include <utility>
 
+// Finds which piece of a result came from which piece of its original, a part of the verdict of `verify`. The
+// steps 1 to 4 are those that verify.h states.
+
 namespace selvedge {
 
 using namespace internal;
 
 namespace {
 
-// How far a piece may be from the original's, as a share of its size.
+// The largest root mean square distance of matching pieces, as a share of the diagonal of the original's.
 constexpr double most_distance = 0.25;
-// How much farther than the nearest a piece may be and still be meant.
+// How many times as far as the nearest piece a matching piece may be.
 constexpr double most_excess = 2;
-// The share of its area that a piece turns over at least when it is turned inside out: thin cloth that is
-// reduced far has half of it nearest to its other side.
+// A piece counts as turned inside out when at least this share of its area is. Half is not enough: thin cloth
+// that is reduced far has half of its area nearest to its other side.
 constexpr double least_turned = 0.9;
 
-/// The positions of two soups, those of the second following those of the first. When only those of the first
-/// have been rounded to 32-bit floats, the others count as if they had been, too.
+/// Numbers the positions of two soups; those of the second follow those of the first. When only the first has
+/// been rounded to 32-bit floats, the second is rounded for this too.
 std::vector<Index> common_positions(const Triangle_soup& result, const Triangle_soup& original)
 {
   return is_only_first_rounded(result, original) ? position_numbers(result, rounded(original))
                                                  : position_numbers(result, original);
 }
 
+/// Runs the steps of `match_pieces` one after the other on the pieces that are left.
 class Matching
 {
 public:
@@ -116,7 +120,7 @@ private:
     return std::all_of(now.begin(), now.end(), is_none) || std::all_of(before.begin(), before.end(), is_none);
   }
 
-  // Takes the place of the matches that the pieces have.
+  // Matches pieces; earlier matches of any of them are dissolved.
   void match(std::vector<Index> of_original, std::vector<Index> of_result, Matched_by by)
   {
     const Index number = Index(m_matching.matches.size());
@@ -174,8 +178,9 @@ private:
 
   // ---- 2 and 4: joined where positions coincide
 
-  // For every position the pieces of the original there, and, for positions of the result, those with a
-  // border vertex within the weld distance, or of which such a one leads there over borders of other pieces.
+  // Lists the pieces of the original at every position. A position that both meshes have also gets the pieces
+  // with a border vertex within the weld distance, be it of this position or of a border vertex that was
+  // reached so.
   Lists within_reach() const
   {
     std::vector<Pair> pairs;
@@ -190,7 +195,7 @@ private:
   void add_near_borders(std::vector<Pair>& pairs) const
   {
     const Triangle_soup& original = m_original.soup;
-    std::vector<Index_triple> borders; // their vertices, as triangles that are points
+    std::vector<Index_triple> borders; // border vertices, each as a triangle (v, v, v)
     std::vector<Index> pieces;
     {
       std::map<Pair, std::pair<int, Index>> sides;
@@ -231,8 +236,8 @@ private:
       if (is_done[position] || m_original_at[position].size() == 0)
         continue;
       is_done[position] = true;
-      // Where several pieces meet, a border may have gone on with the one that it was joined to: from every
-      // piece in reach to those in reach of its border.
+      // Where several pieces meet, a border that was joined to a second one may have moved on with it to a
+      // third. So the search continues from every border vertex that is reached.
       const Lists::Range here = m_original_at[position];
       std::set<Index> reached(here.begin(), here.end());
       std::vector<Point_3> at{m_result.soup.points[vertex]}, next;
@@ -253,10 +258,11 @@ private:
     }
   }
 
-  // Who can own a triangle of the result: pieces of the original that are within reach of all its corners.
+  // The pieces of the original that a triangle of the result may come from: those within reach of all
+  // corners.
   struct Owners
   {
-    bool is_known = false; ///< some corner tells
+    bool is_known = false; ///< some corner lies where 1 to 64 pieces are in reach
     bool is_one = false;
     Index piece = no_piece;
     bool is_broken() const { return is_known && piece == no_piece; }
@@ -374,8 +380,8 @@ private:
     }
   }
 
-  // Whether some triangles of the result and pieces of the original are within a quarter of these pieces'
-  // size.
+  // Whether some triangles of the result and some pieces of the original are no farther apart than a quarter
+  // of the size of these pieces.
   bool are_near(const std::vector<Index>& of_original, const std::vector<Index>& triangles) const
   {
     const Shape after(m_result.soup, triangles, m_exponent);
@@ -443,7 +449,7 @@ private:
       match({o}, {r}, Matched_by::distance);
   }
 
-  // ---- Telling
+  // ---- Mismatches
 
   void add_mismatch(Mismatch what, std::vector<Index> of_original, std::vector<Index> of_result,
                     std::string message)
@@ -493,7 +499,7 @@ private:
       if (group.is_broken && m_options.weld_distance == 0)
         message += "; if borders were joined on purpose, give the weld distance";
       add_mismatch(Mismatch::topology, group.of_original, group.of_result, std::move(message));
-      // What has matched in it has done so by chance.
+      // Pieces of this group that did match have done so by chance.
       for (const Index o : group.of_original)
         if (const Index match = std::exchange(m_match_of_original[o], no_piece); match != no_piece)
           m_matching.matches[match] = {};
@@ -554,8 +560,8 @@ private:
   int m_exponent;
   Lists m_original_at; ///< the pieces of the original at each position
   std::vector<Index> m_match_of_result, m_match_of_original;
-  std::vector<Possible_match> m_near; ///< by vertices, of whatever kinds
-  std::vector<Joined> m_groups;       ///< those that did not match
+  std::vector<Possible_match> m_near; ///< pairs by vertices, whatever their kinds
+  std::vector<Joined> m_groups;       ///< groups by positions that did not match
   Piece_matching m_matching;
 };
 

@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+// Finds the offending pairs of a result that its original does not have; `verify` accepts no result with one.
+
 namespace selvedge {
 namespace {
 
@@ -24,7 +26,7 @@ Triangle_positions sorted_positions(const Triangle_soup& soup, Index triangle)
   return positions;
 }
 
-/// A pair by what it is, and by where it stands in its list.
+/// An offending pair, ordered by its offence and positions, with its place in its list.
 struct Known_pair
 {
   Triangle_positions first, second;

@@ -17,13 +17,16 @@
 #include <tuple>
 #include <utility>
 
+// Finds the pairs of triangles because of which a mesh is not embedded. `prepare` freezes their faces in an
+// input, and `verify` looks for new ones in a result.
+
 namespace selvedge {
 namespace {
 
 using Segment_3 = Kernel::Segment_3;
 using Triangle_3 = Kernel::Triangle_3;
 
-/// A triangle by its distinct positions.
+/// A triangle by its distinct positions, of which a degenerate one may have fewer than three.
 struct Face
 {
   std::array<const Point_3*, 3> corners;
@@ -33,7 +36,7 @@ struct Face
   const Point_3& operator[](int i) const { return *corners[i]; }
 };
 
-/// Brings the positions that two faces share to the front of both, in one order, and counts them.
+/// Moves the positions that two faces share to the front of both, in one order, and returns their number.
 int align(Face& s, Face& t)
 {
   int shared = 0;
@@ -56,7 +59,7 @@ bool strictly_on_one_side(CGAL::Orientation a, CGAL::Orientation b)
 /// Whether triangles without a common position meet.
 bool meet_unshared(const Face& s, const Face& t)
 {
-  // CGAL's test begins with the same signs, but in interval arithmetic: these are settled by static filters.
+  // CGAL's test begins with the same signs, but in interval arithmetic; static filters settle them faster.
   for (const auto& [plane, other] : {std::tie(s, t), std::tie(t, s)}) {
     const CGAL::Orientation side = CGAL::orientation(plane[0], plane[1], plane[2], other[0]);
     if (strictly_on_one_side(side, CGAL::orientation(plane[0], plane[1], plane[2], other[1])) &&
@@ -66,8 +69,8 @@ bool meet_unshared(const Face& s, const Face& t)
   return CGAL::do_intersect(Triangle_3(s[0], s[1], s[2]), Triangle_3(t[0], t[1], t[2]));
 }
 
-/// Whether triangles that share corner 0 meet beyond it. Then a ray from there runs in both, and where it
-/// first leaves one of them, it does so through the opposite edge, and within the other.
+/// Whether two triangles that share corner 0 meet beyond it. If they do, some ray from that corner lies in
+/// both; where it first leaves one of them, it crosses the opposite edge of that one, within the other.
 bool meet_beyond_corner(const Face& s, const Face& t)
 {
   for (const auto& [plane, other] : {std::tie(s, t), std::tie(t, s)})
@@ -78,7 +81,7 @@ bool meet_beyond_corner(const Face& s, const Face& t)
          CGAL::do_intersect(Triangle_3(t[0], t[1], t[2]), Segment_3(s[1], s[2]));
 }
 
-/// Whether triangles that share edge 01 meet beyond it.
+/// Whether two triangles that share the edge of corners 0 and 1 meet beyond it.
 bool meet_beyond_edge(const Face& s, const Face& t)
 {
   return CGAL::orientation(s[0], s[1], s[2], t[2]) == CGAL::COPLANAR &&
@@ -138,8 +141,8 @@ bool degenerate_meets(const Face& s, const Face& t, int shared)
         return true;
     return false;
   default:
-    // The line of two corners of a triangle meets it in their edge only; two segments may go on past the same
-    // end.
+    // The line through two corners of a triangle meets it only in their edge. Two degenerate faces meet when
+    // both continue beyond the same shared end.
     return s.size == 3 && t.size == 3 && t.degenerate &&
            ((CGAL::collinear_are_ordered_along_line(s[0], s[1], s[2]) &&
              CGAL::collinear_are_ordered_along_line(t[0], t[1], t[2])) ||
@@ -148,6 +151,7 @@ bool degenerate_meets(const Face& s, const Face& t, int shared)
   }
 }
 
+/// Decides for all pairs of triangles whose boxes meet whether they offend.
 class Judge
 {
 public:
@@ -163,7 +167,7 @@ public:
     });
   }
 
-  /// Hands every offending pair to `report`, in no particular order, and concurrently.
+  /// Calls `report(pair)` for every offending pair, in no particular order and concurrently.
   template <class Report>
   void judge(const Report& report) const
   {
@@ -231,7 +235,7 @@ std::vector<Offending_pair> offending_pairs(const Triangle_soup& soup)
 
 bool is_embedded(const Triangle_soup& soup)
 {
-  // The one way out of the traversal, whoever finds it.
+  // Thrown to end the search, by whichever thread finds the first pair.
   struct Found
   {
   };

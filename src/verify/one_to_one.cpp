@@ -10,6 +10,7 @@
 namespace selvedge::internal {
 namespace {
 
+/// Assigns pieces of the result to pieces of the original: greedily at first, then by augmenting paths.
 class Assignment
 {
 public:
@@ -48,7 +49,7 @@ private:
     m_of_original[o] = r;
   }
 
-  // Finds a place for a piece of the result, whose holder then finds another.
+  // Finds a partner for a piece of the result. When the partner has one, that one looks for another first.
   bool augment(Index r)
   {
     for (const Index o : m_originals_of[r]) {
@@ -67,7 +68,7 @@ private:
   }
 
   std::vector<Index> m_of_result, m_of_original;
-  std::vector<Index> m_tried; // in which search
+  std::vector<Index> m_tried; // by number of the search
   Index m_search = 0;
   std::size_t m_budget = 0;
   Lists m_originals_of;

@@ -10,10 +10,10 @@
 
 namespace selvedge::internal {
 
-/// A piece of the result that may be what became of a piece of the original.
+/// A piece of the result and a piece of the original that may match, a candidate of `match_pieces`.
 struct Possible_match
 {
-  double distance; ///< of whatever kind; 0 for the best
+  double distance; ///< any measure; 0 is best
   bool do_names_differ;
   Index of_result, of_original;
 
@@ -24,11 +24,11 @@ struct Possible_match
   }
 };
 
-/// Pairs of a piece of the result and one of the original, each piece in one pair at most: the best first,
-/// then as many more as exchanges among those chosen allow.
+/// Returns pairs of a piece of the result and one of the original, each piece in one pair at most: the best
+/// first, then as many more as can be had by exchanging partners.
 ///
-/// Each search for an exchange looks at no more than some thousand possible matches, so a pair may be missed
-/// where thousands of pieces lie at one place.
+/// Each search for an exchange looks at no more than 1000 possible matches, so a pair may be missed where
+/// thousands of pieces lie at one place.
 std::vector<Pair> one_to_one(std::vector<Possible_match> possible, std::size_t pieces_of_result,
                              std::size_t pieces_of_original);
 

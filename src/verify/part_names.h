@@ -4,7 +4,7 @@
 #ifndef SELVEDGE_SRC_VERIFY_PART_NAMES_H
 #define SELVEDGE_SRC_VERIFY_PART_NAMES_H
 
-#include <selvedge/mesh/Triangle_soup.h>
+#include <selvedge/Triangle_soup.h>
 
 #include <algorithm>
 #include <map>
@@ -13,7 +13,7 @@
 
 namespace selvedge::internal {
 
-/// What a person calls a triangle: its group, else its object, else its material.
+/// The name of a triangle in messages of the judge: its group, else its object, else its material.
 class Part_names
 {
 public:
@@ -31,7 +31,8 @@ private:
   const Triangle_soup& m_soup;
 };
 
-/// The names of two meshes by common numbers.
+/// Numbers the names of two meshes in common (groups, objects or materials), so that the judge can compare
+/// them.
 class Common_names
 {
 public:
@@ -84,7 +85,8 @@ private:
     return std::size_t(std::count(used.begin(), used.end(), true));
   }
 
-  // Without the numbers by which the reader tells primitives and nodes of one name apart.
+  // Returns a name without the numbers (`/0`, `#2`) by which the reader tells glTF primitives and nodes of
+  // one name apart.
   std::string stem(std::string name) const
   {
     for (const char mark : {'#', '/'}) {

@@ -13,14 +13,17 @@
 #include <tuple>
 #include <utility>
 
+// Finds the pieces of a mesh by vertex numbers and counts their edges, boundary loops and Euler
+// characteristics, for `verify`.
+
 namespace selvedge {
 
 using namespace internal;
 
 namespace {
 
-/// The side of a triangle, from the end with the lower vertex number to the other. A corner is 3 · triangle +
-/// 0, 1 or 2.
+/// The side of a triangle, from the end with the lower vertex number to the other. Corner i of triangle t has
+/// the number 3t + i.
 struct Side
 {
   Index low, high;
@@ -32,7 +35,7 @@ bool is_face(const Index_triple& corners)
   return corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0];
 }
 
-/// By their lower ends in linear time, and the few of one lower end by the other, then by the corner.
+/// Returns all sides, sorted by their lower ends (in linear time), then by their other ends, then by corners.
 std::vector<Side> sorted_sides(const std::vector<Index_triple>& triangles, std::size_t vertices)
 {
   const auto for_each_side = [&](const auto& function) {
@@ -118,7 +121,7 @@ Numbered_pieces internal::numbered_pieces(const std::vector<Index_triple>& trian
       ++piece.non_manifold_edges;
   }
 
-  // A border edge leads from one fan to another; a loop is what hangs together that way.
+  // Each border edge connects two fans. A boundary loop is a set of fans that border edges connect.
   Cancellation_scope::check();
   for (const Side& border : borders)
     fans.unite(border.corner_at_low, border.corner_at_high);

@@ -10,14 +10,15 @@ namespace selvedge::internal {
 
 constexpr Index no_piece = -1;
 
+/// The pieces of a mesh, as the judge counts and matches them, with the piece of each triangle.
 struct Numbered_pieces
 {
   std::vector<Piece> pieces;
-  /// For each triangle the number of its piece; `no_piece` where it names a vertex twice.
+  /// The piece of each triangle; `no_piece` for one that names a vertex twice.
   std::vector<Index> of_triangle;
 };
 
-/// The same as `pieces`, of triangles whose vertices have numbers below `vertices`.
+/// Does the same as `pieces` for triangles whose vertices have numbers below `vertices`.
 Numbered_pieces numbered_pieces(const std::vector<Index_triple>& triangles, std::size_t vertices);
 
 } // namespace selvedge::internal

@@ -5,7 +5,7 @@
 #define SELVEDGE_VERIFY_POSITIONS_H
 
 #include <selvedge/Cancellation_scope.h>
-#include <selvedge/mesh/Triangle_soup.h>
+#include <selvedge/Triangle_soup.h>
 
 #include <algorithm>
 #include <numeric>
@@ -13,7 +13,8 @@
 
 namespace selvedge::internal {
 
-/// For every point a number that it shares with those of the same coordinates; −0 is 0. Numbers begin at 0.
+/// Numbers positions, by which the judge compares meshes: returns a number for every point, which all points
+/// of the same coordinates share; −0 is 0. Numbers begin at 0.
 inline std::vector<Index> position_numbers(const std::vector<Point_3>& points)
 {
   std::vector<Index> order(points.size()), numbers(points.size());
@@ -31,7 +32,7 @@ inline std::vector<Index> position_numbers(const std::vector<Point_3>& points)
   return numbers;
 }
 
-/// The same for two soups together: those of the second follow those of the first.
+/// Numbers the positions of two soups in common: the points of the second follow those of the first.
 inline std::vector<Index> position_numbers(const Triangle_soup& first, const Triangle_soup& second)
 {
   std::vector<Point_3> points = first.points;

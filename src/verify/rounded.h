@@ -6,10 +6,13 @@
 
 #include "Surface_tree.h"
 
-#include <selvedge/mesh/rounding.h>
+#include <selvedge/rounding.h>
 
 #include <cmath>
 #include <limits>
+
+// Rounds an original to 32-bit floats when its result has been, so that the judge does not count rounding as
+// a change.
 
 namespace selvedge::internal {
 
@@ -23,7 +26,7 @@ inline bool has_float32_alone(const Triangle_soup& soup)
   return true;
 }
 
-/// Whether that holds for one soup, and not for another, which could be rounded to such.
+/// Whether the first soup has 32-bit floats alone, and the second has not but could be rounded to them.
 inline bool is_only_first_rounded(const Triangle_soup& first, const Triangle_soup& second)
 {
   if (!has_float32_alone(first) || has_float32_alone(second))
@@ -35,7 +38,7 @@ inline bool is_only_first_rounded(const Triangle_soup& first, const Triangle_sou
   return true;
 }
 
-/// The triangles of a soup and their names, rounded to 32-bit floats.
+/// Returns the triangles of a soup and their names, with all coordinates rounded to 32-bit floats.
 inline Triangle_soup rounded(const Triangle_soup& soup)
 {
   Triangle_soup result;
@@ -45,7 +48,7 @@ inline Triangle_soup rounded(const Triangle_soup& soup)
   result.objects = soup.objects;
   result.materials = soup.materials;
   result.scene = soup.scene;
-  // No number of an unused vertex matters, but it may be too large.
+  // The coordinates of an unused vertex do not matter, but may be too large to be rounded.
   std::vector<bool> is_used(soup.points.size());
   for (const Index vertex : used_vertices(soup))
     is_used[vertex] = true;

@@ -5,10 +5,13 @@
 #include <selvedge/verify.h>
 
 #include "rounded.h"
+#include "soup/obstacle.h"
 
 #include <oneapi/tbb/parallel_invoke.h>
 
-#include <utility>
+// The judge, which decides whether a result may be written. It puts together what `offending_pairs`,
+// `pieces`, `match_pieces` and `distances` say of a result and its original, and knows nothing of the
+// reduction.
 
 namespace selvedge {
 
@@ -32,15 +35,25 @@ Verification verify(const Triangle_soup& result, const Triangle_soup& original, 
 }
 
 Verification verify(const Triangle_soup& result, const Triangle_soup& original,
-                    const std::vector<Offending_pair>& pairs_of_original, const Verify_options& options)
+                    const std::vector<Offending_pair>& pairs_of_original, const Verify_options& options,
+                    const Triangle_soup& obstacle)
 {
+  const auto find_new_pairs = [&](Verification& verification, const Triangle_soup& after,
+                                  const Triangle_soup& before) {
+    verification.pairs = offending_pairs(after);
+    verification.new_pairs = new_pairs(after, verification.pairs, before, pairs_of_original);
+  };
   Verification verification;
-  Piece_matching matching;
-  tbb::parallel_invoke(
-      Cancellation_scope::inherited([&] { verification = verify(result); }),
-      Cancellation_scope::inherited([&] { matching = match_pieces(result, original, options); }));
-  verification.matching = std::move(matching);
-  verification.new_pairs = new_pairs(result, verification.pairs, original, pairs_of_original);
+  tbb::parallel_invoke(Cancellation_scope::inherited([&] {
+                         if (obstacle.triangles.empty())
+                           find_new_pairs(verification, result, original);
+                         else
+                           find_new_pairs(verification, geometry_with_obstacle(result, obstacle),
+                                          geometry_with_obstacle(original, obstacle));
+                       }),
+                       Cancellation_scope::inherited([&] { verification.pieces = pieces(result); }),
+                       Cancellation_scope::inherited(
+                           [&] { verification.matching = match_pieces(result, original, options); }));
   verification.topology_differences =
       topology_differences(verification.pieces, verification.matching.pieces_of_original);
   verification.distances = distances(result, original);

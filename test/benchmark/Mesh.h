@@ -5,8 +5,8 @@
 #define SELVEDGE_BENCHMARK_MESH_H
 
 #include <selvedge/generate.h>
-#include <selvedge/mesh/mesh_files.h>
-#include <selvedge/simplify_soup.h>
+#include <selvedge/mesh_files.h>
+#include <selvedge/simplify.h>
 
 #include <CLI/CLI.hpp>
 

@@ -5,7 +5,7 @@
 #define SELVEDGE_BENCHMARK_OPENMESH_DECIMATER_H
 
 #include <selvedge/Simplify_options.h>
-#include <selvedge/mesh/Triangle_soup.h>
+#include <selvedge/Triangle_soup.h>
 
 #include <OpenMesh/Core/Mesh/DefaultTriMesh.hh>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>

@@ -7,7 +7,7 @@
 #include <selvedge/Error.h>
 #include <selvedge/Sha256.h>
 #include <selvedge/collapse_log.h>
-#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/mesh_files.h>
 
 #include <CLI/CLI.hpp>
 

@@ -6,7 +6,7 @@
 
 #include "Table.h"
 
-#include <selvedge/simplify_soup.h>
+#include <selvedge/simplify.h>
 
 #include <algorithm>
 #include <cstddef>

@@ -7,6 +7,7 @@
 
 #include "Peer_log.h"
 
+#include <selvedge/Error.h>
 #include <selvedge/Surface_mesh_simplification/stop_predicates.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -9,9 +9,9 @@
 #include "Table.h"
 #include "interleaved.h"
 
-#include <selvedge/mesh/Working_mesh.h>
-#include <selvedge/mesh/mesh_files.h>
-#include <selvedge/simplify_soup.h>
+#include "soup/Working_mesh.h"
+#include <selvedge/mesh_files.h>
+#include <selvedge/simplify.h>
 #include <selvedge/verify.h>
 
 #include <CLI/CLI.hpp>

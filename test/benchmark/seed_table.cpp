@@ -10,8 +10,8 @@
 #include "interleaved.h"
 #include "line_plot.h"
 
-#include <selvedge/mesh/mesh_files.h>
-#include <selvedge/simplify_soup.h>
+#include <selvedge/mesh_files.h>
+#include <selvedge/simplify.h>
 #include <selvedge/verify.h>
 
 #include <CLI/CLI.hpp>

@@ -4,7 +4,7 @@
 #include "App_run.h"
 
 #include <selvedge/generate.h>
-#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/mesh_files.h>
 #include <selvedge/verify.h>
 
 namespace selvedge::test {

@@ -3,7 +3,7 @@
 
 #include "Documentation.h"
 
-#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/mesh_files.h>
 
 #include <nlohmann/json.hpp>
 

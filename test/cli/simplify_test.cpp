@@ -3,7 +3,7 @@
 
 #include "App_run.h"
 
-#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/mesh_files.h>
 #include <selvedge/verify.h>
 
 #include <set>

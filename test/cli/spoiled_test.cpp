@@ -3,10 +3,10 @@
 
 #include "App_run.h"
 
+#include "soup/selection.h"
 #include <selvedge/generate.h>
-#include <selvedge/mesh/mesh_files.h>
-#include <selvedge/mesh/rounding.h>
-#include <selvedge/mesh/selection.h>
+#include <selvedge/mesh_files.h>
+#include <selvedge/rounding.h>
 
 #include <nlohmann/json.hpp>
 

@@ -3,8 +3,8 @@
 
 #include "App_run.h"
 
-#include <selvedge/mesh/mesh_files.h>
-#include <selvedge/mesh/selection.h>
+#include "soup/selection.h"
+#include <selvedge/mesh_files.h>
 #include <selvedge/verify.h>
 
 #include <nlohmann/json.hpp>

@@ -4,8 +4,9 @@
 """Tells whether includes go one way: `include_order.py TREE`.
 
 LEVELS is the way of a file through the program, read backwards: a file may include those of its own level and of the
-levels before it. JUDGE names what judges results, which shares nothing with the filter that it judges. Exit status 1
-when an include breaks a rule, or a file belongs to no level.
+levels before it. JUDGE names what judges results, which shares nothing with the filter that it judges. A public header
+includes an internal one only when it uses a name that is declared there. Exit status 1 when an include breaks a rule, or
+a file belongs to no level.
 """
 import os
 import pathlib
@@ -13,21 +14,25 @@ import re
 import sys
 
 LEVELS = [
-    ("basics", ["include/selvedge/Cancellation_scope.h", "include/selvedge/Error.h", "include/selvedge/internal/"]),
+    ("basics", ["include/selvedge/Cancellation_scope.h", "include/selvedge/Error.h", "include/selvedge/internal/instructions.h",
+                "include/selvedge/internal/Vector_of_doubles.h"]),
     ("geometry", ["include/selvedge/geometry/", "include/selvedge/spatial/"]),
-    ("policies", ["include/selvedge/Surface_mesh_simplification/", "include/selvedge/edge_collapse.h", "include/selvedge/simplify.h",
-                  "include/selvedge/Simplify_options.h", "include/selvedge/Simplify_report.h"]),
-    ("soups", ["include/selvedge/mesh/", "src/mesh/"]),
-    ("files", ["src/files/", "include/selvedge/generate.h", "src/generate/"]),
+    ("policies", ["include/selvedge/Surface_mesh_simplification/", "include/selvedge/Simplify_options.h",
+                  "include/selvedge/Simplify_report.h"]),
+    ("soups", ["include/selvedge/Triangle_soup.h", "include/selvedge/Parts.h", "include/selvedge/rounding.h", "include/selvedge/merge.h",
+               "include/selvedge/Sewing_notes.h", "include/selvedge/Snapping_notes.h", "include/selvedge/internal/Scale.h",
+               "src/soup/"]),
+    ("welding", ["src/weld/"]),
+    ("files", ["include/selvedge/mesh_files.h", "src/files/", "include/selvedge/generate.h", "src/generate/"]),
     ("judge", ["include/selvedge/verify.h", "include/selvedge/compare.h", "src/verify/"]),
     ("logs", ["include/selvedge/Reduction_limits.h", "include/selvedge/collapse_log.h", "include/selvedge/Sha256.h", "src/log/"]),
     ("replay", ["include/selvedge/replay.h", "src/replay/"]),
-    ("reduction", ["include/selvedge/simplify_soup.h", "include/selvedge/Reduction_log.h", "include/selvedge/part_report.h", "src/"]),
+    ("reduction", ["include/selvedge/prepare.h", "include/selvedge/simplify.h", "include/selvedge/Reduction_log.h",
+                   "include/selvedge/part_report.h", "src/simplify/"]),
     ("app", ["apps/"]),
 ]
 JUDGE = ["src/verify/", "src/replay/", "include/selvedge/verify.h", "include/selvedge/compare.h", "include/selvedge/replay.h"]
-FILTER = ["include/selvedge/geometry/", "include/selvedge/spatial/", "include/selvedge/Surface_mesh_simplification/",
-          "include/selvedge/edge_collapse.h", "include/selvedge/simplify.h"]
+FILTER = ["include/selvedge/geometry/", "include/selvedge/spatial/", "include/selvedge/Surface_mesh_simplification/"]
 
 
 def is_in(file, places):
@@ -56,6 +61,18 @@ def reached(tree, file, seen):
     return seen
 
 
+def code(tree, file):
+    """The text of a file without comments and includes."""
+    return re.sub(r"//[^\n]*|^#include[^\n]*", "", (tree / file).read_text(encoding="utf-8"), flags=re.MULTILINE)
+
+
+def is_needed(tree, file, included):
+    """Whether a file uses a name that the included one declares: a type, a macro or a function."""
+    declared = set(re.findall(r"\b(?:class|struct|using|#define)\s+(\w+)", code(tree, included)))
+    declared |= set(re.findall(r"^(?:\w|[<>:,&* ])*?\b(\w+)\(", code(tree, included), re.MULTILINE))
+    return any(re.search(rf"\b{name}\b", code(tree, file)) for name in declared)
+
+
 def main():
     tree = pathlib.Path(sys.argv[1])
     files = sorted(str(f.relative_to(tree)) for folder in ("include", "src", "apps")
@@ -66,6 +83,9 @@ def main():
             if level(file) is not None and level(included) is not None and level(included) > level(file):
                 errors.append(f"{file} ({LEVELS[level(file)][0]}) includes {included} ({LEVELS[level(included)][0]}), "
                               "which comes later on the way")
+            if file.startswith("include/") and "/internal/" not in file and "/internal/" in included \
+                    and not is_needed(tree, file, included):
+                errors.append(f"{file} is public, and includes {included}, of which it uses nothing")
         if is_in(file, JUDGE):
             errors += [f"{file} judges, and includes {included}, which is a part of the filter"
                        for included in sorted(reached(tree, file, set())) if is_in(included, FILTER)]

@@ -4,6 +4,7 @@
 // What the guard says of every collapse in small scenes, against the three conditions asked of everything:
 // both must give the same answer, while the mesh changes.
 
+#include "support/mesh_of.h"
 #include "support/reduction.h"
 
 #include <selvedge/Surface_mesh_simplification/Intersection_filter.h>

@@ -3,6 +3,7 @@
 
 // The fast indices against the brute-force one, in the middle of real reductions.
 
+#include "support/mesh_of.h"
 #include "support/meshes.h"
 #include "support/reduction.h"
 

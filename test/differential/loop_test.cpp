@@ -3,14 +3,15 @@
 
 // The own loop against CGAL's: where no two edges cost the same, the same collapses in the same order.
 
+#include "soup/Working_mesh.h"
+#include "soup/number_positions.h"
 #include <selvedge/Surface_mesh_simplification/Aspect_ratio_filter.h>
 #include <selvedge/Surface_mesh_simplification/Border_filter.h>
 #include <selvedge/Surface_mesh_simplification/Dihedral_angle_filter.h>
 #include <selvedge/Surface_mesh_simplification/Halfedge_placement.h>
 #include <selvedge/Surface_mesh_simplification/Intersection_filter.h>
 #include <selvedge/Surface_mesh_simplification/Quadric_cost.h>
-#include <selvedge/edge_collapse.h>
-#include <selvedge/mesh/Working_mesh.h>
+#include <selvedge/Surface_mesh_simplification/edge_collapse.h>
 
 #include "support/meshes.h"
 

@@ -7,6 +7,8 @@
 
 #include <sanitizer/allocator_interface.h>
 
+#include <selvedge/Error.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>

@@ -7,9 +7,9 @@
 #include "support/meshes.h"
 #include "support/reduction.h"
 
+#include "soup/selection.h"
 #include <selvedge/Error.h>
-#include <selvedge/mesh/mesh_files.h>
-#include <selvedge/mesh/selection.h>
+#include <selvedge/mesh_files.h>
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,11 @@
 // G10: the filter guards placements that are no vertices, after every collapse; filters work alone and
 // stacked.
 
+#include "support/mesh_of.h"
 #include "support/meshes.h"
 #include "support/reduction.h"
 
+#include <selvedge/Error.h>
 #include <selvedge/Surface_mesh_simplification/Aspect_ratio_filter.h>
 #include <selvedge/Surface_mesh_simplification/Halfedge_placement.h>
 #include <selvedge/Surface_mesh_simplification/Intersection_filter.h>

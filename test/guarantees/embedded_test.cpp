@@ -3,11 +3,13 @@
 
 // G1: an embedded input gives an embedded mesh after every single collapse.
 
+#include "support/mesh_of.h"
 #include "support/meshes.h"
 #include "support/reduction.h"
 #include "support/soups.h"
 
-#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/Error.h>
+#include <selvedge/mesh_files.h>
 
 #include <gtest/gtest.h>
 
@@ -68,7 +70,7 @@ TEST(Embedded, StaysSoAfterEveryCollapse)
       Working_mesh working(prepared.soup, prepared.positions, prepared.is_frozen);
       Judging_observer observer{&working.mesh()};
       const Simplify_options options = has_limits ? to_ratio(0.05) : without_limits(to_ratio(0.05));
-      const Simplify_report report = simplify(working.mesh(), options, working.constraints(), observer);
+      const Simplify_report report = simplify_mesh(working.mesh(), options, working.constraints(), observer);
       if (prepared.offending_pairs.empty()) {
         EXPECT_EQ(observer.violations, 0u) << "of " << observer.judged;
         EXPECT_TRUE(is_embedded(soup_of(working.mesh())));
@@ -76,6 +78,29 @@ TEST(Embedded, StaysSoAfterEveryCollapse)
       EXPECT_EQ(observer.judged, report.collapses);
     }
   }
+}
+
+TEST(Simplify_mesh, RefusesOptionsForSoupsAndWeightsOfAnotherNumber)
+{
+  const Mesh original = mesh_of(sheet(3, 3));
+  const auto expect_refused = [&](auto&& change) {
+    Simplify_options options = to_ratio(0.5);
+    Simplify_constraints<Mesh> constraints;
+    change(options, constraints);
+    Mesh mesh = original;
+    EXPECT_THROW(simplify_mesh(mesh, options, constraints), Argument_error);
+    EXPECT_EQ(mesh.number_of_faces(), original.number_of_faces());
+  };
+  expect_refused([](auto& options, auto&) { options.faces_per_cell = 100; });
+  expect_refused([](auto& options, auto&) { options.on_collapse = [](std::size_t, std::size_t) {}; });
+  expect_refused([](auto&, auto& constraints) { constraints.vertex_weights = {1, 1}; });
+  expect_refused([&](auto&, auto& constraints) {
+    constraints.vertex_weights.assign(original.number_of_vertices(), -1);
+  });
+  Mesh mesh = original;
+  Simplify_constraints<Mesh> constraints;
+  constraints.vertex_weights.assign(original.number_of_vertices(), 0.5);
+  EXPECT_GT(simplify_mesh(mesh, to_ratio(0.5), constraints).collapses, 0u);
 }
 
 class Close_layers : public testing::TestWithParam<const char*>

@@ -310,7 +310,7 @@ TEST(Generator, RefusesWhatIsOutOfRange)
   refused([](auto& o) { o.folds = 201; });
 }
 
-TEST(Generator, MakesFoldsOfExactlyOneGap)
+TEST(Generator, MakesSheetsExactlyOneGapApart)
 {
   Generate_options options;
   options.faces = 2'000;
@@ -468,7 +468,7 @@ TEST(Tunnel, NothingElseSpeaksAgainstTheCollapse)
         << "the moving vertex is on no border";
 }
 
-TEST(Tunnel, EveryBumpOfTheSceneTunnels)
+TEST(Tunnel, TheSceneHasTheFacesAndGroupsOfAHundredBumps)
 {
   Generate_options options;
   options.faces = 700;

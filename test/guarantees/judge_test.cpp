@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include <selvedge/mesh/mesh_files.h>
-#include <selvedge/mesh/rounding.h>
+#include <selvedge/mesh_files.h>
+#include <selvedge/rounding.h>
 #include <selvedge/verify.h>
 
 #include "support/soups.h"
@@ -10,13 +10,14 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <ostream>
 
 namespace selvedge {
 namespace {
 
 using namespace test;
 
-TEST(Judge, AcceptsAnEmbeddedMesh)
+TEST(Judge, AcceptsAMeshIfAndOnlyIfItIsEmbedded)
 {
   const Verification found = verify(joined(sheet(9, 7), tetrahedron()));
   EXPECT_FALSE(found.embedded()); // the tetrahedron stands on the sheet
@@ -101,6 +102,11 @@ struct Known_mesh
   const char* path;
   std::size_t faces, pieces, border_edges, intersecting_pairs;
 };
+
+void PrintTo(const Known_mesh& mesh, std::ostream* stream)
+{
+  *stream << mesh.path;
+}
 
 class Judge_of_real_meshes : public testing::TestWithParam<Known_mesh>
 {

@@ -9,7 +9,7 @@
 
 #include <selvedge/compare.h>
 #include <selvedge/generate.h>
-#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/mesh_files.h>
 
 #include <gtest/gtest.h>
 

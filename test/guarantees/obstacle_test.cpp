@@ -227,8 +227,8 @@ TEST(Obstacle, TakesNoPartInClosingSeams)
   Prepare_options weld;
   weld.weld_distance = 0.02;
   const Snapping_notes alone = prepare(own, weld).snapping, beside = prepare(own, weld, obstacle).snapping;
-  EXPECT_EQ(alone.sewn, 8u);
-  EXPECT_EQ(beside.sewn, alone.sewn);
+  EXPECT_EQ(alone.snapped, 8u);
+  EXPECT_EQ(beside.snapped, alone.snapped);
   EXPECT_EQ(beside.partnered, alone.partnered);
   EXPECT_EQ(beside.border_vertices, alone.border_vertices);
   EXPECT_EQ(beside.left_frozen, 0u);

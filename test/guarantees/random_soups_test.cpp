@@ -73,7 +73,7 @@ TEST(RandomSoups, KeepTheirPairsTheirPiecesAndTheirCorners)
     ASSERT_EQ(reduction.verification.pairs.size(), reduction.prepared.offending_pairs.size());
     collapses += reduction.simplified.report.collapses;
     with_pairs += !reduction.prepared.offending_pairs.empty();
-    with_seams += reduction.simplified.welding.seam_edges > 0;
+    with_seams += reduction.simplified.sewing.seam_edges > 0;
   }
   EXPECT_GT(collapses, 30000u);
   EXPECT_GT(with_pairs, 500u);

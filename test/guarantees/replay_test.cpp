@@ -10,7 +10,7 @@
 
 #include <selvedge/Error.h>
 #include <selvedge/Sha256.h>
-#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/mesh_files.h>
 
 #include <gtest/gtest.h>
 
@@ -405,7 +405,7 @@ TEST(Replay, SaysThatAnObstacleOrLimitsOfSnapsWereNotJudged)
             (std::vector<std::string>{"limits_of_snaps", "obstacle", "input", "attributes"}));
 }
 
-TEST(Replay, RefusesAFoldAndAClosedLink)
+TEST(Replay, RefusesWhatIsNoEdgeAFaceThatDegeneratesAndAWrongCount)
 {
   // Vertex 12 of a flat sheet, moved two edges away by way of a vertex that is none of its neighbours.
   const Triangle_soup flat = sheet(4, 4);
@@ -430,6 +430,25 @@ TEST(Replay, JudgesPlacesThatAreNoVertices)
   }
   EXPECT_TRUE(replay_text(flat, head_of(flat) + "c 12 13 2 2 0\nresult 1 30 -\n").is_accepted())
       << "where 12 is";
+}
+
+TEST(Replay, RefusesToLeaveALineAndToTurnASeamTooFar)
+{
+  // Two groups meet in a seam that turns by 45 degrees at its middle vertex, 7.
+  Triangle_soup soup = sheet(4, 2);
+  soup.points[9] = Point_3(4, 3, 0);
+  soup.points[8] = Point_3(3, 2, 0);
+  soup.points[13] = Point_3(3, 3, 0);
+  soup.points[14] = Point_3(4, 4, 0);
+  soup.groups.names = {"below", "above"};
+  for (Index t = 0; t < soup.triangles.size(); ++t)
+    soup.groups.of_triangle.push_back(t < soup.triangles.size() / 2 ? 0 : 1);
+  ASSERT_TRUE(is_embedded(soup));
+  const std::string along = "c 7 8\nresult 1 14 -\n", off = "c 7 2\nresult 1 14 -\n";
+  EXPECT_EQ(kind_of_first(soup, head_of(soup, "limit seam_turn 44\n") + along), Violation_kind::seam_turn);
+  EXPECT_TRUE(replay_text(soup, head_of(soup, "limit seam_turn 46\n") + along).is_accepted());
+  EXPECT_EQ(kind_of_first(soup, head_of(soup, "limit seam_turn 180\n") + off), Violation_kind::line);
+  EXPECT_TRUE(replay_text(soup, head_of(soup) + off).is_accepted()) << "without a limit there is no line";
 }
 
 TEST(Replay, FrozenFacesDoNotMove)

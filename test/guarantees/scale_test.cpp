@@ -5,14 +5,15 @@
 // same figures, from subnormal coordinates up to the largest.
 
 #include "support/logged_reduction.h"
+#include "support/mesh_of.h"
 #include "support/meshes.h"
 #include "support/reduction.h"
 #include "support/soups.h"
 
 #include <selvedge/Error.h>
 #include <selvedge/compare.h>
-#include <selvedge/mesh/Scale.h>
-#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/internal/Scale.h>
+#include <selvedge/mesh_files.h>
 #include <selvedge/part_report.h>
 
 #include <gtest/gtest.h>
@@ -210,7 +211,7 @@ TEST(Scale, AMeshOfTheCallerTakesTheSameStepsInTheRangeStatedAndIsRefusedOutside
     Simplify_options options = to_ratio(0.1);
     options.max_normal_change = 15;
     options.max_error = 0.01;
-    const Simplify_report report = simplify(mesh, options);
+    const Simplify_report report = simplify_mesh(mesh, options);
     EXPECT_GT(report.refused.border, 0u);
     EXPECT_GT(report.refused.normal_change, 0u);
     EXPECT_GT(report.refused.error, 0u);
@@ -227,7 +228,7 @@ TEST(Scale, AMeshOfTheCallerTakesTheSameStepsInTheRangeStatedAndIsRefusedOutside
     SCOPED_TRACE(exponent);
     Mesh mesh = mesh_of(multiplied(soup, exponent));
     try {
-      simplify(mesh, to_ratio(0.1));
+      simplify_mesh(mesh, to_ratio(0.1));
       ADD_FAILURE() << "it was not refused";
     } catch (const Argument_error& error) {
       const std::string message = error.what();

@@ -3,18 +3,21 @@
 
 // What snapping.h promises, on garments whose pieces are pulled apart by a hair, and on real ones.
 
+#include "soup/number_positions.h"
 #include "support/meshes.h"
 #include "support/reduction.h"
 #include "support/soups.h"
 
-#include <selvedge/mesh/mesh_files.h>
-#include <selvedge/mesh/snapping.h>
+#include "weld/snapping.h"
+#include <selvedge/Error.h>
+#include <selvedge/mesh_files.h>
 #include <selvedge/spatial/Brute_force_index.h>
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <map>
+#include <ostream>
 #include <random>
 #include <set>
 #include <string>
@@ -154,7 +157,7 @@ TEST(Snapping, FindsEverySeamThatWasPulledApart)
     const Prepared_soup prepared = snapped(apart, s_hair);
     EXPECT_EQ(prepared.positions, positions) << "what was one is one again, and nothing else is";
     EXPECT_EQ(prepared.snapping.snaps.size(), vanished);
-    EXPECT_EQ(prepared.snapping.sewn, seams.size() + vanished);
+    EXPECT_EQ(prepared.snapping.snapped, seams.size() + vanished);
     EXPECT_EQ(left(prepared.snapping), 0u);
     EXPECT_LE(prepared.snapping.largest_distance, s_hair);
 
@@ -278,7 +281,7 @@ TEST(Snapping, AfterRounding)
   options.round_to_float32 = true;
   options.weld_distance = s_hair;
   const Prepared_soup prepared = prepare(apart, options);
-  EXPECT_GT(prepared.snapping.sewn, 50u);
+  EXPECT_GT(prepared.snapping.snapped, 50u);
   EXPECT_TRUE(is_embedded(prepared.soup));
   for (const Point_3& p : prepared.soup.points)
     for (int axis = 0; axis < 3; ++axis)
@@ -297,6 +300,11 @@ struct Real
   double distance; // as data/README.md says: 1 % and 8 % of the median edge
 };
 
+void PrintTo(const Real& real, std::ostream* stream)
+{
+  *stream << real.file;
+}
+
 class Real_garment : public testing::TestWithParam<Real>
 {
 };
@@ -309,8 +317,8 @@ TEST_P(Real_garment, SeamsCloseAndStayClosed)
   const Triangle_soup original = read_mesh(path).soup;
   const Prepared_soup prepared = snapped(original, GetParam().distance);
   const Snapping_notes& notes = prepared.snapping;
-  EXPECT_GT(notes.sewn, notes.border_vertices / 4);
-  EXPECT_EQ(notes.sewn + left(notes), notes.partnered);
+  EXPECT_GT(notes.snapped, notes.border_vertices / 4);
+  EXPECT_EQ(notes.snapped + left(notes), notes.partnered);
   const std::vector<Offending_pair> before = offending_pairs(original);
   EXPECT_TRUE(new_pairs(prepared.soup, offending_pairs(prepared.soup), original, before).empty());
   for (const double ratio : {0.3, 0.1, 0.05}) {

@@ -5,7 +5,8 @@
 #include "support/reduction.h"
 #include "support/soups.h"
 
-#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/Surface_mesh_simplification/internal/Uv_quadric.h>
+#include <selvedge/mesh_files.h>
 #include <selvedge/part_report.h>
 
 #include <CGAL/Kernel/global_functions.h>
@@ -105,18 +106,20 @@ TEST(Uv, StretchInTheCostMakesTheTextureSwimLess)
   EXPECT_LT(swims(1), 0.7 * swims(0)); // the control is the weight 0
 }
 
-TEST(Uv, AnAffineTextureCostsNothing)
+TEST(Uv, WithoutATextureItsWeightChangesNothing)
 {
   Triangle_soup soup = skirt(4000);
-  const auto triangles_left = [](const Triangle_soup& input, double uv_weight) {
+  soup.uvs = {};
+  const auto triangles_left = [&](double uv_weight) {
     Simplify_options options = to_ratio(0.3);
     options.uv_weight = uv_weight;
-    return simplify_soup(prepare(input), options).triangles;
+    return simplify_soup(prepare(soup), options).triangles;
   };
-  soup.uvs = {};
-  EXPECT_EQ(triangles_left(soup, 0), triangles_left(soup, 100))
-      << "the weight matters where there is no texture";
+  EXPECT_EQ(triangles_left(0), triangles_left(100));
+}
 
+TEST(Uv, TheQuadricOfAnAffineTextureIsZeroWhereTheTextureGoesOn)
+{
   Uv_quadric quadric;
   const auto uv = [](const Uv_quadric::Vector& x) {
     return Uv_quadric::Uv{2 * x[0] - x[1] + 3, x[0] + 4 * x[1] - 1};

@@ -6,8 +6,8 @@
 #include "support/Temporary_folder.h"
 
 #include <selvedge/Error.h>
-#include <selvedge/mesh/mesh_files.h>
-#include <selvedge/mesh/rounding.h>
+#include <selvedge/mesh_files.h>
+#include <selvedge/rounding.h>
 
 #include <gtest/gtest.h>
 
@@ -140,6 +140,11 @@ struct Form
   const char* file;
   Encoding encoding;
 };
+
+void PrintTo(const Form& form, std::ostream* stream)
+{
+  *stream << form.name;
+}
 
 const Form all_forms[] = {
     {"Obj", "m.obj", Encoding::binary},       {"Off", "m.off", Encoding::binary},

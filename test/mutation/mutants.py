@@ -27,8 +27,8 @@ def group(file, tests, *entries, sources=()):
 headers = "include/selvedge/"
 
 group(
-    headers + "geometry/Certified_view.h",
-    ("certified_view_test",),
+    headers + "geometry/internal/Separation_filter.h",
+    ("separation_filter_test",),
     ("m_area_error = 0x1p-44", "m_area_error = 0x1p-53", "bound for areas too small"),
     ("m_volume_error = 0x1p-40", "m_volume_error = 0x1p-53", "bound for volumes too small"),
     ("m_length_error = 0x1p-48", "m_length_error = 0x1p-56", "bound for lengths too small"),
@@ -55,8 +55,8 @@ group(
 )
 
 group(
-    headers + "geometry/Star_shadow.h",
-    ("star_shadow_test",),
+    headers + "geometry/internal/Projected_star.h",
+    ("projected_star_test",),
     ("{m_star, of_lines.negative,", "{m_star, of_lines.positive,", "inside and outside of the rim exchanged"),
     ("(a.right & b.right & c.right)", "(a.right & b.right)", "a corner not compared with a ray"),
     ("turned(a.left & b.left & c.left)", "(a.left & b.left & c.left)", "rays at the wrong end of the edges"),
@@ -68,13 +68,13 @@ group(
      "a sector without its vertex"),
 )
 group(
-    headers + "geometry/Star_shadow.h",
+    headers + "geometry/internal/Projected_star.h",
     ("guard_test",),
     ("if (sides.star == m_star)", "if (sides.star != 0)", "sides of an earlier star"),
 )
 group(
     headers + "internal/instructions.h",
-    ("star_shadow_test",),
+    ("projected_star_test",),
     ("least = _mm_set1_pd(-error);", "least = _mm_set1_pd(error);", "points on a line are right of it"),
 )
 
@@ -136,7 +136,7 @@ group(
     ("guard_test",),
     ("(!m_star.is_contracted(j) && m_view.side(s_to, a, b) != 1)", "(!m_star.is_contracted(j) && m_view.side(s_to, a, b) == -1)",
      "the star not surely clear after the motion"),
-    ("        return false;\n    }\n    m_shadow.begin", "        break;\n    }\n    m_shadow.begin", "a star that is not clear counts as clear"),
+    ("        return false;\n    }\n    m_projection.begin", "        break;\n    }\n    m_projection.begin", "a star that is not clear counts as clear"),
     ("m_star_mask = m_view.mask(m_star_points);", "m_star_mask = m_view.mask(m_star_points) | 1;",
      "stars of more points than bits are known by one"),
 )
@@ -205,7 +205,7 @@ group(
 )
 
 group(
-    "src/reduce_in_cells.cpp",
+    "src/simplify/reduce_in_cells.cpp",
     ("cells_sewing_test", "cells_test"),
     ("if (!(low[i] < p[i] && p[i] < high[i]))", "if (!(low[i] <= p[i] && p[i] <= high[i]))", "walls belong to cells"),
     ("if (!is_locked[v] && (is_bound[a] || is_bound[b]))", "if (!is_locked[v] && is_bound[v])", "neighbours of the wall move"),
@@ -214,7 +214,7 @@ group(
     ("working.constraints().diagonal = whole.diagonal;", "", "drift as a share of the cell"),
 )
 group(
-    "src/mesh/Working_mesh.cpp",
+    "src/soup/Working_mesh.cpp",
     ("working_mesh_part_test", "cells_test", "attributes_test", "reduction_test"),
     ("side < sewing.mate(side) && rule.is_line(mesh.edge(originals[side])))", "side < sewing.mate(side) && false)",
      "cells know no lines"),
@@ -228,7 +228,7 @@ group(
     ("m_places[m_mesh.next(h)] = m_places[m_mesh.opposite(m_mesh.prev(h))];", "", "corners do not follow the edges that merge"),
 )
 group(
-    "src/mesh/Sewing.cpp",
+    "src/soup/Sewing.cpp",
     ("slits_test", "cells_sewing_test", "reduction_test", "random_soups_test"),
     ("if (tear_parallel_edges(matching.unsewn()))", "if (false)", "two edges between two vertices"),
     ("beyond - first == 2 && is_opposite &&\n", "beyond - first == 2 &&\n", "sides that run the same way are sewn"),
@@ -236,7 +236,7 @@ group(
 )
 
 group(
-    "src/mesh/snapping.cpp",
+    "src/weld/snapping.cpp",
     ("snapping_rules_test", "snapping_test"),
     ("if (!are_partners(pair.low, pair.high))", "if (false)", "partners of before other joins are joined"),
     ("if (!is_manifold(goes, stays))", "if (false)", "edges of three faces"),
@@ -249,12 +249,11 @@ group(
 )
 
 group(
-    "src/simplify_soup.cpp",
+    "src/simplify/prepare.cpp",
     ("obstacle_test", "reduction_test", "intent_test", "replay_test"),
-    ("prepared.is_frozen[t] |= is_merged[positions_after[v]];", "", "what rounding merges moves"),
-    ("take_apart(prepared.positions, positions_after);", "", "what rounding takes apart is one position"),
-    ("prepared.is_frozen[pair.first] = prepared.is_frozen[pair.second] = true;", "prepared.is_frozen[pair.first] = true;",
-     "one face of a pair moves"),
+    ("is_frozen[t] |= is_merged[m_positions_rounded[v]];", ";", "what rounding merges moves"),
+    ("take_apart(m_prepared.positions, m_positions_rounded);", "", "what rounding takes apart is one position"),
+    ("is_frozen[pair.first] = is_frozen[pair.second] = true;", "is_frozen[pair.first] = true;", "one face of a pair moves"),
 )
 
 group(

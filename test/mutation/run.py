@@ -9,7 +9,7 @@ compiled anew, at -O1; all else comes from the build in --build, which is brough
 every test must pass. With ccache a second run compiles only what has changed. The tree must not be edited meanwhile.
 
     test/mutation/run.py                       all mutants
-    test/mutation/run.py --only Star_shadow    those whose file, change or reason holds a word
+    test/mutation/run.py --only Projected_star    those whose file, change or reason holds a word
     test/mutation/run.py --list                only tells whether the tree still has every place that is to be changed
 
 What becomes of a mutant:

@@ -6,7 +6,7 @@
 
 #include "support/Exact_oracle.h"
 
-#include <selvedge/mesh/Triangle_soup.h>
+#include <selvedge/Triangle_soup.h>
 #include <selvedge/replay.h>
 
 #include <CGAL/Gmpq.h>

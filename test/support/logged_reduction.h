@@ -7,7 +7,7 @@
 #include <selvedge/Reduction_log.h>
 #include <selvedge/collapse_log.h>
 #include <selvedge/replay.h>
-#include <selvedge/simplify_soup.h>
+#include <selvedge/simplify.h>
 
 #include <sstream>
 #include <string>

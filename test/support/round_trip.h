@@ -6,11 +6,11 @@
 
 #include "support/Temporary_folder.h"
 
+#include "soup/selection.h"
 #include <selvedge/Error.h>
 #include <selvedge/collapse_log.h>
-#include <selvedge/mesh/mesh_files.h>
-#include <selvedge/mesh/rounding.h>
-#include <selvedge/mesh/selection.h>
+#include <selvedge/mesh_files.h>
+#include <selvedge/rounding.h>
 
 #include <cmath>
 #include <cstring>

@@ -4,7 +4,7 @@
 #ifndef SELVEDGE_TEST_SUPPORT_SOUPS_H
 #define SELVEDGE_TEST_SUPPORT_SOUPS_H
 
-#include <selvedge/mesh/Triangle_soup.h>
+#include <selvedge/Triangle_soup.h>
 
 #include <random>
 #include <utility>

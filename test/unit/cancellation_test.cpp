@@ -10,12 +10,14 @@
 #include "support/reduction.h"
 #include "support/soups.h"
 
+#include "weld/snapping.h"
 #include <selvedge/Cancellation_scope.h>
+#include <selvedge/Error.h>
 #include <selvedge/Sha256.h>
 #include <selvedge/compare.h>
 #include <selvedge/generate.h>
-#include <selvedge/mesh/mesh_files.h>
-#include <selvedge/mesh/snapping.h>
+#include <selvedge/merge.h>
+#include <selvedge/mesh_files.h>
 #include <selvedge/part_report.h>
 
 #include <gtest/gtest.h>
@@ -124,7 +126,7 @@ public:
     options.faces_per_cell = 4000;
     add_reduction("in cells", options);
     add("levels of detail", [this] { simplify_lods(m_prepared, {}, {0.7, 0.5}); });
-    add("joining", [this] { joined_at_positions(m_soup); });
+    add("joining", [this] { merged_at_positions(m_soup); });
 
     add("judging pairs", [this] { offending_pairs(m_soup); });
     add("whether it is embedded", [this] { is_embedded(m_soup); });

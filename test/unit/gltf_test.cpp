@@ -5,10 +5,11 @@
 
 #include "support/Temporary_folder.h"
 
+#include "files/transforms_of_vertices.h"
+#include "soup/selection.h"
 #include <selvedge/Error.h>
-#include <selvedge/mesh/mesh_files.h>
-#include <selvedge/mesh/selection.h>
-#include <selvedge/simplify_soup.h>
+#include <selvedge/mesh_files.h>
+#include <selvedge/simplify.h>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -693,6 +694,13 @@ TEST(Gltf, NewFileFromAnotherFormat)
   fine.points[0] = Point_3(0.1, 0, 0);
   EXPECT_THROW(write_mesh(folder / "b.glb", fine), Argument_error);
   EXPECT_FALSE(std::filesystem::exists(folder / "b.glb"));
+}
+
+TEST(Gltf, AMeshWithoutTrianglesIsRefused)
+{
+  const Temporary_folder folder;
+  EXPECT_THROW(write_mesh(folder / "a.glb", Triangle_soup()), Argument_error);
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.glb"));
 }
 
 TEST(Gltf, NewFileSplitsVerticesOnlyWhereCornersDiffer)

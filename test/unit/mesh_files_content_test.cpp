@@ -6,13 +6,15 @@
 #include "support/Temporary_folder.h"
 
 #include <selvedge/Error.h>
-#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/mesh_files.h>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <limits>
 #include <random>
 #include <string>
@@ -246,6 +248,22 @@ TEST(Ply, EveryTypeOfNumberIsRead)
       EXPECT_EQ(file.soup.triangles, (Triangles{{2, 0, 1}}));
       EXPECT_EQ(file.notes.ignored.size(), 1u);
     }
+}
+
+TEST(Ply, ValuesBeyondTheDoublesKeepTheirSign)
+{
+  const Mesh_file file = read_mesh(
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\n"
+      "property double heat\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 0 1e999\n4 0 0 -1e999\n0 4 0 -1e-999\n3 0 1 2\n",
+      Mesh_format::ply, "text");
+  const std::vector<Attribute>& attributes = file.soup.vertex_attributes;
+  ASSERT_EQ(attributes.size(), 1u);
+  std::array<double, 3> heat;
+  ASSERT_EQ(attributes[0].rows.size(), sizeof heat);
+  std::memcpy(heat.data(), attributes[0].rows.data(), sizeof heat);
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(heat, (std::array<double, 3>{infinity, -infinity, 0}));
 }
 
 TEST(Formats, AreNamedByTheExtensionInAnyCase)

@@ -4,7 +4,7 @@
 // Nasty little files, each with the one defect that its name says, and what must become of it.
 
 #include <selvedge/Error.h>
-#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/mesh_files.h>
 
 #include <gtest/gtest.h>
 

@@ -6,15 +6,16 @@
 
 #include "support/Temporary_folder.h"
 
+#include "soup/selection.h"
 #include <selvedge/Error.h>
-#include <selvedge/mesh/mesh_files.h>
-#include <selvedge/mesh/selection.h>
+#include <selvedge/mesh_files.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <ostream>
 #include <random>
 #include <string>
 
@@ -31,6 +32,11 @@ struct Form
   Mesh_format format;
   Encoding encoding;
 };
+
+void PrintTo(const Form& form, std::ostream* stream)
+{
+  *stream << form.name;
+}
 
 const Form forms[] = {{"Obj", Mesh_format::obj, Encoding::binary},
                       {"Off", Mesh_format::off, Encoding::binary},

@@ -6,7 +6,7 @@
 #include "support/Temporary_folder.h"
 
 #include <selvedge/Error.h>
-#include <selvedge/mesh/mesh_files.h>
+#include <selvedge/mesh_files.h>
 
 #include <gtest/gtest.h>
 

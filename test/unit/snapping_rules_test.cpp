@@ -3,10 +3,13 @@
 
 // Who is a partner of whom, who goes, and what is refused, on sheets of squares of side 1.
 
+#include "soup/number_positions.h"
 #include "support/reduction.h"
 #include "support/soups.h"
 
-#include <selvedge/mesh/snapping.h>
+#include "weld/snapping.h"
+
+#include <selvedge/merge.h>
 
 #include <gtest/gtest.h>
 
@@ -54,7 +57,7 @@ TEST(Snapping_rules, TwoSheets)
   const Snapped result = snap(two_sheets());
   EXPECT_EQ(result.notes.border_vertices, 24u);
   EXPECT_EQ(result.notes.partnered, 8u);
-  EXPECT_EQ(result.notes.sewn, 8u);
+  EXPECT_EQ(result.notes.snapped, 8u);
   EXPECT_EQ(result.notes.snaps.size(), 4u);
   EXPECT_EQ(result.notes.seam_edges, 3u);
   EXPECT_TRUE(is_embedded(result.soup));
@@ -87,7 +90,7 @@ TEST(Snapping_rules, FourPiecesMeetInOnePosition)
   const Triangle_soup left = joined(sheet(2, 2), shifted(sheet(2, 2), 2.004, 0.001));
   const Triangle_soup right = joined(shifted(sheet(2, 2), 0.001, 2.005), shifted(sheet(2, 2), 2.006, 2.007));
   const Snapped result = snap(joined(left, right));
-  EXPECT_EQ(result.notes.sewn, 4u + 4u * 4u)
+  EXPECT_EQ(result.notes.snapped, 4u + 4u * 4u)
       << "a corner of each, and four seams of two more vertices on each side";
   EXPECT_EQ(result.notes.seam_edges, 8u);
   const Point_3 corner = result.soup.points[8];
@@ -117,7 +120,7 @@ TEST(Snapping_rules, FrozenVerticesDoNotSnap)
   const Snapped result = snap(soup, {4}); // the face of vertices 2, 3 and 7
   EXPECT_EQ(result.notes.partnered, 8u);
   EXPECT_EQ(result.notes.left_frozen, 4u);
-  EXPECT_EQ(result.notes.sewn, 4u);
+  EXPECT_EQ(result.notes.snapped, 4u);
   EXPECT_EQ(result.soup.points[3], soup.points[3]);
   EXPECT_EQ(result.soup.points[7], soup.points[7]);
   EXPECT_EQ(result.soup.points[16], soup.points[16]);
@@ -136,7 +139,7 @@ TEST(Snapping_rules, OnlyUnderOneTransform)
   EXPECT_TRUE(apart.snaps.empty());
   EXPECT_EQ(soup.points, two_sheets().points);
   std::fill(transforms.begin() + 16, transforms.end(), Index(7));
-  EXPECT_EQ(snap_borders(soup, positions, is_frozen, s_distance, transforms).sewn, 8u);
+  EXPECT_EQ(snap_borders(soup, positions, is_frozen, s_distance, transforms).snapped, 8u);
 }
 
 TEST(Snapping_rules, WhatLiesInTheGapIsNotPassed)
@@ -145,7 +148,7 @@ TEST(Snapping_rules, WhatLiesInTheGapIsNotPassed)
   const Triangle_soup hanging = soup({{3.002, 0.5, -1}, {3.002, 1.5, -1}, {3.002, 1, 1}}, {{0, 1, 2}});
   const Snapped result = snap(joined(two_sheets(), hanging));
   EXPECT_EQ(result.notes.left_blocked, 2u);
-  EXPECT_EQ(result.notes.sewn, 6u);
+  EXPECT_EQ(result.notes.snapped, 6u);
   EXPECT_TRUE(is_embedded(result.soup));
   EXPECT_EQ(snap(two_sheets()).notes.left_blocked, 0u) << "the control";
 }
@@ -226,7 +229,7 @@ TEST(Joined_at_positions, PiecesHangTogether)
 {
   const Triangle_soup apart = joined(sheet(2, 2), shifted(sheet(2, 2), 2, 0));
   ASSERT_EQ(pieces(apart).size(), 2u);
-  const Triangle_soup one = joined_at_positions(apart);
+  const Triangle_soup one = merged_at_positions(apart);
   EXPECT_EQ(one.points.size(), 15u);
   ASSERT_EQ(pieces(one).size(), 1u);
   EXPECT_EQ(pieces(one).front().boundary_loops, 1u);
@@ -243,7 +246,7 @@ TEST(Joined_at_positions, WhatDiffersInAttributesStaysApart)
   quality.type = Attribute::Type::uint8;
   quality.rows = {0, 1, 2, 3, 1, 5, 9, 7}; // 1 and 4 are at one position, and so are 3 and 6
   apart.vertex_attributes.push_back(quality);
-  const Triangle_soup one = joined_at_positions(apart);
+  const Triangle_soup one = merged_at_positions(apart);
   EXPECT_EQ(one.points.size(), 7u);
   ASSERT_EQ(one.vertex_attributes.size(), 1u);
   EXPECT_EQ(one.vertex_attributes[0].rows, (std::vector<unsigned char>{0, 1, 2, 3, 5, 9, 7}));

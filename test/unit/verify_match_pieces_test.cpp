@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include <selvedge/mesh/rounding.h>
+#include <selvedge/rounding.h>
 #include <selvedge/verify.h>
 
 #include "support/soups.h"

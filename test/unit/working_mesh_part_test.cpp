@@ -3,6 +3,7 @@
 
 // A part of a working mesh is what its whole is, wherever it has all faces.
 
+#include "support/mesh_of.h"
 #include "support/reduction.h"
 #include "support/soups.h"
 

@@ -4,7 +4,7 @@
 #ifndef SELVEDGE_TEST_WORLDS_HULL_H
 #define SELVEDGE_TEST_WORLDS_HULL_H
 
-#include <selvedge/mesh/Triangle_soup.h>
+#include <selvedge/Triangle_soup.h>
 
 #include <array>
 #include <cstddef>

@@ -7,7 +7,7 @@
 #include "Broken_promise.h"
 #include "Hull.h"
 
-#include <selvedge/mesh/Triangle_soup.h>
+#include <selvedge/Triangle_soup.h>
 
 #include <array>
 #include <optional>

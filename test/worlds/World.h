@@ -4,8 +4,8 @@
 #ifndef SELVEDGE_TEST_WORLDS_WORLD_H
 #define SELVEDGE_TEST_WORLDS_WORLD_H
 
-#include <selvedge/mesh/mesh_files.h>
-#include <selvedge/simplify_soup.h>
+#include <selvedge/mesh_files.h>
+#include <selvedge/simplify.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -4,10 +4,11 @@
 #include "World_run.h"
 #include "support/Temporary_folder.h"
 
+#include "weld/snapping.h"
 #include <selvedge/Error.h>
 #include <selvedge/Reduction_log.h>
 #include <selvedge/collapse_log.h>
-#include <selvedge/mesh/snapping.h>
+#include <selvedge/merge.h>
 
 #include <sstream>
 
@@ -71,7 +72,7 @@ World_run run(const World& world)
   if (!run.result.soup.triangles.empty()) {
     const Temporary_folder folder;
     write_mesh(folder / file_name(world),
-               world.is_sewn ? joined_at_positions(run.result.soup) : run.result.soup);
+               world.is_sewn ? merged_at_positions(run.result.soup) : run.result.soup);
     run.read_back = read_mesh(folder / file_name(world)).soup;
   }
   return run;

@@ -5,10 +5,10 @@
 #include "Judged_complex.h"
 #include "Random.h"
 
+#include "soup/selection.h"
 #include <selvedge/Error.h>
+#include <selvedge/Parts.h>
 #include <selvedge/collapse_log.h>
-#include <selvedge/mesh/Parts.h>
-#include <selvedge/mesh/selection.h>
 #include <selvedge/replay.h>
 #include <selvedge/verify.h>
 

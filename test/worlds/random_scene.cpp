@@ -4,7 +4,7 @@
 #include "random_scene.h"
 #include "support/soups.h"
 
-#include <selvedge/mesh/selection.h>
+#include "soup/selection.h"
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,7 @@
 
 #include "Random.h"
 
-#include <selvedge/mesh/Triangle_soup.h>
+#include <selvedge/Triangle_soup.h>
 
 #include <string>
 

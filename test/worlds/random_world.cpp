@@ -5,7 +5,7 @@
 #include "random_scene.h"
 #include "support/Temporary_folder.h"
 
-#include <selvedge/mesh/rounding.h>
+#include <selvedge/rounding.h>
 
 #include <nlohmann/json.hpp>
 

@@ -3,7 +3,7 @@
 
 #include "shrunk_world.h"
 
-#include <selvedge/mesh/selection.h>
+#include "soup/selection.h"
 
 #include <algorithm>
 #include <charconv>

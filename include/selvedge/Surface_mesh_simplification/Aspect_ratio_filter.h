@@ -16,8 +16,8 @@
 
 namespace selvedge {
 
-/// The aspect ratio of a triangle: its height over its longest edge, scaled so that the equilateral triangle
-/// has 1 and a degenerate one 0. In floating point.
+/// Returns the aspect ratio of a triangle: the height on its longest edge, divided by the length of that edge
+/// and scaled so that the equilateral triangle has 1 and a degenerate one 0. Computed in floating point.
 template <class Point>
 double aspect_ratio(const Point& a, const Point& b, const Point& c)
 {
@@ -31,13 +31,14 @@ double aspect_ratio(const Point& a, const Point& b, const Point& c)
   return 2 / std::sqrt(3.0) * twice_area / longest;
 }
 
-/// Refuses a collapse after which a face has an aspect ratio below a limit and worse than it had.
+/// Refuses a collapse after which the worst of the changed faces has an aspect ratio below a limit, unless
+/// that ratio is better than the worst of these faces had before.
 ///
 /// A model of CGAL's concept `PlacementFilter`, usable with any placement.
 ///
-/// **Exactness** Floating point: a limit of quality, on which no statement about intersections rests.
+/// **Exactness** Floating point: the filter limits quality; no statement about intersections rests on it.
 ///
-/// **Reference** Derichs, Misiak, Fuhrmann, section 3.1 (0.2 there).
+/// **Reference** Derichs, Misiak, Fuhrmann, section 3.1 (with the limit 0.2).
 template <class BaseFilter = No_filter>
 class Aspect_ratio_filter : public internal::Filter_base<Aspect_ratio_filter<BaseFilter>, BaseFilter>
 {

@@ -13,8 +13,8 @@ namespace selvedge {
 
 /// Refuses a placement that a `Border_rule` does not allow.
 ///
-/// A model of CGAL's concept `PlacementFilter`, usable with any placement. Pass `Border_visitor` of the same
-/// rule to the loop: marks of seams, locks and drift follow the collapses through it.
+/// A model of CGAL's concept `PlacementFilter`, usable with any placement. Give the loop a `Border_visitor`
+/// of the same rule as well: it updates marks, locks and drift as edges collapse.
 template <class Rule, class BaseFilter = No_filter>
 class Border_filter : public internal::Filter_base<Border_filter<Rule, BaseFilter>, BaseFilter>
 {
@@ -34,8 +34,9 @@ private:
   Rule m_rule;
 };
 
-/// Keeps a `Border_rule` true while edges collapse: a model of CGAL's concept
-/// `EdgeCollapseSimplificationVisitor`.
+/// Updates a `Border_rule` while edges collapse.
+///
+/// A model of CGAL's concept `EdgeCollapseSimplificationVisitor`.
 template <class TriangleMesh, class Rule = Border_rule<TriangleMesh>>
 class Border_visitor : public CGAL::Surface_mesh_simplification::Edge_collapse_visitor_base<TriangleMesh>
 {

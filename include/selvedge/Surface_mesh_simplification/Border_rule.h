@@ -25,40 +25,41 @@
 
 namespace selvedge {
 
-/// How far lines may change.
+/// Limits on the change of *lines*: of borders, and of the inner edges that are marked as lines.
 struct Border_rule_options
 {
   /// The largest angle, in degrees from 0 to 180, by which a border may turn at a vertex that leaves it.
   double max_border_turn = 8;
 
-  /// The same for a marked edge inside the mesh, where there is surface on both sides and no outline to fray.
+  /// The same for marked edges. It can be larger: there is surface on both sides, and no outline to fray.
   double max_seam_turn = 60;
 
-  /// The largest distance, in units of the mesh, from an original vertex of a line to the segment that
-  /// replaced it.
+  /// The largest distance, in units of the mesh and at least 0, from an original vertex of a line to the
+  /// segment that replaced it. Infinity sets no limit.
   double max_drift = std::numeric_limits<double>::infinity();
 };
 
-/// Knows the *lines* of a mesh, its borders and the edges marked as lines (seams), and which motions of
-/// vertices respect them. What `Border_filter` and `Halfedge_placement` ask, and what `Border_visitor` keeps
-/// true.
+/// Knows the *lines* of a mesh, which are its borders and the inner edges marked as lines (seams), and
+/// decides which motions of vertices respect them.
+///
+/// `Border_filter` and `Halfedge_placement` ask the rule; `Border_visitor` updates it after every collapse.
+/// Copies share one state.
 ///
 /// **Guarantees** for a mesh reduced by halfedge collapses that `allows` accepts:
 /// 1. A locked vertex stays where it is.
-/// 2. A vertex on a line moves only along it, to the next vertex of the same line, and only where the line
-///    turns by at most `max_border_turn` or `max_seam_turn`. Corners, ends of lines, and vertices where more
-///    than two line edges or lines of both kinds meet never move. No collapse takes the last face between
-///    three lines.
-/// 3. Every original vertex of a line lies within `max_drift` of the segment that replaced it.
+/// 2. A vertex on a line moves only along the line, to the next vertex of the same line, and only where the
+///    line turns by at most `max_border_turn` or `max_seam_turn`. Ends of lines, vertices with more than two
+///    line edges, and vertices where a border becomes a marked line never move.
+/// 3. No collapse removes a face whose three edges are all lines.
+/// 4. Every original vertex of a line lies within `max_drift` of the segment that replaced it.
 ///
-/// **Preconditions** The mesh outlives the rule. Marks and locks are set before the first collapse.
+/// **Preconditions** The mesh outlives the rule. Edges are marked and vertices are locked before the first
+/// collapse.
 ///
-/// **Exactness** Which vertex may move along which edge is combinatorial; angle and drift are compared in
-/// floating point, as limits of quality: no statement about intersections rests on them.
+/// **Exactness** Which vertex may move along which edge is decided combinatorially. Angles and drift are
+/// compared in floating point: they limit quality, and no statement about intersections depends on them.
 ///
-/// Copies share one state.
-///
-/// **Reference** Derichs, Misiak, Fuhrmann, section 3.1 and figure 2 (8° there).
+/// **Reference** Derichs, Misiak, Fuhrmann, section 3.1 and figure 2 (with a limit of 8° at borders).
 template <class TriangleMesh,
           class VertexPointMap = typename boost::property_map<TriangleMesh, CGAL::vertex_point_t>::const_type>
 class Border_rule
@@ -84,7 +85,7 @@ public:
   {
   }
 
-  /// Makes an inner edge a line.
+  /// Marks an inner edge as a line.
   void mark(Edge e)
   {
     put(m_state->marks, e, true);
@@ -93,12 +94,12 @@ public:
     m_state->raise(target(h, m_state->mesh), Freedom::along_line);
   }
 
-  /// Forbids a vertex to move.
+  /// Locks a vertex, so that it never moves. Other vertices may move onto it.
   void lock(Vertex v) { m_state->raise(v, Freedom::none); }
 
   bool is_locked(Vertex v) const { return get(m_state->freedoms, v) == Freedom::none; }
 
-  /// Is the edge a border or marked?
+  /// Returns whether the edge is a border or marked. `get` makes the rule a property map that says the same.
   bool is_line(Edge e) const
   {
     const Halfedge h = halfedge(e, m_state->mesh);
@@ -107,7 +108,7 @@ public:
   }
   friend bool get(const Border_rule& rule, Edge e) { return rule.is_line(e); }
 
-  /// May the source of `h` move onto its target?
+  /// Returns whether the source of `h` may move onto its target.
   bool may_move(Halfedge h) const
   {
     const State& state = *m_state;
@@ -121,15 +122,17 @@ public:
     return behind && !is_cut_off(h) && may_straighten(*behind, h, get(state.points, target(h, state.mesh)));
   }
 
-  /// Can the collapse that left `kept` have changed what `may_move` says of edges that do not end there?
+  /// Returns whether the collapse that left `kept` may have changed what `may_move` says of edges that do not
+  /// end at `kept`; `reaches` says so of one such edge. See `Collapse_locality`.
   bool reaches_neighbours(Vertex kept) const { return get(m_state->freedoms, kept) != Freedom::free; }
   bool reaches(Vertex kept, Edge e) const { return reaches_neighbours(kept) && is_line(e); }
 
-  /// May the ends of an edge merge at a place, wherever that is?
+  /// Returns whether the ends of an edge may merge at the place of the collapse.
   ///
-  /// When it is neither end: inner vertices may go anywhere; where one end is bound, the placement must be
-  /// that end; where both are, the edge must be a line, and the line turn by at most the angle at every place
-  /// that the merged vertex changes.
+  /// Where this place is one end, the answer is that of `may_move`. Any other place is allowed when neither
+  /// end is on a line or locked, and refused when one of them is. When both are, neither may be locked, the
+  /// edge must be a line itself, and the line must go on at both ends and change there within the limits for
+  /// turn and drift.
   template <class Profile>
   bool allows(const internal::Collapse<Profile>& collapse) const
   {
@@ -150,7 +153,7 @@ public:
            may_straighten(*ahead, profile.v1_v0(), collapse.place());
   }
 
-  /// Called by `Border_visitor` before and after every collapse.
+  /// Called before and after each collapse, by `Border_visitor` for example.
   template <class Profile>
   void before_collapse(const internal::Collapse<Profile>& collapse) const
   {
@@ -172,7 +175,8 @@ public:
 private:
   enum class Freedom : unsigned char { free, along_line, none };
 
-  // A line edge at the merged vertex: what it must be after the collapse, whichever of two edges CGAL keeps.
+  // What a line edge at the merged vertex must be after the collapse. Where two edges become one, this holds
+  // whichever of them CGAL keeps.
   struct Pending_line
   {
     Vertex far_end;
@@ -222,8 +226,8 @@ private:
     Pending_collapse pending;
   };
 
-  // The other line edge at the source of the line edge `h`, pointing away from it; none when the source is an
-  // end, a junction, or a place where a border becomes a marked edge.
+  // Returns the other line edge at the source of the line edge `h`, pointing away from it. None when the
+  // source is an end of the line, a junction, or a place where a border becomes a marked line.
   std::optional<Halfedge> line_behind(Halfedge h) const
   {
     const TriangleMesh& mesh = m_state->mesh;
@@ -240,7 +244,8 @@ private:
     return behind;
   }
 
-  // Is a face at this edge all that lines enclose there? It would vanish, and a piece or its corner with it.
+  // Whether a face at the line edge `h` has line edges only. The collapse would remove this face, and with it
+  // a whole piece or a corner of one.
   bool is_cut_off(Halfedge h) const
   {
     const TriangleMesh& mesh = m_state->mesh;
@@ -256,7 +261,7 @@ private:
     return CGAL::is_border(h, m_state->mesh) || CGAL::is_border(opposite(h, m_state->mesh), m_state->mesh);
   }
 
-  // May the line u – m – t, with `behind` = m→u and `ahead` = m→t, become the segment u – p?
+  // Whether the line u – m – t, with `behind` = m→u and `ahead` = m→t, may become the segment u – p.
   bool may_straighten(Halfedge behind, Halfedge ahead, const Point& p) const
   {
     const State& state = *m_state;

@@ -17,15 +17,15 @@
 
 namespace selvedge {
 
-/// Refuses a collapse after which two faces at an edge that it changes are folded onto each other, to within
-/// a degree, or differ in area by a factor of 10⁴ or more.
+/// Refuses a collapse after which a changed face and a neighbour of it make a dihedral angle of less than one
+/// degree, so that they are folded onto each other, or differ in area by a factor of 10⁴ or more.
 ///
-/// What CGAL's loop asks of every placement before its filter; for a comparison with that loop, since
-/// `selvedge::edge_collapse` leaves such questions to filters.
+/// This is the test that CGAL's loop makes of every placement before it asks its filter.
+/// `selvedge::edge_collapse` leaves such tests to filters; with this one, the two loops can be compared.
 ///
 /// A model of CGAL's concept `PlacementFilter`, usable with any placement.
 ///
-/// **Exactness** That of the number type: a limit of quality.
+/// **Exactness** That of the number type. The filter limits quality.
 template <class BaseFilter = No_filter>
 class Dihedral_angle_filter : public internal::Filter_base<Dihedral_angle_filter<BaseFilter>, BaseFilter>
 {
@@ -81,7 +81,7 @@ private:
     return std::nullopt;
   }
 
-  // The third corner of the triangle at a link edge that has neither end of the profile's edge.
+  // Returns the third corner of the face at a link edge that contains neither end of the profile's edge.
   template <class Profile>
   static std::optional<typename Profile::vertex_descriptor>
   third_corner_outside(const Profile& profile, typename Profile::halfedge_descriptor h)
@@ -95,7 +95,7 @@ private:
     return std::nullopt;
   }
 
-  // The triangles (p0, p1, p2) and (p0, p2, p3).
+  // Whether the triangles (p0, p1, p2) and (p0, p2, p3) pass the test.
   template <class Point>
   static bool is_open(const Point& p0, const Point& p1, const Point& p2, const Point& p3)
   {

@@ -8,18 +8,19 @@
 
 namespace selvedge {
 
-/// Refuses a collapse whose error is larger than a limit, where the error is what `Cost::error_at(profile,
-/// point)` says, as `Quadric_cost` has it: the root mean square distance to the original planes gathered so
-/// far.
+/// Refuses a collapse whose error is larger than a limit.
+///
+/// The error is what `Cost::error_at(profile, point)` returns. For `Quadric_cost`, it is the root mean square
+/// distance of the merged vertex to the original planes that its quadric has accumulated.
 ///
 /// A model of CGAL's concept `PlacementFilter`, usable with any placement.
 ///
-/// **Exactness** Floating point: a limit of quality.
+/// **Exactness** Floating point: the filter limits quality.
 template <class Cost, class BaseFilter = No_filter>
 class Error_filter : public internal::Filter_base<Error_filter<Cost, BaseFilter>, BaseFilter>
 {
 public:
-  /// `max_error` is a length in units of the mesh.
+  /// `max_error` is a length in units of the mesh; infinity sets no limit.
   Error_filter(double max_error, const Cost& cost, const BaseFilter& base = {})
       : internal::Filter_base<Error_filter, BaseFilter>(base), m_max_error(max_error), m_cost(cost)
   {

@@ -19,7 +19,7 @@
 
 namespace selvedge {
 
-/// The rule that every vertex may move along every edge.
+/// Lets every vertex move along every edge: the default rule of `Halfedge_placement`.
 struct No_border_rule
 {
   template <class Halfedge>
@@ -41,14 +41,15 @@ struct No_border_rule
   }
 };
 
-/// Places the merged vertex at one end of its edge: of the two directions those that the rule allows, of
-/// these the cheaper. Where it allows neither, the cheaper, for a filter to refuse and count.
+/// Places the merged vertex at one end of its edge, so that every vertex of the result is a vertex of the
+/// input, bit for bit.
 ///
-/// With this placement every vertex of the result is a vertex of the input, bit for bit.
+/// Of the directions that the rule allows, it takes the cheaper one. Where the rule allows neither, it
+/// returns the cheaper one all the same, so that a filter refuses and counts it.
 ///
-/// A model of CGAL's concept `GetPlacement`. `Cost` is a model of `GetCost` that says the same in
-/// `cost_along(profile, halfedge)`, for moving the source of a halfedge of the profile's edge onto its
-/// target, as `Quadric_cost` has it; `Rule` has `may_move(halfedge)`, `reaches_neighbours(vertex)` and
+/// A model of CGAL's concept `GetPlacement`. `Cost` is a model of `GetCost` with a further function
+/// `cost_along(profile, halfedge)`, as `Quadric_cost` has: the same cost, for moving the source of a halfedge
+/// of the profile's edge onto its target. `Rule` has `may_move(halfedge)`, `reaches_neighbours(vertex)` and
 /// `reaches(vertex, edge)`, as `Border_rule` has.
 ///
 /// **Reference** Derichs, Misiak, Fuhrmann, section 3 and figure 4.
@@ -71,8 +72,9 @@ public:
     return is_v0_target_first(profile) ? profile.p0() : profile.p1();
   }
 
-  /// The other end, where the rule allows it: for a loop that comes back to an edge when its first placement
-  /// was refused, as `selvedge::edge_collapse` does.
+  /// Returns the end that is not the first choice, or none if the rule does not allow both directions: for a
+  /// loop such as `selvedge::edge_collapse`, which considers an edge again when its first placement was
+  /// refused.
   template <class Profile>
   internal::Optional<typename Profile::Point> second(const Profile& profile) const
   {
@@ -81,8 +83,8 @@ public:
     return is_v0_cheaper(profile) ? profile.p1() : profile.p0();
   }
 
-  /// An end of an edge and what the cost policy says of placing the merged vertex there, for a loop that asks
-  /// for both and remembers them.
+  /// An end of an edge, and the cost of placing the merged vertex there. `choice` and `second_choice` return
+  /// what `operator()` and `second` do together with its cost, for a loop that needs both.
   struct Choice
   {
     bool is_v0;
@@ -118,7 +120,7 @@ public:
     return Collapse_locality<Cost>::reaches(m_cost, kept, edge) || m_rule.reaches(kept, edge);
   }
 
-  /// Is the first choice to move v1 onto v0?
+  /// Returns whether the first choice is to move v1 onto v0.
   template <class Profile>
   bool is_v0_target_first(const Profile& profile) const
   {
@@ -148,18 +150,19 @@ private:
 
 /// Decorates a `Halfedge_placement` so that an edge gets its second direction when filters refuse the first.
 ///
-/// CGAL's loop takes an edge from its queue once, asks for one placement, and drops the edge when a filter
-/// refuses that. This decorator asks the filter itself, for one direction and then the other, and answers
-/// with the one that passed, or none. The same filter need not be given to the loop. The second direction is
-/// tried when its turn has come: at once when it costs no more than what has been selected before; otherwise
-/// the edge is *turned*, its cost is from now on that of its second direction, and when the loop comes to it
-/// again, in a run of its own or because of a change nearby, it comes in that order. (Taking dear directions
-/// of cheap edges at once spoils what the order is for: on a scanned bunny the mean error at 30 % grows by
-/// half.)
+/// CGAL's loop takes an edge from its queue once, asks for one placement, and drops the edge when its filter
+/// refuses this placement. This decorator asks the filter itself, for the first direction and then for the
+/// second, and returns the one that passed, or none. The loop does not need the same filter again.
 ///
-/// A model of CGAL's concept `GetPlacement`. Give the loop its `visitor` as well: it tells the selection of
-/// an edge, when the question is asked in earnest, from the mere computing of a cost, for which the filters
-/// would be far too dear.
+/// The second direction is tried in the order of costs. If it costs no more than the costliest direction
+/// selected so far in this run, it is tried at once. Otherwise the edge is *reversed*: from now on its cost
+/// is that of its second direction, and it comes in this order when the loop considers it again, in a further
+/// run or after a change nearby. (Taking costly directions of cheap edges at once would spoil the order: on a
+/// scanned bunny reduced to 30 % of its faces, the mean error grows by half.)
+///
+/// A model of CGAL's concept `GetPlacement`. Give the loop its `visitor()` as well. CGAL's loop also asks for
+/// a placement when it only computes a cost, and filters would be far too costly then; the visitor says when
+/// an edge has been selected, so that the next placement counts.
 ///
 /// **Preconditions** The mesh outlives the placement. Copies share one state.
 template <class Placement, class Filter = No_filter>
@@ -173,16 +176,16 @@ class Filtered_halfedge_placement
   struct State
   {
     explicit State(const Triangle_mesh& mesh_)
-        : mesh(mesh_), is_turned(get(CGAL::dynamic_edge_property_t<unsigned char>(), mesh_))
+        : mesh(mesh_), is_reversed(get(CGAL::dynamic_edge_property_t<unsigned char>(), mesh_))
     {
     }
 
     const Triangle_mesh& mesh;
     typename boost::property_map<Triangle_mesh, CGAL::dynamic_edge_property_t<unsigned char>>::const_type
-        is_turned;
+        is_reversed;
     bool is_deciding = false;
     double reached_cost = 0;
-    std::size_t turned = 0;
+    std::size_t reversed = 0;
   };
 
 public:
@@ -200,11 +203,11 @@ public:
     using Collapse = internal::Collapse<Profile>;
     State& state = *m_state;
     const Edge e = edge(profile.v0_v1(), state.mesh);
-    const bool is_turned = get(state.is_turned, e);
+    const bool is_reversed = get(state.is_reversed, e);
     const bool is_v0_first = m_placement.is_v0_target_first(profile);
     const Collapse first = Collapse::along(profile, is_v0_first ? profile.v1_v0() : profile.v0_v1());
     const Collapse second = Collapse::along(profile, is_v0_first ? profile.v0_v1() : profile.v1_v0());
-    const Collapse& next = is_turned ? second : first;
+    const Collapse& next = is_reversed ? second : first;
     if (!state.is_deciding)
       return next.place();
 
@@ -220,27 +223,27 @@ public:
         return second.place();
       return {};
     }
-    put(state.is_turned, e, true);
-    ++state.turned;
+    put(state.is_reversed, e, true);
+    ++state.reversed;
     return {};
   }
 
-  /// The start of a run, the selection of an edge, the end of a collapse; to be called by the loop's visitor.
+  /// Called by the loop's visitor when a run starts, when an edge is selected, and after each collapse.
   void on_started() const
   {
-    m_state->is_deciding = false; // the last run may have stopped between a selection and its question
+    m_state->is_deciding = false; // the last run may have stopped just after a selection
     m_state->reached_cost = 0;
   }
   void on_selected() const { m_state->is_deciding = true; }
   void on_collapsed(Vertex kept) const
   {
-    // What was refused around here may be possible now, at the first direction's cost.
+    // First directions that were refused around here may be possible now.
     for (const auto h : CGAL::halfedges_around_target(halfedge(kept, m_state->mesh), m_state->mesh))
       for (const auto g : CGAL::halfedges_around_target(opposite(h, m_state->mesh), m_state->mesh))
-        put(m_state->is_turned, edge(g, m_state->mesh), false);
+        put(m_state->is_reversed, edge(g, m_state->mesh), false);
   }
 
-  /// A visitor that does nothing else.
+  /// A visitor that makes these three calls and does nothing else.
   class Visitor : public CGAL::Surface_mesh_simplification::Edge_collapse_visitor_base<Triangle_mesh>
   {
   public:
@@ -264,8 +267,8 @@ public:
 
   Visitor visitor() const { return Visitor(*this); }
 
-  /// How many edges have been turned so far; an edge counts again when it is turned again.
-  std::size_t turned() const { return m_state->turned; }
+  /// Returns how many times an edge has been reversed so far.
+  std::size_t reversed() const { return m_state->reversed; }
 
 private:
   Placement m_placement;

@@ -16,37 +16,40 @@
 
 namespace selvedge {
 
-/// Refuses a collapse in which anything would touch or pass through anything: the exact filter.
+/// Refuses a collapse in which faces would touch or pass through each other: the exact filter.
 ///
 /// A model of CGAL's concept `PlacementFilter`, usable with any placement and cost. Give the loop both the
 /// filter and its visitor:
+///
 /// ```
 /// selvedge::Intersection_filter<Mesh> filter(mesh);
-/// edge_collapse(mesh, stop, CGAL::parameters::filter(filter).visitor(filter.visitor()));
+/// selvedge::edge_collapse(mesh, stop, CGAL::parameters::filter(filter).visitor(filter.visitor()));
 /// ```
 ///
-/// **Guarantees** when the mesh is embedded at the start, that is, all its faces are proper triangles, no two
-/// have the same three positions, and any two meet exactly in the positions (none, one, or two and the edge
-/// between them) that they share:
-/// 1. *Embedded*: it is so after every collapse.
-/// 2. *Motion*: between two collapses nothing passes through anything. A merged vertex at one end of the
-///    edge means that the other moves there on a straight line; one elsewhere means two such motions, one
-///    after the other, in whichever order is free.
-/// 3. A vertex that shares its position with another vertex does not move; others may move to where it is.
+/// **Guarantees** when the mesh is embedded at the start. *Embedded* means: all faces are proper triangles,
+/// no two have the same three positions, and any two meet exactly in the positions that they share (none,
+/// one, or two and the edge between them).
+/// - G1 *Embedded*: the mesh is embedded after every collapse.
+/// - G2 *Motion*: nothing passes through anything during a collapse. When the merged vertex is placed at one
+///   end of the edge, the other end moves there on a straight line. When it is placed elsewhere, the two ends
+///   move there one after the other, in an order in which both motions are free.
+/// - A vertex that shares its position with another vertex does not move. Others may move to its position.
 ///
-/// **Preconditions** the caller must ensure: the mesh outlives the filter, and between its construction and
-/// the end of the loop changes by the loop alone, with the visitor attached; around every vertex there is one
-/// fan of faces, for others the vertex does not lead to (`CGAL::Polygon_mesh_processing` duplicates such
-/// vertices). Checked, in every build: no edge has length zero, which CGAL's loop would collapse without
-/// asking (`Argument_error`).
+/// **Preconditions** The caller must ensure that the mesh outlives the filter; that between the construction
+/// of the filter and the end of the loop, only the loop changes the mesh, with the visitor attached; and that
+/// the faces around every vertex form one fan, since a vertex leads to one fan only
+/// (`CGAL::Polygon_mesh_processing` duplicates other vertices). Checked in every build (`Argument_error`): no
+/// edge has length zero; CGAL's loop would collapse such an edge without asking a filter.
 ///
-/// **Not promised** for a mesh that is not embedded at the start; see `simplify` for what can be done there.
+/// **Not promised** for a mesh that is not embedded at the start; see `simplify_mesh` for such a mesh.
 ///
-/// **Exactness** Decided by the predicates of `GeomTraits`, which must be exact, as
-/// `Exact_predicates_inexact_constructions_kernel` has them. No tolerance, no construction.
+/// **Exactness** The predicates of `GeomTraits` decide. They must be exact, as those of
+/// `Exact_predicates_inexact_constructions_kernel` are. Tolerances and constructed points take no part.
 ///
-/// **Complexity** One query of the index for the box of the star that moves, then a constant number of
-/// predicates for each pair of a moving face and a face whose box meets its sweep.
+/// **Complexity** For each motion of a vertex: one query of the index for the box of the vertex's star, then
+/// a constant number of predicates for each pair of a moving face and a face whose box meets its sweep. The k
+/// faces of the star take O(k) predicates among themselves as a rule, and O(k²) where one view does not
+/// settle them.
 ///
 /// **Reference** Derichs, Misiak, Fuhrmann: Intersection-free mesh decimation for high resolution cloth
 /// models, section 4; Gumhold, Borodin, Klein: Intersection free simplification.
@@ -63,7 +66,7 @@ class Intersection_filter
 public:
   using Face = typename boost::graph_traits<TriangleMesh>::face_descriptor;
 
-  /// Keeps the filter's index true while edges collapse.
+  /// Keeps the filter's index up to date while edges collapse.
   ///
   /// A model of CGAL's concept `EdgeCollapseSimplificationVisitor`.
   class Visitor : public CGAL::Surface_mesh_simplification::Edge_collapse_visitor_base<TriangleMesh>
@@ -82,7 +85,7 @@ public:
       after_collapse(kept);
     }
 
-    /// The same for a loop that knows which end moves.
+    /// The same for a loop that passes each collapse as a value, which says which end moves.
     template <class Collapse>
     void before_collapse(const Collapse& collapse)
     {
@@ -98,14 +101,14 @@ public:
     std::shared_ptr<Guard> m_guard;
   };
 
-  /// `index` is empty.
+  /// `index` is an empty index, which the filter fills.
   explicit Intersection_filter(const TriangleMesh& mesh, const BaseFilter& base = {},
                                FaceIndex index = FaceIndex())
       : Intersection_filter(mesh, base, std::move(index), get(CGAL::vertex_point, mesh))
   {
   }
 
-  /// With a vertex point map that is not the mesh's own.
+  /// The same with a vertex point map that is not the mesh's own.
   Intersection_filter(const TriangleMesh& mesh, const BaseFilter& base, FaceIndex index,
                       const VertexPointMap& points, const GeomTraits& traits = {})
       : internal::Filter_base<Intersection_filter, BaseFilter>(base),
@@ -128,8 +131,9 @@ public:
     return m_guard->is_clear(collapse);
   }
 
-  /// The faces that made this filter refuse the last placement, or one of two ways to it; none where what
-  /// lies around the edge alone decided, as always when the base refused.
+  /// Returns the faces because of which this filter refused the last collapse: at most one for each order of
+  /// motions that it tried. Empty where the star of the moving vertex alone decided, and where the base
+  /// filter refused.
   auto& blockers() const { return m_guard->blockers(); }
 
   const Intersection_statistics& statistics() const { return m_guard->statistics(); }

@@ -8,39 +8,41 @@
 
 namespace selvedge {
 
-/// Watches nothing, and has nothing that hangs on the mesh. What `simplify` accepts as an observer derives
-/// from this and has functions of its own in place of some of these.
+/// Observes nothing: the default observer of `simplify_mesh`, and the base class of all others. An observer
+/// derives from this class and replaces some of its functions.
 ///
-/// In all of them the source of `moving` goes to its target and merges with it; the rule is a `Border_rule`,
-/// which knows what is a line now.
+/// In all functions, the source of `moving` moves to its target and merges with it. `Rule` is a
+/// `Border_rule`, which knows which edges are lines now.
 struct No_observer
 {
+  /// Called before each collapse.
   template <class Halfedge, class Rule>
   void before_collapse(const Halfedge& /*moving*/, const Rule&)
   {
   }
 
-  /// The motion was refused; one count is 1, the others are 0.
+  /// Called for each motion that is refused. The count of the rule that refused it is 1, all others are 0.
   template <class Halfedge>
   void on_refused(const Halfedge& /*moving*/, const Refusals&)
   {
   }
 
-  /// Does every piece keep its topology, where pieces are finer than the mesh? Asked of what the rule allows.
+  /// Returns whether every piece keeps its topology, where pieces are finer than the mesh. Called for motions
+  /// that the border rule allows.
   template <class Halfedge, class Rule>
   bool keeps_pieces(const Halfedge& /*moving*/, const Rule&) const
   {
     return true;
   }
 
-  /// Does every triangle of the texture keep its orientation?
+  /// Returns whether every triangle of the texture keeps its orientation.
   template <class Halfedge, class Rule>
   bool keeps_uv_orientation(const Halfedge& /*moving*/, const Rule&) const
   {
     return true;
   }
 
-  /// How far the texture is displaced, as area × squared length.
+  /// Returns how far the motion displaces the texture, as area × squared length.
   template <class Halfedge>
   double uv_cost(const Halfedge& /*moving*/) const
   {

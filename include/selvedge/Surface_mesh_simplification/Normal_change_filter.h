@@ -16,13 +16,14 @@ namespace selvedge {
 
 /// Refuses a collapse that turns the normal of a face by more than a limit.
 ///
-/// A face without a computable normal before the collapse may get any; one that would lose it is refused.
+/// A face whose normal cannot be computed before the collapse, because it is degenerate, may get any normal.
+/// A collapse after which the normal of another face could not be computed is refused.
 ///
 /// A model of CGAL's concept `PlacementFilter`, usable with any placement.
 ///
-/// **Exactness** Floating point: a limit of quality, on which no statement about intersections rests.
+/// **Exactness** Floating point: the filter limits quality; no statement about intersections rests on it.
 ///
-/// **Reference** Derichs, Misiak, Fuhrmann, section 3.1 and figure 3 (45° there).
+/// **Reference** Derichs, Misiak, Fuhrmann, section 3.1 and figure 3 (with a limit of 45°).
 template <class BaseFilter = No_filter>
 class Normal_change_filter : public internal::Filter_base<Normal_change_filter<BaseFilter>, BaseFilter>
 {

@@ -5,6 +5,8 @@
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_QUADRIC_COST_H
 
 #include <selvedge/Cancellation_scope.h>
+#include <selvedge/Error.h>
+#include <selvedge/Surface_mesh_simplification/Quadric_cost_options.h>
 #include <selvedge/Surface_mesh_simplification/internal/Symmetric_quadric.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
 
@@ -17,26 +19,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
 namespace selvedge {
 
-/// How much of what a `Quadric_cost` weighs. Both numbers are ratios, at least 0.
-struct Quadric_cost_options
-{
-  /// Weight of the plane that stands on a border edge, per squared length of the edge; a face plane weighs
-  /// its area.
-  double border_weight = 1;
-
-  /// Weight of the squared distance to the original vertices themselves, per area. On flat cloth every
-  /// collapse costs nothing by its planes alone, and this decides: the nearer merge first, and triangles stay
-  /// round. Small enough not to outweigh the planes where there is a shape to keep.
-  double stabiliser = 1e-5;
-};
-
-/// Marks no edge but the borders.
+/// Says of every edge that it is not a line: the default, with which only borders are kept as lines.
 struct No_line_map
 {
   template <class Edge>
@@ -46,18 +37,21 @@ struct No_line_map
   }
 };
 
-/// The cost of a collapse by accumulated quadrics: area-weighted planes of the faces, planes that stand on
-/// border edges, and a small pull to the original vertices.
+/// Computes the cost of a collapse from accumulated quadrics: area-weighted planes of the faces, planes that
+/// stand on border edges, and a small pull towards the original vertices.
 ///
-/// A model of CGAL's concept `GetCost`, usable with any placement. The quadrics belong to the mesh it was
-/// made for: copies share them, and a second run on the same mesh goes on with what the first has
-/// accumulated.
+/// A model of CGAL's concept `GetCost`, usable with any placement. The quadrics belong to the mesh that the
+/// policy was made for. Copies share them, and a second run on the same mesh continues with what the first
+/// has accumulated.
 ///
 /// **Preconditions** The mesh outlives the policy. `EdgeIsLineMap` is a readable property map from edges to
-/// `bool`: edges inside the mesh that are to be kept as borders are.
+/// `bool`: true for the edges inside the mesh that the cost is to keep as it keeps borders.
 ///
-/// **Exactness** Floating point; the cost orders the collapses and decides nothing else. Coordinates are
-/// taken relative to the centre of the mesh, so that a mesh far from the origin loses nothing.
+/// **Exactness** Floating point. The cost orders the collapses, and its error can limit their quality; no
+/// statement about intersections depends on it. Coordinates are taken relative to the centre of the mesh, so
+/// that a mesh far from the origin loses no precision.
+///
+/// **Complexity** Linear in the size of the mesh to initialise; constant for a cost, an error or an update.
 ///
 /// **Reference** Garland, Heckbert: Surface simplification using quadric error metrics, sections 3 to 6;
 /// Derichs, Misiak, Fuhrmann, section 3.
@@ -73,7 +67,7 @@ class Quadric_cost
   struct Vertex_quadric
   {
     Quadric quadric;
-    double own_cost = 0; // what it says of the vertex itself
+    double own_cost = 0; // the value of the quadric at the vertex itself
   };
   using Quadric_map =
       typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<Vertex_quadric>>::const_type;
@@ -86,13 +80,26 @@ public:
                         const EdgeIsLineMap& edge_is_line = {})
       : m_state(std::make_shared<State>(mesh, options, edge_is_line))
   {
+    for (const double weight : {options.border_weight, options.stabiliser})
+      if (!is_weight(weight))
+        throw Argument_error("the weights of a cost are finite and at least 0, not " +
+                             std::to_string(weight));
   }
 
-  /// Multiplies the quadric of every vertex, in the order of `vertices(mesh)`, by a factor of at least 0. To
-  /// be called before the first run.
-  void weigh(std::vector<double> weights) { m_state->weights = std::move(weights); }
+  /// Multiplies the quadric of every vertex by a factor. `weights` has one finite factor of at least 0 for
+  /// each vertex, in the order of `vertices(mesh)`, or is empty for all 1; otherwise it throws
+  /// `Argument_error`. Call it before the first run.
+  void weigh(const TriangleMesh& mesh, std::vector<double> weights)
+  {
+    const std::size_t wanted = vertices(mesh).size();
+    if (!weights.empty() &&
+        (weights.size() != wanted || !std::all_of(weights.begin(), weights.end(), is_weight)))
+      throw Argument_error("weights of vertices are finite numbers of at least 0, one for each of " +
+                           std::to_string(wanted) + " vertices");
+    m_state->weights = std::move(weights);
+  }
 
-  /// Computes the quadrics, the first time; called by the loop.
+  /// Computes the quadrics when it is called for the first time. The loop calls it.
   template <class VertexPointMap, class GeomTraits>
   void initialize(const TriangleMesh& mesh, const VertexPointMap& points, const GeomTraits&) const
   {
@@ -119,8 +126,8 @@ public:
     }
   }
 
-  /// The cost of merging the ends of the profile's edge at `placement`, in units of area × squared length;
-  /// none when there is no placement.
+  /// Returns the cost of merging the ends of the profile's edge at `placement`, in units of area × squared
+  /// length, or none when there is no placement.
   template <class Profile, class Point>
   internal::Optional<typename Profile::FT> operator()(const Profile& profile,
                                                       const internal::Optional<Point>& placement) const
@@ -130,7 +137,7 @@ public:
     return typename Profile::FT(cost_at(profile, *placement));
   }
 
-  /// The same number for a point.
+  /// Returns the same cost for a point.
   template <class Profile, class Point>
   double cost_at(const Profile& profile, const Point& point) const
   {
@@ -138,7 +145,8 @@ public:
     return positive(quadric(profile.v0())(x) + quadric(profile.v1())(x));
   }
 
-  /// The same number for moving along a halfedge of the profile's edge, sooner.
+  /// Returns the same cost for moving the source of `moving`, a halfedge of the profile's edge, onto its
+  /// target; faster than `cost_at`.
   template <class Profile>
   internal::Optional<double> cost_along(const Profile& profile, Halfedge moving) const
   {
@@ -149,8 +157,9 @@ public:
                     get(m_state->quadrics, goal).own_cost);
   }
 
-  /// The root mean square distance of `point` to the planes gathered at both ends of the edge, weighted by
-  /// area.
+  /// Returns the root mean square distance of `point` to the planes accumulated at both ends of the edge, in
+  /// units of the mesh. Face planes are weighted by area; border planes and original vertices count with the
+  /// weights in the options.
   template <class Profile, class Point>
   double error_at(const Profile& profile, const Point& point) const
   {
@@ -158,11 +167,11 @@ public:
     return weight > 0 ? std::sqrt(cost_at(profile, point) / weight) : 0;
   }
 
-  /// No: see `Collapse_locality`.
+  /// Both return false, see `Collapse_locality`: the cost of an edge depends on its ends alone.
   bool reaches_neighbours(Vertex /*kept*/) const { return false; }
   bool reaches(Vertex /*kept*/, typename Graph_traits::edge_descriptor /*edge*/) const { return false; }
 
-  /// Gives the merged vertex the sum of both; called by the loop.
+  /// Gives the merged vertex the sum of both quadrics. The loop calls it.
   template <class Profile>
   void update_after_collapse(const Profile& profile, Vertex kept) const
   {
@@ -201,12 +210,14 @@ private:
     bool is_initialised = false;
   };
 
+  static bool is_weight(double number) { return number >= 0 && std::isfinite(number); }
+
   const Quadric& quadric(Vertex v) const { return get(m_state->quadrics, v).quadric; }
 
-  // Cancellation may leave a little less than nothing.
+  // Rounding may leave a sum slightly below zero.
   static double positive(double sum) { return (std::max)(0.0, sum); }
 
-  // Scales to length 1 and returns the length it had; leaves the zero vector as it is.
+  // Scales `v` to length 1 and returns the length that it had. Leaves the zero vector as it is.
   static double normalise(Vector& v)
   {
     const double length = std::hypot(v[0], v[1], v[2]);

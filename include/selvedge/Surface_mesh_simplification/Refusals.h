@@ -9,28 +9,28 @@
 
 namespace selvedge {
 
-/// Refusals per rule: each direction of an edge that the loop considers is counted by the first rule that
-/// refuses it, and again when it is considered again. Rules are in the order in which they are asked, cheap
-/// ones first.
+/// Refusals per rule: each (edge, direction) that the loop considers is counted by the first rule that
+/// refuses it, and again when it is considered again. The rules are listed in the order in which they are
+/// asked, the cheap ones first.
 struct Refusals
 {
-  std::size_t border = 0; ///< borders, seams, locked vertices
-  std::size_t target = 0; ///< a face would go of which enough have gone; see `Simplify_constraints::shares`
-  std::size_t error = 0;  ///< `Simplify_options::max_error`
+  std::size_t border = 0; ///< borders, seams, locked vertices, topology of pieces
+  std::size_t target = 0; ///< a share at its target would lose a face; see `Simplify_constraints::shares`
+  std::size_t error = 0;  ///< larger than `Simplify_options::max_error`
   std::size_t aspect_ratio = 0;
   std::size_t normal_change = 0;
   std::size_t uv = 0; ///< a texture triangle would turn over
   std::size_t intersection = 0;
-  std::size_t by_loop = 0; ///< accepted by all rules, refused by a geometric test of CGAL's loop
+  std::size_t by_loop = 0; ///< accepted by all rules, but refused by a geometric test of CGAL's loop
 
   struct Rule
   {
-    const char* key;  ///< in reports and outcomes
-    const char* name; ///< in sentences
+    const char* key;  ///< names the rule in reports and outcomes
+    const char* name; ///< names the rule in sentences
     std::size_t Refusals::*count;
   };
 
-  /// All of them.
+  /// Returns all rules, in order.
   static constexpr std::array<Rule, 8> rules();
 
   friend Refusals& operator+=(Refusals& a, const Refusals& b)

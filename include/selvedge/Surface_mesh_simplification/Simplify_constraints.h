@@ -11,25 +11,25 @@
 
 namespace selvedge {
 
-/// What `simplify` must know of single elements of a mesh.
+/// What `simplify_mesh` must know about single elements of a mesh.
 template <class TriangleMesh>
 struct Simplify_constraints
 {
   using Face = typename boost::graph_traits<TriangleMesh>::face_descriptor;
 
-  /// Vertices that do not move. Others may move onto them.
+  /// Vertices that do not move. Other vertices may move onto them.
   std::vector<typename boost::graph_traits<TriangleMesh>::vertex_descriptor> locked_vertices;
 
-  /// Edges inside the mesh that are to be kept as borders are: seams.
+  /// Edges inside the mesh that are kept like borders: seams.
   std::vector<typename boost::graph_traits<TriangleMesh>::edge_descriptor> line_edges;
 
-  /// For every vertex, in the order of `vertices(mesh)`, a factor of at least 0 for what it costs to move it;
-  /// or nothing.
+  /// Factors of at least 0 for the cost of moving each vertex: one for every vertex, in the order of
+  /// `vertices(mesh)`, or none at all. The number is not checked.
   std::vector<double> vertex_weights;
 
-  /// Faces that have a ratio of their own, in [0, 1]; the target of the options is for all others. Once a
-  /// share has reached its target, no collapse takes a further face of it, while others go on until all have
-  /// reached theirs. A face in several shares counts in the last of them.
+  /// Faces that have a ratio of their own, in [0, 1]; the target in the options is for all other faces. Once
+  /// a share has reached its target, no collapse removes another face of it, while the others continue until
+  /// all have reached theirs. A face in several shares belongs to the last of them.
   struct Share
   {
     std::vector<Face> faces;
@@ -37,11 +37,11 @@ struct Simplify_constraints
   };
   std::vector<Share> shares;
 
-  /// Faces of which no target and no count of the report knows: obstacles. Lock their vertices.
+  /// Faces that no target and no count of the report includes: obstacles. Lock their vertices, too.
   std::vector<Face> uncounted_faces;
 
-  /// The length that lengths in the options are shares of; where there is none, the diagonal of the mesh. A
-  /// mesh that is a part of another takes the diagonal of the whole.
+  /// The length of which the lengths in the options are fractions; by default, the diagonal of the mesh. A
+  /// mesh that is a part of another needs the diagonal of the whole.
   std::optional<double> diagonal;
 };
 

@@ -12,15 +12,17 @@
 
 namespace selvedge {
 
-/// Which edges a cost or placement policy must be asked about again after a collapse.
+/// Tells the loop about which edges it must ask a cost or placement policy again after a collapse.
 ///
-/// What a policy says of the edges at the merged vertex always counts as changed. This trait says whether
-/// `policy` may also say something new of other edges at the neighbours of `kept`, the merged vertex: 36
-/// edges instead of 6, on average. Yes is always right, and is what CGAL's own loop assumes. Where it does,
-/// `reaches(policy, kept, edge)` says of one of these edges whether it may. A policy of one's own either has
-/// members `bool reaches_neighbours(vertex) const` and `bool reaches(vertex, edge) const` or specialises this
-/// trait; a wrong "no" costs order and quality, never a guarantee, since the filters are asked when an edge
-/// collapses.
+/// The loop always asks again about the edges at the merged vertex, `kept`. `reaches_neighbours(policy,
+/// kept)` says whether the policy may also have a new answer for other edges at the neighbours of `kept`:
+/// where every vertex has 6 edges, 36 questions instead of 6. True is always correct, and is what CGAL's own
+/// loop assumes. Where it is true, `reaches(policy, kept, edge)` says the same of a single one of these
+/// edges.
+///
+/// A policy of your own either has members `bool reaches_neighbours(vertex) const` and `bool reaches(vertex,
+/// edge) const` or specialises this trait. A wrong "false" harms order and quality, but no guarantee, since
+/// the filters are asked when an edge collapses.
 template <class Policy, class = void>
 struct Collapse_locality
 {
@@ -51,7 +53,7 @@ struct Collapse_locality<Policy, std::void_t<decltype(&Policy::reaches_neighbour
   }
 };
 
-/// Policies that look at nothing but the ends of an edge.
+/// The trait of policies that look only at the ends of an edge.
 struct Looks_at_ends_alone
 {
   template <class Policy, class Vertex>

@@ -24,7 +24,7 @@ class Face_count_stop
 public:
   explicit Face_count_stop(std::size_t faces) : m_faces(faces) {}
 
-  /// The number of faces at which it stops.
+  /// Returns the number of faces at which it stops.
   std::size_t target() const { return m_faces; }
 
   template <class FT, class Profile>
@@ -43,14 +43,14 @@ private:
 class Face_ratio_stop : public Face_count_stop
 {
 public:
-  /// `ratio` lies in [0, 1], or `Argument_error` is thrown; the target is ratio × faces, rounded to nearest.
+  /// `ratio` lies in [0, 1], or `Argument_error` is thrown. The target is ratio × faces, rounded to nearest.
   template <class TriangleMesh>
   Face_ratio_stop(double ratio, const TriangleMesh& mesh)
       : Face_count_stop(face_target(ratio, internal::face_count(mesh)))
   {
   }
 
-  /// The number of faces that a ratio of a number of faces means.
+  /// Returns the target for a ratio of a number of faces.
   static std::size_t face_target(double ratio, std::size_t faces)
   {
     if (!(ratio >= 0 && ratio <= 1))
@@ -77,11 +77,11 @@ private:
   double m_cost;
 };
 
-/// Stops when a function of the caller returns true: to cancel, or to show progress.
+/// Stops when a function of the caller returns true, to cancel or to show progress.
 ///
-/// A model of CGAL's concept `StopPredicate`. The function is given the number of faces that the mesh has
-/// now. It is asked before every 256th collapse that is considered; a visitor could not end the loop, and an
-/// exception would leave the mesh between two states.
+/// A model of CGAL's concept `StopPredicate`. The function gets the number of faces that the mesh has now. It
+/// is called for the first edge that the loop considers and for every 256th after it. (A visitor cannot end
+/// the loop, and an exception could leave the mesh in the middle of a collapse.)
 class Hook_stop
 {
 public:
@@ -104,7 +104,7 @@ private:
 
 namespace internal {
 
-/// A stop predicate that asks a function of the cost.
+/// Stops when a function of the cost returns true.
 template <class Function>
 class Function_stop
 {
@@ -123,7 +123,7 @@ private:
 
 } // namespace internal
 
-/// Stops when any of several predicates does; each is asked every time, in order, until one does.
+/// Stops when any of several predicates does. They are asked in order, each time, until one of them does.
 ///
 /// A model of CGAL's concept `StopPredicate` when all of `Stops` are.
 template <class... Stops>

@@ -18,7 +18,7 @@
 
 namespace selvedge {
 
-/// What became of the question whether a star keeps clear of itself, and which step settled it.
+/// Says whether a star keeps clear of itself, and which step of the test settled it.
 enum class Star_verdict {
   clear_by_view,  ///< seen from one point, all faces keep turning the same way
   clear_by_pairs, ///< every sweep is clear of every other link edge
@@ -46,8 +46,9 @@ private:
   const Vertex_motion<Point>& m_motion;
 };
 
-// Whether the link is one simple cycle of positions: going on from edge to edge leads through all of them. Of
-// two edges that start at one position, only the first is ever reached.
+// Whether the link is one simple cycle of positions: the walk from edge to next edge passes through all of
+// them before it returns. Of two edges that start at one position, the walk only ever reaches the first, so a
+// link that has such edges is never a cycle.
 template <class Kernel>
 bool is_cycle(const Link<typename Kernel::Point_3>& link, const Kernel& kernel)
 {
@@ -71,8 +72,8 @@ std::array<double, 3> to_double_vector(const Point& p, const Point& q)
           CGAL::to_double(q.z()) - CGAL::to_double(p.z())};
 }
 
-// A point well off the surface, along the mean of the faces' normals before and after; rounded, for any point
-// will do.
+// Returns a point well off the surface, along the mean of the faces' normals before and after the motion. It
+// is rounded, because any point will do. Returns nothing where a normal vanishes.
 template <class Point>
 std::optional<Point> find_viewpoint(const Vertex_motion<Point>& motion)
 {
@@ -95,20 +96,23 @@ std::optional<Point> find_viewpoint(const Vertex_motion<Point>& motion)
   for (const auto& edge : motion.contracted)
     add(motion.from, edge);
 
-  // Eight times the size of the star: far enough to look almost the same way at all of it.
+  // Eight times the size of the star: far enough to see all of it from almost the same direction.
   const double scale = 8 * std::sqrt(squared_size / dot(normal, normal));
   const Vector q{CGAL::to_double(motion.to.x()) + scale * normal[0],
                  CGAL::to_double(motion.to.y()) + scale * normal[1],
                  CGAL::to_double(motion.to.z()) + scale * normal[2]};
-  // Where a normal vanishes, there is no such point.
+  // Not finite where a normal vanishes.
   if (!std::isfinite(q[0]) || !std::isfinite(q[1]) || !std::isfinite(q[2]))
     return std::nullopt;
   return Point(q[0], q[1], q[2]);
 }
 
-// The first step. When the faces around the vertex turn the same way seen from q, each lies in a wedge of its
-// own about the line from q to the vertex: a simple closed link winds about that line only once. The
-// orientations are linear in time, so the same sign at both ends is that sign all the way.
+// The first step. Claim: the star is clear of itself when its link is one simple cycle and, seen from a point
+// q, all faces around the vertex turn the same way, both before the motion and (for the moving faces) after
+// it. Why: the orientations are linear in time, so a sign that is the same at both ends is that sign all the
+// way. When all faces turn the same way seen from q, each lies in a sector of its own about the line from q
+// to the vertex, because a simple closed link winds about that line only once. The link is simple because the
+// star is embedded at `from`, which judge_star_motion() requires.
 template <class Kernel>
 bool is_star_clear_by_view(const Vertex_motion<typename Kernel::Point_3>& motion, const Kernel& kernel)
 {
@@ -132,7 +136,7 @@ bool is_star_clear_by_view(const Vertex_motion<typename Kernel::Point_3>& motion
   return turn != CGAL::ZERO;
 }
 
-// Whether the face (from, a, b), a triangle, stays one until it is (to, a, b).
+// Whether the face (from, a, b), which is a triangle, stays one all the way to (to, a, b).
 template <class Kernel>
 bool is_face_kept(const Vertex_motion<typename Kernel::Point_3>& motion,
                   const std::array<typename Kernel::Point_3, 2>& edge, const Kernel& kernel)
@@ -143,12 +147,19 @@ bool is_face_kept(const Vertex_motion<typename Kernel::Point_3>& motion,
   return planar_orientation(edge[0], edge[1], motion.from) == planar_orientation(edge[0], edge[1], motion.to);
 }
 
-// The second step. When two faces with the common corner v meet in a point that they do not share, go from v
-// through that point until one of the two faces ends: there its link edge meets the other face. Link edges of
-// moving faces stand still, so that at some time this happens is one static question: whether the sweep of
-// one is clear of the link edge of the other. A contracted face is judged by the link edge that it becomes,
-// which lies in its boundary all the time; the link edges of the moving faces cannot meet a contracted face,
-// which only shrinks within its first position.
+// The second step. Claim: the star is clear of itself when no moving face degenerates and the sweep of every
+// moving face is clear of the link edges of all other faces.
+//
+// Why link edges are enough: suppose that two faces with the common corner v meet in a point that they do not
+// share. Go from v through that point until one of the two faces ends: there its link edge meets the other
+// face.
+//
+// Why one static question covers all times: link edges of moving faces stand still. So "does this happen at
+// some time?" is one static question: whether the sweep of one face is clear of the link edge of the other.
+//
+// Contracted faces: a contracted face is judged by the link edge that it becomes, which lies in its boundary
+// all the time. The link edges of the moving faces cannot meet a contracted face, since that only shrinks
+// within its first position.
 template <class Kernel>
 bool is_star_clear_by_pairs(const Vertex_motion<typename Kernel::Point_3>& motion, const Kernel& kernel)
 {
@@ -176,27 +187,28 @@ bool is_star_clear_by_pairs(const Vertex_motion<typename Kernel::Point_3>& motio
 /// degenerates, and any two faces of the star meet only in the simplex of the positions that they share, at
 /// every time and at the end.
 ///
-/// A contracted face counts as long as it is a triangle, and at the end as the edge that it has become. In a
-/// mesh this is never too strict, nor does it refuse anything that is not refused anyway: a moving face can
-/// enter a contracted face only across the corner x opposite to the edge (from, to). If the edge (from, x)
-/// has another face, that one is in the star and is met at the same time; if not, (to, x) must not be a
-/// border edge too, and the stationary face behind it is met.
+/// A contracted face counts as a face while it is a triangle, and at the end as the edge that it has become.
+/// In a mesh this is never too strict: it refuses nothing that is not refused anyway. For a moving face can
+/// enter a contracted face only across the corner x opposite to the edge (from, to).
+/// - If the edge (from, x) has another face, that face is in the star and is met at the same time.
+/// - If not, the link condition forbids that (to, x) is a border edge, too. So (to, x) has a stationary face
+///   behind it, and that face is met.
 ///
-/// **Preconditions**: the star is embedded at `from`, in particular its faces are not degenerate and no two
-/// have the same three positions; `from` and `to` differ; `from` is no end of a link edge. The star may be
-/// open.
+/// **Preconditions**: the star is embedded at `from`; in particular, its faces are not degenerate and no two
+/// have the same three positions. `from` and `to` differ. `from` is not an end of a link edge. The star may
+/// be open.
 ///
-/// **Exactness**: the answer is exact for every kernel with exact predicates. Signs of orientations of the
-/// given points decide, and in the first step of one more point, which is rounded, but any point proves what
-/// it proves.
+/// **Exactness**: the answer is exact for every kernel with exact predicates. It depends only on signs of
+/// orientations of the given points and, in the first step, of one more point. That point is rounded, but
+/// whatever point it is, what it proves is true.
 ///
 /// **Complexity**: about two orientations per face when the first step settles it, as it does for nearly all
-/// legal collapses inside a smooth surface; about two per ordered pair of faces otherwise, as for all open
-/// stars.
+/// legal collapses inside a smooth surface; otherwise, as for all open stars, about two per ordered pair of
+/// faces.
 ///
-/// **Reference**: the condition is "within the star" of a collapse, stated for all times. That an illegal
-/// contact of two faces always shows at a link edge makes it a static question; no time of contact is ever
-/// computed.
+/// **Reference**: this is condition 2, "within the star", of docs/guarantees.md. It is stated for all times,
+/// but an illegal contact of two faces always shows at a link edge, which makes it a static question: no time
+/// of contact is ever computed.
 template <class Kernel>
 Star_verdict judge_star_motion(const Vertex_motion<CGAL::Point_3<Kernel>>& motion,
                                const Kernel& kernel = Kernel())
@@ -207,7 +219,7 @@ Star_verdict judge_star_motion(const Vertex_motion<CGAL::Point_3<Kernel>>& motio
                                                           : Star_verdict::refused;
 }
 
-/// Whether judge_star_motion() does not refuse.
+/// Whether judge_star_motion() does not refuse the motion.
 template <class Kernel>
 bool is_star_motion_clear(const Vertex_motion<CGAL::Point_3<Kernel>>& motion, const Kernel& kernel = Kernel())
 {

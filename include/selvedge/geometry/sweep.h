@@ -15,27 +15,29 @@
 
 namespace selvedge {
 
-/// Tells whether a face that moves keeps clear of faces and segments that stand still.
+/// Decides whether a moving face keeps clear of stationary faces and segments.
 ///
-/// The face (m, a, b) moves as m goes straight to t; its *sweep*, the union of all its positions on the way,
-/// is the closed tetrahedron conv(m, t, a, b). Something that stands still is *clear* of it when the two have
-/// in common exactly the simplex spanned by the positions that they share: none, a point, or an edge. For an
-/// embedded mesh this is the same as "they meet only in what they share, at every time on the way".
+/// The face (m, a, b) moves as m goes straight to t. Its *sweep*, the union of all its positions on the way,
+/// is the closed tetrahedron conv(m, t, a, b). A stationary face or segment is *clear* of the sweep when the
+/// two have in common exactly the simplex spanned by the positions that they share: nothing, a point, or an
+/// edge. For an embedded mesh this is the same as "they meet only in what they share, at every time on the
+/// way".
 ///
-/// **Preconditions**, checked where CGAL checks its own: m, a, b are not collinear; t is none of m, a, b; m
-/// is no position of what stands still, whose own positions are distinct. Everything else is allowed and
-/// decided: a flat sweep (all four coplanar), t on the line ab, a face of three collinear positions (it is
-/// judged as the segment that it is).
+/// **Preconditions**, checked where CGAL checks its own: m, a and b are not collinear; t is none of m, a, b;
+/// the positions of the stationary face or segment are distinct, and none of them is m. Everything else is
+/// allowed and decided: a flat sweep (all four points coplanar), t on the line ab, a stationary face of three
+/// collinear positions (it is judged as the segment that it is).
 ///
-/// **Exactness**: only signs of orientations of the given points are used, nothing is constructed; the answer
-/// is exact for every kernel whose predicates are. −0 equals 0.
+/// **Exactness**: only signs of orientations of the given points are used, and nothing is constructed. The
+/// answer is exact for every kernel with exact predicates. −0 equals 0.
 ///
-/// **Complexity**: constant. The orientation of the sweep is computed once, by the constructor; a face costs
-/// 1 to 9 further orientations when it shares a position; when it shares none and the boxes overlap, which
-/// the caller compares first, 7 on average on cloth. Planar orientations only where these are zero.
+/// **Complexity**: constant. The constructor computes the orientation of the sweep once. A face that shares a
+/// position costs 1 to 9 further orientations. A face that shares none, but whose box overlaps that of the
+/// sweep (the caller compares boxes first), costs 7 on average on cloth. Planar orientations are computed
+/// only where orientations are zero.
 ///
 /// **Reference**: Derichs, Misiak, Fuhrmann, "Intersection-free mesh decimation for high resolution cloth
-/// models", the section on edge and face sweeps, whose two tests are stated as one here.
+/// models", the section on edge and face sweeps. Its two tests are stated as one here.
 template <class Kernel>
 class Sweep_test
 {
@@ -50,14 +52,14 @@ public:
     CGAL_precondition(!is_equal(t, m) && !is_equal(t, a) && !is_equal(t, b));
   }
 
-  /// Whether the stationary face keeps clear; false also when it has all three of t, a and b, for then the
-  /// moving face ends on top of it.
+  /// Whether the stationary face is clear of the sweep. Also false when it has all three of t, a and b, for
+  /// then the moving face ends on top of it.
   bool is_clear(const Point_3& f0, const Point_3& f1, const Point_3& f2) const
   {
     return judge<3>({&f0, &f1, &f2});
   }
 
-  /// Whether the stationary segment keeps clear.
+  /// Whether the stationary segment is clear of the sweep.
   bool is_clear(const Point_3& f0, const Point_3& f1) const { return judge<2>({&f0, &f1}); }
 
 private:
@@ -79,13 +81,14 @@ private:
     return m_kernel.orientation_3_object()(p, q, r, s);
   }
 
-  // Planar orientation; CGAL promises that it is coherent for all triples of points of one plane.
+  // CGAL promises that planar orientation is coherent for all triples of points of one plane.
   Sign planar_orientation(const Point_3& p, const Point_3& q, const Point_3& r) const
   {
     return m_kernel.coplanar_orientation_3_object()(p, q, r);
   }
 
-  // The side of p of the facet opposite to corner k: positive is where a full sweep lies.
+  // On which side of the facet opposite to corner k the point p lies: a sweep that is not flat lies on the
+  // positive side.
   Sign side_of_facet(std::size_t k, const Point_3& p) const
   {
     const Sign side = orientation(p, corner(k ^ 1), corner(k ^ 2), corner(k ^ 3));
@@ -117,8 +120,8 @@ private:
       return shared == 2 && is_clear_at_edge(corners[0], corners[1], *f[2]);
   }
 
-  // Two shared. Seen along the common edge xy, the sweep is a wedge of the directions of its other corners p
-  // and q, and the face is the direction of z.
+  // Two positions are shared. Seen along the common edge xy, the sweep is the sector between the directions
+  // of its other corners p and q, and the face is the direction of z.
   bool is_clear_at_edge(std::size_t i, std::size_t j, const Point_3& z) const
   {
     const std::size_t turn = i ^ j;
@@ -137,14 +140,14 @@ private:
     if (side != CGAL::ZERO)
       return planar_orientation(x, y, p) != side && planar_orientation(x, y, q) != side;
 
-    // A collinear face: what sticks out of the common edge is a segment at one of its ends.
+    // The face is collinear: what extends beyond the common edge is a segment at one of its ends.
     const auto is_between = m_kernel.collinear_are_ordered_along_line_3_object();
     return is_between(x, z, y) || !is_in_cone(is_between(x, y, z) ? j : i, z);
   }
 
-  // One shared, x. The cone at x of the sweep, spanned by the rays u, and the wedge at x of the face, spanned
-  // by the rays w, have more than x in common when one contains a ray of the other, or else when the inside
-  // of the wedge crosses the inside of the cone of two of the u.
+  // One position x is shared. Let the rays u span the cone of the sweep at x, and the rays w the sector of
+  // the face at x. The two have more than x in common when one contains a ray of the other, or else when the
+  // inside of the sector crosses the inside of the cone of two of the u.
   bool is_clear_at_vertex(std::size_t i, const Point_3& w0, const Point_3& w1) const
   {
     const Point_3& x = corner(i);
@@ -198,28 +201,28 @@ private:
       if (side != CGAL::ZERO && side != m_sign)
         return false;
     }
-    // A flat cone is the union of those of its pairs of rays that are not collinear; as the sweep is never
-    // less than two-dimensional, every ray is in such a pair.
+    // A flat cone is the union of the cones of those pairs of its rays that are not collinear: the sweep is
+    // never less than two-dimensional, so every ray belongs to such a pair.
     return !is_flat() || is_in_planar_cone(corner(i), corner(i ^ 1), corner(i ^ 2), w) ||
            is_in_planar_cone(corner(i), corner(i ^ 2), corner(i ^ 3), w) ||
            is_in_planar_cone(corner(i), corner(i ^ 3), corner(i ^ 1), w);
   }
 
-  // Whether the ray xw lies in the closed cone of the rays xu and xv, all in one plane; never when these two
-  // are collinear.
+  // Whether the ray xw lies in the closed cone of the rays xu and xv, all in one plane. False whenever xu and
+  // xv are collinear.
   bool is_in_planar_cone(const Point_3& x, const Point_3& u, const Point_3& v, const Point_3& w) const
   {
     const Sign turn = planar_orientation(x, u, v);
     return turn != CGAL::ZERO && planar_orientation(x, u, w) != -turn && planar_orientation(x, w, v) != -turn;
   }
 
-  // None shared. Separating planes first, as they settle most; the few signs that the rest needs again are
-  // cheaper than asking for all of them always.
+  // No position is shared. Separating planes are tried first, since they settle most cases. Computing a few
+  // signs again for the others is cheaper than computing all signs always.
   template <std::size_t n>
   bool is_disjoint(const Vertices<n>& f) const
   {
     if (is_flat()) {
-      // Of all facets, the first position of the moving face is sure to span the plane.
+      // Of all facets, facet 1, the first position of the moving face, is sure to span the plane.
       const Sign side = side_of_facet(1, *f[0]);
       if (std::all_of(f.begin() + 1, f.end(), [&](const Point_3* p) { return side_of_facet(1, *p) == side; }))
         return side != CGAL::ZERO || is_disjoint_in_plane<n>(f);
@@ -240,9 +243,10 @@ private:
     return !is_met<n>(f);
   }
 
-  // Whether f meets the sweep, not all in one plane: a vertex of f lies in it, or an edge of one pierces a
-  // face of the other from outside its plane. An edge that lies in the plane of a face need not be looked at:
-  // where it meets this face, another edge of the same triangle or tetrahedron leaves that plane.
+  // Whether f meets the sweep, where the two do not lie in one plane. They meet when a vertex of f lies in
+  // the sweep, or when an edge of one that does not lie in the plane of a face of the other pierces that
+  // face. Edges that lie in the plane of a face can be left out: where such an edge meets the face, another
+  // edge of the same triangle or tetrahedron leaves that plane.
   template <std::size_t n>
   bool is_met(const Vertices<n>& f) const
   {
@@ -276,7 +280,8 @@ private:
     return false;
   }
 
-  // Whether the line pq passes through the closed triangle uvw, in whose plane it does not lie.
+  // Whether the line pq passes through the closed triangle uvw. The line does not lie in the triangle's
+  // plane.
   bool is_pierced(const Point_3& u, const Point_3& v, const Point_3& w, const Point_3& p,
                   const Point_3& q) const
   {
@@ -288,8 +293,8 @@ private:
     return uv * wu != CGAL::NEGATIVE && vw * wu != CGAL::NEGATIVE;
   }
 
-  // The sweep and f in one plane: disjoint when the line of an edge of one of them has the other strictly on
-  // its far side.
+  // The sweep and f lie in one plane. They are disjoint when the line through an edge of one of them has the
+  // other strictly on its far side.
   template <std::size_t n>
   bool is_disjoint_in_plane(const Vertices<n>& f) const
   {
@@ -320,8 +325,9 @@ private:
   Sign m_sign;
 };
 
-/// Whether the stationary face (f0, f1, f2) keeps clear of the face (m, a, b) while m goes straight to t. For
-/// several stationary faces, Sweep_test does the common part once; see there for everything else.
+/// Whether the stationary face (f0, f1, f2) is clear of the face (m, a, b) while m goes straight to t. See
+/// Sweep_test for preconditions and exactness; for several stationary faces, it computes the common part
+/// once.
 template <class Kernel>
 bool is_sweep_clear(const CGAL::Point_3<Kernel>& m, const CGAL::Point_3<Kernel>& t,
                     const CGAL::Point_3<Kernel>& a, const CGAL::Point_3<Kernel>& b,

@@ -15,9 +15,10 @@
 namespace selvedge {
 namespace internal {
 
-// What processors do in one instruction and C++17 has no words for; elsewhere the same in several.
+// Operations that processors do in one instruction but C++17 cannot express. Where the compiler or processor
+// does not offer them, plain code does the same.
 
-/// Tells that the object will be read soon.
+/// Asks the processor to load an object that will be read soon.
 template <class T>
 void prefetch([[maybe_unused]] const T& object)
 {
@@ -28,7 +29,7 @@ void prefetch([[maybe_unused]] const T& object)
 #endif
 }
 
-/// The number of the lowest bit that is set; there is one.
+/// Returns the number of the lowest bit that is set. **Precondition** `mask` is not 0.
 inline std::size_t lowest_bit(std::uint32_t mask)
 {
 #ifdef __GNUC__
@@ -41,13 +42,13 @@ inline std::size_t lowest_bit(std::uint32_t mask)
 #endif
 }
 
-/// Bit i tells whether number i is negative; their number is a multiple of four, 32 at most.
+/// Returns a mask whose bit i says whether number i is negative. `count` is a multiple of four, at most 32.
 template <std::size_t count>
 std::uint32_t negative(const std::array<std::int32_t, count>& numbers)
 {
   static_assert(count % 4 == 0 && count <= 32, "");
   std::uint32_t result = 0;
-#ifdef __SSE2__ // of a plain loop compilers make this only sometimes
+#ifdef __SSE2__ // compilers do not always make this of a plain loop
   for (std::size_t i = 0; i < count; i += 4) {
     const __m128i four = _mm_loadu_si128(reinterpret_cast<const __m128i*>(&numbers[i]));
     result |= std::uint32_t(_mm_movemask_ps(_mm_castsi128_ps(four))) << i;
@@ -59,14 +60,14 @@ std::uint32_t negative(const std::array<std::int32_t, count>& numbers)
   return result;
 }
 
-/// Bit i tells of number i whether it is surely negative or positive.
+/// Masks whose bits i say whether number i is surely negative, or surely positive.
 struct Signs
 {
   std::uint64_t negative = 0, positive = 0;
 };
 
-/// The signs of a[i] x + b[i] y + c[i] for i < `count`, which is even and 64 at most; those within `error` of
-/// 0 are neither.
+/// Returns the signs of a[i] x + b[i] y + c[i] for i < `count`, which is even and at most 64. Sums within
+/// `error` of 0 are neither negative nor positive.
 inline Signs signs_of_sums(const double* a, const double* b, const double* c, std::size_t count, double x,
                            double y, double error)
 {

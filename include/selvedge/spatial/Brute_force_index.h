@@ -15,10 +15,10 @@
 
 namespace selvedge {
 
-/// Finds the faces whose bounding boxes overlap a box by looking at all of them: the judge of
+/// Finds the faces whose bounding boxes overlap a box by looking at all faces: the reference for tests of
 /// `Packed_R_tree` and `Clustered_AABB_tree`, with the same interface.
 ///
-/// **Guarantees** A query visits exactly the faces whose box overlaps the query box, by ascending number.
+/// **Guarantees** A query visits exactly the faces whose box overlaps the query box, in ascending order.
 ///
 /// **Complexity** Every query is linear in the largest face number.
 class Brute_force_index

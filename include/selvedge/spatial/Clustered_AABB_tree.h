@@ -5,8 +5,8 @@
 #define SELVEDGE_SPATIAL_CLUSTERED_AABB_TREE_H
 
 #include <selvedge/Error.h>
-#include <selvedge/spatial/internal/Box_tree.h>
 #include <selvedge/spatial/Index_statistics.h>
+#include <selvedge/spatial/internal/Box_tree.h>
 
 #include <boost/container_hash/hash.hpp>
 
@@ -20,36 +20,36 @@
 
 namespace selvedge {
 
-/// Finds the faces whose bounding boxes overlap a box, while faces come, change and go.
+/// Finds the faces whose bounding boxes overlap a box, while faces are added, changed and removed.
 ///
-/// Faces are put into the cells of a uniform grid by the centres of their boxes; the non-empty cells live in
-/// a hash map. Each is a *cluster* with a `CGAL::AABB_tree` of its own, and the boxes of the clusters are in
-/// another. A face that grows stays in its cluster; what grows is the cluster's box. So a change touches one
-/// small tree and, now and then, the small tree over the clusters.
+/// Faces are put into the cells of a uniform grid by the centres of their boxes. A hash map holds the
+/// non-empty cells. Each of them is a *cluster* with a `CGAL::AABB_tree` of its own, and the boxes of the
+/// clusters are in a further tree. A face that grows stays in its cluster, and the box of the cluster grows
+/// with it. So a change touches one small tree and, now and then, the small tree over the clusters.
 ///
 /// **Guarantees**
 /// 1. A query visits every face whose box overlaps the query box, each exactly once. It may visit others.
 /// 2. The order of visits depends on the sequence of calls alone, not on addresses or on the platform.
 ///
-/// **Preconditions** Boxes are finite and not empty. Faces are numbered 0 … n−1; the numbers are those of the
-/// caller, and what lies behind a number is of no concern here: boxes are stored, never computed anew, so
-/// that a face that is gone from the mesh is not read.
+/// **Preconditions** Boxes are finite and not empty. The caller numbers the faces 0 … n−1. The index knows
+/// nothing of a face but its number and its box. It stores boxes and never computes one again, so a face that
+/// is gone from the mesh is not read.
 ///
-/// **Exactness** Boxes are kept as floats, through a monotone map that can only add overlaps.
+/// **Exactness** Boxes are stored as floats, through a monotone map that can only add overlaps.
 ///
-/// **Complexity** Building is O(n log c) with c faces per cluster; a query is logarithmic in the number of
-/// clusters and of the faces of each cluster that it meets; a change is amortised O(log c). About 75 bytes
-/// per face.
+/// **Complexity** Building is O(n log c) with c faces per cluster. A query is logarithmic in the number of
+/// clusters and in the number of faces of each cluster that it meets. A change is amortised O(log c). The
+/// index takes about 75 bytes per face.
 ///
 /// **Reference** Derichs, Misiak, Fuhrmann: Intersection-free mesh decimation for high resolution cloth
-/// models, section 4.2 and figure 9 (there 100 faces per cluster were best).
+/// models, section 4.2 and figure 9, where 100 faces per cluster were best.
 class Clustered_AABB_tree
 {
 public:
   using Id = std::uint32_t;
 
-  /// Counts since construction, for reports.
-  /// `faces_per_cluster` ≥ 1 is what the cell size aims at. Throws `Argument_error` when it is 0.
+  /// Makes an empty index whose cell size will aim at `faces_per_cluster` ≥ 1. Throws `Argument_error` when
+  /// that is 0.
   explicit Clustered_AABB_tree(std::size_t faces_per_cluster = 100)
       : m_faces_per_cluster(faces_per_cluster), m_cluster_table(std::make_unique<internal::Box_table>()),
         m_face_table(std::make_unique<internal::Box_table>()), m_top(m_cluster_table.get())
@@ -58,8 +58,7 @@ public:
       throw Argument_error("a cluster needs at least one face; give a cluster size of 1 or more");
   }
 
-  /// Replaces the content by `faces`, where the box of face `faces[i]` is `box_of(faces[i])`, a
-  /// `CGAL::Bbox_3`.
+  /// Replaces the content by `faces`. The box of face `faces[i]` is `box_of(faces[i])`, a `CGAL::Bbox_3`.
   template <class BoxOf>
   void build(const std::vector<Id>& faces, const BoxOf& box_of)
   {
@@ -97,12 +96,12 @@ public:
     m_statistics.clusters = m_clusters.size();
   }
 
-  /// Puts in a face, or gives a face that is in another box.
+  /// Adds a face, or gives another box to a face that is in the index.
   void set(Id face, const CGAL::Bbox_3& box)
   {
     reserve(face);
     const internal::Monotone_box mapped = m_map(box);
-    // For life, even when it was removed: the old cluster's tree may still hold its number.
+    // A face keeps its cluster even when it is removed: the cluster's tree may still hold its number.
     Id& cluster = m_cluster_of_face[face];
     if (cluster == s_none)
       cluster = cluster_at(mapped);
@@ -111,7 +110,7 @@ public:
     m_statistics.clusters = m_clusters.size();
   }
 
-  /// Removes a face that is in.
+  /// Removes a face. **Precondition** It is in the index.
   void remove(Id face)
   {
     m_statistics.cluster_rebuilds += m_clusters[m_cluster_of_face[face]].remove(face, *m_face_table);
@@ -132,6 +131,7 @@ public:
     });
   }
 
+  /// Counts since construction, for reports.
   const Index_statistics& statistics() const { return m_statistics; }
 
 private:
@@ -148,15 +148,16 @@ private:
 
   Cell cell(const internal::Monotone_box& box, float size) const
   {
-    constexpr float limit = 1e9f; // far cells fall together rather than overflow
+    constexpr float limit = 1e9f; // cells far away are united, so that nothing overflows
     Cell result;
     for (int axis = 0; axis < 3; ++axis)
       result[axis] = std::int32_t(std::clamp(std::floor(0.5f * box.centre(axis) / size), -limit, limit));
     return result;
   }
 
-  // The cell size at which a non-empty cell holds as many faces as asked for: faces lie on surfaces, so the
-  // number goes with the square of the size, which a few rounds of measuring settle.
+  // Returns a cell size at which non-empty cells hold about as many faces as asked for. Faces lie on
+  // surfaces, so their number per cell grows with the square of the size. A few rounds of measuring are
+  // enough.
   float cell_size(const std::vector<Id>& faces) const
   {
     internal::Monotone_box domain = internal::Monotone_box::empty();
@@ -191,7 +192,7 @@ private:
   std::size_t m_faces_per_cluster;
   float m_cell_size = 1;
   internal::Monotone_box_map m_map;
-  // On the heap, because every tree points to its table and this object may move.
+  // The tables are on the heap, because every tree points to its table and this object may move.
   std::unique_ptr<internal::Box_table> m_cluster_table;
   std::unique_ptr<internal::Box_table> m_face_table;
   std::vector<Id> m_cluster_of_face;

@@ -8,14 +8,14 @@
 
 namespace selvedge {
 
-/// What an index of faces did, in counts.
+/// Counts what an index of faces has done.
 struct Index_statistics
 {
-  std::size_t clusters = 0; ///< or leaves of the packed index
+  std::size_t clusters = 0; ///< of the packed index: leaves
   std::size_t queries = 0;
-  std::size_t visits = 0; ///< faces handed out by the queries
+  std::size_t visits = 0; ///< faces visited by all queries
   std::size_t cluster_rebuilds = 0;
-  std::size_t top_rebuilds = 0; ///< of the tree over the clusters, or of the whole packed index
+  std::size_t top_rebuilds = 0; ///< of the tree over the clusters; of the packed index: of all of it
 };
 
 } // namespace selvedge

@@ -5,10 +5,10 @@
 #define SELVEDGE_SPATIAL_PACKED_R_TREE_H
 
 #include <selvedge/internal/instructions.h>
+#include <selvedge/spatial/Index_statistics.h>
 #include <selvedge/spatial/internal/Box_block.h>
 #include <selvedge/spatial/internal/Hilbert_curve.h>
 #include <selvedge/spatial/internal/Monotone_box.h>
-#include <selvedge/spatial/Index_statistics.h>
 
 #include <CGAL/Bbox_3.h>
 
@@ -21,28 +21,33 @@
 
 namespace selvedge {
 
-/// Finds the faces whose bounding boxes overlap a box, while faces come, change and go: fast.
+/// Finds the faces whose bounding boxes overlap a box, while faces are added, changed and removed. It is
+/// faster and smaller than `Clustered_AABB_tree`.
 ///
-/// Faces lie in the order of a Hilbert curve through the centres of their boxes; sixteen that follow upon
-/// each other make a leaf, sixteen leaves a node, and so on up to one. A leaf or a node is tested at once,
-/// with vector instructions, and where it is follows from its number. A face keeps its slot while it changes,
-/// and the boxes above grow with it. When a third of the slots are empty, the faces move together, in the
-/// order that they have, and all boxes are made anew.
+/// Faces are stored in the order of a Hilbert curve through the centres of their boxes. Sixteen consecutive
+/// faces make a leaf, sixteen leaves make a node, and so on up to a single node. All boxes of a leaf or node
+/// are tested at once, with vector instructions, and its place in memory follows from its number. A face
+/// keeps its slot while it changes, and the boxes above grow with it. Faces that are added later go behind
+/// all others, into new leaves when the last one is full. New leaves are not in the tree, and a query tests
+/// each of them.
+///
+/// The tree is made anew when more than a third of the slots are empty, and when there are more new leaves
+/// than 8 and an eighth of those in the tree. Faces then keep their order, unless there are new leaves: then
+/// all are sorted along the curve again.
 ///
 /// **Guarantees**
 /// 1. A query visits every face whose box overlaps the query box, each exactly once. It may visit others.
 /// 2. The order of visits depends on the sequence of calls alone, not on addresses or on the platform.
 ///
-/// **Preconditions** Boxes are finite and not empty. Faces are numbered 0 … n−1; the numbers are those of the
-/// caller, and what lies behind a number is of no concern here: boxes are stored, never computed anew, so
-/// that a face that is gone from the mesh is not read.
+/// **Preconditions** Boxes are finite and not empty. The caller numbers the faces 0 … n−1. The index knows
+/// nothing of a face but its number and its box. It stores boxes and never computes one again, so a face that
+/// is gone from the mesh is not read.
 ///
-/// **Exactness** Boxes are kept as floats, through a monotone map that can only add overlaps.
+/// **Exactness** Boxes are stored as floats, through a monotone map that can only add overlaps.
 ///
-/// **Complexity** Building is O(n); a query is logarithmic in n for each face that it finds, when boxes
-/// overlap as those of faces of a surface do; a change is O(log n), and amortised O(1) as a rule. About 34
-/// bytes per face, and twice as many more while building. Faces unknown to `build` are fewer than known ones:
-/// they are looked at one by one until the next time that the tree is made anew.
+/// **Complexity** Building is O(n). A query is logarithmic in n for each face that it finds, when boxes
+/// overlap as those of faces of a surface do. A change is O(log n), and amortised O(1) as a rule. The index
+/// takes about 34 bytes per face, and twice as many more while it is built.
 ///
 /// **Reference** Kamel, Faloutsos: On packing R-trees.
 class Packed_R_tree
@@ -50,9 +55,7 @@ class Packed_R_tree
 public:
   using Id = std::uint32_t;
 
-  /// Counts since construction, for reports.
-  /// Replaces the content by `faces`, where the box of face `faces[i]` is `box_of(faces[i])`, a
-  /// `CGAL::Bbox_3`.
+  /// Replaces the content by `faces`. The box of face `faces[i]` is `box_of(faces[i])`, a `CGAL::Bbox_3`.
   template <class BoxOf>
   void build(const std::vector<Id>& faces, const BoxOf& box_of)
   {
@@ -69,7 +72,7 @@ public:
     fill(content);
   }
 
-  /// Puts in a face, or gives a face that is in another box.
+  /// Adds a face, or gives another box to a face that is in the index.
   void set(Id face, const CGAL::Bbox_3& box)
   {
     const internal::Monotone_box mapped = m_map(box);
@@ -86,7 +89,7 @@ public:
       rebuild();
   }
 
-  /// Removes a face that is in.
+  /// Removes a face. **Precondition** It is in the index.
   void remove(Id face)
   {
     const Slot slot = m_slots[face];
@@ -118,6 +121,7 @@ public:
     m_statistics.visits += visits;
   }
 
+  /// Counts since construction, for reports.
   const Index_statistics& statistics() const { return m_statistics; }
 
 private:
@@ -189,7 +193,7 @@ private:
     std::uint32_t index;
   };
 
-  // Digit by digit from the last, keeping the order of what is equal.
+  // Sorts digit by digit, from the last one, and keeps the order of equal places.
   static void radix_sort(std::vector<Place>& places)
   {
     constexpr int bits = 11;
@@ -224,7 +228,7 @@ private:
     fill(content);
   }
 
-  // Puts this into fresh leaves, in this order, and makes the nodes above.
+  // Puts the content into new leaves, in its order, and makes the nodes above them.
   void fill(const Content& content)
   {
     m_size = m_slot_count = 0;
@@ -272,7 +276,7 @@ private:
     leaf.boxes.set(slot % s_width, entry.box);
   }
 
-  // Up to the first node that is large enough already.
+  // Enlarges the boxes above a leaf so that they contain `box`, up to the first that already does.
   void grow(std::size_t leaf, const internal::Monotone_box& box)
   {
     if (leaf >= m_leaves_in_tree)
@@ -308,11 +312,11 @@ private:
 
   internal::Monotone_box_map m_map;
   std::vector<Leaf> m_leaves;
-  std::size_t m_leaves_in_tree = 0;             // those behind are looked at one by one
-  std::vector<std::vector<Box_block>> m_levels; // the lowest first
+  std::size_t m_leaves_in_tree = 0;             // the leaves after these are tested one by one
+  std::vector<std::vector<Box_block>> m_levels; // the lowest level first
   std::vector<Slot> m_slots;                    // by face
   std::size_t m_size = 0;
-  Slot m_slot_count = 0; // given to a face since the tree was made
+  Slot m_slot_count = 0; // slots given to faces since the tree was made
   mutable Index_statistics m_statistics;
 };
 

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include <selvedge/simplify.h>
+#include <selvedge/Surface_mesh_simplification/simplify_mesh.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
@@ -17,5 +17,5 @@ int main()
   options.faces = 12;
   options.max_normal_change = 180;
   options.min_aspect_ratio = 0;
-  return selvedge::simplify(mesh, options).is_reached() ? 0 : 1;
+  return selvedge::simplify_mesh(mesh, options).is_reached() ? 0 : 1;
 }

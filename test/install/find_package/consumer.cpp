@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <selvedge/generate.h>
-#include <selvedge/simplify_soup.h>
+#include <selvedge/simplify.h>
 
 int main()
 {

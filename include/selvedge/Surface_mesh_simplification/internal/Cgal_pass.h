@@ -17,13 +17,16 @@
 namespace selvedge {
 namespace internal {
 
-/// One pass of CGAL's loop after another. It forgets an edge that was refused until its neighbourhood
-/// changes, though the layer that blocked it may have moved away, and though its second direction may do. A
-/// new pass asks again: at the end, and sooner when so many are forgotten that the loop is about to pay much
-/// more elsewhere.
+/// Runs CGAL's loop once per call: one pass of a reduction with `Collapse_loop::cgal`, the reference for
+/// `selvedge::edge_collapse`.
 ///
-/// `make_stop()` returns a stop predicate, `count_blocked()` how many placements the intersection filter has
-/// refused so far.
+/// It exists because one run of CGAL's loop leaves possible collapses undone. CGAL's loop drops a refused
+/// edge until the neighbourhood of the edge changes, although the layer that blocked it may have moved away,
+/// and although its second direction may be possible. A new pass asks again: at the end, and earlier when so
+/// many edges have been dropped that the loop would soon pay much more elsewhere.
+///
+/// `make_stop()` returns a stop predicate, `count_blocked()` the number of placements that the intersection
+/// filter has refused so far.
 template <class TriangleMesh, class Cost, class Directions, class Filter, class Visitor, class MakeStop,
           class CountBlocked>
 class Cgal_pass
@@ -38,23 +41,23 @@ public:
   {
   }
 
-  /// Whether another pass might do what this could not.
+  /// Runs a pass. Returns whether another one might do what this one could not.
   bool operator()()
   {
-    const std::size_t turned_before = m_placement.turned();
-    const double dearest_before = m_dearest;
+    const std::size_t reversed_before = m_placement.reversed();
+    const double highest_before = m_highest_cost;
     m_blocked_before += blocked();
     const Any_stop stop(m_make_stop(), Function_stop([this](double cost) { return is_over_at(cost); }));
     CGAL::Surface_mesh_simplification::edge_collapse(
         *m_mesh, stop, CGAL::parameters::get_cost(m_costs).get_placement(m_placement).visitor(m_visitor));
-    return m_dearest != dearest_before || m_placement.turned() != turned_before;
+    return m_highest_cost != highest_before || m_placement.reversed() != reversed_before;
   }
 
 private:
-  // A pass ends early when one edge is forgotten for so many faces, and costs have grown by such a factor
-  // since the last time.
+  // A pass ends early when it has one blocked placement for every `s_forgotten_share` faces, and the cost has
+  // grown by the factor `s_cost_step` since a pass last ended early.
   static constexpr std::size_t s_forgotten_share = 4;
-  static constexpr double s_dearer = 4;
+  static constexpr double s_cost_step = 4;
 
   struct Turning_visitor : Visitor
   {
@@ -85,14 +88,14 @@ private:
     Cancellation_poll poll;
   };
 
-  // In this pass.
+  // Counts the placements that were blocked in this pass.
   std::size_t blocked() const { return m_count_blocked() - m_blocked_before; }
 
   bool is_over_at(double cost)
   {
-    if (cost < m_dearest || blocked() * s_forgotten_share < face_count(*m_mesh))
+    if (cost < m_highest_cost || blocked() * s_forgotten_share < face_count(*m_mesh))
       return false;
-    m_dearest = s_dearer * (std::max)(cost, (std::numeric_limits<double>::min)());
+    m_highest_cost = s_cost_step * (std::max)(cost, (std::numeric_limits<double>::min)());
     return true;
   }
 
@@ -103,7 +106,7 @@ private:
   MakeStop m_make_stop;
   CountBlocked m_count_blocked;
   std::size_t m_blocked_before = 0;
-  double m_dearest = 0;
+  double m_highest_cost = 0; // below this cost, no pass ends early
 };
 
 } // namespace internal

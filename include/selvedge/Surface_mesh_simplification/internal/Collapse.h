@@ -10,10 +10,11 @@
 namespace selvedge {
 namespace internal {
 
-/// One collapse of an edge: its profile, where the merged vertex goes, and which ends move to get there.
+/// Describes one collapse of an edge: the profile of the edge, the place of the merged vertex, and which ends
+/// move to get there.
 ///
-/// Whoever decides on a collapse makes this value once; filters, the border rule and all that listens get it
-/// and need not compare coordinates. It is valid as long as the profile is.
+/// Whoever decides on a collapse makes this value once and hands it to the filters, the border rule and the
+/// listeners, so that none of them has to compare coordinates. It is valid as long as the profile is.
 template <class Profile_>
 class Collapse
 {
@@ -23,14 +24,15 @@ public:
   using Vertex = typename Profile::vertex_descriptor;
   using Halfedge = typename Profile::halfedge_descriptor;
 
-  /// The source of `moving`, a halfedge of the profile's edge, moves onto its target.
+  /// Makes the collapse in which the source of `moving`, a halfedge of the profile's edge, moves onto its
+  /// target.
   static Collapse along(const Profile& profile, Halfedge moving)
   {
     const bool is_onto_v0 = moving == profile.v1_v0();
     return Collapse(profile, is_onto_v0 ? profile.p0() : profile.p1(), !is_onto_v0, is_onto_v0);
   }
 
-  /// For placements that a policy of somebody else chose. An end moves where it does not stand at the place.
+  /// Makes the collapse for a placement chosen by any other policy. An end moves unless it is at `place`.
   Collapse(const Profile& profile, const Point& place)
       : Collapse(profile, place, place != profile.p0(), place != profile.p1())
   {
@@ -41,19 +43,19 @@ public:
   bool is_v0_moved() const { return m_is_v0_moved; }
   bool is_v1_moved() const { return m_is_v1_moved; }
 
-  /// Whether the merged vertex goes to neither end.
+  /// Returns whether the merged vertex is placed at neither end.
   bool are_both_moved() const { return m_is_v0_moved && m_is_v1_moved; }
 
-  /// The halfedge along which a vertex moves, where only one does.
+  /// The halfedge along which a vertex moves, its source and its target. From v0 to v1 where both ends move.
   Halfedge moving() const { return m_is_v0_moved ? m_profile->v0_v1() : m_profile->v1_v0(); }
   Vertex mover() const { return m_is_v0_moved ? m_profile->v0() : m_profile->v1(); }
   Vertex goal() const { return m_is_v0_moved ? m_profile->v1() : m_profile->v0(); }
 
-  /// Calls `is_fine(before, after, a, b)` for every face (v, a, b), counter-clockwise, that this changes but
-  /// keeps, where `before` is the position of v and `after` that of the merged vertex; stops at the first
-  /// false.
+  /// Calls `is_fine(before, after, a, b)` for every face (v, a, b), counter-clockwise, that the collapse
+  /// changes but does not remove, until a call returns false. `before` is the position of v, `after` that of
+  /// the merged vertex. Returns whether all calls returned true.
   ///
-  /// Walks halfedges and allocates nothing, unlike `Profile::triangles()`.
+  /// It walks halfedges and allocates nothing, unlike `Profile::triangles()`.
   template <class Predicate>
   bool all_of_changed_faces(Predicate&& is_fine) const
   {

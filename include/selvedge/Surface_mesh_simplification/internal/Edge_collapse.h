@@ -26,6 +26,9 @@
 #include <utility>
 #include <vector>
 
+// The loop behind `selvedge::edge_collapse`: the class `Edge_collapse` says what it does and why it exists.
+// Before it stand the traits by which it recognises what policies offer beyond CGAL's concepts.
+
 namespace selvedge {
 namespace internal {
 
@@ -87,7 +90,7 @@ struct Has_second<
 {
 };
 
-// Whether the placement chooses an end by what this cost policy says of it.
+// Whether the placement chooses an end by the costs of this very cost policy.
 template <class Placement, class Cost, class = void>
 struct Has_choice : std::false_type
 {
@@ -98,7 +101,17 @@ struct Has_choice<Placement, Cost, std::void_t<typename Placement::Cost_policy>>
 {
 };
 
-/// The loop behind `selvedge::edge_collapse`.
+/// Collapses the edges of a mesh in the order of their costs: the loop behind `selvedge::edge_collapse`.
+///
+/// It exists because CGAL's loop drops a refused edge until its neighbourhood changes, and builds a full
+/// profile, with allocations, for every cost. This loop tries the second direction of an edge at its own
+/// cost, considers a refused edge again when a face that blocked it changes, and asks policies again only
+/// where their answers may have changed.
+///
+/// Each step takes the cheapest edge from the queue and asks the stop predicate, the topology, the placement
+/// and the filter, in this order (`try_cheapest`). It then performs the collapse, or puts the edge back for
+/// its second placement, or leaves it until something nearby or one of its blockers changes
+/// (`refresh_around`).
 template <class TriangleMesh, class GeomTraits, class Stop, class VertexPointMap, class HalfedgeIndexMap,
           class EdgeIsConstrainedMap, class Cost, class Placement, class Filter, class Visitor>
 class Edge_collapse
@@ -118,13 +131,13 @@ class Edge_collapse
   using Queue = Edge_queue<FT>;
   using Id = typename Queue::Id;
 
-  // An edge that is out of the queue, or in it for its second placement, is *stale*: what happens nearby may
+  // An edge is *stale* when it is out of the queue, or in it for its second placement: a change nearby may
   // make its first placement possible again.
   enum class State : unsigned char { gone, first, second };
   struct Edge_record
   {
     State state = State::gone;
-    bool is_v0 = false; // the end that was chosen, if the placement chooses
+    bool is_v0 = false; // whether v0 is the place, if the placement has `choice`
   };
 
 public:
@@ -177,7 +190,7 @@ private:
     m_queue.push_all(std::move(entries));
   }
 
-  // Whether the loop goes on.
+  // Takes the cheapest edge from the queue and collapses it if allowed. Returns whether the loop goes on.
   bool try_cheapest()
   {
     const auto [cost, edge_id] = m_queue.pop();
@@ -217,7 +230,7 @@ private:
   {
     const Profile& of_edge = collapse.profile();
     if constexpr (std::is_convertible_v<const Visitor*, const Cgal_visitor*>)
-      of_edge.full(); // it will be asked for when the edge is gone
+      of_edge.full(); // the visitor may ask for it when the edge is gone
     forget(edge_id);
     if (of_edge.left_face_exists())
       forget(of_edge.vL_v0(), of_edge.v1_vL());
@@ -232,14 +245,14 @@ private:
     refresh_around(perform_collapse(m_mesh, m_points, m_is_constrained, collapse, m_visitor, m_cost));
   }
 
-  // An edge that is going.
+  // Called for each edge that a collapse is about to remove.
   void forget(Id edge_id)
   {
     m_queue.erase(edge_id);
     m_records[edge_id].state = State::gone;
     --m_edges;
   }
-  // The edge of a vanishing face that goes with it; the other is constrained when this one is.
+  // The same for two edges of a vanishing face that become one: `h` goes, or `other` if `h` is constrained.
   void forget(Halfedge h, Halfedge other) { forget(id(get(m_is_constrained, edge(h, m_mesh)) ? other : h)); }
 
   void refresh_around(Vertex kept)
@@ -275,7 +288,7 @@ private:
     return m_records[edge_id].state == State::second || !m_queue.contains(edge_id);
   }
 
-  // Puts an edge where its first placement belongs.
+  // Puts an edge into the queue with the cost of its first placement, or takes it out if that has no cost.
   void refresh(Halfedge h)
   {
     const Id edge_id = id(h);
@@ -294,7 +307,7 @@ private:
     put(m_has_stale_edges, of_edge.v1(), true);
   }
 
-  // Of an edge in its state.
+  // Returns the cost of the placement that is next for the edge, first or second by its state.
   Optional_cost cost_of(const Profile& of_edge, Edge_record& record) const
   {
     Optional_cost cost;
@@ -336,8 +349,10 @@ private:
     return m_placement(of_edge);
   }
 
-  // The link condition: a neighbour of both ends is the third corner of a face at the edge. And no piece of
-  // the surface may lose its last faces, no two stretches of a border may meet.
+  // Whether the mesh stays a manifold of the same topology. The link condition: a vertex that is a neighbour
+  // of both ends is the third corner of a face at the edge. Besides, a face at the edge has no two other
+  // border edges; two stretches of a border, or constrained edges at the two ends, do not come to meet; a
+  // boundary loop of three edges, a tetrahedron and a closed piece of two faces stay.
   bool is_topology_kept(const Profile& of_edge)
   {
     const auto is_outside = [this](Halfedge h) { return CGAL::is_border(opposite(h, m_mesh), m_mesh); };
@@ -407,7 +422,7 @@ private:
   std::vector<Edge_record> m_records; // by edge
   Queue m_queue;
   Waiting_edges<TriangleMesh> m_waiting;
-  // False only where all edges at the vertex are fresh.
+  // True at both ends of an edge that was refused, until the edges at this vertex have been refreshed.
   typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<unsigned char>>::type
       m_has_stale_edges;
   std::size_t m_initial_edges = 0, m_edges = 0;

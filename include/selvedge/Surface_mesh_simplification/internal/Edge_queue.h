@@ -13,11 +13,13 @@
 namespace selvedge {
 namespace internal {
 
-/// A priority queue of numbered edges by (cost, number): the cheapest first, of equal ones the lowest number,
-/// so that the order depends on nothing but the costs.
+/// A priority queue of numbered edges by (cost, number): the cheapest edge comes first, and of equally cheap
+/// ones that with the lowest number, so that the order depends on the costs alone.
 ///
-/// A heap in which every node has four children, with the costs in it, so that comparing reads no other
-/// memory. O(log n) for each change.
+/// It exists because costs change while edges are in the queue: each edge knows its place in the heap. Every
+/// node of the heap has four children and holds its cost, so that a comparison reads no other memory.
+///
+/// **Complexity** O(log n) for each change, O(n) for `push_all`.
 template <class FT>
 class Edge_queue
 {
@@ -35,13 +37,13 @@ public:
     }
   };
 
-  /// An empty queue for edges numbered 0 … edges−1.
+  /// Makes an empty queue for edges numbered 0 … edges−1.
   explicit Edge_queue(std::size_t edges) : m_places(edges, s_nowhere) {}
 
   bool is_empty() const { return m_heap.empty(); }
   bool contains(Id edge) const { return m_places[edge] != s_nowhere; }
 
-  /// Puts in many edges that are not in, in linear time.
+  /// Inserts many edges that are not in the queue.
   void push_all(std::vector<Entry> entries)
   {
     entries.insert(entries.end(), m_heap.begin(), m_heap.end());
@@ -52,7 +54,7 @@ public:
       sink(i, Entry(m_heap[i]));
   }
 
-  /// Puts in an edge, or gives one that is in another cost.
+  /// Inserts an edge, or changes the cost of one that is in the queue.
   void set(Id edge, const FT& cost)
   {
     if (!contains(edge)) {
@@ -63,14 +65,14 @@ public:
     }
   }
 
-  /// Takes out an edge if it is in.
+  /// Removes an edge if it is in the queue.
   void erase(Id edge)
   {
     if (contains(edge))
       erase_at(m_places[edge]);
   }
 
-  /// Takes out the first.
+  /// Removes the first edge and returns it. The queue must not be empty.
   Entry pop()
   {
     const Entry first = m_heap.front();

@@ -19,7 +19,10 @@
 namespace selvedge {
 namespace internal {
 
-/// The faces of a mesh, numbered: the corners of each, and an index of their boxes.
+/// Numbers the faces of a mesh, and keeps the corners of each and an index of their boxes.
+///
+/// It answers which faces the guard must compare with a moving star, and what their corners are, without
+/// asking the mesh. The guard calls it at every collapse to keep it up to date.
 template <class TriangleMesh, class VertexTable, class FaceIndex>
 class Face_table
 {
@@ -59,8 +62,8 @@ public:
     return a == vertex || b == vertex || c == vertex;
   }
 
-  /// Finds the faces whose boxes meet a box, without those at the vertex `mover`. Memory is fetched for all
-  /// before any is looked at.
+  /// Finds the faces whose boxes meet a box, except those at the vertex `mover`. The memory of all of them is
+  /// prefetched before any is looked at.
   void find_near(const CGAL::Bbox_3& box, Number mover, std::vector<Id>& near)
   {
     near.clear();
@@ -71,8 +74,8 @@ public:
     remove_at(mover, near);
   }
 
-  /// Adds all faces at `vertex`, each once, but those at `mover`: for a vertex that is judged as if it stood
-  /// elsewhere than the index knows.
+  /// Adds all faces at `vertex`, each once, except those at `mover`: for a vertex that is judged as if it
+  /// stood elsewhere than in the index.
   void add_all_at(Vertex vertex, Number mover, std::vector<Id>& near) const
   {
     remove_at(m_vertices.number(vertex), near);
@@ -82,14 +85,14 @@ public:
     remove_at(mover, near);
   }
 
-  /// Called before a collapse frees the face of a halfedge of its edge, if there is one.
+  /// Called before a collapse removes the face of `h`, a halfedge of its edge; a border halfedge has none.
   void on_removing(Halfedge h)
   {
     if (!CGAL::is_border(h, m_mesh))
       m_index.remove(get(m_ids, face(h, m_mesh)));
   }
 
-  /// Called when vertex table and mesh know the merged vertex.
+  /// Called after a collapse, when the mesh and the vertex table have the merged vertex.
   void on_collapsed(Vertex kept)
   {
     for (const Halfedge h : CGAL::halfedges_around_target(halfedge(kept, m_mesh), m_mesh))
@@ -126,7 +129,7 @@ private:
   FaceIndex m_index;
   typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<Id>>::const_type m_ids;
   std::vector<Face> m_faces;      // by number
-  std::vector<Corners> m_corners; // by number: the mesh's own are five look-ups away
+  std::vector<Corners> m_corners; // by number: in the mesh they are five look-ups away
 };
 
 } // namespace internal

@@ -14,7 +14,7 @@
 
 namespace selvedge {
 
-/// The base filter that lets every placement pass.
+/// Accepts every placement: the base filter by default.
 struct No_filter
 {
   template <class Profile, class OptionalPoint>
@@ -44,7 +44,8 @@ struct Judges_collapses<
 {
 };
 
-/// Whether a filter allows a collapse: one of ours, or any model of CGAL's concept `PlacementFilter`.
+/// Returns whether a filter allows a collapse. The filter is one of ours, which takes the collapse itself, or
+/// any model of CGAL's concept `PlacementFilter`.
 template <class Filter, class Collapse>
 bool is_allowed(const Filter& filter, const Collapse& collapse)
 {
@@ -54,16 +55,19 @@ bool is_allowed(const Filter& filter, const Collapse& collapse)
     return bool(filter(collapse.profile(), Optional<typename Collapse::Point>(collapse.place())));
 }
 
-/// What all filters share: they ask the base filter first, then `accepts(collapse)` of the derived class, and
-/// count what the latter refuses. CGAL's loop copies its filter, so the count stands behind a pointer.
+/// Chains filters: it asks the base filter first, then `accepts(collapse)` of the derived class, and counts
+/// what the latter refuses.
+///
+/// All filters derive from it, so that each says only what it refuses itself, and the cheap ones are asked
+/// first. CGAL's loop copies its filter; copies share the count.
 template <class Derived, class BaseFilter>
 class Filter_base
 {
 public:
   explicit Filter_base(const BaseFilter& base) : m_base(base), m_refusals(std::make_shared<std::size_t>(0)) {}
 
-  /// The placement itself when base and filter accept it, none otherwise. A base filter that answers with
-  /// another placement accepts this one.
+  /// Returns the placement itself when the base and this filter accept it, none otherwise. If the base filter
+  /// returns another placement, this counts as accepting.
   template <class Profile, class OptionalPoint>
   OptionalPoint operator()(const Profile& profile, const OptionalPoint& placement) const
   {
@@ -71,7 +75,7 @@ public:
                                                                                  : OptionalPoint();
   }
 
-  /// The same for a loop that knows which end moves.
+  /// The same for a loop that passes each collapse as a value, which says which end moves.
   template <class Collapse>
   bool allows(const Collapse& collapse) const
   {
@@ -83,7 +87,7 @@ public:
     return false;
   }
 
-  /// How many placements this filter refused that its base had accepted; copies count together.
+  /// Returns how many placements this filter has refused that its base had accepted.
   std::size_t refusals() const { return *m_refusals; }
 
 private:

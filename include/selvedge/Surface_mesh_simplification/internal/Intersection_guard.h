@@ -21,14 +21,19 @@
 namespace selvedge {
 namespace internal {
 
-/// Judges collapses: the order in which a motion is asked about, from the cheapest question to the exact one.
-/// It is the state that `Intersection_filter` and its visitor share, and is called at every collapse.
+/// Decides whether a collapse is *clear*: no face touches or passes through another on the way. It asks its
+/// questions in order, from the cheapest to the exact one.
 ///
-/// A motion is *clear* when it meets three conditions (section 4 of Derichs, Misiak, Fuhrmann; proofs in
-/// docs/guarantees.md):
-/// 0. the link condition holds, by positions;
-/// 1. no moving face meets a face that stands still;
-/// 2. no two moving faces meet but in what they share.
+/// It exists as the one state that `Intersection_filter`, its copies and its visitor share: an index of the
+/// faces, the positions of the vertices, and buffers. The visitor must call it at every collapse.
+///
+/// A motion of one vertex is clear when it meets the three conditions of docs/guarantees.md, which has the
+/// proofs (section 4 of Derichs, Misiak, Fuhrmann):
+/// 0. *Link*: the link condition holds, by positions, and no other vertex shares the position of the mover.
+/// 1. *Against stationary faces*: a moving face meets a stationary one only in what they share.
+/// 2. *Within the star*: moving faces do not degenerate, and meet each other only in what they share.
+///
+/// A collapse onto one end of its edge is one motion. Any other takes two: one end moves, and then the other.
 template <class TriangleMesh, class VertexPointMap, class GeomTraits, class FaceIndex>
 class Intersection_guard
 {
@@ -58,7 +63,7 @@ public:
     const auto& place = collapse.place();
     if (!collapse.are_both_moved())
       return is_motion_clear({collapse.mover(), collapse.goal(), place, false});
-    // Two motions of single vertices: one end goes to the place, then the other after it; in either order.
+    // One end moves to the place, and then the other moves there and merges with it; in either order.
     const auto are_both_clear = [&](Vertex first, Vertex second) {
       return is_motion_clear({first, std::nullopt, place, false}) &&
              is_motion_clear({second, first, place, true});
@@ -70,7 +75,7 @@ public:
   template <class Profile>
   void before_collapse(const Collapse<Profile>& collapse)
   {
-    // Read before the collapse frees them.
+    // Must be read before the collapse removes these faces.
     m_faces.on_removing(collapse.profile().v0_v1());
     m_faces.on_removing(collapse.profile().v1_v0());
     m_goal = collapse.goal();
@@ -81,7 +86,8 @@ public:
     m_faces.on_collapsed(kept);
   }
 
-  /// The faces that kept placements from being clear since `forget_blockers`.
+  /// Returns the faces that kept motions from being clear since `forget_blockers`, one at most for each
+  /// motion.
   const std::vector<Face>& blockers() const { return m_blockers; }
   void forget_blockers() { m_blockers.clear(); }
   const Intersection_statistics& statistics() const { return m_statistics; }
@@ -126,7 +132,7 @@ private:
       m_view.enclose_star();
     gather_faces_near(motion);
     m_stationary.clear();
-    // A place that is no neighbour's must be no position of the mesh at all, or two would become one.
+    // A vertex that does not merge with a neighbour must not come to the position of any other vertex.
     std::optional<Id> face_at_place;
     for (const Id id : m_near) {
       const auto& corners = m_faces.corners(id);
@@ -151,7 +157,7 @@ private:
     return !face_at_place;
   }
 
-  // The faces without the mover that a moving face might meet.
+  // Finds the stationary faces that a moving face might meet.
   void gather_faces_near(const Motion& motion)
   {
     const auto mover = m_vertices.number(motion.mover);
@@ -164,7 +170,7 @@ private:
     m_statistics.faces_near += m_near.size();
   }
 
-  // The number of a vertex among the star's points; the view learns of new ones.
+  // Returns the number of a vertex among the star's points. A new point is added to the view as well.
   typename Star::Local local(typename Vertices::Number v)
   {
     const std::size_t points = m_star.points().size();
@@ -212,7 +218,7 @@ private:
 
   // Buffers, so that judging a motion allocates nothing.
   std::vector<Id> m_near;
-  std::vector<Stationary_face> m_stationary; // those of them that one look at the star did not settle
+  std::vector<Stationary_face> m_stationary; // those of them not yet clear of the whole star
   std::vector<std::optional<Sweep_test<GeomTraits>>> m_sweeps; // by edge of the link, made when needed
 };
 

@@ -12,11 +12,13 @@
 namespace selvedge {
 namespace internal {
 
-/// What policies are asked about: an edge from v0 to v1, and what lies around it.
+/// Describes an edge from v0 to v1 and what lies around it, for policies. A model of CGAL's concept
+/// `EdgeProfile`.
 ///
-/// A model of CGAL's concept `EdgeProfile`. The ends and the faces at the edge are known at once, without
-/// allocating; `triangles`, `link` and `border_edges` come from CGAL's own profile, which is made when the
-/// first of them is asked for; not after the collapse.
+/// It exists because CGAL's own profile collects triangles, link and border edges when it is made, and so
+/// allocates memory for every cost that is computed. This profile knows the ends and the faces at the edge
+/// without allocating. It makes CGAL's profile when `triangles`, `link` or `border_edges` is first asked for,
+/// which must be before the collapse.
 template <class TriangleMesh, class VertexPointMap_, class GeomTraits>
 class Lazy_edge_profile
 {
@@ -26,7 +28,7 @@ class Lazy_edge_profile
 public:
   using TM = TriangleMesh;
   using Triangle_mesh = TriangleMesh;
-  using VertexPointMap = VertexPointMap_; // this name and TM: as CGAL's policies say
+  using VertexPointMap = VertexPointMap_; // CGAL's policies use this name and TM
   using Vertex_point_map = VertexPointMap;
   using Geom_traits = GeomTraits;
   using FT = typename GeomTraits::FT;
@@ -85,7 +87,7 @@ public:
   VertexPointMap vertex_point_map() const { return m_points; }
   const GeomTraits& geom_traits() const { return m_traits; }
 
-  /// CGAL's own, for visitors whose functions name that type.
+  /// Converts to CGAL's own profile, for visitors whose functions name that type.
   operator const Full_profile&() const { return full(); }
 
   const Triangle_vector& triangles() const { return full().triangles(); }
@@ -94,7 +96,7 @@ public:
 
   const Full_profile& full() const
   {
-    // CGAL's profile takes maps of indices and reads none.
+    // CGAL's profile takes index maps but does not read them.
     if (!m_full)
       m_full.emplace(m_v0_v1, m_mesh, m_traits, 0, m_points, 0, true);
     return *m_full;

@@ -20,10 +20,13 @@
 namespace selvedge {
 namespace internal {
 
-/// The faces around one vertex that moves, in points that are numbered for this motion: where the vertex is,
-/// where it goes, then its link, then whatever else is asked about. Points at one position have one number.
+/// Gathers the star of one vertex that moves, in points that are numbered for this motion, and checks the
+/// link condition.
 ///
-/// Its buffers are kept from motion to motion, so that judging one allocates nothing.
+/// The numbers are short and local so that the questions that follow compare numbers, not coordinates: 0 is
+/// where the vertex is, 1 where it goes, then come its link and all other points that are asked about.
+/// Vertices at one position have one number. The buffers are kept from motion to motion, so that judging one
+/// allocates nothing.
 template <class TriangleMesh, class VertexTable>
 class Moving_star
 {
@@ -37,21 +40,21 @@ public:
   using Local = std::uint32_t; ///< the number of a point in this motion
   static constexpr Local s_from = 0, s_to = 1;
 
-  /// A vertex goes to a place: that of a neighbour with which it merges, or one that is no vertex.
+  /// The motion of a vertex to a place: the position of a neighbour with which it merges, or any other point.
   struct Motion
   {
     Vertex mover;
-    std::optional<Vertex> target; ///< the neighbour
+    std::optional<Vertex> target; ///< the neighbour, if it merges with one
     Point place;
-    bool is_target_moved; ///< the neighbour is judged as if it stood at `place` already
+    bool is_target_moved; ///< whether the neighbour is judged as if it stood at `place` already
   };
 
   using Link_edge = std::array<Local, 2>; ///< counter-clockwise
 
   Moving_star(const TriangleMesh& mesh, VertexTable& vertices) : m_mesh(mesh), m_vertices(vertices) {}
 
-  /// Numbers the points of the star. False, and no more may be asked, when a face other than the contracted
-  /// ones has a corner where the mover goes.
+  /// Numbers the points of the star. Returns false when a face that is not contracted has a corner where the
+  /// mover goes; then nothing else may be asked.
   bool gather(const Motion& motion)
   {
     m_vertices.unmark();
@@ -81,8 +84,9 @@ public:
     return true;
   }
 
-  /// The link condition: every position joined by an edge to both ends is the third corner of a contracted
-  /// face. And the collapse joins no two stretches of a border.
+  /// Returns whether the link condition holds: every position with an edge to both ends is the third corner
+  /// of a contracted face. Besides, no contracted face has two other border edges, and the collapse joins no
+  /// two stretches of a border.
   bool is_link_condition_met(const Motion& motion) const
   {
     if (!motion.target)
@@ -132,7 +136,7 @@ public:
     return is_edge_border || m_is_closed || !is_end_on_border;
   }
 
-  /// The number of a vertex among the points, to which it is added if it is not one of them.
+  /// Returns the number of a vertex among the points, and adds it to them if it is new.
   Local local(Number v)
   {
     if (m_vertices.is_marked(v))
@@ -146,21 +150,21 @@ public:
   const std::vector<Point>& points() const { return m_points; }
   const Point& operator[](Local point) const { return m_points[point]; }
 
-  /// The points of the star itself are the first so many.
+  /// The number of points of the star itself, which come first.
   std::size_t size() const { return m_size; }
 
-  /// In order around the mover.
+  /// The edges of the link, in order around the mover.
   const std::vector<Link_edge>& link() const { return m_link; }
 
-  /// Whether the face at the j-th edge of the link has `to` as a corner.
+  /// Returns whether the face at the j-th edge of the link is contracted: it has `s_to` as a corner.
   bool is_contracted(std::size_t j) const { return m_is_contracted[j]; }
 
   bool is_closed() const { return m_is_closed; }
 
-  /// Whether the link is one cycle of distinct positions.
+  /// Returns whether the link is one cycle of distinct positions.
   bool is_cycle() const { return m_is_closed && m_size + m_has_target == m_link.size() + 2; }
 
-  /// Bounds the motion of all of its points.
+  /// Returns a box around the sweeps of all faces of the star.
   CGAL::Bbox_3 box() const
   {
     CGAL::Bbox_3 box;
@@ -169,7 +173,7 @@ public:
     return box;
   }
 
-  /// The same in points, for `judge_star_motion`.
+  /// Returns the star as points, for `judge_star_motion`.
   const Vertex_motion<Point>& exact()
   {
     m_exact.from = m_points[s_from];

@@ -10,18 +10,18 @@
 #include <selvedge/Surface_mesh_simplification/Aspect_ratio_filter.h>
 #include <selvedge/Surface_mesh_simplification/Border_filter.h>
 #include <selvedge/Surface_mesh_simplification/Error_filter.h>
-#include <selvedge/Surface_mesh_simplification/Face_targets.h>
-#include <selvedge/Surface_mesh_simplification/Halfedge_filter.h>
 #include <selvedge/Surface_mesh_simplification/Halfedge_placement.h>
 #include <selvedge/Surface_mesh_simplification/Intersection_filter.h>
 #include <selvedge/Surface_mesh_simplification/Normal_change_filter.h>
 #include <selvedge/Surface_mesh_simplification/Quadric_cost.h>
 #include <selvedge/Surface_mesh_simplification/Simplify_constraints.h>
+#include <selvedge/Surface_mesh_simplification/edge_collapse.h>
 #include <selvedge/Surface_mesh_simplification/internal/Cgal_pass.h>
+#include <selvedge/Surface_mesh_simplification/internal/Face_targets.h>
+#include <selvedge/Surface_mesh_simplification/internal/Halfedge_filter.h>
 #include <selvedge/Surface_mesh_simplification/internal/Lazy_edge_profile.h>
 #include <selvedge/Surface_mesh_simplification/internal/perform_collapse.h>
 #include <selvedge/Surface_mesh_simplification/stop_predicates.h>
-#include <selvedge/edge_collapse.h>
 #include <selvedge/spatial/internal/Selectable_index.h>
 
 #include <CGAL/Kernel_traits.h>
@@ -39,8 +39,11 @@
 namespace selvedge {
 namespace internal {
 
-/// One reduction: the border rule, the cost, the chain of filters, and the loop that they are given to. Every
-/// collapse, of whichever loop, is announced to all of them in `before_collapse` and `after_collapse`.
+/// Carries out one reduction of a mesh: makes the border rule, the cost, the face targets and the chain of
+/// filters from the options, and gives them to the loop.
+///
+/// It exists to keep all of these, and the observer, in step: every collapse, of either loop, is announced to
+/// them in `before_collapse` and `after_collapse`. It also counts what happens, for the report.
 template <class TriangleMesh, class Observer>
 class Simplification
 {
@@ -55,7 +58,7 @@ class Simplification
   using Targets = Face_targets<TriangleMesh>;
   using Quadrics = Quadric_cost<TriangleMesh, Rule>;
 
-  /// What the quadrics say, and what the texture adds; none for edges between faces that do not count.
+  /// Adds the cost of the texture to that of the quadrics. An edge has no cost if none of its faces counts.
   class Cost
   {
   public:
@@ -108,7 +111,7 @@ class Simplification
 
   struct Is_uv_orientation_kept
   {
-    const Observer* observer; // none: not asked
+    const Observer* observer; // null: every motion is accepted
     Rule rule;
 
     template <class Halfedge>
@@ -154,12 +157,12 @@ public:
     refuse_out_of_range();
     if (!(options.uv_weight >= 0 && std::isfinite(options.uv_weight)))
       throw Argument_error("the weight of the texture is at least 0, and finite");
-    m_quadrics.weigh(constraints.vertex_weights);
+    m_quadrics.weigh(mesh, constraints.vertex_weights);
     m_report.faces_input = m_targets.total().faces;
   }
 
-  /// Lets the source of `moving` go to its target, unasked: somebody else knows that this is legal. Before
-  /// `run`.
+  /// Moves the source of `moving` onto its target without asking any filter, since the caller knows that this
+  /// is allowed: it repeats collapses that were found in cells. Call it before `run`.
   void collapse(Halfedge moving)
   {
     const auto points = get(CGAL::vertex_point, m_mesh);
@@ -176,7 +179,7 @@ public:
   const Rule& rule() const { return m_rule; }
   const Targets& targets() const { return m_targets; }
 
-  /// Of the edge that is being considered.
+  /// Returns the cost of the edge that the loop considers now.
   double cost() const { return m_cost; }
 
   Simplify_report run()
@@ -184,8 +187,8 @@ public:
     return run({}, [](const Simplify_report&) {});
   }
 
-  /// Calls `on_level(report)` for each of some ratios, from the largest to the smallest, in the state in
-  /// which a run to that ratio alone would have ended, and goes on to the target.
+  /// Calls `on_level(report)` for each of `ratios`, which must descend, in the state in which a run to that
+  /// ratio alone would end, and then goes on to the target.
   template <class On_level>
   Simplify_report run(const std::vector<double>& ratios, const On_level& on_level)
   {
@@ -197,7 +200,7 @@ public:
 
     const Cost costs(m_quadrics, m_targets, m_observer, m_options.uv_weight);
     const Directions directions(costs, m_rule);
-    // Until a pass finds that nothing more is possible; the report tells what refused in that.
+    // Runs passes until one finds that nothing more is possible; the report says what that one refused.
     const auto run_passes = [&](auto run_pass) {
       bool is_promising = true;
       while (is_promising && !m_targets.is_reached() && !m_report.is_stopped) {
@@ -243,7 +246,7 @@ private:
 
   Selectable_index empty_index() const
   {
-    Clustered_AABB_tree clustered(m_options.faces_per_cluster); // so that 0 is refused in any case
+    Clustered_AABB_tree clustered(m_options.faces_per_cluster); // made in any case, so that 0 is refused
     return m_options.index == Face_index::packed ? Selectable_index(Packed_R_tree())
                                                  : Selectable_index(std::move(clustered));
   }
@@ -265,7 +268,7 @@ private:
     }
   };
 
-  // The stop of either loop: the target, or somebody's wish.
+  // The stop predicate of either loop: the target is reached, or the caller wants to end.
   auto is_over()
   {
     return Any_stop(
@@ -337,7 +340,7 @@ private:
     pass_levels();
   }
 
-  // Levels that are reached. Each is a snapshot: nothing of what follows depends on it.
+  // Reports the levels that have been reached. Each is a snapshot on which nothing that follows depends.
   void pass_levels()
   {
     while (m_next_level < m_levels.size() && m_targets.share(0).faces <= m_levels[m_next_level])
@@ -355,7 +358,7 @@ private:
   void report_refusal(const Halfedge& moving)
   {
     Refusals now = refusals();
-    now.by_loop = 0; // what was accepted before this
+    now.by_loop = 0; // it counts motions accepted before this one
     m_observer.on_refused(moving, now - m_refused_until_now);
     m_refused_until_now = now;
   }
@@ -418,11 +421,11 @@ private:
                : 0;
   }
 
-  // All that is computed about quality is a sum of less than 2^40 products of at most four lengths, none
-  // longer than the diagonal D = 2^d, and of factors that make less than 2^10, weights aside: it is less than
-  // 2^(4d + 50), and does not overflow for d up to 200. The length of the normal of a triangle, twice its
-  // area A, is squared for comparisons; the square keeps all digits where 2A > 2^-500. With d at least -200
-  // that holds for all triangles with an area of more than 2^-100 D².
+  // Everything computed about quality is a sum of fewer than 2^40 products of at most four lengths, none
+  // longer than the diagonal D = 2^d, and of factors that make less than 2^10, weights aside. The sum is less
+  // than 2^(4d + 50) and does not overflow for d up to 200. For comparisons, the length of the normal of a
+  // triangle, which is twice its area A, is squared; the square keeps all digits where 2A > 2^-500. With d at
+  // least -200, that holds for all triangles with an area of more than 2^-100 D².
   void refuse_out_of_range() const
   {
     if (m_diagonal == 0 || (m_diagonal >= 0x1p-200 && m_diagonal <= 0x1p200))
@@ -446,7 +449,7 @@ private:
     result.normal_change = m_normal_change.refusals();
     result.uv = m_uv.refusals();
     result.intersection = m_intersection ? m_intersection->refusals() : 0;
-    // What passed the last filter and was not collapsed; a stop comes before the filters.
+    // What the last filter accepted and the loop did not collapse. A stop comes before the filters.
     result.by_loop = m_accepted - m_report.collapses;
     return result;
   }

@@ -4,8 +4,8 @@
 #ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_STAR_VIEW_H
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_STAR_VIEW_H
 
-#include <selvedge/geometry/Certified_view.h>
-#include <selvedge/geometry/Star_shadow.h>
+#include <selvedge/geometry/internal/Projected_star.h>
+#include <selvedge/geometry/internal/Separation_filter.h>
 
 #include <CGAL/Kernel_traits.h>
 
@@ -19,37 +19,40 @@
 namespace selvedge {
 namespace internal {
 
-/// A star that moves, seen from far away along the sum of the normals of its faces, in floating point with
-/// certified errors.
+/// Proves, in floating point with certified error bounds, that a moving star is clear of itself or of
+/// stationary faces: a filter before the exact tests, which cost far more.
 ///
-/// **Exactness** One-sided: true is proved, false is undecided. Where coordinates are not doubles, there is
-/// no view.
+/// The *view* is a projection of the star along the sum of the normals of its faces.
+///
+/// **Exactness** One-sided: true is proved, false is undecided. There is no view where coordinates are not
+/// doubles.
 template <class Star>
 class Star_view
 {
   using Point = typename Star::Point;
   using Local = typename Star::Local;
   static constexpr Local s_from = Star::s_from, s_to = Star::s_to;
-  // Coordinates of other kernels may be exact numbers that no double is.
+  // In other kernels, coordinates may be exact numbers that no double represents.
   static constexpr bool s_is_possible =
       std::is_same_v<typename CGAL::Kernel_traits<Point>::Kernel::FT, double>;
 
 public:
-  /// A face that stands still, its corners numbered by the star.
+  /// A stationary face, its corners numbered by the star.
   struct Stationary_face
   {
     std::array<Local, 3> corners;
-    Certified_view::Heights heights = {}; ///< of the star above its plane
+    Separation_filter::Heights heights = {}; ///< which points of the star lie above and below its plane
   };
 
   enum class Clear { no, by_box, by_view };
 
   explicit Star_view(const Star& star) : m_star(star) {}
 
-  /// Called for every motion; nothing below may be asked unless `has_view()` says so afterwards.
+  /// Called at the start of every motion. Unless `has_view()` returns true afterwards, only `is_star_clear`
+  /// may be called.
   void begin()
   {
-    m_has_view = m_has_shadow = false;
+    m_has_view = m_has_projection = false;
     if constexpr (s_is_possible) {
       m_face_slabs.clear();
       begin_view();
@@ -58,27 +61,28 @@ public:
   }
   bool has_view() const { return m_has_view; }
 
-  /// Called for every point that the star has numbered since `begin`.
+  /// Called for every point that the star numbers after `begin`.
   void add(const Point& point)
   {
     if constexpr (s_is_possible)
       m_view.add(coordinates(point));
   }
 
-  /// As `judge_star_motion` says it, seen from infinitely far away: the link is one cycle of distinct
-  /// positions, and all faces turn the same way, before and after.
+  /// Returns whether the star is clear of itself, by the first step of `judge_star_motion` with a viewpoint
+  /// at infinity: the link is one cycle of distinct positions, and all faces turn the same way, before and
+  /// after.
   bool is_star_clear()
   {
     const auto& link = m_star.link();
-    if (!m_has_view || !m_star.is_cycle() || link.size() > Star_shadow::s_max_edges)
+    if (!m_has_view || !m_star.is_cycle() || link.size() > Projected_star::s_max_edges)
       return false;
     for (std::size_t j = 0; j < link.size(); ++j) {
       const auto& [a, b] = link[j];
       if (m_view.side(s_from, a, b) != 1 || (!m_star.is_contracted(j) && m_view.side(s_to, a, b) != 1))
         return false;
     }
-    m_shadow.begin(m_view, s_from, link);
-    return m_has_shadow = true;
+    m_projection.begin(m_view, s_from, link);
+    return m_has_projection = true;
   }
 
   /// Called before the first face is compared with the star.
@@ -90,7 +94,7 @@ public:
     m_star_mask = m_view.mask(m_star_points);
   }
 
-  /// Whether the face is clear of the whole star at all times. Stores its heights.
+  /// Says whether the face is proved clear of the whole star at all times, and how. Stores its heights.
   Clear is_clear_of_star(Stationary_face& face)
   {
     if (m_view.is_clear_of_box(face.corners))
@@ -100,7 +104,7 @@ public:
       return face.heights.is_clear(m_star_mask);
     };
     const auto is_clear_beside = [&] {
-      return m_has_shadow ? m_shadow.is_clear(m_view, face.corners)
+      return m_has_projection ? m_projection.is_clear(m_view, face.corners)
                           : m_view.is_clear_by_edge(face.corners, m_star_points);
     };
     // Neighbours lie beside the star, other layers above or below.
@@ -110,7 +114,8 @@ public:
     return is_clear ? Clear::by_view : Clear::no;
   }
 
-  /// Whether the sweep of the face at the j-th edge of the link is clear of a face of which the star is not.
+  /// Returns whether the sweep at the j-th edge of the link is clear of a face for which `is_clear_of_star`
+  /// returned `no`.
   bool is_sweep_clear(std::size_t j, const Stationary_face& face)
   {
     const auto [a, b] = m_star.link()[j];
@@ -128,13 +133,13 @@ public:
   }
 
 private:
-  // The planes of a face before and after it moves, as directions: between which heights its sweep lies in
-  // each.
-  using Face_slabs = std::array<Certified_view::Slab, 2>;
+  // The slabs in which the sweep of a face lies: between two planes parallel to the face before its motion,
+  // and between two parallel to the face after it.
+  using Face_slabs = std::array<Separation_filter::Slab, 2>;
 
   void begin_view()
   {
-    Certified_view::Vector normal{0, 0, 0};
+    Separation_filter::Vector normal{0, 0, 0};
     const auto add_normal = [&](Local apex, const std::array<Local, 2>& edge) {
       const Point &o = m_star[apex], &a = m_star[edge[0]], &b = m_star[edge[1]];
       const double ux = a.x() - o.x(), uy = a.y() - o.y(), uz = a.z() - o.z(), vx = b.x() - o.x(),
@@ -153,15 +158,18 @@ private:
       m_view.add(coordinates(point));
   }
 
-  static Certified_view::Vector coordinates(const Point& point) { return {point.x(), point.y(), point.z()}; }
+  static Separation_filter::Vector coordinates(const Point& point)
+  {
+    return {point.x(), point.y(), point.z()};
+  }
 
   const Star& m_star;
-  Certified_view m_view;
+  Separation_filter m_view;
   bool m_has_view = false;
-  Star_shadow m_shadow;
-  bool m_has_shadow = false;
-  std::vector<Local> m_star_points; // all of the star's
-  Certified_view::Mask m_star_mask = 0;
+  Projected_star m_projection;
+  bool m_has_projection = false;
+  std::vector<Local> m_star_points; // the numbers of all points of the star
+  Separation_filter::Mask m_star_mask = 0;
   std::vector<Face_slabs> m_face_slabs; // by edge of the link, made when needed
 };
 

@@ -67,7 +67,7 @@ public:
            x[1] * (m_yy * x[1] + 2 * (m_yz * x[2] + m_b[1])) + x[2] * (m_zz * x[2] + 2 * m_b[2]) + m_c;
   }
 
-  /// Of squared distances: the sum of the weights of the planes, and three times those of the points.
+  /// Returns the sum of the weights, if all terms are squared distances; those of points count three times.
   double trace() const { return m_xx + m_yy + m_zz; }
 
 private:

@@ -18,10 +18,11 @@
 namespace selvedge {
 namespace internal {
 
-/// The vertices of a mesh, numbered: where each is, which share a position, and marks for those that take
-/// part in the motion that is judged now.
+/// Numbers the vertices of a mesh, and keeps where each is, which of them are coincident, and marks for those
+/// that take part in the motion being judged.
 ///
-/// Throws `Argument_error` for a mesh with an edge of length zero.
+/// It exists because the guard thinks in positions while the mesh has vertices: a mark goes to all vertices
+/// at a position at once. Throws `Argument_error` for a mesh with an edge of length zero.
 template <class TriangleMesh, class VertexPointMap>
 class Vertex_table
 {
@@ -47,13 +48,13 @@ public:
   Number number(Vertex v) const { return get(m_numbers, v); }
   const Point& point(Number v) const { return m_records[v].point; }
 
-  /// Whether other vertices are at the same position.
+  /// Returns whether other vertices are at the same position.
   bool is_coincident(Number v) const { return m_records[v].is_coincident; }
 
-  /// The vertices at the position of `v`, which is coincident.
+  /// Returns all vertices at the position of `v`, which must be coincident.
   const std::vector<Vertex>& all_at(Number v) const { return m_classes[m_class_of_vertex[v]]; }
 
-  /// Called after a collapse onto `target`, which lives on as `kept`.
+  /// Called after a collapse onto `target`, when `kept` is the vertex that is left.
   void on_collapsed(Vertex target, Vertex kept)
   {
     const Number to = number(kept), from = number(target);
@@ -69,7 +70,7 @@ public:
   /// Removes all marks.
   void unmark()
   {
-    if (++m_now == 0) { // after four thousand million motions, old marks would count again
+    if (++m_now == 0) { // after 2^32 motions, old marks would count again
       for (Record& record : m_records)
         record.marked_at = 0;
       m_now = 1;
@@ -96,7 +97,7 @@ public:
   void prefetch(Number v) const { internal::prefetch(m_records[v]); }
 
 private:
-  // All that is asked of a vertex when a face near it is judged, in one line of a cache.
+  // Everything that is read of a vertex when a face near it is judged, in one cache line.
   struct alignas(32) Record
   {
     Point point;
@@ -137,8 +138,8 @@ private:
   VertexPointMap m_points;
   typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<Number>>::const_type m_numbers;
   std::vector<Record> m_records;              // by number
-  std::vector<std::vector<Vertex>> m_classes; // the vertices at one position
-  std::vector<Number> m_class_of_vertex;      // by number; empty where none are coincident
+  std::vector<std::vector<Vertex>> m_classes; // the coincident vertices at each position
+  std::vector<Number> m_class_of_vertex;      // by number; empty if none are coincident
   std::uint32_t m_now = 0;
 };
 

@@ -14,8 +14,11 @@
 namespace selvedge {
 namespace internal {
 
-/// Numbered edges that wait for a face to change or go, for every face a list. An edge may wait for several
-/// faces, and more than once.
+/// Keeps, for every face, a list of the numbered edges that wait for it to change or vanish. An edge may wait
+/// for several faces, and more than once.
+///
+/// The loop needs it for edges that a filter refused because of faces elsewhere in the mesh: a collapse there
+/// does not change the neighbourhood of the edge.
 template <class TriangleMesh>
 class Waiting_edges
 {
@@ -76,7 +79,7 @@ public:
   }
 
 private:
-  // Number 0 is none.
+  // An entry of a list. Number 0 stands for no entry.
   struct Node
   {
     Id edge = 0;

@@ -28,7 +28,8 @@ template <class T>
 using Optional = boost::optional<T>;
 #endif
 
-// The number of faces without those that were removed but not yet collected; num_faces() counts them, too.
+// Returns the number of faces. For `Surface_mesh`, num_faces() would include removed faces that are not yet
+// collected.
 template <class Point>
 std::size_t face_count(const CGAL::Surface_mesh<Point>& mesh)
 {

@@ -12,6 +12,8 @@
 #include <type_traits>
 #include <utility>
 
+// `perform_collapse` is the one place where an edge is collapsed.
+
 namespace selvedge {
 namespace internal {
 
@@ -25,6 +27,7 @@ struct No_constrained_edges
   }
 };
 
+// Whether a cost asks for `initialize` and `update_after_collapse`.
 template <class Cost, class = void>
 struct Is_updated : std::false_type
 {
@@ -34,6 +37,7 @@ struct Is_updated<Cost, std::void_t<typename Cost::Update_tag>> : std::bool_cons
 {
 };
 
+// Whether a visitor takes each collapse as a value.
 template <class Visitor, class Collapse, class = void>
 struct Takes_collapses : std::false_type
 {
@@ -46,11 +50,11 @@ struct Takes_collapses<
 {
 };
 
-/// Collapses an edge and returns the merged vertex. Whoever collapses an edge, a loop or a replay of the
-/// collapses of cells, does it here.
+/// Collapses an edge, notifies the visitor and the cost, and returns the merged vertex.
 ///
-/// Calls in this order: the visitor's `before_collapse(collapse)` or, where it has none, CGAL's
-/// `OnCollapsing`; the visitor's `OnCollapsed`; and `update_after_collapse` of a cost that asks for it.
+/// Both the loop and the repetition of the collapses of cells use this function, so that the same is notified
+/// in the same order: the visitor's `before_collapse(collapse)` or, where it has none, CGAL's `OnCollapsing`;
+/// after the collapse, the visitor's `OnCollapsed`, and `update_after_collapse` of a cost that asks for it.
 template <class TriangleMesh, class VertexPointMap, class EdgeIsConstrainedMap, class Profile, class Visitor,
           class Cost>
 auto perform_collapse(TriangleMesh& mesh, const VertexPointMap& points,

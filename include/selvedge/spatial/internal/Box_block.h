@@ -14,17 +14,17 @@
 namespace selvedge {
 namespace internal {
 
-/// Sixteen boxes, bound by bound, so that a query is tested against all of them at once: the loops below are
-/// such that a compiler makes vector instructions of them.
+/// Sixteen boxes, stored bound by bound, so that a query is tested against all of them at once. The loops
+/// below are written such that compilers make vector instructions of them.
 class alignas(64) Box_block
 {
 public:
   static constexpr std::size_t width = 16;
 
-  /// Bit k is box k.
+  /// A set of these boxes: bit k stands for box k.
   using Mask = std::uint32_t;
 
-  /// All boxes empty: no query overlaps them.
+  /// Makes all boxes empty, so that no query overlaps them.
   Box_block()
   {
     for (std::size_t i = 0; i < width; ++i)
@@ -45,7 +45,7 @@ public:
             {m_bounds[3][i], m_bounds[4][i], m_bounds[5][i]}};
   }
 
-  /// Of all sixteen.
+  /// The bounding box of all sixteen.
   Monotone_box bounding_box() const
   {
     Monotone_box box = Monotone_box::empty();
@@ -64,12 +64,12 @@ public:
     return negative(answers);
   }
 
-  /// The least box of a mask that is not empty.
+  /// Returns the first box of a mask. **Precondition** The mask is not 0.
   static std::size_t first(Mask mask) { return lowest_bit(mask); }
 
 private:
   using Row = std::array<float, width>;
-  using Answers = std::array<std::int32_t, width>; // 0 or −1, as the instructions give them
+  using Answers = std::array<std::int32_t, width>; // 0 or −1, as vector instructions give them
 
   static std::int32_t yes(bool answer) { return answer ? -1 : 0; }
 

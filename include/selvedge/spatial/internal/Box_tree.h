@@ -20,7 +20,8 @@
 namespace selvedge {
 namespace internal {
 
-/// What a `Box_tree` knows of each of its numbers; held by its owner, one table for many trees.
+/// The box and the place of each number in a `Box_tree`. The owner of the trees holds it, one table for many
+/// trees.
 struct Box_table
 {
   enum class Place : unsigned char { nowhere, in_tree, in_overflow };
@@ -35,7 +36,7 @@ struct Box_table
   }
 };
 
-/// A primitive that is nothing but a number; its box stands in the table.
+/// A primitive that consists of a number only. Its box is in the table.
 class Box_primitive
 {
 public:
@@ -51,15 +52,16 @@ private:
   Id m_id;
 };
 
-// What `AABB_tree` wants of its traits for a search tree that it names, and here never makes: a kernel in
-// CGAL 5, search traits in CGAL 6.
+// The base that `AABB_tree` requires of its traits for a search tree, which is named there but never made
+// here: a kernel in CGAL 5, search traits in CGAL 6.
 #if CGAL_VERSION_NR >= 1060000000
 using Aabb_traits_base = CGAL::Search_traits_3<CGAL::Exact_predicates_inexact_constructions_kernel>;
 #else
 using Aabb_traits_base = CGAL::Exact_predicates_inexact_constructions_kernel;
 #endif
 
-/// A model of `AABBTraits` over boxes in a table: all that building and traversing a tree takes.
+/// Traits of `AABB_tree` for boxes in a table: as much of the concept `AABBTraits` as building and traversing
+/// a tree takes.
 class Box_tree_traits : public Aabb_traits_base
 {
 public:
@@ -67,8 +69,8 @@ public:
   using Bounding_box = Monotone_box;
   using size_type = std::size_t;
   using Object_and_primitive_id = std::pair<int, Primitive::Id>; // named by AABB_tree, never made
-  using Point_3 = Primitive::Point;                              // in CGAL 5 likewise, and in CGAL 6 this
-  using Point = Point_3;
+  using Point_3 = Primitive::Point;                              // named by AABB_tree of CGAL 5
+  using Point = Point_3;                                         // named by AABB_tree of CGAL 6
   using Point_and_primitive_id = std::pair<Point, Primitive::Id>;
 
   explicit Box_tree_traits(const Box_table* table = nullptr) : m_table(table) {}
@@ -93,7 +95,7 @@ public:
     void operator()(PrimitiveIterator first, PrimitiveIterator beyond, const Bounding_box& box) const
     {
       const int axis = box.longest_axis();
-      // By number where centres tie, so that the tree is the same on every platform.
+      // Equal centres are ordered by number, so that the tree is the same on every platform.
       std::nth_element(first, first + (beyond - first) / 2, beyond, [&](const auto& a, const auto& b) {
         return std::make_pair(table->boxes[a.id()].centre(axis), a.id()) <
                std::make_pair(table->boxes[b.id()].centre(axis), b.id());
@@ -109,9 +111,9 @@ private:
   const Box_table* m_table;
 };
 
-/// A set of numbered boxes in a `CGAL::AABB_tree` that may change: the tree can neither remove nor refit, so
-/// a box that outgrew the one it was put in with moves to a list scanned linearly, and the tree is made anew
-/// when that list is long.
+/// A set of numbered boxes that may change, in a `CGAL::AABB_tree`. The tree can neither remove nor refit. So
+/// a box that outgrows the one with which it was put in moves to a list that queries scan linearly, and a
+/// removed one is skipped. When the list is long, or many are removed, the tree is made anew.
 class Box_tree
 {
 public:
@@ -119,7 +121,7 @@ public:
 
   explicit Box_tree(const Box_table* table) : m_tree(Box_tree_traits(table)) {}
 
-  /// Replaces the content; every number becomes `in_tree`.
+  /// Replaces the content by `ids`, all of which become `in_tree`. The table already has their boxes.
   void build(const std::vector<Id>& ids, Box_table& table)
   {
     m_overflow.clear();
@@ -134,11 +136,11 @@ public:
       m_tree.build();
   }
 
-  /// Sets the box of a number that is or becomes a member. Returns whether the tree was made anew for it.
+  /// Sets the box of a number, which is or becomes a member. Returns whether this made the tree anew.
   bool set(Id id, const Monotone_box& box, Box_table& table)
   {
     Box_table::Place& place = table.places[id];
-    // A smaller box is found wherever the larger one is.
+    // A query that overlaps the new box also overlaps the stored one, which contains it.
     if (place == Box_table::Place::in_tree && table.boxes[id].contains(box))
       return false;
     m_size += place == Box_table::Place::nowhere;
@@ -150,7 +152,7 @@ public:
     return rebuild_if_stale(table);
   }
 
-  /// Removes a member. Returns whether the tree was made anew for it.
+  /// Removes a member. Returns whether this made the tree anew.
   bool remove(Id id, Box_table& table)
   {
     if (table.places[id] == Box_table::Place::in_overflow) {
@@ -176,15 +178,14 @@ public:
         visit(id);
   }
 
-  /// Contains the box of every member; shrinks only when the tree is made anew.
+  /// A box that contains those of all members. It shrinks only when the tree is made anew.
   const Monotone_box& box() const { return m_box; }
   std::size_t size() const { return m_size; }
 
 private:
   using Tree = CGAL::AABB_tree<Box_tree_traits>;
 
-  // A tree is stale when half of its members stand in the list, or when half of its leaves are no
-  // members.
+  // A tree is stale when half of its members are in the list, or when half of its leaves are no members.
   bool rebuild_if_stale(Box_table& table)
   {
     constexpr std::size_t least = 16;

@@ -10,7 +10,7 @@
 namespace selvedge {
 namespace internal {
 
-/// The curve that runs through all cells of a cube of 2²¹ cells a side, each time to a neighbour.
+/// The Hilbert curve through all cells of a cube of 2²¹ cells a side. Each step goes to a neighbouring cell.
 ///
 /// **Reference** Hamilton, Rau-Chaplin: Compact Hilbert indices: space-filling curves for domains with
 /// unequal side lengths.
@@ -18,7 +18,7 @@ class Hilbert_curve
 {
 public:
   using Cell = std::array<std::uint32_t, 3>;
-  static constexpr int bits = 21; ///< of a coordinate; three make a place
+  static constexpr int bits = 21; ///< of a coordinate; a place on the curve has three times as many
 
   constexpr Hilbert_curve()
   {
@@ -28,7 +28,7 @@ public:
           m_steps[3 * entry + direction][octant] = step(entry, direction, octant);
   }
 
-  /// How far along the curve a cell lies.
+  /// Returns the place of a cell on the curve, counted from 0.
   std::uint64_t place_of(const Cell& cell) const
   {
     const std::uint64_t octants = spread(cell[0]) | spread(cell[1]) << 1 | spread(cell[2]) << 2;
@@ -43,7 +43,8 @@ public:
   }
 
 private:
-  /// In which state of the curve an octant is come to as the how many-th, and its own state.
+  /// What one octant of a cube is for a curve in a given state: its rank along the curve, and the state in
+  /// which the curve runs through it.
   struct Step
   {
     std::uint8_t rank = 0;
@@ -60,7 +61,7 @@ private:
     return rank % 2 == 0 ? 0 : 1 + trailing_ones(rank / 2);
   }
 
-  // A state is the corner by which the curve enters a cube and the axis along which it leaves.
+  // A state consists of the corner at which the curve enters a cube and the axis along which it leaves.
   static constexpr Step step(unsigned entry, unsigned direction, unsigned octant)
   {
     const unsigned code = rotated_right(octant ^ entry, direction + 1);
@@ -72,7 +73,7 @@ private:
     return {std::uint8_t(rank), std::uint8_t(3 * next_entry + next_direction)};
   }
 
-  // Every bit to thrice its place.
+  // Moves each bit i to bit 3i.
   static constexpr std::uint64_t spread(std::uint64_t x)
   {
     x = (x | x << 32) & 0x001f00000000ffff;

@@ -15,9 +15,9 @@ namespace internal {
 
 /// An axis-aligned box of floats, half the size of a `CGAL::Bbox_3`.
 ///
-/// Boxes of doubles become boxes of floats through one map x ↦ float(x − origin) per axis, whose every step
-/// is monotone, whatever the rounding mode. Overlap is a conjunction of ≤ between bounds, and a monotone map
-/// keeps every ≤. So two boxes that overlapped still do: the map can add overlaps, never lose one.
+/// Boxes of doubles become boxes of floats through one map x ↦ float(x − origin) per axis. This can add
+/// overlaps, but never lose one: every step of the map is monotone, whatever the rounding mode; overlap is a
+/// conjunction of ≤ between bounds; and a monotone map keeps every ≤.
 struct Monotone_box
 {
   std::array<float, 3> lower;
@@ -40,7 +40,7 @@ struct Monotone_box
 
   bool overlaps(const Monotone_box& other) const
   {
-    // Without short cuts: six comparisons and no branch to mispredict.
+    // Always all six comparisons: there is no branch to mispredict.
     const auto is_met = [&](int axis) {
       return int(lower[axis] <= other.upper[axis]) & int(other.lower[axis] <= upper[axis]);
     };
@@ -53,7 +53,7 @@ struct Monotone_box
            upper[0] >= other.upper[0] && upper[1] >= other.upper[1] && upper[2] >= other.upper[2];
   }
 
-  /// Twice the centre along one axis: enough to compare by.
+  /// Returns twice the centre along one axis, which is enough for comparisons.
   float centre(int axis) const { return lower[axis] + upper[axis]; }
 
   int longest_axis() const
@@ -66,7 +66,8 @@ struct Monotone_box
   }
 };
 
-/// The map itself; its origin lies amid the mesh, where floats are densest.
+/// Maps boxes of doubles to boxes of floats. Its origin lies in the middle of the mesh, because floats are
+/// densest around 0.
 class Monotone_box_map
 {
 public:
@@ -74,7 +75,7 @@ public:
   explicit Monotone_box_map(const CGAL::Bbox_3& domain)
   {
     for (int axis = 0; axis < 3; ++axis)
-      if ((domain.min)(axis) <= (domain.max)(axis)) // the box of nothing is none
+      if ((domain.min)(axis) <= (domain.max)(axis)) // false for the box of nothing
         m_origin[axis] = 0.5 * (domain.min)(axis) + 0.5 * (domain.max)(axis);
   }
 
@@ -89,7 +90,7 @@ public:
   }
 
 private:
-  // A double beyond the range of float has no defined conversion; clamping to that range is monotone, too.
+  // The conversion of a double beyond the range of float is not defined. Clamping to that range is monotone.
   static float to_float(double x)
   {
     constexpr double largest = (std::numeric_limits<float>::max)();

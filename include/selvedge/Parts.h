@@ -1,0 +1,45 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_PARTS_H
+#define SELVEDGE_PARTS_H
+
+#include <selvedge/Triangle_soup.h>
+
+#include <string>
+#include <vector>
+
+namespace selvedge {
+
+/// One way in which a soup is divided into parts that a user can refer to: its pieces, each by a number, or
+/// its groups, objects or materials, each by its name in the file. Every triangle belongs to exactly one part
+/// of each kind that the file has.
+struct Part_kind
+{
+  enum class Name : unsigned char { piece, group, object, material };
+
+  Name name;
+  std::vector<Index> of_triangle; ///< for every triangle, the number of its part
+  std::vector<std::string> names; ///< names of the parts, by number; empty for pieces
+  Index count = 0;                ///< number of parts
+};
+
+/// Returns "piece", "group", "object" or "material".
+const char* name(Part_kind::Name kind);
+
+/// Returns the kinds of parts that a soup has, pieces first. Pieces are numbered in the order of their first
+/// triangles.
+///
+/// **Complexity** Almost linear.
+std::vector<Part_kind> part_kinds(const Triangle_soup& soup);
+
+/// Returns one flag per triangle: whether its group, object or material has this name. A label of several
+/// words can be given as a whole or by one of its words: after the line `g sleeve left`, triangles have the
+/// names "sleeve left", "sleeve" and "left".
+///
+/// Throws `Argument_error`, which lists the known names, when no triangle has this name.
+std::vector<char> triangles_named(const Triangle_soup& soup, const std::string& name);
+
+} // namespace selvedge
+
+#endif // SELVEDGE_PARTS_H

@@ -1,0 +1,162 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_FACE_TARGETS_H
+#define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_FACE_TARGETS_H
+
+#include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
+
+#include <CGAL/Dynamic_property_map.h>
+#include <CGAL/boost/graph/helpers.h>
+#include <CGAL/boost/graph/iterator.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+namespace selvedge {
+
+/// Counts faces against targets: how many there are and how many are to be left, in each *share* of a mesh.
+///
+/// Every face belongs to one share, at first to share 0. The target of a share is 0 until it is set. A share
+/// that has reached its target loses no further face. Faces can also be left uncounted.
+///
+/// It serves as a predicate for `Halfedge_filter`, as a stop, and as a listener of collapses. Copies share
+/// one state.
+///
+/// **Preconditions** The mesh outlives the targets. `before_collapse` is called before every collapse.
+template <class TriangleMesh>
+class Face_targets
+{
+  using Graph_traits = boost::graph_traits<TriangleMesh>;
+
+public:
+  using Face = typename Graph_traits::face_descriptor;
+  using Halfedge = typename Graph_traits::halfedge_descriptor;
+
+  struct Share
+  {
+    std::size_t faces = 0; ///< that it has now
+    std::size_t target = 0;
+
+    std::size_t excess() const { return faces - (std::min)(faces, target); }
+  };
+
+  explicit Face_targets(const TriangleMesh& mesh) : m_state(std::make_shared<State>(mesh)) {}
+
+  const Share& share(std::size_t number) const { return m_state->shares[number]; }
+  void set_target(std::size_t number, std::size_t target) { m_state->shares[number].target = target; }
+
+  /// Makes a new, empty share and returns its number.
+  std::size_t add_share()
+  {
+    m_state->shares.emplace_back();
+    return m_state->shares.size() - 1;
+  }
+
+  /// `assign` moves a face to a share, `leave_out` takes it out of the count.
+  void assign(Face face, std::size_t number)
+  {
+    uncount(face);
+    put(m_state->share_of, face, std::uint32_t(number));
+    ++m_state->shares[number].faces;
+  }
+  void leave_out(Face face)
+  {
+    uncount(face);
+    put(m_state->share_of, face, s_uncounted);
+    m_state->are_all_counted = false;
+  }
+
+  bool is_counted(Face face) const { return get(m_state->share_of, face) != s_uncounted; }
+
+  /// Returns whether a face at the edge of `h` is counted.
+  bool is_counted(Halfedge h) const
+  {
+    return m_state->are_all_counted || any_beside(h, [this](Face face) { return is_counted(face); });
+  }
+
+  /// Returns whether the edge of `h` may collapse: not when one of its faces is of a share at its target.
+  bool operator()(Halfedge h) const
+  {
+    return !any_beside(h, [this](Face face) { return is_counted(face) && share_of(face).excess() == 0; });
+  }
+
+  /// Called before the edge of `h` collapses: its faces leave the count.
+  void before_collapse(Halfedge h)
+  {
+    any_beside(h, [this](Face face) {
+      uncount(face);
+      return false;
+    });
+  }
+
+  /// Returns whether every share has reached its target.
+  bool is_reached() const
+  {
+    return std::all_of(m_state->shares.begin(), m_state->shares.end(),
+                       [](const Share& share) { return share.excess() == 0; });
+  }
+
+  /// Sums faces and targets over all shares.
+  Share total() const
+  {
+    Share total;
+    for (const Share& share : m_state->shares) {
+      total.faces += share.faces;
+      total.target += share.target;
+    }
+    return total;
+  }
+  std::size_t total_excess() const
+  {
+    std::size_t total = 0;
+    for (const Share& share : m_state->shares)
+      total += share.excess();
+    return total;
+  }
+
+private:
+  static constexpr std::uint32_t s_uncounted = std::numeric_limits<std::uint32_t>::max();
+
+  struct State
+  {
+    explicit State(const TriangleMesh& mesh_)
+        : mesh(mesh_), share_of(get(CGAL::dynamic_face_property_t<std::uint32_t>(), mesh_)),
+          shares{{internal::face_count(mesh_), 0}}
+    {
+    }
+
+    const TriangleMesh& mesh;
+    typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<std::uint32_t>>::const_type
+        share_of;
+    std::vector<Share> shares;
+    bool are_all_counted = true;
+  };
+
+  Share& share_of(Face face) const { return m_state->shares[get(m_state->share_of, face)]; }
+
+  void uncount(Face face)
+  {
+    if (is_counted(face))
+      --share_of(face).faces;
+  }
+
+  template <class Predicate>
+  bool any_beside(Halfedge h, const Predicate& is_so) const
+  {
+    const TriangleMesh& mesh = m_state->mesh;
+    const Halfedge other = opposite(h, mesh);
+    const bool is_left = !CGAL::is_border(h, mesh) && is_so(face(h, mesh));
+    return is_left || (!CGAL::is_border(other, mesh) && is_so(face(other, mesh)));
+  }
+
+  std::shared_ptr<State> m_state;
+};
+
+} // namespace selvedge
+
+#endif // SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_FACE_TARGETS_H

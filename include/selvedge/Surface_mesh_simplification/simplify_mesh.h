@@ -1,0 +1,71 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_SIMPLIFY_MESH_H
+#define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_SIMPLIFY_MESH_H
+
+#include <selvedge/Error.h>
+#include <selvedge/Surface_mesh_simplification/No_observer.h>
+#include <selvedge/Surface_mesh_simplification/Simplify_constraints.h>
+#include <selvedge/Surface_mesh_simplification/internal/Simplification.h>
+
+#include <type_traits>
+
+namespace selvedge {
+
+/// Reduces a triangle mesh by halfedge collapses until a target is reached or no collapse is allowed any
+/// more, without letting any face touch or pass through another.
+///
+/// `options` say how far to reduce and within which limits, `constraints` what is special about single
+/// elements. `observer` derives from `No_observer`.
+///
+/// **Guarantees** for an embedded mesh. *Embedded* means: all faces are proper triangles, no two have the
+/// same three positions, and any two meet exactly in the positions that they share (none, one, or two and the
+/// edge between them).
+/// - G1 *Embedded*: the mesh is embedded after every collapse, and so whenever the reduction ends.
+/// - G2 *Motion*: nothing passes through anything during a collapse; the order of layers is kept.
+/// - G4 *Topology*: components, boundary loops and Euler characteristic are kept.
+/// - G5 *Seams*: borders and line edges change only along themselves, within the turn and the drift allowed.
+/// - G7 *Stop*: the target is reached, or the report says that it was not, and what refused how often.
+/// - G8 *Determinism*: the same mesh and options give the same result.
+///
+/// For a mesh that is not embedded, lock the vertices of every face of an offending pair, as `simplify_soup`
+/// does. Then the offending pairs of the result are those of the input, and the guarantees hold between all
+/// other faces.
+///
+/// **Preconditions** The caller must ensure: all faces are triangles; `TriangleMesh` is a mutable face graph
+/// whose points belong to a kernel with exact predicates. Checked at run time (`Argument_error`): the options
+/// are in range; no edge has length zero, if intersections are checked; the diagonal of the bounding box is 0
+/// or from 2^-200 to 2^200. Two options are for soups alone and refused when set: `faces_per_cell`, and
+/// `on_collapse`, which the observer replaces.
+///
+/// In this range of sizes, no computation of quality overflows, and none vanishes except areas of less than
+/// 2^-100 of the squared diagonal. Without such areas, the steps are the same for a mesh and for the mesh
+/// multiplied by a power of two. Soups (simplify.h) may have any size.
+///
+/// **Exactness** Exact predicates alone decide everything about intersections. Everything about quality is in
+/// floating point.
+///
+/// **Complexity** O(n log n) for n faces as a rule; more where layers are very close.
+///
+/// In a `CGAL::Surface_mesh`, the removed elements stay as garbage; `mesh.collect_garbage()` removes them.
+///
+/// **Reference** Derichs, Misiak, Fuhrmann: Intersection-free mesh decimation for high resolution cloth
+/// models.
+template <class TriangleMesh, class Observer = No_observer>
+Simplify_report simplify_mesh(TriangleMesh& mesh, const Simplify_options& options,
+                              const Simplify_constraints<TriangleMesh>& constraints = {},
+                              Observer&& observer = Observer())
+{
+  if (options.faces_per_cell > 0)
+    throw Argument_error("a mesh cannot be reduced in cells: set faces_per_cell to 0, or use simplify_soup");
+  if (options.on_collapse)
+    throw Argument_error("on_collapse is for soups: give simplify_mesh an observer instead");
+  return internal::Simplification<TriangleMesh, std::remove_reference_t<Observer>>(mesh, options, constraints,
+                                                                                   observer)
+      .run();
+}
+
+} // namespace selvedge
+
+#endif // SELVEDGE_SURFACE_MESH_SIMPLIFICATION_SIMPLIFY_MESH_H

@@ -1,0 +1,201 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_MESH_FILES_H
+#define SELVEDGE_MESH_FILES_H
+
+#include <selvedge/Triangle_soup.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace selvedge {
+
+/// \file
+/// Reads mesh files into a `Triangle_soup`, and writes them from it. Positions are the same doubles on both
+/// sides.
+///
+/// **Guarantees**
+/// 1. *Read*: a decimal in a text file (OBJ, OFF, ascii PLY and STL) becomes the double nearest to it, also
+///    where the file declares a narrower type for it; a binary number becomes the double of the same value.
+/// 2. *Written* (G3): `read_mesh(p)` after `write_mesh(p, soup)` gives the same coordinates bit for bit, the
+///    same triangles in the same order, and the same number of every vertex. STL, which has no vertex
+///    numbers, gives the same triangles up to those numbers (and the sign of zeros).
+/// 3. *Refusal* (G9): a file that is not a mesh with at least one triangle and finite coordinates is refused
+///    with an `Input_error` of one line, which names the file, the line (in text), the element, and how to
+///    mend it. Whatever a file contains, however damaged it is, it is either read or refused in this way.
+///    Counts in a file are not believed before the bytes are there.
+/// 4. *Atomicity* (G9): a file appears whole or not at all; see `write_mesh`.
+/// 5. *Losses*: `Read_notes` tells what a file holds and the soup does not; `not_carried` tells what a soup
+///    holds and a format does not.
+///
+/// **Faces.** A face of more than three corners is cut into triangles by one rule: ears are cut off one after
+/// another, and the second corner is tried first. A convex polygon so becomes the fan of its first corner;
+/// any other simple polygon becomes triangles that neither overlap nor degenerate. Ears are decided exactly,
+/// in the projection to a coordinate plane: the plane in which the polygon looks largest, or another one when
+/// the polygon is not simple there. A polygon that is simple in none of the projections becomes the fan of
+/// its first corner. Faces of fewer than three corners are skipped and counted. Faces that name a vertex
+/// twice are kept, because a soup may hold degenerate triangles.
+///
+/// **Scenes.** A vertex of a glTF file is reduced and judged at its world position, in doubles:
+///
+///     ((G_0 x + G_1 y) + G_2 z) + G_3        for each row G of the global matrix of its node
+///
+/// Here (x, y, z) are the 32-bit floats of the file. The global matrix is the product P L of the parent's
+/// global matrix and the node's own; its entries are (P_0 L_0 + P_1 L_1) + P_2 L_2, and + P_3 in the last
+/// column; at a root, P is the identity. L is `matrix`, or, from `translation` t, `rotation` (x, y, z, w) and
+/// `scale` s, the matrix with the columns R_j s_j and t, where R has 1 − 2 (y y + z z), 2 (x y − z w), 2 (x z
+/// + y w) as its first row, and so on, not normalised. Every operation is rounded to double, in this order. A
+/// skinned mesh is taken in its bind pose, with the identity for G, because its node does not move it, as the
+/// format says. Morph targets and animations are carried along, but nothing is guaranteed for the shapes that
+/// they make. Triangles of nodes that mirror are turned over, so that outside is outside.
+///
+/// When a scene is written to glTF again, every vertex keeps its rows of every accessor of its primitive and
+/// of its morph targets bit for bit, so that its world position is the same double. The rest of the document
+/// stays as it is: images byte for byte, addresses of files, and numbers of accessors and buffer views. There
+/// are three exceptions: a mesh that several nodes share becomes one mesh for each, accessors of triangles
+/// are written in full and without gaps, and all buffers become one. Primitives of points or lines, and
+/// meshes outside the scene, stay as they are. Primitives and meshes that have no triangle left are removed.
+///
+/// **Complexity.** Time is linear in the size of the file, but quadratic in the number of corners of a
+/// polygon. Memory is linear, with two exceptions: a glTF scene may show a part in many of its nodes, and a
+/// polygon in a PLY file gives its attributes to each of its triangles. A file for which these take more than
+/// 64 times its size is refused.
+
+enum class Mesh_format { obj, off, ply, stl, glb, gltf };
+
+/// Returns the format that a path's extension names (`.obj`, `.off`, `.ply`, `.stl`, `.glb`, `.gltf`, in
+/// upper or lower case). Throws `Input_error` when it names none of them.
+Mesh_format mesh_format(const std::filesystem::path& path);
+
+/// Returns whether every file of this format holds its positions as 32-bit floats, as STL and glTF do. A mesh
+/// that is written to such a format must be rounded (`round_to_float32`) before it is judged. PLY holds
+/// floats when that loses nothing, else doubles.
+bool stores_float32(Mesh_format format);
+
+/// Returns whether the positions of this soup must be 32-bit floats to be written in this format. That is so
+/// for formats that store 32-bit floats, unless the soup goes from glTF to glTF: its positions in the scene
+/// are doubles, but the file has 32-bit floats for them.
+bool needs_float32(const Triangle_soup& soup, Mesh_format format);
+
+/// What reading a file has changed or left out.
+struct Read_notes
+{
+  std::size_t polygons_cut = 0;     ///< faces of more than three corners, each cut into triangles
+  std::size_t repeated_corner = 0;  ///< faces that name a vertex more than once; kept
+  std::size_t fewer_than_three = 0; ///< faces of fewer than three corners; skipped
+
+  /// What was read otherwise than it stands in the file, and how often.
+  std::map<std::string, std::size_t> remarks;
+
+  /// What the file has and the soup does not hold, by name, and how often the file has it.
+  std::map<std::string, std::size_t> ignored;
+};
+
+/// Returns the notes as lines for a person, each ending in a count; none when there is nothing to say.
+std::vector<std::string> describe(const Read_notes& notes);
+
+struct Mesh_file
+{
+  Triangle_soup soup;
+  Mesh_format format = Mesh_format::obj;
+  Read_notes notes;
+};
+
+/// Reads a mesh. The path's extension says the format.
+///
+/// - OBJ: `v` with a weight (attribute `w`) or a colour (`red`, `green`, `blue`, `alpha`), `vt` of one or two
+///   numbers (the second is 0 when there is none; a third that is not 0 is noted), `vn`, `f` with absolute
+///   and relative indices, `o`, `g`, `usemtl`, `s`, `mtllib`. The label of a triangle is the whole text of
+///   the latest such statement above it, without blanks at its ends (a `g` with several names is one label).
+///   Above the first statement it is empty. A backslash at the end of a line, outside comments, counts as a
+///   blank.
+/// - OFF: one vertex or face to a line. Further columns are noted and not read.
+/// - PLY: ascii and both binary kinds, with elements in any order. For vertices, `nx ny nz` are normals, and
+///   `s t`, `u v` or `texture_u texture_v` are texture coordinates. For faces, a list `texcoord` of two
+///   numbers per corner holds texture coordinates; where there is one, those of vertices are attributes. All
+///   other numbers are attributes of the type that the header says; a number in text that does not have this
+///   type is refused. Other lists and other elements are noted. The triangles of a polygon have its
+///   attributes.
+/// - STL: ascii and binary. Corners with identical coordinates (−0 equals 0) are one vertex, which has the
+///   coordinates of the first of them. Vertices are numbered by their first corners.
+/// - GLB, glTF 2.0: all triangles of the scene, those of strips and fans too, as one soup in world space; see
+///   **Scenes** above. A group is a primitive in a node. It is named after the node, or after the mesh when
+///   the node has no name. A material is one of the file. Texture coordinates are those of TEXCOORD_0; the
+///   second is subtracted from 1, because it points down in glTF. Normals are turned with their nodes, and
+///   COLOR_0 is a colour. Other attributes are carried when all vertices have them in the same form. In
+///   primitives without indices, vertices that agree in every attribute become one. Buffers are in the file,
+///   in data addresses, or in files relative to its folder (none when read from memory). Refused, by name:
+///   compressed and quantised meshes, instances by extension, unknown extensions that the file requires.
+///
+/// Vertices in messages are counted as the format counts them: from 1 in OBJ, from 0 elsewhere.
+///
+/// Throws `Input_error`.
+Mesh_file read_mesh(const std::filesystem::path& path);
+
+/// Reads a mesh from memory. `name` stands for the file in messages.
+Mesh_file read_mesh(std::string_view contents, Mesh_format format, const std::string& name);
+
+enum class Encoding { binary, ascii, binary_big_endian };
+
+struct Write_options
+{
+  /// The encoding of PLY and STL files; other formats ignore it. `binary` is little endian. STL has no
+  /// big-endian form (`Argument_error`).
+  Encoding encoding = Encoding::binary;
+
+  /// Comment lines at the head of OBJ, OFF and PLY files; other formats ignore them. Precondition, checked
+  /// (`Argument_error`): no control characters.
+  std::vector<std::string> comments = {};
+};
+
+/// Writes a mesh. The path's extension says the format.
+///
+/// The whole file is written to a new file in the same folder, brought to the disk, and only then renamed to
+/// `path`. When anything fails (no room, no permission), the new file is removed, what stood at `path` is
+/// untouched, and `Output_error` is thrown. The same happens, with `Interrupted`, when the call is cancelled
+/// (Cancellation_scope.h). A symbolic link is followed; one that leads nowhere is replaced. What is neither a
+/// file nor a link to one (a device, a pipe) is written to directly.
+///
+/// OBJ and OFF hold the shortest decimals that read back as the same doubles. PLY positions, normals and
+/// texture coordinates are `float` when every one of them is, else `double`.
+///
+/// - OBJ: a statement stands before the first face to which it applies; several stand in the order `o`, `g`,
+///   `usemtl`, `s`. After an `o` the others are repeated, because some readers forget them there. Colours
+///   that are integers in a PLY file become fractions. `mtllib` stays as it is, also when the file goes to
+///   another folder: `missing_material_libraries` tells what then has to be copied there.
+/// - PLY: texture coordinates stand at the vertices (`s t`) when they have the numbers of the vertices and no
+///   attribute has these names, else at the faces (`texcoord`). An attribute of several components becomes
+///   several properties: `name_0`, `name_1`, ...
+/// - GLB, glTF: a soup that was read from glTF goes back into its document, see **Scenes** above. Any other
+///   soup becomes a new document. It has a node and a mesh for each group, and in it a primitive for each
+///   material; of materials it has the names alone. Vertices are split where corners differ in texture
+///   coordinates or normals. These, and colours that are no integers, are rounded to 32-bit floats. Triangles
+///   are ordered by group and material. `.gltf` files hold their buffer in a data address, so that a mesh is
+///   one file.
+///
+/// **Preconditions**, checked (`Argument_error`): coordinates are finite, and 32-bit floats where
+/// `needs_float32` says so. A soup that was read from glTF still has its groups and `scene_vertices`, and
+/// each of its positions is that of some vertex of the file under the same transform. Labels in an OBJ file
+/// are one line, neither begin nor end with a blank, and do not end in a backslash. Names of attributes in a
+/// PLY file hold no blanks and do not end in a backslash.
+void write_mesh(const std::filesystem::path& path, const Triangle_soup& soup,
+                const Write_options& options = {});
+
+/// Returns the names of what this soup holds and a file of that format does not; empty when it holds all.
+std::vector<std::string> not_carried(const Triangle_soup& soup, Mesh_format format);
+
+/// Returns the names of the material libraries of this soup that are not there for an OBJ file at `path`.
+std::vector<std::string> missing_material_libraries(const std::filesystem::path& path,
+                                                    const Triangle_soup& soup);
+
+/// Writes any contents to a file as `write_mesh` does: whole or not at all. Throws `Output_error`.
+void write_file(const std::filesystem::path& path, std::string_view contents);
+
+} // namespace selvedge
+
+#endif // SELVEDGE_MESH_FILES_H

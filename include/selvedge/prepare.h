@@ -1,0 +1,138 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_PREPARE_H
+#define SELVEDGE_PREPARE_H
+
+#include <selvedge/Snapping_notes.h>
+#include <selvedge/Triangle_soup.h>
+#include <selvedge/internal/Scale.h>
+#include <selvedge/rounding.h>
+#include <selvedge/verify.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace selvedge {
+
+/// The options of `prepare`.
+struct Prepare_options
+{
+  /// Whether coordinates are first rounded to 32-bit floats, for an output format that stores no more.
+  bool round_to_float32 = false;
+
+  /// Whether an input that is not embedded is refused (`Input_error`). Otherwise the faces that offend are
+  /// frozen. Pairs that offend only after rounding are frozen in either case.
+  bool is_strict = false;
+
+  /// The distance within which border vertices *snap* together, in the unit of the coordinates: finite, at
+  /// least 0, otherwise `Argument_error` is thrown. At 0, the default, nothing snaps.
+  ///
+  /// Snapping closes seams whose two sides lie near each other but do not coincide. A reduction sews only
+  /// borders that coincide; the two sides of a gap, however narrow, are reduced as separate borders. Choose a
+  /// distance a little larger than the widest gap that is to be closed: all borders that run along each other
+  /// within it are closed, unless something lies between them.
+  ///
+  /// **What moves** One of two *partners* goes straight to the position of the other, and takes its
+  /// coordinates bit for bit; no new position is made. Vertices that are coincident with it go along. Vertex
+  /// numbers and all other attributes, such as texture coordinates, stay as they are.
+  ///
+  /// **Partners** Two border vertices are partners when
+  /// - they lie within this distance of each other, and belong to no common face,
+  /// - two border edges beside them can become one: the vertex after one of them and the vertex before the
+  ///   other lie within this distance of each other, too, or are the same (borders run with the surface on
+  ///   the left),
+  /// - no stretch of border of at most twice this distance joins them.
+  ///
+  /// Partners may belong to one piece, as at a dart.
+  ///
+  /// **Order** Vertices are joined in rounds, until a round changes nothing. In each, every border vertex
+  /// chooses its nearest partner that is not frozen, and vertices that have chosen each other are joined, the
+  /// nearest first. The vertex with fewer faces moves; when its motion is refused, the other moves. So where
+  /// several pieces meet in a corner, all of them come to one position, one after another. A vertex may snap
+  /// more than once, and then go farther than this distance altogether.
+  ///
+  /// **Guarantees**
+  /// 1. *Embedded, motion*: every snap is decided exactly, like a collapse. On the way nothing is met or
+  ///    passed through, and no face degenerates. The offending pairs afterwards are those before.
+  /// 2. *Frozen*: vertices of frozen faces and of the obstacle do not move, and nothing moves onto them.
+  /// 3. *Manifold*: two border edges that run in opposite directions become one edge; no other edges do.
+  /// 4. *Deterministic*: the same input gives the same snaps.
+  ///
+  /// Vertices under different transforms of a glTF scene are not joined. A vertex whose snap is refused stays
+  /// where it is; `Prepared_soup::snapping` counts such vertices by reason.
+  ///
+  /// **Exactness** Distances, which choose what is tried, are rounded to double. **Complexity** O(n log n)
+  /// for n triangles; in every round, as many steps as there are pairs of border vertices within this
+  /// distance.
+  double weld_distance = 0;
+};
+
+/// A soup that has been rounded, judged and snapped. `simplify_soup` reduces it, and the result is judged
+/// against it.
+struct Prepared_soup
+{
+  /// The input, rounded and snapped if that was asked for, without the triangles that have two corners at one
+  /// position.
+  Triangle_soup soup;
+
+  /// The points and triangles of the obstacle, without the triangles that have two corners at one position.
+  /// In the members below, vertices and triangles of the obstacle are numbered after those of `soup`.
+  Triangle_soup obstacle;
+
+  /// For every vertex, the first vertex that is coincident with it. Vertices count as coincident when they
+  /// are so both before and after rounding: neither when only rounding has made them equal, nor when rounding
+  /// has moved a vertex of the soup away from one of the obstacle. A vertex that has snapped is coincident
+  /// with its partner.
+  std::vector<Index> positions;
+
+  /// The power of two by which a reduction divides the points. The points of `soup` and `obstacle` are not
+  /// divided.
+  Scale scale;
+
+  /// The offending pairs of `soup` and `obstacle` together, found exactly.
+  std::vector<Offending_pair> offending_pairs;
+
+  /// How many of them only rounding has made.
+  std::size_t pairs_by_rounding = 0;
+
+  /// For every triangle, whether it is frozen: its vertices do not move, so that every offending pair stays
+  /// as it is and none is added. Frozen are the triangles of offending pairs, the triangles with a corner
+  /// where only rounding has made positions equal, and all triangles of the obstacle.
+  std::vector<char> is_frozen;
+  std::size_t frozen_faces = 0; ///< of `soup`
+
+  /// Triangles of the input that are left out because two of their corners are at one position.
+  std::size_t left_out_faces = 0;       ///< before rounding
+  std::size_t left_out_by_rounding = 0; ///< only after rounding
+
+  Rounding_notes rounding;
+  Snapping_notes snapping;
+  double seconds_positions = 0; ///< for rounding, and finding coincident vertices
+  double seconds_check = 0;     ///< for judging
+  double seconds_snap = 0;      ///< for snapping
+};
+
+/// Prepares a soup for `simplify_soup`: rounds it, finds coincident vertices, finds offending pairs, freezes
+/// their faces, and snaps borders, in this order.
+///
+/// An `obstacle`, such as the body under a garment, takes part in every decision and never changes; it is not
+/// even rounded. Faces of the input that offend together with it are frozen like others, and so are faces
+/// that only rounding has brought to one of its vertices. The input is not sewn to the obstacle: along it,
+/// the input keeps its own borders.
+///
+/// Throws `Input_error`
+/// - when the input has no triangle, or every triangle has two corners at one position,
+/// - when rounding makes a coordinate overflow,
+/// - when coordinates are too far apart for one `Scale`,
+/// - with `is_strict`, when the input, together with the obstacle, is not embedded. The message says how many
+///   pairs offend, and names the first by the numbers of its triangles, counted from 1; those of the obstacle
+///   follow those of the input.
+///
+/// **Threads** The judge uses the threads that oneTBB grants; see verify.h.
+Prepared_soup prepare(Triangle_soup input, const Prepare_options& options = {},
+                      const Triangle_soup& obstacle = {});
+
+} // namespace selvedge
+
+#endif // SELVEDGE_PREPARE_H

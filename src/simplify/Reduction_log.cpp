@@ -1,0 +1,97 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <selvedge/Reduction_log.h>
+
+#include <selvedge/Cancellation_scope.h>
+#include <selvedge/Sha256.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace selvedge {
+namespace {
+
+/// Returns for every vertex the smallest number that the log has for a vertex with equal coordinates.
+std::vector<Index> smallest_numbers(const std::vector<Point_3>& points, const Log_numbering& numbering)
+{
+  std::map<std::array<double, 3>, Index> smallest; // compares doubles, so that −0 is 0
+  const auto place = [&](Index v) { return std::array{points[v].x(), points[v].y(), points[v].z()}; };
+  Cancellation_poll poll;
+  for (Index v = 0; v < points.size(); ++v) {
+    poll();
+    const auto [entry, is_new] = smallest.emplace(place(v), numbering.number(v));
+    entry->second = std::min(entry->second, numbering.number(v));
+  }
+  std::vector<Index> result;
+  result.reserve(points.size());
+  for (Index v = 0; v < points.size(); ++v) {
+    poll();
+    result.push_back(smallest.at(place(v)));
+  }
+  return result;
+}
+
+Log_header completed(Log_header header, const Prepared_soup& prepared, const Simplify_options& options)
+{
+  header.limits = limits_of(options);
+  if (prepared.snapping.distance > 0)
+    header.limits.weld_distance = prepared.snapping.distance;
+  const Triangle_soup& obstacle = prepared.obstacle;
+  if (!header.obstacle && !obstacle.triangles.empty())
+    header.obstacle = {obstacle.points.size(), obstacle.triangles.size(), {}};
+  return header;
+}
+
+} // namespace
+
+Reduction_log::Reduction_log(std::ostream& stream, Log_header header, const Log_numbering& numbering,
+                             const Prepared_soup& prepared, const Simplify_options& options)
+    : m_writer(stream, completed(std::move(header), prepared, options)), m_numbering(numbering),
+      m_prepared(prepared)
+{
+  for (const auto& [from, to] : prepared.snapping.snaps) {
+    Log_step step;
+    step.kind = Log_step::Kind::snap;
+    step.removed = numbering.number(from);
+    step.kept = numbering.number(to);
+    m_writer.write(step);
+  }
+  const std::vector<Index> smallest = smallest_numbers(prepared.soup.points, numbering);
+  std::map<Index, std::vector<Index>> groups;
+  for (Index v = 0; v < smallest.size(); ++v)
+    if (smallest[v] != numbering.number(v))
+      groups[smallest[v]].push_back(numbering.number(v));
+  for (auto& [first, others] : groups) {
+    Log_step step;
+    step.kind = Log_step::Kind::weld;
+    step.group = std::move(others);
+    step.group.insert(step.group.begin(), first);
+    m_writer.write(step);
+  }
+}
+
+void Reduction_log::add_collapse(std::size_t removed, std::size_t kept)
+{
+  Log_step step;
+  step.removed = m_numbering.number(Index(removed));
+  step.kept = m_numbering.number(Index(kept));
+  m_writer.write(step);
+  ++m_collapses;
+}
+
+void Reduction_log::finish(const Simplified_soup& result)
+{
+  const std::vector<Index> smallest = smallest_numbers(m_prepared.soup.points, m_numbering);
+  Sha256 sha256;
+  for (const Index_triple& corners : result.corners) {
+    const auto number = [&](Index corner) {
+      return std::to_string(smallest[m_prepared.soup.triangles[corner / 3][corner % 3]]);
+    };
+    sha256.add(number(corners[0]) + ' ' + number(corners[1]) + ' ' + number(corners[2]) + '\n');
+  }
+  m_writer.write(Log_result{m_collapses, result.corners.size(), sha256.digest()});
+}
+
+} // namespace selvedge

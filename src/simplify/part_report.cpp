@@ -1,0 +1,260 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <selvedge/part_report.h>
+
+#include "verify/Surface_tree.h"
+
+#include "soup/texture.h"
+#include <selvedge/Cancellation_scope.h>
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+
+namespace selvedge {
+namespace {
+
+using Uv = std::array<double, 2>;
+using Triangle_3 = Kernel::Triangle_3;
+
+constexpr std::size_t s_pieces_reported = 100;
+
+// Returns the diagonal of the soup, divided by the scale as all points in this file; 1 if it is 0.
+double diagonal(const Triangle_soup& soup, const Scale& scale)
+{
+  CGAL::Bbox_3 box;
+  for (const Index_triple& triangle : soup.triangles)
+    for (const Index v : triangle)
+      box += scale(soup.points[v]).bbox();
+  const double length = std::hypot(box.x_span(), box.y_span(), box.z_span());
+  return length > 0 ? length : 1;
+}
+
+std::array<Uv, 3> uvs_of(const Triangle_soup& soup, Index t)
+{
+  const Index_triple& uv = soup.uvs.of_triangle[t];
+  return {soup.uvs.values[uv[0]], soup.uvs.values[uv[1]], soup.uvs.values[uv[2]]};
+}
+
+Triangle_3 triangle_of(const Triangle_soup& soup, Index t, const Scale& scale)
+{
+  const auto& [a, b, c] = soup.triangles[t];
+  return {scale(soup.points[a]), scale(soup.points[b]), scale(soup.points[c])};
+}
+
+bool has_texture(const Triangle_soup& soup, Index t)
+{
+  return !soup.uvs.missing || soup.uvs.of_triangle[t][0] != *soup.uvs.missing;
+}
+
+// Returns a number for the chart of each triangle.
+std::vector<Index> charts_of(const Triangle_soup& soup)
+{
+  const std::vector<Index> pieces = part_kinds(soup).front().of_triangle;
+  std::vector<Index> parents(soup.uvs.values.size());
+  std::iota(parents.begin(), parents.end(), Index(0));
+  const auto root = [&](Index i) {
+    while (parents[i] != i)
+      i = parents[i] = parents[parents[i]];
+    return i;
+  };
+  for (const auto& [a, b, c] : soup.uvs.of_triangle) {
+    parents[root(a)] = root(b);
+    parents[root(b)] = root(c);
+  }
+  std::unordered_map<std::uint64_t, Index> numbers;
+  std::vector<Index> charts;
+  charts.reserve(soup.triangles.size());
+  for (Index t = 0; t < soup.triangles.size(); ++t) {
+    const std::uint64_t chart = std::uint64_t(pieces[t]) << 32 | root(soup.uvs.of_triangle[t][0]);
+    charts.push_back(numbers.emplace(chart, Index(numbers.size())).first->second);
+  }
+  return charts;
+}
+
+/// The triangles of one chart of a result. Finds the texture coordinates at points near it.
+class Chart
+{
+public:
+  void insert(const Triangle_3& triangle, const std::array<Uv, 3>& uvs)
+  {
+    if (triangle.is_degenerate())
+      return;
+    const Index first = Index(m_soup.points.size());
+    for (int place = 0; place < 3; ++place)
+      m_soup.points.push_back(triangle[place]);
+    m_soup.triangles.push_back({first, first + 1, first + 2});
+    m_uvs.push_back(uvs);
+  }
+
+  /// Called after the last `insert`. Afterwards the chart must not be moved.
+  void build()
+  {
+    m_surface.emplace(m_soup, 0);
+    m_tree.emplace(*m_surface);
+  }
+  bool empty() const { return m_uvs.empty(); }
+
+  Uv uv_near(const Point_3& query) const
+  {
+    const auto [point, number] = m_tree->nearest(query, 0);
+    const Triangle_3 t = m_surface->triangle(number);
+    const std::array<Uv, 3>& uv = m_uvs[number];
+    const Kernel::Vector_3 normal = m_surface->normal(number);
+    const double area = normal.squared_length();
+    const auto share = [&, &nearest = point](int i, int j) {
+      return normal * CGAL::cross_product(t[i] - nearest, t[j] - nearest) / area;
+    };
+    const double a = share(1, 2), b = share(2, 0), c = 1 - a - b;
+    return {a * uv[0][0] + b * uv[1][0] + c * uv[2][0], a * uv[0][1] + b * uv[1][1] + c * uv[2][1]};
+  }
+
+private:
+  Triangle_soup m_soup;
+  std::vector<std::array<Uv, 3>> m_uvs;
+  std::optional<internal::Surface> m_surface;
+  std::optional<internal::Surface_tree> m_tree;
+};
+
+// Returns for each triangle of the original how far the texture at its centre is displaced, as a share of the
+// diagonal. Empty when there is no texture.
+std::vector<double> uv_displacements(const Simplified_soup& result, const Prepared_soup& prepared)
+{
+  const Triangle_soup& original = prepared.soup;
+  std::vector<double> displacements;
+  const double unit = uv_unit(original, prepared.scale) / diagonal(original, prepared.scale);
+  if (!(unit > 0))
+    return displacements;
+  const std::vector<Index> charts_of_original = charts_of(original);
+  std::map<Index, Chart> charts;
+  for (Index i = 0; i < result.triangles.size(); ++i)
+    charts[charts_of_original[result.triangles[i]]].insert(triangle_of(result.soup, i, prepared.scale),
+                                                           uvs_of(result.soup, i));
+  for (auto& [number, chart] : charts)
+    chart.build();
+
+  displacements.assign(original.triangles.size(), 0);
+  const auto measure = [&](Index t) {
+    static thread_local Cancellation_poll poll;
+    poll();
+    const auto chart = charts.find(charts_of_original[t]);
+    if (!has_texture(original, t) || chart == charts.end() || chart->second.empty())
+      return;
+    const auto [a, b, c] = uvs_of(original, t);
+    const Triangle_3 triangle = triangle_of(original, t, prepared.scale);
+    const Uv now = chart->second.uv_near(CGAL::centroid(triangle[0], triangle[1], triangle[2]));
+    displacements[t] =
+        unit * std::hypot(now[0] - (a[0] + b[0] + c[0]) / 3, now[1] - (a[1] + b[1] + c[1]) / 3);
+  };
+  tbb::parallel_for(Index(0), Index(original.triangles.size()), Cancellation_scope::inherited(measure));
+  return displacements;
+}
+
+std::optional<Uv_deviation> deviation_of(const std::vector<double>& displacements,
+                                         const Prepared_soup& original, const std::vector<Index>& triangles)
+{
+  double area = 0, sum = 0, maximum = 0;
+  for (const Index t : triangles) {
+    if (displacements.empty() || !has_texture(original.soup, t))
+      continue;
+    const double weight = std::sqrt(triangle_of(original.soup, t, original.scale).squared_area());
+    area += weight;
+    sum += weight * displacements[t];
+    maximum = std::max(maximum, displacements[t]);
+  }
+  if (!(area > 0))
+    return std::nullopt;
+  return Uv_deviation{sum / area, maximum};
+}
+
+/// Returns the geometry of some parts, each as a soup of its own.
+std::vector<Triangle_soup> submesh(const Triangle_soup& soup,
+                                   const std::vector<std::vector<Index>>& triangles_of_part,
+                                   const std::vector<Index>& parts, const Scale& scale)
+{
+  constexpr Index none = std::numeric_limits<Index>::max();
+  std::vector<Index> last_users(soup.points.size(), none), numbers(soup.points.size());
+  std::vector<Triangle_soup> cuts(parts.size());
+  for (Index i = 0; i < parts.size(); ++i)
+    for (const Index t : triangles_of_part[parts[i]]) {
+      Index_triple corners = soup.triangles[t];
+      for (Index& v : corners) {
+        if (last_users[v] != i) {
+          last_users[v] = i;
+          numbers[v] = Index(cuts[i].points.size());
+          cuts[i].points.push_back(scale(soup.points[v]));
+        }
+        v = numbers[v];
+      }
+      cuts[i].triangles.push_back(corners);
+    }
+  return cuts;
+}
+
+} // namespace
+
+std::optional<Uv_deviation> uv_deviation(const Simplified_soup& result, const Prepared_soup& original)
+{
+  std::vector<Index> all(original.soup.triangles.size());
+  std::iota(all.begin(), all.end(), Index(0));
+  return deviation_of(uv_displacements(result, original), original, all);
+}
+
+std::vector<Part_report> part_reports(const Simplified_soup& result, const Prepared_soup& original)
+{
+  const std::vector<double> displacements = uv_displacements(result, original);
+  const double unit = diagonal(original.soup, original.scale);
+  const std::vector<Part_kind> kinds = part_kinds(original.soup);
+  std::vector<Part_report> reports;
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    const Part_kind& kind = kinds[k];
+    std::vector<std::vector<Index>> triangles_before(kind.count), triangles_after(kind.count);
+    for (Index t = 0; t < kind.of_triangle.size(); ++t)
+      triangles_before[kind.of_triangle[t]].push_back(t);
+    for (Index i = 0; i < result.triangles.size(); ++i)
+      triangles_after[kind.of_triangle[result.triangles[i]]].push_back(i);
+
+    std::vector<Index> parts(kind.count);
+    std::iota(parts.begin(), parts.end(), Index(0));
+    if (kind.name == Part_kind::Name::piece && parts.size() > s_pieces_reported) {
+      std::stable_sort(parts.begin(), parts.end(), [&](Index a, Index b) {
+        return triangles_before[a].size() > triangles_before[b].size();
+      });
+      parts.resize(s_pieces_reported);
+    }
+    parts.erase(std::remove_if(parts.begin(), parts.end(),
+                               [&](Index part) { return triangles_before[part].empty(); }),
+                parts.end());
+    const std::vector<Triangle_soup> before = submesh(original.soup, triangles_before, parts, original.scale);
+    const std::vector<Triangle_soup> after = submesh(result.soup, triangles_after, parts, original.scale);
+    const std::size_t first = reports.size();
+    reports.resize(first + parts.size());
+    const auto report = [&](std::size_t i) {
+      const Index part = parts[i];
+      Distance distance = selvedge::distance(before[i], after[i]);
+      distance.root_mean_square /= unit;
+      distance.maximum /= unit;
+      reports[first + i] = {kind.name,
+                            kind.names.empty() ? "" : kind.names[part],
+                            triangles_before[part].front(),
+                            triangles_before[part].size(),
+                            triangles_after[part].size(),
+                            result.refused_by_part[k][part],
+                            distance,
+                            deviation_of(displacements, original, triangles_before[part])};
+    };
+    tbb::parallel_for(std::size_t(0), parts.size(), Cancellation_scope::inherited(report));
+  }
+  return reports;
+}
+
+} // namespace selvedge

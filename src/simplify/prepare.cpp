@@ -1,0 +1,230 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <selvedge/prepare.h>
+
+#include "Stopwatch.h"
+#include "files/transforms_of_vertices.h"
+#include "soup/number_positions.h"
+#include "soup/obstacle.h"
+#include "soup/selection.h"
+#include "weld/snapping.h"
+
+#include <selvedge/Error.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace selvedge {
+namespace {
+
+bool has_two_corners_at_one_position(const Index_triple& triangle, const std::vector<Index>& positions)
+{
+  const Index a = positions[triangle[0]], b = positions[triangle[1]], c = positions[triangle[2]];
+  return a == b || b == c || c == a;
+}
+
+// Names a triangle by its number in its own file, from 1; those of the obstacle follow those of the mesh.
+std::string name_of(Index triangle, std::size_t own_triangles)
+{
+  return triangle < own_triangles ? std::to_string(triangle + 1)
+                                  : std::to_string(triangle - own_triangles + 1) + " of the obstacle";
+}
+
+void refuse_if_any(const std::vector<Offending_pair>& pairs, std::size_t own_triangles)
+{
+  if (pairs.empty())
+    return;
+  const Offending_pair& pair = pairs.front();
+  const std::string first = name_of(pair.first, own_triangles);
+  const std::string what =
+      pair.offence == Offence::degenerate
+          ? "triangle " + first + " is degenerate"
+          : "triangles " + first + " and " + name_of(pair.second, own_triangles) +
+                (pair.offence == Offence::duplicate ? " have the same three corners" : " intersect");
+  throw Input_error(
+      "the mesh is not embedded: " + what +
+      (pairs.size() == 1 ? "" : ", and " + std::to_string(pairs.size() - 1) + " more such pairs") +
+      "; repair it, or leave out the strict option to keep these triangles as they are");
+}
+
+bool stores_only_float32(const Triangle_soup& soup)
+{
+  return std::all_of(soup.points.begin(), soup.points.end(), [](const Point_3& point) {
+    return is_float32(point.x()) && is_float32(point.y()) && is_float32(point.z());
+  });
+}
+
+// Gives different positions to vertices that rounding has separated: where a vertex of the soup has moved and
+// a vertex of the obstacle at the same position has not. `after` numbers the positions as they are now.
+void take_apart(std::vector<Index>& positions, const std::vector<Index>& after)
+{
+  std::vector<Index> first_left(positions.size(), std::numeric_limits<Index>::max()); // by position before
+  for (Index v = 0; v < positions.size(); ++v)
+    if (after[v] != after[positions[v]])
+      positions[v] = first_left[positions[v]] = std::min(first_left[positions[v]], v);
+}
+
+/// The steps of `prepare`, in their order. Each judgement is made once.
+class Preparation
+{
+public:
+  Preparation(Triangle_soup input, const Prepare_options& options, const Triangle_soup& obstacle)
+      : m_options(options)
+  {
+    m_prepared.soup = std::move(input);
+    m_prepared.obstacle.points = obstacle.points;
+    m_prepared.obstacle.triangles = obstacle.triangles;
+  }
+
+  Prepared_soup run()
+  {
+    leave_out_degenerate();
+    if (m_options.round_to_float32 && !stores_only_float32(soup()))
+      round();
+    if (soup().triangles.empty())
+      throw Input_error(
+          "every triangle of the mesh has two corners at one position; there is nothing to reduce");
+    m_prepared.scale = Scale(soup(), obstacle());
+    m_prepared.seconds_positions += m_stopwatch.restart();
+
+    const std::size_t own_triangles = soup().triangles.size();
+    append_obstacle(soup(), obstacle());
+    judge(own_triangles);
+    freeze(own_triangles);
+    m_prepared.seconds_check += m_stopwatch.restart();
+    snap();
+    m_prepared.seconds_snap = m_stopwatch.restart();
+    remove_obstacle(soup(), obstacle());
+    return std::move(m_prepared);
+  }
+
+private:
+  Triangle_soup& soup() { return m_prepared.soup; }
+  Triangle_soup& obstacle() { return m_prepared.obstacle; }
+
+  // The positions of the obstacle follow those of the soup.
+  std::vector<Index> number_positions_of_both() const
+  {
+    return number_positions(geometry_with_obstacle(m_prepared.soup, m_prepared.obstacle).points);
+  }
+
+  std::size_t leave_out(const std::vector<Index>& positions)
+  {
+    std::vector<Index> kept;
+    for (Index t = 0; t < soup().triangles.size(); ++t)
+      if (!has_two_corners_at_one_position(soup().triangles[t], positions))
+        kept.push_back(t);
+    const std::size_t left_out = soup().triangles.size() - kept.size();
+    if (left_out > 0)
+      keep_triangles(soup(), kept);
+    return left_out;
+  }
+
+  void leave_out_degenerate()
+  {
+    m_prepared.positions = number_positions_of_both();
+    const std::vector<Index> of_obstacle(m_prepared.positions.begin() + soup().points.size(),
+                                         m_prepared.positions.end());
+    const auto is_degenerate = [](const std::vector<Index>& positions) {
+      return [&positions](const Index_triple& v) { return has_two_corners_at_one_position(v, positions); };
+    };
+    const auto& own = soup().triangles;
+    auto& others = obstacle().triangles;
+    if (m_options.is_strict && (std::any_of(own.begin(), own.end(), is_degenerate(m_prepared.positions)) ||
+                                std::any_of(others.begin(), others.end(), is_degenerate(of_obstacle))))
+      refuse_if_any(offending_pairs(geometry_with_obstacle(soup(), obstacle())), own.size());
+    others.erase(std::remove_if(others.begin(), others.end(), is_degenerate(of_obstacle)), others.end());
+    m_prepared.left_out_faces = leave_out(m_prepared.positions);
+  }
+
+  // Also finds which pairs offended before rounding, and the positions after it.
+  void round()
+  {
+    Triangle_soup unrounded;
+    unrounded.points = soup().points;
+    if (m_options.is_strict) { // judges before rounding, since triangles may have other numbers afterwards
+      m_prepared.seconds_positions += m_stopwatch.restart();
+      refuse_if_any(offending_pairs(geometry_with_obstacle(soup(), obstacle())), soup().triangles.size());
+      m_prepared.seconds_check += m_stopwatch.restart();
+    }
+    m_prepared.rounding = round_to_float32(soup());
+    m_positions_rounded = number_positions_of_both();
+    m_prepared.left_out_by_rounding = leave_out(m_positions_rounded);
+    take_apart(m_prepared.positions, m_positions_rounded);
+    m_prepared.seconds_positions += m_stopwatch.restart();
+    if (!m_options.is_strict) {
+      unrounded.triangles = soup().triangles;
+      append_obstacle(unrounded, obstacle());
+      m_pairs_before_rounding = offending_pairs(unrounded);
+      m_prepared.seconds_check += m_stopwatch.restart();
+    }
+  }
+
+  void judge(std::size_t own_triangles)
+  {
+    m_prepared.offending_pairs = offending_pairs(soup());
+    if (m_prepared.rounding.coordinates == 0) {
+      if (m_options.is_strict)
+        refuse_if_any(m_prepared.offending_pairs, own_triangles);
+      return;
+    }
+    const auto comes_before = [](const Offending_pair& a, const Offending_pair& b) {
+      return std::make_pair(a.first, a.second) < std::make_pair(b.first, b.second);
+    };
+    m_prepared.pairs_by_rounding =
+        std::count_if(m_prepared.offending_pairs.begin(), m_prepared.offending_pairs.end(),
+                      [&](const Offending_pair& pair) {
+                        return !std::binary_search(m_pairs_before_rounding.begin(),
+                                                   m_pairs_before_rounding.end(), pair, comes_before);
+                      });
+  }
+
+  void freeze(std::size_t own_triangles)
+  {
+    std::vector<char>& is_frozen = m_prepared.is_frozen;
+    is_frozen.assign(soup().triangles.size(), false);
+    for (const Offending_pair& pair : m_prepared.offending_pairs)
+      is_frozen[pair.first] = is_frozen[pair.second] = true;
+    if (!m_positions_rounded.empty()) {
+      std::vector<char> is_merged(soup().points.size(), false); // by position after rounding: it was several
+      for (Index v = 0; v < m_positions_rounded.size(); ++v)
+        is_merged[m_positions_rounded[v]] |=
+            m_prepared.positions[v] != m_prepared.positions[m_positions_rounded[v]];
+      for (Index t = 0; t < own_triangles; ++t)
+        for (const Index v : soup().triangles[t])
+          is_frozen[t] |= is_merged[m_positions_rounded[v]];
+    }
+    m_prepared.frozen_faces = std::count(is_frozen.begin(), is_frozen.begin() + own_triangles, true);
+    std::fill(is_frozen.begin() + own_triangles, is_frozen.end(), true);
+  }
+
+  void snap()
+  {
+    std::vector<Index> transforms = transforms_of_vertices(soup());
+    if (!transforms.empty()) // no node of the scene transforms the vertices of the obstacle
+      transforms.resize(soup().points.size(), std::numeric_limits<Index>::max());
+    m_prepared.snapping =
+        snap_borders(soup(), m_prepared.positions, m_prepared.is_frozen, m_options.weld_distance, transforms,
+                     obstacle().triangles.size(), m_prepared.scale);
+  }
+
+  Prepare_options m_options;
+  Prepared_soup m_prepared;
+  std::vector<Index> m_positions_rounded;              // by vertex; empty when nothing was rounded
+  std::vector<Offending_pair> m_pairs_before_rounding; // with triangle numbers after it
+  Stopwatch m_stopwatch;
+};
+
+} // namespace
+
+Prepared_soup prepare(Triangle_soup input, const Prepare_options& options, const Triangle_soup& obstacle)
+{
+  if (input.triangles.empty())
+    throw Input_error("the mesh has no triangles");
+  return Preparation(std::move(input), options, obstacle).run();
+}
+
+} // namespace selvedge

@@ -1,0 +1,285 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "reduce_in_cells.h"
+
+#include <selvedge/Cancellation_scope.h>
+#include <selvedge/Surface_mesh_simplification/internal/Simplification.h>
+
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/partitioner.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <functional>
+#include <limits>
+#include <mutex>
+#include <numeric>
+#include <utility>
+
+namespace selvedge {
+namespace {
+
+constexpr double s_infinity = std::numeric_limits<double>::infinity();
+
+/// An open box, which may be unbounded, in coordinates divided by the scale.
+struct Box
+{
+  std::array<double, 3> low{-s_infinity, -s_infinity, -s_infinity};
+  std::array<double, 3> high{s_infinity, s_infinity, s_infinity};
+
+  bool contains(const Point_3& p) const
+  {
+    for (int i = 0; i < 3; ++i)
+      if (!(low[i] < p[i] && p[i] < high[i]))
+        return false;
+    return true;
+  }
+};
+
+/// Asks `should_stop` of the options on behalf of all cells.
+class Shared_stop
+{
+public:
+  explicit Shared_stop(const Cell_context& whole)
+      : m_should_stop(whole.options.should_stop), m_progress(whole.progress)
+  {
+  }
+
+  /// Counts `gone` further faces as collapsed, and returns whether to stop. Once the answer was yes, nobody
+  /// is asked again.
+  bool ask(std::size_t gone = 0)
+  {
+    if (!m_should_stop) {
+      Cancellation_scope::check();
+      return false;
+    }
+    const std::lock_guard lock(m_mutex);
+    m_progress.faces -= std::min(m_progress.faces, gone);
+    return m_is_stopped = m_is_stopped || m_should_stop(m_progress);
+  }
+
+  bool is_stopped() const { return m_is_stopped; }
+
+  /// Returns the `should_stop` of one cell.
+  std::function<bool(const Simplify_progress&)> of_cell()
+  {
+    return [this, told = std::size_t(0)](const Simplify_progress& of_cell) mutable {
+      const std::size_t gone = of_cell.faces_input - of_cell.faces;
+      return ask(gone - std::exchange(told, gone));
+    };
+  }
+
+private:
+  const std::function<bool(const Simplify_progress&)>& m_should_stop;
+  std::mutex m_mutex;
+  Simplify_progress m_progress;
+  std::atomic<bool> m_is_stopped = false;
+};
+
+/// A box, and all triangles whose bounding boxes meet its closure. Triangles of the obstacle follow those of
+/// the soup.
+struct Cell
+{
+  Box box;
+  std::vector<Index> triangles;
+};
+
+/// Divides space into cells at medians of vertices, unless it is stopped. Each division at least halves the
+/// number of vertices of a box.
+class Division
+{
+public:
+  Division(const Cell_context& whole, Shared_stop& stop)
+      : m_soup(whole.prepared.soup), m_obstacle(whole.prepared.obstacle), m_scale(whole.prepared.scale),
+        m_vertices_per_cell(whole.options.faces_per_cell / 2 + whole.options.faces_per_cell % 2), m_stop(stop)
+  {
+    std::vector<Index> vertices;
+    for (Index v = 0; v < m_soup.points.size(); ++v)
+      if (whole.prepared.positions[v] == v)
+        vertices.push_back(v);
+    std::vector<Index> triangles(m_soup.triangles.size() + m_obstacle.triangles.size());
+    std::iota(triangles.begin(), triangles.end(), Index(0));
+    divide({}, vertices.begin(), vertices.end(), std::move(triangles));
+  }
+
+  std::vector<Cell> take() { return std::move(m_cells); }
+
+private:
+  using Iterator = std::vector<Index>::iterator;
+
+  void divide(const Box& box, Iterator first, Iterator beyond, std::vector<Index> triangles)
+  {
+    const std::size_t count = beyond - first;
+    if (count <= m_vertices_per_cell) {
+      if (count > 0)
+        m_cells.push_back({box, std::move(triangles)});
+      return;
+    }
+    if (m_stop.ask())
+      return;
+    const int axis = longest_axis(first, beyond);
+    const auto coordinate = [&](Index v) { return m_scale(m_soup.points[v][axis]); };
+    const Iterator middle = first + count / 2;
+    std::nth_element(first, middle, beyond, [&](Index a, Index b) { return coordinate(a) < coordinate(b); });
+    const double plane = coordinate(*middle);
+    // Vertices in the plane are in no cell.
+    const Iterator first_part = std::partition(first, middle, [&](Index v) { return coordinate(v) < plane; });
+    const Iterator second_part =
+        std::partition(middle, beyond, [&](Index v) { return !(coordinate(v) > plane); });
+
+    Box below = box, above = box;
+    below.high[axis] = above.low[axis] = plane;
+    std::vector<Index> triangles_below, triangles_above;
+    for (const Index t : triangles) {
+      const auto [low, high] = extent(t, axis);
+      if (low <= plane)
+        triangles_below.push_back(t);
+      if (high >= plane)
+        triangles_above.push_back(t);
+    }
+    triangles = {};
+    divide(below, first, first_part, std::move(triangles_below));
+    divide(above, second_part, beyond, std::move(triangles_above));
+  }
+
+  int longest_axis(Iterator first, Iterator beyond) const
+  {
+    CGAL::Bbox_3 box;
+    for (Iterator v = first; v != beyond; ++v)
+      box += m_scale(m_soup.points[*v]).bbox();
+    int longest = 0;
+    for (int i = 1; i < 3; ++i)
+      if (box.max(i) - box.min(i) > box.max(longest) - box.min(longest))
+        longest = i;
+    return longest;
+  }
+
+  std::pair<double, double> extent(Index t, int axis) const
+  {
+    const bool is_own = t < m_soup.triangles.size();
+    const Triangle_soup& soup = is_own ? m_soup : m_obstacle;
+    const auto& [a, b, c] = soup.triangles[is_own ? t : t - m_soup.triangles.size()];
+    return std::minmax(
+        {m_scale(soup.points[a][axis]), m_scale(soup.points[b][axis]), m_scale(soup.points[c][axis])});
+  }
+
+  const Triangle_soup& m_soup;
+  const Triangle_soup& m_obstacle;
+  const Scale& m_scale;
+  std::size_t m_vertices_per_cell;
+  Shared_stop& m_stop;
+  std::vector<Cell> m_cells;
+};
+
+/// The collapses of one cell, which is reduced as if it had to reach the share alone.
+struct Cell_run
+{
+  struct Collapse
+  {
+    Working_mesh::Side moving;
+    double cost;
+  };
+  std::vector<Collapse> collapses;
+  std::size_t movable_vertices = 0;
+  double last_cost = s_infinity; ///< the highest cost; infinite when the cell did not reach its target
+};
+
+// Locks all vertices that are not strictly inside the cell, and their neighbours. Returns the number of
+// vertices that are not locked.
+std::size_t lock_outside(Working_mesh& working, const Box& box)
+{
+  const Working_mesh::Mesh& mesh = working.mesh();
+  auto& locked = working.constraints().locked_vertices;
+  std::vector<char> is_locked(mesh.number_of_vertices(), false), is_bound = is_locked;
+  for (const auto v : mesh.vertices())
+    is_bound[v] = !box.contains(mesh.point(v));
+  for (const auto v : locked)
+    is_locked[v] = true;
+  for (const auto e : mesh.edges()) {
+    const auto a = mesh.vertex(e, 0), b = mesh.vertex(e, 1);
+    for (const auto v : {a, b})
+      if (!is_locked[v] && (is_bound[a] || is_bound[b])) {
+        is_locked[v] = true;
+        locked.push_back(v);
+      }
+  }
+  return mesh.number_of_vertices() - locked.size();
+}
+
+Cell_run run_cell(const Cell_context& whole, const Cell& cell, Shared_stop& stop)
+{
+  Cell_run run;
+  if (stop.ask())
+    return run;
+  Working_mesh working(whole.working, whole.rule, cell.triangles);
+  run.movable_vertices = lock_outside(working, cell.box);
+  const std::size_t wanted = std::size_t(whole.share * double(run.movable_vertices));
+  if (wanted == 0)
+    return run;
+
+  working.constraints().diagonal = whole.diagonal;
+  Simplify_options options = whole.options;
+  options.ratio.reset();
+  const std::size_t faces = cell.triangles.size() - working.constraints().uncounted_faces.size();
+  options.faces = faces - std::min(faces, 2 * wanted);
+  options.should_stop = stop.of_cell();
+  internal::Simplification<Working_mesh::Mesh, Working_mesh> simplification(working.mesh(), options,
+                                                                            working.constraints(), working);
+  double highest_cost = 0;
+  working.record([&](const Working_mesh::Side& moving) {
+    const Index triangle = cell.triangles[moving.triangle]; // one of the soup: nothing moves at an obstacle
+    highest_cost = std::max(highest_cost, simplification.cost());
+    run.collapses.push_back({{triangle, moving.place, moving.is_beyond}, simplification.cost()});
+  });
+  if (simplification.run().is_reached())
+    run.last_cost = highest_cost;
+  return run;
+}
+
+// Returns the cost up to which the collapses of cells are done: half of the cells, weighted by their movable
+// vertices, have reached their share at this cost. All stop at one cost, as a reduction of the whole does.
+double common_cost(const std::vector<Cell_run>& runs)
+{
+  std::vector<std::pair<double, std::size_t>> costs;
+  std::size_t total = 0;
+  for (const Cell_run& run : runs) {
+    costs.push_back({run.last_cost, run.movable_vertices});
+    total += run.movable_vertices;
+  }
+  std::sort(costs.begin(), costs.end());
+  std::size_t passed = 0;
+  for (const auto& [cost, vertices] : costs)
+    if (2 * (passed += vertices) >= total)
+      return cost;
+  return s_infinity;
+}
+
+} // namespace
+
+Cell_collapses reduce_in_cells(const Cell_context& whole)
+{
+  Shared_stop stop(whole);
+  const std::vector<Cell> cells = Division(whole, stop).take();
+  Cell_collapses result;
+  result.cells = cells.size();
+  result.is_stopped = stop.is_stopped();
+  if (cells.size() < 2)
+    return result;
+  std::vector<Cell_run> runs(cells.size());
+  const auto reduce = [&](std::size_t i) { runs[i] = run_cell(whole, cells[i], stop); };
+  tbb::parallel_for(std::size_t(0), cells.size(), Cancellation_scope::inherited(reduce),
+                    tbb::simple_partitioner());
+  result.is_stopped = stop.is_stopped();
+  const double limit = result.is_stopped ? s_infinity : common_cost(runs);
+  for (const Cell_run& run : runs)
+    for (const auto& [moving, cost] : run.collapses) {
+      if (cost > limit)
+        break;
+      result.collapses.push_back(moving);
+    }
+  return result;
+}
+
+} // namespace selvedge

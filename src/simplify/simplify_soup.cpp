@@ -1,0 +1,217 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <selvedge/simplify.h>
+
+#include "Stopwatch.h"
+#include "reduce_in_cells.h"
+#include "soup/Working_mesh.h"
+#include "soup/obstacle.h"
+#include "soup/selection.h"
+#include "soup/texture.h"
+#include "soup/vertex_weights.h"
+
+#include <selvedge/Error.h>
+#include <selvedge/Parts.h>
+#include <selvedge/Surface_mesh_simplification/internal/Simplification.h>
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <string>
+#include <utility>
+
+namespace selvedge {
+namespace {
+
+/// One reduction of a soup, which can be looked at on its way.
+class Soup_reduction
+{
+public:
+  Soup_reduction(const Prepared_soup& prepared, const Simplify_options& options,
+                 const Simplify_intent& intent)
+      : m_options(options), m_prepared(prepared),
+        m_working(prepared.soup, prepared.positions, frozen(prepared, intent), prepared.obstacle,
+                  prepared.scale),
+        m_seconds_sew(m_stopwatch.seconds()),
+        m_simplification(m_working.mesh(), m_options, constraints(prepared.soup, intent), m_working)
+  {
+  }
+
+  Simplified_soup run()
+  {
+    if (m_options.faces_per_cell > 0)
+      run_in_cells();
+    return state(m_simplification.run());
+  }
+
+  /// Returns the states in which runs to some ratios would end. `ratios` are in descending order.
+  std::vector<Simplified_soup> run(const std::vector<double>& ratios)
+  {
+    std::vector<Simplified_soup> levels;
+    m_simplification.run(ratios, [&](const Simplify_report& report) { levels.push_back(state(report)); });
+    return levels;
+  }
+
+private:
+  static std::vector<char> frozen(const Prepared_soup& prepared, const Simplify_intent& intent)
+  {
+    std::vector<char> is_frozen = prepared.is_frozen;
+    for (const auto* names : {&intent.locked, &intent.kept})
+      for (const std::string& name : *names) {
+        const std::vector<char> is_named = triangles_named(prepared.soup, name);
+        std::transform(is_named.begin(), is_named.end(), is_frozen.begin(), is_frozen.begin(),
+                       std::logical_or<char>());
+      }
+    return is_frozen;
+  }
+
+  const Simplify_constraints<Working_mesh::Mesh>& constraints(const Triangle_soup& soup,
+                                                              const Simplify_intent& intent)
+  {
+    auto& constraints = m_working.constraints();
+    const auto add_share = [&](const std::string& name, double ratio) {
+      const std::vector<char> is_named = triangles_named(soup, name);
+      constraints.shares.push_back({{}, ratio});
+      for (Index t = 0; t < is_named.size(); ++t)
+        if (is_named[t])
+          constraints.shares.back().faces.emplace_back(t);
+    };
+    for (const Simplify_intent::Part_ratio& part : intent.ratios)
+      add_share(part.name, part.ratio);
+    for (const std::string& name : intent.kept)
+      add_share(name, 1);
+    if (!intent.weights.empty())
+      m_working.weigh(vertex_weights(soup, intent.weights));
+    if (m_options.uv_weight > 0)
+      m_working.measure_uvs(uv_unit(soup, m_prepared.scale));
+    m_working.count_refusals(part_kinds(soup));
+    m_working.on_collapse(m_options.on_collapse);
+    return constraints;
+  }
+
+  // Finds collapses in cells, and does them to the whole mesh, which then knows as much of them as of its own
+  // collapses. Cells go a little less far than a reduction of the whole alone would. The reduction that
+  // follows also collapses where cells meet, and evens out differences between them.
+  void run_in_cells()
+  {
+    constexpr double caution = 0.97;
+    const Stopwatch stopwatch;
+    const auto total = m_simplification.targets().total();
+    const std::size_t movable =
+        m_working.mesh().number_of_vertices() - m_working.constraints().locked_vertices.size();
+    if (movable == 0)
+      return;
+    const double share =
+        caution * double(m_simplification.targets().total_excess()) / (2.0 * double(movable));
+    const Cell_collapses found = reduce_in_cells({m_prepared,
+                                                  m_working,
+                                                  m_simplification.rule(),
+                                                  m_options,
+                                                  m_simplification.diagonal(),
+                                                  {total.faces, total.target, total.faces},
+                                                  share});
+    m_cells = found.cells;
+    const std::size_t faces_left = total.faces - std::min(total.faces, 2 * found.collapses.size());
+    const Simplify_progress progress{total.faces, total.target, faces_left};
+    bool is_stopped = found.is_stopped;
+    for (const Working_mesh::Side& moving : found.collapses) {
+      // Small cells may together go too far, each by its last face.
+      if (m_simplification.targets().is_reached())
+        break;
+      // When the cells were stopped, all that they have reached is done without another question.
+      constexpr std::size_t collapses_between_questions = 4096;
+      if (!is_stopped && m_options.should_stop && m_collapses_in_cells % collapses_between_questions == 0 &&
+          m_options.should_stop(progress)) {
+        is_stopped = true;
+        break;
+      }
+      m_simplification.collapse(m_working.halfedge(moving));
+      ++m_collapses_in_cells;
+    }
+    if (is_stopped)
+      m_options.should_stop = [](const Simplify_progress&) { return true; };
+    m_seconds_cells = stopwatch.seconds();
+  }
+
+  Simplified_soup state(const Simplify_report& report) const
+  {
+    const Stopwatch stopwatch;
+    Simplified_soup result;
+    Working_mesh::Result left = m_working.result();
+    result.soup = std::move(left.soup);
+    result.triangles = std::move(left.triangles);
+    result.corners = std::move(left.corners);
+    result.sewing = m_working.notes();
+    result.report = report;
+    result.report.cells = m_cells;
+    result.report.collapses_in_cells = m_collapses_in_cells;
+    result.report.seconds_cells = m_seconds_cells;
+    result.refused_by_part = m_working.refused_by_part();
+    result.seconds_sew = m_seconds_sew + stopwatch.seconds();
+    return result;
+  }
+
+  Simplify_options m_options;
+  const Prepared_soup& m_prepared;
+  Stopwatch m_stopwatch;
+  Working_mesh m_working;
+  double m_seconds_sew;
+  internal::Simplification<Working_mesh::Mesh, Working_mesh> m_simplification;
+  std::size_t m_cells = 0;
+  std::size_t m_collapses_in_cells = 0;
+  double m_seconds_cells = 0;
+};
+
+} // namespace
+
+Simplified_soup simplify_soup(const Prepared_soup& prepared, const Simplify_options& options,
+                              const Simplify_intent& intent)
+{
+  if (options.faces_per_cell > 0 && !intent.ratios.empty())
+    throw Argument_error("in cells no part can have a ratio of its own; leave out one of the two options");
+  return Soup_reduction(prepared, options, intent).run();
+}
+
+std::vector<Simplified_soup> simplify_lods(const Prepared_soup& prepared, const Simplify_options& options,
+                                           const std::vector<double>& ratios, const Simplify_intent& intent)
+{
+  if (options.faces)
+    throw Argument_error("levels of detail are ratios; leave out the number of faces");
+  std::vector<Simplified_soup> levels(ratios.size());
+  Simplify_options to_level = options;
+  if (!intent.ratios.empty() || options.faces_per_cell > 0) {
+    for (std::size_t i = 0; i < ratios.size(); ++i) {
+      to_level.ratio = ratios[i];
+      levels[i] = simplify_soup(prepared, to_level, intent);
+      if (levels[i].report.is_stopped) {
+        std::fill(levels.begin() + std::ptrdiff_t(i) + 1, levels.end(), levels[i]);
+        break;
+      }
+    }
+    return levels;
+  }
+  std::vector<std::size_t> order(ratios.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t i, std::size_t j) { return ratios[i] > ratios[j]; });
+  std::vector<double> descending;
+  for (const std::size_t i : order)
+    descending.push_back(ratios[i]);
+  if (descending.empty())
+    return levels;
+  to_level.ratio = descending.back();
+  std::vector<Simplified_soup> states = Soup_reduction(prepared, to_level, intent).run(descending);
+  for (std::size_t i = 0; i < order.size(); ++i)
+    levels[order[i]] = std::move(states[i]);
+  return levels;
+}
+
+Verification verify(const Simplified_soup& result, const Prepared_soup& original)
+{
+  Verify_options options;
+  options.are_shapes_judged = false; // limits take care of shapes, or the user wants none
+  return verify(result.soup, original.soup, original.offending_pairs, options, original.obstacle);
+}
+
+} // namespace selvedge

@@ -1,0 +1,115 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <selvedge/Parts.h>
+
+#include <selvedge/Error.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <set>
+#include <sstream>
+
+namespace selvedge {
+namespace {
+
+constexpr Index s_none = std::numeric_limits<Index>::max();
+
+Part_kind pieces_of(const Triangle_soup& soup)
+{
+  std::vector<Index> parents(soup.points.size());
+  std::iota(parents.begin(), parents.end(), Index(0));
+  const auto root = [&](Index v) {
+    while (parents[v] != v)
+      v = parents[v] = parents[parents[v]];
+    return v;
+  };
+  for (const auto& [a, b, c] : soup.triangles) {
+    const Index i = root(a), j = root(b), k = root(c);
+    parents[i] = parents[j] = parents[k] = std::min({i, j, k});
+  }
+  Part_kind pieces{Part_kind::Name::piece, {}, {}, 0};
+  std::vector<Index> numbers(soup.points.size(), s_none); // by root
+  pieces.of_triangle.reserve(soup.triangles.size());
+  for (const Index_triple& triangle : soup.triangles) {
+    Index& number = numbers[root(triangle[0])];
+    if (number == s_none)
+      number = pieces.count++;
+    pieces.of_triangle.push_back(number);
+  }
+  return pieces;
+}
+
+template <class Function>
+void for_each_label(const Triangle_soup& soup, const Function& function)
+{
+  function(Part_kind::Name::group, soup.groups);
+  function(Part_kind::Name::object, soup.objects);
+  function(Part_kind::Name::material, soup.materials);
+}
+
+bool has_word(const std::string& text, const std::string& word)
+{
+  std::istringstream words(text);
+  for (std::string next; words >> next;)
+    if (next == word)
+      return true;
+  return false;
+}
+
+} // namespace
+
+const char* name(Part_kind::Name kind)
+{
+  switch (kind) {
+  case Part_kind::Name::piece:
+    return "piece";
+  case Part_kind::Name::group:
+    return "group";
+  case Part_kind::Name::object:
+    return "object";
+  case Part_kind::Name::material:
+    return "material";
+  }
+  return "";
+}
+
+std::vector<Part_kind> part_kinds(const Triangle_soup& soup)
+{
+  std::vector<Part_kind> kinds{pieces_of(soup)};
+  for_each_label(soup, [&](Part_kind::Name kind, const Triangle_labels& labels) {
+    if (!labels.empty())
+      kinds.push_back({kind, labels.of_triangle, labels.names, Index(labels.names.size())});
+  });
+  return kinds;
+}
+
+std::vector<char> triangles_named(const Triangle_soup& soup, const std::string& name)
+{
+  std::vector<char> is_named(soup.triangles.size(), false);
+  std::set<std::string> known;
+  for_each_label(soup, [&](Part_kind::Name, const Triangle_labels& labels) {
+    std::vector<char> is_meant;
+    for (const std::string& label : labels.names)
+      is_meant.push_back(!name.empty() && (label == name || has_word(label, name)));
+    std::vector<char> is_used(labels.names.size(), false);
+    for (std::size_t t = 0; t < labels.of_triangle.size(); ++t) {
+      is_named[t] |= is_meant[labels.of_triangle[t]];
+      is_used[labels.of_triangle[t]] = true;
+    }
+    for (std::size_t i = 0; i < is_used.size(); ++i)
+      if (is_used[i])
+        known.insert(labels.names[i]);
+  });
+  if (std::find(is_named.begin(), is_named.end(), true) != is_named.end())
+    return is_named;
+  known.erase("");
+  std::string list;
+  for (const std::string& label : known)
+    list += (list.empty() ? "" : ", ") + label;
+  throw Argument_error("no group, object or material is called '" + name + "'; " +
+                       (list.empty() ? "the mesh names none" : "there are " + list));
+}
+
+} // namespace selvedge

@@ -1,0 +1,96 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <selvedge/internal/Scale.h>
+
+#include <selvedge/Error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <string>
+
+namespace selvedge {
+namespace {
+
+using Limits = std::numeric_limits<double>;
+
+// Every double is a multiple of 2^s_lowest, and its absolute value is less than 2^s_beyond.
+constexpr int s_lowest = Limits::min_exponent - Limits::digits, s_beyond = Limits::max_exponent;
+
+/// The powers of two between which the digits of coordinates lie: all coordinates that triangles use are
+/// multiples of 2^lowest, and their absolute values are less than 2^beyond.
+struct Digits
+{
+  int lowest = s_beyond;
+  int beyond = s_lowest;
+
+  explicit Digits(const Triangle_soup& soup)
+  {
+    for (const Index_triple& triangle : soup.triangles)
+      for (const Index v : triangle)
+        for (int axis = 0; axis < 3; ++axis)
+          add(soup.points[v][axis]);
+  }
+
+private:
+  void add(double x)
+  {
+    if (x == 0)
+      return;
+    int exponent = 0;
+    const double fraction = std::frexp(x, &exponent);
+    beyond = std::max(beyond, exponent);
+    int last = exponent - Limits::digits;
+    if (last >= lowest)
+      return;
+    for (auto digits = std::int64_t(std::ldexp(fraction, Limits::digits)); digits % 2 == 0; digits /= 2)
+      ++last;
+    lowest = std::min(lowest, last);
+  }
+};
+
+std::string power_of_two(int exponent)
+{
+  return "2^" + std::to_string(exponent);
+}
+
+} // namespace
+
+Scale::Scale(const Triangle_soup& soup, const Triangle_soup& obstacle)
+{
+  constexpr int tolerance = 140;
+  const Digits own(soup), beside(obstacle);
+  if (own.lowest > own.beyond)
+    return; // all coordinates are 0
+  // Division by 2^k is exact for every k in this range, and 0 is one of them, since coordinates are doubles.
+  const int lowest = std::min(own.lowest, beside.lowest), beyond = std::max(own.beyond, beside.beyond);
+  m_exponent = std::clamp(own.beyond, beyond - s_beyond, lowest - s_lowest);
+  if (std::abs(own.beyond - m_exponent) > tolerance)
+    throw Input_error("the coordinates differ too much in size to be scaled without loss: the largest of the "
+                      "mesh is below " +
+                      power_of_two(own.beyond) + ", the largest of mesh and obstacle is below " +
+                      power_of_two(beyond) + ", and the smallest binary digit stands for " +
+                      power_of_two(lowest) +
+                      (beyond > own.beyond ? "; bring mesh and obstacle to one unit"
+                                           : "; round the smallest coordinates to 0"));
+}
+
+Point_3 Scale::operator()(const Point_3& point) const
+{
+  return {(*this)(point.x()), (*this)(point.y()), (*this)(point.z())};
+}
+
+double Scale::operator()(double length) const
+{
+  return std::ldexp(length, -m_exponent);
+}
+
+double Scale::undone(double length) const
+{
+  return std::ldexp(length, m_exponent);
+}
+
+} // namespace selvedge

@@ -1,0 +1,159 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "Sewing.h"
+
+#include <selvedge/Cancellation_scope.h>
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+#include <unordered_set>
+#include <utility>
+
+namespace selvedge {
+namespace {
+
+/// Finds the pairs of sides that make edges.
+class Side_matching
+{
+public:
+  Side_matching(const std::vector<Index_triple>& triangles, Index own_sides, Index position_count,
+                Sewing_notes& notes)
+      : m_triangles(triangles), m_own_sides(own_sides), m_mates(3 * triangles.size(), Sewing::none)
+  {
+    struct Side
+    {
+      Index high, side;
+    };
+    const auto ends = [this](Index side) {
+      return std::minmax({position(side), position(Sewing::next(side))});
+    };
+    // Sides are sorted by their lower end in linear time, then the few that share it by their higher end.
+    std::vector<Index> places(std::size_t(position_count) + 1, 0);
+    for (Index side = 0; side < m_mates.size(); ++side)
+      ++places[ends(side).first + 1];
+    std::partial_sum(places.begin(), places.end(), places.begin());
+    std::vector<Side> sides(m_mates.size());
+    for (Index side = 0; side < m_mates.size(); ++side) {
+      const auto [low, high] = ends(side);
+      sides[places[low]++] = {high, side};
+    }
+    Cancellation_poll poll;
+    for (Index low = 0, first = 0; low < position_count; first = places[low++]) {
+      poll();
+      const auto begin = sides.begin() + first, end = sides.begin() + places[low];
+      std::sort(begin, end, [](const Side& a, const Side& b) {
+        return std::tie(a.high, a.side) < std::tie(b.high, b.side);
+      });
+      for (auto it = begin, beyond = begin; it != end; it = beyond) {
+        beyond = std::find_if(it, end, [&](const Side& side) {
+          return side.high != it->high || is_own(side.side) != is_own(it->side);
+        });
+        match(it, beyond, notes);
+      }
+    }
+  }
+
+  std::vector<Index> take_mates() { return std::move(m_mates); }
+
+  /// The sides that make no edge though there are several between two positions, grouped by these positions.
+  const std::vector<std::vector<Index>>& unsewn() const { return m_unsewn; }
+
+private:
+  Index position(Index corner) const { return m_triangles[corner / 3][corner % 3]; }
+  bool is_own(Index side) const { return side < m_own_sides; }
+
+  // Decides about all sides between two positions, either those of the soup or those of the obstacle.
+  template <class Iterator>
+  void match(Iterator first, Iterator beyond, Sewing_notes& notes)
+  {
+    if (beyond - first == 1)
+      return;
+    const Index a = first->side, b = first[1].side;
+    const bool is_opposite = position(a) != position(b);
+    notes.non_manifold_edges += is_own(a) && beyond - first > 2;
+    notes.misoriented_edges += is_own(a) && beyond - first == 2 && !is_opposite;
+    if (beyond - first == 2 && is_opposite &&
+        position(Sewing::previous(a)) != position(Sewing::previous(b))) {
+      m_mates[a] = b;
+      m_mates[b] = a;
+      return;
+    }
+    m_unsewn.emplace_back();
+    for (Iterator it = first; it != beyond; ++it)
+      m_unsewn.back().push_back(it->side);
+  }
+
+  const std::vector<Index_triple>& m_triangles; // of positions
+  Index m_own_sides;
+  std::vector<Index> m_mates;
+  std::vector<std::vector<Index>> m_unsewn;
+};
+
+} // namespace
+
+Sewing::Sewing(const std::vector<Index_triple>& triangles, Index own_sides, Index position_count,
+               Sewing_notes& notes)
+{
+  Side_matching matching(triangles, own_sides, position_count, notes);
+  m_mates = matching.take_mates();
+  number_vertices();
+  if (tear_parallel_edges(matching.unsewn()))
+    number_vertices();
+}
+
+Sewing::Sewing(std::vector<Index> mates) : m_mates(std::move(mates))
+{
+  number_vertices();
+}
+
+// Corners that follow each other around a position across sewn sides are one vertex. Every corner follows at
+// most one corner and is followed by at most one, so a walk ends at a border or where it began.
+void Sewing::number_vertices()
+{
+  m_vertices.assign(m_mates.size(), none);
+  m_vertex_count = 0;
+  Cancellation_poll poll;
+  for (Index first = 0; first < m_vertices.size(); ++first) {
+    poll();
+    if (m_vertices[first] != none)
+      continue;
+    const Index vertex = m_vertex_count++;
+    Index corner = first;
+    do {
+      m_vertices[corner] = vertex;
+      const Index across = m_mates[corner];
+      corner = across == none ? none : next(across);
+    } while (corner != none && corner != first);
+    for (Index across = m_mates[previous(first)]; corner == none && across != none;
+         across = m_mates[previous(across)])
+      m_vertices[across] = vertex;
+  }
+}
+
+// Undoes the sewing where unsewn sides would make two edges between the same two vertices. When all sides
+// sewn at these vertices are torn apart, every corner there is a vertex of its own. Once is enough: all torn
+// sides end at such corners, and no two of these are one vertex. Returns whether there were such edges.
+bool Sewing::tear_parallel_edges(const std::vector<std::vector<Index>>& unsewn)
+{
+  std::unordered_set<Index> torn;
+  for (const std::vector<Index>& sides : unsewn) {
+    std::vector<std::pair<Index, Index>> ends;
+    for (const Index side : sides)
+      ends.push_back(std::minmax({m_vertices[side], m_vertices[next(side)]}));
+    std::sort(ends.begin(), ends.end());
+    for (auto it = std::adjacent_find(ends.begin(), ends.end()); it != ends.end();
+         it = std::adjacent_find(it + 1, ends.end()))
+      torn.insert({it->first, it->second});
+  }
+  for (Index side = 0; side < m_mates.size() && !torn.empty(); ++side) {
+    if (m_mates[side] == none || !(torn.count(m_vertices[side]) || torn.count(m_vertices[next(side)])))
+      continue;
+    m_mates[m_mates[side]] = none;
+    m_mates[side] = none;
+  }
+  return !torn.empty();
+}
+
+} // namespace selvedge

@@ -1,0 +1,495 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "Working_mesh.h"
+
+#include "Sewing.h"
+
+#include <selvedge/Cancellation_scope.h>
+
+#include <CGAL/Kernel/global_functions.h>
+
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace selvedge {
+namespace {
+
+constexpr Index s_none = Sewing::none;
+
+} // namespace
+
+Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& positions,
+                           const std::vector<char>& is_frozen, const Triangle_soup& obstacle,
+                           const Scale& scale)
+    : m_soup(soup), m_scale(scale)
+{
+  const Index own_vertices = Index(soup.points.size());
+  const Index own_corners = Index(3 * soup.triangles.size());
+  const Index corner_count = own_corners + Index(3 * obstacle.triangles.size());
+  std::vector<Index_triple> triangles; // of positions
+  std::vector<char> is_used(soup.points.size(), false);
+  triangles.reserve(corner_count / 3);
+  m_corners.reserve(soup.triangles.size());
+  for (const Index_triple& v : soup.triangles) {
+    const Corner first = Corner(3 * triangles.size());
+    m_corners.push_back({first, first + 1, first + 2});
+    triangles.push_back({positions[v[0]], positions[v[1]], positions[v[2]]});
+    for (const Index i : v)
+      is_used[i] = true;
+  }
+  for (Index v = 0; v < is_used.size(); ++v) {
+    m_notes.unused_vertices += !is_used[v];
+    m_notes.coincident_vertices += is_used[v] && positions[v] != v && is_used[positions[v]];
+  }
+  for (const auto& [a, b, c] : obstacle.triangles) {
+    m_constraints.uncounted_faces.push_back(Mesh::Face_index(Index(triangles.size())));
+    triangles.push_back(
+        {positions[own_vertices + a], positions[own_vertices + b], positions[own_vertices + c]});
+  }
+
+  const Sewing sewing(triangles, own_corners, Index(positions.size()), m_notes);
+  Cancellation_scope::check();
+  std::vector<Corner> corner_of(sewing.vertex_count()); // the first corner of each vertex
+  for (Corner corner = corner_count; corner-- > 0;)
+    corner_of[sewing.vertex(corner)] = corner;
+  const std::vector<Mesh::Halfedge_index> halfedges = make_mesh(sewing, [&](Index vertex) {
+    const Corner corner = corner_of[vertex];
+    if (corner < own_corners)
+      return scale(soup.points[vertex_of(corner)]);
+    const Corner beside = corner - own_corners;
+    return scale(obstacle.points[obstacle.triangles[beside / 3][beside % 3]]);
+  });
+
+  std::vector<Index> vertices_at(positions.size(), 0); // the number of vertices, by position
+  const auto position_of = [&](Index vertex) {
+    return triangles[corner_of[vertex] / 3][corner_of[vertex] % 3];
+  };
+  const auto count_vertices = [&](Index vertex, Corner beyond) {
+    for (; vertex < corner_of.size() && corner_of[vertex] < beyond; ++vertex)
+      ++vertices_at[position_of(vertex)];
+    return vertex;
+  };
+  const Index first_of_obstacle = count_vertices(0, own_corners);
+  m_notes.unsewn_positions =
+      std::count_if(vertices_at.begin(), vertices_at.end(), [](Index count) { return count > 1; });
+  count_vertices(first_of_obstacle, corner_count);
+  std::vector<char> is_locked(corner_of.size(), false);
+  for (Index v = 0; v < is_locked.size(); ++v)
+    is_locked[v] = vertices_at[position_of(v)] > 1;
+  for (Corner corner = 0; corner < corner_count; ++corner)
+    is_locked[sewing.vertex(corner)] |= is_frozen[corner / 3];
+  lock(is_locked);
+
+  Cancellation_scope::check();
+  for (Index side = 0; side < own_corners; ++side) {
+    const Index mate = sewing.mate(side), end = Sewing::next(side);
+    if (mate != s_none && side < mate && (is_line(side, Sewing::next(mate)) || is_line(end, mate)))
+      m_constraints.line_edges.push_back(m_mesh.edge(halfedges[side]));
+  }
+  m_notes.seam_edges = m_constraints.line_edges.size();
+
+  if (!obstacle.triangles.empty()) { // the limits are shares of the diagonal of the soup alone
+    CGAL::Bbox_3 box;
+    for (const Index_triple& triangle : soup.triangles)
+      for (const Index i : triangle)
+        box += scale(soup.points[i]).bbox();
+    m_constraints.diagonal =
+        std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
+  }
+}
+
+Working_mesh::Working_mesh(const Working_mesh& whole, const Border_rule<Mesh>& rule,
+                           const std::vector<Index>& faces)
+    : m_soup(whole.m_soup), m_scale(whole.m_scale)
+{
+  const Mesh& mesh = whole.m_mesh;
+  std::vector<Mesh::Halfedge_index> originals; // by side
+  std::vector<Index> mates;
+  std::vector<Index> cut; // sides whose mates are not in the part
+  for (const Index face : faces) {
+    if (whole.is_own(Mesh::Face_index(face)))
+      m_corners.push_back(whole.m_corners[face]);
+    else
+      m_constraints.uncounted_faces.push_back(Mesh::Face_index(Index(originals.size() / 3)));
+    for (unsigned char place = 0; place < 3; ++place) {
+      originals.push_back(whole.halfedge({face, place, false}));
+      mates.push_back(s_none);
+      const Mesh::Halfedge_index opposite = mesh.opposite(originals.back());
+      if (mesh.is_border(opposite))
+        continue;
+      const Side beyond = whole.side(opposite);
+      const auto found = std::lower_bound(faces.begin(), faces.end(), beyond.triangle);
+      if (found != faces.end() && *found == beyond.triangle)
+        mates.back() = Index(3 * (found - faces.begin())) + beyond.place;
+      else
+        cut.push_back(Index(mates.size() - 1));
+    }
+  }
+
+  const Sewing sewing(std::move(mates));
+  std::vector<Mesh::Vertex_index> vertices(sewing.vertex_count()); // of the whole
+  for (Index side = 0; side < originals.size(); ++side)
+    vertices[sewing.vertex(side)] = mesh.source(originals[side]);
+  const std::vector<Mesh::Halfedge_index> halfedges =
+      make_mesh(sewing, [&](Index vertex) { return mesh.point(vertices[vertex]); });
+
+  std::vector<char> is_locked(vertices.size(), false);
+  for (Index v = 0; v < vertices.size(); ++v)
+    is_locked[v] = rule.is_locked(vertices[v]);
+  for (const Index side : cut)
+    is_locked[sewing.vertex(side)] = is_locked[sewing.vertex(Sewing::next(side))] = true;
+  lock(is_locked);
+  for (Index side = 0; side < originals.size(); ++side)
+    if (sewing.mate(side) != s_none && side < sewing.mate(side) && rule.is_line(mesh.edge(originals[side])))
+      m_constraints.line_edges.push_back(m_mesh.edge(halfedges[side]));
+  if (!whole.m_constraints.vertex_weights.empty())
+    for (const Mesh::Vertex_index v : vertices)
+      m_constraints.vertex_weights.push_back(whole.m_constraints.vertex_weights[v]);
+  measure_uvs(whole.m_uv_unit);
+}
+
+void Working_mesh::lock(const std::vector<char>& is_locked)
+{
+  for (Index v = 0; v < is_locked.size(); ++v)
+    if (is_locked[v])
+      m_constraints.locked_vertices.push_back(Mesh::Vertex_index(v));
+}
+
+// Makes vertices, edges in the order of the sides, and faces. Returns the halfedge of each side.
+// `Surface_mesh::add_face` would make the same, but has to search for what is known here.
+template <class Function>
+std::vector<Working_mesh::Mesh::Halfedge_index> Working_mesh::make_mesh(const Sewing& sewing,
+                                                                        const Function& point_of)
+{
+  using Halfedge = Mesh::Halfedge_index;
+  const Index side_count = sewing.side_count();
+  const auto vertex = [&](Index corner) { return Mesh::Vertex_index(sewing.vertex(corner)); };
+  m_mesh.reserve(sewing.vertex_count(), side_count / 2 + 1, side_count / 3);
+  for (Index v = 0; v < sewing.vertex_count(); ++v)
+    m_mesh.add_vertex(point_of(v));
+  std::vector<Halfedge> halfedges(side_count);
+  for (Index side = 0; side < side_count; ++side) {
+    const Index mate = sewing.mate(side), end = Sewing::next(side);
+    halfedges[side] =
+        side < mate ? m_mesh.add_edge(vertex(side), vertex(end)) : m_mesh.opposite(halfedges[mate]);
+    m_mesh.set_halfedge(vertex(end), halfedges[side]);
+  }
+  std::vector<Halfedge> border_from(m_mesh.number_of_vertices());
+  for (Index side = 0; side < side_count; ++side) {
+    if (side % 3 == 0)
+      m_mesh.set_halfedge(m_mesh.add_face(), halfedges[Sewing::previous(side)]);
+    m_mesh.set_face(halfedges[side], Mesh::Face_index(side / 3));
+    m_mesh.set_next(halfedges[side], halfedges[Sewing::next(side)]);
+    if (sewing.mate(side) == s_none)
+      border_from[vertex(Sewing::next(side))] = m_mesh.opposite(halfedges[side]);
+  }
+  for (Index side = 0; side < side_count; ++side) {
+    if (sewing.mate(side) != s_none)
+      continue;
+    const Halfedge border = m_mesh.opposite(halfedges[side]);
+    m_mesh.set_halfedge(vertex(side), border); // by this, CGAL sees at once that the vertex is on a border
+    m_mesh.set_next(border, border_from[vertex(side)]);
+  }
+  m_places.resize(m_mesh.number_of_halfedges());
+  for (Index side = 0; side < side_count; ++side)
+    m_places[halfedges[side]] = Sewing::next(side) % 3;
+  return halfedges;
+}
+
+bool Working_mesh::is_line(Corner a, Corner b) const
+{
+  // Compares values and not their numbers, since a file may write a value twice.
+  const auto differ = [&](const auto& corners) {
+    return !corners.empty() && corners.values[corners.of_triangle[a / 3][a % 3]] !=
+                                   corners.values[corners.of_triangle[b / 3][b % 3]];
+  };
+  const auto differ_in_label = [&](const Triangle_labels& labels) {
+    return !labels.empty() && labels.of_triangle[a / 3] != labels.of_triangle[b / 3];
+  };
+  return vertex_of(a) != vertex_of(b) || differ(m_soup.uvs) || differ(m_soup.normals) ||
+         differ_in_label(m_soup.groups) || differ_in_label(m_soup.objects) ||
+         differ_in_label(m_soup.materials);
+}
+
+// Calls function(h, from) for each face that a motion changes. The corner at the target of h, a halfedge of
+// this face, becomes the corner at the target of `from`, a halfedge of a contracted face.
+template <class Function>
+void Working_mesh::for_each_changed_face(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule,
+                                         const Function& function) const
+{
+  // Walks from a contracted face, away from the other one, up to the next line. Returns whether it comes to
+  // the other one without meeting a line. The rule is asked, because it knows more lines than corners show:
+  // the corners on both sides of a line may become equal.
+  const auto goes_all_the_way = [&](Mesh::Halfedge_index from, Mesh::Halfedge_index other,
+                                    const auto& across) {
+    if (m_mesh.is_border(from))
+      return false;
+    const Mesh::Halfedge_index carried = halfedges_to_ends(moving, from).second;
+    for (Mesh::Halfedge_index h = across(from); m_mesh.face(h) != m_mesh.face(other); h = across(h)) {
+      if (rule.is_line(m_mesh.edge(h)))
+        return false;
+      function(from == moving ? m_mesh.prev(h) : h, carried);
+    }
+    return true;
+  };
+  const Mesh::Halfedge_index back = m_mesh.opposite(moving);
+  if (!goes_all_the_way(moving, back,
+                        [this](Mesh::Halfedge_index h) { return m_mesh.opposite(m_mesh.prev(h)); }))
+    goes_all_the_way(back, moving,
+                     [this](Mesh::Halfedge_index h) { return m_mesh.opposite(m_mesh.next(h)); });
+}
+
+Working_mesh::Side Working_mesh::side(Mesh::Halfedge_index h) const
+{
+  const bool is_beyond = m_mesh.is_border(h);
+  const Mesh::Halfedge_index own = is_beyond ? m_mesh.opposite(h) : h;
+  return {m_mesh.face(own), m_places[m_mesh.prev(own)], is_beyond};
+}
+
+Working_mesh::Mesh::Halfedge_index Working_mesh::halfedge(const Side& side) const
+{
+  const Mesh::Face_index face(side.triangle);
+  if (!m_mesh.has_valid_index(face) || m_mesh.is_removed(face))
+    throw std::logic_error("a side of a face that is gone");
+  Mesh::Halfedge_index h = m_mesh.halfedge(face);
+  for (int i = 0; i < 3; ++i, h = m_mesh.next(h))
+    if (m_places[m_mesh.prev(h)] == side.place)
+      return side.is_beyond ? m_mesh.opposite(h) : h;
+  throw std::logic_error("a side that its face does not have");
+}
+
+void Working_mesh::before_collapse(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule)
+{
+  if (m_recorder)
+    m_recorder(side(moving));
+  if (m_listener) {
+    const auto [from, to] =
+        halfedges_to_ends(moving, m_mesh.is_border(moving) ? m_mesh.opposite(moving) : moving);
+    m_listener(vertex_of(corner_at(from)), vertex_of(corner_at(to)));
+  }
+  for_each_moved_wedge(moving, [&](Index from, Index to) {
+    Wedge& merged = m_wedges[to];
+    merged.quadric += m_wedges[from].quadric;
+    merged.own_cost = merged.quadric(relative(m_mesh.point(m_mesh.target(moving))), merged.uv);
+  });
+  for_each_changed_face(moving, rule, [this](Mesh::Halfedge_index h, Mesh::Halfedge_index from) {
+    m_corners[m_mesh.face(h)][m_places[h]] = corner_at(from);
+    if (!m_wedges.empty())
+      wedge_at(h) = wedge_at(from);
+  });
+  // Each contracted face takes the edge before h with it. The edge after h takes the place of that edge in
+  // the face beyond it.
+  for (const Mesh::Halfedge_index h : {moving, m_mesh.opposite(moving)})
+    if (!m_mesh.is_border(h))
+      m_places[m_mesh.next(h)] = m_places[m_mesh.opposite(m_mesh.prev(h))];
+}
+
+void Working_mesh::on_refused(Mesh::Halfedge_index moving, const Refusals& refusals)
+{
+  const Mesh::Face_index face = m_mesh.face(m_mesh.is_border(moving) ? m_mesh.opposite(moving) : moving);
+  if (!is_own(face))
+    return;
+  for (std::size_t kind = 0; kind < m_kinds.size(); ++kind)
+    m_refused[kind][m_kinds[kind].of_triangle[face]] += refusals;
+}
+
+void Working_mesh::count_refusals(std::vector<Part_kind> kinds)
+{
+  m_kinds = std::move(kinds);
+  m_refused.clear();
+  for (const Part_kind& kind : m_kinds)
+    m_refused.emplace_back(kind.count);
+}
+
+void Working_mesh::weigh(const std::vector<double>& weights)
+{
+  m_constraints.vertex_weights.assign(m_mesh.number_of_vertices(), 0);
+  for (const Mesh::Halfedge_index h : m_mesh.halfedges()) {
+    if (m_mesh.is_border(h) || !is_own(m_mesh.face(h)))
+      continue;
+    double& weight = m_constraints.vertex_weights[m_mesh.target(h)];
+    weight = (std::max)(weight, weights[vertex_of(corner_at(h))]);
+  }
+}
+
+bool Working_mesh::keeps_pieces(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule) const
+{
+  // At each end of an edge, a line is open (a border, or vertices of different numbers on the two sides) or
+  // closed. Runs of open vertices are boundary loops of pieces, or stretches of such loops. So none may
+  // vanish, and no two may meet.
+  const auto is_open_at_end = [this](Mesh::Halfedge_index h) {
+    const Mesh::Halfedge_index other = m_mesh.opposite(h);
+    return m_mesh.is_border(h) || m_mesh.is_border(other) ||
+           vertex_of(corner_at(h)) != vertex_of(corner_at(m_mesh.prev(other)));
+  };
+  const auto is_on_boundary = [&](Mesh::Vertex_index v) {
+    const auto around = m_mesh.halfedges_around_target(m_mesh.halfedge(v));
+    return std::any_of(around.begin(), around.end(), [&](Mesh::Halfedge_index h) {
+      return is_open_at_end(h) || is_open_at_end(m_mesh.opposite(h));
+    });
+  };
+  const Mesh::Halfedge_index back = m_mesh.opposite(moving);
+  if (!rule.is_line(m_mesh.edge(moving)))
+    return true;
+  const bool is_open_ahead = is_open_at_end(moving), is_open = is_open_at_end(back);
+  for (const Mesh::Halfedge_index h : m_mesh.halfedges_around_target(back)) {
+    if (h == back || !rule.is_line(m_mesh.edge(h)))
+      continue;
+    const bool is_open_behind = is_open_at_end(m_mesh.opposite(h));
+    if (is_open_behind == is_open_ahead)
+      return is_open == is_open_ahead;
+    // A run ends here. If the moving vertex is its closed end, the next vertex becomes the end instead, and
+    // must not be on another run.
+    return is_open || !is_on_boundary(is_open_ahead ? m_mesh.source(h) : m_mesh.target(moving));
+  }
+  return true;
+}
+
+bool Working_mesh::keeps_uv_orientation(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule) const
+{
+  if (m_soup.uvs.empty())
+    return true;
+  const auto orientation = [this](const Index_triple& corners) {
+    const auto point = [&](std::size_t k) {
+      return Kernel::Point_2(uv_of(corners[k])[0], uv_of(corners[k])[1]);
+    };
+    return CGAL::orientation(point(0), point(1), point(2));
+  };
+  bool is_kept = true;
+  for_each_changed_face(moving, rule, [&](Mesh::Halfedge_index h, Mesh::Halfedge_index from) {
+    Index_triple corners = m_corners[m_mesh.face(h)];
+    const CGAL::Orientation before = orientation(corners);
+    corners[m_places[h]] = corner_at(from);
+    is_kept = is_kept && (before == CGAL::COLLINEAR || orientation(corners) == before);
+  });
+  return is_kept;
+}
+
+Uv_quadric::Vector Working_mesh::relative(const Point_3& point) const
+{
+  return {point.x() - m_origin[0], point.y() - m_origin[1], point.z() - m_origin[2]};
+}
+
+Working_mesh::Uv Working_mesh::relative(const Uv& uv) const
+{
+  return {(uv[0] - m_uv_origin[0]) * m_uv_unit, (uv[1] - m_uv_origin[1]) * m_uv_unit};
+}
+
+void Working_mesh::measure_uvs(double unit)
+{
+  if (m_soup.uvs.empty() || m_corners.empty() || !(unit > 0))
+    return;
+  m_uv_unit = unit;
+  const Corner first = m_corners[0][0];
+  const Point_3 origin = m_scale(m_soup.points[vertex_of(first)]);
+  m_origin = {origin.x(), origin.y(), origin.z()};
+  m_uv_origin = uv_of(first);
+
+  const std::vector<Mesh::Vertex_index> vertices = number_wedges();
+  Cancellation_poll poll;
+  for (const Mesh::Halfedge_index h : m_mesh.halfedges()) {
+    poll();
+    if (m_mesh.is_border(h) || !is_own(m_mesh.face(h)))
+      continue;
+    const auto& [a, b, c] = m_corners[m_mesh.face(h)];
+    const Mesh::Vertex_index v = m_mesh.target(h);
+    const auto point = [this](Corner corner) { return relative(m_scale(m_soup.points[vertex_of(corner)])); };
+    Wedge& wedge = m_wedges[wedge_at(h)];
+    wedge.uv = relative(uv_of(corner_at(h)));
+    wedge.quadric.add_triangle({point(a), point(b), point(c)},
+                               {relative(uv_of(a)), relative(uv_of(b)), relative(uv_of(c))},
+                               m_constraints.vertex_weights.empty() ? 1 : m_constraints.vertex_weights[v]);
+  }
+  for (std::size_t i = 0; i < m_wedges.size(); ++i)
+    m_wedges[i].own_cost = m_wedges[i].quadric(relative(m_mesh.point(vertices[i])), m_wedges[i].uv);
+}
+
+// Numbers the wedges of all vertices, and returns the vertex of each wedge.
+std::vector<Working_mesh::Mesh::Vertex_index> Working_mesh::number_wedges()
+{
+  std::vector<char> is_line(m_mesh.number_of_edges(), false);
+  for (const Mesh::Edge_index e : m_constraints.line_edges)
+    is_line[e] = true;
+  m_wedge_numbers.assign(m_corners.size(), {s_none, s_none, s_none});
+  std::vector<Mesh::Vertex_index> vertices;
+  for (const Mesh::Halfedge_index first : m_mesh.halfedges()) {
+    const auto is_numbered = [this](Mesh::Halfedge_index h) {
+      return m_mesh.is_border(h) || !is_own(m_mesh.face(h)) || wedge_at(h) != s_none;
+    };
+    if (is_numbered(first))
+      continue;
+    const auto number = [&](Mesh::Halfedge_index h) { wedge_at(h) = Index(vertices.size()); };
+    // Walks around the vertex in both directions, until it meets the first face, a line or a border.
+    number(first);
+    for (Mesh::Halfedge_index h = first; !is_line[m_mesh.edge(m_mesh.next(h))];) {
+      h = m_mesh.opposite(m_mesh.next(h));
+      if (is_numbered(h))
+        break;
+      number(h);
+    }
+    for (Mesh::Halfedge_index h = first; !is_line[m_mesh.edge(h)];) {
+      h = m_mesh.prev(m_mesh.opposite(h));
+      if (is_numbered(h))
+        break;
+      number(h);
+    }
+    vertices.push_back(m_mesh.target(first));
+  }
+  m_wedges.assign(vertices.size(), {});
+  std::vector<Index> wedges_at(m_mesh.number_of_vertices(), 0);
+  for (const Mesh::Vertex_index v : vertices)
+    ++wedges_at[v];
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    m_wedges[i].is_alone = wedges_at[vertices[i]] == 1;
+  return vertices;
+}
+
+// Calls function(from, to) with the wedges at both ends of a motion, once for each side of a line along it.
+template <class Function>
+void Working_mesh::for_each_moved_wedge(Mesh::Halfedge_index moving, const Function& function) const
+{
+  if (m_wedges.empty())
+    return;
+  Index done = s_none;
+  for (const Mesh::Halfedge_index h : {moving, m_mesh.opposite(moving)}) {
+    if (m_mesh.is_border(h))
+      continue;
+    const auto [from, to] = halfedges_to_ends(moving, h);
+    const Index wedge = wedge_at(from);
+    if (wedge != done)
+      function(wedge, wedge_at(to));
+    if (m_wedges[wedge].is_alone)
+      return;
+    done = wedge;
+  }
+}
+
+double Working_mesh::uv_cost(Mesh::Halfedge_index moving) const
+{
+  double cost = 0;
+  for_each_moved_wedge(moving, [&](Index from, Index to) {
+    const Wedge& wedge = m_wedges[to];
+    cost += m_wedges[from].quadric(relative(m_mesh.point(m_mesh.target(moving))), wedge.uv) + wedge.own_cost;
+  });
+  return cost;
+}
+
+Working_mesh::Result Working_mesh::result() const
+{
+  Result result;
+  for (const Mesh::Face_index face : m_mesh.faces()) {
+    if (!is_own(face))
+      break; // the faces of the obstacle come last
+    result.triangles.push_back(face);
+    result.corners.push_back(m_corners[face]);
+  }
+  Cancellation_scope::check();
+  result.soup = selected(m_soup, result.triangles, result.corners);
+  return result;
+}
+
+} // namespace selvedge

@@ -1,0 +1,208 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SOUP_WORKING_MESH_H
+#define SELVEDGE_SOUP_WORKING_MESH_H
+
+#include "selection.h"
+#include <selvedge/Parts.h>
+#include <selvedge/Sewing_notes.h>
+#include <selvedge/Surface_mesh_simplification/Border_rule.h>
+#include <selvedge/Surface_mesh_simplification/No_observer.h>
+#include <selvedge/Surface_mesh_simplification/Simplify_constraints.h>
+#include <selvedge/Surface_mesh_simplification/internal/Uv_quadric.h>
+#include <selvedge/Triangle_soup.h>
+#include <selvedge/internal/Scale.h>
+
+#include <CGAL/Surface_mesh.h>
+
+#include <cstddef>
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace selvedge {
+
+class Sewing;
+
+/// A soup as one mesh in which coincident borders are sewn. The reduction works on this mesh; `result` makes
+/// a soup of it again.
+///
+/// Vertices at one position become one vertex when that keeps every edge manifold and oriented. Where it does
+/// not, they stay separate, as coincident vertices, which never move. Edges across which a vertex number, a
+/// texture coordinate, a normal, a group, an object or a material changes are lines: vertices on a line move
+/// only along it, and both sides move together, so that no gap can open.
+///
+/// Every face knows for each of its corners which corner of the soup this now is. A collapse gives a moved
+/// corner the corner at the vertex with which it merges, taken from the contracted face on the same side of
+/// the lines. So every attribute of the result is one that the input has at that position and on that side.
+///
+/// An obstacle may lie beside the soup: triangles that are in the mesh, do not change, and are not in the
+/// result. Nothing of the soup is sewn to it. Where the soup lies along an obstacle, it has the same border
+/// as without it; where both have a vertex at one position, the two are coincident vertices. Limits that are
+/// shares of a diagonal refer to the diagonal of the soup alone.
+class Working_mesh : public No_observer
+{
+public:
+  using Mesh = CGAL::Surface_mesh<Point_3>;
+
+  /// Sews a soup, and puts the obstacle beside it. `positions[v]` is the number of the position of vertex v;
+  /// vertices with equal numbers are sewn. `is_frozen[t]` says that the vertices of triangle t do not move.
+  /// In both arrays, as in the faces of the mesh, vertices and triangles of the obstacle follow those of the
+  /// soup. Nothing else of the obstacle is used, and all its triangles are frozen. The points of the mesh are
+  /// those of both, divided by the scale; the result has the original ones.
+  ///
+  /// **Preconditions** No triangle has two corners at one position. The soup outlives the mesh.
+  ///
+  /// **Complexity** O(n log n).
+  Working_mesh(const Triangle_soup& soup, const std::vector<Index>& positions,
+               const std::vector<char>& is_frozen, const Triangle_soup& obstacle = {},
+               const Scale& scale = Scale());
+
+  /// Makes a mesh of some faces of another, so that this part can be reduced separately. Face i of the part
+  /// is face `faces[i]` of the whole.
+  ///
+  /// **Guarantees** Nothing is decided anew:
+  /// 1. Two faces have an edge in common exactly where they have it in the whole. A vertex of the whole with
+  ///    all its faces in the part has them there in the same order. What is left of any other vertex is
+  ///    locked, and is several vertices where its faces are not connected.
+  /// 2. The rule of the whole says which other vertices are locked, and which edges are lines.
+  /// 3. Points, corners of the soup, weights, and texture are those of the whole.
+  ///
+  /// `result`, and counts by the parts of the soup, are asked of the whole only.
+  ///
+  /// **Preconditions** `faces` are in ascending order. Nothing has been collapsed in `whole`, whose soup
+  /// outlives this mesh.
+  ///
+  /// **Complexity** O(n log n) for n faces of the part.
+  Working_mesh(const Working_mesh& whole, const Border_rule<Mesh>& rule, const std::vector<Index>& faces);
+
+  Mesh& mesh() { return m_mesh; }
+  const Mesh& mesh() const { return m_mesh; }
+  Simplify_constraints<Mesh>& constraints() { return m_constraints; }
+  const Simplify_constraints<Mesh>& constraints() const { return m_constraints; }
+  const Sewing_notes& notes() const { return m_notes; }
+
+  /// Weighs the vertices by `weights` of the vertices of the soup. A vertex to which several are sewn gets
+  /// the largest of their weights.
+  void weigh(const std::vector<double>& weights);
+
+  /// Makes `uv_cost` say from now on how far the texture is displaced. Before, and where there is no texture,
+  /// it is 0. Weights that should count must be set before. `unit` is the `uv_unit` of the soup at the scale.
+  void measure_uvs(double unit);
+
+  /// Starts to count refusals by the parts of the soup to which the moving vertex belongs.
+  void count_refusals(std::vector<Part_kind> kinds);
+
+  /// The refusals so far, for each kind and each of its parts.
+  const std::vector<std::vector<Refusals>>& refused_by_part() const { return m_refused; }
+
+  /// Sets a function that is called before each collapse, as `Simplify_options::on_collapse` is.
+  void on_collapse(std::function<void(std::size_t removed, std::size_t kept)> listener)
+  {
+    m_listener = std::move(listener);
+  }
+
+  /// Identifies a halfedge such that it is found again in another mesh of the same triangles, when the same
+  /// collapses have been done to both.
+  struct Side
+  {
+    Index triangle;      ///< the number of a face beside the edge
+    unsigned char place; ///< at which corner of that face its halfedge of the edge begins
+    bool is_beyond;      ///< whether the halfedge is the opposite of that one
+  };
+  Side side(Mesh::Halfedge_index h) const;
+
+  /// Returns the halfedge of a side. Throws `std::logic_error` when there is none, for instance because the
+  /// face is gone.
+  Mesh::Halfedge_index halfedge(const Side& side) const;
+
+  /// Sets a function that is called before each collapse with the side of the halfedge that moves.
+  void record(std::function<void(const Side& moving)> recorder) { m_recorder = std::move(recorder); }
+
+  // Called by the reduction, whose observer this is.
+  void before_collapse(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule);
+  void on_refused(Mesh::Halfedge_index moving, const Refusals& refusals);
+  bool keeps_pieces(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule) const;
+  bool keeps_uv_orientation(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule) const;
+  double uv_cost(Mesh::Halfedge_index moving) const;
+
+  /// What is left of the soup.
+  struct Result
+  {
+    Triangle_soup soup;
+    std::vector<Index> triangles;      ///< of the input, in its order
+    std::vector<Index_triple> corners; ///< of the input, now of each triangle: 3 × triangle + place in it
+  };
+  Result result() const;
+
+private:
+  using Corner = Index; // 3 × triangle + place in it
+  using Uv = Uv_quadric::Uv;
+
+  Index vertex_of(Corner corner) const { return m_soup.triangles[corner / 3][corner % 3]; }
+  const Uv& uv_of(Corner corner) const
+  {
+    return m_soup.uvs.values[m_soup.uvs.of_triangle[corner / 3][corner % 3]];
+  }
+  bool is_own(Mesh::Face_index face) const { return std::size_t(face) < m_corners.size(); }
+  bool is_line(Corner a, Corner b) const;
+
+  /// The corner that the face beside a halfedge has at the target of the halfedge.
+  Corner corner_at(Mesh::Halfedge_index h) const { return m_corners[m_mesh.face(h)][m_places[h]]; }
+
+  /// Returns the halfedges to the source and to the target of a motion, in the face beside `side`, which is
+  /// `moving` or its opposite.
+  std::pair<Mesh::Halfedge_index, Mesh::Halfedge_index> halfedges_to_ends(Mesh::Halfedge_index moving,
+                                                                          Mesh::Halfedge_index side) const
+  {
+    const Mesh::Halfedge_index before = m_mesh.prev(side);
+    return side == moving ? std::make_pair(before, side) : std::make_pair(side, before);
+  }
+
+  template <class Function>
+  std::vector<Mesh::Halfedge_index> make_mesh(const Sewing& sewing, const Function& point_of);
+  void lock(const std::vector<char>& is_locked);
+  template <class Function>
+  void for_each_changed_face(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule,
+                             const Function& function) const;
+  template <class Function>
+  void for_each_moved_wedge(Mesh::Halfedge_index moving, const Function& function) const;
+
+  Index& wedge_at(Mesh::Halfedge_index h) { return m_wedge_numbers[m_mesh.face(h)][m_places[h]]; }
+  Index wedge_at(Mesh::Halfedge_index h) const { return m_wedge_numbers[m_mesh.face(h)][m_places[h]]; }
+  std::vector<Mesh::Vertex_index> number_wedges();
+  Uv_quadric::Vector relative(const Point_3& point) const;
+  Uv relative(const Uv& uv) const;
+
+  const Triangle_soup& m_soup;
+  Scale m_scale;
+  Mesh m_mesh;
+  std::vector<Index_triple> m_corners; // by face; those of the obstacle have none
+  std::vector<unsigned char> m_places; // by halfedge that is no border: the place of its target in its face
+  Simplify_constraints<Mesh> m_constraints;
+  Sewing_notes m_notes;
+  std::function<void(std::size_t removed, std::size_t kept)> m_listener;
+  std::function<void(const Side&)> m_recorder;
+
+  // The corners at a vertex between two lines, which share their attributes.
+  struct Wedge
+  {
+    Uv_quadric quadric;
+    Uv uv;
+    double own_cost; // the value of the quadric at the place of the wedge
+    bool is_alone;   // the only wedge at its vertex, and stays so: lines neither begin nor end later
+  };
+  std::vector<Index_triple> m_wedge_numbers; // by face, for each of its corners
+  std::vector<Wedge> m_wedges;
+  Uv_quadric::Vector m_origin{};
+  Uv m_uv_origin{};
+  double m_uv_unit = 0; // at the scale
+
+  std::vector<Part_kind> m_kinds;
+  std::vector<std::vector<Refusals>> m_refused;
+};
+
+} // namespace selvedge
+
+#endif // SELVEDGE_SOUP_WORKING_MESH_H

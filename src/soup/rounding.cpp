@@ -1,0 +1,48 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <selvedge/Error.h>
+#include <selvedge/rounding.h>
+
+#include <cmath>
+
+namespace selvedge {
+namespace {
+
+double nearest_float32(double value)
+{
+  // The float goes through memory, because GCC 12 removes a conversion to float and straight back.
+  const volatile float nearest = static_cast<float>(value);
+  return nearest;
+}
+
+} // namespace
+
+bool is_float32(double value)
+{
+  return nearest_float32(value) == value;
+}
+
+Rounding_notes round_to_float32(Triangle_soup& soup)
+{
+  for (const Point_3& point : soup.points)
+    for (int axis = 0; axis < 3; ++axis)
+      if (!std::isfinite(nearest_float32(point[axis])))
+        throw Input_error("vertex " + std::to_string(&point - soup.points.data()) +
+                          " (counted from 0) has a coordinate too large for a 32-bit float; scale the mesh "
+                          "down or write a format that stores doubles");
+  Rounding_notes notes;
+  for (Point_3& point : soup.points) {
+    std::size_t moved = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      moved += is_float32(point[axis]) ? 0 : 1;
+    if (moved == 0)
+      continue;
+    point = Point_3(nearest_float32(point.x()), nearest_float32(point.y()), nearest_float32(point.z()));
+    notes.coordinates += moved;
+    ++notes.vertices;
+  }
+  return notes;
+}
+
+} // namespace selvedge

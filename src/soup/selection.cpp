@@ -1,0 +1,152 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "selection.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+
+namespace selvedge {
+namespace {
+
+constexpr Index s_none = std::numeric_limits<Index>::max();
+
+// Renumbers the items to which triangles refer, such that only used ones remain, in their order. Returns the
+// old numbers of those that remain.
+std::vector<Index> keep_used(std::vector<Index_triple>& triangles, std::size_t size)
+{
+  std::vector<Index> numbers(size, s_none), kept;
+  for (const Index_triple& triangle : triangles)
+    for (const Index i : triangle)
+      numbers[i] = 0;
+  for (Index i = 0; i < size; ++i)
+    if (numbers[i] != s_none) {
+      numbers[i] = Index(kept.size());
+      kept.push_back(i);
+    }
+  for (Index_triple& triangle : triangles)
+    for (Index& i : triangle)
+      i = numbers[i];
+  return kept;
+}
+
+template <class T>
+std::vector<T> rows(const std::vector<T>& from, const std::vector<Index>& kept)
+{
+  std::vector<T> result;
+  result.reserve(kept.size());
+  for (const Index i : kept)
+    result.push_back(from[i]);
+  return result;
+}
+
+std::vector<Attribute> rows(const std::vector<Attribute>& from, const std::vector<Index>& kept)
+{
+  std::vector<Attribute> result;
+  for (const Attribute& attribute : from) {
+    const std::size_t size = row_size(attribute);
+    Attribute& column = result.emplace_back(
+        Attribute{attribute.name, attribute.type, attribute.components, attribute.is_normalized, {}});
+    column.rows.reserve(kept.size() * size);
+    for (const Index i : kept)
+      column.rows.insert(column.rows.end(), attribute.rows.begin() + i * size,
+                         attribute.rows.begin() + (i + 1) * size);
+  }
+  return result;
+}
+
+std::vector<Index_triple> at_corners(const std::vector<Index_triple>& from,
+                                     const std::vector<Index_triple>& corners)
+{
+  std::vector<Index_triple> result;
+  result.reserve(corners.size());
+  for (const auto& [a, b, c] : corners)
+    result.push_back({from[a / 3][a % 3], from[b / 3][b % 3], from[c / 3][c % 3]});
+  return result;
+}
+
+template <std::size_t dimension>
+Corner_values<dimension> selected(const Corner_values<dimension>& from,
+                                  const std::vector<Index_triple>& corners)
+{
+  Corner_values<dimension> result;
+  if (from.empty())
+    return result;
+  result.of_triangle = at_corners(from.of_triangle, corners);
+  const std::vector<Index> kept = keep_used(result.of_triangle, from.values.size());
+  result.values = rows(from.values, kept);
+  if (from.missing) {
+    const auto missing = std::lower_bound(kept.begin(), kept.end(), *from.missing);
+    if (missing != kept.end() && *missing == *from.missing)
+      result.missing = Index(missing - kept.begin());
+  }
+  return result;
+}
+
+Triangle_labels selected(const Triangle_labels& from, const std::vector<Index>& triangles)
+{
+  Triangle_labels result;
+  if (!from.empty())
+    result = {rows(from.of_triangle, triangles), from.names};
+  return result;
+}
+
+} // namespace
+
+std::size_t row_size(const Attribute& attribute)
+{
+  switch (attribute.type) {
+  case Attribute::Type::int8:
+  case Attribute::Type::uint8:
+    return attribute.components;
+  case Attribute::Type::int16:
+  case Attribute::Type::uint16:
+    return 2 * std::size_t(attribute.components);
+  case Attribute::Type::float64:
+    return 8 * std::size_t(attribute.components);
+  default:
+    return 4 * std::size_t(attribute.components);
+  }
+}
+
+void keep_triangles(Triangle_soup& soup, const std::vector<Index>& triangles)
+{
+  const auto keep = [&](auto& of_triangle) {
+    if (!of_triangle.empty())
+      of_triangle = rows(of_triangle, triangles);
+  };
+  soup.triangles = rows(soup.triangles, triangles);
+  keep(soup.uvs.of_triangle);
+  keep(soup.normals.of_triangle);
+  keep(soup.groups.of_triangle);
+  keep(soup.objects.of_triangle);
+  keep(soup.materials.of_triangle);
+  keep(soup.smoothing_groups.of_triangle);
+  soup.triangle_attributes = rows(soup.triangle_attributes, triangles);
+}
+
+Triangle_soup selected(const Triangle_soup& soup, const std::vector<Index>& triangles,
+                       const std::vector<Index_triple>& corners)
+{
+  Triangle_soup result;
+  result.triangles = at_corners(soup.triangles, corners);
+  const std::vector<Index> vertices = keep_used(result.triangles, soup.points.size());
+  result.points = rows(soup.points, vertices);
+  result.vertex_attributes = rows(soup.vertex_attributes, vertices);
+  result.triangle_attributes = rows(soup.triangle_attributes, triangles);
+  result.uvs = selected(soup.uvs, corners);
+  result.normals = selected(soup.normals, corners);
+  result.groups = selected(soup.groups, triangles);
+  result.objects = selected(soup.objects, triangles);
+  result.materials = selected(soup.materials, triangles);
+  result.smoothing_groups = selected(soup.smoothing_groups, triangles);
+  result.material_libraries = soup.material_libraries;
+  result.header_comments = soup.header_comments;
+  result.scene = soup.scene;
+  if (soup.scene)
+    result.scene_vertices = rows(soup.scene_vertices, vertices);
+  return result;
+}
+
+} // namespace selvedge

@@ -1,0 +1,33 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SOUP_SELECTION_H
+#define SELVEDGE_SOUP_SELECTION_H
+
+#include <selvedge/Triangle_soup.h>
+
+#include <vector>
+
+namespace selvedge {
+
+/// Returns a soup made of corners of another. Triangle i has the labels and attributes of `triangles[i]`. Its
+/// corners are `corners[i]`, each 3 × triangle + place in it, with their vertices, texture coordinates and
+/// normals.
+///
+/// Vertices, texture coordinates and normals that are still used keep their order, and the others are
+/// dropped. Every number is copied bit for bit. The names of labels stay as they are, used or not.
+///
+/// **Complexity** Linear.
+Triangle_soup selected(const Triangle_soup& soup, const std::vector<Index>& triangles,
+                       const std::vector<Index_triple>& corners);
+
+/// Keeps only some triangles of a soup, in the order given, with all their labels and attributes. Vertices
+/// and values keep their numbers, used or not.
+void keep_triangles(Triangle_soup& soup, const std::vector<Index>& triangles);
+
+/// Returns the number of bytes in one row of an attribute.
+std::size_t row_size(const Attribute& attribute);
+
+} // namespace selvedge
+
+#endif // SELVEDGE_SOUP_SELECTION_H

@@ -1,0 +1,19 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SOUP_TEXTURE_H
+#define SELVEDGE_SOUP_TEXTURE_H
+
+#include <selvedge/Triangle_soup.h>
+#include <selvedge/internal/Scale.h>
+
+namespace selvedge {
+
+/// Returns the length on the surface that one unit of the texture stands for, divided by the scale. With this
+/// unit, the triangles of the texture have in total the same area as the triangles that have a texture. 0
+/// when they have no area.
+double uv_unit(const Triangle_soup& soup, const Scale& scale = Scale());
+
+} // namespace selvedge
+
+#endif // SELVEDGE_SOUP_TEXTURE_H

@@ -1,0 +1,77 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "vertex_weights.h"
+
+#include "selection.h"
+
+#include <selvedge/Error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace selvedge {
+namespace {
+
+template <class Number>
+double number_at(const unsigned char* bytes)
+{
+  Number number;
+  std::memcpy(&number, bytes, sizeof number);
+  return double(number);
+}
+
+double first_component(const Attribute& attribute, std::size_t row)
+{
+  const unsigned char* const bytes = attribute.rows.data() + row * row_size(attribute);
+  switch (attribute.type) {
+  case Attribute::Type::int8:
+    return number_at<std::int8_t>(bytes);
+  case Attribute::Type::uint8:
+    return number_at<std::uint8_t>(bytes);
+  case Attribute::Type::int16:
+    return number_at<std::int16_t>(bytes);
+  case Attribute::Type::uint16:
+    return number_at<std::uint16_t>(bytes);
+  case Attribute::Type::int32:
+    return number_at<std::int32_t>(bytes);
+  case Attribute::Type::uint32:
+    return number_at<std::uint32_t>(bytes);
+  case Attribute::Type::float32:
+    return number_at<float>(bytes);
+  default:
+    return number_at<double>(bytes);
+  }
+}
+
+} // namespace
+
+std::vector<double> vertex_weights(const Triangle_soup& soup, const std::string& name)
+{
+  const auto found = std::find_if(soup.vertex_attributes.begin(), soup.vertex_attributes.end(),
+                                  [&](const Attribute& attribute) { return attribute.name == name; });
+  if (found == soup.vertex_attributes.end()) {
+    std::string known;
+    for (const Attribute& attribute : soup.vertex_attributes)
+      known += (known.empty() ? "" : ", ") + attribute.name;
+    throw Argument_error("no attribute of vertices is called '" + name + "'; " +
+                         (known.empty() ? "the mesh has none" : "there are " + known));
+  }
+  std::vector<double> weights;
+  double largest = 0;
+  for (std::size_t v = 0; v < soup.points.size(); ++v) {
+    weights.push_back(first_component(*found, v));
+    if (weights.back() < 0 || std::isinf(weights.back()))
+      throw Argument_error("the weight '" + name + "' of vertex " + std::to_string(v + 1) +
+                           " is not a finite number of at least 0; correct it");
+    largest = std::max(largest, weights.back()); // NaN is never larger
+  }
+  for (double& weight : weights)
+    weight = std::isnan(weight) || largest == 0 ? 1 : weight / largest;
+  return weights;
+}
+
+} // namespace selvedge

@@ -1,0 +1,509 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "snapping.h"
+
+#include "soup/Working_mesh.h"
+#include "soup/selection.h"
+#include <selvedge/Cancellation_scope.h>
+#include <selvedge/Error.h>
+#include <selvedge/geometry/Vertex_motion.h>
+#include <selvedge/geometry/star.h>
+#include <selvedge/geometry/sweep.h>
+#include <selvedge/spatial/Brute_force_index.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+namespace selvedge {
+namespace {
+
+constexpr Index s_none = std::numeric_limits<Index>::max();
+
+/// Why two partners are not snapped together.
+enum class Obstacle { rival, frozen, foreign, unmanifold, folding, blocked };
+
+/// One run of `snap_borders`. A *site* is a position on a border; sites are numbered as their positions are.
+template <class FaceIndex>
+class Border_snapping
+{
+public:
+  Border_snapping(const Triangle_soup& soup, const std::vector<Index>& positions,
+                  const std::vector<char>& is_frozen, double distance, const std::vector<Index>& transforms,
+                  std::size_t obstacle_triangles, const Scale& scale)
+      : m_distance(distance), m_moved_to(soup.points.size(), s_none)
+  {
+    m_points.reserve(soup.points.size());
+    for (const Point_3& point : soup.points)
+      m_points.push_back(scale(point));
+    m_triangles.reserve(soup.triangles.size());
+    for (const Index_triple& v : soup.triangles)
+      m_triangles.push_back({positions[v[0]], positions[v[1]], positions[v[2]]});
+    find_borders(m_triangles.size() - obstacle_triangles);
+    gather_faces(is_frozen);
+    if (!transforms.empty())
+      gather_transforms(soup, transforms);
+  }
+
+  Snapping_notes run()
+  {
+    m_notes.border_vertices = m_sites.size();
+    if (m_sites.empty())
+      return m_notes;
+    std::vector<Index> faces(m_triangles.size());
+    for (Index face = 0; face < faces.size(); ++face)
+      faces[face] = face;
+    m_index.build(faces, [this](Index face) { return face_box(face); });
+
+    for (bool is_changed = true; is_changed;) {
+      is_changed = false;
+      for (const Pair& pair : mutual_partners()) {
+        Cancellation_scope::check();
+        is_changed |= join(pair);
+      }
+      drop_sewn_sides();
+    }
+    count();
+    return std::move(m_notes);
+  }
+
+  /// Returns the position at which the vertices of a position are now.
+  Index place_of(Index position) const
+  {
+    while (m_moved_to[position] != s_none)
+      position = m_moved_to[position];
+    return position;
+  }
+
+private:
+  struct Site
+  {
+    Index position;
+    std::vector<Index> faces;
+    std::vector<Index> next; // sites, along the border with the surface on the left
+    std::vector<Index> previous;
+    std::optional<Index> transform;
+    bool is_frozen = false;
+    bool is_near = false; // to another border
+    bool is_partnered = false;
+    bool is_joined = false;
+    Obstacle obstacle = Obstacle::frozen; // until a partner is found that is not frozen
+  };
+
+  struct Pair
+  {
+    double distance;
+    Index low, high;
+
+    bool operator<(const Pair& other) const
+    {
+      return std::tie(distance, low, high) < std::tie(other.distance, other.low, other.high);
+    }
+  };
+
+  using Side = std::array<Index, 2>; // from position to position, as the triangle runs
+
+  static std::pair<Index, Index> ends(const Side& side) { return std::minmax(side[0], side[1]); }
+
+  // Keeps the sides that are the only ones between their ends. Later calls get the border sides that are
+  // left, and find the same borders as among all sides, since `is_manifold` lets only border edges become one
+  // edge.
+  static void drop_shared(std::vector<Side>& sides)
+  {
+    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+      return std::make_pair(ends(a), a) < std::make_pair(ends(b), b);
+    });
+    auto kept = sides.begin();
+    for (auto first = sides.begin(), beyond = first; first != sides.end(); first = beyond) {
+      while (beyond != sides.end() && ends(*beyond) == ends(*first))
+        ++beyond;
+      if (beyond - first == 1)
+        *kept++ = *first;
+    }
+    sides.erase(kept, sides.end());
+  }
+
+  void find_borders(std::size_t own_triangles)
+  {
+    m_sides.reserve(3 * own_triangles);
+    for (std::size_t face = 0; face < own_triangles; ++face)
+      for (std::size_t k = 0; k < 3; ++k)
+        m_sides.push_back({m_triangles[face][k], m_triangles[face][(k + 1) % 3]});
+    Cancellation_scope::check();
+    drop_shared(m_sides);
+    Cancellation_scope::check();
+    m_sides.shrink_to_fit();
+
+    m_site_at.assign(m_points.size(), s_none);
+    for (const Side& side : m_sides)
+      m_site_at[side[0]] = m_site_at[side[1]] = 0;
+    for (Index position = 0; position < m_site_at.size(); ++position)
+      if (m_site_at[position] != s_none) {
+        m_site_at[position] = Index(m_sites.size());
+        m_sites.emplace_back().position = position;
+      }
+  }
+
+  void gather_faces(const std::vector<char>& is_frozen)
+  {
+    Cancellation_poll poll;
+    for (Index face = 0; face < m_triangles.size(); ++face)
+      for (const Index position : m_triangles[face])
+        if (poll(); m_site_at[position] != s_none) {
+          Site& site = m_sites[m_site_at[position]];
+          site.faces.push_back(face);
+          site.is_frozen |= is_frozen[face] != 0;
+        }
+  }
+
+  void gather_transforms(const Triangle_soup& soup, const std::vector<Index>& transforms)
+  {
+    for (Site& site : m_sites)
+      for (const Index face : site.faces)
+        for (std::size_t k = 0; k < 3; ++k) {
+          if (m_triangles[face][k] != site.position)
+            continue;
+          const Index transform = transforms[soup.triangles[face][k]];
+          site.is_frozen |= site.transform.value_or(transform) != transform;
+          site.transform = transform;
+        }
+  }
+
+  void drop_sewn_sides()
+  {
+    const std::size_t before = m_sides.size();
+    for (Side& side : m_sides)
+      side = {place_of(side[0]), place_of(side[1])};
+    drop_shared(m_sides);
+    m_notes.seam_edges += (before - m_sides.size()) / 2;
+  }
+
+  const Point_3& point(const Site& site) const { return m_points[site.position]; }
+
+  double distance(const Site& a, const Site& b) const
+  {
+    const Point_3 &p = point(a), &q = point(b);
+    return std::hypot(p.x() - q.x(), p.y() - q.y(), p.z() - q.z());
+  }
+
+  // Returns the pairs of sites that name each other, in the order in which they are to be snapped together.
+  std::vector<Pair> mutual_partners()
+  {
+    for (Site& site : m_sites) {
+      site.next.clear();
+      site.previous.clear();
+    }
+    for (const Side& side : m_sides) {
+      m_sites[m_site_at[side[0]]].next.push_back(m_site_at[side[1]]);
+      m_sites[m_site_at[side[1]]].previous.push_back(m_site_at[side[0]]);
+    }
+    std::vector<Index> on_border;
+    for (Index i = 0; i < m_sites.size(); ++i)
+      if (!m_sites[i].next.empty())
+        on_border.push_back(i);
+    FaceIndex index;
+    index.build(on_border, [this](Index i) { return point(m_sites[i]).bbox(); });
+
+    std::vector<Pair> nearest(m_sites.size(), {0, s_none, s_none});
+    Cancellation_poll poll;
+    for (const Index i : on_border) {
+      Site& site = m_sites[i];
+      // Twice the distance, so that rounding of the box loses no partner.
+      const Point_3& p = point(site);
+      const double reach = 2 * m_distance;
+      const CGAL::Bbox_3 box(p.x() - reach, p.y() - reach, p.z() - reach, p.x() + reach, p.y() + reach,
+                             p.z() + reach);
+      index.visit_overlapping(box, [&](Index j) {
+        poll();
+        if (i == j || distance(site, m_sites[j]) > m_distance || have_common_face(site, m_sites[j]))
+          return;
+        site.is_near = true;
+        if (!are_partners(i, j))
+          return;
+        site.is_partnered = true;
+        if (site.is_frozen || m_sites[j].is_frozen)
+          return;
+        if (site.transform != m_sites[j].transform) {
+          if (site.obstacle == Obstacle::frozen)
+            site.obstacle = Obstacle::foreign;
+          return;
+        }
+        const Pair pair{distance(site, m_sites[j]), (std::min)(i, j), (std::max)(i, j)};
+        if (nearest[i].low == s_none || pair < nearest[i])
+          nearest[i] = pair;
+      });
+      if (nearest[i].low != s_none &&
+          (site.obstacle == Obstacle::frozen || site.obstacle == Obstacle::foreign))
+        site.obstacle = Obstacle::rival;
+    }
+    std::vector<Pair> pairs;
+    for (const Index i : on_border)
+      if (const Pair& pair = nearest[i];
+          pair.low == i && nearest[pair.high].low == i && nearest[pair.high].high == pair.high)
+        pairs.push_back(pair);
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+  }
+
+  bool have_common_face(const Site& a, const Site& b) const
+  {
+    return std::any_of(a.faces.begin(), a.faces.end(), [&](Index face) {
+      const Index_triple& triangle = m_triangles[face];
+      return std::find(triangle.begin(), triangle.end(), b.position) != triangle.end();
+    });
+  }
+
+  bool are_partners(Index i, Index j) const
+  {
+    return (is_edge_sewable(m_sites[i], m_sites[j]) || is_edge_sewable(m_sites[j], m_sites[i])) &&
+           !is_shortly_followed(i, j) && !is_shortly_followed(j, i);
+  }
+
+  // Whether the border edge that starts at a can be sewn to one that ends at b.
+  bool is_edge_sewable(const Site& a, const Site& b) const
+  {
+    for (const Index p : a.next)
+      for (const Index q : b.previous)
+        if (p == q || distance(m_sites[p], m_sites[q]) <= m_distance)
+          return true;
+    return false;
+  }
+
+  // Whether the border leads from i to j within twice the distance, without a branch on the way.
+  bool is_shortly_followed(Index i, Index j) const
+  {
+    double length = 0;
+    for (Index at = i; m_sites[at].next.size() == 1 && (at == i || m_sites[at].previous.size() == 1);) {
+      const Index next = m_sites[at].next.front();
+      length += distance(m_sites[at], m_sites[next]);
+      if (length > 2 * m_distance || next == i)
+        return false;
+      if (next == j)
+        return true;
+      at = next;
+    }
+    return false;
+  }
+
+  bool join(const Pair& pair)
+  {
+    // Earlier snaps of this round may have moved the next vertices along the borders.
+    if (!are_partners(pair.low, pair.high))
+      return false;
+    Site *stays = &m_sites[pair.low], *goes = &m_sites[pair.high];
+    if (stays->faces.size() < goes->faces.size())
+      std::swap(stays, goes);
+    std::optional<Obstacle> obstacle = judge(*goes, *stays);
+    if (obstacle) {
+      std::swap(stays, goes);
+      obstacle = judge(*goes, *stays);
+    }
+    if (!obstacle)
+      move(*goes, *stays, pair.distance);
+    else
+      stays->obstacle = goes->obstacle = *obstacle;
+    return !obstacle;
+  }
+
+  std::optional<Obstacle> judge(const Site& goes, const Site& stays)
+  {
+    if (!is_manifold(goes, stays))
+      return Obstacle::unmanifold;
+    m_star = {point(goes), point(stays), {}, {}};
+    for (const Index face : goes.faces) {
+      const auto [a, b] = link_edge(face, goes.position);
+      m_star.moving.push_back({m_points[a], m_points[b]});
+    }
+    if (!is_star_motion_clear<Kernel>(m_star))
+      return Obstacle::folding;
+    if (!are_sweeps_clear(goes))
+      return Obstacle::blocked;
+    return std::nullopt;
+  }
+
+  // Whether the snap makes one edge only of border edges that run opposite ways.
+  bool is_manifold(const Site& goes, const Site& stays) const
+  {
+    struct Uses
+    {
+      std::array<int, 2> out{0, 0}, in{0, 0}; // sides to and from a neighbour, for the faces of each site
+    };
+    std::map<Index, Uses> neighbours;
+    for (const int which : {0, 1}) {
+      const Site& site = which == 0 ? goes : stays;
+      for (const Index face : site.faces) {
+        const auto [a, b] = link_edge(face, site.position);
+        ++neighbours[a].out[which];
+        ++neighbours[b].in[which];
+      }
+    }
+    return std::all_of(neighbours.begin(), neighbours.end(), [](const auto& entry) {
+      const auto& [out, in] = entry.second;
+      const bool is_common = out[0] + in[0] > 0 && out[1] + in[1] > 0;
+      return !is_common || (out[0] + in[0] == 1 && out[1] + in[1] == 1 && out[0] == in[1]);
+    });
+  }
+
+  bool are_sweeps_clear(const Site& goes)
+  {
+    const CGAL::Bbox_3 path = m_star.from.bbox() + m_star.to.bbox();
+    CGAL::Bbox_3 box = path;
+    for (const auto& [a, b] : m_star.moving)
+      box += a.bbox() + b.bbox();
+    m_stationary.clear();
+    m_index.visit_overlapping(box, [&](Index face) {
+      const Index_triple& triangle = m_triangles[face];
+      if (std::find(triangle.begin(), triangle.end(), goes.position) == triangle.end())
+        m_stationary.push_back(face);
+    });
+    for (const auto& [a, b] : m_star.moving) {
+      const CGAL::Bbox_3 sweep_box = path + a.bbox() + b.bbox();
+      const Sweep_test<Kernel> sweep(m_star.from, m_star.to, a, b);
+      for (const Index face : m_stationary) {
+        const auto& [p, q, r] = m_triangles[face];
+        if (CGAL::do_overlap(sweep_box, face_box(face)) &&
+            !sweep.is_clear(m_points[p], m_points[q], m_points[r]))
+          return false;
+      }
+    }
+    return true;
+  }
+
+  void move(Site& goes, Site& stays, double distance)
+  {
+    for (const Index face : goes.faces) {
+      Index_triple& triangle = m_triangles[face];
+      std::replace(triangle.begin(), triangle.end(), goes.position, stays.position);
+      m_index.set(face, face_box(face));
+    }
+    stays.faces.insert(stays.faces.end(), goes.faces.begin(), goes.faces.end());
+    goes.faces.clear();
+    m_moved_to[goes.position] = stays.position;
+    goes.is_joined = stays.is_joined = true;
+    join_borders(goes, stays);
+    m_notes.snaps.push_back({goes.position, stays.position});
+    m_notes.largest_distance = (std::max)(m_notes.largest_distance, distance);
+  }
+
+  // Puts `stays` in the place of `goes` on the borders through `goes`. Sides that now lie between the same
+  // sites and run opposite ways are borders no more.
+  void join_borders(Site& goes, Site& stays)
+  {
+    const Index from = m_site_at[goes.position], to = m_site_at[stays.position];
+    const auto remove = [](std::vector<Index>& sites, Index site) {
+      sites.erase(std::find(sites.begin(), sites.end(), site));
+    };
+    for (const Index next : goes.next)
+      std::replace(m_sites[next].previous.begin(), m_sites[next].previous.end(), from, to);
+    for (const Index previous : goes.previous)
+      std::replace(m_sites[previous].next.begin(), m_sites[previous].next.end(), from, to);
+    for (const Index next : std::exchange(goes.next, {}))
+      if (const auto it = std::find(stays.previous.begin(), stays.previous.end(), next);
+          it != stays.previous.end()) {
+        stays.previous.erase(it);
+        remove(m_sites[next].next, to);
+        remove(m_sites[next].previous, to);
+      } else {
+        stays.next.push_back(next);
+      }
+    for (const Index previous : std::exchange(goes.previous, {}))
+      if (const auto it = std::find(stays.next.begin(), stays.next.end(), previous); it != stays.next.end()) {
+        stays.next.erase(it);
+        remove(m_sites[previous].next, to);
+        remove(m_sites[previous].previous, to);
+      } else {
+        stays.previous.push_back(previous);
+      }
+  }
+
+  void count()
+  {
+    for (const Site& site : m_sites) {
+      m_notes.partnered += site.is_partnered;
+      m_notes.near_without_edge += site.is_near && !site.is_partnered;
+      if (!site.is_partnered)
+        continue;
+      ++(site.is_joined                          ? m_notes.snapped
+         : site.obstacle == Obstacle::rival      ? m_notes.left_ambiguous
+         : site.obstacle == Obstacle::frozen     ? m_notes.left_frozen
+         : site.obstacle == Obstacle::foreign    ? m_notes.left_foreign
+         : site.obstacle == Obstacle::unmanifold ? m_notes.left_unmanifold
+         : site.obstacle == Obstacle::folding    ? m_notes.left_folding
+                                                 : m_notes.left_blocked);
+    }
+  }
+
+  // Returns the two other positions of a face, in its order.
+  std::array<Index, 2> link_edge(Index face, Index position) const
+  {
+    const Index_triple& triangle = m_triangles[face];
+    const std::size_t k = std::find(triangle.begin(), triangle.end(), position) - triangle.begin();
+    return {triangle[(k + 1) % 3], triangle[(k + 2) % 3]};
+  }
+
+  CGAL::Bbox_3 face_box(Index face) const
+  {
+    const auto& [a, b, c] = m_triangles[face];
+    return m_points[a].bbox() + m_points[b].bbox() + m_points[c].bbox();
+  }
+
+  std::vector<Point_3> m_points; // divided by the scale, as is the distance
+  const double m_distance;
+  std::vector<Index_triple> m_triangles; // of positions
+  std::vector<Side> m_sides;             // of borders
+  std::vector<Site> m_sites;
+  std::vector<Index> m_site_at;  // by position
+  std::vector<Index> m_moved_to; // by position
+  FaceIndex m_index;
+  Snapping_notes m_notes;
+
+  Vertex_motion<Point_3> m_star;
+  std::vector<Index> m_stationary;
+};
+
+} // namespace
+
+template <class FaceIndex>
+Snapping_notes snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
+                            const std::vector<char>& is_frozen, double distance,
+                            const std::vector<Index>& transforms, std::size_t obstacle_triangles,
+                            const Scale& scale)
+{
+  if (!(std::isfinite(distance) && distance >= 0))
+    throw Argument_error("the weld distance must be a finite number, 0 or larger");
+  if (distance == 0)
+    return {};
+  Border_snapping<FaceIndex> snapping(soup, positions, is_frozen, scale(distance), transforms,
+                                      obstacle_triangles, scale);
+  Snapping_notes notes = snapping.run();
+  notes.distance = distance;
+  notes.largest_distance = scale.undone(notes.largest_distance);
+
+  const std::vector<Point_3> points = soup.points;
+  std::vector<Index> first_at(points.size(), s_none);
+  for (Index v = 0; v < points.size(); ++v) {
+    const Index place = snapping.place_of(positions[v]);
+    if (place != positions[v])
+      soup.points[v] = points[place];
+    if (first_at[place] == s_none)
+      first_at[place] = v;
+    positions[v] = first_at[place];
+  }
+  return notes;
+}
+
+template Snapping_notes snap_borders<Packed_R_tree>(Triangle_soup&, std::vector<Index>&,
+                                                    const std::vector<char>&, double,
+                                                    const std::vector<Index>&, std::size_t, const Scale&);
+template Snapping_notes snap_borders<Brute_force_index>(Triangle_soup&, std::vector<Index>&,
+                                                        const std::vector<char>&, double,
+                                                        const std::vector<Index>&, std::size_t, const Scale&);
+
+} // namespace selvedge
