@@ -114,22 +114,22 @@ private:
     m_cells = found.cells;
     const std::size_t faces_left = total.faces - std::min(total.faces, 2 * found.collapses.size());
     const Simplify_progress progress{total.faces, total.target, faces_left};
-    bool is_stopped = found.is_stopped;
+    m_is_stopped_in_cells = found.is_stopped;
     for (const Working_mesh::Side& moving : found.collapses) {
       // Small cells may together go too far, each by its last face.
       if (m_simplification.targets().is_reached())
         break;
       // When the cells were stopped, all that they have reached is done without another question.
       constexpr std::size_t collapses_between_questions = 4096;
-      if (!is_stopped && m_options.should_stop && m_collapses_in_cells % collapses_between_questions == 0 &&
-          m_options.should_stop(progress)) {
-        is_stopped = true;
+      if (!m_is_stopped_in_cells && m_options.should_stop &&
+          m_collapses_in_cells % collapses_between_questions == 0 && m_options.should_stop(progress)) {
+        m_is_stopped_in_cells = true;
         break;
       }
       m_simplification.collapse(m_working.halfedge(moving));
       ++m_collapses_in_cells;
     }
-    if (is_stopped)
+    if (m_is_stopped_in_cells)
       m_options.should_stop = [](const Simplify_progress&) { return true; };
     m_seconds_cells = stopwatch.seconds();
   }
@@ -144,6 +144,8 @@ private:
     result.corners = std::move(left.corners);
     result.sewing = m_working.notes();
     result.report = report;
+    // When the cells have reached the target, nothing was left for the run to be stopped in.
+    result.report.is_stopped = report.is_stopped || m_is_stopped_in_cells;
     result.report.cells = m_cells;
     result.report.collapses_in_cells = m_collapses_in_cells;
     result.report.seconds_cells = m_seconds_cells;
@@ -158,6 +160,7 @@ private:
   Working_mesh m_working;
   double m_seconds_sew;
   internal::Simplification<Working_mesh::Mesh, Working_mesh> m_simplification;
+  bool m_is_stopped_in_cells = false;
   std::size_t m_cells = 0;
   std::size_t m_collapses_in_cells = 0;
   double m_seconds_cells = 0;

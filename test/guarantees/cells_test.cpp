@@ -343,6 +343,18 @@ TEST(Cells, AskWhetherToStopWhileTheirCollapsesAreDoneToTheWhole)
   EXPECT_GT(collapses.size(), 3u);
 }
 
+TEST(Cells, ReportThatTheyWereStoppedWhereTheTargetIsReached)
+{
+  const Prepared_soup prepared = prepare(sheet(20, 20));
+  Simplify_options options = in_cells(to_ratio(1), 100);
+  bool is_asked = false;
+  options.should_stop = [&](const Simplify_progress&) { return is_asked = true; };
+  const Simplified_soup result = simplify_soup(prepared, options);
+  EXPECT_TRUE(is_asked);
+  EXPECT_TRUE(result.report.is_reached());
+  EXPECT_TRUE(result.report.is_stopped);
+}
+
 TEST(Cells, AreNoneWhereOneWouldHoldAll)
 {
   const Prepared_soup prepared = prepare(skirt(3000, 1));
