@@ -176,9 +176,9 @@ std::vector<Not_judged> not_judged(const Replay_verdict& verdict);
 /// the log's `input` line; that the log has the format of collapse_log.h; that the vertices of each w-line
 /// are at one position.
 ///
-/// **Exactness** Contacts, and every sign on which they depend, are decided exactly: in doubles with a proved
-/// error bound, else in rational numbers. Limits are compared in floating point, with a tolerance of 1e-9 for
-/// programs that round otherwise; no statement about intersections rests on them.
+/// **Exactness** Contacts are decided exactly: by signs of CGAL's exact predicates, else in rational numbers.
+/// Limits are compared in floating point, with a tolerance of 1e-9 for programs that round otherwise; no
+/// statement about intersections rests on them.
 ///
 /// **Complexity** Usually O((n + k) log n) for n triangles and k steps.
 Replay_verdict replay(const Triangle_soup& original, bool is_stl, Log_reader& log,

@@ -4,9 +4,10 @@
 #include "contact.h"
 
 #include <CGAL/Exact_rational.h>
+#include <CGAL/Kernel/global_functions.h>
+#include <boost/container/static_vector.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 #include <vector>
 
@@ -47,27 +48,6 @@ bool is_zero(const Vector& v)
 Vector normal(const Vector& p, const Vector& q, const Vector& r)
 {
   return cross(difference(q, p), difference(r, p));
-}
-
-/// The axis along which all of some places have one and the same coordinate, or 3.
-template <class Places>
-int common_axis(const Places& places)
-{
-  int axis = 0;
-  while (axis < 3 && !std::all_of(places.begin(), places.end(), [&](const Place& place) {
-           return place.at[axis] == places.begin()->at[axis];
-         }))
-    ++axis;
-  return axis;
-}
-
-int exact_orientation(const Place& p, const Place& q, const Place& r, const Place& s)
-{
-  if (common_axis(std::array{p, q, r, s}) < 3)
-    return 0;
-  const Vector origin = exact(p);
-  const Number volume = dot(normal(origin, exact(q), exact(r)), difference(exact(s), origin));
-  return volume > 0 ? 1 : volume < 0 ? -1 : 0;
 }
 
 /// Points x with (x − point) · direction ≥ 0.
@@ -182,97 +162,63 @@ std::optional<std::string> point_beyond_shared(const std::vector<Vector>& solid,
 // The fast way
 // ------------------------------------------------------------------------------------------------------
 
-/// Divides numbers by a power of two, where the largest is far from 1, so that it no longer is. The sign of a
-/// determinant of them stays. False when one is not finite.
+/// Few enough for the stack.
+using Places = boost::container::static_vector<const Place*, 8>;
+
 template <std::size_t N>
-bool bring_near_one(std::array<double, N>& numbers)
+Places all_of(const std::array<Place, N>& array, std::size_t size = N)
 {
-  double largest = 0;
-  for (const double number : numbers)
-    largest = std::max(largest, std::fabs(number));
-  if (!std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isfinite(number); }))
-    return false;
-  if (largest > 1e-30 && largest < 1e30)
-    return true;
-  int exponent = 0;
-  std::frexp(largest, &exponent);
-  for (double& number : numbers)
-    number = std::ldexp(number, -exponent);
-  return true;
+  Places places;
+  for (std::size_t i = 0; i < size; ++i)
+    places.push_back(&array[i]);
+  return places;
 }
 
-/// The sign of orientation(p, q, r, s), or 0 where doubles do not tell.
-///
-/// The bound is that of stage A in J. R. Shewchuk, Adaptive precision floating-point arithmetic, 1997: (7 +
-/// 56ε)ε of the permanent, with ε = 2^-53. What he leaves to the reader, underflow, is the addend: every
-/// difference is below 1e30 in size, so what differences, brought near 1, and six products lose below the
-/// smallest double stays below 1e-220 in the end.
-int certain_orientation(const Coordinates& p, const Coordinates& q, const Coordinates& r,
-                        const Coordinates& s)
+Point_3 point(const Place& place)
 {
-  std::array<double, 9> differences{p[0] - s[0], p[1] - s[1], p[2] - s[2], q[0] - s[0], q[1] - s[1],
-                                    q[2] - s[2], r[0] - s[0], r[1] - s[1], r[2] - s[2]};
-  if (!bring_near_one(differences))
-    return 0;
-  const auto& [ax, ay, az, bx, by, bz, cx, cy, cz] = differences;
-  const double bxcy = bx * cy, cxby = cx * by, cxay = cx * ay, axcy = ax * cy, axby = ax * by, bxay = bx * ay;
-  // So that a positive sign means that s is on the side of the plane pqr from which they turn
-  // counter-clockwise.
-  const double determinant = -(az * (bxcy - cxby) + bz * (cxay - axcy) + cz * (axby - bxay));
-  const double permanent = (std::fabs(bxcy) + std::fabs(cxby)) * std::fabs(az) +
-                           (std::fabs(cxay) + std::fabs(axcy)) * std::fabs(bz) +
-                           (std::fabs(axby) + std::fabs(bxay)) * std::fabs(cz);
-  const double bound = 7.7715611723761027e-16 * permanent + 1e-220;
-  if (!(std::fabs(determinant) > bound))
-    return 0;
-  return determinant > 0 ? 1 : -1;
+  return {place.at[0], place.at[1], place.at[2]};
 }
 
-int certain_orientation(const Place& p, const Place& q, const Place& r, const Place& s)
+int orientation(const Place& p, const Place& q, const Place& r, const Place& s)
 {
-  return certain_orientation(p.at, q.at, r.at, s.at);
+  return CGAL::orientation(point(p), point(q), point(r), point(s));
 }
 
-/// The sign of the turn p, q, r, seen along an axis; always exact.
+/// The sign of the turn p, q, r, seen along an axis.
 int planar_turn(const Place& p, const Place& q, const Place& r, int axis)
 {
-  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  const auto sign = [](double x) { return (x > 0) - (x < 0); };
-  // Whether a difference is zero, and its sign, are exact.
-  std::array<double, 4> differences{p.at[u] - r.at[u], p.at[v] - r.at[v], q.at[u] - r.at[u],
-                                    q.at[v] - r.at[v]};
-  auto& [ax, ay, bx, by] = differences;
-  const int left = sign(ax) * sign(by), right = sign(ay) * sign(bx);
-  if (left != right)
-    return left > right ? 1 : -1;
-  if (left == 0)
-    return 0;
-  // Stage A of Shewchuk's orient2d, with room for underflow.
-  if (bring_near_one(differences)) {
-    const double determinant = ax * by - ay * bx;
-    const double bound = 3.3306690738754716e-16 * std::fabs(ax * by + ay * bx) + 1e-280;
-    if (std::fabs(determinant) > bound)
-      return sign(determinant);
-  }
-  const auto difference_of = [](double x, double y) { return Number(Number(x) - Number(y)); };
-  const Number exact_determinant = difference_of(p.at[u], r.at[u]) * difference_of(q.at[v], r.at[v]) -
-                                   difference_of(p.at[v], r.at[v]) * difference_of(q.at[u], r.at[u]);
-  return exact_determinant > 0 ? 1 : exact_determinant < 0 ? -1 : 0;
+  const auto seen = [u = (axis + 1) % 3, v = (axis + 2) % 3](const Place& place) {
+    return Kernel::Point_2(place.at[u], place.at[v]);
+  };
+  return CGAL::orientation(seen(p), seen(q), seen(r));
 }
 
-bool is_one_of(const Place& place, const Place* first, std::size_t count)
+/// An axis along which three places are seen as a triangle with an area, or 3 when they are on one line.
+int axis_across(const Place& p, const Place& q, const Place& r)
 {
-  return std::any_of(first, first + count, [&](const Place& other) { return other.id == place.id; });
+  int axis = 0;
+  while (axis < 3 && planar_turn(p, q, r, axis) == 0)
+    ++axis;
+  return axis;
 }
 
-/// Whether the hulls of two sets of places in a plane across an axis surely meet in no more than the hull of
-/// those that they share.
+bool is_one_of(const Place& place, const Places& places)
+{
+  return std::any_of(places.begin(), places.end(), [&](const Place* other) { return other->id == place.id; });
+}
+
+bool are_all_in(const Places& some, const Places& others)
+{
+  return std::all_of(some.begin(), some.end(), [&](const Place* place) { return is_one_of(*place, others); });
+}
+
+/// Whether the hulls of two sets of places in a plane, which is seen along an axis as more than a line,
+/// surely meet in no more than the hull of those that they share.
 ///
 /// A line through two of the places, with one set on this side of it and the other on that, is looked for.
 /// Then the hulls meet where each of them meets the line, which is in the segment of its places there. Exact;
 /// "not surely" still means that they may be clear.
-template <class Places, class Other_places>
-bool is_clear_in_plane(const Places& first, const Other_places& second, int axis)
+bool is_clear_in_plane(const Places& first, const Places& second, int axis)
 {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   // Those places of a set that lie on the line, as the segment from the lowest to the highest.
@@ -283,49 +229,76 @@ bool is_clear_in_plane(const Places& first, const Other_places& second, int axis
     bool is_shared = true; // all of it
     const Place *low = nullptr, *high = nullptr;
   };
-  const auto trace_of = [&](const auto& places, const auto& others, const Place& p, const Place& q) {
-    const int along = p.at[u] != q.at[u] ? u : v;
-    Trace trace;
-    for (const Place& place : places) {
-      const int side = planar_turn(p, q, place, axis);
-      if (side != 0) {
-        trace.is_one_sided = trace.is_one_sided && trace.side != -side;
-        trace.side = side;
-        continue;
-      }
-      trace.is_shared = trace.is_shared && is_one_of(place, others.data(), others.size());
-      if (!trace.low || place.at[along] < trace.low->at[along])
-        trace.low = &place;
-      if (!trace.high || place.at[along] > trace.high->at[along])
-        trace.high = &place;
-    }
-    return std::make_pair(trace, along);
-  };
   const auto separates = [&](const Place& p, const Place& q) {
-    if (p.at[u] == q.at[u] && p.at[v] == q.at[v])
+    const int along = p.at[u] != q.at[u] ? u : v;
+    if (p.at[along] == q.at[along])
       return false;
-    const auto [one, along] = trace_of(first, second, p, q);
+    const auto trace_of = [&](const Places& places, const Places& others) {
+      Trace trace;
+      for (const Place* place : places) {
+        const int side = planar_turn(p, q, *place, axis);
+        if (side != 0) {
+          trace.is_one_sided = trace.is_one_sided && trace.side != -side;
+          trace.side = side;
+          continue;
+        }
+        trace.is_shared = trace.is_shared && is_one_of(*place, others);
+        if (!trace.low || place->at[along] < trace.low->at[along])
+          trace.low = place;
+        if (!trace.high || place->at[along] > trace.high->at[along])
+          trace.high = place;
+      }
+      return trace;
+    };
+    const Trace one = trace_of(first, second);
     if (!one.is_one_sided)
       return false;
-    const Trace other = trace_of(second, first, p, q).first;
-    if (!other.is_one_sided || one.side * other.side > 0 || (one.side == 0 && other.side == 0))
+    const Trace other = trace_of(second, first);
+    if (!other.is_one_sided || one.side * other.side > 0)
       return false;
     if (!one.low || !other.low || one.is_shared || other.is_shared)
       return true;
-    const auto is_behind = [axis_along = along](const Trace& a, const Trace& b) {
-      const double end = a.high->at[axis_along], begin = b.low->at[axis_along];
+    const auto is_behind = [along](const Trace& a, const Trace& b) {
+      const double end = a.high->at[along], begin = b.low->at[along];
       return end < begin || (end == begin && a.high->id == b.low->id);
     };
     return is_behind(one, other) || is_behind(other, one);
   };
-  const auto any_line_of = [&](const auto& places) {
-    for (std::size_t i = 0; i < places.size(); ++i)
-      for (std::size_t j = 0; j < i; ++j)
-        if (separates(places[i], places[j]))
-          return true;
-    return false;
-  };
-  return any_line_of(second) || any_line_of(first);
+  Places all = second;
+  all.insert(all.end(), first.begin(), first.end());
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (separates(*all[i], *all[j]))
+        return true;
+  return false;
+}
+
+/// Whether the plane through three places surely parts the hull of these and of one more place, if there is
+/// one, from that of others: those are in the plane or on the side where this is not, so that the hulls meet
+/// in the plane alone; and there they meet in no more than the hull of what they share.
+bool is_parted_by(const std::array<const Place*, 3>& plane, const Place* beyond, int side_beyond,
+                  const Places& others)
+{
+  const auto& [x, y, z] = plane;
+  Places in_plane;
+  int side = -side_beyond; // of the others that are not in the plane
+  for (const Place* place : others) {
+    const bool spans_plane = place->id == x->id || place->id == y->id || place->id == z->id;
+    const int here = spans_plane ? 0 : orientation(*x, *y, *z, *place);
+    if (here == 0)
+      in_plane.push_back(place);
+    else if (side == 0)
+      side = here;
+    else if (side != here)
+      return false;
+  }
+  Places own(plane.begin(), plane.end());
+  if (beyond && side_beyond == 0)
+    own.push_back(beyond);
+  if (are_all_in(in_plane, own))
+    return true;
+  const int axis = axis_across(*x, *y, *z);
+  return axis < 3 && is_clear_in_plane(own, in_plane, axis);
 }
 
 enum class Crossing { none, some, unsure };
@@ -333,17 +306,16 @@ enum class Crossing { none, some, unsure };
 /// Do an edge and a triangle meet beyond a corner that they share?
 Crossing crossing(const Place& p, const Place& q, const Place& x, const Place& y, const Place& z)
 {
-  const std::array<Place, 3> triangle{x, y, z};
-  const bool is_p_shared = is_one_of(p, triangle.data(), 3), is_q_shared = is_one_of(q, triangle.data(), 3);
+  const Places triangle{&x, &y, &z};
+  const bool is_p_shared = is_one_of(p, triangle), is_q_shared = is_one_of(q, triangle);
   if (is_p_shared && is_q_shared)
     return Crossing::none;
   if (is_p_shared || is_q_shared)
-    return certain_orientation(x, y, z, is_p_shared ? q : p) != 0 ? Crossing::none : Crossing::unsure;
-  const int side_p = certain_orientation(x, y, z, p), side_q = certain_orientation(x, y, z, q);
+    return orientation(x, y, z, is_p_shared ? q : p) != 0 ? Crossing::none : Crossing::unsure;
+  const int side_p = orientation(x, y, z, p), side_q = orientation(x, y, z, q);
   if (side_p * side_q > 0)
     return Crossing::none;
-  const int xy = certain_orientation(p, q, x, y), yz = certain_orientation(p, q, y, z),
-            zx = certain_orientation(p, q, z, x);
+  const int xy = orientation(p, q, x, y), yz = orientation(p, q, y, z), zx = orientation(p, q, z, x);
   // On different sides of two edges: the line of the edge passes by.
   if (xy * yz < 0 || yz * zx < 0 || zx * xy < 0)
     return Crossing::none;
@@ -353,96 +325,57 @@ Crossing crossing(const Place& p, const Place& q, const Place& x, const Place& y
 } // namespace
 
 Sweep::Sweep(const Place& m, const Place& t, const Place& a, const Place& b, Contact_statistics& statistics)
-    : m_corners{m, t, a, b}, m_volume(certain_orientation(m, t, a, b)), m_statistics(statistics)
+    : m_corners{m, t, a, b}, m_volume(orientation(m, t, a, b)), m_statistics(statistics)
 {
-  if (m_volume == 0)
-    m_volume = exact_orientation(m, t, a, b);
 }
 
 bool Sweep::degenerates() const
 {
   if (m_volume != 0)
     return false;
-  if (const int axis = common_axis(m_corners); axis < 3)
-    return planar_turn(m_corners[2], m_corners[3], m_corners[0], axis) *
-               planar_turn(m_corners[2], m_corners[3], m_corners[1], axis) <=
-           0;
-  const Vector m = exact(m_corners[0]), t = exact(m_corners[1]), a = exact(m_corners[2]),
-               b = exact(m_corners[3]);
-  // The normal goes in a straight line from the one to the other, and both are parallel.
-  return dot(normal(m, a, b), normal(t, a, b)) <= 0;
+  const auto& [m, t, a, b] = m_corners;
+  const int axis = axis_across(m, a, b);
+  // What is seen of the area goes in a straight line from the one to the other.
+  return axis == 3 || planar_turn(a, b, m, axis) * planar_turn(a, b, t, axis) <= 0;
 }
 
 Sweep::Answer Sweep::fast_answer(const Standing& standing) const
 {
   const auto& [m, t, a, b] = m_corners;
-  const Place* const f = standing.corners.data();
+  const std::array<Place, 3>& f = standing.corners;
   const std::size_t size = standing.size;
+  const Places face = all_of(f, size);
   std::size_t shared_count = 0;
   std::array<bool, 3> is_shared{};
   for (std::size_t i = 0; i < size; ++i)
-    shared_count += is_shared[i] = is_one_of(f[i], &t, 1) || is_one_of(f[i], &a, 1) || is_one_of(f[i], &b, 1);
+    shared_count += is_shared[i] = f[i].id == t.id || f[i].id == a.id || f[i].id == b.id;
   if (shared_count == size)
     return size == 3 ? Answer::touching : Answer::clear;
 
-  if (m_volume == 0) {
-    const auto is_clear = [&, &corners = m_corners](const auto& places) {
-      const int axis = common_axis(corners);
-      return axis < 3 &&
-             std::all_of(places.begin(), places.end(),
-                         [&](const Place& place) { return place.at[axis] == corners[0].at[axis]; }) &&
-             is_clear_in_plane(corners, places, axis);
-    };
-    if (size == 3 ? is_clear(standing.corners) : is_clear(std::array{f[0], f[1]}))
+  if (size == 3 && is_parted_by({&f[0], &f[1], &f[2]}, nullptr, 0, all_of(m_corners)))
+    return Answer::clear;
+  // The faces of the swept tetrahedron, with the corner that each has not; all in one plane if it is flat.
+  using Facet = std::array<const Place*, 3>;
+  const std::pair<Facet, const Place*> facets[] = {
+      {{&m, &t, &a}, &b}, {{&m, &b, &t}, &a}, {{&m, &a, &b}, &t}, {{&t, &b, &a}, &m}};
+  for (const auto& [facet, corner] : facets)
+    if (is_parted_by(facet, corner, m_volume, face))
       return Answer::clear;
-  }
-  // A plane in which they have in common no more than they share. First that of the standing face, ...
-  if (size == 3) {
-    int side = 2;
-    for (const Place& corner : m_corners) {
-      if (is_one_of(corner, f, 3))
-        continue;
-      const int here = certain_orientation(f[0], f[1], f[2], corner);
-      side = side == 2 || side == here ? here : 0;
-    }
-    if (side == 1 || side == -1)
-      return Answer::clear;
-  }
-  // ... then those of the four faces of the swept tetrahedron; sides[k][i] is that of corner i.
-  static constexpr int s_facets[4][4] = {
-      {0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}, {1, 3, 2, 0}}; // the last is opposite
-  int sides[4][3] = {};
-  for (int k = 0; k < 4; ++k) {
-    const Place &x = m_corners[s_facets[k][0]], &y = m_corners[s_facets[k][1]],
-                &z = m_corners[s_facets[k][2]];
-    bool is_apart = true;
-    for (std::size_t i = 0; i < size; ++i) {
-      if (is_shared[i]) {
-        is_apart = is_apart && f[i].id != m_corners[s_facets[k][3]].id;
-        continue;
-      }
-      sides[k][i] = certain_orientation(x, y, z, f[i]);
-      is_apart = is_apart && sides[k][i] != 0 && sides[k][i] != m_volume;
-      for (std::size_t j = 0; j < i; ++j)
-        is_apart = is_apart && (is_shared[j] || sides[k][j] == sides[k][i]);
-    }
-    if (is_apart)
-      return Answer::clear;
-  }
 
   bool is_unsure = false;
   // A corner that stands still, met by the inside of the moving face.
   for (std::size_t i = 0; i < size; ++i) {
     if (is_shared[i])
       continue;
-    bool is_outside = false, is_certain = m_volume != 0;
-    for (int k = 0; k < 4 && is_certain; ++k) {
-      is_outside = is_outside || sides[k][i] == -m_volume;
-      is_certain = is_outside || sides[k][i] != 0;
+    bool is_outside = false, is_certain = true;
+    for (const auto& [facet, corner] : facets) {
+      const int side = orientation(*facet[0], *facet[1], *facet[2], f[i]);
+      is_outside = is_outside || (side != 0 && side != m_volume);
+      is_certain = is_certain && side != 0;
     }
     if (is_certain && !is_outside)
       return Answer::touching;
-    is_unsure = is_unsure || !is_certain;
+    is_unsure = is_unsure || !(is_outside || is_certain);
   }
   const auto add = [&](Crossing answer) {
     is_unsure = is_unsure || answer == Crossing::unsure;
@@ -453,21 +386,23 @@ Sweep::Answer Sweep::fast_answer(const Standing& standing) const
     for (const Place* end : {&a, &b})
       if (add(crossing(f[i], f[(i + 1) % size], m, t, *end)))
         return Answer::touching;
-  // The moving vertex, meeting the inside of the face that stands still.
-  if (size == 3 && add(crossing(m, t, f[0], f[1], f[2])))
-    return Answer::touching;
-  // What shares an edge can also fold flat onto it: v passes through the plane of the standing face on the
-  // side where that is.
-  if (size == 3 && is_one_of(a, f, 3) && is_one_of(b, f, 3)) {
-    const Place& r = f[is_shared[0] ? is_shared[1] ? 2 : 1 : 0];
-    const int at_start = certain_orientation(a, b, r, m), at_end = certain_orientation(a, b, r, t);
-    if (at_start * at_end > 0)
-      return Answer::clear;
-    if (at_start == 0 || at_end == 0)
-      return Answer::unsure;
-    // At that time o(a,b,v,t) has the sign of o(a,b,m,t), and that of o(a,b,r,t) just when v is on the side
-    // of r.
-    return m_volume == 0 ? Answer::unsure : m_volume == at_end ? Answer::touching : Answer::clear;
+  if (size == 3) {
+    // The moving vertex, meeting the inside of the face that stands still.
+    if (add(crossing(m, t, f[0], f[1], f[2])))
+      return Answer::touching;
+    // What shares an edge can also fold flat onto it: v passes through the plane of the standing face on the
+    // side where that is.
+    if (is_one_of(a, face) && is_one_of(b, face)) {
+      const Place& r = f[is_shared[0] ? is_shared[1] ? 2 : 1 : 0];
+      const int at_start = orientation(a, b, r, m), at_end = orientation(a, b, r, t);
+      if (at_start * at_end > 0)
+        return Answer::clear;
+      if (at_start == 0 || at_end == 0 || m_volume == 0)
+        return Answer::unsure;
+      // At that time o(a,b,v,t) has the sign of o(a,b,m,t), and that of o(a,b,r,t) just when v is on the side
+      // of r.
+      return m_volume == at_end ? Answer::touching : Answer::clear;
+    }
   }
   return is_unsure ? Answer::unsure : Answer::clear;
 }
@@ -488,7 +423,7 @@ std::optional<std::string> Sweep::contact(const Standing& standing) const
   Polygon polygon;
   for (std::size_t i = 0; i < standing.size; ++i) {
     polygon.push_back(exact(standing.corners[i]));
-    if (is_one_of(standing.corners[i], &m_corners[1], 3))
+    if (is_one_of(standing.corners[i], {&m_corners[1], &m_corners[2], &m_corners[3]}))
       shared.push_back(polygon.back());
   }
   return point_beyond_shared(
@@ -497,29 +432,17 @@ std::optional<std::string> Sweep::contact(const Standing& standing) const
 
 bool is_degenerate(const std::array<Place, 3>& triangle)
 {
-  return is_zero(normal(exact(triangle[0]), exact(triangle[1]), exact(triangle[2])));
+  return axis_across(triangle[0], triangle[1], triangle[2]) == 3;
 }
 
 bool do_meet(const std::array<Place, 3>& a, const std::array<Place, 3>& b, Contact_statistics& statistics)
 {
   ++statistics.pairs;
-  const int axis = common_axis(a);
-  if (axis < 3 && axis == common_axis(b) && a[0].at[axis] == b[0].at[axis] && is_clear_in_plane(a, b, axis))
-    return false;
-  // Apart by the plane of one of them?
-  for (const auto& [x, y] : {std::make_pair(&a, &b), std::make_pair(&b, &a)}) {
-    int side = 2;
-    for (const Place& corner : *y) {
-      if (is_one_of(corner, x->data(), 3))
-        continue;
-      const int here = certain_orientation((*x)[0], (*x)[1], (*x)[2], corner);
-      side = side == 2 || side == here ? here : 0;
-    }
-    if (side == 2)
-      return true; // all three are shared
-    if (side != 0)
+  if (are_all_in(all_of(a), all_of(b)))
+    return true;
+  for (const auto& [x, y] : {std::make_pair(&a, &b), std::make_pair(&b, &a)})
+    if (is_parted_by({&(*x)[0], &(*x)[1], &(*x)[2]}, nullptr, 0, all_of(*y)))
       return false;
-  }
   bool is_unsure = false;
   for (const auto& [x, y] : {std::make_pair(&a, &b), std::make_pair(&b, &a)})
     for (std::size_t i = 0; i < 3; ++i) {
@@ -540,7 +463,7 @@ std::optional<std::string> meeting_point(const std::array<Place, 3>& a, const st
   Polygon polygon;
   for (const Place& corner : b) {
     polygon.push_back(exact(corner));
-    if (is_one_of(corner, a.data(), 3))
+    if (is_one_of(corner, all_of(a)))
       shared.push_back(polygon.back());
   }
   return point_beyond_shared({exact(a[0]), exact(a[1]), exact(a[2])}, polygon, shared);

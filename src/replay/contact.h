@@ -14,10 +14,10 @@
 /// Contacts of a moving triangle, asked by time: what can touch first, and where. Shares no code with the
 /// filter that judges collapses, nor its case distinctions.
 ///
-/// Two ways to every answer. The fast one looks for the first contact of two things that were clear of each
-/// other: a first contact is one of a vertex with a face or of an edge with an edge, so a few signs of
-/// determinants tell, in doubles with a proved bound on the error. Where one of them is not certain, and for
-/// every contact that is reported, the slow one cuts the standing triangle by the swept tetrahedron in
+/// Two ways to every answer. The fast one takes signs alone, from CGAL's exact predicates. It looks for a
+/// plane that parts the two but for what they share; then for the first contact of two things that were clear
+/// of each other, which is one of a vertex with a face or of an edge with an edge. Where neither tells, and
+/// for every contact that is reported, the slow one cuts the standing triangle by the swept tetrahedron in
 /// rational numbers and looks at what is left.
 namespace selvedge::reference {
 
