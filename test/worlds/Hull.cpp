@@ -4,6 +4,7 @@
 #include "Hull.h"
 
 #include <CGAL/intersections.h>
+#include <boost/container/static_vector.hpp>
 
 #include <algorithm>
 
@@ -53,6 +54,79 @@ bool Hull::contains(const Point_3& point) const
   return true;
 }
 
+namespace {
+
+using Places = boost::container::static_vector<Place, 4>;
+
+/// Whether a plane parts two sets of places: the others are on one side, but for some in the plane that are
+/// shared, and the own ones are not on that side. Then the hulls meet in the hull of what they share.
+template <class Side_of>
+bool parts(const Places& own, const Places& others, const Side_of& side_of)
+{
+  CGAL::Orientation beyond = CGAL::COPLANAR;
+  for (const Place& place : others) {
+    const CGAL::Orientation side = side_of(place);
+    const auto is_this = [&](const Place& other) { return other.position == place.position; };
+    if (side == CGAL::COPLANAR ? std::none_of(own.begin(), own.end(), is_this) : beyond == -side)
+      return false;
+    beyond = side == CGAL::COPLANAR ? beyond : side;
+  }
+  return std::none_of(own.begin(), own.end(), [&](const Place& place) {
+    return beyond != CGAL::COPLANAR && side_of(place) == beyond;
+  });
+}
+
+/// Does the plane through some three of the own places?
+bool parts_by_triple(const Places& own, const Places& others)
+{
+  for (std::size_t i = 0; i < own.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      for (std::size_t k = 0; k < j; ++k) {
+        const Place &p = own[i], &q = own[j], &r = own[k];
+        const auto side_of = [&](const Place& place) {
+          const bool is_one =
+              place.position == p.position || place.position == q.position || place.position == r.position;
+          return is_one ? CGAL::COPLANAR : CGAL::orientation(p.at, q.at, r.at, place.at);
+        };
+        if (parts(own, others, side_of))
+          return true;
+      }
+  return false;
+}
+
+/// Does the plane through some two of the own places and along an axis?
+bool parts_by_pair(const Places& own, const Places& others, int axis)
+{
+  const auto seen = [u = (axis + 1) % 3, v = (axis + 2) % 3](const Place& place) {
+    return Kernel::Point_2(place.at[u], place.at[v]);
+  };
+  for (std::size_t i = 0; i < own.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto side_of = [&](const Place& place) {
+        const bool is_one = place.position == own[i].position || place.position == own[j].position;
+        return is_one ? CGAL::COPLANAR : CGAL::orientation(seen(own[i]), seen(own[j]), seen(place));
+      };
+      if (parts(own, others, side_of))
+        return true;
+    }
+  return false;
+}
+
+} // namespace
+
+// Whether the two surely meet in no more than they share.
+template <class Object>
+bool Hull::is_parted_from(const Object& object) const
+{
+  const Places own(m_corners.begin(), m_corners.begin() + m_size), others(object.begin(), object.end());
+  if (parts_by_triple(own, others) || parts_by_triple(others, own))
+    return true;
+  for (int axis = 0; axis < 3; ++axis)
+    if (parts_by_pair(own, others, axis) || parts_by_pair(others, own, axis))
+      return true;
+  return false;
+}
+
 template <class Object>
 bool Hull::meets(const Object& object) const
 {
@@ -60,6 +134,15 @@ bool Hull::meets(const Object& object) const
                      [&](const Triangle& triangle) { return CGAL::do_intersect(triangle, object); }) ||
          (m_orientation != CGAL::COPLANAR && contains(object[0]));
 }
+
+namespace {
+
+bool is_between(const Point_3& p, const Point_3& x, const Point_3& q)
+{
+  return CGAL::do_overlap(x.bbox(), p.bbox() + q.bbox()) && CGAL::are_ordered_along_line(p, x, q);
+}
+
+} // namespace
 
 // Whether the part of the boundary through which rays from a corner leave meets an object that is no point.
 template <class Object>
@@ -72,8 +155,10 @@ bool Hull::side_without_meets(const Place& corner, const Object& object) const
   }
   for (std::size_t i = 0; i < m_size; ++i)
     for (std::size_t j = 0; j < i; ++j) {
-      const Segment side(m_corners[i].at, m_corners[j].at);
-      if (!side.has_on(corner.at) && CGAL::do_intersect(side, object))
+      const Place &p = m_corners[i], &q = m_corners[j];
+      const bool has_corner =
+          p.position == corner.position || q.position == corner.position || is_between(p.at, corner.at, q.at);
+      if (!has_corner && CGAL::do_intersect(Segment(p.at, q.at), object))
         return true;
     }
   return false;
@@ -130,6 +215,8 @@ bool Hull::meets_beyond_shared(const Standing_face& face) const
   const auto shared = end_of_shared - f.begin();
   if (shared == 3)
     return true;
+  if (is_parted_from(f))
+    return false;
   if (CGAL::collinear(f[0].at, f[1].at, f[2].at))
     return meets_collinear_face(face);
   if (shared == 2)
@@ -143,7 +230,7 @@ bool Hull::meets_beyond_shared(const Standing_face& face) const
 bool Hull::meets_beyond_shared(const Standing_edge& edge) const
 {
   const bool is_first_shared = has_corner(edge[0]), is_second_shared = has_corner(edge[1]);
-  if (is_first_shared && is_second_shared)
+  if ((is_first_shared && is_second_shared) || is_parted_from(edge))
     return false;
   if (is_first_shared || is_second_shared)
     return meets_segment_beyond(edge[is_first_shared ? 0 : 1], edge[is_first_shared ? 1 : 0]);

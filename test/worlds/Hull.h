@@ -46,6 +46,8 @@ private:
   bool has_corner(const Place& place) const;
   bool contains(const Point_3& point) const;
   template <class Object>
+  bool is_parted_from(const Object& object) const;
+  template <class Object>
   bool meets(const Object& object) const;
   template <class Object>
   bool side_without_meets(const Place& corner, const Object& object) const;

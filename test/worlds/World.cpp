@@ -7,6 +7,7 @@
 
 #include <charconv>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
 
 namespace selvedge::test {
@@ -211,6 +212,20 @@ std::string command_line(const World& world)
   if (world.questions)
     beyond += "; stopped at question " + std::to_string(*world.questions + 1);
   return command + (beyond.empty() ? "" : " #" + beyond.substr(1));
+}
+
+std::set<std::string> options_used(const World& world)
+{
+  std::set<std::string> options{"to_" + extension(world.output_format)};
+  std::istringstream words(command_line(world));
+  for (std::string word; words >> word;)
+    if (word.compare(0, 2, "--") == 0)
+      options.insert(word);
+  if (!world.options.check_uv_orientation)
+    options.insert("texture_may_turn");
+  if (world.questions)
+    options.insert("stopped_early");
+  return options;
 }
 
 std::string describe(const World& world)

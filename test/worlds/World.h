@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,9 @@ World read_world(const std::filesystem::path& folder);
 /// The run of `selvedge` that does what the world asks for, in the folder of its files. What the program has
 /// no option for is named behind `#`.
 std::string command_line(const World& world);
+
+/// What of `command_line` is not as it is by default, in words: its options, the kind of the file written.
+std::set<std::string> options_used(const World& world);
 
 /// One line for a person.
 std::string describe(const World& world);

@@ -30,6 +30,17 @@ void reduce(const World& world, const Prepared_soup& prepared, Reduction_log* lo
   run.result = simplify_soup(prepared, options, world.intent);
 }
 
+World_run prepared(const World& world)
+{
+  World_run run;
+  try {
+    run.prepared = prepare(world.soup, world.prepare_options(), world.obstacle);
+  } catch (const Input_error& error) {
+    run.refusal = error.what();
+  }
+  return run;
+}
+
 const char* file_name(const World& world)
 {
   static constexpr const char* s_names[] = {"out.obj", "out.off", "out.ply",
@@ -41,20 +52,15 @@ const char* file_name(const World& world)
 
 World_run run(const World& world)
 {
-  World_run run;
-  const Prepare_options prepare_options = world.prepare_options();
-  try {
-    run.prepared = prepare(world.soup, prepare_options, world.obstacle);
-    if (world.weld_distance > 0) {
-      Prepare_options without = prepare_options;
-      without.weld_distance = 0;
-      run.unsnapped = prepare(world.soup, without, world.obstacle);
-    } else {
-      run.unsnapped = run.prepared;
-    }
-  } catch (const Input_error& error) {
-    run.refusal = error.what();
+  World_run run = prepared(world);
+  if (run.refusal)
     return run;
+  const Prepare_options prepare_options = world.prepare_options();
+  run.unsnapped = run.prepared;
+  if (world.weld_distance > 0) {
+    Prepare_options without = prepare_options;
+    without.weld_distance = 0;
+    run.unsnapped = prepare(world.soup, without, world.obstacle);
   }
 
   const Log_numbering numbering(world.soup, world.input_format == Mesh_format::stl);
@@ -75,6 +81,14 @@ World_run run(const World& world)
                world.is_sewn ? merged_at_positions(run.result.soup) : run.result.soup);
     run.read_back = read_mesh(folder / file_name(world)).soup;
   }
+  return run;
+}
+
+World_run run_without_output(const World& world)
+{
+  World_run run = prepared(world);
+  if (!run.refusal)
+    reduce(world, run.prepared, nullptr, run);
   return run;
 }
 

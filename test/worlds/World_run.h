@@ -34,6 +34,10 @@ struct World_run
 /// except for `Input_error` from `prepare`.
 World_run run(const World& world);
 
+/// The same without a log, a verdict and a file: only `refusal`, `prepared`, `collapses`, `is_told_to_stop`
+/// and `result` are set.
+World_run run_without_output(const World& world);
+
 /// Once more from the same `Prepared_soup`, with other options; only `collapses` and `result` are set.
 World_run run_again(const World& world, const Prepared_soup& prepared);
 

@@ -4,6 +4,7 @@
 #include "judge_world.h"
 #include "Judged_complex.h"
 #include "Random.h"
+#include "random_world.h"
 
 #include "soup/selection.h"
 #include <selvedge/Error.h>
@@ -46,6 +47,9 @@ Judgement_counts& Judgement_counts::operator+=(const Judgement_counts& other)
   collapses += other.collapses;
   snaps += other.snaps;
   twins += other.twins;
+  option_sets += other.option_sets;
+  for (const auto& [option, count] : other.options)
+    options[option] += count;
   return *this;
 }
 
@@ -518,18 +522,12 @@ Verdict judge_file(const World& world, const World_run& run)
   return std::nullopt;
 }
 
-} // namespace
-
-Verdict judge(const World& world, const World_run& run, Judgement_counts& counts)
+/// One reduction of what is prepared; the complex is as it was before it.
+Verdict judge_reduction(const World& world, const World_run& run, Judged_complex complex,
+                        Judgement_counts& counts)
 {
-  if (run.refusal)
-    return judge_refusal(world, *run.refusal);
-  const Expected_start expected(world);
-  Judged_complex complex(expected.soup, expected.obstacle);
-  if (auto broken = judge_preparation(world, run, expected, complex))
-    return broken;
-  if (auto broken = judge_snaps(world, run, complex, counts))
-    return broken;
+  for (const std::string& option : options_used(world))
+    ++counts.options[option];
   const std::vector<char> is_held = held(world, run.prepared.soup, true);
   for (Index t = 0; t < is_held.size(); ++t)
     if (is_held[t])
@@ -548,9 +546,45 @@ Verdict judge(const World& world, const World_run& run, Judgement_counts& counts
     return Broken_promise{Promise::verdict, std::to_string(run.verification.new_pairs.size()) +
                                                 " new pairs, topology " +
                                                 (run.verification.same_topology() ? "kept" : "changed")};
-  if (auto broken = judge_replay(world, run))
+  return std::nullopt;
+}
+
+Verdict judge_other_options(const World& world, const World_run& run, const Judged_complex& complex,
+                            Judgement_counts& counts, std::size_t option_sets)
+{
+  for (std::size_t number = 1; number <= option_sets; ++number) {
+    ++counts.option_sets;
+    const World other = with_other_options(world, number);
+    World_run again = run_again(other, run.prepared);
+    again.prepared = run.prepared;
+    again.verification = verify(again.result, again.prepared);
+    if (auto broken = judge_reduction(other, again, complex, counts))
+      return broken;
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
+Verdict judge(const World& world, const World_run& run, Judgement_counts& counts,
+              const Judgement_extent& extent)
+{
+  if (run.refusal)
+    return judge_refusal(world, *run.refusal);
+  const Expected_start expected(world);
+  Judged_complex complex(expected.soup, expected.obstacle);
+  if (auto broken = judge_preparation(world, run, expected, complex))
     return broken;
-  return judge_file(world, run);
+  if (auto broken = judge_snaps(world, run, complex, counts))
+    return broken;
+  if (auto broken = judge_reduction(world, run, complex, counts))
+    return broken;
+  if (extent.is_replay_asked)
+    if (auto broken = judge_replay(world, run))
+      return broken;
+  if (auto broken = judge_file(world, run))
+    return broken;
+  return judge_other_options(world, run, complex, counts, extent.option_sets);
 }
 
 // Twins
@@ -699,7 +733,8 @@ Verdict judge_levels(const World& world, const World_run& run)
 
 } // namespace
 
-Verdict judge_twins(const World& world, const World_run& run, Judgement_counts& counts)
+Verdict judge_twins(const World& world, const World_run& run, Judgement_counts& counts,
+                    const Judgement_extent& extent)
 {
   if (run.refusal)
     return std::nullopt;
@@ -726,7 +761,7 @@ Verdict judge_twins(const World& world, const World_run& run, Judgement_counts& 
   if (random.one_in(4) && !is_scene && world.input_format != Mesh_format::stl) {
     ++counts.twins;
     const World twin = with_points(world, [&](double x) { return x == 0 && random.one_in(2) ? -x : x; });
-    if (auto broken = compare(test::run(twin), run, "zeros of another sign"))
+    if (auto broken = compare(run_without_output(twin), run, "zeros of another sign"))
       return broken;
   }
   if (random.one_in(2) && !is_scene)
@@ -734,7 +769,8 @@ Verdict judge_twins(const World& world, const World_run& run, Judgement_counts& 
       ++counts.twins;
       World twin = with_points(world, [&](double x) { return std::ldexp(x, *exponent); });
       twin.weld_distance = std::ldexp(world.weld_distance, *exponent);
-      if (auto broken = compare(test::run(twin), run, "2^" + std::to_string(*exponent) + " times as large"))
+      if (auto broken =
+              compare(run_without_output(twin), run, "2^" + std::to_string(*exponent) + " times as large"))
         return broken;
     }
   if (random.one_in(4) && !is_scene && world.input_format != Mesh_format::stl) {
@@ -742,7 +778,7 @@ Verdict judge_twins(const World& world, const World_run& run, Judgement_counts& 
     World twin = world;
     twin.soup = permuted(world.soup, random);
     twin.obstacle = permuted(world.obstacle, random);
-    if (auto broken = judge(twin, test::run(twin), counts)) {
+    if (auto broken = judge(twin, test::run(twin), counts, {extent.is_replay_asked, 0})) {
       broken->message += ", in another order";
       return broken;
     }
@@ -754,14 +790,14 @@ Verdict judge_twins(const World& world, const World_run& run, Judgement_counts& 
   return std::nullopt;
 }
 
-Verdict judge(const World& world, Judgement_counts& counts)
+Verdict judge(const World& world, Judgement_counts& counts, const Judgement_extent& extent)
 {
   try {
     const World_run run = test::run(world);
     ++(run.refusal ? counts.refused_worlds : counts.worlds);
-    if (auto broken = judge(world, run, counts))
+    if (auto broken = judge(world, run, counts, extent))
       return broken;
-    return judge_twins(world, run, counts);
+    return judge_twins(world, run, counts, extent);
   } catch (const std::exception& error) {
     return Broken_promise{Promise::refusal, error.what()};
   }

@@ -8,7 +8,9 @@
 #include "World_run.h"
 
 #include <cstddef>
+#include <map>
 #include <optional>
+#include <string>
 
 namespace selvedge::test {
 
@@ -19,21 +21,33 @@ struct Judgement_counts
   std::size_t collapses = 0; ///< judged by brute force
   std::size_t snaps = 0;
   std::size_t twins = 0;
+  std::size_t option_sets = 0;                ///< beyond the first of each world
+  std::map<std::string, std::size_t> options; ///< how many reductions had it
 
   Judgement_counts& operator+=(const Judgement_counts& other);
 };
 
+/// How much is judged.
+struct Judgement_extent
+{
+  bool is_replay_asked = true; ///< about the log, which costs as much as all other questions
+  std::size_t option_sets = 0; ///< so many reductions more from one preparation, `with_other_options`
+};
+
 /// The first promise that a run breaks: every motion by brute force, the end, the log by the replay, the
-/// file.
-std::optional<Broken_promise> judge(const World& world, const World_run& run, Judgement_counts& counts);
+/// file; then every motion and the end of reductions with other options.
+std::optional<Broken_promise> judge(const World& world, const World_run& run, Judgement_counts& counts,
+                                    const Judgement_extent& extent = {});
 
 /// The first promise that a twin of a run breaks. One with another index, in other threads, with zeros of the
 /// other sign, or in units 2^k times as large does the same; one with vertices and triangles in another order
 /// keeps what this one keeps; a level of detail is what a run to it alone gives.
-std::optional<Broken_promise> judge_twins(const World& world, const World_run& run, Judgement_counts& counts);
+std::optional<Broken_promise> judge_twins(const World& world, const World_run& run, Judgement_counts& counts,
+                                          const Judgement_extent& extent = {});
 
 /// Runs a world and judges all of that. An exception is a promise broken.
-std::optional<Broken_promise> judge(const World& world, Judgement_counts& counts);
+std::optional<Broken_promise> judge(const World& world, Judgement_counts& counts,
+                                    const Judgement_extent& extent = {});
 
 } // namespace selvedge::test
 

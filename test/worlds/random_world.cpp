@@ -173,6 +173,14 @@ void choose_parts(World& world, Random& random)
       intent.weights = attribute.name;
 }
 
+void choose_options(World& world, Random& random)
+{
+  choose_limits(world.options, random);
+  choose_target(world, random);
+  choose_means(world, random);
+  choose_parts(world, random);
+}
+
 } // namespace
 
 World random_world(std::uint64_t seed)
@@ -216,10 +224,7 @@ World random_world(std::uint64_t seed)
     }
   }
 
-  choose_limits(world.options, random);
-  choose_target(world, random);
-  choose_means(world, random);
-  choose_parts(world, random);
+  choose_options(world, random);
   if (random.one_in(5))
     world.weld_distance = diagonal(soup) * random.one_of({1e-12, 1e-6, 1e-3, 0.02, 0.1});
   if (!std::isfinite(world.weld_distance))
@@ -232,6 +237,18 @@ World random_world(std::uint64_t seed)
   world.is_sewn = random.one_in(12);
   world.is_strict = random.one_in(25);
   return world;
+}
+
+World with_other_options(const World& world, std::uint64_t number)
+{
+  World other = world;
+  other.options = Simplify_options();
+  other.intent = Simplify_intent();
+  other.lods.clear();
+  other.questions.reset();
+  Random random(world.seed * 0x9e3779b97f4a7c15 + number * 0xd1b54a32d192ed03);
+  choose_options(other, random);
+  return other;
 }
 
 } // namespace selvedge::test

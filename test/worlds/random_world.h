@@ -15,6 +15,10 @@ namespace selvedge::test {
 /// machine.
 World random_world(std::uint64_t seed);
 
+/// The same input, files and preparation, with other limits, targets, means and parts. Those of a number are
+/// always the same.
+World with_other_options(const World& world, std::uint64_t number);
+
 } // namespace selvedge::test
 
 #endif // SELVEDGE_TEST_WORLDS_RANDOM_WORLD_H

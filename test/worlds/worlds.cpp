@@ -20,6 +20,7 @@
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -40,7 +41,10 @@ using Clock = std::chrono::steady_clock;
 struct Request
 {
   std::uint64_t seed = 1;
-  std::uint64_t count = 1000;
+  std::uint64_t count = 1000; ///< without a limit when `minutes` has one
+  double minutes = 0;         ///< after which no world is begun; 0: no limit
+  std::uint64_t replay_every = 1;
+  std::size_t option_sets = 0;
   unsigned processes = 1;
   double seconds = 60;    ///< that a world may take
   std::size_t shrink = 3; ///< so many failures, for each promise
@@ -49,7 +53,9 @@ struct Request
 };
 
 const char* const s_usage =
-    "worlds [--seed N] [--count M] [--processes P] [--seconds S] [--shrink K] [--output FOLDER]\n"
+    "worlds [--seed N] [--count M] [--minutes T] [--processes P] [--replay-every R] [--options O] "
+    "[--seconds S]\n"
+    "       [--shrink K] [--output FOLDER]\n"
     "worlds FOLDER\n\n"
     "Runs the worlds of the seeds N to N + M - 1 and judges every collapse by brute force, the log by the "
     "replay, the\n"
@@ -57,11 +63,19 @@ const char* const s_usage =
     "promise,\n"
     "and written to a folder of its own in FOLDER, which the second form runs again. A world may take S "
     "seconds.\n"
+    "With --minutes no world begins after T minutes, and without --count there is no other end. With "
+    "--replay-every the\n"
+    "replay is asked about every Rth world alone; with --options every input is reduced O times more, with "
+    "other options.\n"
+    "Both make a collapse cheaper to judge. Every minute a line says what has been judged, and a second one "
+    "how many\n"
+    "reductions had which option.\n"
     "Exit code 1: a promise was broken.\n";
 
 Request read_request(int count, char** arguments)
 {
   Request request;
+  bool has_count = false;
   for (int i = 1; i < count; ++i) {
     const std::string option = arguments[i];
     if (option.compare(0, 2, "--") != 0) {
@@ -73,8 +87,15 @@ Request read_request(int count, char** arguments)
     const std::string value = arguments[++i];
     if (option == "--seed")
       request.seed = std::stoull(value);
-    else if (option == "--count")
+    else if (option == "--count") {
       request.count = std::stoull(value);
+      has_count = true;
+    } else if (option == "--minutes")
+      request.minutes = std::stod(value);
+    else if (option == "--replay-every")
+      request.replay_every = std::max(1ull, std::stoull(value));
+    else if (option == "--options")
+      request.option_sets = std::stoul(value);
     else if (option == "--processes")
       request.processes = unsigned(std::max(1ul, std::stoul(value)));
     else if (option == "--seconds")
@@ -86,6 +107,8 @@ Request read_request(int count, char** arguments)
     else
       throw std::invalid_argument("no option " + option);
   }
+  if (request.minutes > 0 && !has_count)
+    request.count = std::numeric_limits<std::uint64_t>::max() - request.seed;
   return request;
 }
 
@@ -96,23 +119,40 @@ std::string one_line(std::string text)
 }
 
 /// "ok" with counts, or "bad" with the promise and what is wrong.
-std::string verdict_line(const World& world)
+std::string verdict_line(const World& world, const Judgement_extent& extent = {})
 {
   Judgement_counts counts;
   std::ostringstream line;
-  if (const auto broken = judge(world, counts))
+  if (const auto broken = judge(world, counts, extent)) {
     line << "bad " << name(broken->promise) << ": " << one_line(broken->message);
-  else
-    line << "ok " << counts.worlds << ' ' << counts.refused_worlds << ' ' << counts.collapses << ' '
-         << counts.snaps << ' ' << counts.twins;
+    return line.str();
+  }
+  line << "ok " << counts.worlds << ' ' << counts.refused_worlds << ' ' << counts.collapses << ' '
+       << counts.snaps << ' ' << counts.twins << ' ' << counts.option_sets;
+  for (const auto& [option, count] : counts.options)
+    line << ' ' << option << ' ' << count;
   return line.str();
+}
+
+/// The counts in a line that begins with "ok".
+Judgement_counts counts_in(const std::string& line)
+{
+  std::istringstream words(line.substr(3));
+  Judgement_counts counts;
+  words >> counts.worlds >> counts.refused_worlds >> counts.collapses >> counts.snaps >> counts.twins >>
+      counts.option_sets;
+  std::string option;
+  for (std::size_t count = 0; words >> option >> count;)
+    counts.options[option] = count;
+  return counts;
 }
 
 /// A process that runs worlds one after another and sends two lines for each: its seed, then the verdict.
 class Worker
 {
 public:
-  Worker(std::uint64_t count, const std::function<World(std::uint64_t)>& world)
+  /// What is asked about the world of a number is told by `verdict`.
+  Worker(std::uint64_t count, const std::function<std::string(std::uint64_t)>& verdict)
   {
     int ends[2];
     if (::pipe(ends) != 0)
@@ -134,13 +174,13 @@ public:
       };
       for (std::uint64_t i = 0; i < count; ++i) {
         send("world " + std::to_string(i));
-        std::string verdict;
+        std::string line;
         try {
-          verdict = verdict_line(world(i));
+          line = verdict(i);
         } catch (const std::exception& error) {
-          verdict = std::string("bad world: ") + one_line(error.what());
+          line = std::string("bad world: ") + one_line(error.what());
         }
-        send(verdict);
+        send(line);
       }
       ::_exit(0);
     }
@@ -225,7 +265,7 @@ private:
 /// The verdict on one world, in a process of its own.
 std::string verdict_in_process(const World& world, double seconds)
 {
-  Worker worker(1, [&](std::uint64_t) { return world; });
+  Worker worker(1, [&](std::uint64_t) { return verdict_line(world); });
   std::string verdict;
   for (;;) {
     ::pollfd waiting{worker.pipe(), POLLIN, 0};
@@ -261,7 +301,7 @@ public:
     std::uint64_t next = m_request.seed;
     const std::uint64_t beyond = m_request.seed + m_request.count;
     for (;;) {
-      while (batches.size() < m_request.processes && (next < beyond || !m_left.empty())) {
+      while (!is_over() && batches.size() < m_request.processes && (next < beyond || !m_left.empty())) {
         if (m_left.empty()) {
           const std::uint64_t end = std::min(beyond, next + s_batch);
           m_left.push_back({next, end});
@@ -269,7 +309,11 @@ public:
         }
         const auto [first, end] = m_left.back();
         m_left.pop_back();
-        batches.push_back(std::make_unique<Batch>(first, end));
+        batches.push_back(std::make_unique<Batch>(first, end, [&, begin = first](std::uint64_t i) {
+          const std::uint64_t seed = begin + i;
+          return verdict_line(random_world(seed),
+                              {seed % m_request.replay_every == 0, m_request.option_sets});
+        }));
       }
       if (batches.empty())
         break;
@@ -280,13 +324,13 @@ public:
   }
 
 private:
-  static constexpr std::uint64_t s_batch = 500;
+  static constexpr std::uint64_t s_batch = 200;
 
   struct Batch
   {
-    Batch(std::uint64_t first_, std::uint64_t beyond_)
-        : first(first_), beyond(beyond_),
-          worker(beyond_ - first_, [first_](std::uint64_t i) { return random_world(first_ + i); })
+    Batch(std::uint64_t first_, std::uint64_t beyond_,
+          const std::function<std::string(std::uint64_t)>& verdict)
+        : first(first_), beyond(beyond_), worker(beyond_ - first_, verdict)
     {
     }
 
@@ -323,10 +367,7 @@ private:
   {
     ++m_done;
     if (verdict.compare(0, 3, "ok ") == 0) {
-      std::istringstream words(verdict.substr(3));
-      Judgement_counts counts;
-      words >> counts.worlds >> counts.refused_worlds >> counts.collapses >> counts.snaps >> counts.twins;
-      m_counts += counts;
+      m_counts += counts_in(verdict);
       return;
     }
     std::cout << "seed " << seed << ": " << verdict.substr(4) << std::endl;
@@ -342,7 +383,9 @@ private:
     const auto fails = [&](const World& world) {
       return kind_of(verdict_in_process(world, seconds)) == kind;
     };
-    const World world = random_world(seed);
+    World world = random_world(seed);
+    for (std::size_t number = 1; number <= m_request.option_sets && !fails(world); ++number)
+      world = with_other_options(random_world(seed), number);
     if (!fails(world)) {
       std::cout << "  does not fail again" << std::endl;
       return;
@@ -361,17 +404,23 @@ private:
     }
   }
 
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - m_start).count(); }
+  bool is_over() const { return m_request.minutes > 0 && seconds() > 60 * m_request.minutes; }
+
   void tell(bool is_end)
   {
-    if (!is_end && m_done < m_told + 10'000)
+    if (!is_end && seconds() < m_told + 60)
       return;
-    m_told = m_done;
+    m_told = seconds();
     std::cout << m_done << " seeds from " << m_request.seed << ": " << m_counts.worlds << " worlds accepted, "
               << m_counts.refused_worlds << " refused, " << m_counts.collapses << " collapses and "
-              << m_counts.snaps << " snaps judged, " << m_counts.twins << " twins, "
-              << int(std::chrono::duration<double>(Clock::now() - m_start).count()) << " s";
+              << m_counts.snaps << " snaps judged, " << m_counts.twins << " twins, " << m_counts.option_sets
+              << " other sets of options, " << int(m_told) << " s";
     for (const auto& [kind, count] : m_failures)
       std::cout << ", " << count << " x " << kind.substr(4);
+    std::cout << "\n  reductions by option:";
+    for (const auto& [option, count] : m_counts.options)
+      std::cout << ' ' << option << ' ' << count;
     std::cout << std::endl;
   }
 
@@ -380,7 +429,8 @@ private:
   std::vector<std::pair<std::uint64_t, std::uint64_t>> m_left; // of batches that ended early
   Judgement_counts m_counts;
   std::map<std::string, std::size_t> m_failures;
-  std::uint64_t m_done = 0, m_told = 0;
+  std::uint64_t m_done = 0;
+  double m_told = 0; // seconds after the start
 };
 
 } // namespace

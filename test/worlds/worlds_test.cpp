@@ -35,7 +35,7 @@ TEST(Worlds, KeepEveryPromise)
   Judgement_counts counts;
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
     const World world = random_world(seed);
-    const auto broken = judge(world, counts);
+    const auto broken = judge(world, counts, {true, seed % 4 == 0 ? 2u : 0u});
     EXPECT_FALSE(broken) << name(broken->promise) << ": " << broken->message << "\n  " << describe(world);
   }
   EXPECT_GT(counts.worlds, 300u);
@@ -43,6 +43,34 @@ TEST(Worlds, KeepEveryPromise)
   EXPECT_GT(counts.collapses, 5000u);
   EXPECT_GT(counts.snaps, 20u);
   EXPECT_GT(counts.twins, 500u);
+  EXPECT_GT(counts.option_sets, 150u);
+}
+
+TEST(Worlds, AreReducedAgainWithOtherOptions)
+{
+  int judged = 0;
+  for (std::uint64_t seed = 1; judged < 3; ++seed) {
+    ASSERT_LT(seed, 100u);
+    const World world = random_world(seed);
+    if (run_without_output(world).collapses.size() < 10)
+      continue;
+    ++judged;
+    std::set<std::string> commands{command_line(world)};
+    Judgement_counts once, more;
+    ASSERT_FALSE(judge(world, once));
+    ASSERT_FALSE(judge(world, more, {true, 5}));
+    EXPECT_EQ(more.option_sets, 5u);
+    std::size_t collapses = 0;
+    for (std::uint64_t number = 1; number <= 5; ++number) {
+      const World other = with_other_options(world, number);
+      EXPECT_EQ(command_line(other), command_line(with_other_options(world, number)));
+      commands.insert(command_line(other));
+      collapses += run_without_output(other).collapses.size();
+    }
+    EXPECT_EQ(commands.size(), 6u);
+    EXPECT_EQ(more.collapses, once.collapses + collapses);
+    EXPECT_GT(collapses, 0u) << "seed " << seed;
+  }
 }
 
 TEST(Worlds, AreTheSameOnEveryMachine)
