@@ -542,10 +542,13 @@ Verdict judge_reduction(const World& world, const World_run& run, Judged_complex
     return broken;
   if (auto broken = judge_stop(world, run))
     return broken;
-  if (!run.verification.accepted())
-    return Broken_promise{Promise::verdict, std::to_string(run.verification.new_pairs.size()) +
-                                                " new pairs, topology " +
-                                                (run.verification.same_topology() ? "kept" : "changed")};
+  if (!run.verification.accepted()) {
+    const auto& mismatches = run.verification.matching.mismatches;
+    return Broken_promise{Promise::verdict,
+                          std::to_string(run.verification.new_pairs.size()) + " new pairs, topology " +
+                              (run.verification.same_topology() ? "kept" : "changed") +
+                              (mismatches.empty() ? "" : ", " + mismatches.front().message)};
+  }
   return std::nullopt;
 }
 
