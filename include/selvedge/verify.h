@@ -182,6 +182,11 @@ struct Verify_options
   /// Whether `distance` and `turned` of matched pieces are computed, and judged as `Mismatch::far` and
   /// `Mismatch::turned`.
   bool are_shapes_judged = true;
+
+  /// Whether a result that has 32-bit floats alone may have been rounded to them, so that the original is
+  /// rounded for the comparison if it has other coordinates. A result that is known not to have been rounded
+  /// may have such vertices by chance.
+  bool may_be_rounded = true;
 };
 
 /// Matches the pieces of a result with those of its original, in these steps:
@@ -198,7 +203,8 @@ struct Verify_options
 /// 4. By positions and distance together.
 ///
 /// When the coordinates of the result are 32-bit floats and those of the original are not, those of the
-/// original are rounded for this. A piece without any triangle of three distinct positions does not count.
+/// original are rounded for this, unless `may_be_rounded` is false. A piece without any triangle of three
+/// distinct positions does not count.
 ///
 /// Names (groups, objects, materials, each if both meshes have such and at least one name in common) are
 /// judged by patches. A patch is a set of triangles with one name that are connected by vertex numbers. At

@@ -214,6 +214,7 @@ Verification verify(const Simplified_soup& result, const Prepared_soup& original
 {
   Verify_options options;
   options.are_shapes_judged = false; // limits take care of shapes, or the user wants none
+  options.may_be_rounded = false;    // `prepare` has rounded the original where that was asked for
   return verify(result.soup, original.soup, original.offending_pairs, options, original.obstacle);
 }
 

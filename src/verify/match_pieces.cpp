@@ -44,10 +44,12 @@ constexpr double least_turned = 0.9;
 
 /// Numbers the positions of two soups; those of the second follow those of the first. When only the first has
 /// been rounded to 32-bit floats, the second is rounded for this too.
-std::vector<Index> common_positions(const Triangle_soup& result, const Triangle_soup& original)
+std::vector<Index> common_positions(const Triangle_soup& result, const Triangle_soup& original,
+                                    bool may_be_rounded)
 {
-  return is_only_first_rounded(result, original) ? position_numbers(result, rounded(original))
-                                                 : position_numbers(result, original);
+  return may_be_rounded && is_only_first_rounded(result, original)
+             ? position_numbers(result, rounded(original))
+             : position_numbers(result, original);
 }
 
 /// Runs the steps of `match_pieces` one after the other on the pieces that are left.
@@ -55,7 +57,7 @@ class Matching
 {
 public:
   Matching(const Triangle_soup& result, const Triangle_soup& original, const Verify_options& options)
-      : m_options(options), m_positions(common_positions(result, original)),
+      : m_options(options), m_positions(common_positions(result, original, options.may_be_rounded)),
         m_position_count(m_positions.empty() ? 0
                                              : 1 + *std::max_element(m_positions.begin(), m_positions.end())),
         m_result(result, m_positions.data()), m_original(original, m_positions.data() + result.points.size()),

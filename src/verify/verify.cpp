@@ -26,7 +26,7 @@ Verification verify(const Triangle_soup& mesh)
 
 Verification verify(const Triangle_soup& result, const Triangle_soup& original, const Verify_options& options)
 {
-  if (!internal::is_only_first_rounded(result, original))
+  if (!options.may_be_rounded || !internal::is_only_first_rounded(result, original))
     return verify(result, original, offending_pairs(original), options);
   const Triangle_soup rounded = internal::rounded(original);
   Verification verification = verify(result, rounded, offending_pairs(rounded), options);

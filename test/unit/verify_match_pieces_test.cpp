@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <selvedge/rounding.h>
+#include <selvedge/simplify.h>
 #include <selvedge/verify.h>
 
 #include "support/soups.h"
@@ -382,6 +383,28 @@ TEST(MatchPieces, OfAResultThatWasRounded)
   round_to_float32(result);
   ASSERT_NE(result.points[2], odd(coarse()).points[2]);
   EXPECT_EQ(way(match_pieces(result, odd(fine()))), Matched_by::vertices);
+}
+
+// One row of a band of two is on 32-bit floats, and the other so near that rounding leaves no area between.
+TEST(MatchPieces, OfAResultThatHasFloatsByChance)
+{
+  const double below = std::nextafter(1., 0.);
+  const Triangle_soup original =
+      soup({{0, 0, 1}, {4, 0, 1}, {4, 4, 1}, {0, 0, below}, {4, 0, below}, {4, 4, below}},
+           {{0, 3, 4}, {0, 4, 1}, {1, 4, 5}, {1, 5, 2}});
+  Triangle_soup result = original;
+  result.triangles = {{0, 1, 2}};
+  Verify_options options;
+  EXPECT_EQ(mismatches(match_pieces(result, original, options)), Mismatches{Mismatch::added});
+  options.may_be_rounded = false;
+  EXPECT_EQ(mismatches(match_pieces(result, original, options)), Mismatches{});
+  EXPECT_TRUE(verify(result, original, offending_pairs(original), options).matching.is_complete());
+
+  Prepared_soup prepared;
+  prepared.soup = original;
+  Simplified_soup simplified;
+  simplified.soup = result;
+  EXPECT_TRUE(verify(simplified, prepared).matching.is_complete());
 }
 
 // As programs leave them that place vertices where they like.
