@@ -108,7 +108,9 @@ private:
   // The positions of the obstacle follow those of the soup.
   std::vector<Index> number_positions_of_both() const
   {
-    return number_positions(geometry_with_obstacle(m_prepared.soup, m_prepared.obstacle).points);
+    std::vector<Point_3> points = m_prepared.soup.points;
+    points.insert(points.end(), m_prepared.obstacle.points.begin(), m_prepared.obstacle.points.end());
+    return number_positions(points);
   }
 
   std::size_t leave_out(const std::vector<Index>& positions)
