@@ -739,7 +739,9 @@ Verdict judge_levels(const World& world, const World_run& run)
 Verdict judge_twins(const World& world, const World_run& run, Judgement_counts& counts,
                     const Judgement_extent& extent)
 {
-  if (run.refusal)
+  // Cells ask whether to stop at the same time: which of them gets the answer depends on the threads.
+  const bool is_repeatable = world.options.faces_per_cell == 0 || !world.questions;
+  if (run.refusal || !is_repeatable)
     return std::nullopt;
   Random random(world.seed + 1);
   const bool is_scene = bool(world.soup.scene);
@@ -752,7 +754,7 @@ Verdict judge_twins(const World& world, const World_run& run, Judgement_counts& 
     if (auto broken = compare_bits(run_again(twin, run.prepared), run, "the other index"))
       return broken;
   }
-  if ((world.options.faces_per_cell > 0 || random.one_in(8)) && !world.questions) {
+  if (world.options.faces_per_cell > 0 || random.one_in(8)) {
     ++counts.twins;
     World_run twin;
     const int threads = random.between(2, 5);
