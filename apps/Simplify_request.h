@@ -1,0 +1,61 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_APPS_SIMPLIFY_REQUEST_H
+#define SELVEDGE_APPS_SIMPLIFY_REQUEST_H
+
+#include "report_json.h"
+
+#include <selvedge/simplify.h>
+
+#include <CLI/CLI.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace selvedge::app {
+
+/// What the command line asks of `selvedge simplify`.
+struct Simplify_request
+{
+  std::string input;
+  std::string output;
+  std::string report;
+  std::string log;
+  std::vector<std::string> ratios; // "R" or "PART=R"
+  std::vector<double> lods;
+  std::string obstacle;
+  Simplify_options options;
+  Simplify_intent intent;
+  bool is_unguarded = false;
+  bool is_in_cells = false;
+  double weld_distance = 0;
+  bool is_sewn = false;
+  bool is_strict = false;
+  bool is_target_required = false;
+  bool is_quiet = false;
+  bool is_ascii = false;
+  std::optional<std::size_t> threads;
+};
+
+/// Declares the options of the subcommand, which set `request`.
+void add_options(CLI::App& command, Simplify_request& request);
+
+/// Completes the request once all options are read, and refuses what can be refused before any work is done.
+///
+/// @throws Argument_error  the options do not fit each other
+/// @throws Output_error    a file cannot be written
+void complete(Simplify_request& request);
+
+/// Returns the output file of each level: the name with the level's number, from 1, in place of {lod}.
+/// Without levels it is the name as given.
+std::vector<std::string> outputs(const Simplify_request& request);
+
+/// Returns the options of the request as the report lists them.
+Json options_json(const Simplify_request& request);
+
+} // namespace selvedge::app
+
+#endif // SELVEDGE_APPS_SIMPLIFY_REQUEST_H

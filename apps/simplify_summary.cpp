@@ -1,0 +1,131 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "simplify_summary.h"
+
+#include "text.h"
+
+#include <cstddef>
+#include <iostream>
+#include <utility>
+
+namespace selvedge::app {
+namespace {
+
+/// Says in a clause why a reduction ended before its target.
+std::string why_missed(const Simplify_report& report)
+{
+  const std::string outcome = report.outcome();
+  for (const Refusals::Rule& rule : Refusals::rules())
+    if (outcome == rule.key)
+      return std::string("the rule '") + rule.name + "' refuses most of the collapses left";
+  return report.is_stopped ? "it was interrupted" : "every collapse left would change the topology";
+}
+
+void print_snapping(const Snapping_notes& notes)
+{
+  std::cout << "  seams closed: " << with_commas(notes.snapped) << " of " << with_commas(notes.partnered)
+            << " border vertices that have a partner, along " << counted(notes.seam_edges, "edge")
+            << "; the widest gap was " << with_digits(notes.largest_distance) << '\n';
+  const auto print = [](std::size_t count, const char* why) {
+    if (count > 0)
+      std::cout << "  not closed: " << with_commas(count) << " border "
+                << (count == 1 ? "vertex" : "vertices") << ", because " << why << '\n';
+  };
+  print(notes.left_blocked, "another part of the mesh lies in the gap");
+  print(notes.left_folding, "a face would degenerate or fold over");
+  print(notes.left_unmanifold, "more than two faces would meet at an edge");
+  print(notes.left_frozen, "a face there is frozen");
+  print(notes.left_foreign, "the partner belongs to a node with another transform");
+  print(notes.left_ambiguous, "every partner has a nearer one");
+  print(notes.near_without_edge, "no edge beside them can be sewn to the border that is near");
+}
+
+} // namespace
+
+void print_input(const Simplify_request& request, const Prepared_soup& prepared, const Json& notes,
+                 const std::vector<std::string>& dropped)
+{
+  std::cout << request.input << ": " << counted(prepared.soup.triangles.size(), "face");
+  if (!prepared.offending_pairs.empty())
+    std::cout << ", " << counted(prepared.offending_pairs.size(), "offending pair") << ", "
+              << counted(prepared.frozen_faces, "face") << " frozen";
+  if (const std::size_t left_out = prepared.left_out_faces + prepared.left_out_by_rounding; left_out > 0)
+    std::cout << ", " << counted(left_out, "degenerate face") << " left out";
+  std::cout << '\n';
+  for (const Json& note : notes)
+    std::cout << "  " << note.get<std::string>() << '\n';
+  if (prepared.rounding.coordinates > 0)
+    std::cout << "  " << counted(prepared.rounding.coordinates, "coordinate")
+              << " rounded to 32-bit floats, because the output's format stores nothing more precise\n";
+  if (request.weld_distance > 0)
+    print_snapping(prepared.snapping);
+  const char* separator = "  not in the output, because its format cannot hold them: ";
+  for (const std::string& what : dropped)
+    std::cout << std::exchange(separator, ", ") << what;
+  std::cout << (dropped.empty() ? "" : "\n");
+}
+
+void print_summary(const Simplify_request& request, const Prepared_soup& prepared, const Level& level,
+                   const Outcome& outcome)
+{
+  const auto& [output, result, verification] = level;
+  const Simplify_report& done = result.report;
+  const std::size_t faces = result.soup.triangles.size();
+  std::cout << "reduced to " << counted(faces, "face") << " ("
+            << with_digits(100.0 * double(faces) / double(prepared.soup.triangles.size())) << " %) in "
+            << with_digits(done.seconds_reduce) << " s: ";
+  if (request.options.ratio || request.options.faces || !request.lods.empty() ||
+      !request.intent.ratios.empty())
+    std::cout << "target " << with_commas(done.faces_target)
+              << (done.is_reached() ? " reached" : " not reached: " + why_missed(done));
+  else
+    std::cout << "as far as the limits allow";
+  std::cout << "\ncollapses refused, by rule:";
+  const char* separator = " ";
+  for (const Refusals::Rule& rule : Refusals::rules())
+    if (done.refused.*rule.count > 0)
+      std::cout << std::exchange(separator, ", ") << rule.name << ' '
+                << with_commas(done.refused.*rule.count);
+  std::cout << (*separator == ' ' ? " none" : "") << "\njudged: ";
+  if (verification.embedded())
+    std::cout << "embedded (no triangles touch or cross)";
+  else
+    std::cout << counted(verification.pairs.size(), "offending pair")
+              << " (triangles that touch or cross, or are degenerate), "
+              << with_commas(verification.new_pairs.size()) << " of them new";
+  std::cout << ", topology " << (verification.same_topology() ? "kept" : "CHANGED")
+            << "\ndistance from the original's vertices: "
+            << with_digits(100 * verification.distances->original_to_result.root_mean_square)
+            << " % of the diagonal (RMS), at most "
+            << with_digits(100 * verification.distances->original_to_result.maximum) << " %\n"
+            << (outcome.is_written() ? "written: " : "NOT written: ") << output << std::endl;
+}
+
+std::string complaint(const Simplify_request& request, const Level& level, const Outcome& outcome)
+{
+  const auto& [output, result, verification] = level;
+  const std::string where = request.lods.empty() ? "" : output + ": ";
+  if (!outcome.is_written()) {
+    if (verification.accepted() && verification.same_topology())
+      return "";
+    return where + "THE RESULT IS WRONG and was not written: " +
+           counted(verification.new_pairs.size(), "new offending pair") +
+           (verification.same_topology() ? "" : ", topology changed") +
+           (verification.matching.is_complete() ? "" : ", " + verification.matching.mismatches[0].message) +
+           "; this is a bug in selvedge: please report it with the input and the options";
+  }
+  if (!outcome.is_guarded)
+    return where + "written but not verified, because of --no-intersection-check: " +
+           counted(verification.new_pairs.size(), "new offending pair");
+  if (result.report.is_stopped)
+    return where + "interrupted at " + counted(result.soup.triangles.size(), "face") +
+           "; this result is verified and written";
+  if (request.is_target_required && !result.report.is_reached())
+    return where + "the target of " + counted(result.report.faces_target, "face") +
+           " was missed: " + with_commas(result.soup.triangles.size()) + " are left, because " +
+           why_missed(result.report) + "; the result is written";
+  return "";
+}
+
+} // namespace selvedge::app

@@ -1,0 +1,40 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_APPS_SIMPLIFY_SUMMARY_H
+#define SELVEDGE_APPS_SIMPLIFY_SUMMARY_H
+
+#include "Outcome.h"
+#include "Simplify_request.h"
+
+#include <selvedge/simplify.h>
+#include <selvedge/verify.h>
+
+#include <string>
+#include <vector>
+
+namespace selvedge::app {
+
+/// One level of detail: its result, its output file, and the verdict of the judge.
+struct Level
+{
+  std::string output;
+  Simplified_soup result;
+  Verification verification;
+};
+
+/// Prints what was read and prepared. `notes` are those of the report about the file; `dropped` is what the
+/// output's format cannot hold.
+void print_input(const Simplify_request& request, const Prepared_soup& prepared, const Json& notes,
+                 const std::vector<std::string>& dropped);
+
+/// Prints what the reduction and the judge say of a level.
+void print_summary(const Simplify_request& request, const Prepared_soup& prepared, const Level& level,
+                   const Outcome& outcome);
+
+/// Returns what the user must be told of a level on the error stream; empty when all went well.
+std::string complaint(const Simplify_request& request, const Level& level, const Outcome& outcome);
+
+} // namespace selvedge::app
+
+#endif // SELVEDGE_APPS_SIMPLIFY_SUMMARY_H
