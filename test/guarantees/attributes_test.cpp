@@ -20,6 +20,7 @@
 #include <random>
 #include <set>
 #include <sstream>
+#include <tuple>
 
 using namespace selvedge;
 using selvedge::test::Temporary_folder;
@@ -491,6 +492,54 @@ TEST(AttributesReduced, EveryCornerOfRealMeshesIsOneOfTheInput)
                                 after = text_pairs(written(result.soup, "m.obj"));
     EXPECT_GT(after.size(), 1000u);
     EXPECT_TRUE(std::includes(before.begin(), before.end(), after.begin(), after.end()));
+  }
+}
+
+using Coordinates = std::tuple<double, double, double>;
+
+Coordinates coordinates(const Point_3& p)
+{
+  return {p.x(), p.y(), p.z()};
+}
+
+// What a corner of a soup carries: position, texture coordinate, group.
+using Corner = std::tuple<Coordinates, double, double, std::string>;
+
+std::set<Corner> corners(const Triangle_soup& soup)
+{
+  std::set<Corner> result;
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const auto& uv = soup.uvs.values[soup.uvs.of_triangle[t][k]];
+      result.insert({coordinates(soup.points[soup.triangles[t][k]]), uv[0], uv[1],
+                     soup.groups.names[soup.groups.of_triangle[t]]});
+    }
+  return result;
+}
+
+TEST(Attributes, EveryCornerIsOneOfTheInput)
+{
+  for (const char* name : {"skirt", "jacket", "seams"}) {
+    Generate_options options;
+    options.faces = 6000;
+    const Triangle_soup garment = generate(name, options);
+    const test::Reduction reduction = test::reduce(garment, test::to_ratio(0.1));
+    const std::set<Corner> before = corners(garment), after = corners(reduction.simplified.soup);
+    EXPECT_TRUE(std::includes(before.begin(), before.end(), after.begin(), after.end())) << name;
+    EXPECT_LT(after.size(), before.size() * 3 / 4);
+  }
+}
+
+TEST(Attributes, EveryVertexOfTheResultIsOneOfTheInputInItsOrder)
+{
+  const Triangle_soup garment = test::skirt(4000);
+  const Triangle_soup result = test::reduce(garment, test::to_ratio(0.2)).simplified.soup;
+  std::size_t next = 0;
+  for (const Point_3& p : result.points) {
+    while (next < garment.points.size() && garment.points[next] != p)
+      ++next;
+    ASSERT_LT(next, garment.points.size()) << "not an original vertex, or out of order";
+    ++next;
   }
 }
 

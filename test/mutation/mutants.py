@@ -215,7 +215,7 @@ group(
 )
 group(
     "src/soup/Working_mesh.cpp",
-    ("working_mesh_part_test", "cells_test", "attributes_test", "reduction_test"),
+    ("working_mesh_part_test", "cells_test", "attributes_test", "seams_test"),
     ("side < sewing.mate(side) && rule.is_line(mesh.edge(originals[side])))", "side < sewing.mate(side) && false)",
      "cells know no lines"),
     ("differ_in_label(m_soup.groups) || differ_in_label(m_soup.objects)", "differ_in_label(m_soup.objects)",
@@ -229,7 +229,7 @@ group(
 )
 group(
     "src/soup/Sewing.cpp",
-    ("slits_test", "cells_sewing_test", "reduction_test", "random_soups_test"),
+    ("slits_test", "cells_sewing_test", "topology_test", "seams_test", "random_soups_test"),
     ("if (tear_parallel_edges(matching.unsewn()))", "if (false)", "two edges between two vertices"),
     ("beyond - first == 2 && is_opposite &&\n", "beyond - first == 2 &&\n", "sides that run the same way are sewn"),
     ("side.high != it->high || is_own(side.side) != is_own(it->side);", "side.high != it->high;", "the soup is sewn to the obstacle"),
@@ -250,7 +250,7 @@ group(
 
 group(
     "src/simplify/prepare.cpp",
-    ("obstacle_test", "reduction_test", "intent_test", "replay_test"),
+    ("obstacle_test", "prepare_test", "intent_test", "replay_test"),
     ("is_frozen[t] |= is_merged[m_positions_rounded[v]];", ";", "what rounding merges moves"),
     ("take_apart(m_prepared.positions, m_positions_rounded);", "", "what rounding takes apart is one position"),
     ("is_frozen[pair.first] = is_frozen[pair.second] = true;", "is_frozen[pair.first] = true;", "one face of a pair moves"),
