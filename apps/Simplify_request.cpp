@@ -53,35 +53,35 @@ void check(const Simplify_request& request)
   if (request.is_in_cells && !request.intent.ratios.empty())
     throw Argument_error(
         "--cells: parts cannot have ratios of their own; leave out --cells or --ratio PART=R");
-  for (const std::string& output : outputs(request)) {
-    output_format(output);
-    if (!request.report.empty() &&
-        (is_same_file(request.report, output) || is_same_file(request.report, request.input)))
-      throw Argument_error("--report: this file is also a mesh of this run; name another one: " +
-                           request.report);
-    require_writable(output);
-  }
-  if (!request.report.empty())
-    require_writable(request.report);
-  if (request.log.empty())
-    return;
-  if (!request.lods.empty())
+  if (!request.log.empty() && !request.lods.empty())
     throw Argument_error(
         "--log: a log holds one reduction, but --lods asks for several; leave out one of the two");
-  for (const std::string& other : {request.output, request.input, request.report})
-    if (!other.empty() && is_same_file(request.log, other))
-      throw Argument_error("--log: this file has another purpose in this run; name another one: " +
-                           request.log);
-  require_writable(request.log);
+  std::vector<Named_file> written;
+  for (const std::string& output : outputs(request)) {
+    output_format(output);
+    written.push_back({"--output", output});
+  }
+  // A mesh may replace its input, but nothing else may.
+  written.insert(written.end(), {{"--report", request.report}, {"--log", request.log}});
+  require_distinct(written, {{"--obstacle", request.obstacle}});
+  require_distinct({{"--report", request.report}, {"--log", request.log}}, {{"IN", request.input}});
+  for (const Named_file& file : written)
+    if (!file.path.empty())
+      require_writable(file.path);
 }
 
 } // namespace
 
 std::vector<std::string> outputs(const Simplify_request& request)
 {
-  if (request.lods.empty())
-    return {request.output};
   const std::size_t place = request.output.find(level_mark);
+  if (request.lods.empty()) {
+    if (place != std::string::npos)
+      throw Argument_error(
+          "--output: {lod} stands for the number of a level, but no level is asked for; give "
+          "--lods R,R, or a name without {lod}");
+    return {request.output};
+  }
   if (place == std::string::npos)
     throw Argument_error(
         "--lods: the name of the output must contain {lod}, which stands for the number of the level: -o "
@@ -90,6 +90,12 @@ std::vector<std::string> outputs(const Simplify_request& request)
   for (std::size_t level = 1; level <= request.lods.size(); ++level)
     names.push_back(std::string(request.output).replace(place, level_mark.size(), std::to_string(level)));
   return names;
+}
+
+bool has_standard_output(const Simplify_request& request)
+{
+  return is_standard_output(request.output) || is_standard_output(request.report) ||
+         is_standard_output(request.log);
 }
 
 Json options_json(const Simplify_request& request)
@@ -159,7 +165,7 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->group(how_far);
   command.add_option("--faces", options.faces, "Number of faces to keep.")
-      ->check(in_range(0))
+      ->transform(whole_number())
       ->type_name("N")
       ->group(how_far);
   command

@@ -53,6 +53,9 @@ void complete(Simplify_request& request);
 /// Without levels it is the name as given.
 std::vector<std::string> outputs(const Simplify_request& request);
 
+/// Returns whether the request asks for a mesh, report or log on this program's standard output.
+bool has_standard_output(const Simplify_request& request);
+
 /// Returns the options of the request as the report lists them.
 Json options_json(const Simplify_request& request);
 

@@ -67,7 +67,7 @@ Action add_generate(CLI::App& command)
       ->type_name("FILE");
   command.add_flag("--list", request->is_list, "List all scenes.");
   command.add_option("--faces", options.faces, "Number of faces, within 2 %.")
-      ->check(in_range(0))
+      ->transform(whole_number())
       ->type_name("N")
       ->capture_default_str();
   command.add_option("--layers", options.layers, "Number of layers.")->type_name("L")->capture_default_str();

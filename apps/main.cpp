@@ -10,10 +10,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <exception>
 #include <iostream>
 #include <memory>
 #include <new>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,6 +31,35 @@ Exit_code fail(Exit_code code, std::string message)
       message.begin(), message.end(), [](unsigned char c) { return c < ' ' || c == 127; }, ' ');
   std::cerr << "selvedge: " << message << std::endl;
   return code;
+}
+
+// Counts the letters to be replaced, added or left out to make one word of the other.
+std::size_t letters_apart(const std::string& a, const std::string& b)
+{
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t(0));
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] != b[j]);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, diagonal + 1, row[j] + 1});
+    }
+  }
+  return row.back();
+}
+
+// Says that there is no such word, and which word is meant: the nearest, if it is near, or else one of all.
+std::string unknown(const std::string& kind, const std::string& word, const std::vector<std::string>& words)
+{
+  const auto nearest =
+      std::min_element(words.begin(), words.end(), [&](const std::string& a, const std::string& b) {
+        return letters_apart(word, a) < letters_apart(word, b);
+      });
+  std::string message = "there is no " + kind + " '" + word + "'";
+  if (letters_apart(word, *nearest) <= std::max<std::size_t>(1, nearest->size() / 3))
+    return message + "; did you mean '" + *nearest + "'?";
+  return message;
 }
 
 Exit_code run(int argc, char** argv)
@@ -65,6 +96,12 @@ Exit_code run(int argc, char** argv)
       add("generate", "Make a garment in layers or another test scene, free of intersections.",
           add_generate)};
 
+  std::vector<std::string> names;
+  for (const Command& command : commands)
+    names.push_back(command.app->get_name());
+  if (argc > 1 && argv[1][0] != '-' && std::find(names.begin(), names.end(), argv[1]) == names.end())
+    return fail(exit_usage, unknown("subcommand", argv[1], names) + " (see selvedge --help)");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& wish) {
@@ -73,7 +110,16 @@ Exit_code run(int argc, char** argv)
   } catch (const CLI::ParseError& error) {
     const std::vector<CLI::App*> named = app.get_subcommands();
     const std::string command = named.empty() ? "" : named.front()->get_name() + ' ';
-    return fail(exit_usage, error.what() + (" (see selvedge " + command + "--help)"));
+    std::string message = error.what();
+    if (const std::vector<std::string> extra = app.remaining(true);
+        dynamic_cast<const CLI::ExtrasError*>(&error) && !extra.empty() &&
+        extra.front().rfind("--", 0) == 0) {
+      std::vector<std::string> options;
+      for (const CLI::Option* option : named.front()->get_options())
+        options.push_back(option->get_name());
+      message = unknown("option", extra.front(), options);
+    }
+    return fail(exit_usage, message + " (see selvedge " + command + "--help)");
   }
   return std::find_if(commands.begin(), commands.end(), [](const Command& c) { return c.app->parsed(); })
       ->action();

@@ -15,6 +15,30 @@ namespace selvedge::app {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+// Follows links by hand, because the file at the end of the chain need not exist.
+fs::path end_of_links(fs::path path)
+{
+  std::error_code ignored;
+  constexpr int most_links = 40; // as many as Linux follows
+  for (int link = 0; link < most_links && fs::is_symlink(path, ignored); ++link)
+    path = path.parent_path() / fs::read_symlink(path, ignored);
+  return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
+}
+
+bool is_same_file(const fs::path& a, const fs::path& b)
+{
+  if (a.empty() || b.empty())
+    return false;
+  std::error_code ignored;
+  if (fs::exists(a, ignored) && !fs::is_regular_file(a, ignored))
+    return false;
+  return end_of_links(a) == end_of_links(b) || fs::equivalent(a, b, ignored);
+}
+
+} // namespace
+
 Mesh_format output_format(const fs::path& path)
 {
   try {
@@ -46,11 +70,21 @@ void require_writable(const fs::path& path)
     refuse(errno);
 }
 
-bool is_same_file(const fs::path& a, const fs::path& b)
+bool is_standard_output(const fs::path& path)
 {
-  std::error_code ignored;
-  return fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored) ||
-         fs::equivalent(a, b, ignored);
+  return path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1";
+}
+
+void require_distinct(const std::vector<Named_file>& written, const std::vector<Named_file>& read)
+{
+  for (auto file = written.begin(); file != written.end(); ++file) {
+    std::vector<Named_file> others = read;
+    others.insert(others.end(), written.begin(), file);
+    for (const Named_file& other : others)
+      if (is_same_file(file->path, other.path))
+        throw Argument_error(file->option + " and " + other.option +
+                             " name the same file; give them different names: " + file->path.string());
+  }
 }
 
 void write_output(const fs::path& path, const Triangle_soup& soup, bool is_ascii)

@@ -7,6 +7,8 @@
 #include <selvedge/mesh_files.h>
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace selvedge::app {
 
@@ -17,8 +19,19 @@ Mesh_format output_format(const std::filesystem::path& path);
 /// Throws `Output_error` when `path` cannot be written, as far as that is clear before any work is done.
 void require_writable(const std::filesystem::path& path);
 
-/// Returns whether both paths name one file, which need not exist.
-bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
+/// A file of a run, and the option that names it. An empty path stands for an option that was not given.
+struct Named_file
+{
+  std::string option;
+  std::filesystem::path path;
+};
+
+/// Throws `Argument_error` when two of the files that a run writes are one file, by whatever spelling, or
+/// when one of them is also read. The files need not exist. Devices and pipes may be named several times.
+void require_distinct(const std::vector<Named_file>& written, const std::vector<Named_file>& read);
+
+/// Returns whether the path names this program's standard output.
+bool is_standard_output(const std::filesystem::path& path);
 
 /// Writes a mesh as `write_mesh` does, but throws `Output_error` when the format cannot hold it: the command
 /// line is not at fault then.

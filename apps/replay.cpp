@@ -157,17 +157,14 @@ void print(const Request& request, const Replay_verdict& verdict)
 
 Exit_code run(const Request& request)
 {
-  if (!request.output.empty()) {
+  if (!request.output.empty())
     output_format(request.output);
-    require_writable(request.output);
-  }
-  for (const std::string& path : {request.scene, request.report})
-    if (!path.empty())
-      require_writable(path);
-  for (const std::string& other : {request.original, request.log, request.output, request.scene})
-    if (!request.report.empty() && !other.empty() && is_same_file(request.report, other))
-      throw Argument_error("--report: this file has another purpose in this run; name another one: " +
-                           request.report);
+  const std::vector<Named_file> written{
+      {"--output", request.output}, {"--scene", request.scene}, {"--report", request.report}};
+  require_distinct(written, {{"ORIGINAL", request.original}, {"LOG", request.log}});
+  for (const Named_file& file : written)
+    if (!file.path.empty())
+      require_writable(file.path);
   Replay_options options;
   options.limits = imposed_limits(request.limits);
   std::ifstream stream(request.log, std::ios::binary);

@@ -61,11 +61,14 @@ public:
       return m_outcome.exit_code();
     } catch (const Interrupted&) {
       m_bar.clear();
-      if (m_files_written == 0)
+      if (m_files_written.empty())
         throw;
-      complain("interrupted; " + counted(m_files_written, "output file") +
-               (m_files_written == 1 ? " was" : " were") + " written before");
+      complain("interrupted; written before: " + files_written());
       return exit_interrupted;
+    } catch (const Output_error& error) {
+      if (m_files_written.empty())
+        throw;
+      throw Output_error(error.what() + std::string("; written before: ") + files_written());
     }
   }
 
@@ -174,13 +177,13 @@ private:
       for (const auto& [output, result, verification] : levels) {
         write_output(output, m_request.is_sewn ? merged_at_positions(result.soup) : result.soup,
                      m_request.is_ascii);
-        ++m_files_written;
+        m_files_written.push_back(output);
       }
     }
     // The log is written even when the result was refused, because it shows why.
     if (!m_request.log.empty()) {
       write_file(m_request.log, m_log.str());
-      ++m_files_written;
+      m_files_written.push_back(m_request.log);
     }
     m_seconds["write"] = seconds_since(start);
     m_bar.clear();
@@ -194,9 +197,10 @@ private:
     const Mesh_format format = mesh_format(m_request.output);
     const std::vector<std::string> dropped = not_carried(prepared.soup, format);
     if (!m_request.is_quiet) {
-      print_input(m_request, prepared, m_report["input"]["notes"], dropped);
+      std::ostream& stream = has_standard_output(m_request) ? std::cerr : std::cout;
+      print_input(stream, m_request, prepared, m_report["input"]["notes"], dropped);
       for (const Level& level : levels)
-        print_summary(m_request, prepared, level, m_outcome);
+        print_summary(stream, m_request, prepared, level, m_outcome);
     }
     if (m_request.report.empty())
       return;
@@ -226,6 +230,14 @@ private:
     write_file(m_request.report, to_text(m_report));
   }
 
+  std::string files_written() const
+  {
+    std::string result;
+    for (const std::string& name : m_files_written)
+      result += (result.empty() ? "" : ", ") + name;
+    return result;
+  }
+
   void complain(const std::string& message)
   {
     m_bar.clear();
@@ -242,7 +254,7 @@ private:
   std::map<std::string, double> m_seconds;
   bool m_is_stop_told = false;
   std::atomic<bool> m_is_kept = false; // a signal keeps what the reduction has reached
-  std::size_t m_files_written = 0;
+  std::vector<std::string> m_files_written;
 };
 
 } // namespace

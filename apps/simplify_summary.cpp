@@ -6,7 +6,7 @@
 #include "text.h"
 
 #include <cstddef>
-#include <iostream>
+#include <ostream>
 #include <utility>
 
 namespace selvedge::app {
@@ -22,15 +22,15 @@ std::string why_missed(const Simplify_report& report)
   return report.is_stopped ? "it was interrupted" : "every collapse left would change the topology";
 }
 
-void print_snapping(const Snapping_notes& notes)
+void print_snapping(std::ostream& stream, const Snapping_notes& notes)
 {
-  std::cout << "  seams closed: " << with_commas(notes.snapped) << " of " << with_commas(notes.partnered)
-            << " border vertices that have a partner, along " << counted(notes.seam_edges, "edge")
-            << "; the widest gap was " << with_digits(notes.largest_distance) << '\n';
-  const auto print = [](std::size_t count, const char* why) {
+  stream << "  seams closed: " << with_commas(notes.snapped) << " of " << with_commas(notes.partnered)
+         << " border vertices that have a partner, along " << counted(notes.seam_edges, "edge")
+         << "; the widest gap was " << with_digits(notes.largest_distance) << '\n';
+  const auto print = [&](std::size_t count, const char* why) {
     if (count > 0)
-      std::cout << "  not closed: " << with_commas(count) << " border "
-                << (count == 1 ? "vertex" : "vertices") << ", because " << why << '\n';
+      stream << "  not closed: " << with_commas(count) << " border " << (count == 1 ? "vertex" : "vertices")
+             << ", because " << why << '\n';
   };
   print(notes.left_blocked, "another part of the mesh lies in the gap");
   print(notes.left_folding, "a face would degenerate or fold over");
@@ -43,63 +43,62 @@ void print_snapping(const Snapping_notes& notes)
 
 } // namespace
 
-void print_input(const Simplify_request& request, const Prepared_soup& prepared, const Json& notes,
-                 const std::vector<std::string>& dropped)
+void print_input(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
+                 const Json& notes, const std::vector<std::string>& dropped)
 {
-  std::cout << request.input << ": " << counted(prepared.soup.triangles.size(), "face");
+  stream << request.input << ": " << counted(prepared.soup.triangles.size(), "face");
   if (!prepared.offending_pairs.empty())
-    std::cout << ", " << counted(prepared.offending_pairs.size(), "offending pair") << ", "
-              << counted(prepared.frozen_faces, "face") << " frozen";
+    stream << ", " << counted(prepared.offending_pairs.size(), "offending pair") << ", "
+           << counted(prepared.frozen_faces, "face") << " frozen";
   if (const std::size_t left_out = prepared.left_out_faces + prepared.left_out_by_rounding; left_out > 0)
-    std::cout << ", " << counted(left_out, "degenerate face") << " left out";
-  std::cout << '\n';
+    stream << ", " << counted(left_out, "degenerate face") << " left out";
+  stream << '\n';
   for (const Json& note : notes)
-    std::cout << "  " << note.get<std::string>() << '\n';
+    stream << "  " << note.get<std::string>() << '\n';
   if (prepared.rounding.coordinates > 0)
-    std::cout << "  " << counted(prepared.rounding.coordinates, "coordinate")
-              << " rounded to 32-bit floats, because the output's format stores nothing more precise\n";
+    stream << "  " << counted(prepared.rounding.coordinates, "coordinate")
+           << " rounded to 32-bit floats, because the output's format stores nothing more precise\n";
   if (request.weld_distance > 0)
-    print_snapping(prepared.snapping);
+    print_snapping(stream, prepared.snapping);
   const char* separator = "  not in the output, because its format cannot hold them: ";
   for (const std::string& what : dropped)
-    std::cout << std::exchange(separator, ", ") << what;
-  std::cout << (dropped.empty() ? "" : "\n");
+    stream << std::exchange(separator, ", ") << what;
+  stream << (dropped.empty() ? "" : "\n");
 }
 
-void print_summary(const Simplify_request& request, const Prepared_soup& prepared, const Level& level,
-                   const Outcome& outcome)
+void print_summary(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
+                   const Level& level, const Outcome& outcome)
 {
   const auto& [output, result, verification] = level;
   const Simplify_report& done = result.report;
   const std::size_t faces = result.soup.triangles.size();
-  std::cout << "reduced to " << counted(faces, "face") << " ("
-            << with_digits(100.0 * double(faces) / double(prepared.soup.triangles.size())) << " %) in "
-            << with_digits(done.seconds_reduce) << " s: ";
+  stream << "reduced to " << counted(faces, "face") << " ("
+         << with_digits(100.0 * double(faces) / double(prepared.soup.triangles.size())) << " %) in "
+         << with_digits(done.seconds_reduce) << " s: ";
   if (request.options.ratio || request.options.faces || !request.lods.empty() ||
       !request.intent.ratios.empty())
-    std::cout << "target " << with_commas(done.faces_target)
-              << (done.is_reached() ? " reached" : " not reached: " + why_missed(done));
+    stream << "target " << with_commas(done.faces_target)
+           << (done.is_reached() ? " reached" : " not reached: " + why_missed(done));
   else
-    std::cout << "as far as the limits allow";
-  std::cout << "\ncollapses refused, by rule:";
+    stream << "as far as the limits allow";
+  stream << "\ncollapses refused, by rule:";
   const char* separator = " ";
   for (const Refusals::Rule& rule : Refusals::rules())
     if (done.refused.*rule.count > 0)
-      std::cout << std::exchange(separator, ", ") << rule.name << ' '
-                << with_commas(done.refused.*rule.count);
-  std::cout << (*separator == ' ' ? " none" : "") << "\njudged: ";
+      stream << std::exchange(separator, ", ") << rule.name << ' ' << with_commas(done.refused.*rule.count);
+  stream << (*separator == ' ' ? " none" : "") << "\njudged: ";
   if (verification.embedded())
-    std::cout << "embedded (no triangles touch or cross)";
+    stream << "embedded (no triangles touch or cross)";
   else
-    std::cout << counted(verification.pairs.size(), "offending pair")
-              << " (triangles that touch or cross, or are degenerate), "
-              << with_commas(verification.new_pairs.size()) << " of them new";
-  std::cout << ", topology " << (verification.same_topology() ? "kept" : "CHANGED")
-            << "\ndistance from the original's vertices: "
-            << with_digits(100 * verification.distances->original_to_result.root_mean_square)
-            << " % of the diagonal (RMS), at most "
-            << with_digits(100 * verification.distances->original_to_result.maximum) << " %\n"
-            << (outcome.is_written() ? "written: " : "NOT written: ") << output << std::endl;
+    stream << counted(verification.pairs.size(), "offending pair")
+           << " (triangles that touch or cross, or are degenerate), "
+           << with_commas(verification.new_pairs.size()) << " of them new";
+  stream << ", topology " << (verification.same_topology() ? "kept" : "CHANGED")
+         << "\ndistance from the original's vertices: "
+         << with_digits(100 * verification.distances->original_to_result.root_mean_square)
+         << " % of the diagonal (RMS), at most "
+         << with_digits(100 * verification.distances->original_to_result.maximum) << " %\n"
+         << (outcome.is_written() ? "written: " : "NOT written: ") << output << std::endl;
 }
 
 std::string complaint(const Simplify_request& request, const Level& level, const Outcome& outcome)

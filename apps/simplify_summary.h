@@ -10,6 +10,7 @@
 #include <selvedge/simplify.h>
 #include <selvedge/verify.h>
 
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -23,14 +24,14 @@ struct Level
   Verification verification;
 };
 
-/// Prints what was read and prepared. `notes` are those of the report about the file; `dropped` is what the
-/// output's format cannot hold.
-void print_input(const Simplify_request& request, const Prepared_soup& prepared, const Json& notes,
-                 const std::vector<std::string>& dropped);
+/// Prints to `stream` what was read and prepared. `notes` are those of the report about the file; `dropped`
+/// is what the output's format cannot hold.
+void print_input(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
+                 const Json& notes, const std::vector<std::string>& dropped);
 
-/// Prints what the reduction and the judge say of a level.
-void print_summary(const Simplify_request& request, const Prepared_soup& prepared, const Level& level,
-                   const Outcome& outcome);
+/// Prints to `stream` what the reduction and the judge say of a level.
+void print_summary(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
+                   const Level& level, const Outcome& outcome);
 
 /// Returns what the user must be told of a level on the error stream; empty when all went well.
 std::string complaint(const Simplify_request& request, const Level& level, const Outcome& outcome);

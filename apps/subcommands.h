@@ -8,6 +8,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <map>
@@ -37,6 +39,24 @@ inline CLI::Validator in_range(double least, double most = std::numeric_limits<d
                 ? "of at least " + CLI::detail::to_string(least)
                 : "from " + CLI::detail::to_string(least) + " to " + CLI::detail::to_string(most);
         return "'" + text + "' is not a number " + range;
+      },
+      "");
+}
+
+/// Accepts a whole number of at least 0, also one like 1e6 or 20,000.
+inline CLI::Validator whole_number()
+{
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        std::string digits = text;
+        digits.erase(std::remove(digits.begin(), digits.end(), ','), digits.end());
+        double value = -1;
+        constexpr double largest = 9007199254740992; // 2^53: every whole number up to it is a double
+        if (!CLI::detail::lexical_cast(digits, value) || !(value >= 0 && value <= largest) ||
+            value != std::floor(value))
+          return "'" + text + "' is not a whole number from 0 to 2^53";
+        text = std::to_string(static_cast<unsigned long long>(value));
+        return {};
       },
       "");
 }

@@ -178,10 +178,8 @@ Exit_code run(const Request& request)
 {
   const bool has_original = !request.original.empty();
   if (!request.report.empty()) {
-    if (is_same_file(request.report, request.mesh) ||
-        (has_original && is_same_file(request.report, request.original)))
-      throw Argument_error("--report: this file is also a mesh of this run; name another one: " +
-                           request.report);
+    require_distinct({{"--report", request.report}},
+                     {{"MESH", request.mesh}, {"--against", request.original}});
     require_writable(request.report);
   }
   const Mesh_file mesh = read_mesh(request.mesh);

@@ -7,6 +7,8 @@
 #include <selvedge/Error.h>
 
 #include <cerrno>
+#include <charconv>
+#include <string>
 #include <system_error>
 
 #include <fcntl.h>
@@ -18,8 +20,36 @@
 
 namespace selvedge::files {
 
+namespace {
+
+// Returns the number of the open file that /dev/stdout, /dev/fd/3 and the like name; -1 for other paths.
+int open_file_named(const std::filesystem::path& path)
+{
+  const std::string name = path.string();
+  if (name == "/dev/stdout")
+    return STDOUT_FILENO;
+  if (name == "/dev/stderr")
+    return STDERR_FILENO;
+  for (const std::string folder : {"/dev/fd/", "/proc/self/fd/"})
+    if (int number = -1; name.compare(0, folder.size(), folder) == 0) {
+      const char* const end = name.data() + name.size();
+      const auto [last, error] = std::from_chars(name.data() + folder.size(), end, number);
+      return error == std::errc() && last == end ? number : -1;
+    }
+  return -1;
+}
+
+} // namespace
+
 Atomic_file::Atomic_file(const std::filesystem::path& path) : m_name(path.string()), m_target(path)
 {
+  // To open such a path anew would begin at the start of the file to which the output is directed.
+  if (const int number = open_file_named(path); number >= 0) {
+    m_descriptor = ::dup(number);
+    if (m_descriptor < 0)
+      fail(errno);
+    return;
+  }
   // A rename would replace a symbolic link instead of what it points to.
   std::error_code dangling;
   if (std::filesystem::is_symlink(path, dangling)) {
@@ -38,9 +68,12 @@ Atomic_file::Atomic_file(const std::filesystem::path& path) : m_name(path.string
     return;
   }
   open_temporary();
-  if (exists && ::fchmod(m_descriptor, status.st_mode & 07777) != 0) {
-    // The new file then has the permissions of any new file.
-  }
+  // Where this is not allowed, the new file has the owner and the permissions of any new file.
+  if (exists && ::fchown(m_descriptor, status.st_uid, status.st_gid) != 0 &&
+      ::fchown(m_descriptor, uid_t(-1), status.st_gid) != 0)
+    status.st_mode &= 0777; // nobody else's program or folder may take on an owner
+  if (exists)
+    static_cast<void>(::fchmod(m_descriptor, status.st_mode & 07777) == 0);
 }
 
 Atomic_file::~Atomic_file()

@@ -79,12 +79,15 @@ public:
   }
 
   /// Returns what was built. Throws `Input_error` when it has no triangle.
-  Mesh_file take(const std::string& name)
+  Mesh_file take(const std::string& name, bool is_truncated = false)
   {
     if (m_file.soup.triangles.empty())
       throw Input_error(name + ": the file has no faces" +
                         (m_file.notes.fewer_than_three != 0 ? " of three or more corners" : "") +
-                        "; export the mesh as polygons");
+                        (is_truncated ? ", and ends within a line: it seems to be truncated"
+                                      : "; export the mesh as polygons"));
+    if (is_truncated)
+      ++m_file.notes.remarks["lines that are not ended, as at the end of a truncated file"];
     close(m_file.soup.uvs, "texture coordinates");
     close(m_file.soup.normals, "normals");
     return std::move(m_file);

@@ -67,6 +67,9 @@ public:
       ++m_at;
   }
 
+  /// Whether the text ends within a line, as that of a truncated file does.
+  bool is_truncated() const { return m_begin != m_end && m_end[-1] != '\n'; }
+
   /// Whether nothing but blanks and a comment remain on the line.
   bool at_line_end()
   {
@@ -190,7 +193,9 @@ public:
   /// Throws an `Input_error` that names the file and the line.
   [[noreturn]] void fail(const std::string& message) const
   {
-    throw Input_error(*m_name + ":" + std::to_string(1 + std::count(m_begin, m_at, '\n')) + ": " + message);
+    const bool is_cut = is_truncated() && std::find(m_at, m_end, '\n') == m_end;
+    throw Input_error(*m_name + ":" + std::to_string(1 + std::count(m_begin, m_at, '\n')) + ": " + message +
+                      (is_cut ? "; the file ends within this line: it seems to be truncated" : ""));
   }
 
 private:

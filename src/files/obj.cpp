@@ -60,7 +60,7 @@ public:
       if (reader.is_unused)
         m_builder.ignore(reader.plural + " without faces");
     close_columns();
-    return m_builder.take(m_name);
+    return m_builder.take(m_name, Text_reader(m_contents, m_name).is_truncated());
   }
 
 private:

@@ -6,6 +6,8 @@
 #include <selvedge/mesh_files.h>
 #include <selvedge/verify.h>
 
+#include <nlohmann/json.hpp>
+
 #include <set>
 
 namespace selvedge::test {
@@ -217,6 +219,45 @@ TEST(App_simplify, KeepsWhatStoodThereWhenWritingFails)
   expect_refused({"simplify", in, "-o", out, "--ratio", "0.5", "--quiet"}, 4, out, full);
   EXPECT_EQ(contents_of(out), "precious");
   EXPECT_EQ(folder.files(), 2u);
+}
+
+TEST(App_simplify, SaysWhatWasWrittenBeforeAReportFails)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("grid", "in.obj", 400);
+  const std::string out = folder / "out.obj";
+  const App_result result =
+      run_app({"simplify", in, "-o", out, "--ratio", "0.5", "--quiet", "--report", "/dev/full"});
+  EXPECT_EQ(result.code, 4);
+  EXPECT_NE(result.err.find("written before: " + out), std::string::npos) << result.err;
+  EXPECT_TRUE(std::filesystem::exists(out));
+}
+
+TEST(App_simplify, AReportOnStandardOutputStandsThereAlone)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("grid", "in.obj", 400);
+  const App_result result =
+      run_app({"simplify", in, "-o", folder / "out.obj", "--ratio", "0.5", "--report", "/dev/stdout"});
+  EXPECT_EQ(result.code, 0);
+  EXPECT_EQ(nlohmann::json::parse(result.out)["command"], "simplify");
+  EXPECT_NE(result.err.find("reduced to"), std::string::npos);
+}
+
+TEST(App_simplify, SaysThatAFileSeemsToBeTruncated)
+{
+  const Workspace folder;
+  const std::string text = contents_of(folder.generate("grid", "in.obj", 400));
+  write_text(folder / "cut.obj", text.substr(0, text.rfind("\nv ") + 3));
+  expect_refused({"simplify", folder / "cut.obj", "-o", folder / "out.obj", "--ratio", "0.5"}, 3,
+                 "it seems to be truncated");
+  const auto summary = [&](std::size_t size) {
+    write_text(folder / "cut.obj", text.substr(0, size));
+    return run_app({"simplify", folder / "cut.obj", "-o", folder / "out.obj", "--ratio", "0.5"}).out;
+  };
+  EXPECT_NE(summary(text.rfind("\nf ") + 3).find("truncated"), std::string::npos);
+  EXPECT_NE(summary(text.size() - 1).find("truncated"), std::string::npos);
+  EXPECT_EQ(summary(text.size()).find("truncated"), std::string::npos);
 }
 
 TEST(App_simplify, RefusesUnreadableInput)

@@ -3,6 +3,8 @@
 
 #include "App_run.h"
 
+#include <selvedge/mesh_files.h>
+
 namespace selvedge::test {
 namespace {
 
@@ -32,7 +34,9 @@ TEST(App_usage, RefusesWhatMakesNoSense)
   const std::string out = folder / "out.obj";
   const std::pair<std::vector<std::string>, const char*> senseless[] = {
       {{}, "subcommand"},
-      {{"shrink"}, "subcommand"},
+      {{"shrink"}, "there is no subcommand 'shrink' (see"},
+      {{"simplfy", in}, "did you mean 'simplify'?"},
+      {{"simplify", in, "-o", out, "--rato", "0.5"}, "did you mean '--ratio'?"},
       {{"simplify", in}, "--output"},
       {{"simplify", "-o", out, "--ratio", "0.5"}, "IN"},
       {{"simplify", in, "-o", out}, "--ratio"},
@@ -42,6 +46,8 @@ TEST(App_usage, RefusesWhatMakesNoSense)
       {{"simplify", in, "-o", out, "--ratio"}, "--ratio"},
       {{"simplify", in, "-o", out, "--faces", "-1"}, "--faces"},
       {{"simplify", in, "-o", out, "--faces", "1.5"}, "--faces"},
+      {{"simplify", in, "-o", out, "--faces", "1e30"}, "--faces"},
+      {{"simplify", in, "-o", folder / "{lod}.obj", "--ratio", "0.5"}, "--lods"},
       {{"generate", "grid", "-o", out, "--faces", "-5"}, "--faces"},
       {{"generate", "grid", "-o", out, "--seed", "-5"}, "--seed"},
       {{"simplify", in, "-o", out, "--error", "-1"}, "--error"},
@@ -63,12 +69,47 @@ TEST(App_usage, RefusesWhatMakesNoSense)
       {{"simplify", folder / "absent.obj", "-o", folder / "out.xyz", "--ratio", "0.5"},
        "out.xyz"}, // before any work
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--report", out}, "--report"},
-      {{"simplify", in, "-o", out, "--ratio", "0.5", "--report", in}, "--report"},
+      {{"simplify", in, "-o", out, "--ratio", "0.5", "--report", in}, "--report and IN"},
+      {{"simplify", in, "-o", out, "--ratio", "0.5", "--log", in}, "--log and IN"},
+      {{"simplify", in, "-o", in, "--ratio", "0.5", "--obstacle", in}, "--output and --obstacle"},
+      {{"replay", in, "log", "-o", in}, "--output and ORIGINAL"},
+      {{"verify", in, "--report", in}, "--report and MESH"},
       {{"verify"}, "MESH"},
       {{"verify", in, "--json", "--report", folder / "r.json"}, "--json"}};
   for (const auto& [arguments, what] : senseless)
     expect_refused(arguments, 2, what);
   EXPECT_EQ(folder.files(), 1u);
+}
+
+TEST(App_usage, SeesThatTwoNamesAreOneNewFile)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("grid", "in.obj", 200);
+  const std::string out = folder / "out.obj";
+  const std::filesystem::path here = std::filesystem::current_path();
+  std::filesystem::create_symlink("out.obj", folder / "link.obj");
+  for (const std::string& other :
+       {folder / "./out.obj", folder / "link.obj", std::filesystem::relative(out, here).string()})
+    for (const char* option : {"--report", "--log"})
+      expect_refused({"simplify", in, "-o", out, "--ratio", "0.5", option, other}, 2,
+                     std::string(option) + " and --output name the same file");
+  EXPECT_FALSE(std::filesystem::exists(out));
+  // A device is no file that could be lost.
+  EXPECT_EQ(run_app({"simplify", in, "-o", out, "--ratio", "0.5", "--report", "/dev/null", "--log",
+                     "/dev/null", "--quiet"})
+                .code,
+            0);
+}
+
+TEST(App_usage, ReadsWholeNumbersAsPeopleWriteThem)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("grid", "in.obj", 4000);
+  const std::string out = folder / "out.obj";
+  for (const char* number : {"1e3", "1,000", "1000"}) {
+    EXPECT_EQ(run_app({"simplify", in, "-o", out, "--faces", number, "--quiet"}).code, 0);
+    EXPECT_NEAR(double(read_mesh(out).soup.triangles.size()), 1000, 2) << number;
+  }
 }
 
 TEST(App_usage, RefusesAPlaceThatCannotBeWrittenBeforeAnyWork)

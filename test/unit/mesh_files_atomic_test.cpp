@@ -16,6 +16,7 @@
 #include <string>
 
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 using namespace selvedge;
@@ -177,6 +178,21 @@ TEST(AtomicFile, LinkIsFollowedAndPermissionsAreKept)
   EXPECT_TRUE(fs::is_symlink(folder / "link.obj"));
   EXPECT_EQ(read_mesh(folder / "real.obj").soup.triangles.size(), strip().triangles.size());
   EXPECT_EQ(fs::status(folder / "real.obj").permissions(), fs::perms::owner_read | fs::perms::owner_write);
+}
+
+TEST(AtomicFile, OwnerIsKept)
+{
+  if (::geteuid() != 0)
+    GTEST_SKIP() << "only root may give a file to another owner";
+  const Temporary_folder folder;
+  const std::string name = (folder / "m.obj").string();
+  write_file(name, "what stood here");
+  ASSERT_EQ(::chown(name.c_str(), 1234, 1235), 0);
+  write_mesh(name, strip());
+  struct stat status = {};
+  ASSERT_EQ(::stat(name.c_str(), &status), 0);
+  EXPECT_EQ(status.st_uid, 1234u);
+  EXPECT_EQ(status.st_gid, 1235u);
 }
 
 TEST(AtomicFile, BareNameIsWrittenToTheCurrentFolder)
