@@ -90,8 +90,10 @@ private:
   static bool overlap(const Box& a, const Box& b)
   {
     // Without branches, which would be mispredicted.
-    return (a.low[0] <= b.high[0]) & (b.low[0] <= a.high[0]) & (a.low[1] <= b.high[1]) &
-           (b.low[1] <= a.high[1]) & (a.low[2] <= b.high[2]) & (b.low[2] <= a.high[2]);
+    const auto is_met = [&](int axis) {
+      return int(a.low[axis] <= b.high[axis]) & int(b.low[axis] <= a.high[axis]);
+    };
+    return (is_met(0) & is_met(1) & is_met(2)) != 0;
   }
 
   static double squared_distance(const Point_3& query, const Box& box)

@@ -12,6 +12,7 @@
 #include <selvedge/Surface_mesh_simplification/stop_predicates.h>
 #include <selvedge/verify.h>
 
+#include "support/Edge_ratio_stop.h"
 #include "support/meshes.h"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
@@ -19,7 +20,6 @@
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_filter.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_ratio_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_length_cost.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_policies.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_cost.h>
@@ -81,7 +81,7 @@ Triangle_soup waves()
 template <class Mesh, class Parameters>
 std::size_t pairs_after(Mesh& mesh, const Parameters& parameters)
 {
-  const SMS::Count_ratio_stop_predicate<Mesh> stop(0.6);
+  const Edge_ratio_stop stop(0.6);
   EXPECT_GT(SMS::edge_collapse(mesh, stop, parameters), 0);
   return offending_pairs(to_soup(mesh)).size();
 }

@@ -13,12 +13,12 @@
 #include <selvedge/Surface_mesh_simplification/Quadric_cost.h>
 #include <selvedge/Surface_mesh_simplification/edge_collapse.h>
 
+#include "support/Edge_ratio_stop.h"
 #include "support/meshes.h"
 
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Surface_mesh_simplification/Edge_collapse_visitor_base.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_filter.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_ratio_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_length_cost.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Midpoint_placement.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
@@ -183,7 +183,7 @@ TEST(Own_loop, GoesAsCgalsWithDefaultPolicies)
 {
   for (const auto& [name, mesh] : meshes()) {
     SCOPED_TRACE(name);
-    const SMS::Count_ratio_stop_predicate<Surface_mesh> stop(ratio);
+    const Edge_ratio_stop stop(ratio);
     expect_same_steps(
         mesh, 10,
         [&](Surface_mesh& reduced, const Recorder& recorder) {
@@ -200,7 +200,7 @@ TEST(Own_loop, GoesAsCgalsWithPoliciesThatLookAtTheEndsAlone)
 {
   for (const auto& [name, mesh] : meshes()) {
     SCOPED_TRACE(name);
-    const SMS::Count_ratio_stop_predicate<Surface_mesh> stop(ratio);
+    const Edge_ratio_stop stop(ratio);
     const SMS::Edge_length_cost<Surface_mesh> cost;
     const SMS::Midpoint_placement<Surface_mesh> placement;
     const SMS::Bounded_normal_change_filter<> filter;
@@ -225,7 +225,7 @@ TEST(Own_loop, GoesAsCgalsWithQuadricsAndTheExactFilter)
 {
   for (const auto& [name, mesh] : meshes()) {
     SCOPED_TRACE(name);
-    const SMS::Count_ratio_stop_predicate<Surface_mesh> stop(ratio);
+    const Edge_ratio_stop stop(ratio);
     const auto reduce = [&](Surface_mesh& reduced, const Recorder& recorder, const auto& run,
                             const auto& base) {
       using Cost = Quadric_cost<Surface_mesh>;
@@ -273,7 +273,7 @@ TEST(Own_loop, GoesAsCgalsAroundConstrainedEdges)
 {
   for (const auto& [name, mesh] : meshes()) {
     SCOPED_TRACE(name);
-    const SMS::Count_ratio_stop_predicate<Surface_mesh> stop(ratio);
+    const Edge_ratio_stop stop(ratio);
     expect_same_steps(
         mesh, 10,
         [&](Surface_mesh& reduced, const Recorder& recorder) {
@@ -310,7 +310,7 @@ TEST(Own_loop, TakesVisitorsDerivedFromCgals)
   Surface_mesh mesh = shaken(sheets(1000, 1, 0.01));
   const std::size_t edges = mesh.number_of_edges();
   std::array<std::size_t, 4> calls{};
-  const SMS::Count_ratio_stop_predicate<Surface_mesh> stop(0.3);
+  const Edge_ratio_stop stop(0.3);
   const std::size_t removed = selvedge::edge_collapse(mesh, stop, CGAL::parameters::visitor(Visitor(calls)));
   EXPECT_EQ(mesh.number_of_edges(), edges - removed);
   EXPECT_EQ(calls[0], edges);
@@ -324,7 +324,7 @@ TEST(Own_loop, GoesAsCgalsOnAPolyhedron)
   using Polyhedron = CGAL::Polyhedron_3<Kernel>;
   Polyhedron mesh;
   CGAL::copy_face_graph(shaken(sheets(1000, 1, 0.01)), mesh);
-  const SMS::Count_ratio_stop_predicate<Polyhedron> stop(ratio);
+  const Edge_ratio_stop stop(ratio);
   Polyhedron own = mesh, cgal = mesh;
   EXPECT_GT(selvedge::edge_collapse(own, stop, CGAL::parameters::filter(Dihedral_angle_filter<>())), 100u);
   SMS::edge_collapse(cgal, stop);
@@ -342,7 +342,7 @@ TEST(Own_loop, GoesTheSameWayWhenItIsToldLess)
 {
   for (const auto& [name, mesh] : meshes()) {
     SCOPED_TRACE(name);
-    const SMS::Count_ratio_stop_predicate<Surface_mesh> stop(ratio);
+    const Edge_ratio_stop stop(ratio);
     const auto reduce = [&](Surface_mesh& reduced, const Recorder& recorder, const auto& told) {
       using Rule = Border_rule<Surface_mesh>;
       Border_rule_options options;
@@ -384,7 +384,7 @@ TEST(Own_loop, EndsOnlyWhenNothingIsPossibleAnyMore)
   using Cost = Quadric_cost<Surface_mesh>;
   const Cost cost(mesh);
   const Halfedge_placement<Surface_mesh, Cost> placement(cost);
-  const SMS::Count_ratio_stop_predicate<Surface_mesh> stop(0);
+  const Edge_ratio_stop stop(0);
   const auto run = [&] {
     return selvedge::edge_collapse(
         mesh, stop,
@@ -402,7 +402,7 @@ TEST(Own_loop, WithoutBlockersForgetsEdges)
   using Cost = Quadric_cost<Surface_mesh>;
   const Cost cost(mesh);
   const Halfedge_placement<Surface_mesh, Cost> placement(cost);
-  const SMS::Count_ratio_stop_predicate<Surface_mesh> stop(0);
+  const Edge_ratio_stop stop(0);
   const auto run = [&] {
     return selvedge::edge_collapse(mesh, stop,
                                    CGAL::parameters::get_cost(cost)

@@ -21,9 +21,9 @@ namespace selvedge {
 template <class Point>
 double aspect_ratio(const Point& a, const Point& b, const Point& c)
 {
-  const double longest =
-      std::max({CGAL::to_double(CGAL::squared_distance(a, b)), CGAL::to_double(CGAL::squared_distance(b, c)),
-                CGAL::to_double(CGAL::squared_distance(c, a))});
+  const double longest = (std::max)({CGAL::to_double(CGAL::squared_distance(a, b)),
+                                     CGAL::to_double(CGAL::squared_distance(b, c)),
+                                     CGAL::to_double(CGAL::squared_distance(c, a))});
   if (!(longest > 0))
     return 0;
   // Twice the area is height × longest edge.

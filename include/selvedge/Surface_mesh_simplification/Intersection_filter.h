@@ -44,7 +44,8 @@ namespace selvedge {
 /// **Not promised** for a mesh that is not embedded at the start; see `simplify_mesh` for such a mesh.
 ///
 /// **Exactness** The predicates of `GeomTraits` decide. They must be exact, as those of
-/// `Exact_predicates_inexact_constructions_kernel` are. Tolerances and constructed points take no part.
+/// `Exact_predicates_inexact_constructions_kernel` are; kernels for which they are not do not compile, nor
+/// does any of this with -ffast-math. Tolerances and constructed points take no part.
 ///
 /// **Complexity** For each motion of a vertex: one query of the index for the box of the vertex's star, then
 /// a constant number of predicates for each pair of a moving face and a face whose box meets its sweep. The k

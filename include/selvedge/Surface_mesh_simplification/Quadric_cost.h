@@ -109,8 +109,8 @@ public:
     CGAL::Bbox_3 box;
     for (const Vertex v : vertices(mesh))
       box += get(points, v).bbox();
-    for (int i = 0; i < 3 && box.min(i) <= box.max(i); ++i)
-      m_state->origin[i] = 0.5 * box.min(i) + 0.5 * box.max(i);
+    for (int i = 0; i < 3 && (box.min)(i) <= (box.max)(i); ++i)
+      m_state->origin[std::size_t(i)] = 0.5 * (box.min)(i) + 0.5 * (box.max)(i);
     Cancellation_poll poll;
     for (const auto face : faces(mesh)) {
       poll();
@@ -233,7 +233,7 @@ private:
     const State& state = *m_state;
     const std::array<Halfedge, 3> edges{first, next(first, mesh), next(next(first, mesh), mesh)};
     std::array<Vector, 3> corners; // corner i is the source of edge i
-    for (int i = 0; i < 3; ++i)
+    for (std::size_t i = 0; i < 3; ++i)
       corners[i] = state.vector(get(points, source(edges[i], mesh)));
     Vector normal = internal::cross(internal::difference(corners[1], corners[0]),
                                     internal::difference(corners[2], corners[0]));
@@ -241,12 +241,12 @@ private:
 
     Quadric of_face;
     of_face.add_square(normal, -internal::dot(normal, corners[0]), area);
-    for (int i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i) {
       Quadric of_corner = of_face;
       of_corner.add_point(corners[i], state.options.stabiliser * area);
       add(source(edges[i], mesh), of_corner);
     }
-    for (int i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i) {
       if (!CGAL::is_border(opposite(edges[i], mesh), mesh) && !get(state.edge_is_line, edge(edges[i], mesh)))
         continue;
       Vector along = internal::difference(corners[(i + 1) % 3], corners[i]);

@@ -6,6 +6,7 @@
 
 #include <selvedge/geometry/Vertex_motion.h>
 #include <selvedge/geometry/sweep.h>
+#include <selvedge/internal/exact_predicates.h>
 
 #include <CGAL/Point_3.h>
 #include <CGAL/enum.h>
@@ -213,6 +214,7 @@ template <class Kernel>
 Star_verdict judge_star_motion(const Vertex_motion<CGAL::Point_3<Kernel>>& motion,
                                const Kernel& kernel = Kernel())
 {
+  internal::require_exact_predicates<Kernel>();
   if (internal::is_star_clear_by_view(motion, kernel))
     return Star_verdict::clear_by_view;
   return internal::is_star_clear_by_pairs(motion, kernel) ? Star_verdict::clear_by_pairs

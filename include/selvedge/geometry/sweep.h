@@ -4,6 +4,8 @@
 #ifndef SELVEDGE_GEOMETRY_SWEEP_H
 #define SELVEDGE_GEOMETRY_SWEEP_H
 
+#include <selvedge/internal/exact_predicates.h>
+
 #include <CGAL/Point_3.h>
 #include <CGAL/assertions.h>
 #include <CGAL/enum.h>
@@ -29,7 +31,7 @@ namespace selvedge {
 /// collinear positions (it is judged as the segment that it is).
 ///
 /// **Exactness**: only signs of orientations of the given points are used, and nothing is constructed. The
-/// answer is exact for every kernel with exact predicates. −0 equals 0.
+/// answer is exact: a kernel whose predicates are not does not compile. −0 equals 0.
 ///
 /// **Complexity**: constant. The constructor computes the orientation of the sweep once. A face that shares a
 /// position costs 1 to 9 further orientations. A face that shares none, but whose box overlaps that of the
@@ -48,6 +50,7 @@ public:
              const Kernel& kernel = Kernel())
       : m_kernel(kernel), m_points{m, t, a, b}, m_sign(orientation(m, t, a, b))
   {
+    internal::require_exact_predicates<Kernel>();
     CGAL_precondition(!m_kernel.collinear_3_object()(m, a, b));
     CGAL_precondition(!is_equal(t, m) && !is_equal(t, a) && !is_equal(t, b));
   }

@@ -150,7 +150,7 @@ private:
   {
     constexpr float limit = 1e9f; // cells far away are united, so that nothing overflows
     Cell result;
-    for (int axis = 0; axis < 3; ++axis)
+    for (std::size_t axis = 0; axis < 3; ++axis)
       result[axis] = std::int32_t(std::clamp(std::floor(0.5f * box.centre(axis) / size), -limit, limit));
     return result;
   }
@@ -163,7 +163,7 @@ private:
     internal::Monotone_box domain = internal::Monotone_box::empty();
     for (const Id face : faces)
       domain += m_face_table->boxes[face];
-    const int longest = domain.longest_axis();
+    const std::size_t longest = domain.longest_axis();
     const float extent = domain.upper[longest] - domain.lower[longest];
     if (!(extent > 0))
       return 1;

@@ -121,6 +121,7 @@ class Edge_collapse
   using Halfedge = typename Graph_traits::halfedge_descriptor;
   using Edge = typename Graph_traits::edge_descriptor;
   using Face = typename Graph_traits::face_descriptor;
+  using Size = typename Graph_traits::edges_size_type;
   using Profile = Lazy_edge_profile<TriangleMesh, VertexPointMap, GeomTraits>;
   using Collapse_of_edge = Collapse<Profile>;
   using Cgal_visitor =
@@ -425,7 +426,7 @@ private:
   // True at both ends of an edge that was refused, until the edges at this vertex have been refreshed.
   typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<unsigned char>>::type
       m_has_stale_edges;
-  std::size_t m_initial_edges = 0, m_edges = 0;
+  Size m_initial_edges = 0, m_edges = 0;
   std::vector<Vertex> m_neighbours; // a buffer
 };
 

@@ -81,7 +81,7 @@ public:
   }
 
 private:
-  static constexpr Id s_nowhere = std::numeric_limits<Id>::max();
+  static constexpr Id s_nowhere = (std::numeric_limits<Id>::max)();
   static constexpr std::size_t s_children = 4;
 
   static std::size_t parent(std::size_t i) { return i == 0 ? 0 : (i - 1) / s_children; }

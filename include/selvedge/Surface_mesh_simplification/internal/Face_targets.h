@@ -120,7 +120,7 @@ public:
   }
 
 private:
-  static constexpr std::uint32_t s_uncounted = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint32_t s_uncounted = (std::numeric_limits<std::uint32_t>::max)();
 
   struct State
   {

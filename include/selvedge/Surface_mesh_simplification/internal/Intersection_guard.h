@@ -12,6 +12,7 @@
 #include <selvedge/Surface_mesh_simplification/internal/Vertex_table.h>
 #include <selvedge/geometry/star.h>
 #include <selvedge/geometry/sweep.h>
+#include <selvedge/internal/exact_predicates.h>
 
 #include <cstddef>
 #include <optional>
@@ -53,6 +54,7 @@ public:
       : m_traits(traits), m_vertices(mesh, points), m_faces(mesh, m_vertices, std::move(empty_index)),
         m_star(mesh, m_vertices), m_view(m_star)
   {
+    require_exact_predicates<GeomTraits>();
   }
   Intersection_guard(const Intersection_guard&) = delete; // its parts refer to each other
   Intersection_guard& operator=(const Intersection_guard&) = delete;

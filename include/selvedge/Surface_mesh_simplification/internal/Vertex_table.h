@@ -82,7 +82,7 @@ public:
   {
     const auto mark_one = [&](Record& record) {
       record.marked_at = m_now;
-      record.mark = mark;
+      record.mark = mark & s_mark_bits;
     };
     if (!is_coincident(v))
       mark_one(m_records[v]);
@@ -97,6 +97,8 @@ public:
   void prefetch(Number v) const { internal::prefetch(m_records[v]); }
 
 private:
+  static constexpr Mark s_mark_bits = (Mark(1) << 31) - 1;
+
   // Everything that is read of a vertex when a face near it is judged, in one cache line.
   struct alignas(32) Record
   {
@@ -126,7 +128,7 @@ private:
         m_class_of_vertex[number(sorted[i])] = Number(m_classes.size());
         m_records[number(sorted[i])].is_coincident = true;
       }
-      m_classes.emplace_back(sorted.begin() + first, sorted.begin() + beyond);
+      m_classes.emplace_back(sorted.data() + first, sorted.data() + beyond);
     }
     for (const auto edge : edges(mesh)) {
       const auto h = halfedge(edge, mesh);

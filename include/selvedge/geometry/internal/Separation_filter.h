@@ -259,7 +259,8 @@ private:
   //   3 · 2⁸ ε r² · 2 r for the normal, 2 · 3 · 8 r² · 8 ε r for the coordinates, and 200 ε r³ for rounding:
   //   together less than 2¹² ε r³.
   //
-  // The bounds below are twice these.
+  // The bounds below are twice these. They hold as well where the compiler contracts a product and a sum into
+  // one operation (-ffp-contract=fast): that rounds once where two roundings are counted here.
   void bound_errors(double extent)
   {
     m_extent = extent;

@@ -9,7 +9,6 @@
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Search_traits_3.h>
-#include <CGAL/version.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -52,19 +51,14 @@ private:
   Id m_id;
 };
 
-// The base that `AABB_tree` requires of its traits for a search tree, which is named there but never made
-// here: a kernel in CGAL 5, search traits in CGAL 6.
-#if CGAL_VERSION_NR >= 1060000000
-using Aabb_traits_base = CGAL::Search_traits_3<CGAL::Exact_predicates_inexact_constructions_kernel>;
-#else
-using Aabb_traits_base = CGAL::Exact_predicates_inexact_constructions_kernel;
-#endif
-
 /// Traits of `AABB_tree` for boxes in a table: as much of the concept `AABBTraits` as building and traversing
-/// a tree takes.
-class Box_tree_traits : public Aabb_traits_base
+/// a tree takes. The base classes are what `AABB_tree` names for a search tree, which is never made here: a
+/// kernel up to CGAL 5.6, search traits from 6.0.
+class Box_tree_traits : public CGAL::Exact_predicates_inexact_constructions_kernel,
+                        public CGAL::Search_traits_3<CGAL::Exact_predicates_inexact_constructions_kernel>
 {
 public:
+  using FT = CGAL::Exact_predicates_inexact_constructions_kernel::FT; // which both bases name
   using Primitive = Box_primitive;
   using Bounding_box = Monotone_box;
   using size_type = std::size_t;
@@ -94,7 +88,7 @@ public:
     template <class PrimitiveIterator>
     void operator()(PrimitiveIterator first, PrimitiveIterator beyond, const Bounding_box& box) const
     {
-      const int axis = box.longest_axis();
+      const std::size_t axis = box.longest_axis();
       // Equal centres are ordered by number, so that the tree is the same on every platform.
       std::nth_element(first, first + (beyond - first) / 2, beyond, [&](const auto& a, const auto& b) {
         return std::make_pair(table->boxes[a.id()].centre(axis), a.id()) <

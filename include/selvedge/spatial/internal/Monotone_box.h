@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <limits>
 
 namespace selvedge {
@@ -31,9 +32,9 @@ struct Monotone_box
 
   Monotone_box& operator+=(const Monotone_box& other)
   {
-    for (int axis = 0; axis < 3; ++axis) {
-      lower[axis] = std::min(lower[axis], other.lower[axis]);
-      upper[axis] = std::max(upper[axis], other.upper[axis]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      lower[axis] = (std::min)(lower[axis], other.lower[axis]);
+      upper[axis] = (std::max)(upper[axis], other.upper[axis]);
     }
     return *this;
   }
@@ -41,7 +42,7 @@ struct Monotone_box
   bool overlaps(const Monotone_box& other) const
   {
     // Always all six comparisons: there is no branch to mispredict.
-    const auto is_met = [&](int axis) {
+    const auto is_met = [&](std::size_t axis) {
       return int(lower[axis] <= other.upper[axis]) & int(other.lower[axis] <= upper[axis]);
     };
     return (is_met(0) & is_met(1) & is_met(2)) != 0;
@@ -54,12 +55,12 @@ struct Monotone_box
   }
 
   /// Returns twice the centre along one axis, which is enough for comparisons.
-  float centre(int axis) const { return lower[axis] + upper[axis]; }
+  float centre(std::size_t axis) const { return lower[axis] + upper[axis]; }
 
-  int longest_axis() const
+  std::size_t longest_axis() const
   {
-    int longest = 0;
-    for (int axis = 1; axis < 3; ++axis)
+    std::size_t longest = 0;
+    for (std::size_t axis = 1; axis < 3; ++axis)
       if (upper[axis] - lower[axis] > upper[longest] - lower[longest])
         longest = axis;
     return longest;
@@ -76,15 +77,15 @@ public:
   {
     for (int axis = 0; axis < 3; ++axis)
       if ((domain.min)(axis) <= (domain.max)(axis)) // false for the box of nothing
-        m_origin[axis] = 0.5 * (domain.min)(axis) + 0.5 * (domain.max)(axis);
+        m_origin[std::size_t(axis)] = 0.5 * (domain.min)(axis) + 0.5 * (domain.max)(axis);
   }
 
   Monotone_box operator()(const CGAL::Bbox_3& box) const
   {
     Monotone_box result;
-    for (int axis = 0; axis < 3; ++axis) {
-      result.lower[axis] = to_float((box.min)(axis)-m_origin[axis]);
-      result.upper[axis] = to_float((box.max)(axis)-m_origin[axis]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      result.lower[axis] = to_float((box.min)(int(axis)) - m_origin[axis]);
+      result.upper[axis] = to_float((box.max)(int(axis)) - m_origin[axis]);
     }
     return result;
   }

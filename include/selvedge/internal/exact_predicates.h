@@ -1,0 +1,47 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_INTERNAL_EXACT_PREDICATES_H
+#define SELVEDGE_INTERNAL_EXACT_PREDICATES_H
+
+#include <CGAL/Algebraic_structure_traits.h>
+
+#include <type_traits>
+
+// Selvedge and CGAL prove signs by such bounds.
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) ||                     \
+    defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || defined(_M_FP_FAST)
+#error "Fast floating point voids the bounds on rounding errors: compile without -ffast-math and the like"
+#endif
+
+namespace selvedge {
+namespace internal {
+
+// Whether a kernel says that its predicates are filtered: they compute in floating point, and exactly where
+// that does not decide.
+template <class Kernel, class = void>
+struct Has_filtered_predicates : std::false_type
+{
+};
+template <class Kernel>
+struct Has_filtered_predicates<Kernel, std::void_t<typename Kernel::Has_filtered_predicates_tag>>
+    : std::bool_constant<Kernel::Has_filtered_predicates_tag::value>
+{
+};
+
+/// Refuses, at compile time, a kernel whose predicates are not exact. They are when they are filtered, or
+/// when the number type is exact.
+template <class Kernel>
+constexpr void require_exact_predicates()
+{
+  static_assert(Has_filtered_predicates<Kernel>::value ||
+                    CGAL::Algebraic_structure_traits<typename Kernel::FT>::Is_exact::value,
+                "the predicates of this kernel are not exact, so the answers would be wrong: use points of "
+                "CGAL::Exact_predicates_inexact_constructions_kernel (EPICK), or of another kernel with "
+                "filtered predicates or an exact number type");
+}
+
+} // namespace internal
+} // namespace selvedge
+
+#endif // SELVEDGE_INTERNAL_EXACT_PREDICATES_H
