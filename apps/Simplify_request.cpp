@@ -128,6 +128,7 @@ Json options_json(const Simplify_request& request)
           {"obstacle", request.obstacle.empty() ? Json(nullptr) : Json(request.obstacle)},
           {"weld", request.weld_distance},
           {"sewn", request.is_sewn},
+          {"normals", name_of(request.normals)},
           {"threads", optional(request.threads)},
           {"cells", request.is_in_cells},
           {"strict", request.is_strict}};
@@ -267,6 +268,20 @@ void add_options(CLI::App& command, Simplify_request& request)
           "--sewn", request.is_sewn,
           "Merge the vertices of pieces that meet, where their attributes allow it. Without this option, "
           "pieces that are separate in the input are separate in the output.")
+      ->group(seams);
+
+  command
+      .add_option(
+          "--normals", request.normals,
+          "Normals of the input: keep them as they are, so that an edge with different normals on its "
+          "two sides is a seam; make them anew, with the hard edges of the input; or leave them out. "
+          "auto makes those anew that give every face its own normal, and keeps others.")
+      ->transform(one_of<Normals_choice>({{"auto", Normals_choice::automatic},
+                                          {"keep", Normals_choice::keep},
+                                          {"recompute", Normals_choice::recompute},
+                                          {"drop", Normals_choice::drop}}))
+      ->type_name("auto|keep|recompute|drop")
+      ->default_str("auto")
       ->group(seams);
 
   const char* const tuning = "Tuning";

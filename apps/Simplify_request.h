@@ -32,6 +32,7 @@ struct Simplify_request
   bool is_unguarded = false;
   bool is_in_cells = false;
   double weld_distance = 0;
+  Normals_choice normals = Normals_choice::automatic;
   bool is_sewn = false;
   bool is_strict = false;
   bool is_target_required = false;

@@ -98,6 +98,7 @@ private:
     options.round_to_float32 = needs_float32(file.soup, mesh_format(m_request.output));
     options.is_strict = m_request.is_strict;
     options.weld_distance = m_request.weld_distance;
+    options.normals = m_request.normals;
     try {
       return prepare(std::move(file.soup), options, obstacle);
     } catch (const Input_error& error) {
@@ -206,8 +207,10 @@ private:
       return;
     double seconds_parts = 0;
     const auto add_level = [&](Json& json, const Level& level) {
-      json["output"] = {
-          {"path", level.output}, {"written", m_outcome.is_written()}, {"not_carried", dropped}};
+      json["output"] = {{"path", level.output},
+                        {"written", m_outcome.is_written()},
+                        {"not_carried", dropped},
+                        {"normals", name_of(prepared.normals)}};
       if (&json == &m_report)
         json["options"] = options_json(m_request);
       add_reduction(json, prepared, level.result);

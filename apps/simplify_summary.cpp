@@ -58,6 +58,10 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
   if (prepared.rounding.coordinates > 0)
     stream << "  " << counted(prepared.rounding.coordinates, "coordinate")
            << " rounded to 32-bit floats, because the output's format stores nothing more precise\n";
+  if (prepared.normals == Normals_treatment::flat)
+    stream << "  normals made anew: every face of the input has its own, as in flat shading\n";
+  if (prepared.normals == Normals_treatment::smooth)
+    stream << "  normals made anew, with the hard edges of the input\n";
   if (request.weld_distance > 0)
     print_snapping(stream, prepared.snapping);
   const char* separator = "  not in the output, because its format cannot hold them: ";

@@ -28,6 +28,7 @@ namespace selvedge {
 ///     selvedge-log 1
 ///     input VERTICES TRIANGLES SHA256
 ///     rounding none|float32                  once at most; none where it is missing
+///     normals kept|ignored                   once at most; kept where it is missing
 ///     obstacle VERTICES TRIANGLES SHA256     once at most
 ///     limit NAME NUMBER                      any number of them, each name once
 ///     s MOVED KEPT                           any number of them
@@ -44,6 +45,8 @@ namespace selvedge {
 ///   digits, or `-` when unknown.
 /// - *rounding*: what was done to every coordinate before anything else: nothing, or rounding to the nearest
 ///   32-bit float, ties to even.
+/// - *normals*: whether an edge across which the normals of the input differ is a line, like one across which
+///   texture coordinates or materials do. They are ignored when the writer makes the normals anew.
 /// - *obstacle*: a mesh that the writer kept clear of and did not change, described as in *input*. The line
 ///   only records that there was one. The log does not hold its triangles, so they cannot be judged.
 /// - *limit*: a limit that the writer kept to, and by which it wants to be judged. NAME is a key of
@@ -101,6 +104,7 @@ struct Log_header
   std::size_t triangles = 0;
   std::string sha256; ///< of the file; empty when unknown
   bool is_rounded_to_float32 = false;
+  bool are_normals_ignored = false;
 
   /// A mesh beside the input that the writer kept clear of.
   struct Obstacle

@@ -7,6 +7,7 @@
 #include <selvedge/Snapping_notes.h>
 #include <selvedge/Triangle_soup.h>
 #include <selvedge/internal/Scale.h>
+#include <selvedge/normals.h>
 #include <selvedge/rounding.h>
 #include <selvedge/verify.h>
 
@@ -24,6 +25,9 @@ struct Prepare_options
   /// Whether an input that is not embedded is refused (`Input_error`). Otherwise the faces that offend are
   /// frozen. Pairs that offend only after rounding are frozen in either case.
   bool is_strict = false;
+
+  /// What a reduction does with the normals of corners.
+  Normals_choice normals = Normals_choice::keep;
 
   /// The distance within which border vertices *snap* together, in the unit of the coordinates: finite, at
   /// least 0, otherwise `Argument_error` is thrown. At 0, the default, nothing snaps.
@@ -73,8 +77,11 @@ struct Prepare_options
 struct Prepared_soup
 {
   /// The input, rounded and snapped if that was asked for, without the triangles that have two corners at one
-  /// position.
+  /// position, and without the normals that `simplify_soup` makes anew.
   Triangle_soup soup;
+
+  /// What was done with the normals, and is to be done with those of the result.
+  Normals_treatment normals = Normals_treatment::none;
 
   /// The points and triangles of the obstacle, without the triangles that have two corners at one position.
   /// In the members below, vertices and triangles of the obstacle are numbered after those of `soup`.
@@ -113,7 +120,7 @@ struct Prepared_soup
   double seconds_snap = 0;      ///< for snapping
 };
 
-/// Prepares a soup for `simplify_soup`: rounds it, finds coincident vertices, finds offending pairs, freezes
+/// Prepares a soup for `simplify_soup`: takes out normals that are to be made anew, rounds it, finds coincident vertices, finds offending pairs, freezes
 /// their faces, and snaps borders, in this order.
 ///
 /// An `obstacle`, such as the body under a garment, takes part in every decision and never changes; it is not

@@ -69,7 +69,8 @@ struct Simplified_soup
 /// 1. *Embedded*: the offending pairs of the result are among those of the input, so there are none when the
 ///    input has none.
 /// 2. *Attributes*: every corner of the result has the vertex number, texture coordinate and group that some
-///    corner of the input has at the same position on the same side; coordinates are the same bits.
+///    corner of the input has at the same position on the same side; coordinates are the same bits. Normals
+///    are made anew where `Prepare_options::normals` asks for it.
 /// 3. *Seams*: coincident borders of pieces are sewn before the reduction and separate after it, and they
 ///    coincide at every vertex. Texture seams and borders between groups are kept in the same way.
 /// 4. *Texture*: no triangle of the texture turns over.

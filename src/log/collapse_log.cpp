@@ -52,6 +52,8 @@ Log_writer::Log_writer(std::ostream& stream, const Log_header& header) : m_strea
   };
   write_mesh("input", header);
   m_stream << "rounding " << (header.is_rounded_to_float32 ? "float32" : "none") << '\n';
+  if (header.are_normals_ignored)
+    m_stream << "normals ignored\n";
   if (header.obstacle)
     write_mesh("obstacle", *header.obstacle);
   for (const Limit_description& limit : limit_descriptions)
@@ -99,7 +101,7 @@ public:
     if (!next_line() || m_words[0] != "input")
       fail("the second line is 'input VERTICES TRIANGLES SHA256'");
     read_mesh(header, "input VERTICES TRIANGLES SHA256");
-    bool is_rounding_known = false;
+    bool is_rounding_known = false, are_normals_known = false;
     while (next_line()) {
       if (m_words[0] == "rounding" && !is_rounding_known) {
         expect_words(2, 2, "rounding none|float32");
@@ -107,6 +109,12 @@ public:
           fail("rounding is 'none' or 'float32'");
         header.is_rounded_to_float32 = m_words[1] == "float32";
         is_rounding_known = true;
+      } else if (m_words[0] == "normals" && !are_normals_known) {
+        expect_words(2, 2, "normals kept|ignored");
+        if (m_words[1] != "kept" && m_words[1] != "ignored")
+          fail("normals are 'kept' or 'ignored'");
+        header.are_normals_ignored = m_words[1] == "ignored";
+        are_normals_known = true;
       } else if (m_words[0] == "obstacle" && !header.obstacle) {
         Log_header::Obstacle obstacle;
         read_mesh(obstacle, "obstacle VERTICES TRIANGLES SHA256");

@@ -20,6 +20,10 @@ std::vector<Not_judged> not_judged(const Replay_verdict& verdict)
   if (verdict.snaps > 0)
     result.push_back({"limits_of_snaps", "what snaps do to angles and shapes of triangles, and to borders: "
                                          "the weld distance is their only limit"});
+  if (verdict.header.are_normals_ignored)
+    result.push_back({"normals",
+                      "whether edges across which normals differ move only along themselves: the log "
+                      "says that normals are made anew"});
   if (verdict.header.obstacle)
     result.push_back({"obstacle",
                       "whether the steps keep clear of the obstacle that the log names: the log does "

@@ -130,15 +130,17 @@ void leave_out_needless(Start& start)
   start.numbers = std::move(numbers);
 }
 
-Start prepare(const Triangle_soup& original, bool is_rounded)
+Start prepare(const Triangle_soup& original, const Log_header& header)
 {
   Start start;
   start.soup = original;
+  if (header.are_normals_ignored)
+    start.soup.normals = {};
   for (Index t = 0; t < original.triangles.size(); ++t)
     start.numbers.push_back(t);
   leave_out_needless(start);
   const std::vector<Index> before = first_at_position(start.soup.points);
-  if (is_rounded) {
+  if (header.is_rounded_to_float32) {
     round_to_float32(start.soup);
     leave_out_needless(start);
   }
@@ -178,7 +180,7 @@ class Replay
 public:
   Replay(const Triangle_soup& original, bool is_stl, Log_reader& log, const Replay_options& options)
       : m_numbering(original, is_stl), m_log(log), m_options(options),
-        m_start(prepare(original, log.header().is_rounded_to_float32)), m_complex(m_start.soup),
+        m_start(prepare(original, log.header())), m_complex(m_start.soup),
         m_limits(judged_limits(log.header(), options))
   {
     const Log_header& header = log.header();

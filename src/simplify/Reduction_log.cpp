@@ -36,6 +36,8 @@ std::vector<Index> smallest_numbers(const std::vector<Point_3>& points, const Lo
 Log_header completed(Log_header header, const Prepared_soup& prepared, const Simplify_options& options)
 {
   header.limits = limits_of(options);
+  header.are_normals_ignored =
+      prepared.normals != Normals_treatment::none && prepared.normals != Normals_treatment::kept;
   if (prepared.snapping.distance > 0)
     header.limits.weld_distance = prepared.snapping.distance;
   const Triangle_soup& obstacle = prepared.obstacle;

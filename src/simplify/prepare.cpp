@@ -81,6 +81,7 @@ public:
 
   Prepared_soup run()
   {
+    m_prepared.normals = take_normals(soup(), m_options.normals);
     leave_out_degenerate();
     if (m_options.round_to_float32 && !stores_only_float32(soup()))
       round();

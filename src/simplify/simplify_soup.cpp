@@ -140,6 +140,7 @@ private:
     Simplified_soup result;
     Working_mesh::Result left = m_working.result();
     result.soup = std::move(left.soup);
+    restore_normals(result.soup, m_prepared.normals);
     result.triangles = std::move(left.triangles);
     result.corners = std::move(left.corners);
     result.sewing = m_working.notes();

@@ -76,7 +76,7 @@ TEST(App_documentation, OptionsInReportsAreThoseOfTheHelp)
     }
     ++defaults;
   }
-  EXPECT_EQ(defaults, 11u);
+  EXPECT_EQ(defaults, 12u);
 }
 
 } // namespace

@@ -54,6 +54,7 @@ Prepare_options World::prepare_options() const
   prepare.round_to_float32 = needs_float32(soup, output_format);
   prepare.is_strict = is_strict;
   prepare.weld_distance = weld_distance;
+  prepare.normals = normals;
   return prepare;
 }
 
@@ -76,6 +77,7 @@ void write_world(const World& world, const std::filesystem::path& folder)
                      {"sewn", world.is_sewn},
                      {"strict", world.is_strict},
                      {"weld", world.weld_distance},
+                     {"normals", name_of(world.normals)},
                      {"ratio", optional_json(options.ratio)},
                      {"faces", optional_json(options.faces)},
                      {"error", optional_json(options.max_error)},
@@ -119,6 +121,11 @@ World read_world(const std::filesystem::path& folder)
   world.is_sewn = json["sewn"];
   world.is_strict = json["strict"];
   world.weld_distance = json["weld"];
+  const std::string normals = json.value("normals", "keep"); // worlds of earlier versions have none
+  for (const Normals_choice choice :
+       {Normals_choice::automatic, Normals_choice::keep, Normals_choice::recompute, Normals_choice::drop})
+    if (normals == name_of(choice))
+      world.normals = choice;
   Simplify_options& options = world.options;
   read_optional(json["ratio"], options.ratio);
   read_optional(json["faces"], options.faces);
@@ -193,6 +200,8 @@ std::string command_line(const World& world)
   add_if_other("--border-weight", options.cost.border_weight, plain.cost.border_weight);
   add_if_other("--stabiliser", options.cost.stabiliser, plain.cost.stabiliser);
   add_if_other("--weld", world.weld_distance, 0);
+  if (world.normals != Normals_choice::automatic)
+    add("--normals", name_of(world.normals));
   if (options.loop != plain.loop)
     add("--loop", "cgal");
   if (options.index != plain.index)

@@ -31,6 +31,7 @@ struct World
   bool is_sewn = false; ///< the file has one number for what lies at one position
   bool is_strict = false;
   double weld_distance = 0;
+  Normals_choice normals = Normals_choice::automatic;
   Simplify_options options; ///< without who is to be told or asked
   Simplify_intent intent;
   std::vector<double> lods;

@@ -5,6 +5,7 @@
 #include "support/soups.h"
 
 #include "soup/selection.h"
+#include <selvedge/normals.h>
 
 #include <algorithm>
 #include <array>
@@ -663,6 +664,8 @@ void decorate(Triangle_soup& soup, Random& random)
     soup.uvs = random_uvs(soup, random);
   if (random.one_in(8))
     soup.normals = random_normals(soup, random);
+  if (!soup.normals.empty() && random.one_in(3))
+    restore_normals(soup, Normals_treatment::flat);
   if (random.one_in(4)) {
     Attribute weights;
     weights.name = "w";

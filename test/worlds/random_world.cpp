@@ -229,6 +229,9 @@ World random_world(std::uint64_t seed)
     world.weld_distance = diagonal(soup) * random.one_of({1e-12, 1e-6, 1e-3, 0.02, 0.1});
   if (!std::isfinite(world.weld_distance))
     world.weld_distance = 0;
+  if (!world.soup.normals.empty())
+    world.normals = random.one_of(
+        {Normals_choice::automatic, Normals_choice::keep, Normals_choice::recompute, Normals_choice::drop});
   if (random.one_in(12) && !world.options.faces) {
     for (int i = random.between(1, 3); i > 0; --i)
       world.lods.push_back(random.share());

@@ -95,6 +95,7 @@ private:
     set<double>([](World& w) -> double& { return w.options.cost.border_weight; }, plain.cost.border_weight);
     set<double>([](World& w) -> double& { return w.options.cost.stabiliser; }, plain.cost.stabiliser);
     set<double>([](World& w) -> double& { return w.weld_distance; }, 0);
+    set<Normals_choice>([](World& w) -> Normals_choice& { return w.normals; }, Normals_choice::keep);
     set<bool>([](World& w) -> bool& { return w.is_sewn; }, false);
     set<bool>([](World& w) -> bool& { return w.is_strict; }, false);
     set<Mesh_format>([](World& w) -> Mesh_format& { return w.output_format; }, Mesh_format::obj);

@@ -1,0 +1,60 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_NORMALS_H
+#define SELVEDGE_NORMALS_H
+
+#include <selvedge/Triangle_soup.h>
+
+namespace selvedge {
+
+/// What a reduction does with the normals that a file has for the corners of its triangles.
+///
+/// A normal that is kept makes an edge a *line* (Border_rule.h) where it differs on both sides, and vertices
+/// of a line move only along it. That is right for hard edges, and freezes a mesh in which every triangle has
+/// normals of its own.
+enum class Normals_choice {
+  automatic, ///< `recompute` when the normals are flat, `keep` otherwise
+  keep,      ///< every corner of the result has a normal that some corner of the input has, bit for bit
+  recompute, ///< the result gets new normals, made as those of the input seem to be made
+  drop       ///< the result has no normals
+};
+
+/// What was done with the normals of a soup.
+enum class Normals_treatment {
+  none,   ///< the soup has no normals
+  kept,   ///< they are treated like any other attribute
+  flat,   ///< every corner gets the normal of its triangle
+  smooth, ///< every corner gets the mean normal of the triangles around its vertex, up to hard edges
+  dropped
+};
+
+/// Returns the word for this in options and reports: auto, keep, recompute or drop.
+const char* name_of(Normals_choice choice);
+
+/// Returns the word for this in reports: none, kept, flat, smooth or dropped.
+const char* name_of(Normals_treatment treatment);
+
+/// Returns whether normals are *flat*: those of 99 % of all corners differ from the normal of their triangle
+/// by at most 0.1°, which is what numbers of four decimals tell. Triangles without an area are not counted.
+/// False for a soup without normals, or with normals for some of its triangles only.
+///
+/// **Complexity** O(n) for n triangles. Computed in double; no decision about intersections depends on it.
+bool has_flat_normals(const Triangle_soup& soup);
+
+/// Takes the normals out of a soup that is to be reduced, as far as they are to be made anew, and returns how
+/// `restore_normals` has to make them. For `Normals_treatment::smooth` the soup keeps one value for all
+/// corners between two hard edges at a vertex, so that hard edges, and no others, are lines. An edge is hard
+/// where the normals on its two sides differ by more than 1° at one of its ends.
+///
+/// **Complexity** O(n log n) for n triangles.
+Normals_treatment take_normals(Triangle_soup& soup, Normals_choice choice);
+
+/// Makes the normals of a reduced soup, unless they are kept, dropped or absent. They have the precision of
+/// 32-bit floats. A mean is weighted by the angles at the vertex (Thürmer and Wüthrich 1998). A triangle
+/// without an area has the normal (0, 0, 1).
+void restore_normals(Triangle_soup& soup, Normals_treatment treatment);
+
+} // namespace selvedge
+
+#endif // SELVEDGE_NORMALS_H

@@ -1,0 +1,262 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <selvedge/normals.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+// Recognises how the normals of corners were made, and makes those of a result in the same way.
+
+namespace selvedge {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+// Cosines of 0.1° and of 1°.
+constexpr double s_cosine_flat = 0.9999984769;
+constexpr double s_cosine_smooth = 0.9998476952;
+
+double dot(const Vector& a, const Vector& b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Vector difference(const Point_3& a, const Point_3& b)
+{
+  return {a.x() - b.x(), a.y() - b.y(), a.z() - b.z()};
+}
+
+// Has the length 1, or 0 where the vector has no direction. A vector and its double have the same bits.
+Vector unit(Vector a)
+{
+  const double largest = std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
+  if (!(largest > 0 && std::isfinite(largest)))
+    return {};
+  for (double& x : a)
+    x = std::scalbn(x, -std::ilogb(largest));
+  const double norm = std::sqrt(dot(a, a));
+  for (double& x : a)
+    x /= norm;
+  return a;
+}
+
+Vector unit_normal(const Triangle_soup& soup, Index triangle)
+{
+  const auto& [p, q, r] = soup.triangles[triangle];
+  const Vector u = unit(difference(soup.points[q], soup.points[p]));
+  const Vector v = unit(difference(soup.points[r], soup.points[p]));
+  return unit({u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]});
+}
+
+bool is_within(const Vector& a, const Vector& b, double cosine)
+{
+  return dot(unit(a), unit(b)) >= cosine;
+}
+
+// Rounds to what the formats that store floats hold, so that all formats show the same.
+Vector stored(const Vector& normal)
+{
+  if (normal == Vector{})
+    return {0, 0, 1};
+  return {double(float(normal[0])), double(float(normal[1])), double(float(normal[2]))};
+}
+
+/// Disjoint sets of corners, each corner being 3 × triangle + place.
+class Fans
+{
+public:
+  explicit Fans(std::size_t triangles) : m_parent(3 * triangles)
+  {
+    std::iota(m_parent.begin(), m_parent.end(), Index(0));
+  }
+
+  Index first(Index corner)
+  {
+    while (m_parent[corner] != corner)
+      corner = m_parent[corner] = m_parent[m_parent[corner]];
+    return corner;
+  }
+
+  void join(Index a, Index b)
+  {
+    a = first(a);
+    b = first(b);
+    m_parent[std::max(a, b)] = std::min(a, b);
+  }
+
+private:
+  std::vector<Index> m_parent;
+};
+
+// Gives the corners between two hard edges at a vertex the value of the first of them.
+void join_fans(Triangle_soup& soup)
+{
+  Corner_values<3>& normals = soup.normals;
+  struct Side
+  {
+    Index low, high;       // the vertices of the edge
+    Index at_low, at_high; // the corners there
+  };
+  std::vector<Side> sides;
+  for (Index t = 0; t < soup.triangles.size(); ++t)
+    for (Index k = 0; k < 3; ++k) {
+      const Index l = (k + 1) % 3;
+      const Index a = soup.triangles[t][k], b = soup.triangles[t][l];
+      sides.push_back(a < b ? Side{a, b, 3 * t + k, 3 * t + l} : Side{b, a, 3 * t + l, 3 * t + k});
+    }
+  const auto edge = [](const Side& side) { return std::make_pair(side.low, side.high); };
+  std::sort(sides.begin(), sides.end(), [&](const Side& a, const Side& b) {
+    return std::make_tuple(a.low, a.high, a.at_low) < std::make_tuple(b.low, b.high, b.at_low);
+  });
+  const auto value = [&](Index corner) { return normals.of_triangle[corner / 3][corner % 3]; };
+  const auto is_smooth_between = [&](Index a, Index b) {
+    return value(a) == value(b) ||
+           (value(a) != normals.missing && value(b) != normals.missing &&
+            is_within(normals.values[value(a)], normals.values[value(b)], s_cosine_smooth));
+  };
+  Fans fans(soup.triangles.size());
+  for (std::size_t i = 0; i < sides.size();) {
+    std::size_t end = i + 1;
+    while (end < sides.size() && edge(sides[end]) == edge(sides[i]))
+      ++end;
+    const Side &a = sides[i], &b = sides[end - 1];
+    if (end - i == 2 && is_smooth_between(a.at_low, b.at_low) && is_smooth_between(a.at_high, b.at_high)) {
+      fans.join(a.at_low, b.at_low);
+      fans.join(a.at_high, b.at_high);
+    }
+    i = end;
+  }
+  std::vector<Index_triple> joined = normals.of_triangle;
+  for (Index corner = 0; corner < 3 * joined.size(); ++corner)
+    joined[corner / 3][corner % 3] = value(fans.first(corner));
+  normals.of_triangle = std::move(joined);
+}
+
+void restore_flat(Triangle_soup& soup)
+{
+  soup.normals = {};
+  for (Index t = 0; t < soup.triangles.size(); ++t) {
+    soup.normals.values.push_back(stored(unit_normal(soup, t)));
+    soup.normals.of_triangle.push_back({t, t, t});
+  }
+}
+
+void restore_smooth(Triangle_soup& soup)
+{
+  Corner_values<3>& normals = soup.normals;
+  std::map<std::pair<Index, Index>, Index> numbers; // by vertex and old value
+  std::vector<Vector> sums;
+  for (Index t = 0; t < soup.triangles.size(); ++t) {
+    if (normals.of_triangle[t][0] == normals.missing)
+      continue;
+    const Vector normal = unit_normal(soup, t);
+    for (int k = 0; k < 3; ++k) {
+      const Index_triple& v = soup.triangles[t];
+      Index& value = normals.of_triangle[t][k];
+      const auto [place, is_new] = numbers.emplace(std::make_pair(v[k], value), Index(sums.size()));
+      if (is_new)
+        sums.push_back({});
+      value = place->second;
+      const Vector u = unit(difference(soup.points[v[(k + 1) % 3]], soup.points[v[k]]));
+      const Vector w = unit(difference(soup.points[v[(k + 2) % 3]], soup.points[v[k]]));
+      const double angle = std::acos(std::clamp(dot(u, w), -1.0, 1.0));
+      for (int i = 0; i < 3; ++i)
+        sums[place->second][i] += angle * normal[i];
+    }
+  }
+  const Index count = Index(sums.size());
+  if (normals.missing) {
+    sums.push_back({0, 0, 0}); // unlike every normal
+    for (Index_triple& triple : normals.of_triangle)
+      if (triple[0] == normals.missing)
+        triple = {count, count, count};
+    normals.missing = count;
+  }
+  for (Index i = 0; i < count; ++i)
+    sums[i] = stored(unit(sums[i]));
+  normals.values = std::move(sums);
+}
+
+} // namespace
+
+const char* name_of(Normals_choice choice)
+{
+  switch (choice) {
+  case Normals_choice::automatic:
+    return "auto";
+  case Normals_choice::keep:
+    return "keep";
+  case Normals_choice::recompute:
+    return "recompute";
+  default:
+    return "drop";
+  }
+}
+
+const char* name_of(Normals_treatment treatment)
+{
+  switch (treatment) {
+  case Normals_treatment::kept:
+    return "kept";
+  case Normals_treatment::flat:
+    return "flat";
+  case Normals_treatment::smooth:
+    return "smooth";
+  case Normals_treatment::dropped:
+    return "dropped";
+  default:
+    return "none";
+  }
+}
+
+bool has_flat_normals(const Triangle_soup& soup)
+{
+  if (soup.normals.empty() || soup.normals.missing)
+    return false;
+  std::size_t judged = 0, flat = 0;
+  for (Index t = 0; t < soup.triangles.size(); ++t) {
+    const Vector normal = unit_normal(soup, t);
+    if (normal == Vector{})
+      continue;
+    for (const Index value : soup.normals.of_triangle[t]) {
+      ++judged;
+      flat += is_within(soup.normals.values[value], normal, s_cosine_flat);
+    }
+  }
+  return judged > 0 && 100 * flat >= 99 * judged;
+}
+
+Normals_treatment take_normals(Triangle_soup& soup, Normals_choice choice)
+{
+  if (soup.normals.empty())
+    return Normals_treatment::none;
+  if (choice == Normals_choice::drop) {
+    soup.normals = {};
+    return Normals_treatment::dropped;
+  }
+  if (choice != Normals_choice::keep && has_flat_normals(soup)) {
+    soup.normals = {};
+    return Normals_treatment::flat;
+  }
+  if (choice != Normals_choice::recompute)
+    return Normals_treatment::kept;
+  join_fans(soup);
+  return Normals_treatment::smooth;
+}
+
+void restore_normals(Triangle_soup& soup, Normals_treatment treatment)
+{
+  if (treatment == Normals_treatment::flat)
+    restore_flat(soup);
+  else if (treatment == Normals_treatment::smooth)
+    restore_smooth(soup);
+}
+
+} // namespace selvedge

@@ -1,0 +1,144 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Normals that are made anew for a result.
+
+#include "support/logged_reduction.h"
+#include "support/reduction.h"
+#include "support/soups.h"
+
+#include <selvedge/normals.h>
+#include <selvedge/replay.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace selvedge::test {
+namespace {
+
+Triangle_soup hills()
+{
+  return mapped(sheet(20, 20), [](const Point_3& p) {
+    return Point_3(p.x(), p.y(), std::sin(p.x() / 4) + std::cos(p.y() / 5));
+  });
+}
+
+Triangle_soup with_flat_normals(Triangle_soup soup)
+{
+  restore_normals(soup, Normals_treatment::flat);
+  return soup;
+}
+
+// Two halves at a right angle, folded along x = 10. Every corner has a normal of its own, that of its half
+// with a little noise.
+Triangle_soup folded_sheet()
+{
+  Triangle_soup soup = mapped(
+      sheet(20, 10), [](const Point_3& p) { return p.x() <= 10 ? p : Point_3(10, p.y(), p.x() - 10); });
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> noise(-4e-3, 4e-3);
+  for (const Index_triple& triangle : soup.triangles) {
+    const bool is_upright =
+        soup.points[triangle[0]].z() + soup.points[triangle[1]].z() + soup.points[triangle[2]].z() > 0;
+    const Index first = Index(soup.normals.values.size());
+    for (int k = 0; k < 3; ++k)
+      soup.normals.values.push_back(
+          {(is_upright ? -1 : 0) + noise(random), noise(random), (is_upright ? 0 : 1) + noise(random)});
+    soup.normals.of_triangle.push_back({first, first + 1, first + 2});
+  }
+  return soup;
+}
+
+Prepared_soup prepared(const Triangle_soup& soup, Normals_choice choice)
+{
+  Prepare_options options;
+  options.normals = choice;
+  return prepare(soup, options);
+}
+
+TEST(Normals, FlatOnesDoNotHoldTheMeshTogether)
+{
+  const Triangle_soup soup = with_flat_normals(hills());
+  ASSERT_TRUE(has_flat_normals(soup));
+  const Prepared_soup original = prepared(soup, Normals_choice::automatic);
+  EXPECT_EQ(original.normals, Normals_treatment::flat);
+  const Triangle_soup result = simplify_soup(original, to_ratio(0.3)).soup;
+  EXPECT_LE(result.triangles.size(), soup.triangles.size() * 3 / 10);
+  ASSERT_EQ(result.normals.of_triangle.size(), result.triangles.size());
+  EXPECT_TRUE(has_flat_normals(result));
+  // The control: kept, they make every edge a seam.
+  const Prepared_soup kept = prepared(soup, Normals_choice::keep);
+  EXPECT_EQ(kept.normals, Normals_treatment::kept);
+  EXPECT_GT(simplify_soup(kept, to_ratio(0.3)).soup.triangles.size(), soup.triangles.size() / 2);
+}
+
+TEST(Normals, ThatAreNotFlatAreKeptUnlessAsked)
+{
+  Triangle_soup soup = hills();
+  for (const Point_3& p : soup.points)
+    soup.normals.values.push_back({-std::cos(p.x() / 4) / 4, std::sin(p.y() / 5) / 5, 1});
+  soup.normals.of_triangle = soup.triangles;
+  EXPECT_FALSE(has_flat_normals(soup));
+  const Prepared_soup original = prepared(soup, Normals_choice::automatic);
+  EXPECT_EQ(original.normals, Normals_treatment::kept);
+  const Simplified_soup result = simplify_soup(original, to_ratio(0.3));
+  for (std::size_t t = 0; t < result.soup.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const Index corner = result.corners[t][k];
+      EXPECT_EQ(result.soup.normals.values[result.soup.normals.of_triangle[t][k]],
+                soup.normals.values[soup.normals.of_triangle[corner / 3][corner % 3]]);
+    }
+}
+
+TEST(Normals, AreMadeAnewBetweenHardEdges)
+{
+  const Triangle_soup soup = folded_sheet();
+  const Prepared_soup original = prepared(soup, Normals_choice::recompute);
+  EXPECT_EQ(original.normals, Normals_treatment::smooth);
+  const Triangle_soup result = simplify_soup(original, to_ratio(0.1)).soup;
+  EXPECT_LE(result.triangles.size(), soup.triangles.size() / 10);
+  for (std::size_t t = 0; t < result.triangles.size(); ++t) {
+    const auto height = [&](int k) { return result.points[result.triangles[t][k]].z(); };
+    const bool is_upright = height(0) + height(1) + height(2) > 0;
+    const std::array<double, 3> expected =
+        is_upright ? std::array<double, 3>{-1, 0, 0} : std::array<double, 3>{0, 0, 1};
+    for (const Index value : result.normals.of_triangle[t])
+      EXPECT_EQ(result.normals.values[value], expected) << "smoothed across the fold, or noisy";
+  }
+  EXPECT_GT(simplify_soup(prepared(soup, Normals_choice::keep), to_ratio(0.1)).soup.triangles.size(),
+            soup.triangles.size() / 2);
+}
+
+TEST(Normals, AreDroppedWhenAsked)
+{
+  const Prepared_soup original = prepared(with_flat_normals(hills()), Normals_choice::drop);
+  EXPECT_EQ(original.normals, Normals_treatment::dropped);
+  EXPECT_TRUE(simplify_soup(original, to_ratio(0.3)).soup.normals.empty());
+  EXPECT_EQ(prepared(hills(), Normals_choice::drop).normals, Normals_treatment::none);
+}
+
+TEST(Normals, MadeAnewAreIgnoredByTheReplay)
+{
+  const Triangle_soup soup = with_flat_normals(hills());
+  Prepare_options options;
+  options.normals = Normals_choice::automatic;
+  const std::string log = reduce_and_log(soup, to_ratio(0.3), options).log;
+  const Replay_verdict verdict = replay_text(soup, log);
+  EXPECT_TRUE(verdict.is_accepted());
+  const auto says_so = [](const Not_judged& part) { return part.key == "normals"; };
+  const std::vector<Not_judged> parts = not_judged(verdict);
+  EXPECT_TRUE(std::any_of(parts.begin(), parts.end(), says_so));
+  // The control: a judge who counts them as seams sees vertices leave their lines.
+  const std::string line = "normals ignored\n";
+  ASSERT_NE(log.find(line), std::string::npos);
+  EXPECT_FALSE(replay_text(soup, std::string(log).erase(log.find(line), line.size())).is_accepted());
+}
+
+} // namespace
+} // namespace selvedge::test
