@@ -9,7 +9,6 @@
 
 #include <CGAL/Kernel/global_functions.h>
 
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -472,10 +471,10 @@ double Working_mesh::uv_cost(Mesh::Halfedge_index moving) const
 {
   double cost = 0;
   for_each_moved_wedge(moving, [&](Index from, Index to) {
-    const Wedge& wedge = m_wedges[to];
-    cost += m_wedges[from].quadric(relative(m_mesh.point(m_mesh.target(moving))), wedge.uv) + wedge.own_cost;
+    const Wedge& wedge = m_wedges[from];
+    cost += wedge.quadric(relative(m_mesh.point(m_mesh.target(moving))), m_wedges[to].uv) - wedge.own_cost;
   });
-  return cost;
+  return std::max(0.0, cost); // rounding may leave a sum slightly below zero
 }
 
 Working_mesh::Result Working_mesh::result() const

@@ -30,6 +30,7 @@ using namespace selvedge::benchmark;
 
 constexpr double ratio_of_seed = 0.3;
 constexpr double aspect_ratio_of_seed = 0.2;
+constexpr double border_turn_of_seed = 8;
 constexpr std::size_t cluster_size_of_seed = 100;
 const std::vector<std::size_t> cluster_sizes{10, 25, 50, cluster_size_of_seed, 200, 500, 1000};
 
@@ -38,6 +39,7 @@ Simplify_options reduction(bool is_guarded)
   Simplify_options options;
   options.ratio = ratio_of_seed;
   options.min_aspect_ratio = aspect_ratio_of_seed;
+  options.max_border_turn = border_turn_of_seed;
   options.check_intersections = is_guarded;
   return options;
 }

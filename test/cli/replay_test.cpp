@@ -54,10 +54,10 @@ TEST(App_replay, AcceptsItsOwnLogAndMakesTheSameFile)
   EXPECT_EQ(result.err, "");
   EXPECT_NE(result.out.find("\nACCEPTED: limits of the log, input bound, result bound\n"), std::string::npos)
       << result.out;
-  EXPECT_NE(
-      result.out.find("\nlimits judged: normal_change 45°, aspect_ratio 0.05, border_turn 8°, seam_turn 60°, "
-                      "border_drift 0.002 of the diagonal\n"),
-      std::string::npos)
+  EXPECT_NE(result.out.find(
+                "\nlimits judged: normal_change 45°, aspect_ratio 0.05, border_turn 30°, seam_turn 90°, "
+                "border_drift 0.01 of the diagonal\n"),
+            std::string::npos)
       << result.out;
   EXPECT_EQ(contents_of(again), contents_of(run.reduced));
 }
@@ -86,7 +86,8 @@ TEST(App_replay, NamesWhatALogWithoutTermsLeavesOpen)
 
 TEST(App_replay, LimitsOfTheJudgeTakeThePlaceOfTheLogs)
 {
-  const Logged_run run({"--ratio", "0.4", "--normal-change", "120", "--aspect-ratio", "0.2"});
+  const Logged_run run({"--ratio", "0.4", "--normal-change", "120", "--aspect-ratio", "0.2", "--border-turn",
+                        "8", "--seam-turn", "8"});
   const auto replay = [&](const std::string& limits) {
     return run_app({"replay", run.original, run.log, "--limits", limits});
   };
@@ -166,7 +167,7 @@ TEST(App_replay, GivesTheVerdictAsJson)
 
   const App_result printed = run_app({"replay", run.original, run.log, "--json", "--limits", "seed"});
   EXPECT_EQ(Json::parse(printed.out)["terms"]["limits_of"], "judge");
-  EXPECT_EQ(Json::parse(printed.out)["terms"]["declared"]["seam_turn"], 60);
+  EXPECT_EQ(Json::parse(printed.out)["terms"]["declared"]["seam_turn"], 90);
   EXPECT_EQ(Json::parse(printed.out)["terms"]["limits"]["seam_turn"], 8);
   expect_refused({"replay", run.original, run.log, "--report", run.log}, 2, "--report");
 }

@@ -122,10 +122,10 @@ const std::vector<int> s_exponents{-900, -300, -81, 1, 300, 900};
 Simplify_options with_close_limits(double ratio)
 {
   Simplify_options options = to_ratio(ratio);
-  options.max_normal_change = 15;
+  options.max_normal_change = 12;
   options.min_aspect_ratio = 0.3;
   options.max_border_drift = 0.0004;
-  options.max_error = 0.01;
+  options.max_error = 0.02;
   return options;
 }
 

@@ -113,11 +113,11 @@ TEST(Seams, BordersTurnByNoMoreThanAllowed)
     };
     return std::count_if(edges.begin(), edges.end(), is_below);
   };
-  ASSERT_EQ(options.max_border_turn, 8);
-  EXPECT_LT(zigzag_left(7), s_zigzag_edges - 10);
-  EXPECT_EQ(zigzag_left(9), s_zigzag_edges);
-  options.max_border_turn = 10;
-  EXPECT_LT(zigzag_left(9), s_zigzag_edges - 10);
+  ASSERT_EQ(options.max_border_turn, 30);
+  EXPECT_LT(zigzag_left(29), s_zigzag_edges - 10);
+  EXPECT_EQ(zigzag_left(31), s_zigzag_edges);
+  options.max_border_turn = 32;
+  EXPECT_LT(zigzag_left(31), s_zigzag_edges - 10);
 }
 
 TEST(Seams, DriftIsBounded)

@@ -42,7 +42,8 @@ struct No_observer
     return true;
   }
 
-  /// Returns how far the motion displaces the texture, as area × squared length.
+  /// Returns how much the motion adds to the displacement of the texture, as squared lengths with the weights
+  /// of `relative_face_weight`.
   template <class Halfedge>
   double uv_cost(const Halfedge& /*moving*/) const
   {

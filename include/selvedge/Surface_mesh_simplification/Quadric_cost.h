@@ -9,6 +9,7 @@
 #include <selvedge/Surface_mesh_simplification/Quadric_cost_options.h>
 #include <selvedge/Surface_mesh_simplification/internal/Symmetric_quadric.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
+#include <selvedge/Surface_mesh_simplification/internal/relative_face_weight.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Dynamic_property_map.h>
@@ -37,8 +38,15 @@ struct No_line_map
   }
 };
 
-/// Computes the cost of a collapse from accumulated quadrics: area-weighted planes of the faces, planes that
-/// stand on border edges, and a small pull towards the original vertices.
+/// Computes the cost of a collapse from accumulated quadrics: the planes of the faces, planes that stand on
+/// border edges, and a small pull towards the original vertices. The cost is how much the collapse *adds* to
+/// the sum of all quadrics, each taken at its vertex: what has been lost before is no reason to keep a
+/// vertex.
+///
+/// The plane of a face of area A has the weight (A / D²)^0.15, where D is the diagonal. An exponent of 1
+/// would give every patch of the surface the same error, and 0 every original vertex. A mesh is dense where
+/// it has detail, so 0.15 keeps hands and faces, and still evens out what an artist or a scanner happened to
+/// divide.
 ///
 /// A model of CGAL's concept `GetCost`, usable with any placement. The quadrics belong to the mesh that the
 /// policy was made for. Copies share them, and a second run on the same mesh continues with what the first
@@ -99,6 +107,10 @@ public:
     m_state->weights = std::move(weights);
   }
 
+  /// Sets the length D to which areas are relative; by default, it is the diagonal of the mesh. A mesh that
+  /// is a part of another needs the diagonal of the whole. Call it before the first run.
+  void measure_by(double diagonal) { m_state->diagonal = diagonal; }
+
   /// Computes the quadrics when it is called for the first time. The loop calls it.
   template <class VertexPointMap, class GeomTraits>
   void initialize(const TriangleMesh& mesh, const VertexPointMap& points, const GeomTraits&) const
@@ -111,6 +123,10 @@ public:
       box += get(points, v).bbox();
     for (int i = 0; i < 3 && (box.min)(i) <= (box.max)(i); ++i)
       m_state->origin[std::size_t(i)] = 0.5 * (box.min)(i) + 0.5 * (box.max)(i);
+    if (!(m_state->diagonal > 0))
+      m_state->diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
+    if (!(m_state->diagonal > 0))
+      m_state->diagonal = 1; // all points are one
     Cancellation_poll poll;
     for (const auto face : faces(mesh)) {
       poll();
@@ -126,8 +142,8 @@ public:
     }
   }
 
-  /// Returns the cost of merging the ends of the profile's edge at `placement`, in units of area × squared
-  /// length, or none when there is no placement.
+  /// Returns the cost of merging the ends of the profile's edge at `placement`, in units of squared length,
+  /// or none when there is no placement.
   template <class Profile, class Point>
   internal::Optional<typename Profile::FT> operator()(const Profile& profile,
                                                       const internal::Optional<Point>& placement) const
@@ -142,7 +158,7 @@ public:
   double cost_at(const Profile& profile, const Point& point) const
   {
     const Vector x = m_state->vector(point);
-    return positive(quadric(profile.v0())(x) + quadric(profile.v1())(x));
+    return positive(increase(profile.v0(), x) + increase(profile.v1(), x));
   }
 
   /// Returns the same cost for moving the source of `moving`, a halfedge of the profile's edge, onto its
@@ -151,20 +167,19 @@ public:
   internal::Optional<double> cost_along(const Profile& profile, Halfedge moving) const
   {
     const bool is_v0_moved = moving == profile.v0_v1();
-    const Vertex mover = is_v0_moved ? profile.v0() : profile.v1();
-    const Vertex goal = is_v0_moved ? profile.v1() : profile.v0();
-    return positive(quadric(mover)(m_state->vector(is_v0_moved ? profile.p1() : profile.p0())) +
-                    get(m_state->quadrics, goal).own_cost);
+    return positive(increase(is_v0_moved ? profile.v0() : profile.v1(),
+                             m_state->vector(is_v0_moved ? profile.p1() : profile.p0())));
   }
 
   /// Returns the root mean square distance of `point` to the planes accumulated at both ends of the edge, in
-  /// units of the mesh. Face planes are weighted by area; border planes and original vertices count with the
-  /// weights in the options.
+  /// units of the mesh, with the weights that they have in the cost.
   template <class Profile, class Point>
   double error_at(const Profile& profile, const Point& point) const
   {
-    const double weight = quadric(profile.v0()).trace() + quadric(profile.v1()).trace();
-    return weight > 0 ? std::sqrt(cost_at(profile, point) / weight) : 0;
+    const Vector x = m_state->vector(point);
+    const Quadric &first = quadric(profile.v0()), &second = quadric(profile.v1());
+    const double weight = first.trace() + second.trace();
+    return weight > 0 ? std::sqrt(positive(first(x) + second(x)) / weight) : 0;
   }
 
   /// Both return false, see `Collapse_locality`: the cost of an edge depends on its ends alone.
@@ -207,10 +222,24 @@ private:
     Quadric_map quadrics;
     std::vector<double> weights; // by vertex; empty when all are 1
     Vector origin{0, 0, 0};
+    double diagonal = 0; // not known yet
     bool is_initialised = false;
   };
 
   static bool is_weight(double number) { return number >= 0 && std::isfinite(number); }
+
+  // The factor that brings areas of which faces differ by orders of magnitude nearer to each other.
+  double weight_of_area(double area) const
+  {
+    return internal::relative_face_weight(area / (m_state->diagonal * m_state->diagonal));
+  }
+
+  // How much the quadric of a vertex grows when the vertex moves to x.
+  double increase(Vertex v, const Vector& x) const
+  {
+    const Vertex_quadric& at_vertex = get(m_state->quadrics, v);
+    return at_vertex.quadric(x) - at_vertex.own_cost;
+  }
 
   const Quadric& quadric(Vertex v) const { return get(m_state->quadrics, v).quadric; }
 
@@ -237,24 +266,28 @@ private:
       corners[i] = state.vector(get(points, source(edges[i], mesh)));
     Vector normal = internal::cross(internal::difference(corners[1], corners[0]),
                                     internal::difference(corners[2], corners[0]));
-    const double area = 0.5 * normalise(normal);
+    const double weight = weight_of_area(0.5 * normalise(normal));
 
     Quadric of_face;
-    of_face.add_square(normal, -internal::dot(normal, corners[0]), area);
+    of_face.add_square(normal, -internal::dot(normal, corners[0]), weight);
     for (std::size_t i = 0; i < 3; ++i) {
       Quadric of_corner = of_face;
-      of_corner.add_point(corners[i], state.options.stabiliser * area);
+      of_corner.add_point(corners[i], state.options.stabiliser * weight);
       add(source(edges[i], mesh), of_corner);
     }
     for (std::size_t i = 0; i < 3; ++i) {
-      if (!CGAL::is_border(opposite(edges[i], mesh), mesh) && !get(state.edge_is_line, edge(edges[i], mesh)))
+      const bool is_border = CGAL::is_border(opposite(edges[i], mesh), mesh);
+      if (!is_border && !get(state.edge_is_line, edge(edges[i], mesh)))
         continue;
+      // The surface on both sides holds a line inside it, so that little is enough.
+      constexpr double share_of_inner_line = 0.1;
       Vector along = internal::difference(corners[(i + 1) % 3], corners[i]);
       const double length = normalise(along);
       Quadric of_border;
       const Vector upright = internal::cross(normal, along);
       of_border.add_square(upright, -internal::dot(upright, corners[i]),
-                           state.options.border_weight * length * length);
+                           state.options.border_weight * (is_border ? 1 : share_of_inner_line) *
+                               weight_of_area(length * length));
       add(source(edges[i], mesh), of_border);
       add(target(edges[i], mesh), of_border);
     }

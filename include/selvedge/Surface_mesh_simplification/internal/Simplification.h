@@ -158,6 +158,7 @@ public:
     if (!(options.uv_weight >= 0 && std::isfinite(options.uv_weight)))
       throw Argument_error("the weight of the texture is at least 0, and finite");
     m_quadrics.weigh(mesh, constraints.vertex_weights);
+    m_quadrics.measure_by(m_diagonal);
     m_report.faces_input = m_targets.total().faces;
   }
 
@@ -198,7 +199,10 @@ public:
     build_index();
     pass_levels();
 
-    const Cost costs(m_quadrics, m_targets, m_observer, m_options.uv_weight);
+    // The observer's weights of faces are relative to the area 1, those of the quadrics to that of the
+    // diagonal.
+    const Cost costs(m_quadrics, m_targets, m_observer,
+                     m_options.uv_weight * relative_face_weight(1 / (m_diagonal * m_diagonal)));
     const Directions directions(costs, m_rule);
     // Runs passes until one finds that nothing more is possible; the report says what that one refused.
     const auto run_passes = [&](auto run_pass) {

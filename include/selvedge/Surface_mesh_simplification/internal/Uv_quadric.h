@@ -5,6 +5,7 @@
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_UV_QUADRIC_H
 
 #include <selvedge/Surface_mesh_simplification/internal/Symmetric_quadric.h>
+#include <selvedge/Surface_mesh_simplification/internal/relative_face_weight.h>
 
 #include <array>
 #include <cmath>
@@ -28,8 +29,8 @@ public:
   using Vector = internal::Vector_of_doubles;
   using Uv = std::array<double, 2>;
 
-  /// Adds a triangle, weighted by its area times `weight`. A thin triangle counts less, since it says little
-  /// about what lies beside it; a degenerate one adds nothing.
+  /// Adds a triangle, with `weight` times the `relative_face_weight` of its area. A thin triangle counts
+  /// less, since it says little about what lies beside it; a degenerate one adds nothing.
   void add_triangle(const std::array<Vector, 3>& x, const std::array<Uv, 3>& s, double weight)
   {
     const Vector e = internal::difference(x[1], x[0]), f = internal::difference(x[2], x[0]),
@@ -40,7 +41,7 @@ public:
       return;
     const double squared_edges = internal::dot(e, e) + internal::dot(f, f) + internal::dot(g, g);
     const double squared_quality = 48 * squared_area / (squared_edges * squared_edges); // 1: equilateral
-    weight *= std::sqrt(squared_area) * squared_quality;
+    weight *= internal::relative_face_weight(std::sqrt(squared_area)) * squared_quality;
     const Vector of_e = internal::cross(f, normal), of_f = internal::cross(normal, e);
     for (std::size_t k = 0; k < 2; ++k) {
       Vector gradient;
