@@ -132,6 +132,10 @@ struct Mesh_file
 ///   in data addresses, or in files relative to its folder (none when read from memory). Refused, by name:
 ///   compressed and quantised meshes, instances by extension, unknown extensions that the file requires.
 ///
+/// In OBJ, OFF and PLY files of at least 100 triangles, or of quads, in which no two faces share a vertex,
+/// corners at one position with the same vertex attributes refer to the first of their vertices, as in STL;
+/// the others are unused. Otherwise every face would be a piece of its own.
+///
 /// Vertices in messages are counted as the format counts them: from 1 in OBJ, from 0 elsewhere.
 ///
 /// Throws `Input_error`.

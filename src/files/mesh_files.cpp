@@ -9,10 +9,13 @@
 #include "files/Input_descriptor.h"
 #include "files/columns.h"
 #include "files/formats.h"
+#include "soup/first_alike.h"
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 // Reads and writes mesh files, the first and the last step of the program. The extension selects the format,
 // whose own file does the rest.
@@ -91,6 +94,32 @@ std::vector<std::string> not_carried_by_gltf(const Triangle_soup& soup)
   return names;
 }
 
+// Connects the faces of a file in which every triangle, or every quad, has vertices of its own, as in STL:
+// otherwise every face would be a piece, and nothing could be reduced. Vertices keep their numbers, and the
+// first of those that are alike stands for all. A few faces may well be as many pieces.
+Mesh_file connected(Mesh_file file)
+{
+  Triangle_soup& soup = file.soup;
+  std::vector<char> is_used(soup.points.size(), false);
+  for (const Index_triple& triangle : soup.triangles)
+    for (const Index v : triangle)
+      is_used[v] = true;
+  const std::size_t used = std::count(is_used.begin(), is_used.end(), true);
+  constexpr std::size_t few = 100;
+  const std::size_t triangles = soup.triangles.size();
+  const bool is_of_quads = 2 * file.notes.polygons_cut == triangles;
+  if (triangles < few || used != (is_of_quads ? 2 : 3) * triangles)
+    return file;
+  const std::vector<Index> first = first_alike(soup);
+  std::size_t joined = 0;
+  for (Index_triple& triangle : soup.triangles)
+    for (Index& v : triangle)
+      joined += std::exchange(v, first[v]) != first[v];
+  if (joined > 0)
+    file.notes.remarks["corners of faces joined, for every face has vertices of its own"] += joined;
+  return file;
+}
+
 } // namespace
 
 Mesh_format mesh_format(const std::filesystem::path& path)
@@ -157,11 +186,11 @@ Mesh_file read_mesh(std::string_view contents, Mesh_format format, const std::st
     throw Input_error(name + ": the file is empty; export it again");
   switch (format) {
   case Mesh_format::obj:
-    return files::read_obj(contents, name);
+    return connected(files::read_obj(contents, name));
   case Mesh_format::off:
-    return files::read_off(contents, name);
+    return connected(files::read_off(contents, name));
   case Mesh_format::ply:
-    return files::read_ply(contents, name);
+    return connected(files::read_ply(contents, name));
   case Mesh_format::glb:
   case Mesh_format::gltf:
     return files::read_gltf(contents, format, name, nullptr);

@@ -3,6 +3,7 @@
 
 #include <selvedge/merge.h>
 
+#include "first_alike.h"
 #include "number_positions.h"
 #include "selection.h"
 
@@ -14,10 +15,8 @@
 
 namespace selvedge {
 
-Triangle_soup merged_at_positions(const Triangle_soup& soup)
+std::vector<Index> first_alike(const Triangle_soup& soup)
 {
-  if (soup.scene)
-    return soup; // its vertices are rows of accessors, which hold more than can be compared here
   const std::vector<Index> positions = number_positions(soup.points);
   const auto have_same_attributes = [&](Index v, Index w) {
     return std::all_of(soup.vertex_attributes.begin(), soup.vertex_attributes.end(),
@@ -37,6 +36,14 @@ Triangle_soup merged_at_positions(const Triangle_soup& soup)
         std::find_if(known.begin(), known.end(), [&](Index w) { return have_same_attributes(v, w); });
     joined[v] = it == known.end() ? known.emplace_back(v) : *it;
   }
+  return joined;
+}
+
+Triangle_soup merged_at_positions(const Triangle_soup& soup)
+{
+  if (soup.scene)
+    return soup; // its vertices are rows of accessors, which hold more than can be compared here
+  const std::vector<Index> joined = first_alike(soup);
   Triangle_soup renumbered = soup;
   std::vector<Index> triangles(soup.triangles.size());
   std::vector<Index_triple> corners(soup.triangles.size());

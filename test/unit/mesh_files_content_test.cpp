@@ -15,8 +15,10 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <initializer_list>
 #include <limits>
 #include <random>
+#include <set>
 #include <string>
 
 using namespace selvedge;
@@ -220,6 +222,54 @@ TEST(Stl, VerticesAreNumberedByTheirFirstCorner)
             (std::vector<Point_3>{Point_3(5, 0, 0), Point_3(1, 0, 0), Point_3(0, 1, 0), Point_3(7, 7, 7)}));
   EXPECT_TRUE(std::signbit(file.soup.points[0].z()));
   EXPECT_EQ(file.soup.triangles, (Triangles{{0, 1, 2}, {2, 3, 0}}));
+}
+
+// Two sheets of 8 × 8 squares, one above the other, in which every face has vertices of its own.
+std::string sheets_of_separate_faces(bool is_of_quads)
+{
+  std::string vertices, faces;
+  int next = 1;
+  const auto add = [&](std::initializer_list<std::array<int, 2>> corners, int height) {
+    faces += "f";
+    for (const auto& [x, y] : corners) {
+      vertices += "v " + std::to_string(x) + ' ' + std::to_string(y) + ' ' + std::to_string(height) + '\n';
+      faces += ' ' + std::to_string(next++);
+    }
+    faces += '\n';
+  };
+  for (int height = 0; height < 2; ++height)
+    for (int x = 0; x < 8; ++x)
+      for (int y = 0; y < 8; ++y)
+        if (is_of_quads) {
+          add({{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}}, height);
+        } else {
+          add({{x, y}, {x + 1, y}, {x + 1, y + 1}}, height);
+          add({{x, y}, {x + 1, y + 1}, {x, y + 1}}, height);
+        }
+  return vertices + faces;
+}
+
+TEST(Separate_faces, AreConnectedWhereNoTwoShareAVertex)
+{
+  for (const bool is_of_quads : {false, true}) {
+    const Mesh_file file = read_obj(sheets_of_separate_faces(is_of_quads));
+    const Triangle_soup& soup = file.soup;
+    EXPECT_EQ(soup.points.size(), is_of_quads ? 512u : 768u) << "vertices keep their numbers";
+    std::set<Index> used;
+    for (const Index_triple& triangle : soup.triangles)
+      used.insert(triangle.begin(), triangle.end());
+    EXPECT_EQ(used.size(), 2 * 81u);
+    EXPECT_EQ(file.notes.remarks.size(), 1u);
+  }
+}
+
+TEST(Separate_faces, StaySoWhereTheyAreFewOrTwoShareAVertex)
+{
+  const std::string shared = sheets_of_separate_faces(false) + "f 1 2 5\n";
+  EXPECT_EQ(read_obj(shared).soup.triangles[1], (Index_triple{3, 4, 5}));
+  EXPECT_TRUE(read_obj(shared).notes.remarks.empty());
+  const std::string few = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 4 5 6\n";
+  EXPECT_EQ(read_obj(few).soup.triangles[1], (Index_triple{3, 4, 5}));
 }
 
 TEST(Ply, EveryTypeOfNumberIsRead)
