@@ -17,10 +17,11 @@ packages=(
   nlohmann-json3-dev    # glTF documents, reports of the app
   libgtest-dev          # tests
   python3               # tests: whether includes go one way
+  libopenmesh-dev       # tests: a mesh of floats, through CGAL's adaptor
   libeigen3-dev         # tests: the Garland-Heckbert policies of CGAL, beside which ours must work
 )
 if [[ "${1:-}" == benchmark ]]; then
-  packages+=(libopenmesh-dev libmeshoptimizer-dev)
+  packages+=(libmeshoptimizer-dev)
 elif [[ "${1:-}" == fuzz ]]; then
   packages+=(clang libclang-rt-dev)
 fi

@@ -33,8 +33,8 @@ int main(int argc, char** argv)
   }
   // The filter fills the index with the faces of the mesh, and its visitor updates it after each collapse.
   const Filter filter(mesh, {}, Index(static_cast<std::size_t>(faces_per_cluster)));
-  const std::size_t collapses = selvedge::edge_collapse(
-      mesh, selvedge::Face_ratio_stop(0.5, mesh), CGAL::parameters::filter(filter).visitor(filter.visitor()));
+  const int collapses = selvedge::edge_collapse(mesh, selvedge::Face_ratio_stop(0.5, mesh),
+                                                CGAL::parameters::filter(filter).visitor(filter.visitor()));
 
   const selvedge::Index_statistics& done = filter.index().statistics();
   std::cout << collapses << " collapses, " << filter.refusals() << " refused; " << done.clusters

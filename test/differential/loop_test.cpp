@@ -7,10 +7,10 @@
 #include "soup/number_positions.h"
 #include <selvedge/Surface_mesh_simplification/Aspect_ratio_filter.h>
 #include <selvedge/Surface_mesh_simplification/Border_filter.h>
-#include <selvedge/Surface_mesh_simplification/Dihedral_angle_filter.h>
 #include <selvedge/Surface_mesh_simplification/Halfedge_placement.h>
 #include <selvedge/Surface_mesh_simplification/Intersection_filter.h>
 #include <selvedge/Surface_mesh_simplification/Quadric_cost.h>
+#include <selvedge/Surface_mesh_simplification/Visitor_chain.h>
 #include <selvedge/Surface_mesh_simplification/edge_collapse.h>
 
 #include "support/Edge_ratio_stop.h"
@@ -69,25 +69,6 @@ struct Recorder : internal::No_visitor
 
   std::vector<Step>* steps;
   std::vector<double>* costs;
-};
-
-/// What a loop with a filter that keeps track of the mesh needs beside the recorder.
-template <class Other>
-struct Recorder_and : Recorder
-{
-  Other other;
-
-  template <class Profile, class OptionalPoint>
-  void OnCollapsing(const Profile& profile, const OptionalPoint& placement)
-  {
-    Recorder::OnCollapsing(profile, placement);
-    other.OnCollapsing(profile, placement);
-  }
-  template <class Profile, class Vertex>
-  void OnCollapsed(const Profile& profile, const Vertex& kept)
-  {
-    other.OnCollapsed(profile, kept);
-  }
 };
 
 /// A placement without its second, a filter without its blockers.
@@ -176,7 +157,6 @@ void expect_same_steps(const Mesh& mesh, std::size_t least, const Reduce_own& re
     ASSERT_TRUE(own_steps[i] == cgal_steps[i]) << "step " << i;
 }
 
-// What CGAL's loop tests beyond its filter, the own loop is given as a filter.
 const double ratio = 0.1;
 
 TEST(Own_loop, GoesAsCgalsWithDefaultPolicies)
@@ -187,13 +167,28 @@ TEST(Own_loop, GoesAsCgalsWithDefaultPolicies)
     expect_same_steps(
         mesh, 10,
         [&](Surface_mesh& reduced, const Recorder& recorder) {
-          selvedge::edge_collapse(reduced, stop,
-                                  CGAL::parameters::filter(Dihedral_angle_filter<>()).visitor(recorder));
+          selvedge::edge_collapse(reduced, stop, CGAL::parameters::visitor(recorder));
         },
         [&](Surface_mesh& reduced, const Recorder& recorder) {
           SMS::edge_collapse(reduced, stop, CGAL::parameters::visitor(recorder));
         });
   }
+}
+
+TEST(Own_loop, GoesAnotherWayWithoutTheGeometricTest)
+{
+  bool is_different = false;
+  for (const auto& [name, mesh] : meshes()) {
+    Surface_mesh with = mesh, without = mesh;
+    std::vector<Step> steps_with, steps_without;
+    std::vector<double> costs;
+    const Edge_ratio_stop stop(ratio);
+    selvedge::edge_collapse(with, stop, CGAL::parameters::visitor(Recorder(steps_with, costs)));
+    selvedge::edge_collapse(without, stop,
+                            parameters::geometric_test(false).visitor(Recorder(steps_without, costs)));
+    is_different = is_different || steps_with != steps_without;
+  }
+  EXPECT_TRUE(is_different);
 }
 
 TEST(Own_loop, GoesAsCgalsWithPoliciesThatLookAtTheEndsAlone)
@@ -207,11 +202,9 @@ TEST(Own_loop, GoesAsCgalsWithPoliciesThatLookAtTheEndsAlone)
     expect_same_steps(
         mesh, 10,
         [&](Surface_mesh& reduced, const Recorder& recorder) {
-          selvedge::edge_collapse(reduced, stop,
-                                  CGAL::parameters::get_cost(cost)
-                                      .get_placement(placement)
-                                      .filter(Dihedral_angle_filter(filter))
-                                      .visitor(recorder));
+          selvedge::edge_collapse(
+              reduced, stop,
+              CGAL::parameters::get_cost(cost).get_placement(placement).filter(filter).visitor(recorder));
         },
         [&](Surface_mesh& reduced, const Recorder& recorder) {
           SMS::edge_collapse(
@@ -234,11 +227,10 @@ TEST(Own_loop, GoesAsCgalsWithQuadricsAndTheExactFilter)
       const First_placement_alone<Halfedge_placement<Surface_mesh, Cost>> placement{
           Halfedge_placement<Surface_mesh, Cost>(cost)};
       const Intersection_filter<Surface_mesh, Base> filter(reduced, base);
-      Recorder_and<decltype(filter.visitor())> visitor{recorder, filter.visitor()};
       run(reduced, CGAL::parameters::get_cost(cost)
                        .get_placement(placement)
                        .filter(Without_blockers<decltype(filter)>{&filter})
-                       .visitor(visitor));
+                       .visitor(Visitor_chain(recorder, filter.visitor())));
     };
     const Aspect_ratio_filter<> base(0.1);
     expect_same_steps(
@@ -247,7 +239,7 @@ TEST(Own_loop, GoesAsCgalsWithQuadricsAndTheExactFilter)
           reduce(
               reduced, recorder,
               [&](Surface_mesh& m, const auto& parameters) { selvedge::edge_collapse(m, stop, parameters); },
-              Aspect_ratio_filter<Dihedral_angle_filter<>>(0.1));
+              base);
         },
         [&](Surface_mesh& reduced, const Recorder& recorder) {
           reduce(
@@ -277,10 +269,8 @@ TEST(Own_loop, GoesAsCgalsAroundConstrainedEdges)
     expect_same_steps(
         mesh, 10,
         [&](Surface_mesh& reduced, const Recorder& recorder) {
-          selvedge::edge_collapse(reduced, stop,
-                                  CGAL::parameters::edge_is_constrained_map(Is_constrained())
-                                      .filter(Dihedral_angle_filter<>())
-                                      .visitor(recorder));
+          selvedge::edge_collapse(
+              reduced, stop, CGAL::parameters::edge_is_constrained_map(Is_constrained()).visitor(recorder));
         },
         [&](Surface_mesh& reduced, const Recorder& recorder) {
           SMS::edge_collapse(reduced, stop,
@@ -311,7 +301,7 @@ TEST(Own_loop, TakesVisitorsDerivedFromCgals)
   const std::size_t edges = mesh.number_of_edges();
   std::array<std::size_t, 4> calls{};
   const Edge_ratio_stop stop(0.3);
-  const std::size_t removed = selvedge::edge_collapse(mesh, stop, CGAL::parameters::visitor(Visitor(calls)));
+  const int removed = selvedge::edge_collapse(mesh, stop, CGAL::parameters::visitor(Visitor(calls)));
   EXPECT_EQ(mesh.number_of_edges(), edges - removed);
   EXPECT_EQ(calls[0], edges);
   EXPECT_EQ(calls[1], calls[2] + calls[3] + 1); // the last was selected only to be told to stop
@@ -326,7 +316,7 @@ TEST(Own_loop, GoesAsCgalsOnAPolyhedron)
   CGAL::copy_face_graph(shaken(sheets(1000, 1, 0.01)), mesh);
   const Edge_ratio_stop stop(ratio);
   Polyhedron own = mesh, cgal = mesh;
-  EXPECT_GT(selvedge::edge_collapse(own, stop, CGAL::parameters::filter(Dihedral_angle_filter<>())), 100u);
+  EXPECT_GT(selvedge::edge_collapse(own, stop), 100);
   SMS::edge_collapse(cgal, stop);
   const auto points = [](const Polyhedron& reduced) {
     std::set<Point_3> all;
@@ -355,13 +345,12 @@ TEST(Own_loop, GoesTheSameWayWhenItIsToldLess)
       using Cost = Quadric_cost<Surface_mesh, Rule>;
       const Cost cost(reduced, {}, rule);
       const Border_filter<Rule, Aspect_ratio_filter<>> filter(rule, Aspect_ratio_filter<>(0.2));
-      const Recorder_and<Border_visitor<Surface_mesh>> visitor{recorder, Border_visitor<Surface_mesh>(rule)};
       selvedge::edge_collapse(
           reduced, stop,
           CGAL::parameters::get_cost(cost)
               .get_placement(told(Halfedge_placement<Surface_mesh, Cost, Rule>(cost, rule)))
               .filter(filter)
-              .visitor(visitor));
+              .visitor(Visitor_chain(recorder, Border_visitor<Surface_mesh>(rule))));
     };
     expect_same_steps(
         mesh, 100,
@@ -390,9 +379,9 @@ TEST(Own_loop, EndsOnlyWhenNothingIsPossibleAnyMore)
         mesh, stop,
         CGAL::parameters::get_cost(cost).get_placement(placement).filter(filter).visitor(filter.visitor()));
   };
-  EXPECT_GT(run(), 1000u);
+  EXPECT_GT(run(), 1000);
   EXPECT_GT(filter.refusals(), 100u);
-  EXPECT_EQ(run(), 0u);
+  EXPECT_EQ(run(), 0);
 }
 
 TEST(Own_loop, WithoutBlockersForgetsEdges)
@@ -410,8 +399,8 @@ TEST(Own_loop, WithoutBlockersForgetsEdges)
                                        .filter(Without_blockers<decltype(filter)>{&filter})
                                        .visitor(filter.visitor()));
   };
-  EXPECT_GT(run(), 1000u);
-  EXPECT_GT(run(), 0u);
+  EXPECT_GT(run(), 1000);
+  EXPECT_GT(run(), 0);
 }
 
 } // namespace

@@ -6,8 +6,7 @@
 
 #include <selvedge/Surface_mesh_simplification/Border_rule.h>
 #include <selvedge/Surface_mesh_simplification/internal/Filter_base.h>
-
-#include <CGAL/Surface_mesh_simplification/Edge_collapse_visitor_base.h>
+#include <selvedge/Surface_mesh_simplification/internal/No_visitor.h>
 
 namespace selvedge {
 
@@ -34,11 +33,12 @@ private:
   Rule m_rule;
 };
 
-/// Updates a `Border_rule` while edges collapse.
+/// Updates a `Border_rule` while edges collapse. CGAL's loop begins by collapsing edges of length zero
+/// without asking or announcing it; the vertices that are left there are locked.
 ///
 /// A model of CGAL's concept `EdgeCollapseSimplificationVisitor`.
 template <class TriangleMesh, class Rule = Border_rule<TriangleMesh>>
-class Border_visitor : public CGAL::Surface_mesh_simplification::Edge_collapse_visitor_base<TriangleMesh>
+class Border_visitor : public internal::No_visitor
 {
 public:
   explicit Border_visitor(const Rule& rule) : m_rule(rule) {}
@@ -46,7 +46,14 @@ public:
   template <class Profile, class OptionalPoint>
   void OnCollapsing(const Profile& profile, const OptionalPoint& placement)
   {
-    m_rule.before_collapse(internal::Collapse<Profile>(profile, *placement));
+    before_collapse(internal::Collapse<Profile>(profile, *placement));
+  }
+
+  /// The same for a loop that passes each collapse as a value, which says which end moves.
+  template <class Collapse>
+  void before_collapse(const Collapse& collapse)
+  {
+    m_rule.before_collapse(collapse);
   }
   template <class Profile, class Vertex>
   void OnCollapsed(const Profile&, const Vertex& kept)

@@ -153,7 +153,8 @@ public:
            may_straighten(*ahead, profile.v1_v0(), collapse.place());
   }
 
-  /// Called before and after each collapse, by `Border_visitor` for example.
+  /// Called before and after each collapse, by `Border_visitor` for example. A vertex that is left by a
+  /// collapse that was not announced is locked, since nothing is known of the lines that went into it.
   template <class Profile>
   void before_collapse(const internal::Collapse<Profile>& collapse) const
   {
@@ -162,14 +163,17 @@ public:
   void after_collapse(Vertex kept) const
   {
     State& state = *m_state;
-    put(state.freedoms, kept, state.pending.freedom);
-    for (const Pending_line& line : state.pending.lines) {
+    if (!state.pending)
+      return state.raise(kept, Freedom::none);
+    put(state.freedoms, kept, state.pending->freedom);
+    for (const Pending_line& line : state.pending->lines) {
       const Edge e = edge(halfedge(kept, line.far_end, state.mesh).first, state.mesh);
       if (line.is_marked)
         put(state.marks, e, true);
       if (!line.passed.empty())
         state.passed[e] = line.passed;
     }
+    state.pending.reset();
   }
 
 private:
@@ -223,7 +227,7 @@ private:
     typename boost::property_map<TriangleMesh, CGAL::dynamic_edge_property_t<unsigned char>>::const_type
         marks;
     boost::unordered_map<Edge, std::vector<Point>> passed; // original line vertices that an edge has replaced
-    Pending_collapse pending;
+    std::optional<Pending_collapse> pending;               // announced, and not yet done
   };
 
   // Returns the other line edge at the source of the line edge `h`, pointing away from it. None when the

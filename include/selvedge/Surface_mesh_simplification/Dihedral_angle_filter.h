@@ -20,8 +20,8 @@ namespace selvedge {
 /// Refuses a collapse after which a changed face and a neighbour of it make a dihedral angle of less than one
 /// degree, so that they are folded onto each other, or differ in area by a factor of 10⁴ or more.
 ///
-/// This is the test that CGAL's loop makes of every placement before it asks its filter.
-/// `selvedge::edge_collapse` leaves such tests to filters; with this one, the two loops can be compared.
+/// This is the geometric test that CGAL's loop, and `selvedge::edge_collapse` unless it is told otherwise,
+/// makes of every placement before asking the filter.
 ///
 /// A model of CGAL's concept `PlacementFilter`, usable with any placement.
 ///

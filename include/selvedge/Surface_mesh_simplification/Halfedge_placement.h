@@ -6,10 +6,10 @@
 
 #include <selvedge/Surface_mesh_simplification/collapse_locality.h>
 #include <selvedge/Surface_mesh_simplification/internal/Filter_base.h>
+#include <selvedge/Surface_mesh_simplification/internal/No_visitor.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
 
 #include <CGAL/Dynamic_property_map.h>
-#include <CGAL/Surface_mesh_simplification/Edge_collapse_visitor_base.h>
 #include <CGAL/boost/graph/iterator.h>
 
 #include <algorithm>
@@ -244,7 +244,7 @@ public:
   }
 
   /// A visitor that makes these three calls and does nothing else.
-  class Visitor : public CGAL::Surface_mesh_simplification::Edge_collapse_visitor_base<Triangle_mesh>
+  class Visitor : public internal::No_visitor
   {
   public:
     explicit Visitor(const Filtered_halfedge_placement& placement) : m_placement(placement) {}

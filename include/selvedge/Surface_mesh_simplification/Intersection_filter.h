@@ -6,10 +6,10 @@
 
 #include <selvedge/Surface_mesh_simplification/internal/Filter_base.h>
 #include <selvedge/Surface_mesh_simplification/internal/Intersection_guard.h>
+#include <selvedge/Surface_mesh_simplification/internal/No_visitor.h>
 #include <selvedge/spatial/Packed_R_tree.h>
 
 #include <CGAL/Kernel_traits.h>
-#include <CGAL/Surface_mesh_simplification/Edge_collapse_visitor_base.h>
 
 #include <memory>
 #include <utility>
@@ -19,7 +19,7 @@ namespace selvedge {
 /// Refuses a collapse in which faces would touch or pass through each other: the exact filter.
 ///
 /// A model of CGAL's concept `PlacementFilter`, usable with any placement and cost. Give the loop both the
-/// filter and its visitor:
+/// filter and its visitor, alone or in a `Visitor_chain`:
 ///
 /// ```
 /// selvedge::Intersection_filter<Mesh> filter(mesh);
@@ -36,10 +36,15 @@ namespace selvedge {
 /// - A vertex that shares its position with another vertex does not move. Others may move to its position.
 ///
 /// **Preconditions** The caller must ensure that the mesh outlives the filter; that between the construction
-/// of the filter and the end of the loop, only the loop changes the mesh, with the visitor attached; and that
-/// the faces around every vertex form one fan, since a vertex leads to one fan only
-/// (`CGAL::Polygon_mesh_processing` duplicates other vertices). Checked in every build (`Argument_error`): no
-/// edge has length zero; CGAL's loop would collapse such an edge without asking a filter.
+/// of the filter and the end of the loop, only the loop changes the mesh. Checked in every build, with an
+/// `Argument_error`:
+/// - at the construction: no edge has length zero (CGAL's loop would collapse such an edge without asking a
+///   filter), and the faces around every vertex form one fan (`duplicate_non_manifold_vertices()` of
+///   `CGAL::Polygon_mesh_processing` separates several);
+/// - before the first collapse that an incomplete index would judge: the loop has the visitor;
+/// - after each collapse: the vertex point map holds the point that was judged. A map that rounds what is put
+///   into it, as OpenMesh's map of floats does, takes placements at an end of the edge alone
+///   (`Halfedge_placement`). The collapse that fails this check has been done, and may intersect.
 ///
 /// **Not promised** for a mesh that is not embedded at the start; see `simplify_mesh` for such a mesh.
 ///
@@ -70,7 +75,7 @@ public:
   /// Keeps the filter's index up to date while edges collapse.
   ///
   /// A model of CGAL's concept `EdgeCollapseSimplificationVisitor`.
-  class Visitor : public CGAL::Surface_mesh_simplification::Edge_collapse_visitor_base<TriangleMesh>
+  class Visitor : public internal::No_visitor
   {
   public:
     explicit Visitor(const std::shared_ptr<Guard>& guard) : m_guard(guard) {}

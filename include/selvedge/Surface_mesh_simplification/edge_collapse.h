@@ -6,13 +6,12 @@
 
 #include <selvedge/Surface_mesh_simplification/internal/Edge_collapse.h>
 #include <selvedge/Surface_mesh_simplification/internal/Filter_base.h>
+#include <selvedge/Surface_mesh_simplification/parameters.h>
 
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_cost.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_placement.h>
 #include <CGAL/boost/graph/named_params_helper.h>
-
-#include <cstddef>
 
 namespace selvedge {
 
@@ -21,15 +20,16 @@ namespace internal {
 // Deduces the template arguments of `Edge_collapse`.
 template <class TriangleMesh, class GeomTraits, class Stop, class VertexPointMap, class HalfedgeIndexMap,
           class EdgeIsConstrainedMap, class Cost, class Placement, class Filter, class Visitor>
-std::size_t collapse_edges(TriangleMesh& mesh, const Stop& stop, const GeomTraits& traits,
-                           const VertexPointMap& points, const HalfedgeIndexMap& numbers,
-                           const EdgeIsConstrainedMap& is_constrained, const Cost& cost,
-                           const Placement& placement, const Filter& filter, const Visitor& visitor)
+int collapse_edges(TriangleMesh& mesh, const Stop& stop, const GeomTraits& traits,
+                   const VertexPointMap& points, const HalfedgeIndexMap& numbers,
+                   const EdgeIsConstrainedMap& is_constrained, const Cost& cost, const Placement& placement,
+                   const Filter& filter, const Visitor& visitor, bool is_geometry_tested)
 {
-  return Edge_collapse<TriangleMesh, GeomTraits, Stop, VertexPointMap, HalfedgeIndexMap, EdgeIsConstrainedMap,
-                       Cost, Placement, Filter, Visitor>(mesh, traits, stop, points, numbers, is_constrained,
-                                                         cost, placement, filter, visitor)
-      .run();
+  return int(
+      Edge_collapse<TriangleMesh, GeomTraits, Stop, VertexPointMap, HalfedgeIndexMap, EdgeIsConstrainedMap,
+                    Cost, Placement, Filter, Visitor>(mesh, traits, stop, points, numbers, is_constrained,
+                                                      cost, placement, filter, visitor, is_geometry_tested)
+          .run());
 }
 
 } // namespace internal
@@ -42,8 +42,13 @@ std::size_t collapse_edges(TriangleMesh& mesh, const Stop& stop, const GeomTrait
 /// finds CGAL's function as well.
 ///
 /// Named parameters, with CGAL's meanings and defaults: `get_cost`, `get_placement`, `filter`, `visitor`,
-/// `edge_is_constrained_map`, `vertex_point_map`, `halfedge_index_map`, `geom_traits`. Policies, filters and
-/// visitors are models of CGAL's concepts. The loop also uses the following, where it exists:
+/// `edge_is_constrained_map`, `vertex_point_map`, `halfedge_index_map`, `geom_traits`, and
+/// `vertex_index_map`, which is taken and not needed. Besides, `selvedge::parameters::geometric_test(false)`
+/// leaves out CGAL's geometric test. Any other parameter does not compile, `use_relaxed_order` among them:
+/// edges are always considered in the order of their costs.
+///
+/// Policies, filters and visitors are models of CGAL's concepts. The loop also uses the following, where it
+/// exists:
 ///
 /// - A cost or placement can say which edges a collapse concerns, see `Collapse_locality`.
 /// - A placement can have `second(profile)`, as `Halfedge_placement` has. When its first placement was
@@ -53,8 +58,8 @@ std::size_t collapse_edges(TriangleMesh& mesh, const Stop& stop, const GeomTrait
 ///
 /// **Guarantees**
 /// 1. *Order*: edges are considered by (cost, edge number) alone. Both loops collapse the same edges in the
-///    same order where no two edges cost the same, none has length zero, `second` and `blockers` are not in
-///    use, and the filter includes what CGAL's loop tests besides (`Dihedral_angle_filter`).
+///    same order where no two edges cost the same, none has length zero, and `second` and `blockers` are not
+///    in use. Where costs tie, CGAL's order depends on its heap, and the counts of edges removed may differ.
 /// 2. *Completeness*: when the loop ends without a stop, every edge that is not constrained and has a cost
 ///    has been refused since the last collapse at one of its ends or at a neighbour of one, and since the
 ///    last change of a face that was named as its blocker.
@@ -73,11 +78,18 @@ std::size_t collapse_edges(TriangleMesh& mesh, const Stop& stop, const GeomTrait
 /// visitors may allocate their own.
 template <class TriangleMesh, class StopPredicate,
           class NamedParameters = CGAL::parameters::Default_named_parameters>
-std::size_t edge_collapse(TriangleMesh& mesh, const StopPredicate& stop,
-                          const NamedParameters& parameters = CGAL::parameters::default_values())
+int edge_collapse(TriangleMesh& mesh, const StopPredicate& stop,
+                  const NamedParameters& parameters = CGAL::parameters::default_values())
 {
   namespace SMS = CGAL::Surface_mesh_simplification;
   namespace np = CGAL::internal_np;
+  static_assert(
+      internal::Are_tags_among<NamedParameters, np::all_default_t, np::get_cost_policy_t,
+                               np::get_placement_policy_t, np::filter_t, np::visitor_t,
+                               np::edge_is_constrained_t, np::vertex_point_t, np::vertex_index_t,
+                               np::halfedge_index_t, np::geom_traits_t, internal::Geometric_test_t>::value,
+      "selvedge::edge_collapse does not know one of these named parameters; its documentation lists "
+      "those that it takes (use_relaxed_order is not among them)");
   using CGAL::parameters::choose_parameter;
   using CGAL::parameters::get_parameter;
   using Geom_traits = typename CGAL::GetGeomTraits<TriangleMesh, NamedParameters>::type;
@@ -91,7 +103,8 @@ std::size_t edge_collapse(TriangleMesh& mesh, const StopPredicate& stop,
       choose_parameter<SMS::LindstromTurk_placement<TriangleMesh>>(
           get_parameter(parameters, np::get_placement_policy)),
       choose_parameter<No_filter>(get_parameter(parameters, np::filter)),
-      choose_parameter<internal::No_visitor>(get_parameter(parameters, np::visitor)));
+      choose_parameter<internal::No_visitor>(get_parameter(parameters, np::visitor)),
+      choose_parameter(get_parameter(parameters, internal::Geometric_test_t()), true));
 }
 
 } // namespace selvedge

@@ -18,7 +18,8 @@ namespace selvedge {
 /// Stops when the mesh has at most a given number of faces.
 ///
 /// A model of CGAL's concept `StopPredicate`. A collapse removes two faces, or one at a border, so the result
-/// may have one face fewer than asked for.
+/// may have one face fewer than asked for. It does not compile for OpenMesh, whose num_faces() counts removed
+/// faces, too: use a stop predicate of CGAL that counts edges.
 class Face_count_stop
 {
 public:

@@ -5,17 +5,19 @@
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_EDGE_COLLAPSE_H
 
 #include <selvedge/Cancellation_scope.h>
+#include <selvedge/Surface_mesh_simplification/Dihedral_angle_filter.h>
 #include <selvedge/Surface_mesh_simplification/collapse_locality.h>
 #include <selvedge/Surface_mesh_simplification/internal/Collapse.h>
 #include <selvedge/Surface_mesh_simplification/internal/Edge_queue.h>
 #include <selvedge/Surface_mesh_simplification/internal/Filter_base.h>
 #include <selvedge/Surface_mesh_simplification/internal/Lazy_edge_profile.h>
+#include <selvedge/Surface_mesh_simplification/internal/No_visitor.h>
 #include <selvedge/Surface_mesh_simplification/internal/Waiting_edges.h>
+#include <selvedge/Surface_mesh_simplification/internal/call_with_profile.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
 #include <selvedge/Surface_mesh_simplification/internal/perform_collapse.h>
 
 #include <CGAL/Dynamic_property_map.h>
-#include <CGAL/Surface_mesh_simplification/Edge_collapse_visitor_base.h>
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/iterator.h>
 
@@ -31,43 +33,6 @@
 
 namespace selvedge {
 namespace internal {
-
-/// A visitor that does nothing.
-struct No_visitor
-{
-  template <class TriangleMesh>
-  void OnStarted(TriangleMesh&)
-  {
-  }
-  template <class TriangleMesh>
-  void OnFinished(TriangleMesh&)
-  {
-  }
-  template <class Profile>
-  void OnStopConditionReached(const Profile&)
-  {
-  }
-  template <class Profile, class OptionalCost>
-  void OnCollected(const Profile&, const OptionalCost&)
-  {
-  }
-  template <class Profile, class OptionalCost, class Size>
-  void OnSelected(const Profile&, const OptionalCost&, Size, Size)
-  {
-  }
-  template <class Profile, class OptionalPoint>
-  void OnCollapsing(const Profile&, const OptionalPoint&)
-  {
-  }
-  template <class Profile, class Vertex>
-  void OnCollapsed(const Profile&, const Vertex&)
-  {
-  }
-  template <class Profile>
-  void OnNonCollapsable(const Profile&)
-  {
-  }
-};
 
 template <class Filter, class = void>
 struct Has_blockers : std::false_type
@@ -108,9 +73,9 @@ struct Has_choice<Placement, Cost, std::void_t<typename Placement::Cost_policy>>
 /// cost, considers a refused edge again when a face that blocked it changes, and asks policies again only
 /// where their answers may have changed.
 ///
-/// Each step takes the cheapest edge from the queue and asks the stop predicate, the topology, the placement
-/// and the filter, in this order (`try_cheapest`). It then performs the collapse, or puts the edge back for
-/// its second placement, or leaves it until something nearby or one of its blockers changes
+/// Each step takes the cheapest edge from the queue and asks the stop predicate, the topology, the placement,
+/// the geometric test and the filter, in this order (`try_cheapest`). It then performs the collapse, or puts
+/// the edge back for its second placement, or leaves it until something nearby or one of its blockers changes
 /// (`refresh_around`).
 template <class TriangleMesh, class GeomTraits, class Stop, class VertexPointMap, class HalfedgeIndexMap,
           class EdgeIsConstrainedMap, class Cost, class Placement, class Filter, class Visitor>
@@ -124,8 +89,6 @@ class Edge_collapse
   using Size = typename Graph_traits::edges_size_type;
   using Profile = Lazy_edge_profile<TriangleMesh, VertexPointMap, GeomTraits>;
   using Collapse_of_edge = Collapse<Profile>;
-  using Cgal_visitor =
-      CGAL::Surface_mesh_simplification::Edge_collapse_visitor_base<TriangleMesh, VertexPointMap, GeomTraits>;
   using FT = typename GeomTraits::FT;
   using Optional_cost = Optional<FT>;
   using Optional_point = Optional<typename Profile::Point>;
@@ -144,16 +107,18 @@ class Edge_collapse
 public:
   Edge_collapse(TriangleMesh& mesh, const GeomTraits& traits, const Stop& stop, const VertexPointMap& points,
                 const HalfedgeIndexMap& numbers, const EdgeIsConstrainedMap& is_constrained, const Cost& cost,
-                const Placement& placement, const Filter& filter, const Visitor& visitor)
+                const Placement& placement, const Filter& filter, const Visitor& visitor,
+                bool is_geometry_tested)
       : m_mesh(mesh), m_traits(traits), m_stop(stop), m_points(points), m_numbers(numbers),
         m_is_constrained(is_constrained), m_cost(cost), m_placement(placement), m_filter(filter),
-        m_visitor(visitor), m_halfedges(num_edges(mesh)), m_records(num_edges(mesh)),
-        m_queue(num_edges(mesh)), m_waiting(mesh),
+        m_visitor(visitor), m_is_geometry_tested(is_geometry_tested), m_halfedges(num_edges(mesh)),
+        m_records(num_edges(mesh)), m_queue(num_edges(mesh)), m_waiting(mesh),
         m_has_stale_edges(get(CGAL::dynamic_vertex_property_t<unsigned char>(), mesh))
   {
   }
 
-  std::size_t run()
+  /// Returns the number of edges removed.
+  Size run()
   {
     m_visitor.OnStarted(m_mesh);
     if constexpr (Is_updated<Cost>::value)
@@ -185,7 +150,9 @@ private:
       const Optional_cost cost = cost_of(of_edge, m_records[id(h)]);
       if (cost)
         entries.push_back({*cost, id(h)});
-      m_visitor.OnCollected(of_edge, cost);
+      call_with_profile(
+          [&](const auto& p) -> decltype(m_visitor.OnCollected(p, cost)) { m_visitor.OnCollected(p, cost); },
+          of_edge);
     }
     m_initial_edges = m_edges;
     m_queue.push_all(std::move(entries));
@@ -196,27 +163,34 @@ private:
   {
     const auto [cost, edge_id] = m_queue.pop();
     const Profile of_edge = profile(m_halfedges[edge_id]);
-    m_visitor.OnSelected(of_edge, Optional_cost(cost), m_initial_edges, m_edges);
-    if (m_stop(cost, of_edge, m_initial_edges, m_edges)) {
-      m_visitor.OnStopConditionReached(of_edge);
+    const Optional_cost selected_at(cost);
+    call_with_profile(
+        [&](const auto& p) -> decltype(m_visitor.OnSelected(p, selected_at, m_initial_edges, m_edges)) {
+          m_visitor.OnSelected(p, selected_at, m_initial_edges, m_edges);
+        },
+        of_edge);
+    if (is_stop(*selected_at, of_edge)) {
+      call_with_profile([&](const auto& p) -> decltype(m_visitor.OnStopConditionReached(
+                                               p)) { m_visitor.OnStopConditionReached(p); },
+                        of_edge);
       return false;
     }
     if (!is_topology_kept(of_edge)) {
-      m_visitor.OnNonCollapsable(of_edge);
-      mark_stale(of_edge);
+      on_refused(of_edge);
       return true;
     }
     Edge_record& record = m_records[edge_id];
     const std::optional<Collapse_of_edge> collapse = collapse_of(of_edge, record);
-    if (collapse && is_allowed(m_filter, *collapse)) {
+    const bool is_asked = collapse && (!m_is_geometry_tested || Dihedral_angle_filter<>().accepts(*collapse));
+    if (is_asked && is_allowed(m_filter, *collapse)) {
       perform(*collapse, edge_id);
       return true;
     }
-    m_visitor.OnNonCollapsable(of_edge);
-    mark_stale(of_edge);
+    on_refused(of_edge);
     if constexpr (Has_blockers<Filter>::value)
-      for (const Face face : m_filter.blockers())
-        m_waiting.add(face, edge_id);
+      if (is_asked)
+        for (const Face face : m_filter.blockers())
+          m_waiting.add(face, edge_id);
     if constexpr (Has_second<Placement, Profile>::value) {
       if (record.state == State::first) {
         record.state = State::second;
@@ -230,7 +204,7 @@ private:
   void perform(const Collapse_of_edge& collapse, Id edge_id)
   {
     const Profile& of_edge = collapse.profile();
-    if constexpr (std::is_convertible_v<const Visitor*, const Cgal_visitor*>)
+    if constexpr (!std::is_base_of_v<No_visitor, Visitor>)
       of_edge.full(); // the visitor may ask for it when the edge is gone
     forget(edge_id);
     if (of_edge.left_face_exists())
@@ -302,8 +276,20 @@ private:
       m_queue.erase(edge_id);
   }
 
-  void mark_stale(const Profile& of_edge)
+  bool is_stop(const FT& cost, const Profile& of_edge) const
   {
+    return call_with_profile(
+        [&](const auto& p) -> decltype(bool(m_stop(cost, p, m_initial_edges, m_edges))) {
+          return bool(m_stop(cost, p, m_initial_edges, m_edges));
+        },
+        of_edge);
+  }
+
+  void on_refused(const Profile& of_edge)
+  {
+    call_with_profile(
+        [&](const auto& p) -> decltype(m_visitor.OnNonCollapsable(p)) { m_visitor.OnNonCollapsable(p); },
+        of_edge);
     put(m_has_stale_edges, of_edge.v0(), true);
     put(m_has_stale_edges, of_edge.v1(), true);
   }
@@ -320,7 +306,7 @@ private:
         cost = choose(m_placement.choice(of_edge), record);
       }
     } else {
-      cost = m_cost(of_edge, placement_of(of_edge, record));
+      cost = ask_policy(m_cost, of_edge, placement_of(of_edge, record));
     }
     return cost && *cost == *cost ? cost : Optional_cost();
   }
@@ -347,7 +333,7 @@ private:
     if constexpr (Has_second<Placement, Profile>::value)
       if (record.state == State::second)
         return m_placement.second(of_edge);
-    return m_placement(of_edge);
+    return ask_policy(m_placement, of_edge);
   }
 
   // Whether the mesh stays a manifold of the same topology. The link condition: a vertex that is a neighbour
@@ -418,6 +404,7 @@ private:
   const Placement& m_placement;
   const Filter& m_filter;
   Visitor m_visitor;
+  bool m_is_geometry_tested;
 
   std::vector<Halfedge> m_halfedges;  // by edge
   std::vector<Edge_record> m_records; // by edge

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -51,6 +52,7 @@ public:
       m_corners.push_back(find_corners(halfedge(face, mesh)));
       ids.push_back(id);
     }
+    m_size = m_faces.size();
     m_index.build(ids, [this](Id id) { return box(id); });
   }
 
@@ -88,8 +90,10 @@ public:
   /// Called before a collapse removes the face of `h`, a halfedge of its edge; a border halfedge has none.
   void on_removing(Halfedge h)
   {
-    if (!CGAL::is_border(h, m_mesh))
-      m_index.remove(get(m_ids, face(h, m_mesh)));
+    if (CGAL::is_border(h, m_mesh))
+      return;
+    m_index.remove(get(m_ids, face(h, m_mesh)));
+    --m_size;
   }
 
   /// Called after a collapse, when the mesh and the vertex table have the merged vertex.
@@ -104,6 +108,9 @@ public:
   }
 
   const FaceIndex& index() const { return m_index; }
+
+  /// Returns the number of faces that have not been removed.
+  std::size_t size() const { return m_size; }
 
 private:
   Corners find_corners(Halfedge h) const
@@ -128,6 +135,7 @@ private:
   const VertexTable& m_vertices;
   FaceIndex m_index;
   typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<Id>>::const_type m_ids;
+  std::size_t m_size = 0;
   std::vector<Face> m_faces;      // by number
   std::vector<Corners> m_corners; // by number: in the mesh they are five look-ups away
 };

@@ -5,6 +5,7 @@
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_FILTER_BASE_H
 
 #include <selvedge/Surface_mesh_simplification/internal/Collapse.h>
+#include <selvedge/Surface_mesh_simplification/internal/call_with_profile.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
 
 #include <cstddef>
@@ -52,7 +53,7 @@ bool is_allowed(const Filter& filter, const Collapse& collapse)
   if constexpr (Judges_collapses<Filter, Collapse>::value)
     return filter.allows(collapse);
   else
-    return bool(filter(collapse.profile(), Optional<typename Collapse::Point>(collapse.place())));
+    return bool(ask_policy(filter, collapse.profile(), Optional<typename Collapse::Point>(collapse.place())));
 }
 
 /// Chains filters: it asks the base filter first, then `accepts(collapse)` of the derived class, and counts

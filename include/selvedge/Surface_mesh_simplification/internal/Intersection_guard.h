@@ -4,12 +4,14 @@
 #ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_INTERSECTION_GUARD_H
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_INTERSECTION_GUARD_H
 
+#include <selvedge/Error.h>
 #include <selvedge/Surface_mesh_simplification/Intersection_statistics.h>
 #include <selvedge/Surface_mesh_simplification/internal/Collapse.h>
 #include <selvedge/Surface_mesh_simplification/internal/Face_table.h>
 #include <selvedge/Surface_mesh_simplification/internal/Moving_star.h>
 #include <selvedge/Surface_mesh_simplification/internal/Star_view.h>
 #include <selvedge/Surface_mesh_simplification/internal/Vertex_table.h>
+#include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
 #include <selvedge/geometry/star.h>
 #include <selvedge/geometry/sweep.h>
 #include <selvedge/internal/exact_predicates.h>
@@ -51,8 +53,8 @@ public:
 
   Intersection_guard(const TriangleMesh& mesh, const VertexPointMap& points, const GeomTraits& traits,
                      FaceIndex&& empty_index)
-      : m_traits(traits), m_vertices(mesh, points), m_faces(mesh, m_vertices, std::move(empty_index)),
-        m_star(mesh, m_vertices), m_view(m_star)
+      : m_mesh(mesh), m_traits(traits), m_vertices(mesh, points),
+        m_faces(mesh, m_vertices, std::move(empty_index)), m_star(mesh, m_vertices), m_view(m_star)
   {
     require_exact_predicates<GeomTraits>();
   }
@@ -62,30 +64,30 @@ public:
   template <class Profile>
   bool is_clear(const Collapse<Profile>& collapse)
   {
-    const auto& place = collapse.place();
-    if (!collapse.are_both_moved())
-      return is_motion_clear({collapse.mover(), collapse.goal(), place, false});
-    // One end moves to the place, and then the other moves there and merges with it; in either order.
-    const auto are_both_clear = [&](Vertex first, Vertex second) {
-      return is_motion_clear({first, std::nullopt, place, false}) &&
-             is_motion_clear({second, first, place, true});
-    };
-    const Vertex v0 = collapse.profile().v0(), v1 = collapse.profile().v1();
-    return !is_coincident(v0) && !is_coincident(v1) && (are_both_clear(v1, v0) || are_both_clear(v0, v1));
+    refuse_unannounced_changes();
+    m_is_announcement_due = are_motions_clear(collapse);
+    return m_is_announcement_due;
   }
 
   template <class Profile>
   void before_collapse(const Collapse<Profile>& collapse)
   {
+    m_is_announcement_due = false;
     // Must be read before the collapse removes these faces.
     m_faces.on_removing(collapse.profile().v0_v1());
     m_faces.on_removing(collapse.profile().v1_v0());
     m_goal = collapse.goal();
+    m_place = collapse.place();
   }
   void after_collapse(Vertex kept)
   {
     m_vertices.on_collapsed(m_goal, kept);
     m_faces.on_collapsed(kept);
+    if (m_vertices.point(m_vertices.number(kept)) != m_place)
+      throw Argument_error(
+          "the vertex point map holds another point than the one put into it and judged, perhaps because it "
+          "rounds; let the placement return points that the map can hold, such as an end of the edge, or use "
+          "a map of doubles");
   }
 
   /// Returns the faces that kept motions from being clear since `forget_blockers`, one at most for each
@@ -100,6 +102,31 @@ private:
   {
     Id id;
   };
+
+  // What the visitor has not announced is noticed by the number of faces. It is counted only after a collapse
+  // that was accepted and not announced, and for the first question.
+  void refuse_unannounced_changes() const
+  {
+    if (m_is_announcement_due && current_faces(m_mesh) != m_faces.size())
+      throw Argument_error("the mesh has changed without the knowledge of its intersection filter; give the "
+                           "loop the filter's visitor as well, `visitor(filter.visitor())`, or a "
+                           "`Visitor_chain` with it");
+  }
+
+  template <class Profile>
+  bool are_motions_clear(const Collapse<Profile>& collapse)
+  {
+    const auto& place = collapse.place();
+    if (!collapse.are_both_moved())
+      return is_motion_clear({collapse.mover(), collapse.goal(), place, false});
+    // One end moves to the place, and then the other moves there and merges with it; in either order.
+    const auto are_both_clear = [&](Vertex first, Vertex second) {
+      return is_motion_clear({first, std::nullopt, place, false}) &&
+             is_motion_clear({second, first, place, true});
+    };
+    const Vertex v0 = collapse.profile().v0(), v1 = collapse.profile().v1();
+    return !is_coincident(v0) && !is_coincident(v1) && (are_both_clear(v1, v0) || are_both_clear(v0, v1));
+  }
 
   bool is_coincident(Vertex v) const { return m_vertices.is_coincident(m_vertices.number(v)); }
 
@@ -209,12 +236,15 @@ private:
     return m_sweeps[j]->is_clear(p, q, r);
   }
 
+  const TriangleMesh& m_mesh;
   GeomTraits m_traits;
   Vertices m_vertices;
   Faces m_faces;
   Star m_star;
   View m_view;
-  Vertex m_goal{}; // of the collapse that is being done
+  Vertex m_goal{};                    // of the collapse that is being done
+  typename Vertices::Point m_place{}; // likewise
+  bool m_is_announcement_due = true;  // whether the mesh may have changed unannounced
   std::vector<Face> m_blockers;
   Intersection_statistics m_statistics;
 

@@ -33,6 +33,7 @@ public:
   using Geom_traits = GeomTraits;
   using FT = typename GeomTraits::FT;
   using Point = typename boost::property_traits<VertexPointMap>::value_type;
+  using Point_reference = typename boost::property_traits<VertexPointMap>::reference;
   using vertex_descriptor = typename boost::graph_traits<TriangleMesh>::vertex_descriptor;
   using halfedge_descriptor = typename boost::graph_traits<TriangleMesh>::halfedge_descriptor;
   using edge_descriptor = typename boost::graph_traits<TriangleMesh>::edge_descriptor;

@@ -218,10 +218,10 @@ public:
     if (m_options.loop == Collapse_loop::own)
       run_passes([&] {
         selvedge::edge_collapse(m_mesh, is_over(),
-                                CGAL::parameters::get_cost(costs)
-                                    .get_placement(directions)
-                                    .filter(Filter{this})
-                                    .visitor(Visitor(*this)));
+                                parameters::geometric_test(false, CGAL::parameters::get_cost(costs)
+                                                                      .get_placement(directions)
+                                                                      .filter(Filter{this})
+                                                                      .visitor(Visitor(*this))));
         return false;
       });
     else

@@ -9,10 +9,13 @@
 
 #include <CGAL/Dynamic_property_map.h>
 #include <CGAL/boost/graph/helpers.h>
+#include <CGAL/boost/graph/iterator.h>
+#include <CGAL/number_utils.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <sstream>
 #include <vector>
 
 namespace selvedge {
@@ -22,7 +25,8 @@ namespace internal {
 /// that take part in the motion being judged.
 ///
 /// It exists because the guard thinks in positions while the mesh has vertices: a mark goes to all vertices
-/// at a position at once. Throws `Argument_error` for a mesh with an edge of length zero.
+/// at a position at once. Throws `Argument_error` for a mesh with an edge of length zero or a vertex with
+/// several fans of faces.
 template <class TriangleMesh, class VertexPointMap>
 class Vertex_table
 {
@@ -42,6 +46,7 @@ public:
       put(m_numbers, v, Number(m_records.size()));
       m_records.push_back({get(m_points, v), 0, 0, false});
     }
+    refuse_several_fans(mesh);
     find_coincident(mesh);
   }
 
@@ -107,6 +112,33 @@ private:
     std::uint32_t mark : 31;
     std::uint32_t is_coincident : 1;
   };
+
+  // A vertex with several fans leads to one of them only, or it has several borders.
+  void refuse_several_fans(const TriangleMesh& mesh) const
+  {
+    std::vector<std::uint32_t> degrees(m_records.size());
+    for (const auto h : halfedges(mesh))
+      ++degrees[number(target(h, mesh))];
+    for (const Vertex v : vertices(mesh)) {
+      if (halfedge(v, mesh) == Graph_traits::null_halfedge())
+        continue;
+      std::uint32_t degree = 0, borders = 0;
+      for (const auto h : CGAL::halfedges_around_target(halfedge(v, mesh), mesh)) {
+        ++degree;
+        borders += CGAL::is_border(h, mesh);
+      }
+      if (degree == degrees[number(v)] && borders <= 1)
+        continue;
+      const Point& p = point(number(v));
+      std::ostringstream text;
+      text << "the faces around the vertex at (" << CGAL::to_double(p.x()) << ", " << CGAL::to_double(p.y())
+           << ", " << CGAL::to_double(p.z())
+           << ") form several fans; separate them first, for example with duplicate_non_manifold_vertices() "
+              "of "
+              "CGAL::Polygon_mesh_processing";
+      throw Argument_error(text.str());
+    }
+  }
 
   void find_coincident(const TriangleMesh& mesh)
   {

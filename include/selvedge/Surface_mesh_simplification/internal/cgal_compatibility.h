@@ -15,6 +15,9 @@
 #endif
 
 #include <cstddef>
+#include <iterator>
+#include <type_traits>
+#include <utility>
 
 namespace selvedge {
 namespace internal {
@@ -28,6 +31,19 @@ template <class T>
 using Optional = boost::optional<T>;
 #endif
 
+// Whether num_faces() of a mesh counts faces that have been removed and not yet collected, as OpenMesh's
+// does.
+template <class TriangleMesh, class = void>
+struct Counts_removed_faces : std::false_type
+{
+};
+template <class TriangleMesh>
+struct Counts_removed_faces<TriangleMesh,
+                            std::void_t<decltype(std::declval<TriangleMesh&>().garbage_collection())>>
+    : std::true_type
+{
+};
+
 // Returns the number of faces. For `Surface_mesh`, num_faces() would include removed faces that are not yet
 // collected.
 template <class Point>
@@ -38,7 +54,25 @@ std::size_t face_count(const CGAL::Surface_mesh<Point>& mesh)
 template <class TriangleMesh>
 std::size_t face_count(const TriangleMesh& mesh)
 {
+  static_assert(
+      !Counts_removed_faces<TriangleMesh>::value,
+      "num_faces() of this mesh counts removed faces, too; stop by the number of edges, for example "
+      "with a stop predicate of CGAL");
   return num_faces(mesh);
+}
+
+// The same for any face graph, also one whose num_faces() includes removed faces: linear unless it is a
+// `Surface_mesh`.
+template <class Point>
+std::size_t current_faces(const CGAL::Surface_mesh<Point>& mesh)
+{
+  return mesh.number_of_faces();
+}
+template <class TriangleMesh>
+std::size_t current_faces(const TriangleMesh& mesh)
+{
+  const auto all = faces(mesh);
+  return std::size_t(std::distance(all.begin(), all.end()));
 }
 
 } // namespace internal

@@ -5,7 +5,8 @@
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_PERFORM_COLLAPSE_H
 
 #include <selvedge/Surface_mesh_simplification/internal/Collapse.h>
-#include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
+#include <selvedge/Surface_mesh_simplification/internal/announce_collapse.h>
+#include <selvedge/Surface_mesh_simplification/internal/call_with_profile.h>
 
 #include <CGAL/boost/graph/Euler_operations.h>
 
@@ -37,19 +38,6 @@ struct Is_updated<Cost, std::void_t<typename Cost::Update_tag>> : std::bool_cons
 {
 };
 
-// Whether a visitor takes each collapse as a value.
-template <class Visitor, class Collapse, class = void>
-struct Takes_collapses : std::false_type
-{
-};
-template <class Visitor, class Collapse>
-struct Takes_collapses<
-    Visitor, Collapse,
-    std::void_t<decltype(std::declval<Visitor&>().before_collapse(std::declval<const Collapse&>()))>>
-    : std::true_type
-{
-};
-
 /// Collapses an edge, notifies the visitor and the cost, and returns the merged vertex.
 ///
 /// Both the loop and the repetition of the collapses of cells use this function, so that the same is notified
@@ -62,10 +50,7 @@ auto perform_collapse(TriangleMesh& mesh, const VertexPointMap& points,
                       Visitor& visitor, const Cost& cost)
 {
   const Profile& profile = collapse.profile();
-  if constexpr (Takes_collapses<Visitor, Collapse<Profile>>::value)
-    visitor.before_collapse(collapse);
-  else
-    visitor.OnCollapsing(profile, Optional<typename Profile::Point>(collapse.place()));
+  announce_collapse(visitor, collapse);
   const auto merge = [&] {
     if constexpr (std::is_same_v<EdgeIsConstrainedMap, No_constrained_edges>)
       return CGAL::Euler::collapse_edge(edge(profile.v0_v1(), mesh), mesh);
@@ -74,7 +59,9 @@ auto perform_collapse(TriangleMesh& mesh, const VertexPointMap& points,
   };
   const auto kept = merge();
   put(points, kept, collapse.place());
-  visitor.OnCollapsed(profile, kept);
+  call_with_profile([&](const auto& of_edge) -> decltype(visitor.OnCollapsed(
+                                                 of_edge, kept)) { visitor.OnCollapsed(of_edge, kept); },
+                    profile);
   if constexpr (Is_updated<Cost>::value)
     cost.update_after_collapse(profile, kept);
   return kept;

@@ -1,0 +1,246 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// What the filter, the loop and the visitors owe to programs that plug them in: they work together with
+// other people's policies, and say so where they are used wrongly.
+
+#include <selvedge/Surface_mesh_simplification/Border_filter.h>
+#include <selvedge/Surface_mesh_simplification/Intersection_filter.h>
+#include <selvedge/Surface_mesh_simplification/Visitor_chain.h>
+#include <selvedge/Surface_mesh_simplification/edge_collapse.h>
+#include <selvedge/verify.h>
+
+#include "support/Edge_ratio_stop.h"
+#include "support/mesh_of.h"
+#include "support/meshes.h"
+
+#include <CGAL/Polygon_mesh_processing/repair.h>
+#include <CGAL/Surface_mesh_simplification/Edge_collapse_visitor_base.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_profile.h>
+#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace selvedge::test {
+namespace {
+
+namespace SMS = CGAL::Surface_mesh_simplification;
+
+template <class Parameters>
+int collapse(bool is_own, Mesh& mesh, const Parameters& parameters)
+{
+  const Edge_ratio_stop stop(0.5);
+  return is_own ? selvedge::edge_collapse(mesh, stop, parameters)
+                : SMS::edge_collapse(mesh, stop, parameters);
+}
+
+Mesh waves()
+{
+  return mesh_of(sheets(2000, 4, 1e-5));
+}
+
+// A visitor as other people write it.
+struct Counting_visitor : SMS::Edge_collapse_visitor_base<Mesh>
+{
+  explicit Counting_visitor(int& collapses_) : collapses(&collapses_) {}
+  void OnCollapsing(const Profile& profile, const internal::Optional<Point_3>&)
+  {
+    expected = profile.link().size();
+  }
+  void OnCollapsed(const Profile& profile, const Mesh::Vertex_index&)
+  {
+    *collapses += profile.link().size() == expected;
+  }
+  int* collapses;
+  std::size_t expected = 0;
+};
+
+TEST(Visitor_chain, CallsAllVisitorsInEitherLoop)
+{
+  for (const bool is_own : {true, false}) {
+    Mesh mesh = waves();
+    int collapses = 0;
+    const Intersection_filter<Mesh> filter(mesh);
+    const std::size_t vertices_before = mesh.number_of_vertices();
+    collapse(is_own, mesh,
+             CGAL::parameters::filter(filter).visitor(
+                 Visitor_chain(Counting_visitor(collapses), filter.visitor())));
+    EXPECT_EQ(mesh.number_of_vertices() + std::size_t(collapses), vertices_before);
+    EXPECT_GT(collapses, 50);
+    EXPECT_TRUE(is_embedded(soup_of(mesh)));
+  }
+}
+
+TEST(Intersection_filter, IsRefusedWithoutItsVisitorAfterOneCollapse)
+{
+  for (const bool is_own : {true, false}) {
+    Mesh mesh = waves();
+    int collapses = 0;
+    const Intersection_filter<Mesh> filter(mesh);
+    std::string message;
+    try {
+      collapse(is_own, mesh, CGAL::parameters::filter(filter).visitor(Counting_visitor(collapses)));
+    } catch (const Argument_error& error) {
+      message = error.what();
+    }
+    EXPECT_NE(message.find("visitor(filter.visitor())"), std::string::npos) << message;
+    EXPECT_EQ(collapses, 1);
+    EXPECT_TRUE(is_embedded(soup_of(mesh)));
+  }
+}
+
+TEST(Intersection_filter, IsRefusedForAMeshThatHasChangedSinceItWasMade)
+{
+  Mesh mesh = waves();
+  const Intersection_filter<Mesh> filter(mesh);
+  CGAL::Euler::remove_face(halfedge(*faces(mesh).begin(), mesh), mesh);
+  EXPECT_THROW(collapse(true, mesh, CGAL::parameters::filter(filter).visitor(filter.visitor())),
+               Argument_error);
+}
+
+TEST(Intersection_filter, RefusesAVertexWithSeveralFans)
+{
+  // Two squares that touch at (1, 1, 0) only.
+  Mesh mesh;
+  const auto add_square = [&](double x, double y, const auto& first, const auto& third) {
+    const auto second = mesh.add_vertex({x + 1, y, 0}), fourth = mesh.add_vertex({x, y + 1, 0});
+    mesh.add_face(first, second, third);
+    mesh.add_face(first, third, fourth);
+  };
+  const auto middle = mesh.add_vertex({1, 1, 0});
+  add_square(0, 0, mesh.add_vertex({0, 0, 0}), middle);
+  EXPECT_NO_THROW(Intersection_filter<Mesh>{mesh});
+  add_square(1, 1, middle, mesh.add_vertex({2, 2, 0}));
+  std::string message;
+  try {
+    Intersection_filter<Mesh>{mesh};
+  } catch (const Argument_error& error) {
+    message = error.what();
+  }
+  EXPECT_NE(message.find("(1, 1, 0)"), std::string::npos) << message;
+  CGAL::Polygon_mesh_processing::duplicate_non_manifold_vertices(mesh);
+  EXPECT_NO_THROW(Intersection_filter<Mesh>{mesh});
+}
+
+TEST(Border_visitor, LocksWhatCgalsLoopMergesUnasked)
+{
+  // A strip whose border has an edge of length zero at (2, 0, 0).
+  Mesh mesh;
+  std::vector<Mesh::Vertex_index> below, above;
+  for (const double x : {0.0, 1.0, 2.0, 2.0, 3.0, 4.0}) {
+    below.push_back(mesh.add_vertex({x, 0, 0}));
+    above.push_back(mesh.add_vertex({x + 0.25 * double(below.size()), 1, 0}));
+  }
+  for (std::size_t i = 0; i + 1 < below.size(); ++i) {
+    mesh.add_face(below[i], below[i + 1], above[i]);
+    mesh.add_face(below[i + 1], above[i + 1], above[i]);
+  }
+  const Border_rule<Mesh> rule(mesh);
+  SMS::edge_collapse(mesh, Edge_ratio_stop(2), // at once
+                     CGAL::parameters::filter(Border_filter(rule)).visitor(Border_visitor<Mesh>(rule)));
+  std::size_t there = 0;
+  for (const auto v : mesh.vertices())
+    if (mesh.point(v) == Point_3(2, 0, 0)) {
+      ++there;
+      EXPECT_TRUE(rule.is_locked(v));
+    } else {
+      EXPECT_FALSE(rule.is_locked(v));
+    }
+  EXPECT_EQ(there, 1u);
+}
+
+// Policies that deduce the arguments of CGAL's profile, or name types of it.
+struct Deducing_cost
+{
+  template <class TM, class VPM, class GT, class Point>
+  internal::Optional<double> operator()(const SMS::Edge_profile<TM, VPM, GT>& profile,
+                                        const internal::Optional<Point>& place) const
+  {
+    return place ? CGAL::squared_distance(profile.p0(), profile.p1()) : internal::Optional<double>();
+  }
+};
+struct Deducing_placement
+{
+  template <class TM, class VPM, class GT>
+  internal::Optional<typename SMS::Edge_profile<TM, VPM, GT>::Point>
+  operator()(const SMS::Edge_profile<TM, VPM, GT>& profile) const
+  {
+    return CGAL::midpoint(profile.p0(), profile.p1());
+  }
+};
+struct Placement_by_reference
+{
+  template <class Profile>
+  internal::Optional<typename Profile::Point> operator()(const Profile& profile) const
+  {
+    typename Profile::Point_reference p = get(profile.vertex_point_map(), profile.v0());
+    return CGAL::midpoint(p, profile.p1());
+  }
+};
+struct Deducing_filter
+{
+  template <class TM, class VPM, class GT, class OptionalPoint>
+  OptionalPoint operator()(const SMS::Edge_profile<TM, VPM, GT>& profile, const OptionalPoint& place) const
+  {
+    return profile.link().size() < 12 ? place : OptionalPoint();
+  }
+};
+struct Deducing_stop
+{
+  template <class FT, class TM, class VPM, class GT, class Size>
+  bool operator()(const FT&, const SMS::Edge_profile<TM, VPM, GT>&, Size initial, Size current) const
+  {
+    return 2 * current < initial;
+  }
+};
+
+TEST(Edge_collapse, TakesPoliciesThatDeduceCgalsProfile)
+{
+  const auto points_after = [](const auto& placement) {
+    Mesh mesh = mesh_of(skirt(2000, 1));
+    const auto parameters =
+        CGAL::parameters::get_cost(Deducing_cost()).get_placement(placement).filter(Deducing_filter());
+    const auto edges = selvedge::edge_collapse(mesh, Deducing_stop(), parameters);
+    static_assert(std::is_same_v<decltype(edges), const int>, "as CGAL's function");
+    EXPECT_GT(edges, 1000);
+    return soup_of(mesh).points;
+  };
+  EXPECT_EQ(points_after(Deducing_placement()), points_after(Placement_by_reference()));
+}
+
+TEST(Edge_collapse, KnowsEveryNamedParameterThatItIsGiven)
+{
+  namespace np = CGAL::internal_np;
+  using Relaxed = decltype(CGAL::parameters::filter(0).use_relaxed_order(CGAL::Tag_true()));
+  EXPECT_FALSE((internal::Are_tags_among<Relaxed, np::all_default_t, np::filter_t>::value));
+  EXPECT_TRUE((internal::Are_tags_among<Relaxed, np::filter_t, np::use_relaxed_order_t>::value));
+  using Default = CGAL::parameters::Default_named_parameters;
+  EXPECT_TRUE((internal::Are_tags_among<Default, np::all_default_t, np::filter_t>::value));
+}
+
+TEST(Edge_collapse, MakesNoMorePairsThanCgalsLoopDoesByDefault)
+{
+  const auto pairs_after = [](const auto& reduce) {
+    std::size_t pairs = 0;
+    for (const char* name : {"skirt", "jacket", "shorts"}) {
+      Mesh mesh = mesh_of(garment(name, 3000, 1));
+      reduce(mesh, Edge_ratio_stop(0.1));
+      pairs += offending_pairs(soup_of(mesh)).size();
+    }
+    return pairs;
+  };
+  const std::size_t of_cgal = pairs_after([](Mesh& mesh, auto stop) { SMS::edge_collapse(mesh, stop); });
+  EXPECT_EQ(pairs_after([](Mesh& mesh, auto stop) { selvedge::edge_collapse(mesh, stop); }), of_cgal);
+  EXPECT_GT(pairs_after([](Mesh& mesh, auto stop) {
+              selvedge::edge_collapse(mesh, stop, parameters::geometric_test(false));
+            }),
+            of_cgal);
+}
+
+} // namespace
+} // namespace selvedge::test
