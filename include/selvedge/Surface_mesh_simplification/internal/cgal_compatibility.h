@@ -4,7 +4,7 @@
 #ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_CGAL_COMPATIBILITY_H
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_CGAL_COMPATIBILITY_H
 
-#include <CGAL/Surface_mesh.h>
+#include <CGAL/Surface_mesh/Surface_mesh_fwd.h>
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/version.h>
 

@@ -7,8 +7,8 @@
 #include <selvedge/spatial/internal/Monotone_box.h>
 
 #include <CGAL/AABB_tree.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Search_traits_3.h>
+#include <CGAL/Simple_cartesian.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -42,7 +42,7 @@ public:
   using Id = std::uint32_t;
   using Datum = Monotone_box;
   using Datum_reference = const Monotone_box&;
-  using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
+  using Point = CGAL::Simple_cartesian<double>::Point_3;
 
   explicit Box_primitive(std::vector<Id>::const_iterator it) : m_id(*it) {}
   Id id() const { return m_id; }
@@ -53,12 +53,13 @@ private:
 
 /// Traits of `AABB_tree` for boxes in a table: as much of the concept `AABBTraits` as building and traversing
 /// a tree takes. The base classes are what `AABB_tree` names for a search tree, which is never made here: a
-/// kernel up to CGAL 5.6, search traits from 6.0.
-class Box_tree_traits : public CGAL::Exact_predicates_inexact_constructions_kernel,
-                        public CGAL::Search_traits_3<CGAL::Exact_predicates_inexact_constructions_kernel>
+/// kernel up to CGAL 5.6, search traits from 6.0. No predicate is asked, so the kernel is the one that takes
+/// the least time to parse.
+class Box_tree_traits : public CGAL::Simple_cartesian<double>,
+                        public CGAL::Search_traits_3<CGAL::Simple_cartesian<double>>
 {
 public:
-  using FT = CGAL::Exact_predicates_inexact_constructions_kernel::FT; // which both bases name
+  using FT = CGAL::Simple_cartesian<double>::FT; // which both bases name
   using Primitive = Box_primitive;
   using Bounding_box = Monotone_box;
   using size_type = std::size_t;
