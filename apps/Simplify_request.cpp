@@ -113,6 +113,7 @@ Json options_json(const Simplify_request& request)
           {"border_turn", options.max_border_turn},
           {"seam_turn", options.max_seam_turn},
           {"border_drift", options.max_border_drift},
+          {"placement", options.placement == Placement::optimal ? "optimal" : "vertices"},
           {"loop", options.loop == Collapse_loop::own ? "own" : "cgal"},
           {"index", options.index == Face_index::packed ? "packed" : "clusters"},
           {"cluster_size", options.faces_per_cluster},
@@ -208,6 +209,16 @@ void add_options(CLI::App& command, Simplify_request& request)
                   "or written.")
       ->type_name("FILE")
       ->group(parts);
+
+  command
+      .add_option("--placement", options.placement,
+                  "Where a collapse puts the merged vertex: at one of the two vertices, or where the surface "
+                  "changes least. The latter interpolates the attributes of vertices that it puts to new "
+                  "places.")
+      ->transform(one_of<Placement>({{"vertices", Placement::vertices}, {"optimal", Placement::optimal}}))
+      ->type_name("vertices|optimal")
+      ->default_str("vertices")
+      ->group(how_far);
 
   const char* const limits = "Limits of a collapse";
   command

@@ -139,6 +139,8 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
                      {"output", result.soup.triangles.size()},
                      {"target", done.faces_target}};
   report["target"] = {{"reached", done.is_reached()}, {"outcome", done.outcome()}};
+  report["vertices"] = {{"kept", result.soup.points.size() - result.placed_vertices},
+                        {"placed", result.placed_vertices}};
   report["collapses"] = done.collapses;
   report["passes"] = done.passes;
   report["cells"] = {{"count", done.cells}, {"collapses", done.collapses_in_cells}};
@@ -206,8 +208,8 @@ void add_verification(Json& report, const Verification& verification, bool has_o
   report["topology"] = {{"same", verification.same_topology()}, {"differences", std::move(differences)}};
   const Piece_matching& matching = verification.matching;
   Json pieces = Json::object(), mismatches = Json::array();
-  for (const Matched_by by :
-       {Matched_by::vertices, Matched_by::positions, Matched_by::borders, Matched_by::distance})
+  for (const Matched_by by : {Matched_by::vertices, Matched_by::positions, Matched_by::borders,
+                              Matched_by::distance, Matched_by::triangles})
     pieces[name(by)] = 0;
   for (const Piece_match& match : matching.matches)
     pieces[name(match.by)] = pieces[name(match.by)].get<std::size_t>() + match.of_original.size();

@@ -122,9 +122,7 @@ private:
     std::optional<Reduction_log> log;
     if (!m_request.log.empty()) {
       log.emplace(m_log, m_log_header, *m_numbering, prepared, options);
-      options.on_collapse = [&log](std::size_t removed, std::size_t kept) {
-        log->add_collapse(removed, kept);
-      };
+      options.on_collapse = [&log](const Soup_collapse& collapse) { log->add_collapse(collapse); };
     }
     std::vector<Simplified_soup> results;
     if (m_request.lods.empty())

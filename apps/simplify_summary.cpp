@@ -90,7 +90,12 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
   for (const Refusals::Rule& rule : Refusals::rules())
     if (done.refused.*rule.count > 0)
       stream << std::exchange(separator, ", ") << rule.name << ' ' << with_commas(done.refused.*rule.count);
-  stream << (*separator == ' ' ? " none" : "") << "\njudged: ";
+  stream << (*separator == ' ' ? " none" : "");
+  if (result.placed_vertices > 0)
+    stream << "\nvertices: " << with_commas(result.soup.points.size() - result.placed_vertices)
+           << " kept bit for bit, " << with_commas(result.placed_vertices)
+           << " at new places with interpolated attributes";
+  stream << "\njudged: ";
   if (verification.embedded())
     stream << "embedded (no triangles touch or cross)";
   else

@@ -58,6 +58,8 @@ inline const char* name(Matched_by by)
     return "borders";
   case Matched_by::distance:
     return "distance";
+  case Matched_by::triangles:
+    return "triangles";
   }
   return "";
 }

@@ -106,7 +106,7 @@ constexpr std::size_t named = 5;
 
 void print(const Piece_matching& matching)
 {
-  std::size_t pieces[4] = {};
+  std::size_t pieces[5] = {};
   for (const Piece_match& match : matching.matches)
     pieces[int(match.by)] += match.of_original.size();
   std::cout << (matching.is_complete() ? "pieces: all match those of the original" : "pieces WRONG");

@@ -26,7 +26,7 @@ public:
                 const Prepared_soup& prepared, const Simplify_options& options);
 
   /// Writes one collapse. To be called by `Simplify_options::on_collapse`.
-  void add_collapse(std::size_t removed, std::size_t kept);
+  void add_collapse(const Soup_collapse& collapse);
 
   /// Writes the last line, which describes the result.
   void finish(const Simplified_soup& result);

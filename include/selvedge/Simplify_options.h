@@ -6,6 +6,7 @@
 
 #include <selvedge/Surface_mesh_simplification/Quadric_cost_options.h>
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -18,6 +19,29 @@ struct Simplify_progress
   std::size_t faces_input;
   std::size_t faces_target;
   std::size_t faces; ///< faces left now
+};
+
+/// Where a collapse puts the merged vertex.
+enum class Placement {
+  vertices, ///< at one end of the edge: every vertex of the result is one of the input
+  optimal   ///< where its quadric is least, and at an end where that is refused or an end must stay
+};
+
+/// A collapse of a soup.
+struct Soup_collapse
+{
+  std::size_t removed; ///< a vertex at the position that moves away
+  std::size_t kept;    ///< a vertex at the position with which it merges
+
+  /// Where both go, if that is neither of the two positions.
+  std::optional<std::array<double, 3>> place = std::nullopt;
+  bool is_removed_first = false; ///< whether `removed` goes there before `kept`
+
+  friend bool operator==(const Soup_collapse& a, const Soup_collapse& b)
+  {
+    return a.removed == b.removed && a.kept == b.kept && a.place == b.place &&
+           a.is_removed_first == b.is_removed_first;
+  }
 };
 
 /// Which loop takes edges from a queue and collapses them.
@@ -106,10 +130,13 @@ struct Simplify_options
 
   Quadric_cost_options cost;
 
-  /// Called before each collapse of a soup with two of its vertices: one at the position that is removed, and
-  /// one at the position that is kept, as `Reduction_log` takes them. It may be empty. With `simplify_mesh`
-  /// it must be empty (`Argument_error`); use an observer there.
-  std::function<void(std::size_t removed, std::size_t kept)> on_collapse;
+  /// Where a collapse puts the merged vertex. With `optimal`, the result is nearer to the input for the same
+  /// number of faces; the attributes of vertices at new places are interpolated (`simplify_soup`).
+  Placement placement = Placement::vertices;
+
+  /// Called before each collapse of a soup, as `Reduction_log` takes it. It may be empty. With
+  /// `simplify_mesh` it must be empty (`Argument_error`); use an observer there.
+  std::function<void(const Soup_collapse&)> on_collapse;
 
   /// Called from time to time; when it returns true, the reduction ends with the mesh as it is then. It may
   /// be empty. In cells, several threads call it, one at a time. To end all work without a result, see

@@ -114,6 +114,7 @@ struct Prepared_soup
   std::size_t left_out_by_rounding = 0; ///< only after rounding
 
   Rounding_notes rounding;
+  bool is_float32 = false; ///< whether new coordinates must be 32-bit floats, too
   Snapping_notes snapping;
   double seconds_positions = 0; ///< for rounding, and finding coincident vertices
   double seconds_check = 0;     ///< for judging

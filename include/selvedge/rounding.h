@@ -21,6 +21,16 @@ struct Rounding_notes
 /// Returns whether `value` is the value of a 32-bit float.
 bool is_float32(double value);
 
+/// Returns the 32-bit float nearest to `value`, ties to even; infinite where it is too large for one.
+double nearest_float32(double value);
+
+/// Returns whether every coordinate of a soup is the value of a 32-bit float.
+bool has_float32_points(const Triangle_soup& soup);
+
+/// Returns whether every coordinate of a soup has no more binary digits than a 32-bit float has, at whatever
+/// exponent. It holds for a soup exactly when it does for its multiple by a power of two.
+bool has_float32_digits(const Triangle_soup& soup);
+
 /// Rounds every coordinate to the nearest 32-bit float, ties to even, so that no coordinate changes when the
 /// soup is written to a format that stores 32-bit floats (`stores_float32`).
 ///

@@ -50,8 +50,12 @@ struct Simplified_soup
 
   /// For every triangle of `soup`: the triangle of the original that it was, and, for each of its corners,
   /// the corner of the original that it now is, as 3 × triangle + place in it.
+  ///
+  /// A vertex at a new place (`Placement::optimal`) has the corners of an end of its last collapse, and a
+  /// position and values of its own.
   std::vector<Index> triangles;
   std::vector<Index_triple> corners;
+  std::size_t placed_vertices = 0; ///< how many vertices of `soup` are at new places
 
   Sewing_notes sewing;
   Simplify_report report;
@@ -69,7 +73,12 @@ struct Simplified_soup
 /// 1. *Embedded*: the offending pairs of the result are among those of the input, so there are none when the
 ///    input has none.
 /// 2. *Attributes*: every corner of the result has the vertex number, texture coordinate and group that some
-///    corner of the input has at the same position on the same side; coordinates are the same bits. Normals
+///    corner of the input has at the same position on the same side; coordinates are the same bits. With
+///    `Placement::optimal` this holds for all vertices but `placed_vertices`. Those have new positions, and
+///    their texture coordinates, normals and attributes (floating point, or normalized integers) are those of
+///    the surface before each collapse, at its point nearest to the new position, by barycentric coordinates
+///    on the same side of all lines. Normals get the length 1. Other integers, indices of joints and their
+///    weights are those of the end that was nearer. Groups, objects and materials are kept. Normals
 ///    are made anew where `Prepare_options::normals` asks for it.
 /// 3. *Seams*: coincident borders of pieces are sewn before the reduction and separate after it, and they
 ///    coincide at every vertex. Texture seams and borders between groups are kept in the same way.

@@ -119,7 +119,8 @@ enum class Matched_by {
   vertices,  ///< at least half of its vertices lie at vertices of that piece, and the kind is the same
   positions, ///< several pieces at once: joined where their positions coincide, they are of the same kinds
   borders,   ///< likewise, with borders within the weld distance joined; kinds are not compared
-  distance   ///< of all pieces of the same kind, it lies nearest
+  distance,  ///< of all pieces of the same kind, it lies nearest
+  triangles  ///< its triangles are those of that piece, as the caller says, and the kind is the same
 };
 
 /// Pieces of the original, and the pieces of the result that they became: one of each, unless they were
@@ -187,6 +188,10 @@ struct Verify_options
   /// rounded for the comparison if it has other coordinates. A result that is known not to have been rounded
   /// may have such vertices by chance.
   bool may_be_rounded = true;
+
+  /// For every triangle of the result, the triangle of the original that it was, when the caller knows: as
+  /// `Simplified_soup::triangles` says. Empty when nobody does.
+  std::vector<Index> triangles_of_original;
 };
 
 /// Matches the pieces of a result with those of its original, in these steps:
@@ -194,6 +199,9 @@ struct Verify_options
 ///    the original, and both are of the same kind: in boundary loops, Euler characteristic, and whether some
 ///    edge has more than two faces. Among several such pieces, the one with the most common positions is
 ///    taken, and among those one with the same names.
+///    Where `Verify_options::triangles_of_original` is given: then, by triangles, each piece whose triangles
+///    were all of one piece of the original, of the same kind, which no other piece comes from and no step
+///    has matched.
 /// 2. By positions: the pieces that are left over, and all pieces that have faces in common with them by
 ///    positions, are joined where positions coincide. Files that number vertices in another way (STL, texture
 ///    seams in glTF) are matched here.

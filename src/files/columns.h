@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_SRC_FILES_COLUMNS_H
 #define SELVEDGE_SRC_FILES_COLUMNS_H
 
+#include "soup/with_number.h"
 #include <selvedge/Triangle_soup.h>
 
 #include <cstring>
@@ -16,30 +17,6 @@
 // Access to the numbers of attributes, which readers store and writers write as bytes of their own types.
 
 namespace selvedge::files {
-
-/// Calls `function(number)` with a zero of the C++ type that an attribute's numbers have.
-template <class Function>
-decltype(auto) with_number(Attribute::Type type, const Function& function)
-{
-  switch (type) {
-  case Attribute::Type::int8:
-    return function(std::int8_t{});
-  case Attribute::Type::uint8:
-    return function(std::uint8_t{});
-  case Attribute::Type::int16:
-    return function(std::int16_t{});
-  case Attribute::Type::uint16:
-    return function(std::uint16_t{});
-  case Attribute::Type::int32:
-    return function(std::int32_t{});
-  case Attribute::Type::uint32:
-    return function(std::uint32_t{});
-  case Attribute::Type::float32:
-    return function(float{});
-  default:
-    return function(double{});
-  }
-}
 
 template <class Number>
 void append_number(std::vector<unsigned char>& rows, Number number)

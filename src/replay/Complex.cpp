@@ -169,13 +169,13 @@ void Complex::snap(Index moved, Index kept)
   m_snapped_to[moved] = kept;
 }
 
-std::vector<Index> Complex::collapse(Index removed, Index kept)
+std::vector<Index> Complex::collapse(Index removed, Index kept, const std::array<Coordinates, 2>& before)
 {
   std::vector<Index> contracted, moving;
   for (const Index f : m_faces_at[removed])
     (has(f, kept) ? contracted : moving).push_back(f);
   carry_corners(contracted, moving, removed, kept);
-  carry_passed(edges_at(removed), removed, kept);
+  carry_passed(removed, kept, before);
   carry_seams(contracted, removed, kept);
   for (const Index f : contracted) {
     for (const Index p : m_faces[f].positions) {
@@ -252,8 +252,9 @@ void Complex::carry_seams(const std::vector<Index>& contracted, Index removed, I
 }
 
 // Carries the points that lines have passed from the edges at `removed` to the edges that replace them.
-void Complex::carry_passed(const std::vector<Edge>& edges, Index removed, Index kept)
+void Complex::carry_passed(Index removed, Index kept, const std::array<Coordinates, 2>& before)
 {
+  const std::vector<Edge> edges = edges_at(removed);
   const auto take = [&](Index a, Index b, std::vector<Coordinates>& points) {
     const auto found = m_passed.find(std::minmax(a, b));
     if (found == m_passed.end())
@@ -266,9 +267,13 @@ void Complex::carry_passed(const std::vector<Edge>& edges, Index removed, Index 
   for (const Edge& edge : edges)
     if (edge.neighbour == kept && edge.is_line()) {
       is_along_line = true;
-      along.push_back(m_points[removed]);
+      along.push_back(before[0]);
     }
   take(removed, kept, along);
+  if (is_along_line && before[1] != m_points[kept])
+    for (const Edge& edge : edges_at(kept))
+      if (edge.neighbour != removed && edge.is_line())
+        m_passed[std::minmax(kept, edge.neighbour)].push_back(before[1]);
   for (const Edge& edge : edges) {
     if (edge.neighbour == kept || !edge.is_line())
       continue;

@@ -78,8 +78,9 @@ public:
   void snap(Index moved, Index kept);
 
   /// Moves all faces at `removed` to `kept`. The faces that have both are removed and returned. The corners
-  /// that move get the values of `kept` on their side of the seams.
-  std::vector<Index> collapse(Index removed, Index kept);
+  /// that move get the values of `kept` on their side of the seams. `before` are the points of both before
+  /// the step, which may have moved them already; lines remember those that they have passed.
+  std::vector<Index> collapse(Index removed, Index kept, const std::array<Coordinates, 2>& before);
 
   /// Returns the points of lines that the edge ab has replaced; null when there are none.
   const std::vector<Coordinates>* passed(Index a, Index b) const;
@@ -94,7 +95,7 @@ private:
   void carry_corners(const std::vector<Index>& contracted, std::vector<Index> moving, Index removed,
                      Index kept);
   void carry_seams(const std::vector<Index>& contracted, Index removed, Index kept);
-  void carry_passed(const std::vector<Edge>& edges, Index removed, Index kept);
+  void carry_passed(Index removed, Index kept, const std::array<Coordinates, 2>& before);
 
   const Triangle_soup& m_soup;
   std::vector<Index> m_position_of_vertex; // at the start

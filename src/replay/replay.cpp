@@ -284,9 +284,10 @@ private:
       judge_lock(kept);
       judge_partners(removed, kept);
       judge({removed, m_complex.place(kept)});
-      apply(removed, kept, true);
+      apply(removed, kept, true, {});
       return;
     }
+    const std::array<Coordinates, 2> before{m_complex.point(removed), m_complex.point(kept)};
     const std::optional<Coordinates> place = place_of(step, removed, kept);
     if (!place) {
       judge_lock(removed);
@@ -312,7 +313,7 @@ private:
       shift(kept, *place);
       report_pending_limit(removed, kept);
     }
-    apply(removed, kept, false);
+    apply(removed, kept, false, before);
   }
 
   static constexpr Index no_position() { return Index(-1); }
@@ -606,7 +607,8 @@ private:
     }
   }
 
-  void apply(Index removed, Index kept, bool is_snap)
+  // `before` are the points of both before the collapse.
+  void apply(Index removed, Index kept, bool is_snap, const std::array<Coordinates, 2>& before)
   {
     if (m_is_bad && !m_options.is_all_wanted)
       return;
@@ -614,7 +616,7 @@ private:
     if (is_snap) {
       m_complex.snap(removed, kept);
     } else {
-      for (const Index f : m_complex.collapse(removed, kept)) {
+      for (const Index f : m_complex.collapse(removed, kept, before)) {
         m_offences.remove(f);
         m_boxes[f] = Box();
         m_tree.set(f, Box());

@@ -74,11 +74,13 @@ Reduction_log::Reduction_log(std::ostream& stream, Log_header header, const Log_
   }
 }
 
-void Reduction_log::add_collapse(std::size_t removed, std::size_t kept)
+void Reduction_log::add_collapse(const Soup_collapse& collapse)
 {
   Log_step step;
-  step.removed = m_numbering.number(Index(removed));
-  step.kept = m_numbering.number(Index(kept));
+  step.removed = m_numbering.number(Index(collapse.removed));
+  step.kept = m_numbering.number(Index(collapse.kept));
+  step.place = collapse.place;
+  step.is_removed_first = collapse.is_removed_first;
   m_writer.write(step);
   ++m_collapses;
 }

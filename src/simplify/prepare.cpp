@@ -50,13 +50,6 @@ void refuse_if_any(const std::vector<Offending_pair>& pairs, std::size_t own_tri
       "; repair it, or leave out the strict option to keep these triangles as they are");
 }
 
-bool stores_only_float32(const Triangle_soup& soup)
-{
-  return std::all_of(soup.points.begin(), soup.points.end(), [](const Point_3& point) {
-    return is_float32(point.x()) && is_float32(point.y()) && is_float32(point.z());
-  });
-}
-
 // Gives different positions to vertices that rounding has separated: where a vertex of the soup has moved and
 // a vertex of the obstacle at the same position has not. `after` numbers the positions as they are now.
 void take_apart(std::vector<Index>& positions, const std::vector<Index>& after)
@@ -82,8 +75,9 @@ public:
   Prepared_soup run()
   {
     m_prepared.normals = take_normals(soup(), m_options.normals);
+    m_prepared.is_float32 = m_options.round_to_float32;
     leave_out_degenerate();
-    if (m_options.round_to_float32 && !stores_only_float32(soup()))
+    if (m_options.round_to_float32 && !has_float32_points(soup()))
       round();
     if (soup().triangles.empty())
       throw Input_error(

@@ -178,7 +178,7 @@ struct Cell_run
 {
   struct Collapse
   {
-    Working_mesh::Side moving;
+    Working_mesh::Collapse collapse;
     double cost;
   };
   std::vector<Collapse> collapses;
@@ -228,10 +228,12 @@ Cell_run run_cell(const Cell_context& whole, const Cell& cell, Shared_stop& stop
   internal::Simplification<Working_mesh::Mesh, Working_mesh> simplification(working.mesh(), options,
                                                                             working.constraints(), working);
   double highest_cost = 0;
-  working.record([&](const Working_mesh::Side& moving) {
-    const Index triangle = cell.triangles[moving.triangle]; // one of the soup: nothing moves at an obstacle
+  working.restrict_new_places([&](const Point_3& place) { return cell.box.contains(place); });
+  working.record([&](Working_mesh::Collapse collapse) {
+    Index& triangle = collapse.moving.triangle;
+    triangle = cell.triangles[triangle]; // one of the soup: nothing moves at an obstacle
     highest_cost = std::max(highest_cost, simplification.cost());
-    run.collapses.push_back({{triangle, moving.place, moving.is_beyond}, simplification.cost()});
+    run.collapses.push_back({std::move(collapse), simplification.cost()});
   });
   if (simplification.run().is_reached())
     run.last_cost = highest_cost;
@@ -274,10 +276,10 @@ Cell_collapses reduce_in_cells(const Cell_context& whole)
   result.is_stopped = stop.is_stopped();
   const double limit = result.is_stopped ? s_infinity : common_cost(runs);
   for (const Cell_run& run : runs)
-    for (const auto& [moving, cost] : run.collapses) {
+    for (const auto& [collapse, cost] : run.collapses) {
       if (cost > limit)
         break;
-      result.collapses.push_back(moving);
+      result.collapses.push_back(collapse);
     }
   return result;
 }

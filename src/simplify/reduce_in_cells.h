@@ -30,18 +30,18 @@ struct Cell_context
 struct Cell_collapses
 {
   std::size_t cells = 0;
-  std::vector<Working_mesh::Side> collapses; ///< cell by cell, those of each cell in their order
-  bool is_stopped = false;                   ///< `should_stop` of the options has returned true
+  std::vector<Working_mesh::Collapse> collapses; ///< cell by cell, those of each cell in their order
+  bool is_stopped = false;                       ///< `should_stop` of the options has returned true
 };
 
 /// Finds collapses that can be done to the whole mesh: cell by cell, or those of different cells in any order
 /// or at once.
 ///
 /// Cells are disjoint open boxes. A vertex may move in a cell only if it and all its neighbours are strictly
-/// inside. So every star and every sweep is strictly inside a convex set, which no star and no sweep of
-/// another cell meets. Everything else that a cell sees stands still in all cells. No cell decides what is
-/// one edge, what is one vertex, what is a line or what is locked: all of this is taken from the whole.
-/// docs/guarantees.md proves that this is enough.
+/// inside, and only to places strictly inside. So every star and every sweep is strictly inside a convex set,
+/// which no star and no sweep of another cell meets. Everything else that a cell sees stands still in all
+/// cells. No cell decides what is one edge, what is one vertex, what is a line or what is locked: all of this
+/// is taken from the whole. docs/guarantees.md proves that this is enough.
 ///
 /// **Guarantees** Unless stopped, the result depends on the input alone, not on the number of threads or
 /// their timing. `should_stop` of the options is asked before every division of a box, before every cell, and

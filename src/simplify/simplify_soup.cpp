@@ -83,6 +83,13 @@ private:
       add_share(name, 1);
     if (!intent.weights.empty())
       m_working.weigh(vertex_weights(soup, intent.weights));
+    if (m_options.placement == Placement::optimal) {
+      if (soup.scene)
+        throw Argument_error(
+            "placement 'optimal' is not possible yet for a mesh that was read from glTF; choose "
+            "'vertices', or convert the mesh to OBJ or PLY first");
+      m_working.allow_new_places(m_prepared.is_float32);
+    }
     if (m_options.uv_weight > 0)
       m_working.measure_uvs(uv_unit(soup, m_prepared.scale));
     m_working.count_refusals(part_kinds(soup));
@@ -115,7 +122,7 @@ private:
     const std::size_t faces_left = total.faces - std::min(total.faces, 2 * found.collapses.size());
     const Simplify_progress progress{total.faces, total.target, faces_left};
     m_is_stopped_in_cells = found.is_stopped;
-    for (const Working_mesh::Side& moving : found.collapses) {
+    for (const auto& [moving, place, is_mover_first] : found.collapses) {
       // Small cells may together go too far, each by its last face.
       if (m_simplification.targets().is_reached())
         break;
@@ -126,7 +133,7 @@ private:
         m_is_stopped_in_cells = true;
         break;
       }
-      m_simplification.collapse(m_working.halfedge(moving));
+      m_simplification.collapse(m_working.halfedge(moving), place, is_mover_first);
       ++m_collapses_in_cells;
     }
     if (m_is_stopped_in_cells)
@@ -143,6 +150,7 @@ private:
     restore_normals(result.soup, m_prepared.normals);
     result.triangles = std::move(left.triangles);
     result.corners = std::move(left.corners);
+    result.placed_vertices = left.placed_vertices;
     result.sewing = m_working.notes();
     result.report = report;
     // When the cells have reached the target, nothing was left for the run to be stopped in.
@@ -216,6 +224,7 @@ Verification verify(const Simplified_soup& result, const Prepared_soup& original
   Verify_options options;
   options.are_shapes_judged = false; // limits take care of shapes, or the user wants none
   options.may_be_rounded = false;    // `prepare` has rounded the original where that was asked for
+  options.triangles_of_original = result.triangles;
   return verify(result.soup, original.soup, original.offending_pairs, options, original.obstacle);
 }
 

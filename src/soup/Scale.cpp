@@ -88,6 +88,11 @@ double Scale::operator()(double length) const
   return std::ldexp(length, -m_exponent);
 }
 
+Point_3 Scale::undone(const Point_3& point) const
+{
+  return {undone(point.x()), undone(point.y()), undone(point.z())};
+}
+
 double Scale::undone(double length) const
 {
   return std::ldexp(length, m_exponent);

@@ -6,11 +6,13 @@
 #include "Sewing.h"
 
 #include <selvedge/Cancellation_scope.h>
+#include <selvedge/rounding.h>
 
 #include <CGAL/Kernel/global_functions.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -18,6 +20,50 @@ namespace selvedge {
 namespace {
 
 constexpr Index s_none = Sewing::none;
+constexpr double s_place_unit = 0x1p-45, s_place_beyond = 0x1p6; // of coordinates of new places
+
+/// The point of a triangle that is nearest to another point.
+struct Nearest_point
+{
+  std::array<double, 3> weights; ///< of the corners
+  double squared_distance;
+};
+
+// Computed in floating point, in the order of the corners given (Ericson: Real-Time Collision Detection,
+// section 5.1.5).
+Nearest_point nearest_point(const std::array<internal::Vector_of_doubles, 3>& corners,
+                            const internal::Vector_of_doubles& p)
+{
+  using internal::difference;
+  using internal::dot;
+  const auto& [a, b, c] = corners;
+  const auto ab = difference(b, a), ac = difference(c, a), ap = difference(p, a), bp = difference(p, b),
+             cp = difference(p, c);
+  const double d1 = dot(ab, ap), d2 = dot(ac, ap), d3 = dot(ab, bp), d4 = dot(ac, bp), d5 = dot(ab, cp),
+               d6 = dot(ac, cp);
+  const double of_c = d1 * d4 - d3 * d2, of_b = d5 * d2 - d1 * d6, of_a = d3 * d6 - d5 * d4;
+  std::array<double, 3> weights{};
+  if (d1 <= 0 && d2 <= 0)
+    weights = {1, 0, 0};
+  else if (d3 >= 0 && d4 <= d3)
+    weights = {0, 1, 0};
+  else if (d6 >= 0 && d5 <= d6)
+    weights = {0, 0, 1};
+  else if (of_c <= 0 && d1 >= 0 && d3 <= 0)
+    weights = {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
+  else if (of_b <= 0 && d2 >= 0 && d6 <= 0)
+    weights = {1 - d2 / (d2 - d6), 0, d2 / (d2 - d6)};
+  else if (of_a <= 0 && d4 >= d3 && d5 >= d6)
+    weights = {0, 1 - (d4 - d3) / (d4 - d3 + d5 - d6), (d4 - d3) / (d4 - d3 + d5 - d6)};
+  else {
+    const double sum = of_a + of_b + of_c;
+    weights = {1 - of_b / sum - of_c / sum, of_b / sum, of_c / sum};
+  }
+  internal::Vector_of_doubles off;
+  for (std::size_t i = 0; i < 3; ++i)
+    off[i] = p[i] - (weights[0] * a[i] + weights[1] * b[i] + weights[2] * c[i]);
+  return {weights, dot(off, off)};
+}
 
 } // namespace
 
@@ -103,7 +149,9 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
 
 Working_mesh::Working_mesh(const Working_mesh& whole, const Border_rule<Mesh>& rule,
                            const std::vector<Index>& faces)
-    : m_soup(whole.m_soup), m_scale(whole.m_scale)
+    : m_soup(whole.m_soup), m_scale(whole.m_scale), m_values(whole.m_values),
+      m_have_places_float32_digits(whole.m_have_places_float32_digits),
+      m_is_scale_lossless(whole.m_is_scale_lossless)
 {
   const Mesh& mesh = whole.m_mesh;
   std::vector<Mesh::Halfedge_index> originals; // by side
@@ -263,13 +311,14 @@ Working_mesh::Mesh::Halfedge_index Working_mesh::halfedge(const Side& side) cons
 
 void Working_mesh::before_collapse(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule)
 {
+  const auto [to_mover, to_goal] =
+      halfedges_to_ends(moving, m_mesh.is_border(moving) ? m_mesh.opposite(moving) : moving);
+  const Index removed = vertex_of(corner_at(to_mover)), kept = vertex_of(corner_at(to_goal));
   if (m_recorder)
-    m_recorder(side(moving));
-  if (m_listener) {
-    const auto [from, to] =
-        halfedges_to_ends(moving, m_mesh.is_border(moving) ? m_mesh.opposite(moving) : moving);
-    m_listener(vertex_of(corner_at(from)), vertex_of(corner_at(to)));
-  }
+    m_recorder({side(moving), std::nullopt});
+  if (m_listener)
+    m_listener({removed, kept, std::nullopt});
+  m_placed.erase(removed); // no corner has its number any more
   for_each_moved_wedge(moving, [&](Index from, Index to) {
     Wedge& merged = m_wedges[to];
     merged.quadric += m_wedges[from].quadric;
@@ -280,6 +329,116 @@ void Working_mesh::before_collapse(Mesh::Halfedge_index moving, const Border_rul
     if (!m_wedges.empty())
       wedge_at(h) = wedge_at(from);
   });
+  carry_places(moving);
+}
+
+void Working_mesh::before_placement(Mesh::Halfedge_index moving, const Point_3& place, bool is_mover_first)
+{
+  const Mesh::Halfedge_index to_mover = m_mesh.prev(moving), to_goal = moving;
+  const Corner corner = corner_at(to_goal);
+  const Index removed = vertex_of(corner_at(to_mover)), kept = vertex_of(corner);
+  const Point_3 point = m_scale.undone(place);
+  if (m_recorder)
+    m_recorder({side(moving), place, is_mover_first});
+  if (m_listener)
+    m_listener({removed, kept, std::array{point.x(), point.y(), point.z()}, is_mover_first});
+  std::vector<double> values = values_at(moving, place);
+  for_each_moved_wedge(moving, [&](Index from, Index to) {
+    Wedge& merged = m_wedges[to];
+    merged.quadric += m_wedges[from].quadric;
+    merged.uv = relative(m_values->uv(values));
+    merged.own_cost = merged.quadric(relative(place), merged.uv);
+  });
+  for (const Mesh::Halfedge_index h : m_mesh.halfedges_around_target(to_mover)) {
+    m_corners[m_mesh.face(h)][m_places[h]] = corner;
+    if (!m_wedges.empty())
+      wedge_at(h) = wedge_at(to_goal);
+  }
+  m_placed.erase(removed);
+  m_placed[kept] = {point, std::move(values)};
+  carry_places(moving);
+}
+
+void Working_mesh::allow_new_places(bool is_float32)
+{
+  m_values = std::make_shared<Vertex_values>(m_soup);
+  m_have_places_float32_digits = is_float32 || has_float32_digits(m_soup);
+  // Whether every coordinate that `rounded_place` may choose is a number of its type after all. A multiple of
+  // the unit with as many digits as the type has is one also below the normal numbers.
+  const double unit = m_scale.undone(s_place_unit), beyond = m_scale.undone(s_place_beyond);
+  using Doubles = std::numeric_limits<double>;
+  using Floats = std::numeric_limits<float>;
+  m_is_scale_lossless = is_float32 ? unit >= Floats::denorm_min() && beyond <= Floats::max()
+                                   : unit >= Doubles::denorm_min() && beyond <= Doubles::max();
+}
+
+// At the scale, the largest coordinate of the mesh is about 1. Coordinates of places are multiples of a small
+// unit, so that a mesh and its multiple have the same places even where digits are lost near 0.
+internal::Optional<Point_3> Working_mesh::rounded_place(Mesh::Halfedge_index /*edge*/,
+                                                        const Point_3& place) const
+{
+  if (!m_values || !m_is_scale_lossless)
+    return {};
+  std::array<double, 3> rounded;
+  for (int i = 0; i < 3; ++i) {
+    if (!(std::abs(place[i]) < s_place_beyond))
+      return {};
+    constexpr double digits = 1.5 * 0x1p52 * s_place_unit; // a sum with it has no digits below the unit
+    const double sum = place[i] + digits;
+    rounded[i] = sum - digits;
+    if (m_have_places_float32_digits)
+      rounded[i] = nearest_float32(rounded[i]); // has as many digits after multiplication by the scale
+  }
+  const Point_3 result(rounded[0], rounded[1], rounded[2]);
+  if (m_is_place_allowed && !m_is_place_allowed(result))
+    return {};
+  return result;
+}
+
+void Working_mesh::add_values(Corner corner, double weight, std::vector<double>& sum) const
+{
+  const auto placed = m_placed.find(vertex_of(corner));
+  if (placed == m_placed.end())
+    return m_values->add(corner, weight, sum);
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    sum[i] += weight * placed->second.values[i];
+}
+
+// Returns the values that the faces around both ends of an edge have at the point nearest to a place. The
+// result does not depend on the order of halfedges around a vertex, so that it is the same in a cell and in
+// the whole.
+std::vector<double> Working_mesh::values_at(Mesh::Halfedge_index moving, const Point_3& place) const
+{
+  std::vector<double> values(m_values->size());
+  if (values.empty())
+    return values;
+  const auto vector = [](const Point_3& p) { return internal::Vector_of_doubles{p.x(), p.y(), p.z()}; };
+  std::optional<Nearest_point> nearest;
+  Mesh::Face_index face;
+  for (const Mesh::Halfedge_index end : {moving, m_mesh.opposite(moving)})
+    for (const Mesh::Halfedge_index h : m_mesh.halfedges_around_target(end)) {
+      std::array<internal::Vector_of_doubles, 3> corners;
+      for (const Mesh::Halfedge_index g : {h, m_mesh.next(h), m_mesh.prev(h)})
+        corners[m_places[g]] = vector(m_mesh.point(m_mesh.target(g)));
+      const Nearest_point here = nearest_point(corners, vector(place));
+      if (!nearest || std::make_pair(here.squared_distance, m_mesh.face(h)) <
+                          std::make_pair(nearest->squared_distance, face)) {
+        nearest = here;
+        face = m_mesh.face(h);
+      }
+    }
+  for (std::size_t k = 0; k < 3; ++k)
+    if (nearest->weights[k] != 0)
+      add_values(m_corners[face][k], nearest->weights[k], values);
+  std::vector<double> of_goal(values.size());
+  add_values(corner_at(moving), 1, of_goal);
+  m_values->finish(values, of_goal);
+  return values;
+}
+
+// Called before a collapse, for what it does to the edges of contracted faces.
+void Working_mesh::carry_places(Mesh::Halfedge_index moving)
+{
   // Each contracted face takes the edge before h with it. The edge after h takes the place of that edge in
   // the face beyond it.
   for (const Mesh::Halfedge_index h : {moving, m_mesh.opposite(moving)})
@@ -348,24 +507,57 @@ bool Working_mesh::keeps_pieces(Mesh::Halfedge_index moving, const Border_rule<M
   return true;
 }
 
+Working_mesh::Uv Working_mesh::uv_at(Corner corner) const
+{
+  if (!m_placed.empty())
+    if (const auto placed = m_placed.find(vertex_of(corner)); placed != m_placed.end())
+      return m_values->uv(placed->second.values);
+  return uv_of(corner);
+}
+
+// Returns the orientation that a face would have in the texture with other coordinates at one corner.
+CGAL::Orientation Working_mesh::uv_orientation(Mesh::Face_index face, unsigned char place, const Uv& uv) const
+{
+  std::array<Kernel::Point_2, 3> points;
+  for (unsigned char k = 0; k < 3; ++k) {
+    const Uv here = k == place ? uv : uv_at(m_corners[face][k]);
+    points[k] = {here[0], here[1]};
+  }
+  return CGAL::orientation(points[0], points[1], points[2]);
+}
+
 bool Working_mesh::keeps_uv_orientation(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule) const
 {
   if (m_soup.uvs.empty())
     return true;
-  const auto orientation = [this](const Index_triple& corners) {
-    const auto point = [&](std::size_t k) {
-      return Kernel::Point_2(uv_of(corners[k])[0], uv_of(corners[k])[1]);
-    };
-    return CGAL::orientation(point(0), point(1), point(2));
-  };
   bool is_kept = true;
   for_each_changed_face(moving, rule, [&](Mesh::Halfedge_index h, Mesh::Halfedge_index from) {
-    Index_triple corners = m_corners[m_mesh.face(h)];
-    const CGAL::Orientation before = orientation(corners);
-    corners[m_places[h]] = corner_at(from);
-    is_kept = is_kept && (before == CGAL::COLLINEAR || orientation(corners) == before);
+    is_kept = is_kept && keeps_uv_orientation_of(h, uv_at(corner_at(from)));
   });
   return is_kept;
+}
+
+bool Working_mesh::keeps_uv_orientation_at(Mesh::Halfedge_index moving, const Point_3& place) const
+{
+  if (m_soup.uvs.empty())
+    return true;
+  const Uv uv = m_values->uv(values_at(moving, place));
+  const Mesh::Halfedge_index back = m_mesh.opposite(moving);
+  for (const Mesh::Halfedge_index end : {moving, back})
+    for (const Mesh::Halfedge_index h : m_mesh.halfedges_around_target(end))
+      if (m_mesh.face(h) != m_mesh.face(moving) && m_mesh.face(h) != m_mesh.face(back) &&
+          !keeps_uv_orientation_of(h, uv))
+        return false;
+  return true;
+}
+
+// Whether a face keeps its orientation in the texture when its corner at the target of h gets other
+// coordinates.
+bool Working_mesh::keeps_uv_orientation_of(Mesh::Halfedge_index h, const Uv& uv) const
+{
+  const Mesh::Face_index face = m_mesh.face(h);
+  const CGAL::Orientation before = uv_orientation(face, m_places[h], uv_at(corner_at(h)));
+  return before == CGAL::COLLINEAR || uv_orientation(face, m_places[h], uv) == before;
 }
 
 Uv_quadric::Vector Working_mesh::relative(const Point_3& point) const
@@ -477,6 +669,17 @@ double Working_mesh::uv_cost(Mesh::Halfedge_index moving) const
   return std::max(0.0, cost); // rounding may leave a sum slightly below zero
 }
 
+double Working_mesh::uv_cost_at(Mesh::Halfedge_index edge, const Point_3& place) const
+{
+  double cost = 0;
+  for_each_moved_wedge(edge, [&](Index from, Index to) {
+    Uv_quadric sum = m_wedges[from].quadric;
+    sum += m_wedges[to].quadric;
+    cost += sum.least(relative(place)) - m_wedges[from].own_cost - m_wedges[to].own_cost;
+  });
+  return std::max(0.0, cost);
+}
+
 Working_mesh::Result Working_mesh::result() const
 {
   Result result;
@@ -488,6 +691,18 @@ Working_mesh::Result Working_mesh::result() const
   }
   Cancellation_scope::check();
   result.soup = selected(m_soup, result.triangles, result.corners);
+  if (m_placed.empty())
+    return result;
+  Vertex_values::Of_vertices values(result.soup.points.size(), nullptr);
+  for (std::size_t t = 0; t < result.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const auto placed = m_placed.find(vertex_of(result.corners[t][k])); placed != m_placed.end()) {
+        const Index vertex = result.soup.triangles[t][k];
+        result.placed_vertices += !values[vertex];
+        result.soup.points[vertex] = placed->second.point;
+        values[vertex] = &placed->second.values;
+      }
+  m_values->put(values, result.soup);
   return result;
 }
 

@@ -4,9 +4,11 @@
 #ifndef SELVEDGE_SOUP_WORKING_MESH_H
 #define SELVEDGE_SOUP_WORKING_MESH_H
 
+#include "Vertex_values.h"
 #include "selection.h"
 #include <selvedge/Parts.h>
 #include <selvedge/Sewing_notes.h>
+#include <selvedge/Simplify_options.h>
 #include <selvedge/Surface_mesh_simplification/Border_rule.h>
 #include <selvedge/Surface_mesh_simplification/No_observer.h>
 #include <selvedge/Surface_mesh_simplification/Simplify_constraints.h>
@@ -18,6 +20,9 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
+#include <optional>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -36,6 +41,11 @@ class Sewing;
 /// Every face knows for each of its corners which corner of the soup this now is. A collapse gives a moved
 /// corner the corner at the vertex with which it merges, taken from the contracted face on the same side of
 /// the lines. So every attribute of the result is one that the input has at that position and on that side.
+///
+/// Where a collapse puts the merged vertex to a new place (`Placement::optimal`), the vertex has the number
+/// and the corners of the end that was nearer, and its own values: those that the surface around both ends
+/// has at the point nearest to this place, by barycentric coordinates (`Vertex_values` says of what). Only
+/// vertices on no line are placed so; all their corners have the same values.
 ///
 /// An obstacle may lie beside the soup: triangles that are in the mesh, do not change, and are not in the
 /// result. Nothing of the soup is sewn to it. Where the soup lies along an obstacle, it has the same border
@@ -98,9 +108,18 @@ public:
   const std::vector<std::vector<Refusals>>& refused_by_part() const { return m_refused; }
 
   /// Sets a function that is called before each collapse, as `Simplify_options::on_collapse` is.
-  void on_collapse(std::function<void(std::size_t removed, std::size_t kept)> listener)
+  void on_collapse(std::function<void(const Soup_collapse&)> listener) { m_listener = std::move(listener); }
+
+  /// Makes `rounded_place` return places from now on; before, it returns none. Multiplied by the scale, the
+  /// coordinates of a place are doubles without loss, and 32-bit floats when `is_float32`. They have no more
+  /// digits than such floats also where all coordinates of the soup have no more. Where the scale does not
+  /// allow that, because the mesh is too large or too small for the type of number, there are no new places.
+  void allow_new_places(bool is_float32);
+
+  /// Restricts these places to those for which `is_allowed` returns true.
+  void restrict_new_places(std::function<bool(const Point_3&)> is_allowed)
   {
-    m_listener = std::move(listener);
+    m_is_place_allowed = std::move(is_allowed);
   }
 
   /// Identifies a halfedge such that it is found again in another mesh of the same triangles, when the same
@@ -117,15 +136,27 @@ public:
   /// face is gone.
   Mesh::Halfedge_index halfedge(const Side& side) const;
 
-  /// Sets a function that is called before each collapse with the side of the halfedge that moves.
-  void record(std::function<void(const Side& moving)> recorder) { m_recorder = std::move(recorder); }
+  /// A collapse such that it can be repeated in another mesh of the same triangles.
+  struct Collapse
+  {
+    Side moving;
+    std::optional<Point_3> place; ///< where both ends go, if that is not an end
+    bool is_mover_first = false;
+  };
+
+  /// Sets a function that is called before each collapse.
+  void record(std::function<void(const Collapse&)> recorder) { m_recorder = std::move(recorder); }
 
   // Called by the reduction, whose observer this is.
   void before_collapse(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule);
+  void before_placement(Mesh::Halfedge_index moving, const Point_3& place, bool is_mover_first);
+  internal::Optional<Point_3> rounded_place(Mesh::Halfedge_index edge, const Point_3& place) const;
   void on_refused(Mesh::Halfedge_index moving, const Refusals& refusals);
   bool keeps_pieces(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule) const;
   bool keeps_uv_orientation(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule) const;
+  bool keeps_uv_orientation_at(Mesh::Halfedge_index moving, const Point_3& place) const;
   double uv_cost(Mesh::Halfedge_index moving) const;
+  double uv_cost_at(Mesh::Halfedge_index edge, const Point_3& place) const;
 
   /// What is left of the soup.
   struct Result
@@ -133,6 +164,7 @@ public:
     Triangle_soup soup;
     std::vector<Index> triangles;      ///< of the input, in its order
     std::vector<Index_triple> corners; ///< of the input, now of each triangle: 3 × triangle + place in it
+    std::size_t placed_vertices = 0;   ///< vertices of `soup` at new places, with values of their own
   };
   Result result() const;
 
@@ -145,6 +177,9 @@ private:
   {
     return m_soup.uvs.values[m_soup.uvs.of_triangle[corner / 3][corner % 3]];
   }
+  Uv uv_at(Corner corner) const; // as it is now
+  CGAL::Orientation uv_orientation(Mesh::Face_index face, unsigned char place, const Uv& uv) const;
+  bool keeps_uv_orientation_of(Mesh::Halfedge_index h, const Uv& uv) const;
   bool is_own(Mesh::Face_index face) const { return std::size_t(face) < m_corners.size(); }
   bool is_line(Corner a, Corner b) const;
 
@@ -166,6 +201,9 @@ private:
   template <class Function>
   void for_each_changed_face(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule,
                              const Function& function) const;
+  void carry_places(Mesh::Halfedge_index moving);
+  std::vector<double> values_at(Mesh::Halfedge_index moving, const Point_3& place) const;
+  void add_values(Corner corner, double weight, std::vector<double>& sum) const;
   template <class Function>
   void for_each_moved_wedge(Mesh::Halfedge_index moving, const Function& function) const;
 
@@ -182,8 +220,19 @@ private:
   std::vector<unsigned char> m_places; // by halfedge that is no border: the place of its target in its face
   Simplify_constraints<Mesh> m_constraints;
   Sewing_notes m_notes;
-  std::function<void(std::size_t removed, std::size_t kept)> m_listener;
-  std::function<void(const Side&)> m_recorder;
+  std::function<void(const Soup_collapse&)> m_listener;
+  std::function<void(const Collapse&)> m_recorder;
+
+  // A vertex at a new place: where it is in the soup's unit, and its values there.
+  struct Placed_vertex
+  {
+    Point_3 point;
+    std::vector<double> values;
+  };
+  std::shared_ptr<const Vertex_values> m_values; // null until new places are allowed
+  bool m_have_places_float32_digits = false, m_is_scale_lossless = false;
+  std::function<bool(const Point_3&)> m_is_place_allowed;
+  std::unordered_map<Index, Placed_vertex> m_placed; // by the number that the vertex has in the soup
 
   // The corners at a vertex between two lines, which share their attributes.
   struct Wedge

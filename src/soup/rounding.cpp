@@ -4,11 +4,10 @@
 #include <selvedge/Error.h>
 #include <selvedge/rounding.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace selvedge {
-namespace {
-
 double nearest_float32(double value)
 {
   // The float goes through memory, because GCC 12 removes a conversion to float and straight back.
@@ -16,11 +15,27 @@ double nearest_float32(double value)
   return nearest;
 }
 
-} // namespace
-
 bool is_float32(double value)
 {
   return nearest_float32(value) == value;
+}
+
+bool has_float32_points(const Triangle_soup& soup)
+{
+  return std::all_of(soup.points.begin(), soup.points.end(), [](const Point_3& point) {
+    return is_float32(point.x()) && is_float32(point.y()) && is_float32(point.z());
+  });
+}
+
+bool has_float32_digits(const Triangle_soup& soup)
+{
+  const auto has_few = [](double value) {
+    int exponent;
+    return is_float32(std::frexp(value, &exponent));
+  };
+  return std::all_of(soup.points.begin(), soup.points.end(), [&](const Point_3& point) {
+    return has_few(point.x()) && has_few(point.y()) && has_few(point.z());
+  });
 }
 
 Rounding_notes round_to_float32(Triangle_soup& soup)

@@ -4,47 +4,24 @@
 #include "vertex_weights.h"
 
 #include "selection.h"
+#include "with_number.h"
 
 #include <selvedge/Error.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <cstring>
 
 namespace selvedge {
 namespace {
 
-template <class Number>
-double number_at(const unsigned char* bytes)
-{
-  Number number;
-  std::memcpy(&number, bytes, sizeof number);
-  return double(number);
-}
-
 double first_component(const Attribute& attribute, std::size_t row)
 {
-  const unsigned char* const bytes = attribute.rows.data() + row * row_size(attribute);
-  switch (attribute.type) {
-  case Attribute::Type::int8:
-    return number_at<std::int8_t>(bytes);
-  case Attribute::Type::uint8:
-    return number_at<std::uint8_t>(bytes);
-  case Attribute::Type::int16:
-    return number_at<std::int16_t>(bytes);
-  case Attribute::Type::uint16:
-    return number_at<std::uint16_t>(bytes);
-  case Attribute::Type::int32:
-    return number_at<std::int32_t>(bytes);
-  case Attribute::Type::uint32:
-    return number_at<std::uint32_t>(bytes);
-  case Attribute::Type::float32:
-    return number_at<float>(bytes);
-  default:
-    return number_at<double>(bytes);
-  }
+  return with_number(attribute.type, [&](auto number) {
+    std::memcpy(&number, attribute.rows.data() + row * row_size(attribute), sizeof number);
+    return double(number);
+  });
 }
 
 } // namespace

@@ -71,6 +71,7 @@ public:
   {
     match_by_vertices();
     Cancellation_scope::check();
+    match_by_triangles();
     match_joined(false);
     Cancellation_scope::check();
     match_by_distance();
@@ -176,6 +177,28 @@ private:
     for (const auto& [r, o] :
          one_to_one(std::move(possible), m_result.pieces().size(), m_original.pieces().size()))
       match({o}, {r}, Matched_by::vertices);
+  }
+
+  // What the caller says is checked as far as pieces go: one piece comes from one piece, and has its kind.
+  void match_by_triangles()
+  {
+    const std::vector<Index>& origins = m_options.triangles_of_original;
+    if (origins.size() != m_result.soup.triangles.size())
+      return;
+    std::set<Pair> pairs;
+    for (Index t = 0; t < origins.size(); ++t)
+      if (m_result.piece(t) != no_piece)
+        pairs.emplace(m_result.piece(t), m_original.piece(origins[t]));
+    std::vector<Index> origins_of(m_result.pieces().size()), results_of(m_original.pieces().size());
+    for (const auto& [r, o] : pairs) {
+      ++origins_of[r];
+      if (o != no_piece)
+        ++results_of[o];
+    }
+    for (const auto& [r, o] : pairs)
+      if (o != no_piece && origins_of[r] == 1 && results_of[o] == 1 && is_left_of_result(r) &&
+          is_left_of_original(o) && kind(m_result.pieces()[r]) == kind(m_original.pieces()[o]))
+        match({o}, {r}, Matched_by::triangles);
   }
 
   // ---- 2 and 4: joined where positions coincide

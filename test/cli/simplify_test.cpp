@@ -8,6 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cstddef>
 #include <set>
 
 namespace selvedge::test {
@@ -37,6 +39,36 @@ TEST(App_simplify, ReducesVerifiesAndSaysSo)
   EXPECT_LE(after.triangles.size(), before.triangles.size() * 6 / 10 + 1);
   EXPECT_TRUE(verify(after, before).accepted());
   EXPECT_EQ(folder.files(), 2u);
+}
+
+TEST(App_simplify, PutsVerticesToNewPlacesWhenAsked)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("nested", "in.obj", 3000);
+  const auto simplify = [&](const std::string& input, const std::string& output) {
+    return std::vector<std::string>{"simplify", input,         "-o",      output,  "--ratio",
+                                    "0.3",      "--placement", "optimal", "--log", folder / "steps.log"};
+  };
+  std::vector<std::string> options = simplify(in, folder / "out.obj");
+  options.insert(options.end(), {"--report", folder / "report.json"});
+  const App_result result = run_app(options);
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("at new places with interpolated attributes\n"), std::string::npos) << result.out;
+  const nlohmann::json report = nlohmann::json::parse(contents_of(folder / "report.json"));
+  EXPECT_EQ(report["options"]["placement"], "optimal");
+  const Triangle_soup before = read_mesh(in).soup, after = read_mesh(folder / "out.obj").soup;
+  const std::set<Position> known = positions(before);
+  const auto placed = std::count_if(after.points.begin(), after.points.end(), [&](const Point_3& p) {
+    return known.count({p.x(), p.y(), p.z()}) == 0;
+  });
+  EXPECT_GT(placed, 100);
+  EXPECT_EQ(report["vertices"]["placed"], placed);
+  EXPECT_EQ(report["vertices"]["kept"], std::ptrdiff_t(after.points.size()) - placed);
+  EXPECT_TRUE(verify(after, before).accepted());
+  EXPECT_EQ(run_app({"replay", in, folder / "steps.log"}).code, 0);
+
+  ASSERT_EQ(run_app({"simplify", in, "-o", folder / "in.glb", "--ratio", "1"}).code, 0);
+  expect_refused(simplify(folder / "in.glb", folder / "out.glb"), 2, "placement");
 }
 
 // Two squares of eight triangles side by side, with a gap of 0.001.

@@ -119,9 +119,9 @@ TEST(Cells, WouldNotBeLegalIfTheyWereNotConvex)
   const Triangle_soup layer = bare(sheets(2000, 1, 1e-5));
   const Triangle_soup both =
       joined(layer, mapped(layer, [](const Point_3& p) { return Point_3(p.x(), p.y(), p.z() + 1e-5); }));
-  std::vector<std::pair<std::size_t, std::size_t>> collapses;
+  std::vector<Soup_collapse> collapses;
   Simplify_options options = to_ratio(0.2);
-  options.on_collapse = [&](std::size_t removed, std::size_t kept) { collapses.emplace_back(removed, kept); };
+  options.on_collapse = [&](const Soup_collapse& collapse) { collapses.push_back(collapse); };
   ASSERT_TRUE(prepare(both).offending_pairs.empty());
   simplify_soup(prepare(layer), options);
 
@@ -131,10 +131,10 @@ TEST(Cells, WouldNotBeLegalIfTheyWereNotConvex)
   header.triangles = both.triangles.size();
   std::ostringstream log;
   Log_writer writer(log, header);
-  for (const auto& [removed, kept] : collapses) {
+  for (const Soup_collapse& collapse : collapses) {
     Log_step step;
-    step.removed = Index(removed);
-    step.kept = Index(kept);
+    step.removed = Index(collapse.removed);
+    step.kept = Index(collapse.kept);
     writer.write(step);
   }
   Log_result result;
@@ -315,7 +315,7 @@ TEST(Cells, AskWhetherToStopWhileTheirCollapsesAreDoneToTheWhole)
   const Prepared_soup prepared = prepare(sheet(100, 100));
   Simplify_options options = in_cells(to_ratio(0.1), 4000);
   std::size_t since_asked = 0, most = 0, asked = 0;
-  options.on_collapse = [&](std::size_t, std::size_t) { most = std::max(most, ++since_asked); };
+  options.on_collapse = [&](const Soup_collapse&) { most = std::max(most, ++since_asked); };
   options.should_stop = [&](const Simplify_progress& progress) {
     EXPECT_LE(progress.faces, progress.faces_input);
     since_asked = 0;

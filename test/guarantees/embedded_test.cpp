@@ -92,7 +92,7 @@ TEST(Simplify_mesh, RefusesOptionsForSoupsAndWeightsOfAnotherNumber)
     EXPECT_EQ(mesh.number_of_faces(), original.number_of_faces());
   };
   expect_refused([](auto& options, auto&) { options.faces_per_cell = 100; });
-  expect_refused([](auto& options, auto&) { options.on_collapse = [](std::size_t, std::size_t) {}; });
+  expect_refused([](auto& options, auto&) { options.on_collapse = [](const Soup_collapse&) {}; });
   expect_refused([](auto&, auto& constraints) { constraints.vertex_weights = {1, 1}; });
   expect_refused([&](auto&, auto& constraints) {
     constraints.vertex_weights.assign(original.number_of_vertices(), -1);

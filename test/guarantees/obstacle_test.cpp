@@ -184,7 +184,7 @@ TEST(Obstacle, BordersAlongItAreBorders)
   header.triangles = own.triangles.size();
   std::ostringstream stream;
   Reduction_log log(stream, header, numbering, prepared, options);
-  options.on_collapse = [&](std::size_t removed, std::size_t kept) { log.add_collapse(removed, kept); };
+  options.on_collapse = [&](const Soup_collapse& collapse) { log.add_collapse(collapse); };
   const Simplified_soup result = simplify_soup(prepared, options);
   log.finish(result);
   EXPECT_GT(result.report.collapses, 20u);

@@ -118,8 +118,8 @@ group(
     ("if (is_coincident(motion.mover) || !m_star.gather(motion)", "if (!m_star.gather(motion)", "coincident vertices move"),
     ("return !face_at_place;", "return true;", "a place where another vertex is"),
     ("if (verdict == Star_verdict::refused) {", "if (false) {", "what the star says is not heard"),
-    ("return !is_coincident(v0) && !is_coincident(v1) &&", "return !is_coincident(v0) &&",
-     "a coincident vertex moves to a new place"),
+    ("return !m_is_mover_first || are_both_clear(collapse.mover(), collapse.goal());", "return true;",
+     "a place that is clear in no order is taken"),
 )
 group(
     loop + "Moving_star.h",
@@ -155,8 +155,22 @@ group(
 group(
     loop + "Collapse.h",
     ("guard_test", "policies_test", "motion_test"),
-    ("place != profile.p0(), place != profile.p1())", "place != profile.p0(), place == profile.p0())", "the second motion to a new place is not judged"),
-    ("!is_onto_v0, is_onto_v0)", "is_onto_v0, !is_onto_v0)", "the wrong end moves"),
+    ("place != profile.p0(), place != profile.p1(),", "place != profile.p0(), place == profile.p0(),", "the second motion to a new place is not judged"),
+    ("!is_onto_v0, is_onto_v0, is_onto_v0)", "is_onto_v0, !is_onto_v0, is_onto_v0)", "the wrong end moves"),
+)
+
+group(
+    headers + "Surface_mesh_simplification/Border_rule.h",
+    ("placement_test",),
+    ("|| is_cut_off(profile.v0_v1()))", ")", "a face whose edges are all lines vanishes"),
+)
+group(
+    "src/soup/Working_mesh.cpp",
+    ("placement_test", "worlds_test"),
+    ("rounded[i] = nearest_float32(rounded[i]);", ";", "places are no 32-bit floats"),
+    ("if (m_is_place_allowed && !m_is_place_allowed(result))", "if (false)", "places leave their cell"),
+    ("before == CGAL::COLLINEAR || uv_orientation(face, m_places[h], uv) == before;", "true;",
+     "triangles of the texture turn over"),
 )
 
 group(
@@ -192,10 +206,10 @@ group(
     ("v) != m_neighbours.end() &&\n          !(of_edge.left_face_exists()", "v) != m_neighbours.end() && false &&\n          !(of_edge.left_face_exists()",
      "no link condition"),
     ("return !is_two_faces && !CGAL::is_tetrahedron(of_edge.v0_v1(), m_mesh);", "return !is_two_faces;", "tetrahedra vanish"),
-    ("if (record.state == State::first) {", "if (false) {", "no second placement"),
+    ("      ++record.rank;\n", "      record.rank = 3;\n", "no second placement"),
     ("m_waiting.release_around(of_edge.v0());", "", "edges wait for ever"),
     ("put(m_has_stale_edges, of_edge.v0(), true);", "", "stale edges are not found"),
-    ("m_queue.erase(edge_id);\n    m_records[edge_id].state = State::gone;", "m_records[edge_id].state = State::gone;",
+    ("m_queue.erase(edge_id);\n    m_records[edge_id].rank = s_gone;", "m_records[edge_id].rank = s_gone;",
      "edges that are gone stay in the queue"),
 )
 group(
@@ -308,6 +322,7 @@ group(
     "src/replay/Complex.cpp",
     ("replay_test", "replay_all_test"),
     ("carry_seams(contracted, removed, kept);", "", "seams do not follow"),
-    ("carry_passed(edges_at(removed), removed, kept);", "", "what was passed is forgotten"),
+    ("carry_passed(removed, kept, before);\n", "\n", "what was passed is forgotten"),
+    ("if (is_along_line && before[1] != m_points[kept])", "if (false)", "what KEPT has passed is forgotten"),
     ("carry_corners(contracted, moving, removed, kept);", "", "corners do not follow"),
 )

@@ -35,7 +35,7 @@ inline Logged_reduction reduce_and_log(const Triangle_soup& soup, Simplify_optio
   const Prepared_soup prepared = prepare(soup, prepare_options, obstacle);
   std::ostringstream stream;
   Reduction_log log(stream, header, numbering, prepared, options);
-  options.on_collapse = [&](std::size_t removed, std::size_t kept) { log.add_collapse(removed, kept); };
+  options.on_collapse = [&](const Soup_collapse& collapse) { log.add_collapse(collapse); };
   result.simplified = simplify_soup(prepared, options);
   log.finish(result.simplified);
   result.log = stream.str();

@@ -75,6 +75,11 @@ bool do_overlap(const Box& a, const Box& b)
          a.low[2] <= b.high[2] && b.low[2] <= a.high[2];
 }
 
+std::array<double, 3> coordinates_of(const Point_3& p)
+{
+  return {p.x(), p.y(), p.z()};
+}
+
 template <class Box>
 void add(Box& box, const Point_3& p)
 {
@@ -249,12 +254,12 @@ std::optional<Broken_promise> Judged_complex::judge_line(Index removed, Index ke
   return std::nullopt;
 }
 
-std::optional<Broken_promise> Judged_complex::judge_motion(Index moved, Index kept) const
+std::optional<Broken_promise> Judged_complex::judge_motion(Index moved, const Place& t) const
 {
-  const Place m = place(moved), t = place(kept);
+  const Place m = place(moved);
   std::vector<Index> moving;
   for (const Index f : m_faces_at[moved])
-    if (!has(f, kept))
+    if (!has(f, t.position))
       moving.push_back(f);
   for (const Index f : moving) {
     const auto [a, b] = others(f, moved);
@@ -271,7 +276,9 @@ std::optional<Broken_promise> Judged_complex::judge_motion(Index moved, Index ke
   }
   for (std::size_t i = 0; i < moving.size(); ++i) {
     const auto [a, b] = others(moving[i], moved);
-    const Box end_box = box_of({kept, a, b});
+    Box end_box{coordinates_of(t.at), coordinates_of(t.at)};
+    add(end_box, m_points[a]);
+    add(end_box, m_points[b]);
     for (Index f = 0; f < m_faces.size(); ++f)
       if (m_faces[f].is_alive && do_overlap(end_box, m_faces[f].box) && !has(f, moved) &&
           ends[i].meets_beyond_shared(places(f)))
@@ -320,7 +327,7 @@ std::optional<Broken_promise> Judged_complex::snap(Index moved, Index kept)
       if (edge.neighbour == other.neighbour &&
           (edge.outgoing + other.outgoing != 1 || edge.incoming + other.incoming != 1))
         return Broken_promise{Promise::seams, "a snap makes one edge of what is not two borders"};
-  if (auto broken = judge_motion(moved, kept))
+  if (auto broken = judge_motion(moved, place(kept)))
     return broken;
   move(moved, kept);
   for (Index& position : m_position_of_vertex)
@@ -336,16 +343,61 @@ std::optional<Broken_promise> Judged_complex::collapse(Index removed, Index kept
     return Broken_promise{Promise::topology, "no edge joins the two"};
   if (m_is_frozen[removed])
     return Broken_promise{Promise::frozen, "what moves is locked, kept, frozen, or of an obstacle"};
-  for (const auto judge :
-       {&Judged_complex::judge_link, &Judged_complex::judge_line, &Judged_complex::judge_motion})
-    if (auto broken = (this->*judge)(removed, kept))
-      return broken;
+  if (auto broken = judge_link(removed, kept))
+    return broken;
+  if (auto broken = judge_line(removed, kept))
+    return broken;
+  if (auto broken = judge_motion(removed, place(kept)))
+    return broken;
+  merge(removed, kept);
+  return std::nullopt;
+}
+
+std::optional<Broken_promise> Judged_complex::collapse(Index removed, Index kept, const Point_3& at,
+                                                       bool is_removed_first)
+{
+  const auto& faces = m_faces_at[removed];
+  if (removed == kept || std::none_of(faces.begin(), faces.end(), [&](Index f) { return has(f, kept); }))
+    return Broken_promise{Promise::topology, "no edge joins the two"};
+  if (at == m_points[removed] || at == m_points[kept])
+    return Broken_promise{Promise::motion, "the new place is that of one of the two"};
+  for (const Index moved : {removed, kept}) {
+    if (m_is_frozen[moved])
+      return Broken_promise{Promise::frozen,
+                            "what goes to a new place is locked, kept, frozen, or of an obstacle"};
+    if (!is_one_fan(moved))
+      return Broken_promise{Promise::topology, "what goes to a new place holds several sheets together"};
+    for (const Edge& edge : edges_at(moved))
+      if (edge.is_border() || is_seam(moved, edge.neighbour))
+        return Broken_promise{Promise::seams, "what goes to a new place is on a line"};
+  }
+  if (auto broken = judge_link(removed, kept))
+    return broken;
+  const Index first = is_removed_first ? removed : kept, second = is_removed_first ? kept : removed;
+  if (auto broken = judge_motion(first, {Index(-1), at}))
+    return broken;
+  place_at(first, at);
+  if (auto broken = judge_motion(second, place(first)))
+    return broken;
+  place_at(second, at);
+  merge(removed, kept);
+  return std::nullopt;
+}
+
+void Judged_complex::place_at(Index position, const Point_3& at)
+{
+  m_points[position] = at;
+  for (const Index f : m_faces_at[position])
+    m_faces[f].box = box_of(m_faces[f].positions);
+}
+
+void Judged_complex::merge(Index removed, Index kept)
+{
   for (const Edge& edge : edges_at(removed)) {
     if (m_seams.erase(std::minmax(removed, edge.neighbour)) > 0 && edge.neighbour != kept)
       m_seams.insert(std::minmax(kept, edge.neighbour));
   }
   move(removed, kept);
-  return std::nullopt;
 }
 
 void Judged_complex::move(Index moved, Index kept)

@@ -48,6 +48,9 @@ public:
   std::optional<Broken_promise> snap(Index moved, Index kept);
   std::optional<Broken_promise> collapse(Index removed, Index kept);
 
+  /// Both go to a place that is neither position, `removed` first or last, and merge there.
+  std::optional<Broken_promise> collapse(Index removed, Index kept, const Point_3& at, bool is_removed_first);
+
   /// Numbers of regions: faces that hang together across edges that are no lines.
   std::vector<Index> regions() const;
 
@@ -80,7 +83,9 @@ private:
   bool is_one_fan(Index position) const;
   std::optional<Broken_promise> judge_link(Index removed, Index kept) const;
   std::optional<Broken_promise> judge_line(Index removed, Index kept) const;
-  std::optional<Broken_promise> judge_motion(Index moved, Index kept) const;
+  std::optional<Broken_promise> judge_motion(Index moved, const Place& target) const;
+  void place_at(Index position, const Point_3& at);
+  void merge(Index removed, Index kept);
   void move(Index moved, Index kept);
 
   std::vector<Point_3> m_points; // by position

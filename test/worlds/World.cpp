@@ -89,6 +89,7 @@ void write_world(const World& world, const std::filesystem::path& folder)
                      {"check_intersections", options.check_intersections},
                      {"check_uv_orientation", options.check_uv_orientation},
                      {"uv_weight", options.uv_weight},
+                     {"is_placement_optimal", options.placement == Placement::optimal},
                      {"is_loop_own", options.loop == Collapse_loop::own},
                      {"is_index_packed", options.index == Face_index::packed},
                      {"faces_per_cluster", options.faces_per_cluster},
@@ -138,6 +139,7 @@ World read_world(const std::filesystem::path& folder)
   options.check_intersections = json["check_intersections"];
   options.check_uv_orientation = json["check_uv_orientation"];
   options.uv_weight = json["uv_weight"];
+  options.placement = json.value("is_placement_optimal", false) ? Placement::optimal : Placement::vertices;
   options.loop = json["is_loop_own"] ? Collapse_loop::own : Collapse_loop::cgal;
   options.index = json["is_index_packed"] ? Face_index::packed : Face_index::clusters;
   options.faces_per_cluster = json["faces_per_cluster"];
@@ -202,6 +204,8 @@ std::string command_line(const World& world)
   add_if_other("--weld", world.weld_distance, 0);
   if (world.normals != Normals_choice::automatic)
     add("--normals", name_of(world.normals));
+  if (options.placement != plain.placement)
+    add("--placement", "optimal");
   if (options.loop != plain.loop)
     add("--loop", "cgal");
   if (options.index != plain.index)

@@ -18,10 +18,10 @@ namespace {
 void reduce(const World& world, const Prepared_soup& prepared, Reduction_log* log, World_run& run)
 {
   Simplify_options options = world.options;
-  options.on_collapse = [&](std::size_t removed, std::size_t kept) {
-    run.collapses.emplace_back(removed, kept);
+  options.on_collapse = [&](const Soup_collapse& collapse) {
+    run.collapses.push_back(collapse);
     if (log)
-      log->add_collapse(removed, kept);
+      log->add_collapse(collapse);
   };
   if (world.questions)
     options.should_stop = [&run, left = *world.questions](const Simplify_progress&) mutable {

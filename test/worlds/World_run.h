@@ -21,8 +21,7 @@ struct World_run
 
   Prepared_soup unsnapped; ///< as it would be with no weld distance
   Prepared_soup prepared;
-  std::vector<std::pair<Index, Index>>
-      collapses; ///< vertices of the soup; those that go, and those to which they go
+  std::vector<Soup_collapse> collapses;
   bool is_told_to_stop = false;
   Simplified_soup result;
   Verification verification;

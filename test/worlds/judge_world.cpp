@@ -11,6 +11,7 @@
 #include <selvedge/Parts.h>
 #include <selvedge/collapse_log.h>
 #include <selvedge/replay.h>
+#include <selvedge/rounding.h>
 #include <selvedge/verify.h>
 
 #include <CGAL/Kernel/global_functions.h>
@@ -45,6 +46,7 @@ Judgement_counts& Judgement_counts::operator+=(const Judgement_counts& other)
   worlds += other.worlds;
   refused_worlds += other.refused_worlds;
   collapses += other.collapses;
+  placed += other.placed;
   snaps += other.snaps;
   twins += other.twins;
   option_sets += other.option_sets;
@@ -277,11 +279,14 @@ std::vector<char> held(const World& world, const Triangle_soup& soup, bool with_
 Verdict judge_collapses(const World_run& run, Judged_complex& complex, Judgement_counts& counts)
 {
   for (std::size_t i = 0; i < run.collapses.size(); ++i) {
-    const auto& [removed, kept] = run.collapses[i];
+    const auto& [removed, kept, at, is_removed_first] = run.collapses[i];
     ++counts.collapses;
-    if (auto broken = complex.collapse(complex.position(removed), complex.position(kept))) {
+    counts.placed += at.has_value();
+    const Index from = complex.position(Index(removed)), to = complex.position(Index(kept));
+    if (auto broken = at ? complex.collapse(from, to, {(*at)[0], (*at)[1], (*at)[2]}, is_removed_first)
+                         : complex.collapse(from, to)) {
       broken->message += " in collapse " + std::to_string(i + 1) + ", " + std::to_string(removed) + " to " +
-                         std::to_string(kept);
+                         std::to_string(kept) + (at ? " at a new place" : "");
       return broken;
     }
   }
@@ -323,6 +328,78 @@ bool have_same_rows(const std::vector<Attribute>& result, Index row, const std::
   return true;
 }
 
+// Mixtures of values lie between the least and the largest of them, but for rounding.
+struct Range
+{
+  double low = INFINITY, high = -INFINITY;
+
+  void add(double x)
+  {
+    low = std::min(low, x);
+    high = std::max(high, x);
+  }
+  bool has(double x) const
+  {
+    const double margin = 1e-6 * std::max(std::abs(low), std::abs(high));
+    return low - margin <= x && x <= high + margin;
+  }
+};
+
+bool is_value_between(const Corner_values<2>& result, Index triangle, const Corner_values<2>& original,
+                      std::size_t k)
+{
+  if (result.empty())
+    return original.empty();
+  for (std::size_t c = 0; c < 2; ++c) {
+    Range range;
+    for (const auto& value : original.values)
+      range.add(value[c]);
+    if (!range.has(result.values[result.of_triangle[triangle][k]][c]))
+      return false;
+  }
+  return true;
+}
+
+bool is_unit(const Corner_values<3>& normals, Index triangle, std::size_t k)
+{
+  if (normals.empty())
+    return true;
+  const auto& [x, y, z] = normals.values[normals.of_triangle[triangle][k]];
+  return std::abs(std::hypot(x, y, z) - 1) < 1e-6 || std::hypot(x, y, z) == 0;
+}
+
+// The worlds have attributes of one component: in floating point, or integers that are not mixed.
+bool are_rows_between(const std::vector<Attribute>& result, Index row, const std::vector<Attribute>& original,
+                      Index from)
+{
+  if (result.size() != original.size())
+    return false;
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const Attribute &now = result[i], &before = original[i];
+    if (before.type != Attribute::Type::float64 && before.type != Attribute::Type::float32 &&
+        !before.is_normalized && !have_same_rows({now}, row, {before}, from))
+      return false;
+    if (before.type != Attribute::Type::float64)
+      continue;
+    const auto number = [](const Attribute& attribute, std::size_t place) {
+      double x;
+      std::memcpy(&x, attribute.rows.data() + place * sizeof x, sizeof x);
+      return x;
+    };
+    Range range;
+    bool is_nan_somewhere = false;
+    for (std::size_t place = 0; place < before.rows.size() / sizeof(double); ++place) {
+      range.add(number(before, place));
+      is_nan_somewhere = is_nan_somewhere || std::isnan(number(before, place));
+    }
+    for (std::size_t c = 0; c < now.components; ++c)
+      if (const double x = number(now, row * now.components + c);
+          !range.has(x) && !(std::isnan(x) && is_nan_somewhere))
+        return false;
+  }
+  return true;
+}
+
 CGAL::Orientation uv_orientation(const Corner_values<2>& uvs, Index triangle)
 {
   const auto point = [&](std::size_t k) {
@@ -343,6 +420,13 @@ Verdict judge_attributes(const World& world, const World_run& run, const Judged_
   const bool are_normals_kept =
       run.prepared.normals != Normals_treatment::flat && run.prepared.normals != Normals_treatment::smooth;
   std::map<Index, Index> original_vertex, vertex_of_original;
+  std::set<std::size_t> placed; // by the numbers of those that were kept; a place may be where another was
+  for (const Soup_collapse& collapse : run.collapses) {
+    placed.erase(collapse.removed);
+    if (collapse.place)
+      placed.insert(collapse.kept);
+  }
+  std::size_t placed_left = 0;
   for (Index i = 0; i < result.triangles.size(); ++i) {
     const Index t = run.result.triangles[i];
     const auto broken = [&](const char* what) {
@@ -363,15 +447,24 @@ Verdict judge_attributes(const World& world, const World_run& run, const Judged_
         return broken("a corner from another position");
       if (regions[corner / 3] != regions[t])
         return broken("a corner from the other side of a line");
-      if (!has_same_bits(result.points[v], original.points[from]))
+      const bool is_placed = placed.count(from) > 0;
+      if (is_placed ? result.points[v] != complex.point(complex.position(from))
+                    : !has_same_bits(result.points[v], original.points[from]))
         return broken("a point of another vertex");
+      placed_left += is_placed && original_vertex.count(v) == 0;
       if (original_vertex.emplace(v, from).first->second != from ||
           vertex_of_original.emplace(from, v).first->second != v)
         return broken("vertices joined or split");
-      if (!has_same_value(result.uvs, i, original.uvs, corner, k) ||
-          (are_normals_kept && !has_same_value(result.normals, i, original.normals, corner, k)) ||
-          !have_same_rows(result.vertex_attributes, v, original.vertex_attributes, from))
+      if (is_placed) {
+        if (!is_value_between(result.uvs, i, original.uvs, k) ||
+            (are_normals_kept && !is_unit(result.normals, i, k)) ||
+            !are_rows_between(result.vertex_attributes, v, original.vertex_attributes, from))
+          return broken("a value at a new place that is no mixture of the input's");
+      } else if (!has_same_value(result.uvs, i, original.uvs, corner, k) ||
+                 (are_normals_kept && !has_same_value(result.normals, i, original.normals, corner, k)) ||
+                 !have_same_rows(result.vertex_attributes, v, original.vertex_attributes, from)) {
         return broken("a value that its corner has not");
+      }
       if (is_held[t] && corner != 3 * t + k)
         return Broken_promise{Promise::frozen, "triangle " + std::to_string(t) + " has another corner"};
     }
@@ -380,6 +473,10 @@ Verdict judge_attributes(const World& world, const World_run& run, const Judged_
         uv_orientation(original.uvs, t) != uv_orientation(result.uvs, i))
       return broken("turned over in the texture");
   }
+  if (placed_left != run.result.placed_vertices)
+    return Broken_promise{Promise::attributes, "the result counts other vertices at new places"};
+  if (world.prepare_options().round_to_float32 && !has_float32_points(result))
+    return Broken_promise{Promise::written, "a place is no 32-bit float, and the file has only such"};
   return std::nullopt;
 }
 
@@ -472,10 +569,11 @@ Verdict judge_replay(const World& world, const World_run& run)
   if (verdict.soup.triangles != run.result.soup.triangles ||
       !std::equal(verdict.soup.points.begin(), verdict.soup.points.end(), run.result.soup.points.begin(),
                   run.result.soup.points.end()) ||
-      verdict.soup.uvs.of_triangle != run.result.soup.uvs.of_triangle ||
-      verdict.soup.uvs.values != run.result.soup.uvs.values ||
-      (run.prepared.normals == Normals_treatment::kept &&
-       verdict.soup.normals.of_triangle != run.result.soup.normals.of_triangle))
+      (run.result.placed_vertices == 0 &&
+       (verdict.soup.uvs.of_triangle != run.result.soup.uvs.of_triangle ||
+        verdict.soup.uvs.values != run.result.soup.uvs.values ||
+        (run.prepared.normals == Normals_treatment::kept &&
+         verdict.soup.normals.of_triangle != run.result.soup.normals.of_triangle))))
     return broken("the log leads to another result");
   return std::nullopt;
 }
@@ -598,11 +696,16 @@ Verdict judge(const World& world, const World_run& run, Judgement_counts& counts
 
 namespace {
 
-Verdict compare(const World_run& twin, const World_run& run, const std::string& what)
+// The places of the twin are those of the run, multiplied by 2^exponent.
+Verdict compare(World_run twin, const World_run& run, const std::string& what, int exponent = 0)
 {
   const auto broken = [&](const char* how) { return Broken_promise{Promise::determinism, what + how}; };
   if (twin.refusal.has_value() != run.refusal.has_value())
     return broken(": one of them is refused");
+  for (Soup_collapse& collapse : twin.collapses)
+    if (collapse.place)
+      for (double& coordinate : *collapse.place)
+        coordinate = std::ldexp(coordinate, -exponent);
   if (twin.collapses != run.collapses) {
     const auto differ = std::mismatch(twin.collapses.begin(), twin.collapses.end(), run.collapses.begin(),
                                       run.collapses.end());
@@ -777,8 +880,8 @@ Verdict judge_twins(const World& world, const World_run& run, Judgement_counts& 
       ++counts.twins;
       World twin = with_points(world, [&](double x) { return std::ldexp(x, *exponent); });
       twin.weld_distance = std::ldexp(world.weld_distance, *exponent);
-      if (auto broken =
-              compare(run_without_output(twin), run, "2^" + std::to_string(*exponent) + " times as large"))
+      if (auto broken = compare(run_without_output(twin), run,
+                                "2^" + std::to_string(*exponent) + " times as large", *exponent))
         return broken;
     }
   if (random.one_in(4) && !is_scene && world.input_format != Mesh_format::stl) {

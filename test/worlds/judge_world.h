@@ -19,6 +19,7 @@ struct Judgement_counts
   std::size_t worlds = 0; ///< accepted by `prepare`
   std::size_t refused_worlds = 0;
   std::size_t collapses = 0; ///< judged by brute force
+  std::size_t placed = 0;    ///< how many of them go to new places
   std::size_t snaps = 0;
   std::size_t twins = 0;
   std::size_t option_sets = 0;                ///< beyond the first of each world

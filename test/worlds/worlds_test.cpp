@@ -41,6 +41,7 @@ TEST(Worlds, KeepEveryPromise)
   EXPECT_GT(counts.worlds, 300u);
   EXPECT_GT(counts.refused_worlds, 0u);
   EXPECT_GT(counts.collapses, 5000u);
+  EXPECT_GT(counts.placed, 500u);
   EXPECT_GT(counts.snaps, 20u);
   EXPECT_GT(counts.twins, 500u);
   EXPECT_GT(counts.option_sets, 150u);

@@ -45,7 +45,7 @@ struct Border_rule_options
 /// `Border_filter` and `Halfedge_placement` ask the rule; `Border_visitor` updates it after every collapse.
 /// Copies share one state.
 ///
-/// **Guarantees** for a mesh reduced by halfedge collapses that `allows` accepts:
+/// **Guarantees** for a mesh reduced by collapses that `allows` accepts:
 /// 1. A locked vertex stays where it is.
 /// 2. A vertex on a line moves only along the line, to the next vertex of the same line, and only where the
 ///    line turns by at most `max_border_turn` or `max_seam_turn`. Ends of lines, vertices with more than two
@@ -99,6 +99,9 @@ public:
 
   bool is_locked(Vertex v) const { return get(m_state->freedoms, v) == Freedom::none; }
 
+  /// Returns whether a vertex may go anywhere: it is not locked and on no line.
+  bool is_free(Vertex v) const { return get(m_state->freedoms, v) == Freedom::free; }
+
   /// Returns whether the edge is a border or marked. `get` makes the rule a property map that says the same.
   bool is_line(Edge e) const
   {
@@ -131,8 +134,8 @@ public:
   ///
   /// Where this place is one end, the answer is that of `may_move`. Any other place is allowed when neither
   /// end is on a line or locked, and refused when one of them is. When both are, neither may be locked, the
-  /// edge must be a line itself, and the line must go on at both ends and change there within the limits for
-  /// turn and drift.
+  /// edge must be a line itself with no face beside it whose edges are all lines, and the line must go on at
+  /// both ends and change there within the limits for turn and drift.
   template <class Profile>
   bool allows(const internal::Collapse<Profile>& collapse) const
   {
@@ -140,12 +143,10 @@ public:
       return may_move(collapse.moving());
     const State& state = *m_state;
     const Profile& profile = collapse.profile();
-    const bool is_v0_free = get(state.freedoms, profile.v0()) == Freedom::free;
-    const bool is_v1_free = get(state.freedoms, profile.v1()) == Freedom::free;
-    if (is_v0_free && is_v1_free)
+    if (is_free(profile.v0()) && is_free(profile.v1()))
       return true;
-    if (is_v0_free || is_v1_free || is_locked(profile.v0()) || is_locked(profile.v1()) ||
-        !is_line(edge(profile.v0_v1(), state.mesh)))
+    if (is_free(profile.v0()) || is_free(profile.v1()) || is_locked(profile.v0()) ||
+        is_locked(profile.v1()) || !is_line(edge(profile.v0_v1(), state.mesh)) || is_cut_off(profile.v0_v1()))
       return false;
     const std::optional<Halfedge> behind = line_behind(profile.v0_v1());
     const std::optional<Halfedge> ahead = line_behind(profile.v1_v0());
@@ -313,7 +314,7 @@ private:
 
     const Edge merged = edge(profile.v0_v1(), mesh);
     const bool is_along_line = is_line(merged);
-    for (const Halfedge at : {profile.v0_v1(), profile.v1_v0()}) {
+    for (const Halfedge at : {collapse.moving(), opposite(collapse.moving(), mesh)}) {
       const Vertex near_end = source(at, mesh);
       const bool moves = at == profile.v0_v1() ? collapse.is_v0_moved() : collapse.is_v1_moved();
       for (const Halfedge out : CGAL::halfedges_around_source(near_end, mesh)) {

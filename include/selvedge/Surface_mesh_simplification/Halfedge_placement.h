@@ -29,6 +29,12 @@ struct No_border_rule
   }
 
   template <class Vertex>
+  bool is_free(const Vertex&) const
+  {
+    return true;
+  }
+
+  template <class Vertex>
   bool reaches_neighbours(const Vertex&) const
   {
     return false;
@@ -83,31 +89,34 @@ public:
     return is_v0_cheaper(profile) ? profile.p1() : profile.p0();
   }
 
-  /// An end of an edge, and the cost of placing the merged vertex there. `choice` and `second_choice` return
-  /// what `operator()` and `second` do together with its cost, for a loop that needs both.
-  struct Choice
-  {
-    bool is_v0;
-    internal::Optional<double> cost;
-  };
   using Cost_policy = Cost;
+
+  /// Returns the choice number `rank`, from 0, with its cost, or none when there are fewer: what `operator()`
+  /// and `second` choose, for a loop that needs the costs as well.
   template <class Profile>
-  Choice choice(const Profile& profile) const
+  internal::Optional<internal::Placement_choice> choice(const Profile& profile, unsigned rank) const
   {
+    using internal::Merged_at;
+    using Choice = internal::Placement_choice;
     const bool may_move_v0 = m_rule.may_move(profile.v0_v1());
     const bool may_move_v1 = m_rule.may_move(profile.v1_v0());
-    if (may_move_v0 != may_move_v1)
-      return {may_move_v1, cost_along(profile, may_move_v0 ? profile.v0_v1() : profile.v1_v0())};
-    const auto onto_v0 = cost_along(profile, profile.v1_v0()), onto_v1 = cost_along(profile, profile.v0_v1());
-    return onto_v0 < onto_v1 ? Choice{true, onto_v0} : Choice{false, onto_v1};
-  }
-  template <class Profile>
-  internal::Optional<Choice> second_choice(const Profile& profile) const
-  {
-    if (!m_rule.may_move(profile.v0_v1()) || !m_rule.may_move(profile.v1_v0()))
+    if (rank > (may_move_v0 && may_move_v1))
       return {};
-    const bool is_v0 = !is_v0_cheaper(profile);
-    return Choice{is_v0, cost_along(profile, is_v0 ? profile.v1_v0() : profile.v0_v1())};
+    if (may_move_v0 != may_move_v1)
+      return may_move_v0 ? Choice{Merged_at::v1, cost_along(profile, profile.v0_v1())}
+                         : Choice{Merged_at::v0, cost_along(profile, profile.v1_v0())};
+    const auto onto_v0 = cost_along(profile, profile.v1_v0()), onto_v1 = cost_along(profile, profile.v0_v1());
+    return (onto_v0 < onto_v1) == (rank == 0) ? Choice{Merged_at::v0, onto_v0}
+                                              : Choice{Merged_at::v1, onto_v1};
+  }
+
+  /// Returns the collapse that a choice stands for.
+  template <class Profile>
+  internal::Optional<internal::Collapse<Profile>> collapse(const Profile& profile,
+                                                           internal::Merged_at at) const
+  {
+    return internal::Collapse<Profile>::along(profile, at == internal::Merged_at::v0 ? profile.v1_v0()
+                                                                                     : profile.v0_v1());
   }
 
   /// See `Collapse_locality`.
@@ -120,7 +129,8 @@ public:
     return Collapse_locality<Cost>::reaches(m_cost, kept, edge) || m_rule.reaches(kept, edge);
   }
 
-  /// Returns whether the first choice is to move v1 onto v0.
+private:
+  // Returns whether the first choice is to move v1 onto v0.
   template <class Profile>
   bool is_v0_target_first(const Profile& profile) const
   {
@@ -137,7 +147,6 @@ public:
     return m_cost.cost_along(profile, moving);
   }
 
-private:
   template <class Profile>
   bool is_v0_cheaper(const Profile& profile) const
   {
@@ -148,17 +157,18 @@ private:
   Rule m_rule;
 };
 
-/// Decorates a `Halfedge_placement` so that an edge gets its second direction when filters refuse the first.
+/// Decorates a `Halfedge_placement` or an `Optimal_placement` so that an edge gets its next choice when
+/// filters refuse the first.
 ///
 /// CGAL's loop takes an edge from its queue once, asks for one placement, and drops the edge when its filter
-/// refuses this placement. This decorator asks the filter itself, for the first direction and then for the
-/// second, and returns the one that passed, or none. The loop does not need the same filter again.
+/// refuses this placement. This decorator asks the filter itself, for the first choice and then for the next
+/// ones, and returns the one that passed, or none. The loop does not need the same filter again.
 ///
-/// The second direction is tried in the order of costs. If it costs no more than the costliest direction
-/// selected so far in this run, it is tried at once. Otherwise the edge is *reversed*: from now on its cost
-/// is that of its second direction, and it comes in this order when the loop considers it again, in a further
-/// run or after a change nearby. (Taking costly directions of cheap edges at once would spoil the order: on a
-/// scanned bunny reduced to 30 % of its faces, the mean error grows by half.)
+/// Choices are tried in the order of costs. A choice that costs no more than the costliest one selected so
+/// far in this run is tried at once. Otherwise the edge is *reversed*: from now on its cost is that of this
+/// choice, and it comes in this order when the loop considers it again, in a further run or after a change
+/// nearby. (Taking costly choices of cheap edges at once would spoil the order: on a scanned bunny reduced to
+/// 30 % of its faces, the mean error grows by half.)
 ///
 /// A model of CGAL's concept `GetPlacement`. Give the loop its `visitor()` as well. CGAL's loop also asks for
 /// a placement when it only computes a cost, and filters would be far too costly then; the visitor says when
@@ -176,13 +186,13 @@ class Filtered_halfedge_placement
   struct State
   {
     explicit State(const Triangle_mesh& mesh_)
-        : mesh(mesh_), is_reversed(get(CGAL::dynamic_edge_property_t<unsigned char>(), mesh_))
+        : mesh(mesh_), rank(get(CGAL::dynamic_edge_property_t<unsigned char>(), mesh_))
     {
     }
 
     const Triangle_mesh& mesh;
     typename boost::property_map<Triangle_mesh, CGAL::dynamic_edge_property_t<unsigned char>>::const_type
-        is_reversed;
+        rank; // of the choice in whose order the edge comes
     bool is_deciding = false;
     double reached_cost = 0;
     std::size_t reversed = 0;
@@ -200,31 +210,30 @@ public:
   template <class Profile>
   internal::Optional<typename Profile::Point> operator()(const Profile& profile) const
   {
-    using Collapse = internal::Collapse<Profile>;
     State& state = *m_state;
     const Edge e = edge(profile.v0_v1(), state.mesh);
-    const bool is_reversed = get(state.is_reversed, e);
-    const bool is_v0_first = m_placement.is_v0_target_first(profile);
-    const Collapse first = Collapse::along(profile, is_v0_first ? profile.v1_v0() : profile.v0_v1());
-    const Collapse second = Collapse::along(profile, is_v0_first ? profile.v0_v1() : profile.v1_v0());
-    const Collapse& next = is_reversed ? second : first;
-    if (!state.is_deciding)
-      return next.place();
-
-    const auto cost_of = [&](const Collapse& collapse) {
-      return *m_placement.cost_along(profile, collapse.moving());
-    };
-    state.is_deciding = false;
-    state.reached_cost = (std::max)(state.reached_cost, cost_of(next));
-    if (internal::is_allowed(m_filter, first))
-      return first.place();
-    if (cost_of(second) <= state.reached_cost) {
-      if (internal::is_allowed(m_filter, second))
-        return second.place();
-      return {};
+    unsigned rank = get(state.rank, e);
+    auto choice = m_placement.choice(profile, rank);
+    if (!choice) { // there are fewer now
+      rank = 0;
+      choice = m_placement.choice(profile, rank);
     }
-    put(state.is_reversed, e, true);
-    ++state.reversed;
+    if (!state.is_deciding)
+      return m_placement.collapse(profile, choice->at)->place();
+
+    state.is_deciding = false;
+    if (choice->cost)
+      state.reached_cost = (std::max)(state.reached_cost, *choice->cost);
+    for (unsigned next = 0; (choice = m_placement.choice(profile, next)) && choice->cost; ++next) {
+      if (next > rank && *choice->cost > state.reached_cost) {
+        put(state.rank, e, (unsigned char)(next));
+        ++state.reversed;
+        break;
+      }
+      const auto collapse = m_placement.collapse(profile, choice->at);
+      if (collapse && internal::is_allowed(m_filter, *collapse))
+        return collapse->place();
+    }
     return {};
   }
 
@@ -237,10 +246,10 @@ public:
   void on_selected() const { m_state->is_deciding = true; }
   void on_collapsed(Vertex kept) const
   {
-    // First directions that were refused around here may be possible now.
+    // First choices that were refused around here may be possible now.
     for (const auto h : CGAL::halfedges_around_target(halfedge(kept, m_state->mesh), m_state->mesh))
       for (const auto g : CGAL::halfedges_around_target(opposite(h, m_state->mesh), m_state->mesh))
-        put(m_state->is_reversed, edge(g, m_state->mesh), false);
+        put(m_state->rank, edge(g, m_state->mesh), (unsigned char)(0));
   }
 
   /// A visitor that makes these three calls and does nothing else.

@@ -142,6 +142,10 @@ public:
   /// filter refused.
   auto& blockers() const { return m_guard->blockers(); }
 
+  /// Returns, for the last collapse that this filter accepted with a place at neither end, in which order the
+  /// ends go there: whether `collapse.mover()` goes first. The other order is asked for first.
+  bool is_mover_first() const { return m_guard->is_mover_first(); }
+
   const Intersection_statistics& statistics() const { return m_guard->statistics(); }
   const FaceIndex& index() const { return m_guard->index(); }
 

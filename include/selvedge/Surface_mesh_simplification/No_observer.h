@@ -5,20 +5,37 @@
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_NO_OBSERVER_H
 
 #include <selvedge/Surface_mesh_simplification/Refusals.h>
+#include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
 
 namespace selvedge {
 
 /// Observes nothing: the default observer of `simplify_mesh`, and the base class of all others. An observer
 /// derives from this class and replaces some of its functions.
 ///
-/// In all functions, the source of `moving` moves to its target and merges with it. `Rule` is a
-/// `Border_rule`, which knows which edges are lines now.
+/// In all functions, the source of `moving` moves to its target and merges with it, or, in those that have a
+/// `place`, both go to that place, which is neither of their positions, and merge there. These are called
+/// with `Placement::optimal` alone, and only where both ends are free: neither locked nor on a line. `Rule`
+/// is a `Border_rule`, which knows which edges are lines now.
 struct No_observer
 {
-  /// Called before each collapse.
+  /// Called before each collapse onto an end of its edge.
   template <class Halfedge, class Rule>
   void before_collapse(const Halfedge& /*moving*/, const Rule&)
   {
+  }
+
+  /// Called before each collapse to another place. `is_mover_first` says whether the source of `moving` goes
+  /// there before its target, or after it.
+  template <class Halfedge, class Point>
+  void before_placement(const Halfedge& /*moving*/, const Point& /*place*/, bool /*is_mover_first*/)
+  {
+  }
+
+  /// Returns the place as it will be stored, or none where no vertex may be.
+  template <class Halfedge, class Point>
+  internal::Optional<Point> rounded_place(const Halfedge& /*edge*/, const Point& place) const
+  {
+    return place;
   }
 
   /// Called for each motion that is refused. The count of the rule that refused it is 1, all others are 0.
@@ -42,10 +59,21 @@ struct No_observer
     return true;
   }
 
+  template <class Halfedge, class Point>
+  bool keeps_uv_orientation_at(const Halfedge& /*moving*/, const Point& /*place*/) const
+  {
+    return true;
+  }
+
   /// Returns how much the motion adds to the displacement of the texture, as squared lengths with the weights
   /// of `relative_face_weight`.
   template <class Halfedge>
   double uv_cost(const Halfedge& /*moving*/) const
+  {
+    return 0;
+  }
+  template <class Halfedge, class Point>
+  double uv_cost_at(const Halfedge& /*edge*/, const Point& /*place*/) const
   {
     return 0;
   }

@@ -22,6 +22,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -169,6 +170,40 @@ public:
     const bool is_v0_moved = moving == profile.v0_v1();
     return positive(increase(is_v0_moved ? profile.v0() : profile.v1(),
                              m_state->vector(is_v0_moved ? profile.p1() : profile.p0())));
+  }
+
+  /// Returns where the merged vertex costs least, in coordinates, or none when that is at an end of the edge.
+  ///
+  /// Where the least is farther from the middle of the edge than `reach` times the length of the edge, or is
+  /// not one point, the best point inside the edge takes its place.
+  template <class Profile>
+  std::optional<internal::Vector_of_doubles> least_place(const Profile& profile, double reach) const
+  {
+    using internal::difference;
+    using internal::dot;
+    Quadric sum = quadric(profile.v0());
+    sum += quadric(profile.v1());
+    const Vector x0 = m_state->vector(profile.p0()), x1 = m_state->vector(profile.p1());
+    const Vector along = difference(x1, x0);
+    std::optional<Vector> least = sum.least_point();
+    if (least) {
+      Vector off = difference(*least, x0);
+      for (std::size_t i = 0; i < 3; ++i)
+        off[i] -= 0.5 * along[i];
+      if (!(dot(off, off) <= reach * reach * dot(along, along)))
+        least.reset();
+    }
+    if (!least) {
+      const std::optional<double> share = sum.least_along(x0, along);
+      if (!share || !(*share > 0 && *share < 1))
+        return std::nullopt;
+      least = x0;
+      for (std::size_t i = 0; i < 3; ++i)
+        (*least)[i] += *share * along[i];
+    }
+    for (std::size_t i = 0; i < 3; ++i)
+      (*least)[i] += m_state->origin[i];
+    return least;
   }
 
   /// Returns the root mean square distance of `point` to the planes accumulated at both ends of the edge, in

@@ -52,7 +52,8 @@ int collapse_edges(TriangleMesh& mesh, const Stop& stop, const GeomTraits& trait
 ///
 /// - A cost or placement can say which edges a collapse concerns, see `Collapse_locality`.
 /// - A placement can have `second(profile)`, as `Halfedge_placement` has. When its first placement was
-///   refused, the edge returns to the queue with the cost of the second.
+///   refused, the edge returns to the queue with the cost of the second. `Optimal_placement` has up to three
+///   placements for an edge.
 /// - A filter can have `blockers()`, as `Intersection_filter` has: the faces, wherever they are, because of
 ///   which it refused. The edge is considered again when one of them changes or vanishes.
 ///

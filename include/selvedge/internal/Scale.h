@@ -39,7 +39,8 @@ public:
   Point_3 operator()(const Point_3& point) const;
   double operator()(double length) const;
 
-  /// Returns a divided length multiplied by the power again.
+  /// Returns a divided point or length multiplied by the power again.
+  Point_3 undone(const Point_3& point) const;
   double undone(double length) const;
 
 private:

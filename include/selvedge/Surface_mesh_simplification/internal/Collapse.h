@@ -4,11 +4,25 @@
 #ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COLLAPSE_H
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COLLAPSE_H
 
+#include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
+
+#include <CGAL/Kernel/global_functions.h>
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/iterator.h>
 
 namespace selvedge {
 namespace internal {
+
+/// Where the merged vertex of an edge is placed: at one of its ends, or at a point that is neither.
+enum class Merged_at : unsigned char { v0, v1, between };
+
+/// A place that a placement policy offers for the merged vertex, and its cost; none when the edge has no
+/// cost.
+struct Placement_choice
+{
+  Merged_at at;
+  Optional<double> cost;
+};
 
 /// Describes one collapse of an edge: the profile of the edge, the place of the merged vertex, and which ends
 /// move to get there.
@@ -29,12 +43,12 @@ public:
   static Collapse along(const Profile& profile, Halfedge moving)
   {
     const bool is_onto_v0 = moving == profile.v1_v0();
-    return Collapse(profile, is_onto_v0 ? profile.p0() : profile.p1(), !is_onto_v0, is_onto_v0);
+    return Collapse(profile, is_onto_v0 ? profile.p0() : profile.p1(), !is_onto_v0, is_onto_v0, is_onto_v0);
   }
 
   /// Makes the collapse for a placement chosen by any other policy. An end moves unless it is at `place`.
   Collapse(const Profile& profile, const Point& place)
-      : Collapse(profile, place, place != profile.p0(), place != profile.p1())
+      : Collapse(profile, place, place != profile.p0(), place != profile.p1(), is_v0_nearer(profile, place))
   {
   }
 
@@ -46,10 +60,12 @@ public:
   /// Returns whether the merged vertex is placed at neither end.
   bool are_both_moved() const { return m_is_v0_moved && m_is_v1_moved; }
 
-  /// The halfedge along which a vertex moves, its source and its target. From v0 to v1 where both ends move.
-  Halfedge moving() const { return m_is_v0_moved ? m_profile->v0_v1() : m_profile->v1_v0(); }
-  Vertex mover() const { return m_is_v0_moved ? m_profile->v0() : m_profile->v1(); }
-  Vertex goal() const { return m_is_v0_moved ? m_profile->v1() : m_profile->v0(); }
+  /// The halfedge along which a vertex moves, its source and its target. Where both ends move, the target is
+  /// the end that is nearer to the place (v1 if both are as near), so that what belongs to vertices and
+  /// cannot be mixed is that of the nearer end.
+  Halfedge moving() const { return m_is_onto_v0 ? m_profile->v1_v0() : m_profile->v0_v1(); }
+  Vertex mover() const { return m_is_onto_v0 ? m_profile->v1() : m_profile->v0(); }
+  Vertex goal() const { return m_is_onto_v0 ? m_profile->v0() : m_profile->v1(); }
 
   /// Calls `is_fine(before, after, a, b)` for every face (v, a, b), counter-clockwise, that the collapse
   /// changes but does not remove, until a call returns false. `before` is the position of v, `after` that of
@@ -76,14 +92,22 @@ public:
   }
 
 private:
-  Collapse(const Profile& profile, const Point& place, bool is_v0_moved, bool is_v1_moved)
-      : m_profile(&profile), m_place(place), m_is_v0_moved(is_v0_moved), m_is_v1_moved(is_v1_moved)
+  Collapse(const Profile& profile, const Point& place, bool is_v0_moved, bool is_v1_moved, bool is_onto_v0)
+      : m_profile(&profile), m_place(place), m_is_v0_moved(is_v0_moved), m_is_v1_moved(is_v1_moved),
+        m_is_onto_v0(is_onto_v0)
   {
+  }
+
+  static bool is_v0_nearer(const Profile& profile, const Point& place)
+  {
+    if (place == profile.p0() || place == profile.p1())
+      return place == profile.p0();
+    return CGAL::has_smaller_distance_to_point(place, profile.p0(), profile.p1());
   }
 
   const Profile* m_profile;
   Point m_place;
-  bool m_is_v0_moved, m_is_v1_moved;
+  bool m_is_v0_moved, m_is_v1_moved, m_is_onto_v0;
 };
 
 } // namespace internal

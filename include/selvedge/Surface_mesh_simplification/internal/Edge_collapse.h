@@ -55,7 +55,7 @@ struct Has_second<
 {
 };
 
-// Whether the placement chooses an end by the costs of this very cost policy.
+// Whether the placement offers choices in order, with the costs of this very cost policy.
 template <class Placement, class Cost, class = void>
 struct Has_choice : std::false_type
 {
@@ -69,13 +69,13 @@ struct Has_choice<Placement, Cost, std::void_t<typename Placement::Cost_policy>>
 /// Collapses the edges of a mesh in the order of their costs: the loop behind `selvedge::edge_collapse`.
 ///
 /// It exists because CGAL's loop drops a refused edge until its neighbourhood changes, and builds a full
-/// profile, with allocations, for every cost. This loop tries the second direction of an edge at its own
+/// profile, with allocations, for every cost. This loop tries the next placement of an edge at its own
 /// cost, considers a refused edge again when a face that blocked it changes, and asks policies again only
 /// where their answers may have changed.
 ///
 /// Each step takes the cheapest edge from the queue and asks the stop predicate, the topology, the placement,
 /// the geometric test and the filter, in this order (`try_cheapest`). It then performs the collapse, or puts
-/// the edge back for its second placement, or leaves it until something nearby or one of its blockers changes
+/// the edge back for its next placement, or leaves it until something nearby or one of its blockers changes
 /// (`refresh_around`).
 template <class TriangleMesh, class GeomTraits, class Stop, class VertexPointMap, class HalfedgeIndexMap,
           class EdgeIsConstrainedMap, class Cost, class Placement, class Filter, class Visitor>
@@ -95,13 +95,13 @@ class Edge_collapse
   using Queue = Edge_queue<FT>;
   using Id = typename Queue::Id;
 
-  // An edge is *stale* when it is out of the queue, or in it for its second placement: a change nearby may
-  // make its first placement possible again.
-  enum class State : unsigned char { gone, first, second };
+  // An edge is *stale* when it is out of the queue, or in it for a placement that is not its first: a change
+  // nearby may make its first placement possible again.
+  static constexpr unsigned char s_gone = 255;
   struct Edge_record
   {
-    State state = State::gone;
-    bool is_v0 = false; // whether v0 is the place, if the placement has `choice`
+    unsigned char rank = s_gone;  // of the placement that is next, from 0
+    Merged_at at = Merged_at::v0; // which place this is, if the placement has `choice`
   };
 
 public:
@@ -142,7 +142,7 @@ private:
       poll();
       const Halfedge h = halfedge(e, m_mesh);
       m_halfedges[id(h)] = h;
-      m_records[id(h)].state = State::first;
+      m_records[id(h)].rank = 0;
       ++m_edges;
       if (get(m_is_constrained, e))
         continue;
@@ -180,7 +180,7 @@ private:
       return true;
     }
     Edge_record& record = m_records[edge_id];
-    const std::optional<Collapse_of_edge> collapse = collapse_of(of_edge, record);
+    const Optional<Collapse_of_edge> collapse = collapse_of(of_edge, record);
     const bool is_asked = collapse && (!m_is_geometry_tested || Dihedral_angle_filter<>().accepts(*collapse));
     if (is_asked && is_allowed(m_filter, *collapse)) {
       perform(*collapse, edge_id);
@@ -191,12 +191,10 @@ private:
       if (is_asked)
         for (const Face face : m_filter.blockers())
           m_waiting.add(face, edge_id);
-    if constexpr (Has_second<Placement, Profile>::value) {
-      if (record.state == State::first) {
-        record.state = State::second;
-        if (const Optional_cost second = cost_of(of_edge, record))
-          m_queue.set(edge_id, *second);
-      }
+    if constexpr (Has_choice<Placement, Cost>::value || Has_second<Placement, Profile>::value) {
+      ++record.rank;
+      if (const Optional_cost next = cost_of(of_edge, record))
+        m_queue.set(edge_id, *next);
     }
     return true;
   }
@@ -224,7 +222,7 @@ private:
   void forget(Id edge_id)
   {
     m_queue.erase(edge_id);
-    m_records[edge_id].state = State::gone;
+    m_records[edge_id].rank = s_gone;
     --m_edges;
   }
   // The same for two edges of a vanishing face that become one: `h` goes, or `other` if `h` is constrained.
@@ -247,7 +245,7 @@ private:
     put(m_has_stale_edges, kept, false);
     if constexpr (Has_blockers<Filter>::value)
       m_waiting.take_released([this](Id edge_id) {
-        if (m_records[edge_id].state != State::gone && is_stale(edge_id))
+        if (m_records[edge_id].rank != s_gone && is_stale(edge_id))
           refresh(m_halfedges[edge_id]);
       });
   }
@@ -258,10 +256,7 @@ private:
            Collapse_locality<Placement>::reaches(m_placement, kept, e);
   }
 
-  bool is_stale(Id edge_id) const
-  {
-    return m_records[edge_id].state == State::second || !m_queue.contains(edge_id);
-  }
+  bool is_stale(Id edge_id) const { return m_records[edge_id].rank > 0 || !m_queue.contains(edge_id); }
 
   // Puts an edge into the queue with the cost of its first placement, or takes it out if that has no cost.
   void refresh(Halfedge h)
@@ -269,7 +264,7 @@ private:
     const Id edge_id = id(h);
     if (get(m_is_constrained, edge(h, m_mesh)))
       return;
-    m_records[edge_id].state = State::first;
+    m_records[edge_id].rank = 0;
     if (const Optional_cost cost = cost_of(profile(m_halfedges[edge_id]), m_records[edge_id]))
       m_queue.set(edge_id, *cost);
     else
@@ -294,46 +289,40 @@ private:
     put(m_has_stale_edges, of_edge.v1(), true);
   }
 
-  // Returns the cost of the placement that is next for the edge, first or second by its state.
+  // Returns the cost of the placement that is next for the edge, or none when there is none any more.
   Optional_cost cost_of(const Profile& of_edge, Edge_record& record) const
   {
     Optional_cost cost;
     if constexpr (Has_choice<Placement, Cost>::value) {
-      if (record.state == State::second) {
-        if (const auto choice = m_placement.second_choice(of_edge))
-          cost = choose(*choice, record);
-      } else {
-        cost = choose(m_placement.choice(of_edge), record);
+      if (const auto choice = m_placement.choice(of_edge, record.rank)) {
+        record.at = choice->at;
+        cost = choice->cost ? FT(*choice->cost) : Optional_cost();
       }
-    } else {
-      cost = ask_policy(m_cost, of_edge, placement_of(of_edge, record));
+    } else if (const Optional_point placement = placement_of(of_edge, record);
+               placement || record.rank == 0) {
+      cost = ask_policy(m_cost, of_edge, placement);
     }
     return cost && *cost == *cost ? cost : Optional_cost();
   }
 
-  template <class Choice>
-  static Optional_cost choose(const Choice& choice, Edge_record& record)
-  {
-    record.is_v0 = choice.is_v0;
-    return choice.cost ? FT(*choice.cost) : Optional_cost();
-  }
-
-  std::optional<Collapse_of_edge> collapse_of(const Profile& of_edge, const Edge_record& record) const
+  Optional<Collapse_of_edge> collapse_of(const Profile& of_edge, const Edge_record& record) const
   {
     if constexpr (Has_choice<Placement, Cost>::value)
-      return Collapse_of_edge::along(of_edge, record.is_v0 ? of_edge.v1_v0() : of_edge.v0_v1());
+      return m_placement.collapse(of_edge, record.at);
     else if (const Optional_point placement = placement_of(of_edge, record))
       return Collapse_of_edge(of_edge, *placement);
     else
-      return std::nullopt;
+      return {};
   }
 
   Optional_point placement_of(const Profile& of_edge, const Edge_record& record) const
   {
+    if (record.rank == 0)
+      return ask_policy(m_placement, of_edge);
     if constexpr (Has_second<Placement, Profile>::value)
-      if (record.state == State::second)
+      if (record.rank == 1)
         return m_placement.second(of_edge);
-    return ask_policy(m_placement, of_edge);
+    return {};
   }
 
   // Whether the mesh stays a manifold of the same topology. The link condition: a vertex that is a neighbour

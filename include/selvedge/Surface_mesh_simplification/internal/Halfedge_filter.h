@@ -6,16 +6,16 @@
 
 #include <selvedge/Surface_mesh_simplification/internal/Filter_base.h>
 
+#include <type_traits>
 #include <utility>
 
 namespace selvedge {
 
-/// Refuses a collapse when a predicate `bool(halfedge)` is false for the halfedge whose source moves onto its
-/// target.
+/// Refuses a collapse when a predicate is false for it: `bool(collapse)` or, for predicates that only need to
+/// know which end merges into which, `bool(halfedge)` with the halfedge `collapse.moving()`.
 ///
 /// It exists for rules about what is attached to a mesh, such as pieces, texture and shares of faces, rather
-/// than about its geometry. A model of CGAL's concept `PlacementFilter`, for placements at an end of the
-/// edge, as `Halfedge_placement` chooses them.
+/// than about its geometry. A model of CGAL's concept `PlacementFilter`.
 template <class Predicate, class BaseFilter = No_filter>
 class Halfedge_filter : public internal::Filter_base<Halfedge_filter<Predicate, BaseFilter>, BaseFilter>
 {
@@ -28,7 +28,10 @@ public:
   template <class Collapse>
   bool accepts(const Collapse& collapse) const
   {
-    return m_predicate(collapse.moving());
+    if constexpr (std::is_invocable_v<const Predicate&, const Collapse&>)
+      return m_predicate(collapse);
+    else
+      return m_predicate(collapse.moving());
   }
 
 private:

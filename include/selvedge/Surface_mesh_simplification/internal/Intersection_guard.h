@@ -69,6 +69,10 @@ public:
     return m_is_announcement_due;
   }
 
+  /// Returns, for the last collapse that was clear and had a place at neither end, whether its mover went
+  /// there before its goal.
+  bool is_mover_first() const { return m_is_mover_first; }
+
   template <class Profile>
   void before_collapse(const Collapse<Profile>& collapse)
   {
@@ -124,8 +128,8 @@ private:
       return is_motion_clear({first, std::nullopt, place, false}) &&
              is_motion_clear({second, first, place, true});
     };
-    const Vertex v0 = collapse.profile().v0(), v1 = collapse.profile().v1();
-    return !is_coincident(v0) && !is_coincident(v1) && (are_both_clear(v1, v0) || are_both_clear(v0, v1));
+    m_is_mover_first = !are_both_clear(collapse.goal(), collapse.mover());
+    return !m_is_mover_first || are_both_clear(collapse.mover(), collapse.goal());
   }
 
   bool is_coincident(Vertex v) const { return m_vertices.is_coincident(m_vertices.number(v)); }
@@ -245,6 +249,7 @@ private:
   Vertex m_goal{};                    // of the collapse that is being done
   typename Vertices::Point m_place{}; // likewise
   bool m_is_announcement_due = true;  // whether the mesh may have changed unannounced
+  bool m_is_mover_first = false;
   std::vector<Face> m_blockers;
   Intersection_statistics m_statistics;
 

@@ -13,6 +13,7 @@
 #include <selvedge/Surface_mesh_simplification/Halfedge_placement.h>
 #include <selvedge/Surface_mesh_simplification/Intersection_filter.h>
 #include <selvedge/Surface_mesh_simplification/Normal_change_filter.h>
+#include <selvedge/Surface_mesh_simplification/Optimal_placement.h>
 #include <selvedge/Surface_mesh_simplification/Quadric_cost.h>
 #include <selvedge/Surface_mesh_simplification/Simplify_constraints.h>
 #include <selvedge/Surface_mesh_simplification/edge_collapse.h>
@@ -52,8 +53,8 @@ class Simplification
   using Halfedge = typename Graph_traits::halfedge_descriptor;
   using Edge = typename Graph_traits::edge_descriptor;
   using Point_map = typename boost::property_map<TriangleMesh, CGAL::vertex_point_t>::type;
-  using Geom_traits =
-      typename CGAL::Kernel_traits<typename boost::property_traits<Point_map>::value_type>::Kernel;
+  using Point = typename boost::property_traits<Point_map>::value_type;
+  using Geom_traits = typename CGAL::Kernel_traits<Point>::Kernel;
   using Rule = Border_rule<TriangleMesh>;
   using Targets = Face_targets<TriangleMesh>;
   using Quadrics = Quadric_cost<TriangleMesh, Rule>;
@@ -78,9 +79,12 @@ class Simplification
     template <class Profile, class Point>
     Optional<typename Profile::FT> operator()(const Profile& profile, const Optional<Point>& placement) const
     {
-      const Optional<double> cost = placement
-                                        ? cost_along(profile, Collapse<Profile>(profile, *placement).moving())
-                                        : Optional<double>();
+      Optional<double> cost;
+      if (placement) {
+        const Collapse<Profile> collapse(profile, *placement);
+        cost =
+            collapse.are_both_moved() ? cost_at(profile, *placement) : cost_along(profile, collapse.moving());
+      }
       return cost ? typename Profile::FT(*cost) : Optional<typename Profile::FT>();
     }
 
@@ -91,6 +95,21 @@ class Simplification
         return {};
       const Optional<double> cost = m_quadrics.cost_along(profile, moving);
       return m_uv_weight > 0 ? *cost + m_uv_weight * m_observer->uv_cost(moving) : cost;
+    }
+
+    template <class Profile, class Point>
+    Optional<double> cost_at(const Profile& profile, const Point& place) const
+    {
+      if (!m_targets.is_counted(profile.v0_v1()))
+        return {};
+      const double cost = m_quadrics.cost_at(profile, place);
+      return m_uv_weight > 0 ? cost + m_uv_weight * m_observer->uv_cost_at(profile.v0_v1(), place) : cost;
+    }
+
+    template <class Profile>
+    auto least_place(const Profile& profile, double reach) const
+    {
+      return m_quadrics.least_place(profile, reach);
     }
 
     bool reaches_neighbours(Vertex kept) const { return m_quadrics.reaches_neighbours(kept); }
@@ -114,10 +133,14 @@ class Simplification
     const Observer* observer; // null: every motion is accepted
     Rule rule;
 
-    template <class Halfedge>
-    bool operator()(const Halfedge& moving) const
+    template <class Profile>
+    bool operator()(const Collapse<Profile>& collapse) const
     {
-      return !observer || observer->keeps_uv_orientation(moving, rule);
+      if (!observer)
+        return true;
+      return collapse.are_both_moved()
+                 ? observer->keeps_uv_orientation_at(collapse.moving(), collapse.place())
+                 : observer->keeps_uv_orientation(collapse.moving(), rule);
     }
   };
 
@@ -126,11 +149,7 @@ class Simplification
     const Observer* observer;
     Rule rule;
 
-    template <class Halfedge>
-    bool operator()(const Halfedge& moving) const
-    {
-      return observer->keeps_pieces(moving, rule);
-    }
+    bool operator()(const Halfedge& moving) const { return observer->keeps_pieces(moving, rule); }
   };
 
   using Line = Border_filter<Rule>;
@@ -162,18 +181,21 @@ public:
     m_report.faces_input = m_targets.total().faces;
   }
 
-  /// Moves the source of `moving` onto its target without asking any filter, since the caller knows that this
-  /// is allowed: it repeats collapses that were found in cells. Call it before `run`.
-  void collapse(Halfedge moving)
+  /// Moves the source of `moving` onto its target, or both to `place`, without asking any filter, since the
+  /// caller knows that this is allowed: it repeats collapses that were found in cells. Call it before `run`.
+  void collapse(Halfedge moving, const std::optional<Point>& place = {}, bool is_mover_first = false)
   {
     const auto points = get(CGAL::vertex_point, m_mesh);
     const Geom_traits traits;
     m_quadrics.initialize(m_mesh, points, traits);
     const Lazy_edge_profile<TriangleMesh, Point_map, Geom_traits> profile(moving, m_mesh, points, traits);
     ++m_accepted;
+    m_is_mover_first = is_mover_first;
     Visitor visitor(*this);
+    using Collapse_of_edge = Collapse<decltype(profile)>;
     perform_collapse(m_mesh, points, No_constrained_edges(),
-                     Collapse<decltype(profile)>::along(profile, moving), visitor, m_quadrics);
+                     place ? Collapse_of_edge(profile, *place) : Collapse_of_edge::along(profile, moving),
+                     visitor, m_quadrics);
   }
 
   double diagonal() const { return m_diagonal; }
@@ -203,7 +225,33 @@ public:
     // diagonal.
     const Cost costs(m_quadrics, m_targets, m_observer,
                      m_options.uv_weight * relative_face_weight(1 / (m_diagonal * m_diagonal)));
-    const Directions directions(costs, m_rule);
+    if (m_options.placement == Placement::optimal)
+      run_passes(costs, Optimal_places(costs, m_rule, {&m_observer}));
+    else
+      run_passes(costs, Ends(costs, m_rule));
+    while (m_next_level < m_levels.size())
+      pass_level();
+    return report();
+  }
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  struct Rounding
+  {
+    const Observer* observer;
+
+    Optional<Point> operator()(const Halfedge& edge, const Point& place) const
+    {
+      return observer->rounded_place(edge, place);
+    }
+  };
+  using Ends = Halfedge_placement<TriangleMesh, Cost, Rule>;
+  using Optimal_places = Optimal_placement<TriangleMesh, Cost, Rule, Rounding>;
+
+  template <class Places>
+  void run_passes(const Cost& costs, const Places& places)
+  {
     // Runs passes until one finds that nothing more is possible; the report says what that one refused.
     const auto run_passes = [&](auto run_pass) {
       bool is_promising = true;
@@ -219,24 +267,16 @@ public:
       run_passes([&] {
         selvedge::edge_collapse(m_mesh, is_over(),
                                 parameters::geometric_test(false, CGAL::parameters::get_cost(costs)
-                                                                      .get_placement(directions)
+                                                                      .get_placement(places)
                                                                       .filter(Filter{this})
                                                                       .visitor(Visitor(*this))));
         return false;
       });
     else
       run_passes(Cgal_pass(
-          m_mesh, costs, directions, Filter{this}, Visitor(*this), [this] { return is_over(); },
+          m_mesh, costs, places, Filter{this}, Visitor(*this), [this] { return is_over(); },
           [this] { return refusals().intersection; }));
-    while (m_next_level < m_levels.size())
-      pass_level();
-    return report();
   }
-
-private:
-  using Clock = std::chrono::steady_clock;
-
-  using Directions = Halfedge_placement<TriangleMesh, Cost, Rule>;
 
   void build_index()
   {
@@ -318,6 +358,7 @@ private:
   {
     if (m_intersection ? m_intersection->allows(collapse) : m_uv.allows(collapse)) {
       ++m_accepted;
+      m_is_mover_first = m_intersection && m_intersection->is_mover_first();
       return true;
     }
     report_refusal(collapse.moving());
@@ -327,7 +368,12 @@ private:
   template <class Profile>
   void before_collapse(const Collapse<Profile>& collapse)
   {
-    m_observer.before_collapse(collapse.moving(), m_rule);
+    if (collapse.are_both_moved()) {
+      ++m_report.placed;
+      m_observer.before_placement(collapse.moving(), collapse.place(), m_is_mover_first);
+    } else {
+      m_observer.before_collapse(collapse.moving(), m_rule);
+    }
     m_targets.before_collapse(collapse.moving());
     m_rule.before_collapse(collapse);
     if (m_intersection)
@@ -498,6 +544,7 @@ private:
   std::optional<Intersection> m_intersection;
   Simplify_report m_report;
   std::size_t m_accepted = 0;
+  bool m_is_mover_first = false; // of the last collapse accepted
   double m_cost = 0;
   Refusals m_refused_before_pass;
   Refusals m_refused_until_now;

@@ -7,6 +7,7 @@
 #include <selvedge/internal/Vector_of_doubles.h>
 
 #include <cstddef>
+#include <optional>
 
 namespace selvedge {
 namespace internal {
@@ -67,10 +68,50 @@ public:
            x[1] * (m_yy * x[1] + 2 * (m_yz * x[2] + m_b[1])) + x[2] * (m_zz * x[2] + 2 * m_b[2]) + m_c;
   }
 
+  /// Returns where the function is least, or none when its matrix is singular to working precision.
+  std::optional<Vector_of_doubles> least_point() const
+  {
+    // Decomposes the matrix into LDLᵀ. Without pivots: it is positive semidefinite.
+    constexpr double least_pivot = 1e-13; // relative to the trace
+    const double least = least_pivot * trace();
+    if (!(m_xx > least))
+      return std::nullopt;
+    const double yx = m_xy / m_xx, zx = m_xz / m_xx;
+    const double yy = m_yy - yx * m_xy, yz = m_yz - yx * m_xz;
+    if (!(yy > least))
+      return std::nullopt;
+    const double zy = yz / yy, zz = m_zz - zx * m_xz - zy * yz;
+    if (!(zz > least))
+      return std::nullopt;
+    const double u = -m_b[0], v = -m_b[1] - yx * u, w = -m_b[2] - zx * u - zy * v;
+    Vector_of_doubles x;
+    x[2] = w / zz;
+    x[1] = v / yy - zy * x[2];
+    x[0] = u / m_xx - yx * x[1] - zx * x[2];
+    return x;
+  }
+
+  /// Returns for which λ the function is least at point + λ · direction, or none where it is constant or
+  /// linear along that line.
+  std::optional<double> least_along(const Vector_of_doubles& point, const Vector_of_doubles& direction) const
+  {
+    const Vector_of_doubles product = times_matrix(direction);
+    const double curvature = dot(direction, product);
+    if (!(curvature > 0))
+      return std::nullopt;
+    return -(dot(point, product) + dot(m_b, direction)) / curvature;
+  }
+
   /// Returns the sum of the weights, if all terms are squared distances; those of points count three times.
   double trace() const { return m_xx + m_yy + m_zz; }
 
 private:
+  Vector_of_doubles times_matrix(const Vector_of_doubles& x) const
+  {
+    return {m_xx * x[0] + m_xy * x[1] + m_xz * x[2], m_xy * x[0] + m_yy * x[1] + m_yz * x[2],
+            m_xz * x[0] + m_yz * x[1] + m_zz * x[2]};
+  }
+
   double m_xx = 0, m_xy = 0, m_xz = 0, m_yy = 0, m_yz = 0, m_zz = 0;
   Vector_of_doubles m_b{0, 0, 0};
   double m_c = 0;

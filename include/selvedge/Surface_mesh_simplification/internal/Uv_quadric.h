@@ -68,6 +68,17 @@ public:
     return *this;
   }
 
+  /// Returns the value at a point with the texture coordinates that make it least.
+  double least(const Vector& x) const
+  {
+    double sum = m_of_points(x);
+    for (std::size_t k = 0; k < 2 && m_weight > 0; ++k) {
+      const double s = internal::dot(m_gradients[k], x) + m_d[k];
+      sum -= s * s / m_weight;
+    }
+    return sum > 0 ? sum : 0;
+  }
+
   double operator()(const Vector& x, const Uv& s) const
   {
     double sum = m_of_points(x);
