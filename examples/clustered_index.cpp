@@ -22,8 +22,6 @@ int main(int argc, char** argv)
 {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
-  using Index = selvedge::Clustered_AABB_tree;
-  using Filter = selvedge::Intersection_filter<Mesh, selvedge::No_filter, Index>;
 
   Mesh mesh;
   const long faces_per_cluster = argc == 4 ? std::atol(argv[3]) : 100; // the paper's best
@@ -32,7 +30,8 @@ int main(int argc, char** argv)
     return 2;
   }
   // The filter fills the index with the faces of the mesh, and its visitor updates it after each collapse.
-  const Filter filter(mesh, {}, Index(static_cast<std::size_t>(faces_per_cluster)));
+  const auto filter = selvedge::intersection_filter(
+      mesh, selvedge::parameters::face_index<selvedge::Clustered_AABB_tree>(faces_per_cluster));
   const int collapses = selvedge::edge_collapse(mesh, selvedge::Face_ratio_stop(0.5, mesh),
                                                 CGAL::parameters::filter(filter).visitor(filter.visitor()));
 

@@ -25,6 +25,7 @@ void use_policies(Mesh& mesh)
   const Error_filter error(1.0, cost, Border_filter(rule));
   const Dihedral_angle_filter base(Normal_change_filter(45, Aspect_ratio_filter(0.1, error)));
   const Intersection_filter<Mesh, std::decay_t<decltype(base)>, Index> filter(mesh, base);
+  intersection_filter(mesh, parameters::face_index<Index>().filter(base));
   const Any_stop stop(Face_ratio_stop(0.5, mesh), Face_count_stop(1), Cost_stop(1), Hook_stop({}));
   const auto parameters =
       CGAL::parameters::get_cost(cost).get_placement(placement).filter(filter).visitor(filter.visitor());

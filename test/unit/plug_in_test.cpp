@@ -6,8 +6,10 @@
 
 #include <selvedge/Surface_mesh_simplification/Border_filter.h>
 #include <selvedge/Surface_mesh_simplification/Intersection_filter.h>
+#include <selvedge/Surface_mesh_simplification/Normal_change_filter.h>
 #include <selvedge/Surface_mesh_simplification/Visitor_chain.h>
 #include <selvedge/Surface_mesh_simplification/edge_collapse.h>
+#include <selvedge/spatial/Clustered_AABB_tree.h>
 #include <selvedge/verify.h>
 
 #include "support/Edge_ratio_stop.h"
@@ -101,6 +103,25 @@ TEST(Intersection_filter, IsRefusedForAMeshThatHasChangedSinceItWasMade)
   CGAL::Euler::remove_face(halfedge(*faces(mesh).begin(), mesh), mesh);
   EXPECT_THROW(collapse(true, mesh, CGAL::parameters::filter(filter).visitor(filter.visitor())),
                Argument_error);
+}
+
+TEST(Intersection_filter, IsMadeFromNamedParameters)
+{
+  Mesh mesh = waves();
+  const auto plain = intersection_filter(mesh);
+  static_assert(std::is_same_v<decltype(plain), const Intersection_filter<Mesh>>);
+  const Normal_change_filter<> base(60);
+  const auto filter = intersection_filter(mesh, parameters::face_index<Clustered_AABB_tree>(50)
+                                                    .filter(base)
+                                                    .vertex_point_map(mesh.points())
+                                                    .geom_traits(Kernel()));
+  EXPECT_GT(filter.index().statistics().clusters, 10u);
+  const Edge_ratio_stop stop(0.5);
+  EXPECT_GT(selvedge::edge_collapse(
+                mesh, stop, parameters::geometric_test(false).filter(filter).visitor(filter.visitor())),
+            0);
+  EXPECT_GT(base.refusals(), 0u);
+  EXPECT_TRUE(is_embedded(soup_of(mesh)));
 }
 
 TEST(Intersection_filter, RefusesAVertexWithSeveralFans)

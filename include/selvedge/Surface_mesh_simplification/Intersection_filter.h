@@ -7,11 +7,15 @@
 #include <selvedge/Surface_mesh_simplification/internal/Filter_base.h>
 #include <selvedge/Surface_mesh_simplification/internal/Intersection_guard.h>
 #include <selvedge/Surface_mesh_simplification/internal/No_visitor.h>
+#include <selvedge/Surface_mesh_simplification/parameters.h>
 #include <selvedge/spatial/Packed_R_tree.h>
 
 #include <CGAL/Kernel_traits.h>
+#include <CGAL/Named_function_parameters.h>
+#include <CGAL/boost/graph/named_params_helper.h>
 
 #include <memory>
+#include <type_traits>
 #include <utility>
 
 namespace selvedge {
@@ -152,6 +156,42 @@ public:
 private:
   std::shared_ptr<Guard> m_guard;
 };
+
+/// Returns an `Intersection_filter`, whose template arguments follow from named parameters.
+///
+/// Of CGAL: `filter`, the base filter (none by default); `vertex_point_map` (by default, that of the mesh);
+/// `geom_traits` (by default, the kernel of the points). Of `selvedge::parameters`: `face_index`. Any other
+/// parameter does not compile.
+///
+/// ```
+/// const auto filter = selvedge::intersection_filter(
+///     mesh, selvedge::parameters::face_index<selvedge::Clustered_AABB_tree>(50).filter(base));
+/// ```
+///
+/// It throws what the constructor of the filter throws.
+template <class TriangleMesh, class NamedParameters = CGAL::parameters::Default_named_parameters>
+auto intersection_filter(const TriangleMesh& mesh,
+                         const NamedParameters& parameters = CGAL::parameters::default_values())
+{
+  namespace np = CGAL::internal_np;
+  using CGAL::parameters::choose_parameter;
+  using CGAL::parameters::get_parameter;
+  static_assert(internal::Are_tags_among<NamedParameters, np::all_default_t, np::filter_t, np::vertex_point_t,
+                                         np::geom_traits_t, internal::Face_index_t>::value,
+                "selvedge::intersection_filter does not know one of these named parameters");
+  const auto base = choose_parameter<No_filter>(get_parameter(parameters, np::filter));
+  const auto make_index = choose_parameter<internal::Index_maker<Packed_R_tree>>(
+      get_parameter(parameters, internal::Face_index_t()));
+  const auto points = choose_parameter(get_parameter(parameters, np::vertex_point),
+                                       CGAL::get_const_property_map(CGAL::vertex_point, mesh));
+  using Points = std::remove_const_t<decltype(points)>;
+  using Points_kernel =
+      typename CGAL::Kernel_traits<typename boost::property_traits<Points>::value_type>::Kernel;
+  const auto traits = choose_parameter<Points_kernel>(get_parameter(parameters, np::geom_traits));
+  return Intersection_filter<TriangleMesh, std::remove_const_t<decltype(base)>,
+                             std::decay_t<decltype(make_index())>, Points,
+                             std::remove_const_t<decltype(traits)>>(mesh, base, make_index(), points, traits);
+}
 
 } // namespace selvedge
 

@@ -6,6 +6,7 @@
 
 #include <CGAL/Named_function_parameters.h>
 
+#include <tuple>
 #include <type_traits>
 
 namespace selvedge {
@@ -14,6 +15,18 @@ namespace internal {
 
 struct Geometric_test_t
 {
+};
+struct Face_index_t
+{
+};
+
+// Makes an index, which cannot be copied, from arguments that can.
+template <class FaceIndex, class... Arguments>
+struct Index_maker
+{
+  std::tuple<Arguments...> arguments;
+
+  FaceIndex operator()() const { return std::make_from_tuple<FaceIndex>(arguments); }
 };
 
 // Whether all tags of a list of named parameters are among `Tags`.
@@ -29,11 +42,10 @@ struct Are_tags_among<CGAL::Named_function_parameters<T, Tag, Base>, Tags...>
 
 } // namespace internal
 
-/// Named parameters beyond CGAL's. They take those of CGAL as their last argument:
+/// Named parameters beyond CGAL's. Those of CGAL can follow them, or be their last argument:
 ///
 /// ```
-/// selvedge::edge_collapse(mesh, stop,
-///                         selvedge::parameters::geometric_test(false, CGAL::parameters::filter(filter)));
+/// selvedge::edge_collapse(mesh, stop, selvedge::parameters::geometric_test(false).filter(filter));
 /// ```
 namespace parameters {
 
@@ -45,6 +57,15 @@ auto geometric_test(bool is_made, const NamedParameters& parameters = CGAL::para
 {
   return CGAL::Named_function_parameters<bool, internal::Geometric_test_t, NamedParameters>(is_made,
                                                                                             parameters);
+}
+
+/// Gives `intersection_filter` the type of its index, and the arguments with which an empty one is made:
+/// `face_index<Clustered_AABB_tree>(50)`. The default is `Packed_R_tree`.
+template <class FaceIndex, class... Arguments>
+auto face_index(const Arguments&... arguments)
+{
+  using Maker = internal::Index_maker<FaceIndex, Arguments...>;
+  return CGAL::Named_function_parameters<Maker, internal::Face_index_t>(Maker{{arguments...}});
 }
 
 } // namespace parameters
