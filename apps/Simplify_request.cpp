@@ -10,6 +10,7 @@
 #include <selvedge/Error.h>
 
 #include <charconv>
+#include <cmath>
 #include <string_view>
 #include <system_error>
 
@@ -21,13 +22,33 @@ constexpr std::size_t faces_per_cell = 50'000;
 
 constexpr std::string_view level_mark = "{lod}";
 
+// As far off as a shape may be by default. Beyond it, ears become slabs, and a hat becomes a tent.
+constexpr double default_error = 0.01;
+
+/// Returns the number that a text consists of, or NaN.
+double number_in(const std::string& text)
+{
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() ? number : std::nan("");
+}
+
 double ratio_in(const std::string& text)
 {
-  double ratio = -1;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), ratio);
-  if (error != std::errc() || end != text.data() + text.size() || !(ratio >= 0 && ratio <= 1))
+  const double ratio = number_in(text);
+  if (!(ratio >= 0 && ratio <= 1))
     throw Argument_error("--ratio: '" + text + "' is not a number from 0 to 1");
   return ratio;
+}
+
+void read_error(Simplify_request& request)
+{
+  if (request.error == "none")
+    return;
+  const double error = request.error.empty() ? default_error : number_in(request.error);
+  if (!(error >= 0 && std::isfinite(error)))
+    throw Argument_error("--error: '" + request.error + "' is neither a number of at least 0 nor none");
+  request.options.max_error = error;
 }
 
 void read_ratios(Simplify_request& request)
@@ -45,8 +66,9 @@ void read_ratios(Simplify_request& request)
 /// Refuses what can be refused before any work is done.
 void check(const Simplify_request& request)
 {
-  if (!request.options.ratio && !request.options.faces && !request.options.max_error &&
-      request.intent.ratios.empty() && request.lods.empty())
+  if (!request.options.ratio && !request.options.faces &&
+      (request.error.empty() || request.error == "none") && request.intent.ratios.empty() &&
+      request.lods.empty())
     throw Argument_error("say how far to reduce the mesh: give --ratio, --faces, --error or --lods");
   if (!request.lods.empty() && (request.options.ratio || request.options.faces))
     throw Argument_error("--lods already says how far to reduce the mesh; leave out --ratio R and --faces");
@@ -140,6 +162,7 @@ void complete(Simplify_request& request)
   request.options.check_intersections = !request.is_unguarded;
   request.options.faces_per_cell = request.is_in_cells ? faces_per_cell : 0;
   read_ratios(request);
+  read_error(request);
   check(request);
 }
 
@@ -160,21 +183,26 @@ void add_options(CLI::App& command, Simplify_request& request)
   command
       .add_option(
           "--ratio", request.ratios,
-          "Share of the faces to keep, from 0 to 1. PART=R is the share of one group, object or material; "
-          "R alone is then for all others. May be given several times.")
+          "Share of the faces to keep, from 0 to 1, of those that can be reduced: frozen and locked faces "
+          "stay "
+          "and do not count. PART=R is the share of one group, object or material; R alone is then for all "
+          "others. May be given several times.")
       ->type_name("[PART=]R")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->group(how_far);
-  command.add_option("--faces", options.faces, "Number of faces to keep.")
+  command.add_option("--faces", options.faces, "Number of faces to keep, of all.")
       ->transform(whole_number())
       ->type_name("N")
       ->group(how_far);
   command
-      .add_option("--error", options.max_error,
-                  "Largest error that a collapse may make, as a share of the diagonal of the bounding box.")
-      ->check(in_range(0))
-      ->type_name("E")
+      .add_option(
+          "--error", request.error,
+          "Largest distance from a vertex of the original to the surface of the result, as a share of "
+          "the diagonal of the bounding box; none sets no limit. Without another target, the reduction "
+          "goes as far as this allows.")
+      ->type_name("E|none")
+      ->default_str("0.01")
       ->group(how_far);
 
   command
@@ -190,7 +218,7 @@ void add_options(CLI::App& command, Simplify_request& request)
   const char* const parts = "Parts (PART names a group, an object or a material)";
   command
       .add_option("--lock", request.intent.locked,
-                  "Parts whose vertices must not move. Their faces count towards the target.")
+                  "Parts whose vertices must not move. Their faces count for --faces, but not for --ratio.")
       ->type_name("PART")
       ->group(parts);
   command

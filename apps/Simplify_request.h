@@ -25,6 +25,7 @@ struct Simplify_request
   std::string report;
   std::string log;
   std::vector<std::string> ratios; // "R" or "PART=R"
+  std::string error;               // "E", "none", or empty for the default
   std::vector<double> lods;
   std::string obstacle;
   Simplify_options options;

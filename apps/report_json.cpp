@@ -137,6 +137,7 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
   const Simplify_report& done = result.report;
   report["faces"] = {{"input", prepared.soup.triangles.size()},
                      {"output", result.soup.triangles.size()},
+                     {"fixed", done.faces_fixed},
                      {"target", done.faces_target}};
   report["target"] = {{"reached", done.is_reached()}, {"outcome", done.outcome()}};
   report["vertices"] = {{"kept", result.soup.points.size() - result.placed_vertices},

@@ -5,21 +5,58 @@
 
 #include "text.h"
 
+#include <selvedge/Parts.h>
+
+#include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <ostream>
+#include <sstream>
 #include <utility>
 
 namespace selvedge::app {
 namespace {
 
-/// Says in a clause why a reduction ended before its target.
-std::string why_missed(const Simplify_report& report)
+// From here on a user should know where the result is off.
+constexpr double far_off = 0.01;
+
+std::string percent(double share)
 {
+  return with_digits(100 * share) + " %";
+}
+
+/// Says in a clause why a reduction ended before its target.
+std::string why_missed(const Simplify_request& request, const Simplify_report& report)
+{
+  // The error is asked last of what limits shape, so that each collapse that it refused would go on.
+  const std::optional<double>& error = request.options.max_error;
+  if (error && !report.is_stopped && report.refused_in_last_pass.error > 0)
+    return "fewer would move the surface by more than " + percent(*error) + " of its size" +
+           (*error > 0 ? "; --error " + with_digits(5 * *error) + " goes on" : "");
   const std::string outcome = report.outcome();
   for (const Refusals::Rule& rule : Refusals::rules())
     if (outcome == rule.key)
       return std::string("the rule '") + rule.name + "' refuses most of the collapses left";
   return report.is_stopped ? "it was interrupted" : "every collapse left would change the topology";
+}
+
+/// Says in a clause where a vertex of the original is.
+std::string place_of(Index vertex, const Triangle_soup& original)
+{
+  std::ostringstream text;
+  for (const Part_kind& kind : part_kinds(original))
+    for (Index t = 0; t < original.triangles.size() && kind.name != Part_kind::Name::piece; ++t) {
+      const Index_triple& triangle = original.triangles[t];
+      const std::string& part = kind.names[kind.of_triangle[t]];
+      if (part.empty() || std::find(triangle.begin(), triangle.end(), vertex) == triangle.end())
+        continue;
+      text << "at " << name(kind.name) << " '" << part << "', ";
+      break;
+    }
+  const Point_3& point = original.points[vertex];
+  text << "near (" << with_digits(point.x()) << ", " << with_digits(point.y()) << ", "
+       << with_digits(point.z()) << ')';
+  return text.str();
 }
 
 void print_snapping(std::ostream& stream, const Snapping_notes& notes)
@@ -76,15 +113,20 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
   const auto& [output, result, verification] = level;
   const Simplify_report& done = result.report;
   const std::size_t faces = result.soup.triangles.size();
+  const Distance& distance = verification.distances->original_to_result;
   stream << "reduced to " << counted(faces, "face") << " ("
          << with_digits(100.0 * double(faces) / double(prepared.soup.triangles.size())) << " %) in "
          << with_digits(done.seconds_reduce) << " s: ";
   if (request.options.ratio || request.options.faces || !request.lods.empty() ||
       !request.intent.ratios.empty())
     stream << "target " << with_commas(done.faces_target)
-           << (done.is_reached() ? " reached" : " not reached: " + why_missed(done));
+           << (done.is_reached() ? " reached" : " not reached: " + why_missed(request, done));
   else
     stream << "as far as the limits allow";
+  if (done.faces_fixed > 0)
+    stream << "\nfixed: " << counted(done.faces_fixed, "face")
+           << " with all corners frozen, locked or coincident; a ratio is of the other "
+           << with_commas(done.faces_input - done.faces_fixed);
   stream << "\ncollapses refused, by rule:";
   const char* separator = " ";
   for (const Refusals::Rule& rule : Refusals::rules())
@@ -103,11 +145,12 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
            << " (triangles that touch or cross, or are degenerate), "
            << with_commas(verification.new_pairs.size()) << " of them new";
   stream << ", topology " << (verification.same_topology() ? "kept" : "CHANGED")
-         << "\ndistance from the original's vertices: "
-         << with_digits(100 * verification.distances->original_to_result.root_mean_square)
-         << " % of the diagonal (RMS), at most "
-         << with_digits(100 * verification.distances->original_to_result.maximum) << " %\n"
-         << (outcome.is_written() ? "written: " : "NOT written: ") << output << std::endl;
+         << "\ndistance from the original's vertices: " << percent(distance.root_mean_square)
+         << " of the diagonal (RMS), at most " << percent(distance.maximum) << '\n';
+  if (distance.maximum > far_off)
+    stream << "worst deviation " << percent(distance.maximum) << " of the size, "
+           << place_of(distance.farthest, prepared.soup) << '\n';
+  stream << (outcome.is_written() ? "written: " : "NOT written: ") << output << std::endl;
 }
 
 std::string complaint(const Simplify_request& request, const Level& level, const Outcome& outcome)
@@ -132,7 +175,7 @@ std::string complaint(const Simplify_request& request, const Level& level, const
   if (request.is_target_required && !result.report.is_reached())
     return where + "the target of " + counted(result.report.faces_target, "face") +
            " was missed: " + with_commas(result.soup.triangles.size()) + " are left, because " +
-           why_missed(result.report) + "; the result is written";
+           why_missed(request, result.report) + "; the result is written";
   return "";
 }
 

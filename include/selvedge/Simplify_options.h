@@ -63,15 +63,17 @@ enum class Face_index {
 /// faces, and the limits decide where the reduction ends.
 struct Simplify_options
 {
-  /// Faces to keep, as a share of the input's, in [0, 1].
+  /// Faces to keep, as a share of those of the input that can be reduced, in [0, 1]. A face whose corners are
+  /// all locked from the start (in frozen or locked faces, or at coincident vertices) stays and does not
+  /// count, so that the rest does not have to make up for it.
   std::optional<double> ratio;
 
-  /// Faces to keep.
+  /// Faces to keep, of all.
   std::optional<std::size_t> faces;
 
-  /// The largest error of a collapse, as a share of the diagonal of the bounding box, at least 0. The error
-  /// is the root mean square distance, weighted by area, of the merged vertex to the planes of the original
-  /// faces that it stands for.
+  /// The largest distance from a vertex of the original to the surface of the result, as a share of the
+  /// diagonal of the bounding box, at least 0. It is measured at every collapse, for every vertex of the
+  /// original that is near it, and holds at any time. (The original is the mesh as `prepare` left it.)
   std::optional<double> max_error;
 
   /// The largest change of a face's normal in one collapse, in degrees from 0 to 180.

@@ -18,6 +18,7 @@ namespace selvedge {
 struct Simplify_report
 {
   std::size_t faces_input = 0;
+  std::size_t faces_fixed = 0; ///< of `faces_input`, those that cannot change: all their corners are locked
   std::size_t faces_target = 0;
   std::size_t faces_output = 0;
   std::size_t faces_to_go = 0; ///< faces above the target at the end, summed over all parts with a target

@@ -233,6 +233,7 @@ struct Distance
 {
   double root_mean_square;
   double maximum;
+  Index farthest = 0; ///< a vertex that has the largest distance
 };
 
 /// Returns the distance from the vertices of the triangles of `from` to the nearest points of the triangles

@@ -141,15 +141,18 @@ Distance distance(const Triangle_soup& from, const Triangle_soup& to)
   const Surface source(from, exponent), surface(to, exponent);
   const std::vector<Index> vertices = used_vertices(from);
   std::vector<double> squared_distances(vertices.size());
+  std::vector<Index> order(vertices.size());
   for_each_nearest(vertices, source, Surface_tree(surface),
                    [&](std::size_t i, Index vertex, const Surface_tree::Nearest& nearest) {
+                     order[i] = vertex;
                      squared_distances[i] = CGAL::squared_distance(source.points[vertex], nearest.point);
                    });
   // Summed in a fixed order, whatever the threads do.
   const double sum = std::accumulate(squared_distances.begin(), squared_distances.end(), 0.0);
-  const double maximum = *std::max_element(squared_distances.begin(), squared_distances.end());
+  const auto maximum = std::max_element(squared_distances.begin(), squared_distances.end());
   const double mean = sum / static_cast<double>(vertices.size());
-  return {std::ldexp(std::sqrt(mean), exponent), std::ldexp(std::sqrt(maximum), exponent)};
+  return {std::ldexp(std::sqrt(mean), exponent), std::ldexp(std::sqrt(*maximum), exponent),
+          order[std::size_t(maximum - squared_distances.begin())]};
 }
 
 Bounds maximum_distance(const Triangle_soup& from, const Triangle_soup& to)
@@ -232,7 +235,7 @@ Distances distances(const Triangle_soup& result, const Triangle_soup& original)
       original.triangles.empty() ? 0 : std::hypot(box.x_span(), box.y_span(), box.z_span());
   const double unit = diagonal > 0 ? diagonal : 1;
   const auto relative = [&](const Distance& d) {
-    return Distance{d.root_mean_square / unit, d.maximum / unit};
+    return Distance{d.root_mean_square / unit, d.maximum / unit, d.farthest};
   };
   return {relative(distance(original, result)), relative(distance(result, original)), diagonal};
 }

@@ -193,13 +193,15 @@ TEST(App_simplify, WritesWhenTheTargetIsOutOfReach)
   const Workspace folder;
   const std::string in = folder.generate("sheets", "in.obj", 1000);
   const std::string out = folder / "out.obj";
-  const App_result lenient = run_app({"simplify", in, "-o", out, "--faces", "1"});
+  const App_result lenient = run_app({"simplify", in, "-o", out, "--faces", "1", "--error", "none"});
   EXPECT_EQ(lenient.code, 0);
   EXPECT_EQ(lenient.err, "");
   EXPECT_NE(lenient.out.find("target 1 not reached: the rule '"), std::string::npos) << lenient.out;
   const std::string written = contents_of(out);
   std::filesystem::remove(out);
-  expect_refused({"simplify", in, "-o", out, "--faces", "1", "--require-target", "--quiet"}, 1, "was missed");
+  expect_refused(
+      {"simplify", in, "-o", out, "--faces", "1", "--error", "none", "--require-target", "--quiet"}, 1,
+      "was missed");
   EXPECT_EQ(contents_of(out), written);
 }
 
@@ -214,6 +216,23 @@ TEST(App_simplify, StopsAtTheErrorAllowed)
     EXPECT_GT(faces, faces_before) << error;
     faces_before = faces;
   }
+}
+
+TEST(App_simplify, EndsWhereFewerFacesWouldMoveTheSurfaceTooFar)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("nested", "in.obj", 2000), out = folder / "out.obj";
+  const App_result bounded = run_app({"simplify", in, "-o", out, "--ratio", "0.01"});
+  EXPECT_NE(
+      bounded.out.find("not reached: fewer would move the surface by more than 1 % of its size; --error "
+                       "0.05 goes on\n"),
+      std::string::npos)
+      << bounded.out;
+  EXPECT_EQ(bounded.out.find("worst deviation"), std::string::npos) << bounded.out;
+  // What it says is so: more is allowed, and goes farther, and then says where it is off.
+  const App_result free = run_app({"simplify", in, "-o", out, "--ratio", "0.01", "--error", "0.05"});
+  EXPECT_NE(free.out.find("\nworst deviation "), std::string::npos) << free.out;
+  EXPECT_EQ(run_app({"simplify", in, "-o", out, "--error", "none"}).code, 2);
 }
 
 TEST(App_simplify, UncheckedIsWrittenAndNotVerified)

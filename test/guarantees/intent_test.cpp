@@ -73,11 +73,27 @@ TEST(Intent, NoVertexOfALockedGroupMoves)
   EXPECT_TRUE(result.report.is_reached());
   EXPECT_TRUE(verify(result, prepared).accepted());
 
-  // Its faces count for the target, the others give way the more. The control: without the lock both give
-  // way.
-  EXPECT_LE(result.soup.triangles.size(),
-            std::size_t(std::llround(0.6 * double(prepared.soup.triangles.size()))));
+  // The control: without the lock both give way.
   EXPECT_NE(faces_of(simplify_soup(prepared, to_ratio(0.6)).soup, 1), faces_of(prepared.soup, 1));
+}
+
+TEST(Intent, ARatioIsOfTheFacesThatCanChangeAndANumberIsOfAll)
+{
+  const Prepared_soup prepared = prepare(two_groups());
+  const std::size_t faces = prepared.soup.triangles.size(), of_body = faces_of(prepared.soup, 1).size();
+  const Simplify_report by_ratio = simplify_soup(prepared, to_ratio(0.6), locked("body")).report;
+  EXPECT_GE(by_ratio.faces_fixed, of_body);
+  EXPECT_LT(by_ratio.faces_fixed, of_body + 10);
+  EXPECT_EQ(by_ratio.faces_target,
+            by_ratio.faces_fixed + std::size_t(std::llround(0.6 * double(faces - by_ratio.faces_fixed))));
+  EXPECT_TRUE(by_ratio.is_reached());
+  EXPECT_EQ(simplify_soup(prepared, to_ratio(0.6)).report.faces_fixed, 0u); // the control
+
+  Simplify_options by_number;
+  by_number.faces = std::size_t(0.6 * double(faces));
+  const Simplify_report report = simplify_soup(prepared, by_number, locked("body")).report;
+  EXPECT_EQ(report.faces_target, *by_number.faces);
+  EXPECT_TRUE(report.is_reached());
 }
 
 TEST(Intent, NoFaceOfAKeptGroupChangesAndTheTargetIsForTheOthers)
@@ -113,9 +129,12 @@ TEST(Intent, AGroupKeepsItsOwnRatioAndTheOthersGoOn)
 TEST(Intent, EveryPartNamedMustReachItsRatio)
 {
   const Prepared_soup prepared = prepare(two_groups());
-  Simplify_intent intent = locked("body");
+  Simplify_intent intent;
   intent.ratios = {{"body", 0.5}};
-  const Simplified_soup result = simplify_soup(prepared, to_ratio(0.1), intent);
+  Simplify_options options = to_ratio(1);
+  EXPECT_TRUE(simplify_soup(prepared, options, intent).report.is_reached()); // the control
+  options.min_aspect_ratio = 1;
+  const Simplified_soup result = simplify_soup(prepared, options, intent);
   EXPECT_FALSE(result.report.is_reached());
   EXPECT_NE(result.report.outcome(), "reached");
 }

@@ -178,8 +178,7 @@ std::string command_line(const World& world)
     add("--ratio", quoted(part.name + '=' + text_of(part.ratio)));
   if (options.faces)
     add("--faces", std::to_string(*options.faces));
-  if (options.max_error)
-    add("--error", text_of(*options.max_error));
+  add("--error", options.max_error ? text_of(*options.max_error) : "none");
   std::string lods;
   for (const double lod : world.lods)
     lods += (lods.empty() ? "" : ",") + text_of(lod);

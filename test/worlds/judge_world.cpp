@@ -516,6 +516,10 @@ Verdict judge_stop(const World& world, const World_run& run)
     return broken("the report counts other faces");
   if (report.is_stopped != run.is_told_to_stop)
     return broken("told to stop, and not so reported, or the other way round");
+  if (world.options.max_error && !run.result.soup.triangles.empty() &&
+      distances(run.result.soup, soup).original_to_result.maximum >
+          *world.options.max_error * (1 + 1e-6) + 1e-9)
+    return broken("a vertex of the original is farther away than the error allows");
 
   // A face of several shares is of the last.
   std::vector<std::size_t> share_of(soup.triangles.size(), 0);
@@ -531,10 +535,36 @@ Verdict judge_stop(const World& world, const World_run& run)
     add(part.name, part.ratio);
   for (const std::string& part : world.intent.kept)
     add(part, 1);
+  // What is locked or frozen, by position. Coincident vertices that are not sewn hold further faces: how
+  // many, only the report says. The share of each is open then, and with it the target.
+  std::vector<char> is_held(soup.points.size() + world.obstacle.points.size(), false);
+  const std::vector<char> is_locked = held(world, soup, true);
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
+    if (is_locked[t] || run.prepared.is_frozen[t])
+      for (const Index v : soup.triangles[t])
+        is_held[run.prepared.positions[v]] = true;
+  const auto is_fixed = [&](std::size_t t) {
+    return std::all_of(soup.triangles[t].begin(), soup.triangles[t].end(),
+                       [&](Index v) { return is_held[run.prepared.positions[v]]; });
+  };
+  const auto fixed_in = [&](std::size_t share) {
+    std::size_t count = 0;
+    for (std::size_t t = 0; t < share_of.size(); ++t)
+      count += share_of[t] == share && is_fixed(t);
+    return count;
+  };
+  std::size_t fixed_in_all = 0;
+  for (std::size_t share = 0; share < ratios.size(); ++share)
+    fixed_in_all += fixed_in(share);
+  if (report.faces_fixed < fixed_in_all || report.faces_fixed > soup.triangles.size())
+    return broken("the report counts other faces that are fixed");
+  if (report.faces_fixed != fixed_in_all)
+    return std::nullopt;
   std::size_t target = 0, to_go = 0;
   for (std::size_t share = 0; share < ratios.size(); ++share) {
     const std::size_t before = std::size_t(std::count(share_of.begin(), share_of.end(), share));
-    std::size_t aim = std::size_t(std::llround(ratios[share] * double(before)));
+    const std::size_t fixed = fixed_in(share);
+    std::size_t aim = fixed + std::size_t(std::llround(ratios[share] * double(before - fixed)));
     if (share == 0)
       aim = std::max(aim, world.options.faces.value_or(0));
     const std::size_t now =

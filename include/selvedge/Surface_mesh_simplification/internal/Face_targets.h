@@ -5,6 +5,7 @@
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_FACE_TARGETS_H
 
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
+#include <selvedge/Surface_mesh_simplification/stop_predicates.h>
 
 #include <CGAL/Dynamic_property_map.h>
 #include <CGAL/boost/graph/helpers.h>
@@ -40,7 +41,14 @@ public:
   struct Share
   {
     std::size_t faces = 0; ///< that it has now
+    std::size_t fixed = 0; ///< of these, those that cannot change, because all their corners are locked
     std::size_t target = 0;
+
+    /// Returns the target for a ratio of the faces that it has now: the ratio is of those that are not fixed.
+    std::size_t at_ratio(double ratio) const
+    {
+      return fixed + Face_ratio_stop::face_target(ratio, faces - fixed);
+    }
 
     std::size_t excess() const { return faces - (std::min)(faces, target); }
   };
@@ -69,6 +77,25 @@ public:
     uncount(face);
     put(m_state->share_of, face, s_uncounted);
     m_state->are_all_counted = false;
+  }
+
+  /// Counts the fixed faces of every share. `locked` are the vertices that never move. Call it when all faces
+  /// have been assigned or left out.
+  template <class Vertices>
+  void fix(const Vertices& locked)
+  {
+    const TriangleMesh& mesh = m_state->mesh;
+    const auto is_locked = get(CGAL::dynamic_vertex_property_t<unsigned char>(), mesh);
+    for (const auto v : vertices(mesh))
+      put(is_locked, v, false);
+    for (const auto v : locked)
+      put(is_locked, v, true);
+    for (const Face face : faces(mesh)) {
+      const auto corners = CGAL::vertices_around_face(halfedge(face, mesh), mesh);
+      if (is_counted(face) &&
+          std::all_of(corners.begin(), corners.end(), [&](auto v) { return get(is_locked, v); }))
+        ++share_of(face).fixed;
+    }
   }
 
   bool is_counted(Face face) const { return get(m_state->share_of, face) != s_uncounted; }
@@ -107,6 +134,7 @@ public:
     Share total;
     for (const Share& share : m_state->shares) {
       total.faces += share.faces;
+      total.fixed += share.fixed;
       total.target += share.target;
     }
     return total;

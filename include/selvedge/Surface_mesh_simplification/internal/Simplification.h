@@ -21,6 +21,7 @@
 #include <selvedge/Surface_mesh_simplification/internal/Face_targets.h>
 #include <selvedge/Surface_mesh_simplification/internal/Halfedge_filter.h>
 #include <selvedge/Surface_mesh_simplification/internal/Lazy_edge_profile.h>
+#include <selvedge/Surface_mesh_simplification/internal/Tracked_vertices.h>
 #include <selvedge/Surface_mesh_simplification/internal/perform_collapse.h>
 #include <selvedge/Surface_mesh_simplification/stop_predicates.h>
 #include <selvedge/spatial/internal/Selectable_index.h>
@@ -155,11 +156,11 @@ class Simplification
   using Line = Border_filter<Rule>;
   using Border = Halfedge_filter<Are_pieces_kept, Line>;
   using Target = Halfedge_filter<Targets, Border>;
-  using Error = Error_filter<Quadrics, Target>;
-  using Aspect_ratio = Aspect_ratio_filter<Error>;
+  using Aspect_ratio = Aspect_ratio_filter<Target>;
   using Normal_change = Normal_change_filter<Aspect_ratio>;
   using Uv = Halfedge_filter<Is_uv_orientation_kept, Normal_change>;
-  using Intersection = Intersection_filter<TriangleMesh, Uv, Selectable_index>;
+  using Error = Error_filter<Tracked_vertices<TriangleMesh>, Uv>;
+  using Intersection = Intersection_filter<TriangleMesh, Error, Selectable_index>;
 
 public:
   Simplification(TriangleMesh& mesh, const Simplify_options& options,
@@ -168,17 +169,20 @@ public:
         m_diagonal(constraints.diagonal ? *constraints.diagonal : diagonal(mesh)),
         m_rule(make_rule(constraints)), m_targets(make_targets(constraints)),
         m_quadrics(mesh, options.cost, m_rule), m_line(m_rule), m_border({&observer, m_rule}, m_line),
-        m_target(m_targets, m_border), m_error(max_error(), m_quadrics, m_target),
-        m_aspect_ratio(options.min_aspect_ratio, m_error),
+        m_target(m_targets, m_border), m_aspect_ratio(options.min_aspect_ratio, m_target),
         m_normal_change(options.max_normal_change, m_aspect_ratio),
-        m_uv({options.check_uv_orientation ? &observer : nullptr, m_rule}, m_normal_change)
+        m_uv({options.check_uv_orientation ? &observer : nullptr, m_rule}, m_normal_change), m_tracked(mesh),
+        m_error(max_error(), m_tracked, m_uv)
   {
     refuse_out_of_range();
     if (!(options.uv_weight >= 0 && std::isfinite(options.uv_weight)))
       throw Argument_error("the weight of the texture is at least 0, and finite");
     m_quadrics.weigh(mesh, constraints.vertex_weights);
     m_quadrics.measure_by(m_diagonal);
+    if (options.max_error)
+      m_tracked.begin(get(CGAL::vertex_point, mesh), m_diagonal);
     m_report.faces_input = m_targets.total().faces;
+    m_report.faces_fixed = m_targets.total().fixed;
   }
 
   /// Moves the source of `moving` onto its target, or both to `place`, without asking any filter, since the
@@ -216,7 +220,7 @@ public:
   Simplify_report run(const std::vector<double>& ratios, const On_level& on_level)
   {
     for (const double ratio : ratios)
-      m_levels.push_back(Face_ratio_stop::face_target(ratio, m_targets.share(0).faces));
+      m_levels.push_back(m_targets.share(0).at_ratio(ratio));
     m_on_level = on_level;
     build_index();
     pass_levels();
@@ -283,7 +287,7 @@ private:
     const Clock::time_point start = Clock::now();
     Cancellation_scope::check();
     if (m_options.check_intersections)
-      m_intersection.emplace(m_mesh, m_uv, empty_index());
+      m_intersection.emplace(m_mesh, m_error, empty_index());
     Cancellation_scope::check();
     m_report.seconds_index = seconds_since(start);
   }
@@ -356,7 +360,7 @@ private:
   template <class Profile>
   bool allows(const Collapse<Profile>& collapse)
   {
-    if (m_intersection ? m_intersection->allows(collapse) : m_uv.allows(collapse)) {
+    if (m_intersection ? m_intersection->allows(collapse) : m_error.allows(collapse)) {
       ++m_accepted;
       m_is_mover_first = m_intersection && m_intersection->is_mover_first();
       return true;
@@ -375,6 +379,7 @@ private:
       m_observer.before_collapse(collapse.moving(), m_rule);
     }
     m_targets.before_collapse(collapse.moving());
+    m_tracked.before_collapse(collapse);
     m_rule.before_collapse(collapse);
     if (m_intersection)
       m_intersection->visitor().before_collapse(collapse);
@@ -446,11 +451,10 @@ private:
     }
     for (const auto face : constraints.uncounted_faces)
       targets.leave_out(face);
+    targets.fix(constraints.locked_vertices);
     for (std::size_t i = 0; i < constraints.shares.size(); ++i)
-      targets.set_target(
-          i + 1, Face_ratio_stop::face_target(constraints.shares[i].ratio, targets.share(i + 1).faces));
-    const std::size_t by_ratio =
-        m_options.ratio ? Face_ratio_stop::face_target(*m_options.ratio, targets.share(0).faces) : 0;
+      targets.set_target(i + 1, targets.share(i + 1).at_ratio(constraints.shares[i].ratio));
+    const std::size_t by_ratio = m_options.ratio ? targets.share(0).at_ratio(*m_options.ratio) : 0;
     targets.set_target(0, (std::max)(m_options.faces.value_or(0), by_ratio));
     return targets;
   }
@@ -537,10 +541,11 @@ private:
   Line m_line;
   Border m_border;
   Target m_target;
-  Error m_error;
   Aspect_ratio m_aspect_ratio;
   Normal_change m_normal_change;
   Uv m_uv;
+  Tracked_vertices<TriangleMesh> m_tracked;
+  Error m_error;
   std::optional<Intersection> m_intersection;
   Simplify_report m_report;
   std::size_t m_accepted = 0;
