@@ -396,7 +396,7 @@ void add_options(CLI::App& command, Simplify_request& request)
       "Examples:\n"
       "  selvedge simplify jacket.obj -o small.obj --ratio 0.3\n"
       "  selvedge simplify jacket.obj -o small.ply --faces 20000 --report small.json\n"
-      "  selvedge simplify jacket.obj -o jacket.obj --error 0.0005    # errors up to 0.05 % of the size\n"
+      "  selvedge simplify jacket.obj -o jacket.obj --error 0.0005    # at most 0.05 % of the size away\n"
       "  selvedge simplify jacket.obj -o 'jacket_{lod}.obj' --lods 0.5,0.25,0.1\n"
       "  selvedge simplify jacket.obj -o small.obj --ratio 0.2 --ratio collar=0.8 --keep logo --obstacle "
       "body.obj\n"

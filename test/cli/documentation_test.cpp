@@ -76,7 +76,7 @@ TEST(App_documentation, OptionsInReportsAreThoseOfTheHelp)
     }
     ++defaults;
   }
-  EXPECT_EQ(defaults, 13u);
+  EXPECT_EQ(defaults, 14u);
 }
 
 } // namespace

@@ -86,8 +86,8 @@ TEST(App_replay, NamesWhatALogWithoutTermsLeavesOpen)
 
 TEST(App_replay, LimitsOfTheJudgeTakeThePlaceOfTheLogs)
 {
-  const Logged_run run({"--ratio", "0.4", "--normal-change", "120", "--aspect-ratio", "0.2", "--border-turn",
-                        "8", "--seam-turn", "8"});
+  const Logged_run run({"--ratio", "0.4", "--error", "none", "--normal-change", "120", "--aspect-ratio",
+                        "0.2", "--border-turn", "8", "--seam-turn", "8"});
   const auto replay = [&](const std::string& limits) {
     return run_app({"replay", run.original, run.log, "--limits", limits});
   };
