@@ -150,7 +150,8 @@ const std::vector<Entry>& corpus()
        "not carried, vertex columns: 1"},
       {"ObjGroupContinued", obj, "g all\\\n v 1 1 1\n" + corner + "f 1 2 3\n", "", 3, 1},
       {"ObjTabsAndIndent", obj, "\t v\t0 0 0\n  v 4\t0\t0\nv 0 4 0  \n \tf 1\t2 3\t\n", "", 3, 1},
-      {"ObjNoLastLineEnd", obj, corner + "f 1 2 3", "", 3, 1},
+      {"ObjNoLastLineEnd", obj, corner + "f 1 2 3", "", 3, 1,
+       "lines that are not ended, as at the end of a truncated file: 1"},
       {"ObjByteOrderMark", obj, "\xef\xbb\xbf" + corner + "f 1 2 3\n", "", 3, 1},
 
       // What is not carried

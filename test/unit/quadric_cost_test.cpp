@@ -21,22 +21,26 @@ struct Peak
 {
   static constexpr Index peak = 4 * 9 + 4;
 
-  explicit Peak(double size = 1)
+  explicit Peak(double size = 1) : mesh(made(size)), points(mesh.points()), cost(mesh)
+  {
+    cost.measure_by(10);
+    cost.initialize(mesh, points, traits);
+  }
+
+  static Mesh made(double size)
   {
     Triangle_soup soup = sheet(8, 8);
     soup.points[peak] = soup.points[peak] + Kernel::Vector_3(0, 0, 1);
     for (Point_3& point : soup.points)
       point = Point_3(size * point.x(), size * point.y(), size * point.z());
-    mesh = mesh_of(soup);
-    cost.measure_by(10);
-    cost.initialize(mesh, mesh.points(), Kernel());
+    return mesh_of(soup);
   }
 
   auto profile(Index from, Index to) const
   {
     const auto moving = mesh.halfedge(Vertex(from), Vertex(to));
-    return internal::Lazy_edge_profile<Mesh, Mesh::Property_map<Vertex, Point_3>, Kernel>(
-        moving, mesh, mesh.points(), traits);
+    return internal::Lazy_edge_profile<Mesh, Mesh::Property_map<Vertex, Point_3>, Kernel>(moving, mesh,
+                                                                                          points, traits);
   }
 
   double cost_of(Index from, Index to) const
@@ -46,8 +50,9 @@ struct Peak
   }
 
   mutable Mesh mesh;
+  Mesh::Property_map<Vertex, Point_3> points; // a profile refers to it
   Kernel traits;
-  Quadric_cost<Mesh> cost{mesh};
+  Quadric_cost<Mesh> cost;
 };
 
 TEST(QuadricCost, IsWhatTheCollapseAdds)

@@ -566,7 +566,7 @@ Verdict judge_stop(const World& world, const World_run& run)
     const std::size_t fixed = fixed_in(share);
     std::size_t aim = fixed + std::size_t(std::llround(ratios[share] * double(before - fixed)));
     if (share == 0)
-      aim = std::max(aim, world.options.faces.value_or(0));
+      aim = std::max(world.options.ratio ? aim : 0, world.options.faces.value_or(0));
     const std::size_t now =
         std::size_t(std::count_if(run.result.triangles.begin(), run.result.triangles.end(),
                                   [&](Index t) { return share_of[t] == share; }));
