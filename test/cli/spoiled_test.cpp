@@ -305,8 +305,6 @@ const std::vector<Spoiled> ways = {
      }},
     {"AllIsSomewhereElse", "missing", true,
      [](Result& r) { r.move(r.all(), [](const Point_3& p) { return moved(p, 3, 0, 0); }); }},
-    {"AllHasMovedByAMillimetre", "name", true,
-     [](Result& r) { r.move(r.all(), [](const Point_3& p) { return moved(p, 0.001, 0, 0); }); }},
     {"AllIsRoundedToCentimetres", "pairs", true,
      [](Result& r) {
        const auto rounded = [](double x) { return std::round(100 * x) / 100; };
@@ -324,12 +322,6 @@ const std::vector<Spoiled> ways = {
      [](Result& r) {
        for (const char* const piece : {"front", "back", "yoke_left", "yoke_right"})
          r.swap_names(std::string("lining_") + piece, std::string("shell_") + piece);
-     }},
-    {"ALayerTouchesTheNext", "pairs", true,
-     [](Result& r) {
-       const Index lining = r.inner_vertex(r.triangles("lining_front"));
-       const auto& shell = r.soup.triangles[r.triangles("interlining_1_front").front()];
-       r.soup.points[lining] = r.soup.points[shell[0]];
      }},
 
     // ---- Vertices
