@@ -305,6 +305,11 @@ const std::vector<Spoiled> ways = {
      }},
     {"AllIsSomewhereElse", "missing", true,
      [](Result& r) { r.move(r.all(), [](const Point_3& p) { return moved(p, 3, 0, 0); }); }},
+    {"AllHasMovedByTwoMillimetres", "name", true,
+     [](Result& r) { r.move(r.all(), [](const Point_3& p) { return moved(p, 0.002, 0, 0); }); }},
+    // No farther than the reduction itself moves the surface.
+    {"AllHasMovedByAMillimetre", parts, false,
+     [](Result& r) { r.move(r.all(), [](const Point_3& p) { return moved(p, 0.001, 0, 0); }); }},
     {"AllIsRoundedToCentimetres", "pairs", true,
      [](Result& r) {
        const auto rounded = [](double x) { return std::round(100 * x) / 100; };
@@ -322,6 +327,12 @@ const std::vector<Spoiled> ways = {
      [](Result& r) {
        for (const char* const piece : {"front", "back", "yoke_left", "yoke_right"})
          r.swap_names(std::string("lining_") + piece, std::string("shell_") + piece);
+     }},
+    {"ALayerTouchesTheNext", "pairs", true,
+     [](Result& r) {
+       const Index lining = r.inner_vertex(r.triangles("lining_front"));
+       const auto& [a, b, c] = r.soup.triangles[r.triangles("interlining_1_front").front()];
+       r.soup.points[lining] = CGAL::centroid(r.soup.points[a], r.soup.points[b], r.soup.points[c]);
      }},
 
     // ---- Vertices
