@@ -3,11 +3,13 @@
 
 #include <selvedge/normals.h>
 
+#include "Disjoint_sets.h"
+
+#include <selvedge/internal/Vector_of_doubles.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -17,16 +19,13 @@
 namespace selvedge {
 namespace {
 
-using Vector = std::array<double, 3>;
+using Vector = internal::Vector_of_doubles;
+using internal::cross;
+using internal::dot;
 
 // Cosines of 0.1° and of 1°.
 constexpr double s_cosine_flat = 0.9999984769;
 constexpr double s_cosine_smooth = 0.9998476952;
-
-double dot(const Vector& a, const Vector& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 Vector difference(const Point_3& a, const Point_3& b)
 {
@@ -52,7 +51,7 @@ Vector unit_normal(const Triangle_soup& soup, Index triangle)
   const auto& [p, q, r] = soup.triangles[triangle];
   const Vector u = unit(difference(soup.points[q], soup.points[p]));
   const Vector v = unit(difference(soup.points[r], soup.points[p]));
-  return unit({u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]});
+  return unit(cross(u, v));
 }
 
 bool is_within(const Vector& a, const Vector& b, double cosine)
@@ -67,33 +66,6 @@ Vector stored(const Vector& normal)
     return {0, 0, 1};
   return {double(float(normal[0])), double(float(normal[1])), double(float(normal[2]))};
 }
-
-/// Disjoint sets of corners, each corner being 3 × triangle + place.
-class Fans
-{
-public:
-  explicit Fans(std::size_t triangles) : m_parent(3 * triangles)
-  {
-    std::iota(m_parent.begin(), m_parent.end(), Index(0));
-  }
-
-  Index first(Index corner)
-  {
-    while (m_parent[corner] != corner)
-      corner = m_parent[corner] = m_parent[m_parent[corner]];
-    return corner;
-  }
-
-  void join(Index a, Index b)
-  {
-    a = first(a);
-    b = first(b);
-    m_parent[std::max(a, b)] = std::min(a, b);
-  }
-
-private:
-  std::vector<Index> m_parent;
-};
 
 // Gives the corners between two hard edges at a vertex the value of the first of them.
 void join_fans(Triangle_soup& soup)
@@ -121,21 +93,21 @@ void join_fans(Triangle_soup& soup)
            (value(a) != normals.missing && value(b) != normals.missing &&
             is_within(normals.values[value(a)], normals.values[value(b)], s_cosine_smooth));
   };
-  Fans fans(soup.triangles.size());
+  internal::Disjoint_sets fans(3 * soup.triangles.size()); // of corners, each 3 × triangle + place
   for (std::size_t i = 0; i < sides.size();) {
     std::size_t end = i + 1;
     while (end < sides.size() && edge(sides[end]) == edge(sides[i]))
       ++end;
     const Side &a = sides[i], &b = sides[end - 1];
     if (end - i == 2 && is_smooth_between(a.at_low, b.at_low) && is_smooth_between(a.at_high, b.at_high)) {
-      fans.join(a.at_low, b.at_low);
-      fans.join(a.at_high, b.at_high);
+      fans.unite(a.at_low, b.at_low);
+      fans.unite(a.at_high, b.at_high);
     }
     i = end;
   }
   std::vector<Index_triple> joined = normals.of_triangle;
   for (Index corner = 0; corner < 3 * joined.size(); ++corner)
-    joined[corner / 3][corner % 3] = value(fans.first(corner));
+    joined[corner / 3][corner % 3] = value(Index(fans.find(corner)));
   normals.of_triangle = std::move(joined);
 }
 

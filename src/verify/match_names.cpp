@@ -3,9 +3,9 @@
 
 #include "match_names.h"
 
-#include "Disjoint_sets.h"
 #include "Shape.h"
 #include "part_names.h"
+#include "soup/Disjoint_sets.h"
 
 #include <selvedge/Cancellation_scope.h>
 

@@ -1,7 +1,6 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "Disjoint_sets.h"
 #include "Piece_mesh.h"
 #include "Shape.h"
 #include "match_names.h"
@@ -9,6 +8,7 @@
 #include "part_names.h"
 #include "positions.h"
 #include "rounded.h"
+#include "soup/Disjoint_sets.h"
 
 #include <selvedge/Cancellation_scope.h>
 

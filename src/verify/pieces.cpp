@@ -3,7 +3,7 @@
 
 #include "pieces.h"
 
-#include "Disjoint_sets.h"
+#include "soup/Disjoint_sets.h"
 
 #include <selvedge/Cancellation_scope.h>
 

@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef SELVEDGE_SRC_VERIFY_DISJOINT_SETS_H
-#define SELVEDGE_SRC_VERIFY_DISJOINT_SETS_H
+#ifndef SELVEDGE_SRC_SOUP_DISJOINT_SETS_H
+#define SELVEDGE_SRC_SOUP_DISJOINT_SETS_H
 
 #include <algorithm>
 #include <cstddef>
@@ -12,8 +12,8 @@
 
 namespace selvedge::internal {
 
-/// A partition of the numbers below `size` into sets that can be united (union-find), with which the judge
-/// finds connected pieces. A set is named by its smallest number.
+/// A partition of the numbers below `size` into sets that can be united (union-find). A set is named by its
+/// smallest number.
 class Disjoint_sets
 {
 public:
@@ -41,4 +41,4 @@ private:
 
 } // namespace selvedge::internal
 
-#endif // SELVEDGE_SRC_VERIFY_DISJOINT_SETS_H
+#endif // SELVEDGE_SRC_SOUP_DISJOINT_SETS_H
