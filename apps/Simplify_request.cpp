@@ -184,8 +184,8 @@ void add_options(CLI::App& command, Simplify_request& request)
       .add_option(
           "--ratio", request.ratios,
           "Share of the faces to keep, from 0 to 1, of those that can be reduced: frozen and locked faces "
-          "stay "
-          "and do not count. PART=R is the share of one group, object or material; R alone is then for all "
+          "stay and do not count. PART=R is the share of one group, object or material; R alone is then for "
+          "all "
           "others. May be given several times.")
       ->type_name("[PART=]R")
       ->expected(1)
@@ -215,6 +215,16 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->type_name("R,R")
       ->group(how_far);
 
+  command
+      .add_option("--placement", options.placement,
+                  "Where a collapse puts the merged vertex: at one of the two vertices, or where the surface "
+                  "changes least. The latter interpolates the attributes of vertices that it puts to new "
+                  "places.")
+      ->transform(one_of<Placement>({{"vertices", Placement::vertices}, {"optimal", Placement::optimal}}))
+      ->type_name("vertices|optimal")
+      ->default_str("vertices")
+      ->group(how_far);
+
   const char* const parts = "Parts (PART names a group, an object or a material)";
   command
       .add_option("--lock", request.intent.locked,
@@ -237,16 +247,6 @@ void add_options(CLI::App& command, Simplify_request& request)
                   "or written.")
       ->type_name("FILE")
       ->group(parts);
-
-  command
-      .add_option("--placement", options.placement,
-                  "Where a collapse puts the merged vertex: at one of the two vertices, or where the surface "
-                  "changes least. The latter interpolates the attributes of vertices that it puts to new "
-                  "places.")
-      ->transform(one_of<Placement>({{"vertices", Placement::vertices}, {"optimal", Placement::optimal}}))
-      ->type_name("vertices|optimal")
-      ->default_str("vertices")
-      ->group(how_far);
 
   const char* const limits = "Limits of a collapse";
   command
