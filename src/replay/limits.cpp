@@ -13,6 +13,8 @@ namespace selvedge::reference {
 namespace {
 
 constexpr double s_degree = 3.14159265358979323846 / 180;
+// More than rounding adds to the distance from a point to a segment, as a share of the diagonal.
+constexpr double s_rounded_distance = 0x1p-46;
 
 using Vector = Coordinates;
 
@@ -145,7 +147,7 @@ std::optional<Violation_kind> Limits::judge_line(const Complex& complex, Index m
     return ahead->is_border() ? Violation_kind::border_turn : Violation_kind::seam_turn;
   if (!m_limits.border_drift)
     return std::nullopt;
-  const double most = *m_limits.border_drift * m_diagonal * (1 + limit_tolerance);
+  const double most = (*m_limits.border_drift * (1 + limit_tolerance) + s_rounded_distance) * m_diagonal;
   const auto is_far = [&](const Coordinates& q) { return distance_to_segment(scaled(q), u, p) > most; };
   if (is_far(complex.point(mover)))
     return Violation_kind::border_drift;

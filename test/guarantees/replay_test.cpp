@@ -219,6 +219,17 @@ TEST(Replay, RefusesACollapseThatTunnels)
   EXPECT_TRUE(is_embedded(verdict.soup)) << "the end does not show it";
 }
 
+// The border is straight, and in thirds: a vertex on it lies beside the segment by what rounding adds.
+TEST(Replay, AllowsForRoundingWhereNoDriftIsAllowed)
+{
+  const double third = 2 / 3.0;
+  const Triangle_soup strip = soup(
+      {{0, 0, 0}, {third - 0x1p-53, 0, 0}, {2 * third + 0x1p-52, 0, 0}, {0, 1, 0}, {third - 0x1p-53, 1, 0}},
+      {{0, 1, 3}, {1, 4, 3}, {1, 2, 4}});
+  EXPECT_TRUE(
+      replay_text(strip, head_of(strip, "limit border_drift 0\n") + "c 1 0\nresult 1 2 -\n").is_accepted());
+}
+
 TEST(Replay, RefusesWhatTheDeclaredLimitsForbid)
 {
   // A strip whose border turns by 20° at vertex 1.
