@@ -59,14 +59,18 @@ inline Point_3 scaled(const Point_3& p, int exponent)
   return Point_3(std::ldexp(p.x(), exponent), std::ldexp(p.y(), exponent), std::ldexp(p.z(), exponent));
 }
 
-/// The triangles of a soup, which must outlive this, with all points divided by 2^exponent.
+/// The triangles of a soup, which must outlive this, with all points divided by 2^exponent. With an origin,
+/// coordinates are differences from its, rounded: near the origin, what is computed from them is then as
+/// accurate as the surface is small, however far away it lies from zero.
 struct Surface
 {
-  Surface(const Triangle_soup& soup, int exponent) : triangles(soup.triangles)
+  Surface(const Triangle_soup& soup, int exponent, const Point_3& origin = Point_3(0, 0, 0))
+      : triangles(soup.triangles)
   {
+    const Vector_3 shift = scaled(origin, -exponent) - Point_3(0, 0, 0);
     points.reserve(soup.points.size());
     for (const Point_3& point : soup.points)
-      points.push_back(scaled(point, -exponent));
+      points.push_back(scaled(point, -exponent) - shift);
   }
 
   const Point_3& corner(Index triangle, int place) const { return points[triangles[triangle][place]]; }

@@ -138,7 +138,8 @@ Distance distance(const Triangle_soup& from, const Triangle_soup& to)
     return {infinity, infinity};
 
   const int exponent = common_exponent(from, to);
-  const Surface source(from, exponent), surface(to, exponent);
+  const Point_3 origin = to.points[to.triangles[0][0]];
+  const Surface source(from, exponent, origin), surface(to, exponent, origin);
   const std::vector<Index> vertices = used_vertices(from);
   std::vector<double> squared_distances(vertices.size());
   std::vector<Index> order(vertices.size());
@@ -163,7 +164,8 @@ Bounds maximum_distance(const Triangle_soup& from, const Triangle_soup& to)
     return {infinity, infinity};
 
   const int exponent = common_exponent(from, to);
-  const Surface source(from, exponent), surface(to, exponent);
+  const Point_3 origin = to.points[to.triangles[0][0]];
+  const Surface source(from, exponent, origin), surface(to, exponent, origin);
   const Surface_tree tree(surface);
   const std::vector<Index> vertices = used_vertices(from);
   std::vector<Index> nearest(source.points.size());

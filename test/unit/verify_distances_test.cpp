@@ -146,6 +146,15 @@ TEST(Distance, IsNotMisledByNeedles)
   }
 }
 
+// So far from zero that a coordinate is a few units in the last place apart.
+TEST(Distance, IsAccurateFarFromZero)
+{
+  const auto far_away = [](double y, double z) { return Point_3(0, y * 0x1p-51, 1 + z * 0x1p-51); };
+  const Triangle_soup triangle = soup({far_away(0, -1), far_away(1, 1), far_away(2, 0)}, {{1, 2, 0}});
+  EXPECT_EQ(distance(soup({far_away(1, 0)}, {{0, 0, 0}}), triangle).maximum, 0); // within
+  EXPECT_EQ(distance(soup({far_away(1, 3)}, {{0, 0, 0}}), triangle).maximum, 0x1p-50);
+}
+
 TEST(Distances, AreRelativeToTheDiagonalOfTheOriginal)
 {
   // A sheet of 3 × 4 and a smaller one, twelve above a corner of it.
