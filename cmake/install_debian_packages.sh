@@ -4,7 +4,7 @@
 #
 # Installs what Selvedge is built from, on Debian 12 or later; does nothing where all of it is there already.
 # With the argument "benchmark" also the peers that the benchmark programs measure, with "fuzz" clang and its run-time
-# libraries, of which libFuzzer is one.
+# libraries, of which libFuzzer is one, with "manual" Doxygen.
 set -euo pipefail
 
 packages=(
@@ -24,6 +24,8 @@ if [[ "${1:-}" == benchmark ]]; then
   packages+=(libmeshoptimizer-dev)
 elif [[ "${1:-}" == fuzz ]]; then
   packages+=(clang libclang-rt-dev)
+elif [[ "${1:-}" == manual ]]; then
+  packages+=(doxygen)
 fi
 
 is_installed() { [[ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" == installed ]]; }

@@ -29,11 +29,13 @@ int main(int argc, char** argv)
     std::cerr << "usage: clustered_index IN.off OUT.off [FACES_PER_CLUSTER]\n";
     return 2;
   }
+  //! [call]
   // The filter fills the index with the faces of the mesh, and its visitor updates it after each collapse.
   const auto filter = selvedge::intersection_filter(
       mesh, selvedge::parameters::face_index<selvedge::Clustered_AABB_tree>(faces_per_cluster));
   const int collapses = selvedge::edge_collapse(mesh, selvedge::Face_ratio_stop(0.5, mesh),
                                                 CGAL::parameters::filter(filter).visitor(filter.visitor()));
+  //! [call]
 
   const selvedge::Index_statistics& done = filter.index().statistics();
   std::cout << collapses << " collapses, " << filter.refusals() << " refused; " << done.clusters

@@ -26,10 +26,12 @@ int main(int argc, char** argv)
     std::cerr << "usage: filter_for_cgal IN.off OUT.off\n";
     return 2;
   }
+  //! [call]
   const selvedge::Intersection_filter<Mesh> filter(mesh);
   const int collapses = SMS::edge_collapse(
       mesh, selvedge::Face_ratio_stop(0.5, mesh),
       CGAL::parameters::filter(filter).visitor(filter.visitor())); // give both: the visitor updates the index
+  //! [call]
   std::cout << collapses << " collapses, " << filter.refusals()
             << " refused because layers would have touched\n";
 

@@ -17,6 +17,7 @@ int main(int argc, char** argv)
     return 2;
   }
   try {
+    //! [judge]
     // A soup is two arrays: points of doubles, and triples of indices. You may fill one from your own mesh.
     const selvedge::Triangle_soup soup = selvedge::read_mesh(argv[1]).soup;
     for (const selvedge::Offending_pair& pair : selvedge::offending_pairs(soup))
@@ -24,6 +25,7 @@ int main(int argc, char** argv)
     for (const selvedge::Piece& piece : selvedge::pieces(soup))
       std::cout << "a piece of " << piece.faces << " faces with " << piece.boundary_loops
                 << " boundary loops\n";
+    //! [judge]
     return selvedge::is_embedded(soup) ? 0 : 1;
   } catch (const selvedge::Error& error) {
     std::cerr << error.what() << '\n';

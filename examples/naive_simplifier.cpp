@@ -66,7 +66,9 @@ int main(int argc, char** argv)
       const bool is_free = std::none_of(ring.begin(), ring.end(), [&](int w) { return is_touched[w]; });
       if (is_touched[u] || !is_free || !is_inner || common.size() != 2 || left <= target)
         continue;
+      //! [log]
       std::cout << "c " << u << ' ' << v << '\n';
+      //! [log]
       ++collapses;
       left -= 2;
       is_touched[u] = true;

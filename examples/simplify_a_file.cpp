@@ -16,6 +16,7 @@ int main(int argc, char** argv)
     return 2;
   }
   try {
+    //! [calls]
     selvedge::Prepare_options prepare_options;
     prepare_options.round_to_float32 = selvedge::stores_float32(selvedge::mesh_format(argv[2]));
     const selvedge::Prepared_soup input =
@@ -29,6 +30,7 @@ int main(int argc, char** argv)
     std::cout << result.report.faces_input << " faces to " << result.report.faces_output << " ("
               << result.report.outcome() << "), " << verdict.new_pairs.size() << " new offending pairs\n";
     selvedge::write_mesh(argv[2], result.soup);
+    //! [calls]
     return verdict.accepted() ? 0 : 1;
   } catch (const selvedge::Error& error) {
     std::cerr << error.what() << '\n';
