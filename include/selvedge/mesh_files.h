@@ -54,12 +54,12 @@ namespace selvedge {
 /// format says. Morph targets and animations are carried along, but nothing is guaranteed for the shapes that
 /// they make. Triangles of nodes that mirror are turned over, so that outside is outside.
 ///
-/// When a scene is written to glTF again, every vertex keeps its rows of every accessor of its primitive and
-/// of its morph targets bit for bit, so that its world position is the same double. The rest of the document
-/// stays as it is: images byte for byte, addresses of files, and numbers of accessors and buffer views. There
-/// are three exceptions: a mesh that several nodes share becomes one mesh for each, accessors of triangles
-/// are written in full and without gaps, and all buffers become one. Primitives of points or lines, and
-/// meshes outside the scene, stay as they are. Primitives and meshes that have no triangle left are removed.
+/// When a scene is written to glTF again, every vertex that is not at a new place keeps its rows of all
+/// accessors, morph targets included, bit for bit, and so its world position. The rest of the document stays
+/// as it is: images byte for byte, addresses of files, numbers of accessors and buffer views. There are three
+/// exceptions: a mesh that several nodes share becomes one for each, accessors of triangles are written in
+/// full and without gaps, and all buffers become one. Primitives of points or lines, and meshes outside the
+/// scene, stay as they are. Those without a triangle left are removed.
 ///
 /// **Complexity.** Time is linear in the size of the file, but quadratic in the number of corners of a
 /// polygon. Memory is linear, with two exceptions: a glTF scene may show a part in many of its nodes, and a

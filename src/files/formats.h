@@ -30,6 +30,10 @@ void write_gltf(Byte_writer& out, const Triangle_soup& soup, Mesh_format format)
 /// Names what only glTF files hold of this scene.
 const std::vector<std::string>& only_in_gltf(const Gltf_scene& scene);
 
+/// Returns the same triangles with a new document: one node for each group, and vertices split where corners
+/// differ in texture coordinates or normals. Precondition: coordinates are 32-bit floats.
+Triangle_soup with_gltf_scene(const Triangle_soup& soup);
+
 /// Whether an OBJ file of this soup holds this attribute of its vertices: a colour, or else a weight.
 bool is_in_obj(const Triangle_soup& soup, const Attribute& attribute);
 

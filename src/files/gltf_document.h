@@ -4,7 +4,7 @@
 #ifndef SELVEDGE_SRC_FILES_GLTF_DOCUMENT_H
 #define SELVEDGE_SRC_FILES_GLTF_DOCUMENT_H
 
-#include "files/gltf_scene.h"
+#include "soup/Gltf_scene.h"
 
 #include <selvedge/mesh_files.h>
 

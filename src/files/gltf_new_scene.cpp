@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "files/columns.h"
-#include "files/gltf_scene.h"
+#include "files/formats.h"
+#include "soup/Gltf_scene.h"
 
 #include <selvedge/Cancellation_scope.h>
 
@@ -20,17 +21,6 @@ namespace selvedge::files {
 namespace {
 
 using Json = Gltf_scene::Json;
-
-template <class Number>
-void append_little_endian(std::string& rows, Number number)
-{
-  std::conditional_t<sizeof number == 4, std::uint32_t,
-                     std::conditional_t<sizeof number == 2, std::uint16_t, std::uint8_t>>
-      bits;
-  std::memcpy(&bits, &number, sizeof bits);
-  for (std::size_t i = 0; i < sizeof bits; ++i)
-    rows += static_cast<char>(bits >> (8 * i) & 0xff);
-}
 
 Gltf_scene::Column column(const std::string& name, int component_type, std::size_t components,
                           bool is_normalized = false)
@@ -277,6 +267,11 @@ private:
 };
 
 } // namespace
+
+const std::vector<std::string>& only_in_gltf(const Gltf_scene& scene)
+{
+  return scene.only_in_gltf;
+}
 
 Triangle_soup with_gltf_scene(const Triangle_soup& soup)
 {

@@ -34,27 +34,6 @@ bool is_mirroring(const Matrix& m)
   return CGAL::orientation(Point_3(0, 0, 0), column(0), column(1), column(2)) == CGAL::NEGATIVE;
 }
 
-/// Returns the direction of a normal in world space, computed by the matrix of cofactors; the normal itself
-/// where the transform neither turns nor scales.
-std::array<double, 3> world_normal(const Matrix& m, bool is_mirrored, const std::array<double, 3>& n)
-{
-  Matrix linear = m;
-  for (auto& row : linear)
-    row[3] = 0;
-  if (linear == identity_matrix)
-    return n;
-  std::array<double, 3> result;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto &a = m[(i + 1) % 3], &b = m[(i + 2) % 3];
-    result[i] = (a[1] * b[2] - a[2] * b[1]) * n[0] + (a[2] * b[0] - a[0] * b[2]) * n[1] +
-                (a[0] * b[1] - a[1] * b[0]) * n[2];
-  }
-  const double length = std::sqrt(result[0] * result[0] + result[1] * result[1] + result[2] * result[2]);
-  for (double& coordinate : result)
-    coordinate = length > 0 ? coordinate / (is_mirrored ? -length : length) : 0;
-  return result;
-}
-
 class Gltf_reader
 {
 public:
@@ -76,6 +55,8 @@ public:
   }
 
 private:
+  static constexpr Index s_none = std::numeric_limits<Index>::max();
+
   Triangle_soup& soup() { return m_file.soup; }
   Json& json() { return m_document.json; }
   const tinygltf::Model& model() const { return m_document.model; }
@@ -415,19 +396,6 @@ private:
     return nullptr;
   }
 
-  static double fraction(const Column& column, std::size_t row, std::size_t place)
-  {
-    const double value = component(column, row, place);
-    switch (column.component_type) {
-    case type_uint8:
-      return value / 255;
-    case type_uint16:
-      return value / 65535;
-    default:
-      return value;
-    }
-  }
-
   // Sets the values of one attribute at all corners. Triangles without it refer to a value that stands for
   // none.
   template <std::size_t dimension, class Value>
@@ -465,29 +433,27 @@ private:
   void add_uvs()
   {
     // The second texture coordinate points down in glTF, up in other formats.
-    set_corner_values(soup().uvs, "TEXCOORD_0",
-                      [](const Gltf_scene::Instance&, const Column& column, Index row) {
-                        return std::array<double, 2>{fraction(column, row, 0), 1 - fraction(column, row, 1)};
-                      });
+    set_corner_values(
+        soup().uvs, "TEXCOORD_0", [](const Gltf_scene::Instance&, const Column& column, Index row) {
+          const auto at = [&](std::size_t place) {
+            return fraction(attribute_type(column.component_type), component(column, row, place));
+          };
+          return std::array<double, 2>{at(0), 1 - at(1)};
+        });
   }
 
   void add_normals()
   {
     set_corner_values(soup().normals, "NORMAL",
                       [](const Gltf_scene::Instance& instance, const Column& column, Index row) {
-                        return world_normal(instance.to_world, instance.is_mirrored,
-                                            {component(column, row, 0), component(column, row, 1),
-                                             component(column, row, 2)});
+                        return world_normal(instance, {component(column, row, 0), component(column, row, 1),
+                                                       component(column, row, 2)});
                       });
   }
 
   // Adds the further attributes that all vertices have in the same form.
   void add_attributes()
   {
-    const std::map<int, Attribute::Type> types = {
-        {type_int8, Attribute::Type::int8},     {type_uint8, Attribute::Type::uint8},
-        {type_int16, Attribute::Type::int16},   {type_uint16, Attribute::Type::uint16},
-        {type_uint32, Attribute::Type::uint32}, {type_float32, Attribute::Type::float32}};
     std::set<std::string> names;
     for (const Gltf_scene::Block& block : m_scene->blocks)
       for (const Column& column : block.attributes)
@@ -499,23 +465,22 @@ private:
       bool is_common = true;
       for (const Gltf_scene::Instance& instance : m_scene->instances) {
         const Column* const column = find(m_scene->blocks[instance.block], name);
-        const auto is_normalized = [](const Column& c) { return c.accessor.value("normalized", false); };
         first = first ? first : column;
         is_common = column && column->component_type == first->component_type &&
                     column->components == first->components &&
-                    is_normalized(*column) == is_normalized(*first) &&
+                    column->is_normalized() == first->is_normalized() &&
                     column->row_size == column->components * component_size(column->component_type);
         if (!is_common)
           break;
         attribute.rows.insert(attribute.rows.end(), column->rows.begin(), column->rows.end());
-        attribute.is_normalized = is_normalized(*column);
+        attribute.is_normalized = column->is_normalized();
       }
       if (!is_common) {
         m_scene->only_in_gltf.push_back(name + ", which not every vertex has");
         continue;
       }
       attribute.name = name;
-      attribute.type = types.at(first->component_type);
+      attribute.type = attribute_type(first->component_type);
       attribute.components = std::uint32_t(first->components);
       if (name == "COLOR_0")
         add_colours(attribute);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "files/formats.h"
-#include "files/gltf_scene.h"
+#include "soup/Gltf_scene.h"
 
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
@@ -79,17 +79,11 @@ public:
   }
 
 private:
+  static constexpr Index s_none = std::numeric_limits<Index>::max();
+
   const Gltf_scene::Block& block(const Gltf_scene::Instance& instance) const
   {
     return m_scene.blocks[instance.block];
-  }
-
-  std::size_t instance_of(Index scene_vertex) const
-  {
-    const auto beyond =
-        std::upper_bound(m_scene.instances.begin(), m_scene.instances.end(), scene_vertex,
-                         [](Index v, const Gltf_scene::Instance& instance) { return v < instance.first; });
-    return std::size_t(beyond - m_scene.instances.begin()) - 1;
   }
 
   void check() const
@@ -111,23 +105,25 @@ private:
     for (std::size_t t = 0; t < m_soup.triangles.size(); ++t) {
       poll();
       for (const Index v : m_soup.triangles[t])
-        if (instance_of(m_soup.scene_vertices[v]) != m_scene.parts[m_soup.groups.of_triangle[t]].instance)
+        if (m_scene.instance_of(m_soup.scene_vertices[v]) !=
+            m_scene.parts[m_soup.groups.of_triangle[t]].instance)
           refuse("triangle " + std::to_string(t) + " has a vertex of another primitive");
     }
   }
 
   // Returns the bytes of a vertex's position in its node: those that the file has for it or, when it has
-  // moved, those of another vertex under the same transform that lies where this one lies now.
-  std::string_view local_position(Index vertex)
+  // moved, those of another vertex under the same transform that lies where this one lies now, or else
+  // others that stand for just this point.
+  std::string local_position_of(Index vertex)
   {
     const Index scene_vertex = m_soup.scene_vertices[vertex];
-    const Gltf_scene::Instance& own = m_scene.instances[instance_of(scene_vertex)];
+    const Gltf_scene::Instance& own = m_scene.instances[m_scene.instance_of(scene_vertex)];
     const Point_3& point = m_soup.points[vertex];
     const auto position = [&](const Gltf_scene::Instance& instance, Index row) {
       return std::string_view(block(instance).attributes.front().rows).substr(std::size_t(row) * 12, 12);
     };
     if (world_position(own.to_world, block(own).attributes.front(), scene_vertex - own.first) == point)
-      return position(own, scene_vertex - own.first);
+      return std::string(position(own, scene_vertex - own.first));
     if (!m_positions) {
       m_positions.emplace();
       for (const Gltf_scene::Instance& instance : m_scene.instances)
@@ -138,12 +134,17 @@ private:
         }
     }
     const auto found = m_positions->find({own.to_world, point.x(), point.y(), point.z()});
-    if (found == m_positions->end())
-      throw Argument_error(
-          "vertex " + std::to_string(vertex) +
-          " (counted from 0) does not lie where its glTF file has a vertex under the same transform, so "
-          "its 32-bit coordinates are not known");
-    return found->second;
+    if (found != m_positions->end())
+      return std::string(found->second);
+    const auto local = local_position(own.to_world, point);
+    if (!local)
+      throw Argument_error("vertex " + std::to_string(vertex) +
+                           " (counted from 0) lies where no 32-bit coordinates under the transform of its "
+                           "glTF node are known to bring it");
+    std::string bytes;
+    for (const double coordinate : *local)
+      append_little_endian(bytes, static_cast<float>(coordinate));
+    return bytes;
   }
 
   void put_vertices()
@@ -156,7 +157,7 @@ private:
     m_numbers.assign(m_soup.points.size(), s_none);
     for (Index v = 0; v < m_soup.points.size(); ++v)
       if (is_used[v]) {
-        std::vector<Index>& of_instance = vertices[instance_of(m_soup.scene_vertices[v])];
+        std::vector<Index>& of_instance = vertices[m_scene.instance_of(m_soup.scene_vertices[v])];
         m_numbers[v] = Index(of_instance.size());
         of_instance.push_back(v);
       }
@@ -175,11 +176,11 @@ private:
         Cancellation_poll poll;
         for (const Index v : vertices[i]) {
           poll();
-          left.rows.append(is_position
-                               ? local_position(v)
-                               : std::string_view(column.rows)
-                                     .substr((m_soup.scene_vertices[v] - instance.first) * column.row_size,
-                                             column.row_size));
+          if (is_position)
+            left.rows += local_position_of(v);
+          else
+            left.rows.append(column.rows, (m_soup.scene_vertices[v] - instance.first) * column.row_size,
+                             column.row_size);
         }
         return put_accessor(left, vertices[i].size(), s_vertices);
       };

@@ -4,7 +4,7 @@
 #include <selvedge/prepare.h>
 
 #include "Stopwatch.h"
-#include "files/transforms_of_vertices.h"
+#include "soup/transforms_of_vertices.h"
 #include "soup/number_positions.h"
 #include "soup/obstacle.h"
 #include "soup/selection.h"

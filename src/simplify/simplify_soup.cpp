@@ -83,13 +83,8 @@ private:
       add_share(name, 1);
     if (!intent.weights.empty())
       m_working.weigh(vertex_weights(soup, intent.weights));
-    if (m_options.placement == Placement::optimal) {
-      if (soup.scene)
-        throw Argument_error(
-            "placement 'optimal' is not possible yet for a mesh that was read from glTF; choose "
-            "'vertices', or convert the mesh to OBJ or PLY first");
+    if (m_options.placement == Placement::optimal)
       m_working.allow_new_places(m_prepared.is_float32);
-    }
     if (m_options.uv_weight > 0)
       m_working.measure_uvs(uv_unit(soup, m_prepared.scale));
     m_working.count_refusals(part_kinds(soup));

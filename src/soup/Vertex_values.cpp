@@ -3,6 +3,7 @@
 
 #include "Vertex_values.h"
 
+#include "Gltf_scene.h"
 #include "selection.h"
 #include "with_number.h"
 #include <selvedge/rounding.h>
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <type_traits>
 
@@ -19,11 +21,9 @@
 namespace selvedge {
 namespace {
 
-bool is_mixed(const Attribute& attribute)
+bool begins_with(const std::string& name, const char* prefix)
 {
-  const bool is_float =
-      attribute.type == Attribute::Type::float32 || attribute.type == Attribute::Type::float64;
-  return (is_float || attribute.is_normalized) && attribute.name.compare(0, 8, "WEIGHTS_") != 0;
+  return name.rfind(prefix, 0) == 0;
 }
 
 template <class Values>
@@ -52,57 +52,332 @@ Vertex_values::Vertex_values(const Triangle_soup& soup)
       m_are_normals_float32(are_float32(soup.normals.values))
 {
   m_first_of_normal = soup.uvs.empty() ? 0 : 2;
-  m_size = m_first_of_normal + (soup.normals.empty() ? 0 : 3);
-  for (std::size_t i = 0; i < soup.vertex_attributes.size(); ++i)
-    if (is_mixed(soup.vertex_attributes[i])) {
-      m_columns.push_back({i, m_size});
-      m_size += soup.vertex_attributes[i].components;
-    }
+  std::vector<Column> columns;
+  for (std::size_t i = 0; i < soup.vertex_attributes.size(); ++i) {
+    const Attribute& attribute = soup.vertex_attributes[i];
+    columns.push_back({attribute.name, attribute.type, attribute.components, attribute.is_normalized,
+                       attribute.rows.data(), row_size(attribute), i});
+  }
+  m_own = table(m_first_of_normal + (soup.normals.empty() ? 0 : 3), columns);
+  if (!soup.scene)
+    return;
+  for (const Gltf_scene::Block& block : soup.scene->blocks) {
+    columns.clear();
+    const auto add = [&](const Gltf_scene::Column& column, std::size_t place, std::size_t target) {
+      columns.push_back({column.name, attribute_type(column.component_type), column.components,
+                         column.is_normalized(), reinterpret_cast<const unsigned char*>(column.rows.data()),
+                         column.row_size, place, target});
+    };
+    for (std::size_t i = 1; i < block.attributes.size(); ++i) // after the position
+      add(block.attributes[i], i, s_none);
+    for (std::size_t t = 0; t < block.targets.size(); ++t)
+      for (std::size_t i = 0; i < block.targets[t].size(); ++i)
+        add(block.targets[t][i], i, t);
+    m_of_blocks.push_back(table(m_own.size, columns));
+  }
 }
 
-void Vertex_values::add(Index corner, double weight, std::vector<double>& sum) const
+const Vertex_values::Column* Vertex_values::Table::find(const char* name, std::size_t components) const
 {
-  const auto add_value = [&](const auto& values, std::size_t first) {
+  const auto found = std::find_if(columns.begin(), columns.end(), [&](const Column& column) {
+    return column.target == s_none && column.name == name && column.components == components;
+  });
+  return found == columns.end() ? nullptr : &*found;
+}
+
+bool Vertex_values::is_mixed(const Column& column)
+{
+  if (begins_with(column.name, "JOINTS_") || begins_with(column.name, "WEIGHTS_"))
+    return false;
+  const bool is_float = column.type == Attribute::Type::float32 || column.type == Attribute::Type::float64;
+  return is_float || column.is_normalized || begins_with(column.name, "TEXCOORD_") || column.target != s_none;
+}
+
+Vertex_values::Table Vertex_values::table(std::size_t first, const std::vector<Column>& columns)
+{
+  Table result;
+  result.size = first;
+  const auto add = [&](const Column& column) -> const Column& {
+    Column& added = result.columns.emplace_back(column);
+    added.first = result.size;
+    result.size += column.components;
+    return added;
+  };
+  // Rows of matrices may have gaps; they are not mixed.
+  const auto has_gaps = [](const Column& column) {
+    return with_number(column.type, [&](auto number) { return column.components * sizeof number; }) !=
+           column.row_size;
+  };
+  for (const Column& column : columns)
+    if (is_mixed(column) && !has_gaps(column))
+      add(column);
+  for (const Column& weights : columns) {
+    const bool is_float = weights.type == Attribute::Type::float32;
+    if (!begins_with(weights.name, "WEIGHTS_") || !(is_float || weights.is_normalized) || has_gaps(weights) ||
+        (!result.influences.empty() && result.influences.front().weights.type != weights.type))
+      continue;
+    for (const Column& joints : columns)
+      if (joints.name == "JOINTS_" + weights.name.substr(8) && joints.components == weights.components &&
+          !has_gaps(joints)) {
+        result.influences.push_back({add(weights), joints});
+        break;
+      }
+  }
+  return result;
+}
+
+Vertex_values::Row Vertex_values::scene_row(Index vertex) const
+{
+  const Index scene_vertex = m_soup.scene_vertices[vertex];
+  const Gltf_scene::Instance& instance = m_soup.scene->instances[m_soup.scene->instance_of(scene_vertex)];
+  return {&m_of_blocks[instance.block], scene_vertex - instance.first};
+}
+
+double Vertex_values::number(const Column& column, std::size_t row, std::size_t component)
+{
+  return with_number(column.type, [&](auto number) {
+    std::memcpy(&number, column.rows + row * column.row_size + component * sizeof number, sizeof number);
+    return double(number);
+  });
+}
+
+// Returns what a number becomes when it is stored as this type.
+double Vertex_values::stored(Attribute::Type type, double number)
+{
+  if (type == Attribute::Type::float32)
+    return nearest_float32(number);
+  return with_number(type, [&](auto zero) { return double(nearest_number<decltype(zero)>(number)); });
+}
+
+void Vertex_values::write(const Column& column, const Numbers& numbers, void* bytes)
+{
+  with_number(column.type, [&](auto number) {
+    for (std::size_t i = 0; i < column.components; ++i) {
+      number = nearest_number<decltype(number)>(numbers[column.first + i]);
+      std::memcpy(static_cast<unsigned char*>(bytes) + i * sizeof number, &number, sizeof number);
+    }
+  });
+}
+
+Vertex_values::Numbers Vertex_values::numbers_of(const Share& share) const
+{
+  if (share.numbers)
+    return *share.numbers;
+  Numbers result;
+  const auto append = [&](const auto& values) {
     if (values.empty())
       return;
-    const auto& value = values.values[values.of_triangle[corner / 3][corner % 3]];
-    for (std::size_t i = 0; i < value.size(); ++i)
-      sum[first + i] += weight * value[i];
+    const auto& value = values.values[values.of_triangle[share.corner / 3][share.corner % 3]];
+    result.insert(result.end(), value.begin(), value.end());
   };
-  add_value(m_soup.uvs, 0);
-  add_value(m_soup.normals, m_first_of_normal);
-  const std::size_t row = m_soup.triangles[corner / 3][corner % 3];
-  for (const Column& column : m_columns) {
-    const Attribute& attribute = m_soup.vertex_attributes[column.attribute];
-    with_number(attribute.type, [&](auto number) {
-      const unsigned char* bytes = attribute.rows.data() + row * row_size(attribute);
-      for (std::size_t i = 0; i < attribute.components; ++i, bytes += sizeof number) {
-        std::memcpy(&number, bytes, sizeof number);
-        sum[column.first + i] += weight * double(number);
-      }
-    });
-  }
+  append(m_soup.uvs);
+  append(m_soup.normals);
+  const auto append_columns = [&](const Row& row) {
+    for (const Column& column : row.table->columns)
+      for (std::size_t i = 0; i < column.components; ++i)
+        result.push_back(number(column, row.number, i));
+  };
+  append_columns(own_row(vertex_of(share.corner)));
+  if (m_soup.scene)
+    append_columns(scene_row(vertex_of(share.corner)));
+  return result;
 }
 
-void Vertex_values::finish(std::vector<double>& sum, const std::vector<double>& nearest) const
+std::array<double, 2> Vertex_values::mixed_uv(const Shares& shares, const Share& own) const
 {
-  if (!m_soup.normals.empty()) {
-    double* const normal = sum.data() + m_first_of_normal;
-    const double length = std::hypot(normal[0], normal[1], normal[2]);
-    for (std::size_t i = 0; i < 3; ++i)
-      normal[i] /= length;
+  const Column* column = nullptr;
+  if (m_soup.scene)
+    column = scene_row(vertex_of(own.corner)).table->find("TEXCOORD_0", 2);
+  std::array<double, 2> result{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto at = [&](const Share& share) {
+      if (share.numbers)
+        return (*share.numbers)[(column ? column->first : 0) + i];
+      if (column)
+        return number(*column, scene_row(vertex_of(share.corner)).number, i);
+      return m_soup.uvs.values[m_soup.uvs.of_triangle[share.corner / 3][share.corner % 3]][i];
+    };
+    for (const Share& share : shares)
+      if (share.weight != 0)
+        result[i] += share.weight * at(share);
+    if (column) {
+      // What the accessor will hold, as its reader makes it a coordinate.
+      const double number = stored(column->type, std::isfinite(result[i]) ? result[i] : at(own));
+      const double coordinate = fraction(column->type, number);
+      result[i] = i == 0 ? coordinate : 1 - coordinate;
+    } else {
+      if (m_are_uvs_float32)
+        result[i] = nearest_float32(result[i]);
+      if (!std::isfinite(result[i]))
+        result[i] = at(own);
+    }
   }
-  const auto round = [&](std::size_t first, std::size_t count) {
-    for (std::size_t i = first; i < first + count; ++i)
-      sum[i] = nearest_float32(sum[i]);
+  return result;
+}
+
+Vertex_values::Numbers Vertex_values::mixed(const Shares& shares, const Share& own) const
+{
+  const Numbers numbers_of_own = numbers_of(own);
+  Numbers result(numbers_of_own.size());
+  for (const Share& share : shares) {
+    if (share.weight == 0)
+      continue;
+    const Numbers numbers = numbers_of(share);
+    for (std::size_t i = 0; i < result.size(); ++i)
+      result[i] += share.weight * numbers[i];
+  }
+  if (!m_soup.normals.empty()) {
+    double* const normal = result.data() + m_first_of_normal;
+    const double length = std::hypot(normal[0], normal[1], normal[2]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      normal[i] /= length;
+      if (m_are_normals_float32)
+        normal[i] = nearest_float32(normal[i]);
+    }
+  }
+  mix_influences([this](const Share& share) { return own_row(vertex_of(share.corner)); }, shares, own,
+                 result);
+  if (m_soup.scene) {
+    const auto row_of = [this](const Share& share) { return scene_row(vertex_of(share.corner)); };
+    mix_influences(row_of, shares, own, result);
+    for (const char* name : {"NORMAL", "TANGENT"})
+      if (const Column* const column = row_of(own).table->find(name, name[0] == 'N' ? 3 : 4))
+        normalize(*column, numbers_of_own, result);
+  }
+  for (std::size_t i = 0; i < result.size(); ++i)
+    if (!std::isfinite(result[i]))
+      result[i] = numbers_of_own[i];
+  if (!m_soup.uvs.empty()) {
+    const std::array<double, 2> uv = mixed_uv(shares, own);
+    std::copy(uv.begin(), uv.end(), result.begin());
+  }
+  if (m_soup.scene && !m_soup.normals.empty())
+    if (const Column* const column = scene_row(vertex_of(own.corner)).table->find("NORMAL", 3)) {
+      // What the accessor will hold, as its reader turns it into world space.
+      std::array<double, 3> normal;
+      for (std::size_t i = 0; i < 3; ++i)
+        normal[i] = stored(column->type, result[column->first + i]);
+      const Index vertex = m_soup.scene_vertices[vertex_of(own.corner)];
+      normal = world_normal(m_soup.scene->instances[m_soup.scene->instance_of(vertex)], normal);
+      std::copy(normal.begin(), normal.end(), result.begin() + std::ptrdiff_t(m_first_of_normal));
+    }
+  return result;
+}
+
+// Gives a direction the length 1, or that of which its integers are fractions. The sign at the end of a
+// tangent is not mixed.
+void Vertex_values::normalize(const Column& column, const Numbers& own, Numbers& numbers)
+{
+  double* const direction = numbers.data() + column.first;
+  const double unit = with_number(column.type, [](auto number) {
+    using Number = decltype(number);
+    return std::is_integral_v<Number> ? double(std::numeric_limits<Number>::max()) : 1;
+  });
+  const double length = std::hypot(direction[0], direction[1], direction[2]);
+  for (std::size_t i = 0; i < 3; ++i)
+    direction[i] *= unit / length;
+  if (column.components == 4)
+    direction[3] = own[column.first + 3];
+}
+
+// The joints are those of `own`. Each gets the weights that the mixed vertices give to it, and all are scaled
+// to the sum 1, exactly so where they are integers.
+template <class Row_of>
+void Vertex_values::mix_influences(const Row_of& row_of, const Shares& shares, const Share& own,
+                                   Numbers& numbers)
+{
+  const Row own_row = row_of(own);
+  const std::vector<Influences>& influences = own_row.table->influences;
+  if (influences.empty())
+    return;
+  const auto weight_of = [&](const Share& share, const Row& row, const Column& weights, std::size_t i) {
+    return share.numbers ? (*share.numbers)[weights.first + i] : number(weights, row.number, i);
   };
-  if (!m_soup.uvs.empty() && m_are_uvs_float32)
-    round(0, 2);
-  if (!m_soup.normals.empty() && m_are_normals_float32)
-    round(m_first_of_normal, 3);
-  for (std::size_t i = 0; i < sum.size(); ++i)
-    if (!std::isfinite(sum[i]))
-      sum[i] = nearest[i];
+  const auto given = [&](const Share& share, double joint) {
+    const Row row = row_of(share);
+    double sum = 0;
+    for (const auto& [weights, joints] : influences)
+      for (std::size_t i = 0; i < weights.components; ++i)
+        if (number(joints, row.number, i) == joint)
+          sum += weight_of(share, row, weights, i);
+    return sum;
+  };
+  std::vector<double*> mixed; // those of different joints
+  std::vector<double> known;  // these joints
+  double sum = 0;
+  for (const auto& [weights, joints] : influences)
+    for (std::size_t i = 0; i < weights.components; ++i) {
+      const double joint = number(joints, own_row.number, i);
+      double& weight = numbers[weights.first + i];
+      weight = 0;
+      if (weight_of(own, own_row, weights, i) == 0 ||
+          std::find(known.begin(), known.end(), joint) != known.end())
+        continue;
+      known.push_back(joint);
+      mixed.push_back(&weight);
+      for (const Share& share : shares)
+        if (share.weight != 0)
+          weight += share.weight * given(share, joint);
+      sum += weight;
+    }
+  if (!(sum > 0 && std::isfinite(sum))) {
+    for (const auto& [weights, joints] : influences)
+      for (std::size_t i = 0; i < weights.components; ++i)
+        numbers[weights.first + i] = weight_of(own, own_row, weights, i);
+    return;
+  }
+  with_number(influences.front().weights.type, [&](auto zero) {
+    using Number = decltype(zero);
+    if constexpr (std::is_integral_v<Number>) {
+      double left = double(std::numeric_limits<Number>::max());
+      const double factor = left / sum;
+      for (double* const weight : mixed)
+        left -= * weight = std::nearbyint(*weight * factor);
+      **std::max_element(mixed.begin(), mixed.end(),
+                         [](const double* a, const double* b) { return *a < *b; }) += left;
+    } else {
+      for (double* const weight : mixed)
+        *weight /= sum;
+    }
+  });
+}
+
+// Overwrites the rows of these vertices in a copy of the scene. A block that several nodes show becomes one
+// of each node first.
+void Vertex_values::put_in_scene(const Of_vertices& of_vertex, Triangle_soup& result) const
+{
+  const auto scene = std::make_shared<Gltf_scene>(*result.scene);
+  std::vector<std::size_t> users(scene->blocks.size(), 0);
+  for (const Gltf_scene::Instance& instance : scene->instances)
+    ++users[instance.block];
+  for (std::size_t v = 0; v < of_vertex.size(); ++v) {
+    if (!of_vertex[v])
+      continue;
+    const std::size_t number = scene->instance_of(result.scene_vertices[v]);
+    Gltf_scene::Instance& instance = scene->instances[number];
+    if (users[instance.block] > 1) {
+      --users[instance.block];
+      Gltf_scene::Block own = scene->blocks[instance.block];
+      instance.block = Index(scene->blocks.size());
+      scene->blocks.push_back(std::move(own));
+      users.push_back(1);
+    }
+    Gltf_scene::Block& block = scene->blocks[instance.block];
+    const std::size_t row = result.scene_vertices[v] - instance.first;
+    if (const auto local = local_position(instance.to_world, result.points[v])) {
+      Gltf_scene::Column& positions = block.attributes.front();
+      std::string bytes;
+      for (const double coordinate : *local)
+        append_little_endian(bytes, static_cast<float>(coordinate));
+      positions.rows.replace(row * positions.row_size, positions.row_size, bytes);
+    }
+    for (const Column& column : m_of_blocks[m_soup.scene->instances[number].block].columns) {
+      Gltf_scene::Column& written = column.target == s_none ? block.attributes[column.place]
+                                                            : block.targets[column.target][column.place];
+      write(column, *of_vertex[v], written.rows.data() + row * written.row_size);
+    }
+  }
+  result.scene = scene;
 }
 
 // Overwrites values that belong to one vertex alone, so that files with one value for each vertex stay such
@@ -145,20 +420,13 @@ void Vertex_values::put(const Of_vertices& of_vertex, Triangle_soup& result) con
   const std::size_t values_before = result.uvs.values.size() + result.normals.values.size();
   put(of_vertex, 0, result, result.uvs);
   put(of_vertex, m_first_of_normal, result, result.normals);
-  for (const Column& column : m_columns) {
-    Attribute& attribute = result.vertex_attributes[column.attribute];
-    with_number(attribute.type, [&](auto number) {
-      for (std::size_t v = 0; v < of_vertex.size(); ++v) {
-        if (!of_vertex[v])
-          continue;
-        unsigned char* bytes = attribute.rows.data() + v * row_size(attribute);
-        for (std::size_t i = 0; i < attribute.components; ++i, bytes += sizeof number) {
-          number = nearest_number<decltype(number)>((*of_vertex[v])[column.first + i]);
-          std::memcpy(bytes, &number, sizeof number);
-        }
-      }
-    });
-  }
+  for (const Column& column : m_own.columns)
+    for (std::size_t v = 0; v < of_vertex.size(); ++v)
+      if (of_vertex[v])
+        write(column, *of_vertex[v],
+              result.vertex_attributes[column.place].rows.data() + v * column.row_size);
+  if (m_soup.scene)
+    put_in_scene(of_vertex, result);
   if (result.uvs.values.size() + result.normals.values.size() == values_before)
     return;
   std::vector<Index> triangles(result.triangles.size());

@@ -8,6 +8,8 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace selvedge {
@@ -15,52 +17,111 @@ namespace selvedge {
 /// Says which attributes of a soup's vertices can be mixed, reads them as numbers, and writes mixed ones.
 ///
 /// Texture coordinates, normals, and attributes of vertices in floating point or in normalized integers are
-/// mixed. All other integers (such as indices of joints) are not, and neither are the weights of joints
-/// (`WEIGHTS_...`), which belong to these: a vertex that is mixed keeps its own.
+/// mixed; for a soup from glTF also the rows of all accessors, those of morph targets included. Other
+/// integers (such as the indices of joints) are not: a vertex that is mixed keeps its own. The weights of its
+/// joints (`WEIGHTS_...`) become what the mixed vertices give to just these joints, with the sum 1.
 ///
-/// **Preconditions** The soup outlives the object.
+/// **Preconditions** The soup outlives the object. Vertices that are mixed with each other are of one
+/// primitive of glTF.
 class Vertex_values
 {
 public:
   explicit Vertex_values(const Triangle_soup& soup);
 
-  /// How many numbers there are at a corner.
-  std::size_t size() const { return m_size; }
+  /// The numbers of a vertex. How many they are and what they say depends on its primitive in glTF.
+  using Numbers = std::vector<double>;
 
-  /// Adds `weight` times the numbers at a corner of the soup, 3 × triangle + place in it, to a sum.
-  void add(Index corner, double weight, std::vector<double>& sum) const;
+  /// A vertex in a mixture.
+  struct Share
+  {
+    Index corner; ///< of the soup at this vertex, 3 × triangle + place in it
+    double weight;
+    const Numbers* numbers; ///< of a vertex that was mixed before; null for one with the values of the soup
+  };
+  /// Their weights add up to 1; some may be 0.
+  using Shares = std::array<Share, 3>;
 
-  /// Makes a sum, whose weights add up to 1, what the soup can store: normals get the length 1; texture
-  /// coordinates and normals become 32-bit floats where those of the soup are. A number that is not finite is
-  /// replaced by that of `nearest`.
-  void finish(std::vector<double>& sum, const std::vector<double>& nearest) const;
+  /// Whether no vertex has numbers.
+  bool is_empty() const { return m_own.size == 0 && m_of_blocks.empty(); }
 
-  /// Returns the texture coordinates among such numbers. The soup must have some.
-  std::array<double, 2> uv(const std::vector<double>& numbers) const { return {numbers[0], numbers[1]}; }
+  /// Returns mixed numbers, for a vertex that keeps from `own` what cannot be mixed. They are such that the
+  /// soup can store them: normals get the length 1; texture coordinates and normals become 32-bit floats
+  /// where those of the soup are, and in glTF what its accessors hold. A number that is not finite is
+  /// replaced by that of `own`.
+  Numbers mixed(const Shares& shares, const Share& own) const;
+
+  /// Returns the texture coordinates alone among such numbers. The soup must have some.
+  std::array<double, 2> mixed_uv(const Shares& shares, const Share& own) const;
+  std::array<double, 2> uv(const Numbers& numbers) const { return {numbers[0], numbers[1]}; }
 
   /// Numbers for a vertex of a result: `of_vertex[v]` is null for a vertex that keeps its values.
-  using Of_vertices = std::vector<const std::vector<double>*>;
+  using Of_vertices = std::vector<const Numbers*>;
 
-  /// Writes numbers into a soup that was selected from this one. Corners of other vertices keep their values.
+  /// Writes numbers into a soup that was selected from this one, and the points of these vertices into its
+  /// glTF scene, which becomes one of its own. Corners of other vertices keep their values.
   void put(const Of_vertices& of_vertex, Triangle_soup& result) const;
 
 private:
+  static constexpr std::size_t s_none = std::size_t(-1);
+
+  // Rows of numbers: an attribute of the soup, or an accessor of a block of its scene.
+  struct Column
+  {
+    std::string name;
+    Attribute::Type type;
+    std::size_t components;
+    bool is_normalized;
+    const unsigned char* rows;
+    std::size_t row_size;
+    std::size_t place, target = s_none; // in the list of attributes, or in that of a morph target
+    std::size_t first = s_none;         // place of its first component among the numbers
+  };
+
+  // Weights of joints, which are mixed, and in the same places the numbers of these joints, which are not.
+  struct Influences
+  {
+    Column weights, joints;
+  };
+
+  // The columns of the soup or of one block that are mixed, with their places among the numbers.
+  struct Table
+  {
+    std::vector<Column> columns; // those of weights are the last
+    std::vector<Influences> influences;
+    std::size_t size = 0; // of the numbers up to the last of these columns
+    const Column* find(const char* name, std::size_t components) const;
+  };
+  static Table table(std::size_t first, const std::vector<Column>& columns);
+  static bool is_mixed(const Column& column);
+
+  // Where a vertex has its rows.
+  struct Row
+  {
+    const Table* table;
+    std::size_t number;
+  };
+  Row own_row(Index vertex) const { return {&m_own, vertex}; }
+  Row scene_row(Index vertex) const; // in the table of its block; the soup must have a scene
+
+  Index vertex_of(Index corner) const { return m_soup.triangles[corner / 3][corner % 3]; }
+  Numbers numbers_of(const Share& share) const;
+  static double number(const Column& column, std::size_t row, std::size_t component);
+  static double stored(Attribute::Type type, double number);
+  static void write(const Column& column, const Numbers& numbers, void* bytes);
+  static void normalize(const Column& column, const Numbers& own, Numbers& numbers);
+  template <class Row_of>
+  static void mix_influences(const Row_of& row_of, const Shares& shares, const Share& own, Numbers& numbers);
+
   template <std::size_t dimension>
   static void put(const Of_vertices& of_vertex, std::size_t first, const Triangle_soup& result,
                   Corner_values<dimension>& values);
-
-  // An attribute that is mixed, and the place of its first component among the numbers.
-  struct Column
-  {
-    std::size_t attribute;
-    std::size_t first;
-  };
+  void put_in_scene(const Of_vertices& of_vertex, Triangle_soup& result) const;
 
   const Triangle_soup& m_soup;
-  std::size_t m_size = 0;
   std::size_t m_first_of_normal = 0;
   bool m_are_uvs_float32 = false, m_are_normals_float32 = false;
-  std::vector<Column> m_columns;
+  Table m_own;
+  std::vector<Table> m_of_blocks; // their numbers follow those of the soup
 };
 
 } // namespace selvedge

@@ -3,6 +3,7 @@
 
 #include "Working_mesh.h"
 
+#include "Gltf_scene.h"
 #include "Sewing.h"
 
 #include <selvedge/Cancellation_scope.h>
@@ -151,7 +152,7 @@ Working_mesh::Working_mesh(const Working_mesh& whole, const Border_rule<Mesh>& r
                            const std::vector<Index>& faces)
     : m_soup(whole.m_soup), m_scale(whole.m_scale), m_values(whole.m_values),
       m_have_places_float32_digits(whole.m_have_places_float32_digits),
-      m_is_scale_lossless(whole.m_is_scale_lossless)
+      m_is_scale_lossless(whole.m_is_scale_lossless), m_are_places_in_scene(whole.m_are_places_in_scene)
 {
   const Mesh& mesh = whole.m_mesh;
   std::vector<Mesh::Halfedge_index> originals; // by side
@@ -342,7 +343,8 @@ void Working_mesh::before_placement(Mesh::Halfedge_index moving, const Point_3& 
     m_recorder({side(moving), place, is_mover_first});
   if (m_listener)
     m_listener({removed, kept, std::array{point.x(), point.y(), point.z()}, is_mover_first});
-  std::vector<double> values = values_at(moving, place);
+  const Mixture mixture = mixture_at(moving, place);
+  Vertex_values::Numbers values = m_values->mixed(mixture.shares, mixture.own);
   for_each_moved_wedge(moving, [&](Index from, Index to) {
     Wedge& merged = m_wedges[to];
     merged.quadric += m_wedges[from].quadric;
@@ -362,7 +364,8 @@ void Working_mesh::before_placement(Mesh::Halfedge_index moving, const Point_3& 
 void Working_mesh::allow_new_places(bool is_float32)
 {
   m_values = std::make_shared<Vertex_values>(m_soup);
-  m_have_places_float32_digits = is_float32 || has_float32_digits(m_soup);
+  m_are_places_in_scene = m_soup.scene && !is_float32;
+  m_have_places_float32_digits = is_float32 || (!m_are_places_in_scene && has_float32_digits(m_soup));
   // Whether every coordinate that `rounded_place` may choose is a number of its type after all. A multiple of
   // the unit with as many digits as the type has is one also below the normal numbers.
   const double unit = m_scale.undone(s_place_unit), beyond = m_scale.undone(s_place_beyond);
@@ -374,8 +377,7 @@ void Working_mesh::allow_new_places(bool is_float32)
 
 // At the scale, the largest coordinate of the mesh is about 1. Coordinates of places are multiples of a small
 // unit, so that a mesh and its multiple have the same places even where digits are lost near 0.
-internal::Optional<Point_3> Working_mesh::rounded_place(Mesh::Halfedge_index /*edge*/,
-                                                        const Point_3& place) const
+internal::Optional<Point_3> Working_mesh::rounded_place(Mesh::Halfedge_index edge, const Point_3& place) const
 {
   if (!m_values || !m_is_scale_lossless)
     return {};
@@ -389,29 +391,36 @@ internal::Optional<Point_3> Working_mesh::rounded_place(Mesh::Halfedge_index /*e
     if (m_have_places_float32_digits)
       rounded[i] = nearest_float32(rounded[i]); // has as many digits after multiplication by the scale
   }
-  const Point_3 result(rounded[0], rounded[1], rounded[2]);
+  Point_3 result(rounded[0], rounded[1], rounded[2]);
+  if (m_are_places_in_scene) {
+    const Gltf_scene& scene = *m_soup.scene;
+    const std::size_t instance = scene.instance_of(m_soup.scene_vertices[vertex_of(corner_at(edge))]);
+    const auto in_node = nearest_world_position(scene.instances[instance].to_world, m_scale.undone(result));
+    if (!in_node)
+      return {};
+    result = m_scale(*in_node);
+    if (m_scale.undone(result) != *in_node)
+      return {};
+  }
   if (m_is_place_allowed && !m_is_place_allowed(result))
     return {};
   return result;
 }
 
-void Working_mesh::add_values(Corner corner, double weight, std::vector<double>& sum) const
+Vertex_values::Share Working_mesh::share(Corner corner, double weight) const
 {
   const auto placed = m_placed.find(vertex_of(corner));
-  if (placed == m_placed.end())
-    return m_values->add(corner, weight, sum);
-  for (std::size_t i = 0; i < sum.size(); ++i)
-    sum[i] += weight * placed->second.values[i];
+  return {corner, weight, placed == m_placed.end() ? nullptr : &placed->second.values};
 }
 
-// Returns the values that the faces around both ends of an edge have at the point nearest to a place. The
+// Returns the mixture that the faces around both ends of an edge have at the point nearest to a place. The
 // result does not depend on the order of halfedges around a vertex, so that it is the same in a cell and in
 // the whole.
-std::vector<double> Working_mesh::values_at(Mesh::Halfedge_index moving, const Point_3& place) const
+Working_mesh::Mixture Working_mesh::mixture_at(Mesh::Halfedge_index moving, const Point_3& place) const
 {
-  std::vector<double> values(m_values->size());
-  if (values.empty())
-    return values;
+  const Vertex_values::Share own = share(corner_at(moving), 1);
+  if (m_values->is_empty())
+    return {{own, share(own.corner, 0), share(own.corner, 0)}, own};
   const auto vector = [](const Point_3& p) { return internal::Vector_of_doubles{p.x(), p.y(), p.z()}; };
   std::optional<Nearest_point> nearest;
   Mesh::Face_index face;
@@ -427,13 +436,8 @@ std::vector<double> Working_mesh::values_at(Mesh::Halfedge_index moving, const P
         face = m_mesh.face(h);
       }
     }
-  for (std::size_t k = 0; k < 3; ++k)
-    if (nearest->weights[k] != 0)
-      add_values(m_corners[face][k], nearest->weights[k], values);
-  std::vector<double> of_goal(values.size());
-  add_values(corner_at(moving), 1, of_goal);
-  m_values->finish(values, of_goal);
-  return values;
+  const auto share_of = [&](std::size_t k) { return share(m_corners[face][k], nearest->weights[k]); };
+  return {{share_of(0), share_of(1), share_of(2)}, own};
 }
 
 // Called before a collapse, for what it does to the edges of contracted faces.
@@ -541,7 +545,8 @@ bool Working_mesh::keeps_uv_orientation_at(Mesh::Halfedge_index moving, const Po
 {
   if (m_soup.uvs.empty())
     return true;
-  const Uv uv = m_values->uv(values_at(moving, place));
+  const Mixture mixture = mixture_at(moving, place);
+  const Uv uv = m_values->mixed_uv(mixture.shares, mixture.own);
   const Mesh::Halfedge_index back = m_mesh.opposite(moving);
   for (const Mesh::Halfedge_index end : {moving, back})
     for (const Mesh::Halfedge_index h : m_mesh.halfedges_around_target(end))

@@ -112,7 +112,8 @@ public:
 
   /// Makes `rounded_place` return places from now on; before, it returns none. Multiplied by the scale, the
   /// coordinates of a place are doubles without loss, and 32-bit floats when `is_float32`. They have no more
-  /// digits than such floats also where all coordinates of the soup have no more. Where the scale does not
+  /// digits than such floats also where all coordinates of the soup have no more. A place of a vertex from
+  /// glTF is, unless `is_float32`, the world position of 32-bit floats in its node. Where the scale does not
   /// allow that, because the mesh is too large or too small for the type of number, there are no new places.
   void allow_new_places(bool is_float32);
 
@@ -202,8 +203,13 @@ private:
   void for_each_changed_face(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule,
                              const Function& function) const;
   void carry_places(Mesh::Halfedge_index moving);
-  std::vector<double> values_at(Mesh::Halfedge_index moving, const Point_3& place) const;
-  void add_values(Corner corner, double weight, std::vector<double>& sum) const;
+  struct Mixture
+  {
+    Vertex_values::Shares shares;
+    Vertex_values::Share own; // of the end that is kept
+  };
+  Mixture mixture_at(Mesh::Halfedge_index moving, const Point_3& place) const;
+  Vertex_values::Share share(Corner corner, double weight) const;
   template <class Function>
   void for_each_moved_wedge(Mesh::Halfedge_index moving, const Function& function) const;
 
@@ -227,10 +233,10 @@ private:
   struct Placed_vertex
   {
     Point_3 point;
-    std::vector<double> values;
+    Vertex_values::Numbers values;
   };
   std::shared_ptr<const Vertex_values> m_values; // null until new places are allowed
-  bool m_have_places_float32_digits = false, m_is_scale_lossless = false;
+  bool m_have_places_float32_digits = false, m_is_scale_lossless = false, m_are_places_in_scene = false;
   std::function<bool(const Point_3&)> m_is_place_allowed;
   std::unordered_map<Index, Placed_vertex> m_placed; // by the number that the vertex has in the soup
 

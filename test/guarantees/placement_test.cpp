@@ -378,25 +378,5 @@ TEST(Placement, NoFaceVanishesWhoseEdgesAreAllLines)
   EXPECT_TRUE(is_allowed({{a - 1, a}, {a, b}, {b, b + 1}})) << "along a straight line";
 }
 
-TEST(Placement, AMeshFromGltfIsRefusedByName)
-{
-  const std::string file = [] {
-    return std::string(
-               R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)") +
-           R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,)" +
-           R"("componentType":5126,"count":3,"type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":36}],)" +
-           R"("buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,)" +
-           R"(AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
-  }();
-  const Prepared_soup prepared = prepare(read_mesh(file, Mesh_format::gltf, "triangle").soup);
-  EXPECT_NO_THROW(simplify_soup(prepared, to_ratio(0.5)));
-  try {
-    simplify_soup(prepared, optimal(to_ratio(0.5)));
-    FAIL();
-  } catch (const Argument_error& error) {
-    EXPECT_NE(std::string(error.what()).find("placement"), std::string::npos) << error.what();
-  }
-}
-
 } // namespace
 } // namespace selvedge::test

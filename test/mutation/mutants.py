@@ -174,6 +174,22 @@ group(
 )
 
 group(
+    "src/soup/Vertex_values.cpp",
+    ("gltf_test:Gltf.ValuesAtNewPlaces*:Gltf.NewPlaces*",),
+    ("if (number(joints, row.number, i) == joint)", "if (number(joints, own_row.number, i) == joint)",
+     "weights are mixed by their places, not by their joints"),
+    ("if (users[instance.block] > 1) {", "if (false) {", "nodes that share a mesh share new places"),
+    ("*column, numbers_of_own, result);", "*column, result, result);", "the sign of a tangent is mixed"),
+    ("result[i] = i == 0 ? coordinate : 1 - coordinate;", "result[i] = coordinate;", "texture upside down"),
+)
+group(
+    "src/soup/Gltf_scene.cpp",
+    ("gltf_test:Gltf.NewPlaces*",),
+    ("const Point_3 result = world_position(to_world, inverse(to_world, point));", "const Point_3 result = point;",
+     "places that the file cannot hold"),
+)
+
+group(
     headers + "spatial/Packed_R_tree.h",
     ("spatial_index_test",),
     ("if (bounds.contains(box))", "if (true)", "nodes do not grow"),

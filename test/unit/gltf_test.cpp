@@ -5,8 +5,8 @@
 
 #include "support/Temporary_folder.h"
 
-#include "files/transforms_of_vertices.h"
 #include "soup/selection.h"
+#include "soup/transforms_of_vertices.h"
 #include <selvedge/Error.h>
 #include <selvedge/mesh_files.h>
 #include <selvedge/simplify.h>
@@ -410,11 +410,120 @@ void write_bytes(const std::filesystem::path& path, const std::string& bytes)
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-Simplified_soup reduce(const Triangle_soup& soup, double ratio)
+Simplified_soup reduce(const Triangle_soup& soup, double ratio, Placement placement = Placement::vertices)
 {
   Simplify_options options;
   options.ratio = ratio;
+  options.placement = placement;
   return simplify_soup(prepare(soup), options);
+}
+
+/// Waves of size 1 in a node that turns and stretches them, with values that are linear in x and y, the
+/// weights of two joints among them. Every other vertex names its joints in the other order.
+template <class Weight>
+Document waves(int weight_type)
+{
+  constexpr int size = 24;
+  constexpr std::size_t count = size * size;
+  const auto x = [](std::size_t i) { return double(i % size) / (size - 1); };
+  const auto y = [](std::size_t i) { return double(i / size) / (size - 1); };
+  Document document;
+  Json& json = document.json;
+  const auto position = [&](std::size_t i, std::size_t k) {
+    return float(k == 0 ? x(i) : k == 1 ? y(i) : 0.1 * std::sin(9 * x(i)) + 0.1 * std::cos(7 * y(i)));
+  };
+  Json attributes;
+  attributes["POSITION"] = add_rows<float>(document, count, 3, 5126, position);
+  set_bounds(document, attributes["POSITION"], count, position);
+  attributes["NORMAL"] =
+      add_rows<float>(document, count, 3, 5126, [](std::size_t, std::size_t k) { return k == 2; });
+  attributes["TANGENT"] = add_rows<float>(document, count, 4, 5126, [&](std::size_t i, std::size_t k) {
+    return k == 0 ? std::cos(x(i)) : k == 1 ? std::sin(x(i)) : k == 2 ? 0 : -1;
+  });
+  attributes["TEXCOORD_0"] = add_rows<std::uint16_t>(
+      document, count, 2, 5123,
+      [&](std::size_t i, std::size_t k) { return std::lround(65535 * (k == 0 ? x(i) : y(i))); }, true);
+  attributes["JOINTS_0"] = add_rows<std::uint8_t>(
+      document, count, 4, 5121, [](std::size_t i, std::size_t k) { return k < 2 ? 3 + (i + k) % 2 : 0; });
+  const double whole = weight_type == 5126 ? 1 : double(std::numeric_limits<Weight>::max());
+  attributes["WEIGHTS_0"] = add_rows<Weight>(
+      document, count, 4, weight_type,
+      [&](std::size_t i, std::size_t k) {
+        const Weight of_third = Weight(whole * x(i)); // of joint 3
+        return k > 1 ? Weight(0) : (i + k) % 2 == 0 ? of_third : Weight(whole - of_third);
+      },
+      weight_type != 5126);
+  const Json targets = {
+      {{"POSITION", add_rows<float>(document, count, 3, 5126, [&](std::size_t i, std::size_t k) {
+          return k == 0 ? 0.5 * x(i) : k == 1 ? 0 : -0.25 * y(i);
+        })}}};
+  std::string corners;
+  for (int row = 0; row + 1 < size; ++row)
+    for (int i = row * size; i + 1 < (row + 1) * size; ++i)
+      for (const int corner : {i, i + 1, i + size, i + size, i + 1, i + size + 1})
+        put(corners, std::uint16_t(corner));
+  const std::size_t indices = add_accessor(document, corners, corners.size() / 2, 5123, "SCALAR");
+  json["asset"] = {{"version", "2.0"}};
+  json["scene"] = 0;
+  json["scenes"] = {{{"nodes", {0}}}};
+  json["nodes"] = {{{"mesh", 0},
+                    {"rotation", {0.0, 0.6, 0.0, 0.8}},
+                    {"scale", {1.5, 1.5, 1.5}},
+                    {"translation", {-3.3, 0.1, 0.2}}}};
+  json["meshes"] = {
+      {{"primitives", {{{"attributes", attributes}, {"indices", indices}, {"targets", targets}}}}}};
+  return document;
+}
+
+/// The numbers of a row of floats, or of other numbers.
+template <class Number = float>
+std::vector<double> numbers(const std::string& row)
+{
+  std::vector<double> result;
+  for (std::size_t at = 0; at < row.size(); at += sizeof(Number))
+    result.push_back(get<Number>(row, at));
+  return result;
+}
+
+template <class Weight>
+void expect_interpolated(int weight_type)
+{
+  const Temporary_folder folder;
+  const Document before = waves<Weight>(weight_type);
+  const Simplified_soup reduced =
+      reduce(read_mesh(to_glb(before), Mesh_format::glb, "waves").soup, 0.3, Placement::optimal);
+  write_mesh(folder / "a.glb", reduced.soup);
+  const Document after = from_glb(contents(folder / "a.glb"));
+  const Json& primitive = after.json["meshes"][0]["primitives"][0];
+  const auto rows = [&](const char* name) { return rows_of(after, primitive["attributes"][name]); };
+  const auto points = rows("POSITION"), normals = rows("NORMAL"), tangents = rows("TANGENT"),
+             uvs = rows("TEXCOORD_0"), joints = rows("JOINTS_0"), weights = rows("WEIGHTS_0"),
+             shifts = rows_of(after, primitive["targets"][0]["POSITION"]);
+  const auto known = rows_of(before, before.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"]);
+  const double whole = weight_type == 5126 ? 1 : double(std::numeric_limits<Weight>::max());
+  std::size_t placed = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (std::find(known.begin(), known.end(), points[i]) != known.end())
+      continue;
+    ++placed;
+    const std::vector<double> p = numbers(points[i]), uv = numbers<std::uint16_t>(uvs[i]),
+                              normal = numbers(normals[i]), tangent = numbers(tangents[i]),
+                              joint = numbers<std::uint8_t>(joints[i]), weight = numbers<Weight>(weights[i]),
+                              shift = numbers(shifts[i]);
+    EXPECT_NEAR(uv[0] / 65535, p[0], 0.02);
+    EXPECT_NEAR(uv[1] / 65535, p[1], 0.02);
+    EXPECT_NEAR(std::hypot(normal[0], normal[1], normal[2]), 1, 1e-6);
+    EXPECT_NEAR(std::hypot(tangent[0], tangent[1], tangent[2]), 1, 1e-6);
+    EXPECT_EQ(tangent[3], -1);
+    EXPECT_NEAR(shift[0], 0.5 * p[0], 0.02);
+    EXPECT_NEAR(shift[2], -0.25 * p[1], 0.02);
+    ASSERT_EQ(joint[0] + joint[1], 7);
+    EXPECT_NEAR(weight[joint[0] == 3 ? 0 : 1] / whole, p[0], 0.02);
+    EXPECT_EQ(joint[2] + joint[3] + weight[2] + weight[3], 0);
+    EXPECT_NEAR(weight[0] + weight[1], whole, whole == 1 ? 1e-6 : 0);
+  }
+  EXPECT_EQ(placed, reduced.placed_vertices);
+  EXPECT_GT(placed, 50u);
 }
 
 Mesh_file read_glb(const Document& document)
@@ -659,6 +768,73 @@ TEST(Gltf, PositionsThatTheFileDoesNotHaveAreRefused)
   EXPECT_THROW(write_mesh(folder / "a.glb", soup), Argument_error);
   soup.points[5] = Point_3(own.x() + 1, own.y(), own.z());
   EXPECT_THROW(write_mesh(folder / "a.glb", soup), Argument_error);
+}
+
+TEST(Gltf, ValuesAtNewPlacesAreInterpolated)
+{
+  expect_interpolated<float>(5126);
+  expect_interpolated<std::uint8_t>(5121);
+  expect_interpolated<std::uint16_t>(5123);
+}
+
+// In nodes that share a mesh, under transforms that round.
+TEST(Gltf, NewPlacesAreWrittenAsTheyWereJudged)
+{
+  const Temporary_folder folder;
+  const Document before = everything();
+  const Triangle_soup soup = read_glb(before).soup;
+  const Simplified_soup reduced = reduce(soup, 0.3, Placement::optimal);
+  EXPECT_TRUE(verify(reduced, prepare(soup)).accepted());
+  write_mesh(folder / "a.glb", reduced.soup);
+  const Triangle_soup again = read_mesh(folder / "a.glb").soup;
+  ASSERT_EQ(again.triangles.size(), reduced.soup.triangles.size());
+  const auto expect_same_values = [](const auto& read, const auto& written, std::size_t t, std::size_t k) {
+    const Index number = read.of_triangle[t][k], expected = written.of_triangle[t][k];
+    ASSERT_EQ(number == read.missing, expected == written.missing);
+    if (number != read.missing) {
+      ASSERT_EQ(read.values[number], written.values[expected]);
+    }
+  };
+  for (std::size_t t = 0; t < again.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      ASSERT_EQ(again.points[again.triangles[t][k]], reduced.soup.points[reduced.soup.triangles[t][k]]);
+      expect_same_values(again.uvs, reduced.soup.uvs, t, k);
+      expect_same_values(again.normals, reduced.soup.normals, t, k);
+    }
+
+  // Rows of vertices in the places of the input are the input's, bit for bit.
+  const Document after = from_glb(contents(folder / "a.glb"));
+  expect_same_rest(after, before);
+  std::size_t kept = 0, placed = 0;
+  std::set<std::size_t> accessors; // which primitives of a mesh share
+  for (const auto& [mesh, original] : std::map<std::size_t, std::size_t>{{0, 0}, {1, 1}, {3, 0}})
+    for (std::size_t p = 0; p < before.json["meshes"][original]["primitives"].size(); ++p) {
+      const Json &now = after.json["meshes"][mesh]["primitives"][p],
+                 &then = before.json["meshes"][original]["primitives"][p];
+      if (!accessors.insert(now["attributes"]["POSITION"].get<std::size_t>()).second)
+        continue;
+      const auto known = rows_of(before, then["attributes"]["POSITION"]);
+      const auto points = rows_of(after, now["attributes"]["POSITION"]);
+      const auto expect_same_row = [&](std::size_t accessor, std::size_t from, std::size_t i,
+                                       std::size_t row) {
+        ASSERT_EQ(rows_of(after, accessor)[i], rows_of(before, from)[row]);
+      };
+      std::size_t placed_here = 0;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const std::size_t row = std::size_t(std::find(known.begin(), known.end(), points[i]) - known.begin());
+        ++(row == known.size() ? placed_here : kept);
+        if (row == known.size())
+          continue;
+        for (const auto& [name, accessor] : then["attributes"].items())
+          expect_same_row(now["attributes"][name], accessor, i, row);
+        for (std::size_t k = 0; k < then.value("targets", Json()).size(); ++k)
+          expect_same_row(now["targets"][k]["POSITION"], then["targets"][k]["POSITION"], i, row);
+      }
+      EXPECT_GT(placed_here, 10u) << "mesh " << mesh;
+      placed += placed_here;
+    }
+  EXPECT_EQ(placed, reduced.placed_vertices);
+  EXPECT_EQ(placed + kept, reduced.soup.points.size());
 }
 
 TEST(Gltf, NewFileFromAnotherFormat)

@@ -145,7 +145,7 @@ void choose_target(World& world, Random& random)
 void choose_means(World& world, Random& random)
 {
   Simplify_options& options = world.options;
-  if (random.one_in(3) && !world.soup.scene)
+  if (random.one_in(3))
     options.placement = Placement::optimal;
   if (random.one_in(6))
     options.loop = Collapse_loop::cgal;

@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef SELVEDGE_FILES_TRANSFORMS_OF_VERTICES_H
-#define SELVEDGE_FILES_TRANSFORMS_OF_VERTICES_H
+#ifndef SELVEDGE_SRC_SOUP_TRANSFORMS_OF_VERTICES_H
+#define SELVEDGE_SRC_SOUP_TRANSFORMS_OF_VERTICES_H
 
 #include <selvedge/Triangle_soup.h>
 
@@ -17,4 +17,4 @@ std::vector<Index> transforms_of_vertices(const Triangle_soup& soup);
 
 } // namespace selvedge
 
-#endif // SELVEDGE_FILES_TRANSFORMS_OF_VERTICES_H
+#endif // SELVEDGE_SRC_SOUP_TRANSFORMS_OF_VERTICES_H

@@ -1,16 +1,19 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef SELVEDGE_SRC_FILES_GLTF_SCENE_H
-#define SELVEDGE_SRC_FILES_GLTF_SCENE_H
+#ifndef SELVEDGE_SOUP_GLTF_SCENE_H
+#define SELVEDGE_SOUP_GLTF_SCENE_H
 
 #include <selvedge/Triangle_soup.h>
 
 #include <nlohmann/json.hpp>
 
 #include <array>
-#include <limits>
+#include <cstdint>
+#include <cstring>
+#include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace selvedge {
@@ -32,6 +35,8 @@ struct Gltf_scene
     std::size_t components = 0;
     std::size_t row_size = 0;
     std::string rows;
+
+    bool is_normalized() const { return accessor.value("normalized", false); }
   };
 
   /// Vertices that several primitives of a mesh may share. The first of the attributes is the position.
@@ -61,6 +66,9 @@ struct Gltf_scene
     Json index_json = Json::object(); ///< what the document says about their accessor, likewise
   };
 
+  /// Returns the number of the instance that a vertex of the scene belongs to.
+  std::size_t instance_of(Index scene_vertex) const;
+
   Json document;
   std::vector<std::string> views;    ///< the bytes of every buffer view, unless it is free
   std::vector<Index> free_views;     ///< numbers that nothing refers to any more
@@ -71,8 +79,6 @@ struct Gltf_scene
   std::vector<std::string> only_in_gltf; ///< names of what no other format holds
 };
 
-namespace files {
-
 enum Component_type {
   type_int8 = 5120,
   type_uint8,
@@ -82,25 +88,49 @@ enum Component_type {
   type_float32
 };
 
-constexpr Index s_none = std::numeric_limits<Index>::max();
-
 constexpr Gltf_scene::Matrix identity_matrix = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 
 /// Returns the number of bytes of a component; zero for types that glTF does not know.
 std::size_t component_size(int component_type);
 
+/// Returns the type of an attribute with such components, one that glTF knows.
+Attribute::Type attribute_type(int component_type);
+
+/// Appends a number to rows, in the byte order of glTF.
+template <class Number>
+void append_little_endian(std::string& rows, Number number)
+{
+  std::conditional_t<sizeof number == 4, std::uint32_t,
+                     std::conditional_t<sizeof number == 2, std::uint16_t, std::uint8_t>>
+      bits;
+  std::memcpy(&bits, &number, sizeof bits);
+  for (std::size_t i = 0; i < sizeof bits; ++i)
+    rows += static_cast<char>(bits >> (8 * i) & 0xff);
+}
+
 /// Returns a component as a number; normalised integers are not divided.
 double component(const Gltf_scene::Column& column, std::size_t row, std::size_t place);
 
+/// Returns what a component stands for as a texture coordinate: integers are fractions of their largest
+/// value.
+double fraction(Attribute::Type type, double number);
+
+/// Returns the direction of a normal in world space, computed by the matrix of cofactors; the normal itself
+/// where the transform neither turns nor scales.
+std::array<double, 3> world_normal(const Gltf_scene::Instance& instance, const std::array<double, 3>& normal);
+
 /// Returns ((m0 x + m1 y) + m2 z) + m3 in doubles, for each row m of the matrix.
+Point_3 world_position(const Gltf_scene::Matrix& to_world, const std::array<double, 3>& local);
 Point_3 world_position(const Gltf_scene::Matrix& to_world, const Gltf_scene::Column& positions,
                        std::size_t row);
 
-/// Returns the same triangles with a new document: one node for each group, and vertices split where corners
-/// differ in texture coordinates or normals. Precondition: coordinates are 32-bit floats.
-Triangle_soup with_gltf_scene(const Triangle_soup& soup);
+/// Returns three values of 32-bit floats whose world position is exactly this point; none when no such were
+/// found, for instance because the transform flattens.
+std::optional<std::array<double, 3>> local_position(const Gltf_scene::Matrix& to_world, const Point_3& point);
 
-} // namespace files
+/// Returns a point near another that has a `local_position`; none when none was found.
+std::optional<Point_3> nearest_world_position(const Gltf_scene::Matrix& to_world, const Point_3& point);
+
 } // namespace selvedge
 
-#endif // SELVEDGE_SRC_FILES_GLTF_SCENE_H
+#endif // SELVEDGE_SOUP_GLTF_SCENE_H

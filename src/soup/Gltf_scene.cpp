@@ -1,0 +1,175 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "Gltf_scene.h"
+
+#include "transforms_of_vertices.h"
+#include "with_number.h"
+#include <selvedge/rounding.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+
+// What all who handle vertices of a glTF scene share: the numbers in columns, and positions in world space.
+
+namespace selvedge {
+namespace {
+
+using Matrix = Gltf_scene::Matrix;
+
+// Row i of the matrix of cofactors of the linear part.
+std::array<double, 3> cofactors(const Matrix& m, std::size_t i)
+{
+  const auto &a = m[(i + 1) % 3], &b = m[(i + 2) % 3];
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+double product(const std::array<double, 3>& a, const std::array<double, 3>& b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+// Returns about the point that the matrix takes to `point`, rounded to 32-bit floats. They need not be
+// finite.
+std::array<double, 3> inverse(const Matrix& m, const Point_3& point)
+{
+  const std::array<std::array<double, 3>, 3> rows = {cofactors(m, 0), cofactors(m, 1), cofactors(m, 2)};
+  const double determinant = product({m[0][0], m[0][1], m[0][2]}, rows[0]);
+  const std::array<double, 3> p = {point.x() - m[0][3], point.y() - m[1][3], point.z() - m[2][3]};
+  std::array<double, 3> result;
+  for (std::size_t i = 0; i < 3; ++i)
+    result[i] = nearest_float32(product({rows[0][i], rows[1][i], rows[2][i]}, p) / determinant);
+  return result;
+}
+
+} // namespace
+
+std::size_t Gltf_scene::instance_of(Index scene_vertex) const
+{
+  const auto beyond =
+      std::upper_bound(instances.begin(), instances.end(), scene_vertex,
+                       [](Index v, const Gltf_scene::Instance& instance) { return v < instance.first; });
+  return std::size_t(beyond - instances.begin()) - 1;
+}
+
+std::size_t component_size(int component_type)
+{
+  switch (component_type) {
+  case type_int8:
+  case type_uint8:
+    return 1;
+  case type_int16:
+  case type_uint16:
+    return 2;
+  case type_uint32:
+  case type_float32:
+    return 4;
+  default:
+    return 0;
+  }
+}
+
+Attribute::Type attribute_type(int component_type)
+{
+  switch (component_type) {
+  case type_int8:
+    return Attribute::Type::int8;
+  case type_uint8:
+    return Attribute::Type::uint8;
+  case type_int16:
+    return Attribute::Type::int16;
+  case type_uint16:
+    return Attribute::Type::uint16;
+  case type_uint32:
+    return Attribute::Type::uint32;
+  default:
+    return Attribute::Type::float32;
+  }
+}
+
+double component(const Gltf_scene::Column& column, std::size_t row, std::size_t place)
+{
+  return with_number(attribute_type(column.component_type), [&](auto number) {
+    std::memcpy(&number, column.rows.data() + row * column.row_size + place * sizeof number, sizeof number);
+    return double(number);
+  });
+}
+
+double fraction(Attribute::Type type, double number)
+{
+  switch (type) {
+  case Attribute::Type::uint8:
+    return number / 255;
+  case Attribute::Type::uint16:
+    return number / 65535;
+  default:
+    return number;
+  }
+}
+
+std::array<double, 3> world_normal(const Gltf_scene::Instance& instance, const std::array<double, 3>& normal)
+{
+  Matrix linear = instance.to_world;
+  for (auto& row : linear)
+    row[3] = 0;
+  if (linear == identity_matrix)
+    return normal;
+  std::array<double, 3> result;
+  for (std::size_t i = 0; i < 3; ++i)
+    result[i] = product(cofactors(linear, i), normal);
+  const double length = std::sqrt(product(result, result));
+  for (double& coordinate : result)
+    coordinate = length > 0 ? coordinate / (instance.is_mirrored ? -length : length) : 0;
+  return result;
+}
+
+Point_3 world_position(const Matrix& to_world, const std::array<double, 3>& local)
+{
+  const auto coordinate = [&](const std::array<double, 4>& m) {
+    return m[0] * local[0] + m[1] * local[1] + m[2] * local[2] + m[3];
+  };
+  return {coordinate(to_world[0]), coordinate(to_world[1]), coordinate(to_world[2])};
+}
+
+Point_3 world_position(const Matrix& to_world, const Gltf_scene::Column& positions, std::size_t row)
+{
+  return world_position(
+      to_world, {component(positions, row, 0), component(positions, row, 1), component(positions, row, 2)});
+}
+
+std::optional<std::array<double, 3>> local_position(const Matrix& to_world, const Point_3& point)
+{
+  const std::array<double, 3> local = inverse(to_world, point);
+  const Point_3 found = world_position(to_world, local);
+  for (int i = 0; i < 3; ++i)
+    if (!std::isfinite(local[std::size_t(i)]) || found[i] != point[i])
+      return std::nullopt;
+  return local;
+}
+
+std::optional<Point_3> nearest_world_position(const Matrix& to_world, const Point_3& point)
+{
+  const Point_3 result = world_position(to_world, inverse(to_world, point));
+  return local_position(to_world, result) ? std::optional<Point_3>(result) : std::nullopt;
+}
+
+std::vector<Index> transforms_of_vertices(const Triangle_soup& soup)
+{
+  if (!soup.scene)
+    return {};
+  const Gltf_scene& scene = *soup.scene;
+  std::map<Matrix, Index> numbers;
+  std::vector<Index> of_scene_vertex;
+  for (const Gltf_scene::Instance& instance : scene.instances)
+    of_scene_vertex.resize(of_scene_vertex.size() + scene.blocks[instance.block].size,
+                           numbers.emplace(instance.to_world, Index(numbers.size())).first->second);
+  std::vector<Index> result;
+  result.reserve(soup.points.size());
+  for (const Index v : soup.scene_vertices)
+    result.push_back(of_scene_vertex[v]);
+  return result;
+}
+
+} // namespace selvedge
