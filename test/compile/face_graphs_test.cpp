@@ -10,6 +10,7 @@
 #include <selvedge/Surface_mesh_simplification/Quadric_cost.h>
 #include <selvedge/Surface_mesh_simplification/Visitor_chain.h>
 #include <selvedge/Surface_mesh_simplification/edge_collapse.h>
+#include <selvedge/Surface_mesh_simplification/simplify_mesh.h>
 #include <selvedge/verify.h>
 
 #include "support/Edge_ratio_stop.h"
@@ -246,6 +247,43 @@ TEST(Vertex_point_map, OfAnotherTypeWithOurPolicies)
                     .visitor(Visitor_chain(filter.visitor(), Border_visitor<Surface_mesh, Rule>(rule)))),
             0);
   EXPECT_EQ(offending_pairs_of(scene.mesh, scene.map), 0u);
+}
+
+TEST(Vertex_point_map, OfAnotherTypeInAWholeReduction)
+{
+  for (const Collapse_loop loop : {Collapse_loop::own, Collapse_loop::cgal})
+    for (const Placement placement : {Placement::vertices, Placement::optimal}) {
+      Simplify_options options;
+      options.ratio = 0.1;
+      options.max_error.reset();
+      options.max_normal_change = 180;
+      options.min_aspect_ratio = 0;
+      options.loop = loop;
+      options.placement = placement;
+      const auto reduce = [&](Scene_with_map& scene) {
+        return simplify_mesh(scene.mesh, options, CGAL::parameters::vertex_point_map(scene.map)).collapses;
+      };
+      Scene_with_map scene;
+      EXPECT_GT(reduce(scene), 100u);
+      EXPECT_EQ(offending_pairs_of(scene.mesh, scene.map), 0u);
+
+      // Whatever the mesh's own points are, nothing reads or changes them.
+      Scene_with_map other;
+      const Surface_mesh before = close_sheets();
+      for (const auto v : vertices(before))
+        other.mesh.point(v) = before.point(v);
+      reduce(other);
+      EXPECT_EQ(other.points, scene.points);
+      for (const auto v : vertices(before)) {
+        ASSERT_EQ(scene.mesh.point(v), Point_3(0, 0, 0));
+        ASSERT_EQ(other.mesh.point(v), before.point(v));
+      }
+
+      options.check_intersections = false; // the control
+      Scene_with_map unchecked;
+      reduce(unchecked);
+      EXPECT_GT(offending_pairs_of(unchecked.mesh, unchecked.map), 0u);
+    }
 }
 
 TEST(Vertex_point_map, ThatRoundsIsRefusedUnlessNothingIsRounded)

@@ -240,6 +240,7 @@ void compare(Mesh mesh, Random& random, Counts& counts)
 {
   const Intersection_filter<Mesh> filter(mesh);
   auto visitor = filter.visitor();
+  visitor.OnStarted(mesh);
   const auto points = mesh.points();
   const Kernel kernel;
   const std::size_t differ = counts.differ;
@@ -360,6 +361,7 @@ TEST(Guard, IsRightAboutStarsOfMorePointsThanAMaskHas)
     const Vertex target = ring[(high + size / 4) % size];
     const auto is_clear = [&] {
       const Intersection_filter<Mesh> filter(mesh);
+      filter.visitor().OnStarted(mesh);
       const Profile profile(mesh.halfedge(centre, target), mesh, mesh.points(), Kernel());
       const bool result = bool(filter(profile, internal::Optional<Point_3>(profile.p1())));
       EXPECT_EQ(result, Reference(mesh).is_clear(profile.v0(), profile.v1(), profile.p1()));

@@ -78,19 +78,59 @@ TEST(Visitor_chain, CallsAllVisitorsInEitherLoop)
   }
 }
 
-TEST(Intersection_filter, IsRefusedWithoutItsVisitorAfterOneCollapse)
+// Returns what the loop says about a filter and a visitor with which it does not end.
+template <class Visitor>
+std::string refusal(bool is_own, Mesh& mesh, const Intersection_filter<Mesh>& filter, const Visitor& visitor)
+{
+  try {
+    collapse(is_own, mesh, CGAL::parameters::filter(filter).visitor(visitor));
+  } catch (const Argument_error& error) {
+    return error.what();
+  }
+  return "no refusal";
+}
+
+TEST(Intersection_filter, IsRefusedWithoutItsVisitorBeforeTheFirstCollapse)
+{
+  for (const bool is_own : {true, false})
+    for (const bool is_second_run : {true, false}) {
+      Mesh mesh = waves();
+      const Intersection_filter<Mesh> filter(mesh);
+      if (is_second_run)
+        collapse(is_own, mesh, CGAL::parameters::filter(filter).visitor(filter.visitor()));
+      const Triangle_soup before = soup_of(mesh);
+      const std::string message = refusal(is_own, mesh, filter, internal::No_visitor());
+      EXPECT_NE(message.find("visitor(filter.visitor())"), std::string::npos) << message;
+      EXPECT_EQ(soup_of(mesh).points, before.points);
+      EXPECT_EQ(soup_of(mesh).triangles, before.triangles);
+    }
+}
+
+// A visitor of somebody who has forgotten to pass two calls on.
+struct Forgetful_visitor : internal::No_visitor
+{
+  Forgetful_visitor(const Intersection_filter<Mesh>::Visitor& visitor_, int& collapses_)
+      : visitor(visitor_), collapses(&collapses_)
+  {
+  }
+  void OnStarted(Mesh& mesh) { visitor.OnStarted(mesh); }
+  template <class Profile, class Vertex>
+  void OnCollapsed(const Profile&, const Vertex&)
+  {
+    ++*collapses;
+  }
+  Intersection_filter<Mesh>::Visitor visitor;
+  int* collapses;
+};
+
+TEST(Intersection_filter, IsRefusedAfterOneCollapseThatItsVisitorWasNotTold)
 {
   for (const bool is_own : {true, false}) {
     Mesh mesh = waves();
     int collapses = 0;
     const Intersection_filter<Mesh> filter(mesh);
-    std::string message;
-    try {
-      collapse(is_own, mesh, CGAL::parameters::filter(filter).visitor(Counting_visitor(collapses)));
-    } catch (const Argument_error& error) {
-      message = error.what();
-    }
-    EXPECT_NE(message.find("visitor(filter.visitor())"), std::string::npos) << message;
+    const std::string message = refusal(is_own, mesh, filter, Forgetful_visitor(filter.visitor(), collapses));
+    EXPECT_NE(message.find("Visitor_chain"), std::string::npos) << message;
     EXPECT_EQ(collapses, 1);
     EXPECT_TRUE(is_embedded(soup_of(mesh)));
   }

@@ -45,7 +45,12 @@ namespace selvedge {
 /// - at the construction: no edge has length zero (CGAL's loop would collapse such an edge without asking a
 ///   filter), and the faces around every vertex form one fan (`duplicate_non_manifold_vertices()` of
 ///   `CGAL::Polygon_mesh_processing` separates several);
-/// - before the first collapse that an incomplete index would judge: the loop has the visitor;
+/// - when the loop asks the filter for the first time, before any collapse: it has called the visitor's
+///   `OnStarted`, as both loops do before they ask. Nothing earlier tells a loop without the visitor from one
+///   that has not begun. A program that asks the filter itself calls `filter.visitor().OnStarted(mesh)`
+///   first;
+/// - before the first collapse that an incomplete index would judge: a visitor that announced the run has
+///   announced the collapses as well;
 /// - after each collapse: the vertex point map holds the point that was judged. A map that rounds what is put
 ///   into it, as OpenMesh's map of floats does, takes placements at an end of the edge alone
 ///   (`Halfedge_placement`). The collapse that fails this check has been done, and may intersect.
@@ -84,6 +89,8 @@ public:
   public:
     explicit Visitor(const std::shared_ptr<Guard>& guard) : m_guard(guard) {}
 
+    void OnStarted(TriangleMesh&) { m_guard->on_started(); }
+    void OnFinished(TriangleMesh&) { m_guard->on_finished(); }
     template <class Profile, class OptionalPoint>
     void OnCollapsing(const Profile& profile, const OptionalPoint& placement)
     {

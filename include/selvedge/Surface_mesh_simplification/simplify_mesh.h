@@ -8,6 +8,10 @@
 #include <selvedge/Surface_mesh_simplification/No_observer.h>
 #include <selvedge/Surface_mesh_simplification/Simplify_constraints.h>
 #include <selvedge/Surface_mesh_simplification/internal/Simplification.h>
+#include <selvedge/Surface_mesh_simplification/parameters.h>
+
+#include <CGAL/Named_function_parameters.h>
+#include <CGAL/boost/graph/named_params_helper.h>
 
 #include <type_traits>
 
@@ -17,7 +21,8 @@ namespace selvedge {
 /// more, without letting any face touch or pass through another.
 ///
 /// `options` say how far to reduce and within which limits, `constraints` what is special about single
-/// elements. `observer` derives from `No_observer`.
+/// elements. `observer` derives from `No_observer`. Of CGAL's named parameters it takes `vertex_point_map`
+/// (by default, that of the mesh); any other does not compile.
 ///
 /// **Guarantees** for an embedded mesh. *Embedded* means: all faces are proper triangles, no two have the
 /// same three positions, and any two meet exactly in the positions that they share (none, one, or two and the
@@ -34,10 +39,10 @@ namespace selvedge {
 /// other faces.
 ///
 /// **Preconditions** The caller must ensure: all faces are triangles; `TriangleMesh` is a mutable face graph
-/// whose points belong to a kernel with exact predicates. Checked at run time (`Argument_error`): the options
-/// are in range; no edge has length zero, if intersections are checked; the diagonal of the bounding box is 0
-/// or from 2^-200 to 2^200. Two options are for soups alone and refused when set: `faces_per_cell`, and
-/// `on_collapse`, which the observer replaces.
+/// whose points belong to a kernel with exact predicates, as those of the vertex point map do. Checked at run
+/// time (`Argument_error`): the options are in range; no edge has length zero, if intersections are checked;
+/// the diagonal of the bounding box is 0 or from 2^-200 to 2^200. Two options are for soups alone and refused
+/// when set: `faces_per_cell`, and `on_collapse`, which the observer replaces.
 ///
 /// In this range of sizes, no computation of quality overflows, and none vanishes except areas of less than
 /// 2^-100 of the squared diagonal. Without such areas, the steps are the same for a mesh and for the mesh
@@ -52,18 +57,39 @@ namespace selvedge {
 ///
 /// **Reference** Derichs, Misiak, Fuhrmann: Intersection-free mesh decimation for high resolution cloth
 /// models.
-template <class TriangleMesh, class Observer = No_observer>
+template <class TriangleMesh, class Observer = No_observer,
+          class NamedParameters = CGAL::parameters::Default_named_parameters>
 Simplify_report simplify_mesh(TriangleMesh& mesh, const Simplify_options& options,
                               const Simplify_constraints<TriangleMesh>& constraints = {},
-                              Observer&& observer = Observer())
+                              Observer&& observer = Observer(),
+                              const NamedParameters& parameters = CGAL::parameters::default_values())
 {
+  namespace np = CGAL::internal_np;
+  static_assert(internal::Are_tags_among<NamedParameters, np::all_default_t, np::vertex_point_t>::value,
+                "selvedge::simplify_mesh does not know one of these named parameters");
   if (options.faces_per_cell > 0)
     throw Argument_error("a mesh cannot be reduced in cells: set faces_per_cell to 0, or use simplify_soup");
   if (options.on_collapse)
     throw Argument_error("on_collapse is for soups: give simplify_mesh an observer instead");
-  return internal::Simplification<TriangleMesh, std::remove_reference_t<Observer>>(mesh, options, constraints,
-                                                                                   observer)
+  const auto points =
+      CGAL::parameters::choose_parameter(CGAL::parameters::get_parameter(parameters, np::vertex_point),
+                                         CGAL::get_property_map(CGAL::vertex_point, mesh));
+  return internal::Simplification<TriangleMesh, std::remove_reference_t<Observer>,
+                                  std::remove_const_t<decltype(points)>>(mesh, options, constraints, observer,
+                                                                         points)
       .run();
+}
+
+/// The same without constraints and observer, as CGAL's functions are called:
+///
+/// ```
+/// selvedge::simplify_mesh(mesh, options, CGAL::parameters::vertex_point_map(points));
+/// ```
+template <class TriangleMesh, class T, class Tag, class Base>
+Simplify_report simplify_mesh(TriangleMesh& mesh, const Simplify_options& options,
+                              const CGAL::Named_function_parameters<T, Tag, Base>& parameters)
+{
+  return simplify_mesh(mesh, options, {}, No_observer(), parameters);
 }
 
 } // namespace selvedge

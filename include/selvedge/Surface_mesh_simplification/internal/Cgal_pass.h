@@ -27,17 +27,18 @@ namespace internal {
 ///
 /// `make_stop()` returns a stop predicate, `count_blocked()` the number of placements that the intersection
 /// filter has refused so far.
-template <class TriangleMesh, class Cost, class Directions, class Filter, class Visitor, class MakeStop,
-          class CountBlocked>
+template <class TriangleMesh, class VertexPointMap, class Cost, class Directions, class Filter, class Visitor,
+          class MakeStop, class CountBlocked>
 class Cgal_pass
 {
   using Placement = Filtered_halfedge_placement<Directions, Filter>;
 
 public:
-  Cgal_pass(TriangleMesh& mesh, const Cost& costs, const Directions& directions, const Filter& filter,
-            const Visitor& visitor, const MakeStop& make_stop, const CountBlocked& count_blocked)
-      : m_mesh(&mesh), m_costs(costs), m_placement(mesh, directions, filter), m_visitor(visitor, m_placement),
-        m_make_stop(make_stop), m_count_blocked(count_blocked)
+  Cgal_pass(TriangleMesh& mesh, const VertexPointMap& points, const Cost& costs, const Directions& directions,
+            const Filter& filter, const Visitor& visitor, const MakeStop& make_stop,
+            const CountBlocked& count_blocked)
+      : m_mesh(&mesh), m_points(points), m_costs(costs), m_placement(mesh, directions, filter),
+        m_visitor(visitor, m_placement), m_make_stop(make_stop), m_count_blocked(count_blocked)
   {
   }
 
@@ -48,8 +49,11 @@ public:
     const double highest_before = m_highest_cost;
     m_blocked_before += blocked();
     const Any_stop stop(m_make_stop(), Function_stop([this](double cost) { return is_over_at(cost); }));
-    CGAL::Surface_mesh_simplification::edge_collapse(
-        *m_mesh, stop, CGAL::parameters::get_cost(m_costs).get_placement(m_placement).visitor(m_visitor));
+    CGAL::Surface_mesh_simplification::edge_collapse(*m_mesh, stop,
+                                                     CGAL::parameters::vertex_point_map(m_points)
+                                                         .get_cost(m_costs)
+                                                         .get_placement(m_placement)
+                                                         .visitor(m_visitor));
     return m_highest_cost != highest_before || m_placement.reversed() != reversed_before;
   }
 
@@ -66,7 +70,11 @@ private:
     {
     }
 
-    void OnStarted(TriangleMesh&) { placement.on_started(); }
+    void OnStarted(TriangleMesh& mesh)
+    {
+      Visitor::OnStarted(mesh);
+      placement.on_started();
+    }
     template <class Profile, class OptionalCost>
     void OnCollected(const Profile&, const OptionalCost&)
     {
@@ -100,6 +108,7 @@ private:
   }
 
   TriangleMesh* m_mesh;
+  VertexPointMap m_points;
   Cost m_costs;
   Placement m_placement;
   Turning_visitor m_visitor;

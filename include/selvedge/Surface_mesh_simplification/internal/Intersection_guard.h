@@ -64,7 +64,7 @@ public:
   template <class Profile>
   bool is_clear(const Collapse<Profile>& collapse)
   {
-    refuse_unannounced_changes();
+    refuse_missing_visitor();
     m_is_announcement_due = are_motions_clear(collapse);
     return m_is_announcement_due;
   }
@@ -72,6 +72,10 @@ public:
   /// Returns, for the last collapse that was clear and had a place at neither end, whether its mover went
   /// there before its goal.
   bool is_mover_first() const { return m_is_mover_first; }
+
+  /// Called at the start and at the end of each run of a loop.
+  void on_started() { m_is_run_announced = m_is_announcement_due = true; }
+  void on_finished() { m_is_run_announced = false; }
 
   template <class Profile>
   void before_collapse(const Collapse<Profile>& collapse)
@@ -107,14 +111,19 @@ private:
     Id id;
   };
 
-  // What the visitor has not announced is noticed by the number of faces. It is counted only after a collapse
-  // that was accepted and not announced, and for the first question.
-  void refuse_unannounced_changes() const
+  // A loop calls its visitor before it asks a filter, so that a loop without the visitor is noticed when it
+  // asks for the first time. A visitor that announces runs and not all collapses is noticed by the number of
+  // faces, which is counted for the first question of a run, and after a collapse that was accepted and not
+  // announced.
+  void refuse_missing_visitor() const
   {
+    if (!m_is_run_announced)
+      throw Argument_error("the loop has not called the visitor of its intersection filter; give the loop "
+                           "this visitor as well, `visitor(filter.visitor())`, or a `Visitor_chain` with it");
     if (m_is_announcement_due && current_faces(m_mesh) != m_faces.size())
-      throw Argument_error("the mesh has changed without the knowledge of its intersection filter; give the "
-                           "loop the filter's visitor as well, `visitor(filter.visitor())`, or a "
-                           "`Visitor_chain` with it");
+      throw Argument_error("the mesh has changed without the knowledge of its intersection filter; pass all "
+                           "calls of the loop on to the filter's visitor, as a `Visitor_chain` does, and "
+                           "make the filter when the mesh is as the loop is to begin with");
   }
 
   template <class Profile>
@@ -248,6 +257,7 @@ private:
   View m_view;
   Vertex m_goal{};                    // of the collapse that is being done
   typename Vertices::Point m_place{}; // likewise
+  bool m_is_run_announced = false;    // whether a loop that calls the visitor is running
   bool m_is_announcement_due = true;  // whether the mesh may have changed unannounced
   bool m_is_mover_first = false;
   std::vector<Face> m_blockers;

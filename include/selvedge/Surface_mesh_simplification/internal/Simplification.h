@@ -46,17 +46,17 @@ namespace internal {
 ///
 /// It exists to keep all of these, and the observer, in step: every collapse, of either loop, is announced to
 /// them in `before_collapse` and `after_collapse`. It also counts what happens, for the report.
-template <class TriangleMesh, class Observer>
+template <class TriangleMesh, class Observer,
+          class VertexPointMap = typename boost::property_map<TriangleMesh, CGAL::vertex_point_t>::type>
 class Simplification
 {
   using Graph_traits = boost::graph_traits<TriangleMesh>;
   using Vertex = typename Graph_traits::vertex_descriptor;
   using Halfedge = typename Graph_traits::halfedge_descriptor;
   using Edge = typename Graph_traits::edge_descriptor;
-  using Point_map = typename boost::property_map<TriangleMesh, CGAL::vertex_point_t>::type;
-  using Point = typename boost::property_traits<Point_map>::value_type;
+  using Point = typename boost::property_traits<VertexPointMap>::value_type;
   using Geom_traits = typename CGAL::Kernel_traits<Point>::Kernel;
-  using Rule = Border_rule<TriangleMesh>;
+  using Rule = Border_rule<TriangleMesh, VertexPointMap>;
   using Targets = Face_targets<TriangleMesh>;
   using Quadrics = Quadric_cost<TriangleMesh, Rule>;
 
@@ -71,8 +71,7 @@ class Simplification
     {
     }
 
-    template <class VertexPointMap, class GeomTraits>
-    void initialize(const TriangleMesh& mesh, const VertexPointMap& points, const GeomTraits& traits) const
+    void initialize(const TriangleMesh& mesh, const VertexPointMap& points, const Geom_traits& traits) const
     {
       m_quadrics.initialize(mesh, points, traits);
     }
@@ -160,13 +159,22 @@ class Simplification
   using Normal_change = Normal_change_filter<Aspect_ratio>;
   using Uv = Halfedge_filter<Is_uv_orientation_kept, Normal_change>;
   using Error = Error_filter<Tracked_vertices<TriangleMesh>, Uv>;
-  using Intersection = Intersection_filter<TriangleMesh, Error, Selectable_index>;
+  using Intersection =
+      Intersection_filter<TriangleMesh, Error, Selectable_index, VertexPointMap, Geom_traits>;
 
 public:
   Simplification(TriangleMesh& mesh, const Simplify_options& options,
                  const Simplify_constraints<TriangleMesh>& constraints, Observer& observer)
-      : m_start(Clock::now()), m_mesh(mesh), m_options(options), m_observer(observer),
-        m_diagonal(constraints.diagonal ? *constraints.diagonal : diagonal(mesh)),
+      : Simplification(mesh, options, constraints, observer, get(CGAL::vertex_point, mesh))
+  {
+  }
+
+  /// The same with a vertex point map that is not the mesh's own.
+  Simplification(TriangleMesh& mesh, const Simplify_options& options,
+                 const Simplify_constraints<TriangleMesh>& constraints, Observer& observer,
+                 const VertexPointMap& points)
+      : m_start(Clock::now()), m_mesh(mesh), m_points(points), m_options(options), m_observer(observer),
+        m_diagonal(constraints.diagonal ? *constraints.diagonal : diagonal_of_box()),
         m_rule(make_rule(constraints)), m_targets(make_targets(constraints)),
         m_quadrics(mesh, options.cost, m_rule), m_line(m_rule), m_border({&observer, m_rule}, m_line),
         m_target(m_targets, m_border), m_aspect_ratio(options.min_aspect_ratio, m_target),
@@ -180,7 +188,7 @@ public:
     m_quadrics.weigh(mesh, constraints.vertex_weights);
     m_quadrics.measure_by(m_diagonal);
     if (options.max_error)
-      m_tracked.begin(get(CGAL::vertex_point, mesh), m_diagonal);
+      m_tracked.begin(m_points, m_diagonal);
     m_report.faces_input = m_targets.total().faces;
     m_report.faces_fixed = m_targets.total().fixed;
   }
@@ -189,15 +197,15 @@ public:
   /// caller knows that this is allowed: it repeats collapses that were found in cells. Call it before `run`.
   void collapse(Halfedge moving, const std::optional<Point>& place = {}, bool is_mover_first = false)
   {
-    const auto points = get(CGAL::vertex_point, m_mesh);
     const Geom_traits traits;
-    m_quadrics.initialize(m_mesh, points, traits);
-    const Lazy_edge_profile<TriangleMesh, Point_map, Geom_traits> profile(moving, m_mesh, points, traits);
+    m_quadrics.initialize(m_mesh, m_points, traits);
+    const Lazy_edge_profile<TriangleMesh, VertexPointMap, Geom_traits> profile(moving, m_mesh, m_points,
+                                                                               traits);
     ++m_accepted;
     m_is_mover_first = is_mover_first;
     Visitor visitor(*this);
     using Collapse_of_edge = Collapse<decltype(profile)>;
-    perform_collapse(m_mesh, points, No_constrained_edges(),
+    perform_collapse(m_mesh, m_points, No_constrained_edges(),
                      place ? Collapse_of_edge(profile, *place) : Collapse_of_edge::along(profile, moving),
                      visitor, m_quadrics);
   }
@@ -272,13 +280,14 @@ private:
         selvedge::edge_collapse(m_mesh, is_over(),
                                 parameters::geometric_test(false, CGAL::parameters::get_cost(costs)
                                                                       .get_placement(places)
+                                                                      .vertex_point_map(m_points)
                                                                       .filter(Filter{this})
                                                                       .visitor(Visitor(*this))));
         return false;
       });
     else
       run_passes(Cgal_pass(
-          m_mesh, costs, places, Filter{this}, Visitor(*this), [this] { return is_over(); },
+          m_mesh, m_points, costs, places, Filter{this}, Visitor(*this), [this] { return is_over(); },
           [this] { return refusals().intersection; }));
   }
 
@@ -287,7 +296,7 @@ private:
     const Clock::time_point start = Clock::now();
     Cancellation_scope::check();
     if (m_options.check_intersections)
-      m_intersection.emplace(m_mesh, m_error, empty_index());
+      m_intersection.emplace(m_mesh, m_error, empty_index(), m_points);
     Cancellation_scope::check();
     m_report.seconds_index = seconds_since(start);
   }
@@ -338,6 +347,11 @@ private:
   {
     explicit Visitor(Simplification& simplification_) : simplification(&simplification_) {}
 
+    void OnStarted(TriangleMesh& mesh)
+    {
+      if (simplification->m_intersection)
+        simplification->m_intersection->visitor().OnStarted(mesh);
+    }
     template <class Profile>
     void before_collapse(const Collapse<Profile>& collapse)
     {
@@ -424,7 +438,7 @@ private:
     options.max_border_turn = m_options.max_border_turn;
     options.max_seam_turn = m_options.max_seam_turn;
     options.max_drift = m_options.max_border_drift * m_diagonal;
-    Rule rule(m_mesh, options);
+    Rule rule(m_mesh, m_points, options);
     for (const auto e : constraints.line_edges)
       rule.mark(e);
     for (const auto v : constraints.locked_vertices)
@@ -459,17 +473,17 @@ private:
     return targets;
   }
 
-  static CGAL::Bbox_3 bounding_box(const TriangleMesh& mesh)
+  CGAL::Bbox_3 bounding_box() const
   {
     CGAL::Bbox_3 box;
-    for (const auto v : vertices(mesh))
-      box += get(get(CGAL::vertex_point, mesh), v).bbox();
+    for (const auto v : vertices(m_mesh))
+      box += get(m_points, v).bbox();
     return box;
   }
 
-  static double diagonal(const TriangleMesh& mesh)
+  double diagonal_of_box() const
   {
-    const CGAL::Bbox_3 box = bounding_box(mesh);
+    const CGAL::Bbox_3 box = bounding_box();
     return box.xmin() <= box.xmax()
                ? std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin())
                : 0;
@@ -484,7 +498,7 @@ private:
   {
     if (m_diagonal == 0 || (m_diagonal >= 0x1p-200 && m_diagonal <= 0x1p200))
       return;
-    const CGAL::Bbox_3 box = bounding_box(m_mesh);
+    const CGAL::Bbox_3 box = bounding_box();
     std::ostringstream text;
     text
         << "the bounding box of the mesh, " << box << ", is too " << (m_diagonal < 1 ? "small" : "large")
@@ -532,6 +546,7 @@ private:
 
   Clock::time_point m_start;
   TriangleMesh& m_mesh;
+  VertexPointMap m_points;
   const Simplify_options& m_options;
   Observer& m_observer;
   double m_diagonal;
