@@ -5,6 +5,7 @@
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_TRACKED_VERTICES_H
 
 #include <selvedge/Surface_mesh_simplification/internal/Collapse.h>
+#include <selvedge/internal/Vector_of_doubles.h>
 
 #include <CGAL/Dynamic_property_map.h>
 #include <CGAL/Simple_cartesian.h>
@@ -13,11 +14,15 @@
 #include <CGAL/squared_distance_3.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace selvedge {
@@ -42,7 +47,8 @@ namespace internal {
 /// **Exactness** Floating point.
 ///
 /// **Complexity** Linear in the size of the mesh to begin; for each collapse, the number of vertices that its
-/// faces carry, times the number of these faces. Without `begin`, it does nothing, and all errors are 0.
+/// faces carry, times the number of these faces. What `error_at` has found is not computed again when this
+/// collapse is the next one done. Without `begin`, it does nothing, and all errors are 0.
 ///
 /// **Reference** Klein, Liebich, Strasser: Mesh reduction with error control, 1996.
 template <class TriangleMesh>
@@ -92,7 +98,7 @@ public:
   {
     if (!m_state->is_tracking)
       return 0;
-    find_carriers(Collapse<Profile>(profile, place));
+    m_state->found = find_carriers(Collapse<Profile>(profile, place));
     return std::sqrt(m_state->squared_error) / m_state->scale;
   }
 
@@ -102,7 +108,9 @@ public:
     State& state = *m_state;
     if (!state.is_tracking)
       return;
-    find_carriers(collapse);
+    if (!state.found || *state.found != question(collapse))
+      find_carriers(collapse);
+    state.found.reset();
     for (const Face face : state.emptied)
       put(state.first_of_face, face, s_none);
     for (const Move& move : state.moves)
@@ -112,11 +120,78 @@ public:
 private:
   static constexpr Number s_none = std::numeric_limits<Number>::max();
 
-  struct Candidate
+  // A face that can take vertices, as it is after the collapse.
+  class Candidate
   {
-    Face face;
-    Kernel::Triangle_3 triangle; // after the collapse
+    using Vector = Vector_of_doubles;
+
+  public:
+    Candidate(Face face, const Point& a, const Point& b, const Point& c) : m_face(face), m_triangle(a, b, c)
+    {
+      const std::array<Vector, 3> corners = {vector(a), vector(b), vector(c)};
+      std::array<Vector, 3> sides;
+      double longest = 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        sides[i] = difference(corners[(i + 1) % 3], corners[i]);
+        longest = (std::max)(longest, dot(sides[i], sides[i]));
+      }
+      const Vector normal = cross(sides[0], sides[1]);
+      const double length = std::sqrt(dot(normal, normal));
+      // Of needles, rounding may turn the normal.
+      m_is_bounded = length > 1e-4 * longest;
+      if (!m_is_bounded)
+        return;
+      m_planes[3] = plane(normal, 1 / length, corners[0]);
+      for (std::size_t i = 0; i < 3; ++i)
+        m_planes[i] =
+            plane(cross(sides[i], normal), 1 / (length * std::sqrt(dot(sides[i], sides[i]))), corners[i]);
+    }
+
+    Face face() const { return m_face; }
+
+    double squared_distance(const Point& p) const { return CGAL::squared_distance(p, m_triangle); }
+
+    /// Returns whether `squared_distance(p)` is larger than a number: one-sided, in a fraction of its time.
+    bool is_beyond(const Point& p, double squared) const
+    {
+      if (!m_is_bounded)
+        return false;
+      // The distance from the plane, and the largest distance beyond a side, in the plane.
+      const double height = distance(m_planes[3], p);
+      const double beside =
+          (std::max)({0., distance(m_planes[0], p), distance(m_planes[1], p), distance(m_planes[2], p)});
+      return height * height + beside * beside > squared * (1 + 1e-6) + 1e-24;
+    }
+
+  private:
+    using Plane = std::array<double, 4>; // a unit normal, and what its product with a point has in the plane
+
+    static Vector vector(const Point& p) { return {p.x(), p.y(), p.z()}; }
+    static Plane plane(const Vector& normal, double scale, const Vector& at)
+    {
+      const Vector unit = {scale * normal[0], scale * normal[1], scale * normal[2]};
+      return {unit[0], unit[1], unit[2], dot(unit, at)};
+    }
+    static double distance(const Plane& plane, const Point& p)
+    {
+      return plane[0] * p.x() + plane[1] * p.y() + plane[2] * p.z() - plane[3];
+    }
+
+    Face m_face;
+    Kernel::Triangle_3 m_triangle;
+    std::array<Plane, 4>
+        m_planes; // through the sides, pointing out of the triangle, and that of the triangle
+    bool m_is_bounded;
   };
+
+  // What distinguishes one collapse from others of the same mesh.
+  using Question = std::tuple<Halfedge, Halfedge, bool, bool, Point>;
+  template <class Collapse>
+  Question question(const Collapse& collapse) const
+  {
+    return {collapse.profile().v0_v1(), collapse.moving(), collapse.is_v0_moved(), collapse.is_v1_moved(),
+            point(collapse.place())};
+  }
 
   struct Move
   {
@@ -145,6 +220,7 @@ private:
     std::vector<Candidate> candidates;
     std::vector<Move> moves;
     double squared_error = 0;
+    std::optional<Question> found; // the collapse that this is about, until the next one is done
   };
 
   template <class Any_point>
@@ -161,8 +237,9 @@ private:
     put(m_state->first_of_face, face, number);
   }
 
+  // Returns the question that it has answered.
   template <class Collapse>
-  void find_carriers(const Collapse& collapse) const
+  Question find_carriers(const Collapse& collapse) const
   {
     State& state = *m_state;
     state.emptied.clear();
@@ -183,20 +260,47 @@ private:
         }
 
     state.squared_error = 0;
-    for (const Face face : state.emptied)
+    for (const Face face : state.emptied) {
+      std::size_t likely = find_candidate(face);
       for (Number number = get(state.first_of_face, face); number != s_none; number = state.next[number]) {
-        double least = std::numeric_limits<double>::infinity();
-        Face carrier = Graph_traits::null_face();
-        for (const Candidate& candidate : state.candidates)
-          if (const double distance = CGAL::squared_distance(state.points[number], candidate.triangle);
-              distance < least) {
-            least = distance;
-            carrier = candidate.face;
-          }
-        state.squared_error = (std::max)(state.squared_error, least);
-        if (carrier != Graph_traits::null_face())
-          state.moves.push_back({number, carrier});
+        const auto [carrier, squared] = nearest_candidate(state.points[number], likely);
+        state.squared_error = (std::max)(state.squared_error, squared);
+        if (carrier == state.candidates.size())
+          continue;
+        state.moves.push_back({number, state.candidates[carrier].face()});
+        likely = carrier;
       }
+    }
+    return question(collapse);
+  }
+
+  // Returns the candidate that is this face itself, or else the first.
+  std::size_t find_candidate(Face face) const
+  {
+    const auto& candidates = m_state->candidates;
+    const auto found = std::find_if(candidates.begin(), candidates.end(),
+                                    [&](const Candidate& candidate) { return candidate.face() == face; });
+    return found == candidates.end() ? 0 : std::size_t(found - candidates.begin());
+  }
+
+  // Returns the first of the candidates that are nearest to a point, and its squared distance; the number of
+  // candidates and infinity when there are none. It asks the likely one before the others.
+  std::pair<std::size_t, double> nearest_candidate(const Point& p, std::size_t likely) const
+  {
+    const auto& candidates = m_state->candidates;
+    std::pair<std::size_t, double> nearest(candidates.size(), std::numeric_limits<double>::infinity());
+    const auto ask = [&](std::size_t i) {
+      const double squared = candidates[i].squared_distance(p);
+      if (squared < nearest.second ||
+          (std::isfinite(squared) && squared == nearest.second && i < nearest.first))
+        nearest = {i, squared};
+    };
+    if (likely < candidates.size())
+      ask(likely);
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+      if (i != likely && !candidates[i].is_beyond(p, nearest.second))
+        ask(i);
+    return nearest;
   }
 
   // Lists the faces at the source of `out`, which moves along it. Both ends of an edge may move; the faces at
@@ -223,9 +327,9 @@ private:
   {
     const TriangleMesh& mesh = m_state->mesh;
     const auto points = profile.vertex_point_map();
-    m_state->candidates.push_back(
-        {face(h, mesh), Kernel::Triangle_3(point(place), point(get(points, target(next(h, mesh), mesh))),
-                                           point(get(points, source(h, mesh))))});
+    m_state->candidates.emplace_back(face(h, mesh), point(place),
+                                     point(get(points, target(next(h, mesh), mesh))),
+                                     point(get(points, source(h, mesh))));
   }
 
   std::shared_ptr<State> m_state;
