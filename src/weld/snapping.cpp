@@ -74,6 +74,33 @@ public:
     return std::move(m_notes);
   }
 
+  /// Looks for partners without snapping any.
+  Border_gaps gaps(double limit)
+  {
+    Border_gaps result;
+    result.border_vertices = m_sites.size();
+    std::vector<Index> on_border;
+    const FaceIndex index = index_borders(on_border);
+    Cancellation_poll poll;
+    for (const Index i : on_border) {
+      constexpr int halvings = 12; // a seam is usually far narrower than what it is looked for in
+      for (double within = std::ldexp(limit, -halvings);; within = (std::min)(limit, 2 * within)) {
+        double least = std::numeric_limits<double>::infinity();
+        visit_near(index, i, within, [&](Index j) {
+          poll();
+          if (const double length = gap(i, j); length < least && are_partners_within(length, i, j))
+            least = length;
+        });
+        if (least <= within)
+          result.lengths.push_back(least);
+        if (least <= within || within >= limit)
+          break;
+      }
+    }
+    std::sort(result.lengths.begin(), result.lengths.end());
+    return result;
+  }
+
   /// Returns the position at which the vertices of a position are now.
   Index place_of(Index position) const
   {
@@ -193,8 +220,9 @@ private:
     return std::hypot(p.x() - q.x(), p.y() - q.y(), p.z() - q.z());
   }
 
-  // Returns the pairs of sites that name each other, in the order in which they are to be snapped together.
-  std::vector<Pair> mutual_partners()
+  // Lists for every site the next and the previous ones along the borders, and returns an index of the sites
+  // that are on a border now.
+  FaceIndex index_borders(std::vector<Index>& on_border)
   {
     for (Site& site : m_sites) {
       site.next.clear();
@@ -204,26 +232,42 @@ private:
       m_sites[m_site_at[side[0]]].next.push_back(m_site_at[side[1]]);
       m_sites[m_site_at[side[1]]].previous.push_back(m_site_at[side[0]]);
     }
-    std::vector<Index> on_border;
     for (Index i = 0; i < m_sites.size(); ++i)
       if (!m_sites[i].next.empty())
         on_border.push_back(i);
     FaceIndex index;
     index.build(on_border, [this](Index i) { return point(m_sites[i]).bbox(); });
+    return index;
+  }
 
+  // Calls function(j) for each other site j on a border within a distance of a site, unless the two have a
+  // common face.
+  template <class Function>
+  void visit_near(const FaceIndex& index, Index i, double within, const Function& function) const
+  {
+    const Site& site = m_sites[i];
+    // Twice the distance, so that rounding of the box loses no partner.
+    const Point_3& p = point(site);
+    const double reach = 2 * within;
+    const CGAL::Bbox_3 box(p.x() - reach, p.y() - reach, p.z() - reach, p.x() + reach, p.y() + reach,
+                           p.z() + reach);
+    index.visit_overlapping(box, [&](Index j) {
+      if (i != j && distance(site, m_sites[j]) <= within && !have_common_face(site, m_sites[j]))
+        function(j);
+    });
+  }
+
+  // Returns the pairs of sites that name each other, in the order in which they are to be snapped together.
+  std::vector<Pair> mutual_partners()
+  {
+    std::vector<Index> on_border;
+    const FaceIndex index = index_borders(on_border);
     std::vector<Pair> nearest(m_sites.size(), {0, s_none, s_none});
     Cancellation_poll poll;
     for (const Index i : on_border) {
       Site& site = m_sites[i];
-      // Twice the distance, so that rounding of the box loses no partner.
-      const Point_3& p = point(site);
-      const double reach = 2 * m_distance;
-      const CGAL::Bbox_3 box(p.x() - reach, p.y() - reach, p.z() - reach, p.x() + reach, p.y() + reach,
-                             p.z() + reach);
-      index.visit_overlapping(box, [&](Index j) {
+      visit_near(index, i, m_distance, [&](Index j) {
         poll();
-        if (i == j || distance(site, m_sites[j]) > m_distance || have_common_face(site, m_sites[j]))
-          return;
         site.is_near = true;
         if (!are_partners(i, j))
           return;
@@ -260,30 +304,38 @@ private:
     });
   }
 
-  bool are_partners(Index i, Index j) const
+  bool are_partners(Index i, Index j) const { return are_partners_within(m_distance, i, j); }
+  bool are_partners_within(double length, Index i, Index j) const
   {
-    return (is_edge_sewable(m_sites[i], m_sites[j]) || is_edge_sewable(m_sites[j], m_sites[i])) &&
-           !is_shortly_followed(i, j) && !is_shortly_followed(j, i);
+    return gap(i, j) <= length && !is_shortly_followed(i, j, length) && !is_shortly_followed(j, i, length);
   }
 
-  // Whether the border edge that starts at a can be sewn to one that ends at b.
-  bool is_edge_sewable(const Site& a, const Site& b) const
+  // Returns the least distance at which two sites could be partners, if no short border joins them: that
+  // between them, or that between the next ones along an edge beside each which could be sewn.
+  double gap(Index i, Index j) const
   {
+    const Site &a = m_sites[i], &b = m_sites[j];
+    return (std::max)(distance(a, b), (std::min)(gap_beyond(a, b), gap_beyond(b, a)));
+  }
+
+  // The same for the border edges that start at a and those that end at b.
+  double gap_beyond(const Site& a, const Site& b) const
+  {
+    double least = std::numeric_limits<double>::infinity();
     for (const Index p : a.next)
       for (const Index q : b.previous)
-        if (p == q || distance(m_sites[p], m_sites[q]) <= m_distance)
-          return true;
-    return false;
+        least = (std::min)(least, p == q ? 0 : distance(m_sites[p], m_sites[q]));
+    return least;
   }
 
-  // Whether the border leads from i to j within twice the distance, without a branch on the way.
-  bool is_shortly_followed(Index i, Index j) const
+  // Whether the border leads from i to j within twice a distance, without a branch on the way.
+  bool is_shortly_followed(Index i, Index j, double distance_of_partners) const
   {
     double length = 0;
     for (Index at = i; m_sites[at].next.size() == 1 && (at == i || m_sites[at].previous.size() == 1);) {
       const Index next = m_sites[at].next.front();
       length += distance(m_sites[at], m_sites[next]);
-      if (length > 2 * m_distance || next == i)
+      if (length > 2 * distance_of_partners || next == i)
         return false;
       if (next == j)
         return true;
@@ -497,6 +549,17 @@ Snapping_notes snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
     positions[v] = first_at[place];
   }
   return notes;
+}
+
+Border_gaps border_gaps(const Triangle_soup& soup, const std::vector<Index>& positions, double limit,
+                        const Scale& scale)
+{
+  const std::vector<char> is_frozen(soup.triangles.size(), false);
+  Border_gaps gaps = Border_snapping<Packed_R_tree>(soup, positions, is_frozen, scale(limit), {}, 0, scale)
+                         .gaps(scale(limit));
+  for (double& length : gaps.lengths)
+    length = scale.undone(length);
+  return gaps;
 }
 
 template Snapping_notes snap_borders<Packed_R_tree>(Triangle_soup&, std::vector<Index>&,

@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <set>
 #include <vector>
@@ -50,6 +51,26 @@ Snapped snap(Triangle_soup soup, const std::set<Index>& frozen = {}, double dist
   Snapping_notes notes = snap_borders(soup, positions, is_frozen, distance);
   EXPECT_EQ(positions, number_positions(soup.points));
   return {std::move(soup), std::move(positions), std::move(notes)};
+}
+
+TEST(Border_gaps, AreTheLeastDistancesAtWhichPartnersSnap)
+{
+  // The gap between the two sheets is 0.005 wide at its ends, and wider and wider in between.
+  const Triangle_soup sheets = mapped(
+      two_sheets(3, 8), [](const Point_3& p) { return p.x() > 3 ? Point_3(p.x(), p.y(), p.y() / 64) : p; });
+  const Border_gaps gaps = border_gaps(sheets, number_positions(sheets.points), 1);
+  EXPECT_EQ(gaps.border_vertices, 44u);
+  ASSERT_EQ(gaps.lengths.size(), 18u); // nine on either side
+  EXPECT_TRUE(std::is_sorted(gaps.lengths.begin(), gaps.lengths.end()));
+  EXPECT_EQ(snap(sheets, {}, std::nextafter(gaps.lengths.front(), 0)).notes.partnered, 0u);
+  for (const double length : gaps.lengths) {
+    const std::size_t within = std::count_if(gaps.lengths.begin(), gaps.lengths.end(),
+                                             [&](double other) { return other <= length; });
+    EXPECT_EQ(snap(sheets, {}, length).notes.partnered, within) << length;
+  }
+  // Nothing is found beyond the limit, nor on a border that is alone.
+  EXPECT_TRUE(border_gaps(sheets, number_positions(sheets.points), gaps.lengths.front() / 2).lengths.empty());
+  EXPECT_TRUE(border_gaps(sheet(3, 3), number_positions(sheet(3, 3).points), 0.5).lengths.empty());
 }
 
 TEST(Snapping_rules, TwoSheets)
