@@ -72,6 +72,7 @@ Exit_code run(int argc, char** argv)
   app.require_subcommand(1);
   std::string footer = "Examples:\n"
                        "  selvedge generate skirt -o skirt.obj --faces 50000 --layers 3\n"
+                       "  selvedge info skirt.obj\n"
                        "  selvedge simplify skirt.obj -o small.obj --ratio 0.2\n"
                        "  selvedge verify small.obj --against skirt.obj\n"
                        "`selvedge SUBCOMMAND --help` explains its options.\n\n"
@@ -89,9 +90,10 @@ Exit_code run(int argc, char** argv)
     CLI::App* const command = app.add_subcommand(name, description);
     return Command{command, declare(*command)};
   };
-  const std::array<Command, 4> commands{
+  const std::array<Command, 5> commands{
       add("simplify", "Reduce a mesh to fewer faces, judge the result, and write it.", add_simplify),
       add("verify", "Judge a mesh, or compare a reduced mesh with its original.", add_verify),
+      add("info", "Say what is in a mesh, and what a reduction would find in it.", add_info),
       add("replay", "Judge every step of a reduction, from its log.", add_replay),
       add("generate", "Make a garment in layers or another test scene, free of intersections.",
           add_generate)};

@@ -140,6 +140,10 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
                      {"fixed", done.faces_fixed},
                      {"target", done.faces_target}};
   report["target"] = {{"reached", done.is_reached()}, {"outcome", done.outcome()}};
+  Json hindrances;
+  for (const Hindrances::Description& description : Hindrances::descriptions())
+    hindrances[description.key] = done.hindrances[description.reason];
+  report["hindrances"] = std::move(hindrances);
   report["vertices"] = {{"kept", result.soup.points.size() - result.placed_vertices},
                         {"placed", result.placed_vertices}};
   report["collapses"] = done.collapses;
@@ -170,6 +174,7 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
                        {"seam_edges", welding.seam_edges},
                        {"non_manifold_edges", welding.non_manifold_edges},
                        {"misoriented_edges", welding.misoriented_edges},
+                       {"misoriented_pieces", welding.misoriented_pieces},
                        {"unwelded_positions", welding.unsewn_positions},
                        {"left_out_faces", prepared.left_out_faces}};
   const Snapping_notes& snap = prepared.snapping;
@@ -269,9 +274,13 @@ void add_comparison(Json& report, const Comparison& comparison)
                      {"of_original", {swap.of_original[0] + 1, swap.of_original[1] + 1}},
                      {"of_result", {swap.of_result[0] + 1, swap.of_result[1] + 1}}});
   }
-  report["layers"] = {{"lines", layers.lines},        {"crossing", layers.crossing},
-                      {"pairs", layers.pairs},        {"compared", layers.compared},
-                      {"swaps", layers.swaps.size()}, {"first_swaps", std::move(swaps)}};
+  report["layers"] = {{"lines", layers.lines},
+                      {"crossing", layers.crossing},
+                      {"pairs", layers.pairs},
+                      {"compared", layers.compared},
+                      {"lines_compared", layers.lines_compared},
+                      {"swaps", layers.swaps.size()},
+                      {"first_swaps", std::move(swaps)}};
 }
 
 void add_parts(Json& report, const Prepared_soup& prepared, const Simplified_soup& result)

@@ -19,6 +19,7 @@
 #include <selvedge/collapse_log.h>
 #include <selvedge/merge.h>
 #include <selvedge/mesh_files.h>
+#include <selvedge/references.h>
 
 #include <algorithm>
 #include <atomic>
@@ -92,6 +93,11 @@ private:
     if (!m_request.obstacle.empty())
       m_log_header.obstacle = {obstacle.points.size(), obstacle.triangles.size(),
                                sha256_of_file(m_request.obstacle)};
+
+    if (!is_standard_output(m_request.output))
+      m_references = relocate_references(file.soup, mesh_format(m_request.output),
+                                         std::filesystem::path(m_request.input).parent_path(),
+                                         std::filesystem::path(m_request.output).parent_path());
 
     m_bar.begin("judging the input");
     Prepare_options options;
@@ -197,7 +203,7 @@ private:
     const std::vector<std::string> dropped = not_carried(prepared.soup, format);
     if (!m_request.is_quiet) {
       std::ostream& stream = has_standard_output(m_request) ? std::cerr : std::cout;
-      print_input(stream, m_request, prepared, m_report["input"]["notes"], dropped);
+      print_input(stream, m_request, prepared, m_report["input"]["notes"], dropped, m_references);
       for (const Level& level : levels)
         print_summary(stream, m_request, prepared, level, m_outcome);
     }
@@ -208,6 +214,7 @@ private:
       json["output"] = {{"path", level.output},
                         {"written", m_outcome.is_written()},
                         {"not_carried", dropped},
+                        {"references", m_references},
                         {"normals", name_of(prepared.normals)}};
       if (&json == &m_report)
         json["options"] = options_json(m_request);
@@ -256,6 +263,7 @@ private:
   bool m_is_stop_told = false;
   std::atomic<bool> m_is_kept = false; // a signal keeps what the reduction has reached
   std::vector<std::string> m_files_written;
+  std::vector<std::string> m_references; // to other files, as they are named from the output's folder
 };
 
 } // namespace

@@ -13,6 +13,7 @@
 #include <ostream>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 namespace selvedge::app {
 namespace {
@@ -25,19 +26,94 @@ std::string percent(double share)
   return with_digits(100 * share) + " %";
 }
 
-/// Says in a clause why a reduction ended before its target.
-std::string why_missed(const Simplify_request& request, const Simplify_report& report)
+/// Returns the reasons that hold edges back, those of most edges first.
+std::vector<Hindrances::Description> reasons(const Hindrances& hindrances)
 {
-  // The error is asked last of what limits shape, so that each collapse that it refused would go on.
-  const std::optional<double>& error = request.options.max_error;
-  if (error && !report.is_stopped && report.refused_in_last_pass.error > 0)
-    return "fewer would move the surface by more than " + percent(*error) + " of its size" +
-           (*error > 0 ? "; --error " + with_digits(5 * *error) + " goes on" : "");
-  const std::string outcome = report.outcome();
-  for (const Refusals::Rule& rule : Refusals::rules())
-    if (outcome == rule.key)
-      return std::string("the rule '") + rule.name + "' refuses most of the collapses left";
-  return report.is_stopped ? "it was interrupted" : "every collapse left would change the topology";
+  std::vector<Hindrances::Description> reasons;
+  for (const Hindrances::Description& description : Hindrances::descriptions())
+    if (hindrances[description.reason] > 0)
+      reasons.push_back(description);
+  std::stable_sort(reasons.begin(), reasons.end(),
+                   [&](const auto& a, const auto& b) { return hindrances[a.reason] > hindrances[b.reason]; });
+  return reasons;
+}
+
+/// Returns the option that takes a reason away; empty when none does.
+std::string remedy(Hindrance reason, const Simplify_request& request, Normals_treatment normals)
+{
+  const Simplify_options& options = request.options;
+  switch (reason) {
+  case Hindrance::locked:
+    return request.intent.locked.empty() ? "--keep for fewer parts" : "--lock for fewer parts";
+  case Hindrance::normals:
+    return normals == Normals_treatment::smooth ? "--normals drop" : "--normals recompute";
+  case Hindrance::border_turn:
+    return options.max_border_turn < 180 ? "--border-turn 180" : "";
+  case Hindrance::seam_turn:
+    return options.max_seam_turn < 180 ? "--seam-turn 180" : "";
+  case Hindrance::drift:
+    return "--border-drift " +
+           with_digits(options.max_border_drift > 0 ? 5 * options.max_border_drift : 0.01);
+  case Hindrance::target:
+    return "smaller ratios for the parts that have their own";
+  case Hindrance::aspect_ratio:
+    return options.min_aspect_ratio > 0 ? "--aspect-ratio 0" : "";
+  case Hindrance::normal_change:
+    return options.max_normal_change < 90    ? "--normal-change 90"
+           : options.max_normal_change < 180 ? "--normal-change 180"
+                                             : "";
+  case Hindrance::error:
+    return "--error " + with_digits(*options.max_error > 0 ? 5 * *options.max_error : 0.01);
+  case Hindrance::by_loop:
+    return "--loop own";
+  default:
+    return "";
+  }
+}
+
+/// Says why no option takes a reason away.
+std::string why_it_stays(Hindrance reason)
+{
+  switch (reason) {
+  case Hindrance::frozen:
+    return "faces that intersect in the input stay as they are, and `selvedge verify` lists them";
+  case Hindrance::non_manifold:
+    return "what meets at edges of three faces or more stays as it is";
+  case Hindrance::misoriented:
+    return "the faces of a piece must face the same way first";
+  case Hindrance::topology:
+    return "every piece keeps its holes and handles";
+  case Hindrance::intersection:
+    return "no layer passes through another";
+  default:
+    return "borders, seams and textures are kept";
+  }
+}
+
+/// Says in a line what holds back a reduction that ended by itself, and what helps.
+std::string held_back(const Simplify_request& request, const Simplify_report& report,
+                      Normals_treatment normals)
+{
+  const Hindrances& hindrances = report.hindrances;
+  if (hindrances.total() == 0)
+    return "all faces left are fixed; no option helps";
+  constexpr std::size_t named = 3;
+  std::string text = "of " + counted(hindrances.total(), "edge") + " left, ";
+  const std::vector<Hindrances::Description> all = reasons(hindrances);
+  std::size_t others = hindrances.total();
+  for (std::size_t i = 0; i < (std::min)(named, all.size()); ++i) {
+    const std::size_t count = hindrances[all[i].reason];
+    text += (i == 0 ? "" : ", ") + (count == hindrances.total() ? "all" : with_commas(count)) + " by " +
+            all[i].name;
+    others -= count;
+  }
+  if (others > 0)
+    text += ", " + with_commas(others) + " by other rules";
+  for (const Hindrances::Description& description : all)
+    if (const std::string option = remedy(description.reason, request, normals); !option.empty())
+      return text + "; try " + option +
+             (description.reason == all[0].reason ? "" : std::string(" against ") + description.name);
+  return text + "; no option helps: " + why_it_stays(all[0].reason);
 }
 
 /// Says in a clause where a vertex of the original is.
@@ -81,7 +157,8 @@ void print_snapping(std::ostream& stream, const Snapping_notes& notes)
 } // namespace
 
 void print_input(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
-                 const Json& notes, const std::vector<std::string>& dropped)
+                 const Json& notes, const std::vector<std::string>& dropped,
+                 const std::vector<std::string>& references)
 {
   stream << request.input << ": " << counted(prepared.soup.triangles.size(), "face");
   if (!prepared.offending_pairs.empty())
@@ -105,6 +182,10 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
   for (const std::string& what : dropped)
     stream << std::exchange(separator, ", ") << what;
   stream << (dropped.empty() ? "" : "\n");
+  separator = "  files beside the input are named from the output's folder: ";
+  for (const std::string& name : references)
+    stream << std::exchange(separator, ", ") << name;
+  stream << (references.empty() ? "" : "\n");
 }
 
 void print_summary(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
@@ -120,19 +201,21 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
   if (request.options.ratio || request.options.faces || !request.lods.empty() ||
       !request.intent.ratios.empty())
     stream << "target " << with_commas(done.faces_target)
-           << (done.is_reached() ? " reached" : " not reached: " + why_missed(request, done));
+           << (done.is_reached() ? " reached"
+               : done.is_stopped ? " not reached: interrupted"
+                                 : " not reached");
   else
     stream << "as far as the limits allow";
+  if (!done.is_reached() && !done.is_stopped)
+    stream << "\nheld back: " << held_back(request, done, prepared.normals);
   if (done.faces_fixed > 0)
     stream << "\nfixed: " << counted(done.faces_fixed, "face")
            << " with all corners frozen, locked or coincident; a ratio is of the other "
            << with_commas(done.faces_input - done.faces_fixed);
-  stream << "\ncollapses refused, by rule:";
-  const char* separator = " ";
-  for (const Refusals::Rule& rule : Refusals::rules())
-    if (done.refused.*rule.count > 0)
-      stream << std::exchange(separator, ", ") << rule.name << ' ' << with_commas(done.refused.*rule.count);
-  stream << (*separator == ' ' ? " none" : "");
+  if (const Sewing_notes& sewing = result.sewing; sewing.misoriented_edges > 0)
+    stream << "\norientation: faces disagree along " << counted(sewing.misoriented_edges, "edge") << " of "
+           << counted(sewing.misoriented_pieces, "piece")
+           << ", whose vertices there do not move; `selvedge info` names them";
   if (result.placed_vertices > 0)
     stream << "\nvertices: " << with_commas(result.soup.points.size() - result.placed_vertices)
            << " kept bit for bit, " << with_commas(result.placed_vertices)
@@ -174,8 +257,11 @@ std::string complaint(const Simplify_request& request, const Level& level, const
            "; this result is verified and written";
   if (request.is_target_required && !result.report.is_reached())
     return where + "the target of " + counted(result.report.faces_target, "face") +
-           " was missed: " + with_commas(result.soup.triangles.size()) + " are left, because " +
-           why_missed(request, result.report) + "; the result is written";
+           " was missed: " + with_commas(result.soup.triangles.size()) + " are left" +
+           (result.report.hindrances.total() > 0
+                ? ", held back most by " + std::string(reasons(result.report.hindrances)[0].name)
+                : "") +
+           "; the result is written";
   return "";
 }
 

@@ -24,6 +24,7 @@ using Action = std::function<Exit_code()>;
 Action add_simplify(CLI::App& command);
 Action add_verify(CLI::App& command);
 Action add_replay(CLI::App& command);
+Action add_info(CLI::App& command);
 Action add_generate(CLI::App& command);
 
 /// Accepts a number in [least, most]. Unlike `CLI::Range` it refuses NaN.

@@ -89,14 +89,19 @@ void print(const Distances& distances, const Comparison& comparison)
 
   const Layer_order& layers = comparison.layers;
   if (layers.crossing == 0) {
-    std::cout << "layers: none lie close enough to have changed places\n";
+    std::cout << "layers: none close to another (none of " << counted(layers.lines, "line")
+              << " through the faces crosses two)\n";
+  } else if (layers.compared == 0) {
+    std::cout << "layers: could not be compared (" << counted(layers.crossing, "line")
+              << " cross two or more, but none finds them in the result)\n";
   } else if (layers.swaps.empty()) {
-    std::cout << "layers: in order at all " << with_commas(layers.compared)
-              << " places where two could be compared (of " << with_commas(layers.pairs) << ")\n";
+    std::cout << "layers: no two changed places (compared along " << counted(layers.lines_compared, "line")
+              << ")\n";
   } else {
     const Layer_swap& first = layers.swaps.front();
-    std::cout << "layers SWAPPED at " << with_commas(layers.swaps.size()) << " of "
-              << with_commas(layers.compared) << " places where two were compared; the first: triangles "
+    std::cout << "layers CHANGED PLACES: " << with_commas(layers.swaps.size()) << " of "
+              << counted(layers.compared, "pair") << " compared along "
+              << counted(layers.lines_compared, "line") << "; the first: triangles "
               << first.of_original[0] + 1 << " and " << first.of_original[1] + 1 << " of the original became "
               << first.of_result[0] + 1 << " and " << first.of_result[1] + 1 << ", in the other order\n";
   }

@@ -20,6 +20,8 @@ struct Sewing_notes
   std::size_t non_manifold_edges = 0; ///< edges of more than two triangles; not sewn, their ends do not move
   std::size_t misoriented_edges = 0;  ///< edges along which both triangles run the same way; likewise
 
+  std::size_t misoriented_pieces = 0;  ///< pieces that have such an edge
+
   /// Positions at which several vertices stay apart, to keep edges manifold. They do not move.
   std::size_t unsewn_positions = 0;
 };

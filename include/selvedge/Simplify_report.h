@@ -4,12 +4,13 @@
 #ifndef SELVEDGE_SIMPLIFY_REPORT_H
 #define SELVEDGE_SIMPLIFY_REPORT_H
 
+#include <selvedge/Surface_mesh_simplification/Hindrances.h>
 #include <selvedge/Surface_mesh_simplification/Intersection_statistics.h>
 #include <selvedge/Surface_mesh_simplification/Refusals.h>
 #include <selvedge/spatial/Index_statistics.h>
 
-#include <algorithm>
 #include <cstddef>
+#include <map>
 #include <string>
 
 namespace selvedge {
@@ -37,24 +38,28 @@ struct Simplify_report
   double seconds_index = 0;           ///< part of `seconds_reduce`, for building the index
   double seconds_reduce = 0;          ///< in all
 
-  /// Refusals in the last pass alone, which tried once more everything that was left.
-  Refusals refused_in_last_pass;
+  /// What holds back the edges that are left. Counted only when the reduction ended by itself short of the
+  /// target; otherwise all counts are 0.
+  Hindrances hindrances;
 
   bool is_reached() const { return faces_to_go == 0; }
 
-  /// Returns "reached", "stopped", or the key of the rule that refused most in the last pass; "topology" when
-  /// no rule refused anything in it.
+  /// Returns "reached", "stopped", or the rule that holds back most of the edges left: its key in `Refusals`,
+  /// or "topology", also when no edge is left that could go.
   std::string outcome() const
   {
     if (is_reached())
       return "reached";
     if (is_stopped)
       return "stopped";
-    const auto rules = Refusals::rules();
-    const auto most = std::max_element(rules.begin(), rules.end(), [&](const auto& a, const auto& b) {
-      return refused_in_last_pass.*a.count < refused_in_last_pass.*b.count;
-    });
-    return refused_in_last_pass.*most->count > 0 ? most->key : "topology";
+    std::map<std::string, std::size_t> edges;
+    std::string most = "topology";
+    for (const Hindrances::Description& description : Hindrances::descriptions())
+      edges[description.rule] += hindrances[description.reason];
+    for (const auto& [rule, count] : edges)
+      if (count > edges[most])
+        most = rule;
+    return most;
   }
 };
 

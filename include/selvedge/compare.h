@@ -141,10 +141,11 @@ struct Layer_swap
 /// layer.
 struct Layer_order
 {
-  std::size_t lines = 0;    ///< lines drawn
-  std::size_t crossing = 0; ///< lines that cross two layers or more of the original
-  std::size_t pairs = 0;    ///< pairs of neighbouring layers on these lines
-  std::size_t compared = 0; ///< pairs of layers that could be found in the result
+  std::size_t lines = 0;          ///< lines drawn
+  std::size_t crossing = 0;       ///< lines that cross two layers or more of the original
+  std::size_t pairs = 0;          ///< pairs of neighbouring layers on these lines
+  std::size_t compared = 0;       ///< pairs of layers that could be found in the result
+  std::size_t lines_compared = 0; ///< lines on which these pairs lie
   std::vector<Layer_swap> swaps;
 };
 

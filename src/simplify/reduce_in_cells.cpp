@@ -235,7 +235,8 @@ Cell_run run_cell(const Cell_context& whole, const Cell& cell, Shared_stop& stop
     highest_cost = std::max(highest_cost, simplification.cost());
     run.collapses.push_back({std::move(collapse), simplification.cost()});
   });
-  if (simplification.run().is_reached())
+  constexpr bool are_hindrances_counted = false; // they are those of the whole, in the end
+  if (simplification.run(are_hindrances_counted).is_reached())
     run.last_cost = highest_cost;
   return run;
 }

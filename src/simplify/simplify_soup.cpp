@@ -16,7 +16,6 @@
 #include <selvedge/Surface_mesh_simplification/internal/Simplification.h>
 
 #include <algorithm>
-#include <functional>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -60,8 +59,9 @@ private:
     for (const auto* names : {&intent.locked, &intent.kept})
       for (const std::string& name : *names) {
         const std::vector<char> is_named = triangles_named(prepared.soup, name);
-        std::transform(is_named.begin(), is_named.end(), is_frozen.begin(), is_frozen.begin(),
-                       std::logical_or<char>());
+        std::transform(
+            is_named.begin(), is_named.end(), is_frozen.begin(), is_frozen.begin(),
+            [](char named, char frozen) { return frozen || !named ? frozen : Working_mesh::by_wish; });
       }
     return is_frozen;
   }

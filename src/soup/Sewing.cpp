@@ -56,6 +56,7 @@ public:
   }
 
   std::vector<Index> take_mates() { return std::move(m_mates); }
+  std::vector<Index> take_misoriented() { return std::move(m_misoriented); }
 
   /// The sides that make no edge though there are several between two positions, grouped by these positions.
   const std::vector<std::vector<Index>>& unsewn() const { return m_unsewn; }
@@ -80,6 +81,8 @@ private:
       m_mates[b] = a;
       return;
     }
+    if (beyond - first == 2 && !is_opposite)
+      m_misoriented.insert(m_misoriented.end(), {a, b});
     m_unsewn.emplace_back();
     for (Iterator it = first; it != beyond; ++it)
       m_unsewn.back().push_back(it->side);
@@ -88,6 +91,7 @@ private:
   const std::vector<Index_triple>& m_triangles; // of positions
   Index m_own_sides;
   std::vector<Index> m_mates;
+  std::vector<Index> m_misoriented;
   std::vector<std::vector<Index>> m_unsewn;
 };
 
@@ -98,6 +102,7 @@ Sewing::Sewing(const std::vector<Index_triple>& triangles, Index own_sides, Inde
 {
   Side_matching matching(triangles, own_sides, position_count, notes);
   m_mates = matching.take_mates();
+  m_misoriented = matching.take_misoriented();
   number_vertices();
   if (tear_parallel_edges(matching.unsewn()))
     number_vertices();

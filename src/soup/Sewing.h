@@ -50,6 +50,10 @@ public:
   Index mate(Index side) const { return m_mates[side]; }
   Index side_count() const { return Index(m_mates.size()); }
 
+  /// The sides, of the soup or of the obstacle, that stay apart though they are the only two between their
+  /// ends, because both run the same way.
+  const std::vector<Index>& misoriented_sides() const { return m_misoriented; }
+
   /// The vertex of a corner. Vertices are numbered in the order of their first corners.
   Index vertex(Index corner) const { return m_vertices[corner]; }
   Index vertex_count() const { return m_vertex_count; }
@@ -62,6 +66,7 @@ private:
   bool tear_parallel_edges(const std::vector<std::vector<Index>>& unsewn);
 
   std::vector<Index> m_mates;
+  std::vector<Index> m_misoriented;
   std::vector<Index> m_vertices;
   Index m_vertex_count = 0;
 };

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -129,11 +130,27 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
   for (Corner corner = 0; corner < corner_count; ++corner)
     is_locked[sewing.vertex(corner)] |= is_frozen[corner / 3];
   lock(is_locked);
+  m_is_frozen.assign(is_frozen.begin(), is_frozen.begin() + std::ptrdiff_t(soup.triangles.size()));
+  m_is_misoriented.assign(soup.points.size(), false);
+  for (const Index side : sewing.misoriented_sides()) {
+    if (side >= own_corners)
+      continue;
+    m_misoriented_sides.push_back(side);
+    m_is_misoriented[vertex_of(side)] = m_is_misoriented[vertex_of(Sewing::next(side))] = true;
+  }
+  if (!m_misoriented_sides.empty()) {
+    const std::vector<Index> piece_of = part_kinds(soup).front().of_triangle;
+    std::set<Index> pieces;
+    for (const Index side : m_misoriented_sides)
+      pieces.insert(piece_of[side / 3]);
+    m_notes.misoriented_pieces = pieces.size();
+  }
 
   Cancellation_scope::check();
   for (Index side = 0; side < own_corners; ++side) {
     const Index mate = sewing.mate(side), end = Sewing::next(side);
-    if (mate != s_none && side < mate && (is_line(side, Sewing::next(mate)) || is_line(end, mate)))
+    if (mate != s_none && side < mate &&
+        (differences(side, Sewing::next(mate)).any() || differences(end, mate).any()))
       m_constraints.line_edges.push_back(m_mesh.edge(halfedges[side]));
   }
   m_notes.seam_edges = m_constraints.line_edges.size();
@@ -248,19 +265,62 @@ std::vector<Working_mesh::Mesh::Halfedge_index> Working_mesh::make_mesh(const Se
   return halfedges;
 }
 
-bool Working_mesh::is_line(Corner a, Corner b) const
+namespace {
+
+// Compares values and not their numbers, since a file may write a value twice.
+template <class Values>
+bool differ(const Values& corners, Index a, Index b)
 {
-  // Compares values and not their numbers, since a file may write a value twice.
-  const auto differ = [&](const auto& corners) {
-    return !corners.empty() && corners.values[corners.of_triangle[a / 3][a % 3]] !=
-                                   corners.values[corners.of_triangle[b / 3][b % 3]];
-  };
+  return !corners.empty() && corners.values[corners.of_triangle[a / 3][a % 3]] !=
+                                 corners.values[corners.of_triangle[b / 3][b % 3]];
+}
+
+} // namespace
+
+Working_mesh::Differences Working_mesh::differences(Corner a, Corner b) const
+{
   const auto differ_in_label = [&](const Triangle_labels& labels) {
     return !labels.empty() && labels.of_triangle[a / 3] != labels.of_triangle[b / 3];
   };
-  return vertex_of(a) != vertex_of(b) || differ(m_soup.uvs) || differ(m_soup.normals) ||
-         differ_in_label(m_soup.groups) || differ_in_label(m_soup.objects) ||
-         differ_in_label(m_soup.materials);
+  return {vertex_of(a) != vertex_of(b), differ(m_soup.uvs, a, b), differ(m_soup.normals, a, b),
+          differ_in_label(m_soup.groups) || differ_in_label(m_soup.objects) ||
+              differ_in_label(m_soup.materials)};
+}
+
+Working_mesh::Differences Working_mesh::differences(Mesh::Edge_index e) const
+{
+  const Mesh::Halfedge_index h = m_mesh.halfedge(e), other = m_mesh.opposite(h);
+  const Differences a = differences(corner_at(h), corner_at(m_mesh.prev(other)));
+  const Differences b = differences(corner_at(m_mesh.prev(h)), corner_at(other));
+  return {a.in_vertex || b.in_vertex, a.in_uv || b.in_uv, a.in_normal || b.in_normal,
+          a.in_label || b.in_label};
+}
+
+// A locked vertex keeps its position and its frozen faces, so that its reason is the same at any time.
+Hindrance Working_mesh::lock_reason(Mesh::Vertex_index v) const
+{
+  Hindrance reason = Hindrance::non_manifold;
+  for (const Mesh::Halfedge_index h : m_mesh.halfedges_around_target(m_mesh.halfedge(v))) {
+    if (m_mesh.is_border(h) || !is_own(m_mesh.face(h)))
+      continue;
+    if (const char frozen = m_is_frozen[m_mesh.face(h)]; frozen != 0)
+      reason = (std::min)(reason, frozen == by_wish ? Hindrance::locked : Hindrance::frozen);
+    else if (reason == Hindrance::non_manifold && m_is_misoriented[vertex_of(corner_at(h))])
+      reason = Hindrance::misoriented;
+  }
+  return reason;
+}
+
+// Looks at what differs now. Where nothing does any more, the line counts as a seam. Where only normals and
+// vertex numbers differ, the numbers are taken to be those of a file that writes a vertex for each normal.
+Hindrance Working_mesh::line_reason(Mesh::Edge_index e) const
+{
+  const Differences differ = differences(e);
+  if (differ.in_normal && !differ.in_label && !differ.in_uv)
+    return Hindrance::normals;
+  if (differ.in_vertex || !differ.any())
+    return Hindrance::seam;
+  return differ.in_label ? Hindrance::group : Hindrance::texture;
 }
 
 // Calls function(h, from) for each face that a motion changes. The corner at the target of h, a halfedge of

@@ -56,8 +56,11 @@ class Working_mesh : public No_observer
 public:
   using Mesh = CGAL::Surface_mesh<Point_3>;
 
+  static constexpr char by_wish = 2;
+
   /// Sews a soup, and puts the obstacle beside it. `positions[v]` is the number of the position of vertex v;
-  /// vertices with equal numbers are sewn. `is_frozen[t]` says that the vertices of triangle t do not move.
+  /// vertices with equal numbers are sewn. `is_frozen[t]` says that the vertices of triangle t do not move:
+  /// `by_wish` when the user wants it so, another number but 0 for any other reason.
   /// In both arrays, as in the faces of the mesh, vertices and triangles of the obstacle follow those of the
   /// soup. Nothing else of the obstacle is used, and all its triangles are frozen. The points of the mesh are
   /// those of both, divided by the scale; the result has the original ones.
@@ -148,6 +151,18 @@ public:
   /// Sets a function that is called before each collapse.
   void record(std::function<void(const Collapse&)> recorder) { m_recorder = std::move(recorder); }
 
+  /// What differs across an edge, at either end of it, in the corners that its two faces have now.
+  struct Differences
+  {
+    bool in_vertex = false, in_uv = false, in_normal = false, in_label = false;
+
+    bool any() const { return in_vertex || in_uv || in_normal || in_label; }
+  };
+  Differences differences(Mesh::Edge_index e) const;
+
+  /// The sides of the soup's triangles, 3 × triangle + place, along which two faces face opposite ways.
+  const std::vector<Index>& misoriented_sides() const { return m_misoriented_sides; }
+
   // Called by the reduction, whose observer this is.
   void before_collapse(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule);
   void before_placement(Mesh::Halfedge_index moving, const Point_3& place, bool is_mover_first);
@@ -156,6 +171,8 @@ public:
   bool keeps_pieces(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule) const;
   bool keeps_uv_orientation(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule) const;
   bool keeps_uv_orientation_at(Mesh::Halfedge_index moving, const Point_3& place) const;
+  Hindrance lock_reason(Mesh::Vertex_index v) const;
+  Hindrance line_reason(Mesh::Edge_index e) const;
   double uv_cost(Mesh::Halfedge_index moving) const;
   double uv_cost_at(Mesh::Halfedge_index edge, const Point_3& place) const;
 
@@ -182,7 +199,7 @@ private:
   CGAL::Orientation uv_orientation(Mesh::Face_index face, unsigned char place, const Uv& uv) const;
   bool keeps_uv_orientation_of(Mesh::Halfedge_index h, const Uv& uv) const;
   bool is_own(Mesh::Face_index face) const { return std::size_t(face) < m_corners.size(); }
-  bool is_line(Corner a, Corner b) const;
+  Differences differences(Corner a, Corner b) const;
 
   /// The corner that the face beside a halfedge has at the target of the halfedge.
   Corner corner_at(Mesh::Halfedge_index h) const { return m_corners[m_mesh.face(h)][m_places[h]]; }
@@ -223,6 +240,9 @@ private:
   Scale m_scale;
   Mesh m_mesh;
   std::vector<Index_triple> m_corners; // by face; those of the obstacle have none
+  std::vector<char> m_is_frozen;       // by face, as given
+  std::vector<Index> m_misoriented_sides;
+  std::vector<char> m_is_misoriented;  // by vertex of the soup: at such a side
   std::vector<unsigned char> m_places; // by halfedge that is no border: the place of its target in its face
   Simplify_constraints<Mesh> m_constraints;
   Sewing_notes m_notes;

@@ -270,6 +270,7 @@ Layer_order layer_order(const Triangle_soup& result, const Triangle_soup& origin
           layer == graph.layer(stand_ins[corners[2]]))
         places[layer] = places[layer] == nowhere && is_alike(now[place], old[layer]) ? place : several;
     }
+    const std::size_t compared_before = order.compared;
     std::size_t last = nowhere; // the last layer that is crossed once
     for (std::size_t layer = 0; layer < old.size(); ++layer) {
       if (places[layer] >= now.size())
@@ -285,6 +286,7 @@ Layer_order layer_order(const Triangle_soup& result, const Triangle_soup& origin
       }
       last = layer;
     }
+    order.lines_compared += order.compared > compared_before;
   }
   return order;
 }

@@ -7,6 +7,7 @@
 
 #include "apps/exit_codes.h"
 
+#include <selvedge/Surface_mesh_simplification/Hindrances.h>
 #include <selvedge/Surface_mesh_simplification/Refusals.h>
 
 #include <nlohmann/json.hpp>
@@ -36,6 +37,17 @@ TEST(App_documentation, ListsTheRulesOfRefusalInTheirOrder)
     expected.push_back(std::string("`refused.") + rule.key + "` *" + rule.name + '*');
   for (const Row& row : documented_rows(
            "docs/report.md", [](const auto& heading) { return heading == "### Refused collapses"; }))
+    documented.push_back(row.at(0) + ' ' + row.at(1).substr(0, row.at(1).find(':')));
+  EXPECT_EQ(documented, expected);
+}
+
+TEST(App_documentation, ListsTheReasonsThatHoldEdgesBackInTheirOrder)
+{
+  std::vector<std::string> expected, documented;
+  for (const Hindrances::Description& reason : Hindrances::descriptions())
+    expected.push_back(std::string("`hindrances.") + reason.key + "` *" + reason.name + '*');
+  for (const Row& row : documented_rows(
+           "docs/report.md", [](const auto& heading) { return heading == "### What holds edges back"; }))
     documented.push_back(row.at(0) + ' ' + row.at(1).substr(0, row.at(1).find(':')));
   EXPECT_EQ(documented, expected);
 }

@@ -74,6 +74,10 @@ TEST(App_report, HasExactlyTheDocumentedKeys)
   EXPECT_EQ(difference(keys, documented_keys("simplify")), std::set<std::string>());
 
   keys.clear();
+  collect_keys(Json::parse(run_app({"info", in, "--json"}).out), "", keys);
+  EXPECT_EQ(difference(keys, documented_keys("info")), std::set<std::string>());
+
+  keys.clear();
   collect_keys(Json::parse(run_app({"verify", folder / "out.obj", "--against", in, "--json"}).out), "", keys);
   EXPECT_EQ(difference(keys, documented_keys("verify")), std::set<std::string>());
 

@@ -10,7 +10,7 @@ namespace {
 
 TEST(App_usage, HelpTeachesByExample)
 {
-  for (const char* command : {"", "simplify", "verify", "replay", "generate"}) {
+  for (const char* command : {"", "simplify", "verify", "info", "replay", "generate"}) {
     std::vector<std::string> arguments{"--help"};
     if (*command)
       arguments.insert(arguments.begin(), command);

@@ -23,12 +23,13 @@ LEVELS = [
                "include/selvedge/Sewing_notes.h", "include/selvedge/Snapping_notes.h", "include/selvedge/internal/Scale.h",
                "src/soup/"]),
     ("welding", ["src/weld/"]),
-    ("files", ["include/selvedge/mesh_files.h", "src/files/", "include/selvedge/generate.h", "src/generate/"]),
+    ("files", ["include/selvedge/mesh_files.h", "include/selvedge/references.h", "src/files/", "include/selvedge/generate.h", "src/generate/"]),
     ("judge", ["include/selvedge/verify.h", "include/selvedge/compare.h", "src/verify/"]),
     ("logs", ["include/selvedge/Reduction_limits.h", "include/selvedge/collapse_log.h", "include/selvedge/Sha256.h", "src/log/"]),
     ("replay", ["include/selvedge/replay.h", "src/replay/"]),
     ("reduction", ["include/selvedge/prepare.h", "include/selvedge/simplify.h", "include/selvedge/Reduction_log.h",
                    "include/selvedge/part_report.h", "src/simplify/"]),
+    ("inspection", ["include/selvedge/inspect.h", "src/inspect/"]),
     ("app", ["apps/"]),
 ]
 JUDGE = ["src/verify/", "src/replay/", "include/selvedge/verify.h", "include/selvedge/compare.h", "include/selvedge/replay.h"]

@@ -162,7 +162,7 @@ group(
 group(
     headers + "Surface_mesh_simplification/Border_rule.h",
     ("placement_test",),
-    ("|| is_cut_off(profile.v0_v1()))", ")", "a face whose edges are all lines vanishes"),
+    ("||\n        is_cut_off(profile.v0_v1(), *this))", ")", "a face whose edges are all lines vanishes"),
 )
 group(
     "src/soup/Working_mesh.cpp",
@@ -225,15 +225,28 @@ group(
 group(
     loop + "Edge_collapse.h",
     ("loop_test",),
-    ("if (is_v0_on_border && is_v1_on_border)", "if (false)", "two stretches of border meet"),
-    ("v) != m_neighbours.end() &&\n          !(of_edge.left_face_exists()", "v) != m_neighbours.end() && false &&\n          !(of_edge.left_face_exists()",
-     "no link condition"),
-    ("return !is_two_faces && !CGAL::is_tetrahedron(of_edge.v0_v1(), m_mesh);", "return !is_two_faces;", "tetrahedra vanish"),
     ("      ++record.rank;\n", "      record.rank = 3;\n", "no second placement"),
     ("m_waiting.release_around(of_edge.v0());", "", "edges wait for ever"),
     ("put(m_has_stale_edges, of_edge.v0(), true);", "", "stale edges are not found"),
     ("m_queue.erase(edge_id);\n    m_records[edge_id].rank = s_gone;", "m_records[edge_id].rank = s_gone;",
      "edges that are gone stay in the queue"),
+)
+group(
+    loop + "Topology_test.h",
+    ("loop_test",),
+    ("if (is_v0_on_border && is_v1_on_border)", "if (false)", "two stretches of border meet"),
+    ("v) != m_neighbours.end() &&\n          !(of_edge.left_face_exists()", "v) != m_neighbours.end() && false &&\n          !(of_edge.left_face_exists()",
+     "no link condition"),
+    ("return !is_two_faces && !CGAL::is_tetrahedron(of_edge.v0_v1(), mesh);", "return !is_two_faces;", "tetrahedra vanish"),
+)
+group(
+    loop + "Simplification.h",
+    ("hindrances_test",),
+    ("weakest = (std::max)(weakest, reason);", "weakest = reason;", "an edge counts for its last direction"),
+    ("if (!m_targets.is_changeable(h))\n        continue;", "", "edges of fixed faces count"),
+    ("line_reason(e) < weakest_gone", "line_reason(e) <= weakest_gone", "the kinds of lines are mixed up"),
+    ("m_targets.is_reached() || m_report.is_stopped)\n      return;", "m_report.is_stopped)\n      return;",
+     "reasons where the target is reached"),
 )
 group(
     loop + "Edge_queue.h",
@@ -257,7 +270,7 @@ group(
      "cells know no lines"),
     ("differ_in_label(m_soup.groups) || differ_in_label(m_soup.objects)", "differ_in_label(m_soup.objects)",
      "groups make no lines"),
-    ("|| differ(m_soup.normals) ||", "||", "normals make no lines"),
+    ("differ(m_soup.normals, a, b),", "false,", "normals make no lines"),
     ("is_locked[v] = rule.is_locked(vertices[v]);", "", "what is locked in the whole moves in a cell"),
     ("is_locked[v] = vertices_at[position_of(v)] > 1;", "is_locked[v] = vertices_at[position_of(v)] > 2;", "pairs of twins move"),
     ("is_locked[sewing.vertex(corner)] |= is_frozen[corner / 3];", "", "faces that offend move"),
@@ -280,9 +293,9 @@ group(
     ("if (!is_star_motion_clear<Kernel>(m_star))", "if (false)", "a star folds onto itself"),
     ("if (!are_sweeps_clear(goes))", "if (false)", "a seam is closed through another layer"),
     ("if (site.is_frozen || m_sites[j].is_frozen)", "if (site.is_frozen)", "what moves may snap to a face that offends"),
-    ("!is_shortly_followed(i, j) && !is_shortly_followed(j, i);", "true;", "a border is sewn to itself"),
+    ("!is_shortly_followed(i, j, length) && !is_shortly_followed(j, i, length);", "true;", "a border is sewn to itself"),
     ("m_index.set(face, face_box(face));", "", "the index does not follow a snap"),
-    ("if (p == q || distance(m_sites[p], m_sites[q]) <= m_distance)", "if (p == q)", "gaps are closed only from their ends"),
+    ("p == q ? 0 : distance(m_sites[p], m_sites[q]));", "p == q ? 0 : least);", "gaps are closed only from their ends"),
 )
 
 group(

@@ -521,6 +521,12 @@ Verdict judge_stop(const World& world, const World_run& run)
           *world.options.max_error * (1 + 1e-6) + 1e-9)
     return broken("a vertex of the original is farther away than the error allows");
 
+  const bool is_over = report.is_reached() || report.is_stopped;
+  if (is_over && report.hindrances.total() > 0)
+    return broken("the report names what holds back a reduction that has not been held back");
+  if (world.options.loop == Collapse_loop::own && report.hindrances[Hindrance::by_loop] > 0)
+    return broken("every rule accepts a collapse that the loop has not made");
+
   // A face of several shares is of the last.
   std::vector<std::size_t> share_of(soup.triangles.size(), 0);
   std::vector<double> ratios{world.options.ratio.value_or(0)};

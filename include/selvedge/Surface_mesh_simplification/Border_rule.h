@@ -16,6 +16,7 @@
 
 #include <boost/unordered_map.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -37,6 +38,16 @@ struct Border_rule_options
   /// The largest distance, in units of the mesh and at least 0, from an original vertex of a line to the
   /// segment that replaced it. Infinity sets no limit.
   double max_drift = std::numeric_limits<double>::infinity();
+};
+
+/// Why a `Border_rule` does not let a vertex move along an edge.
+enum class Line_refusal : unsigned char {
+  none,     ///< the vertex may move
+  locked,   ///< the vertex is locked
+  off_line, ///< the vertex is on a line, and the edge is not
+  line_end, ///< the vertex ends a line or joins several, or a face beside the edge has line edges only
+  turn,     ///< the line turns too much at the vertex
+  drift     ///< the line would come too far from an original vertex of it
 };
 
 /// Knows the *lines* of a mesh, which are its borders and the inner edges marked as lines (seams), and
@@ -112,17 +123,36 @@ public:
   friend bool get(const Border_rule& rule, Edge e) { return rule.is_line(e); }
 
   /// Returns whether the source of `h` may move onto its target.
-  bool may_move(Halfedge h) const
+  bool may_move(Halfedge h) const { return refusal(h) == Line_refusal::none; }
+
+  /// Returns why the source of `h` may not move onto its target: the first reason, in their order.
+  Line_refusal refusal(Halfedge h) const
   {
     const State& state = *m_state;
     const Vertex mover = source(h, state.mesh);
     const Freedom freedom = get(state.freedoms, mover);
     if (freedom == Freedom::free)
+      return Line_refusal::none;
+    if (freedom == Freedom::none)
+      return Line_refusal::locked;
+    if (!is_line(edge(h, state.mesh)))
+      return Line_refusal::off_line;
+    const std::optional<Halfedge> behind = line_behind(h, *this);
+    if (!behind || is_cut_off(h, *this))
+      return Line_refusal::line_end;
+    return straightening(*behind, h, get(state.points, target(h, state.mesh)));
+  }
+
+  /// Returns whether the lines would let the source of `h` move onto its target, apart from locks and from
+  /// limits of turn and drift, if the edges for which `get(lines, edge)` is true were all the lines.
+  template <class Lines>
+  bool may_move_along(Halfedge h, const Lines& lines) const
+  {
+    const TriangleMesh& mesh = m_state->mesh;
+    const auto around = CGAL::halfedges_around_source(source(h, mesh), mesh);
+    if (std::none_of(around.begin(), around.end(), [&](Halfedge out) { return get(lines, edge(out, mesh)); }))
       return true;
-    if (freedom == Freedom::none || !is_line(edge(h, state.mesh)))
-      return false;
-    const std::optional<Halfedge> behind = line_behind(h);
-    return behind && !is_cut_off(h) && may_straighten(*behind, h, get(state.points, target(h, state.mesh)));
+    return get(lines, edge(h, mesh)) && line_behind(h, lines) && !is_cut_off(h, lines);
   }
 
   /// Returns whether the collapse that left `kept` may have changed what `may_move` says of edges that do not
@@ -146,10 +176,11 @@ public:
     if (is_free(profile.v0()) && is_free(profile.v1()))
       return true;
     if (is_free(profile.v0()) || is_free(profile.v1()) || is_locked(profile.v0()) ||
-        is_locked(profile.v1()) || !is_line(edge(profile.v0_v1(), state.mesh)) || is_cut_off(profile.v0_v1()))
+        is_locked(profile.v1()) || !is_line(edge(profile.v0_v1(), state.mesh)) ||
+        is_cut_off(profile.v0_v1(), *this))
       return false;
-    const std::optional<Halfedge> behind = line_behind(profile.v0_v1());
-    const std::optional<Halfedge> ahead = line_behind(profile.v1_v0());
+    const std::optional<Halfedge> behind = line_behind(profile.v0_v1(), *this);
+    const std::optional<Halfedge> ahead = line_behind(profile.v1_v0(), *this);
     return behind && ahead && may_straighten(*behind, profile.v0_v1(), collapse.place()) &&
            may_straighten(*ahead, profile.v1_v0(), collapse.place());
   }
@@ -233,12 +264,13 @@ private:
 
   // Returns the other line edge at the source of the line edge `h`, pointing away from it. None when the
   // source is an end of the line, a junction, or a place where a border becomes a marked line.
-  std::optional<Halfedge> line_behind(Halfedge h) const
+  template <class Lines>
+  std::optional<Halfedge> line_behind(Halfedge h, const Lines& lines) const
   {
     const TriangleMesh& mesh = m_state->mesh;
     std::optional<Halfedge> behind;
     for (const Halfedge out : CGAL::halfedges_around_source(source(h, mesh), mesh)) {
-      if (out == h || !is_line(edge(out, mesh)))
+      if (out == h || !get(lines, edge(out, mesh)))
         continue;
       if (behind)
         return std::nullopt;
@@ -251,12 +283,13 @@ private:
 
   // Whether a face at the line edge `h` has line edges only. The collapse would remove this face, and with it
   // a whole piece or a corner of one.
-  bool is_cut_off(Halfedge h) const
+  template <class Lines>
+  bool is_cut_off(Halfedge h, const Lines& lines) const
   {
     const TriangleMesh& mesh = m_state->mesh;
     for (const Halfedge side : {h, opposite(h, mesh)})
-      if (!CGAL::is_border(side, mesh) && is_line(edge(next(side, mesh), mesh)) &&
-          is_line(edge(prev(side, mesh), mesh)))
+      if (!CGAL::is_border(side, mesh) && get(lines, edge(next(side, mesh), mesh)) &&
+          get(lines, edge(prev(side, mesh), mesh)))
         return true;
     return false;
   }
@@ -266,30 +299,35 @@ private:
     return CGAL::is_border(h, m_state->mesh) || CGAL::is_border(opposite(h, m_state->mesh), m_state->mesh);
   }
 
-  // Whether the line u – m – t, with `behind` = m→u and `ahead` = m→t, may become the segment u – p.
+  // Whether the line u – m – t, with `behind` = m→u and `ahead` = m→t, may become the segment u – p, and
+  // which limit says no.
   bool may_straighten(Halfedge behind, Halfedge ahead, const Point& p) const
+  {
+    return straightening(behind, ahead, p) == Line_refusal::none;
+  }
+  Line_refusal straightening(Halfedge behind, Halfedge ahead, const Point& p) const
   {
     const State& state = *m_state;
     const Point& m = get(state.points, source(ahead, state.mesh));
     const Point& u = get(state.points, target(behind, state.mesh));
     if (!is_turn_small(m - u, p - m, is_border_edge(ahead) ? state.min_border_cosine : state.min_seam_cosine))
-      return false;
+      return Line_refusal::turn;
     if (state.max_squared_drift == std::numeric_limits<double>::infinity())
-      return true;
+      return Line_refusal::none;
     const typename Geom_traits::Segment_3 segment(u, p);
     const auto is_near = [&](const Point& q) {
       return CGAL::to_double(CGAL::squared_distance(q, segment)) <= state.max_squared_drift;
     };
     if (!is_near(m))
-      return false;
+      return Line_refusal::drift;
     for (const Halfedge h : {behind, ahead}) {
       const auto found = state.passed.find(edge(h, state.mesh));
       if (found != state.passed.end())
         for (const Point& q : found->second)
           if (!is_near(q))
-            return false;
+            return Line_refusal::drift;
     }
-    return true;
+    return Line_refusal::none;
   }
 
   static bool is_turn_small(const Vector& before, const Vector& after, double min_cosine)

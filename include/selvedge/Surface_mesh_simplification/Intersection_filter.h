@@ -145,6 +145,7 @@ public:
   template <class Collapse>
   bool accepts(const Collapse& collapse) const
   {
+    m_guard->forget_blockers();
     return m_guard->is_clear(collapse);
   }
 

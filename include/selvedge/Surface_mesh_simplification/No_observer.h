@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_NO_OBSERVER_H
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_NO_OBSERVER_H
 
+#include <selvedge/Surface_mesh_simplification/Hindrances.h>
 #include <selvedge/Surface_mesh_simplification/Refusals.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
 
@@ -63,6 +64,22 @@ struct No_observer
   bool keeps_uv_orientation_at(const Halfedge& /*moving*/, const Point& /*place*/) const
   {
     return true;
+  }
+
+  /// Returns why a vertex is locked: `Hindrance::locked`, or one of the reasons beside it. Asked of locked
+  /// vertices, when a reduction ends short of its target.
+  template <class Vertex>
+  Hindrance lock_reason(const Vertex&) const
+  {
+    return Hindrance::locked;
+  }
+
+  /// Returns why an inner edge is a line: `Hindrance::seam`, or one of the reasons from there to `normals`.
+  /// Asked of lines, when a reduction ends short of its target.
+  template <class Edge>
+  Hindrance line_reason(const Edge&) const
+  {
+    return Hindrance::seam;
   }
 
   /// Returns how much the motion adds to the displacement of the texture, as squared lengths with the weights

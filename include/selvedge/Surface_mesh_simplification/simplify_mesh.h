@@ -31,7 +31,8 @@ namespace selvedge {
 /// - G2 *Motion*: nothing passes through anything during a collapse; the order of layers is kept.
 /// - G4 *Topology*: components, boundary loops and Euler characteristic are kept.
 /// - G5 *Seams*: borders and line edges change only along themselves, within the turn and the drift allowed.
-/// - G7 *Stop*: the target is reached, or the report says that it was not, and what refused how often.
+/// - G7 *Stop*: the target is reached, or the report says that it was not, and what holds back
+///   every edge that is left.
 /// - G8 *Determinism*: the same mesh and options give the same result.
 ///
 /// For a mesh that is not embedded, lock the vertices of every face of an offending pair, as `simplify_soup`

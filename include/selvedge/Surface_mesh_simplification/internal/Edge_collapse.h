@@ -12,6 +12,7 @@
 #include <selvedge/Surface_mesh_simplification/internal/Filter_base.h>
 #include <selvedge/Surface_mesh_simplification/internal/Lazy_edge_profile.h>
 #include <selvedge/Surface_mesh_simplification/internal/No_visitor.h>
+#include <selvedge/Surface_mesh_simplification/internal/Topology_test.h>
 #include <selvedge/Surface_mesh_simplification/internal/Waiting_edges.h>
 #include <selvedge/Surface_mesh_simplification/internal/call_with_profile.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
@@ -21,7 +22,6 @@
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/iterator.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <type_traits>
@@ -175,7 +175,7 @@ private:
                         of_edge);
       return false;
     }
-    if (!is_topology_kept(of_edge)) {
+    if (!m_topology.is_kept(of_edge, m_is_constrained)) {
       on_refused(of_edge);
       return true;
     }
@@ -325,61 +325,6 @@ private:
     return {};
   }
 
-  // Whether the mesh stays a manifold of the same topology. The link condition: a vertex that is a neighbour
-  // of both ends is the third corner of a face at the edge. Besides, a face at the edge has no two other
-  // border edges; two stretches of a border, or constrained edges at the two ends, do not come to meet; a
-  // boundary loop of three edges, a tetrahedron and a closed piece of two faces stay.
-  bool is_topology_kept(const Profile& of_edge)
-  {
-    const auto is_outside = [this](Halfedge h) { return CGAL::is_border(opposite(h, m_mesh), m_mesh); };
-    if (!of_edge.left_face_exists() && !of_edge.right_face_exists())
-      return false;
-    if (of_edge.left_face_exists() && is_outside(of_edge.v1_vL()) && is_outside(of_edge.vL_v0()))
-      return false;
-    if (of_edge.right_face_exists() && is_outside(of_edge.vR_v1()) && is_outside(of_edge.v0_vR()))
-      return false;
-
-    m_neighbours.clear();
-    bool is_v0_on_border = false, is_v1_on_border = false;
-    for (const Halfedge h : CGAL::halfedges_around_target(of_edge.v1_v0(), m_mesh)) {
-      is_v0_on_border = is_v0_on_border || CGAL::is_border(h, m_mesh);
-      if (h != of_edge.v1_v0())
-        m_neighbours.push_back(source(h, m_mesh));
-    }
-    for (const Halfedge h : CGAL::halfedges_around_target(of_edge.v0_v1(), m_mesh)) {
-      is_v1_on_border = is_v1_on_border || CGAL::is_border(h, m_mesh);
-      const Vertex v = source(h, m_mesh);
-      if (h != of_edge.v0_v1() &&
-          std::find(m_neighbours.begin(), m_neighbours.end(), v) != m_neighbours.end() &&
-          !(of_edge.left_face_exists() && v == of_edge.vL()) &&
-          !(of_edge.right_face_exists() && v == of_edge.vR()))
-        return false;
-    }
-    if (!std::is_same_v<EdgeIsConstrainedMap, No_constrained_edges> && is_at_constrained(of_edge.v0_v1()) &&
-        is_at_constrained(of_edge.v1_v0()))
-      return false;
-    for (const Halfedge h : {of_edge.v0_v1(), of_edge.v1_v0()})
-      if (CGAL::is_border(h, m_mesh)) {
-        const Halfedge second = next(h, m_mesh), third = next(second, m_mesh);
-        return !(next(third, m_mesh) == h && CGAL::is_border(second, m_mesh) &&
-                 CGAL::is_border(third, m_mesh));
-      }
-    if (is_v0_on_border && is_v1_on_border)
-      return false;
-    const bool is_two_faces =
-        next(of_edge.v0_v1(), m_mesh) == opposite(prev(of_edge.v1_v0(), m_mesh), m_mesh) &&
-        prev(of_edge.v0_v1(), m_mesh) == opposite(next(of_edge.v1_v0(), m_mesh), m_mesh);
-    return !is_two_faces && !CGAL::is_tetrahedron(of_edge.v0_v1(), m_mesh);
-  }
-
-  bool is_at_constrained(Halfedge into) const
-  {
-    for (const Halfedge h : CGAL::halfedges_around_target(into, m_mesh))
-      if (get(m_is_constrained, edge(h, m_mesh)))
-        return true;
-    return false;
-  }
-
   Profile profile(Halfedge h) const { return Profile(h, m_mesh, m_points, m_traits); }
   Id id(Halfedge h) const { return Id(get(m_numbers, h) / 2); }
 
@@ -403,7 +348,7 @@ private:
   typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<unsigned char>>::type
       m_has_stale_edges;
   Size m_initial_edges = 0, m_edges = 0;
-  std::vector<Vertex> m_neighbours; // a buffer
+  Topology_test<TriangleMesh> m_topology;
 };
 
 } // namespace internal

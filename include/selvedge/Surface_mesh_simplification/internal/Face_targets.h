@@ -93,8 +93,10 @@ public:
     for (const Face face : faces(mesh)) {
       const auto corners = CGAL::vertices_around_face(halfedge(face, mesh), mesh);
       if (is_counted(face) &&
-          std::all_of(corners.begin(), corners.end(), [&](auto v) { return get(is_locked, v); }))
+          std::all_of(corners.begin(), corners.end(), [&](auto v) { return get(is_locked, v); })) {
         ++share_of(face).fixed;
+        put(m_state->is_fixed, face, true);
+      }
     }
   }
 
@@ -104,6 +106,12 @@ public:
   bool is_counted(Halfedge h) const
   {
     return m_state->are_all_counted || any_beside(h, [this](Face face) { return is_counted(face); });
+  }
+
+  /// Returns whether a face at the edge of `h` is counted and not fixed.
+  bool is_changeable(Halfedge h) const
+  {
+    return any_beside(h, [this](Face face) { return is_counted(face) && !get(m_state->is_fixed, face); });
   }
 
   /// Returns whether the edge of `h` may collapse: not when one of its faces is of a share at its target.
@@ -154,13 +162,17 @@ private:
   {
     explicit State(const TriangleMesh& mesh_)
         : mesh(mesh_), share_of(get(CGAL::dynamic_face_property_t<std::uint32_t>(), mesh_)),
-          shares{{internal::face_count(mesh_), 0}}
+          is_fixed(get(CGAL::dynamic_face_property_t<unsigned char>(), mesh_)), shares{{internal::face_count(
+                                                                                            mesh_),
+                                                                                        0}}
     {
     }
 
     const TriangleMesh& mesh;
     typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<std::uint32_t>>::const_type
         share_of;
+    typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<unsigned char>>::const_type
+        is_fixed;
     std::vector<Share> shares;
     bool are_all_counted = true;
   };

@@ -21,6 +21,7 @@
 #include <selvedge/Surface_mesh_simplification/internal/Face_targets.h>
 #include <selvedge/Surface_mesh_simplification/internal/Halfedge_filter.h>
 #include <selvedge/Surface_mesh_simplification/internal/Lazy_edge_profile.h>
+#include <selvedge/Surface_mesh_simplification/internal/Topology_test.h>
 #include <selvedge/Surface_mesh_simplification/internal/Tracked_vertices.h>
 #include <selvedge/Surface_mesh_simplification/internal/perform_collapse.h>
 #include <selvedge/Surface_mesh_simplification/stop_predicates.h>
@@ -28,6 +29,7 @@
 
 #include <CGAL/Kernel_traits.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -35,6 +37,7 @@
 #include <limits>
 #include <optional>
 #include <sstream>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -217,8 +220,11 @@ public:
   /// Returns the cost of the edge that the loop considers now.
   double cost() const { return m_cost; }
 
-  Simplify_report run()
+  /// Ends where the target is reached or nothing more is possible. `are_hindrances_counted` says whether a
+  /// reduction that ends short of its target looks once more at all edges, to say why.
+  Simplify_report run(bool are_hindrances_counted = true)
   {
+    m_are_hindrances_counted = are_hindrances_counted;
     return run({}, [](const Simplify_report&) {});
   }
 
@@ -264,31 +270,152 @@ private:
   template <class Places>
   void run_passes(const Cost& costs, const Places& places)
   {
-    // Runs passes until one finds that nothing more is possible; the report says what that one refused.
     const auto run_passes = [&](auto run_pass) {
       bool is_promising = true;
       while (is_promising && !m_targets.is_reached() && !m_report.is_stopped) {
         Cancellation_scope::check();
-        const std::size_t collapses_before = m_report.collapses;
-        m_refused_before_pass = refusals();
         ++m_report.passes;
-        is_promising = run_pass() || m_report.collapses > collapses_before;
+        is_promising = run_pass();
       }
     };
-    if (m_options.loop == Collapse_loop::own)
+    if (m_options.loop == Collapse_loop::own) {
       run_passes([&] {
+        const std::size_t collapses_before = m_report.collapses;
         selvedge::edge_collapse(m_mesh, is_over(),
                                 parameters::geometric_test(false, CGAL::parameters::get_cost(costs)
                                                                       .get_placement(places)
                                                                       .vertex_point_map(m_points)
                                                                       .filter(Filter{this})
                                                                       .visitor(Visitor(*this))));
-        return false;
+        // The loop leaves no collapse undone that a change nearby or of a blocker has made possible. Should a
+        // rule look farther, another pass finds what it allows.
+        count_hindrances(places);
+        return m_report.hindrances[Hindrance::by_loop] > 0 && m_report.collapses > collapses_before;
       });
-    else
-      run_passes(Cgal_pass(
+    } else {
+      Cgal_pass pass(
           m_mesh, m_points, costs, places, Filter{this}, Visitor(*this), [this] { return is_over(); },
-          [this] { return refusals().intersection; }));
+          [this] { return refusals().intersection; });
+      run_passes([&] {
+        const std::size_t collapses_before = m_report.collapses;
+        return pass() || m_report.collapses > collapses_before;
+      });
+      count_hindrances(places);
+    }
+  }
+
+  // Says of every edge what holds it back, unless the reduction has reached its target or was stopped.
+  template <class Places>
+  void count_hindrances(const Places& places)
+  {
+    m_report.hindrances = {};
+    if (!m_are_hindrances_counted || m_targets.is_reached() || m_report.is_stopped)
+      return;
+    Hindrances hindrances;
+    const Geom_traits traits;
+    if (m_intersection)
+      m_intersection->visitor().OnStarted(m_mesh); // who asks the filter outside of a loop has to say so
+    auto should_stop = is_interrupted();
+    Topology_test<TriangleMesh> topology;
+    for (const Edge e : edges(m_mesh)) {
+      const Halfedge h = halfedge(e, m_mesh);
+      if (!m_targets.is_changeable(h))
+        continue;
+      const Lazy_edge_profile<TriangleMesh, VertexPointMap, Geom_traits> profile(h, m_mesh, m_points, traits);
+      if (should_stop(0, profile, 0, 0))
+        return;
+      ++hindrances[hindrance(profile, places, topology.is_kept(profile, No_constrained_edges()))];
+    }
+    m_report.hindrances = hindrances;
+  }
+
+  template <class Profile, class Places>
+  Hindrance hindrance(const Profile& profile, const Places& places, bool is_topology_kept)
+  {
+    Hindrance weakest = Hindrance::frozen;
+    for (const Halfedge moving : {profile.v0_v1(), profile.v1_v0()}) {
+      const Line_refusal refusal = m_rule.refusal(moving);
+      const Hindrance reason = refusal != Line_refusal::none ? hindrance_of_lines(moving, refusal)
+                               : !is_topology_kept           ? Hindrance::topology
+                                                   : hindrance(Collapse<Profile>::along(profile, moving));
+      weakest = (std::max)(weakest, reason);
+    }
+    if constexpr (std::is_same_v<Places, Optimal_places>)
+      for (unsigned rank = 0; const auto choice = places.choice(profile, rank); ++rank)
+        if (choice->at == Merged_at::between && is_topology_kept)
+          weakest = (std::max)(weakest, hindrance(*places.collapse(profile, choice->at)));
+    return weakest;
+  }
+
+  // Asks the filters in the order of their chain.
+  template <class Profile>
+  Hindrance hindrance(const Collapse<Profile>& collapse)
+  {
+    if (!m_border.accepts(collapse))
+      return Hindrance::topology;
+    if (!m_target.accepts(collapse))
+      return Hindrance::target;
+    if (!m_aspect_ratio.accepts(collapse))
+      return Hindrance::aspect_ratio;
+    if (!m_normal_change.accepts(collapse))
+      return Hindrance::normal_change;
+    if (!m_uv.accepts(collapse))
+      return Hindrance::uv;
+    if (!m_error.accepts(collapse))
+      return Hindrance::error;
+    if (!m_intersection)
+      return Hindrance::by_loop;
+    const auto refused_by_contact = [this] {
+      return m_intersection->statistics().refused_by_star + m_intersection->statistics().refused_by_sweep;
+    };
+    const std::size_t before = refused_by_contact();
+    if (m_intersection->accepts(collapse))
+      return Hindrance::by_loop;
+    return refused_by_contact() > before ? Hindrance::intersection : Hindrance::topology;
+  }
+
+  // The lines that stay when those of some reasons are taken away.
+  struct Stronger_lines
+  {
+    const Simplification* simplification;
+    Hindrance weakest_gone;
+
+    bool has(const Edge& e) const
+    {
+      return simplification->m_rule.is_line(e) && simplification->line_reason(e) < weakest_gone;
+    }
+    friend bool get(const Stronger_lines& lines, const Edge& e) { return lines.has(e); }
+  };
+
+  Hindrance line_reason(const Edge& e) const
+  {
+    const Halfedge h = halfedge(e, m_mesh);
+    return CGAL::is_border(h, m_mesh) || CGAL::is_border(opposite(h, m_mesh), m_mesh)
+               ? Hindrance::border
+               : m_observer.line_reason(e);
+  }
+
+  // Of the kinds of lines, names the weakest without which, and without all weaker ones, the vertex could go.
+  Hindrance hindrance_of_lines(const Halfedge& moving, Line_refusal refusal) const
+  {
+    switch (refusal) {
+    case Line_refusal::locked:
+      return m_observer.lock_reason(source(moving, m_mesh));
+    case Line_refusal::turn:
+      return line_reason(edge(moving, m_mesh)) == Hindrance::border ? Hindrance::border_turn
+                                                                    : Hindrance::seam_turn;
+    case Line_refusal::drift:
+      return Hindrance::drift;
+    default:
+      break;
+    }
+    Hindrance reason = Hindrance::border;
+    for (const Hindrance gone : {Hindrance::normals, Hindrance::texture, Hindrance::group, Hindrance::seam})
+      if (m_rule.may_move_along(moving, Stronger_lines{this, gone})) {
+        reason = gone;
+        break;
+      }
+    return refusal == Line_refusal::off_line || reason == Hindrance::normals ? reason : Hindrance::line_end;
   }
 
   void build_index()
@@ -328,19 +455,23 @@ private:
   // The stop predicate of either loop: the target is reached, or the caller wants to end.
   auto is_over()
   {
-    return Any_stop(
-        Function_stop([this](double cost) {
-          m_cost = cost;
-          return m_targets.is_reached();
-        }),
-        Hook_stop([this](std::size_t) {
-          const auto total = m_targets.total();
-          if (m_options.should_stop)
-            m_report.is_stopped = m_options.should_stop({m_report.faces_input, total.target, total.faces});
-          else
-            Cancellation_scope::check();
-          return m_report.is_stopped;
-        }));
+    return Any_stop(Function_stop([this](double cost) {
+                      m_cost = cost;
+                      return m_targets.is_reached();
+                    }),
+                    is_interrupted());
+  }
+
+  Hook_stop is_interrupted()
+  {
+    return Hook_stop([this](std::size_t) {
+      const auto total = m_targets.total();
+      if (m_options.should_stop)
+        m_report.is_stopped = m_options.should_stop({m_report.faces_input, total.target, total.faces});
+      else
+        Cancellation_scope::check();
+      return m_report.is_stopped;
+    });
   }
 
   struct Visitor : No_visitor
@@ -530,7 +661,6 @@ private:
     report.faces_target = total.target;
     report.faces_to_go = m_targets.total_excess();
     report.refused = refusals();
-    report.refused_in_last_pass = report.refused - m_refused_before_pass;
     report.seconds_reduce = seconds_since(m_start);
     if (m_intersection) {
       report.intersections = m_intersection->statistics();
@@ -566,7 +696,7 @@ private:
   std::size_t m_accepted = 0;
   bool m_is_mover_first = false; // of the last collapse accepted
   double m_cost = 0;
-  Refusals m_refused_before_pass;
+  bool m_are_hindrances_counted = true;
   Refusals m_refused_until_now;
   std::vector<std::size_t> m_levels; // face counts of share 0
   std::size_t m_next_level = 0;

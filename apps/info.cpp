@@ -1,0 +1,405 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "output_files.h"
+#include "report_json.h"
+#include "subcommands.h"
+#include "text.h"
+#include "threads.h"
+
+#include <selvedge/Error.h>
+#include <selvedge/inspect.h>
+#include <selvedge/mesh_files.h>
+
+#include <algorithm>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace selvedge::app {
+namespace {
+
+struct Request
+{
+  std::string mesh;
+  std::string report;
+  bool is_json = false;
+  std::optional<std::size_t> threads;
+};
+
+constexpr std::size_t most_printed = 5, most_listed = 100;
+
+const char* name(Mesh_format format)
+{
+  switch (format) {
+  case Mesh_format::obj:
+    return "OBJ";
+  case Mesh_format::off:
+    return "OFF";
+  case Mesh_format::ply:
+    return "PLY";
+  case Mesh_format::stl:
+    return "STL";
+  case Mesh_format::glb:
+    return "GLB";
+  case Mesh_format::gltf:
+    return "glTF";
+  }
+  return "";
+}
+
+const char* name(Normals_of_file normals)
+{
+  switch (normals) {
+  case Normals_of_file::none:
+    return "none";
+  case Normals_of_file::per_face:
+    return "per_face";
+  case Normals_of_file::per_vertex:
+    return "per_vertex";
+  case Normals_of_file::per_corner:
+    return "per_corner";
+  }
+  return "";
+}
+
+/// Returns the first few of some words in a sentence.
+std::string listed(const std::vector<std::string>& words)
+{
+  std::string text;
+  for (std::size_t i = 0; i < (std::min)(most_printed, words.size()); ++i)
+    text += (i == 0 ? "" : ", ") + words[i];
+  return words.size() > most_printed ? text + " and " + with_commas(words.size() - most_printed) + " more"
+                                     : text;
+}
+
+std::string percent(double share)
+{
+  return with_digits(100 * share) + " %";
+}
+
+/// Describes the kind of a piece or surface in words, such as "closed, of genus 1".
+std::string kind_of(const Connected_surface& surface)
+{
+  if (surface.shape.non_manifold_edges > 0)
+    return "with " + counted(surface.shape.non_manifold_edges, "edge") + " of three faces or more";
+  if (const auto genus = surface.genus())
+    return "closed, of genus " + std::to_string(*genus);
+  if (surface.shape.border_edges == 0)
+    return "closed, of Euler characteristic " + std::to_string(surface.shape.euler_characteristic);
+  if (surface.shape.boundary_loops == 1 && surface.shape.euler_characteristic == 1)
+    return "open, like a disc";
+  return "open, with " + counted(surface.shape.boundary_loops, "boundary loop") +
+         " and Euler characteristic " + std::to_string(surface.shape.euler_characteristic);
+}
+
+/// Says how many of some surfaces are of which kind, most first.
+std::string kinds_of(const std::vector<Connected_surface>& surfaces)
+{
+  std::map<std::string, std::size_t> counts;
+  for (const Connected_surface& surface : surfaces)
+    ++counts[kind_of(surface)];
+  std::vector<std::pair<std::string, std::size_t>> kinds(counts.begin(), counts.end());
+  std::stable_sort(kinds.begin(), kinds.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::vector<std::string> words;
+  for (const auto& [kind, count] : kinds)
+    words.push_back(with_commas(count) + ' ' + kind);
+  std::string text;
+  for (std::size_t i = 0; i < (std::min)(most_printed, words.size()); ++i)
+    text += (i == 0 ? "" : "; ") + words[i];
+  return words.size() > most_printed
+             ? text + "; and " + with_commas(words.size() - most_printed) + " other kinds"
+             : text;
+}
+
+void print_content(const Contents& contents)
+{
+  const auto print = [](const char* what, const std::vector<std::string>& names) {
+    if (!names.empty())
+      std::cout << what << ": " << with_commas(names.size()) << " (" << listed(names) << ")\n";
+  };
+  print("groups", contents.groups);
+  print("objects", contents.objects);
+  print("materials", contents.materials);
+  print("images", contents.images);
+  print("material libraries", contents.material_libraries);
+  std::vector<std::string> attributes;
+  if (contents.texture_coordinates > 0)
+    attributes.push_back(counted(contents.texture_coordinates, "texture coordinate"));
+  if (contents.normals != Normals_of_file::none)
+    attributes.push_back(contents.normals == Normals_of_file::per_face     ? "a normal per face"
+                         : contents.normals == Normals_of_file::per_vertex ? "a normal per vertex"
+                                                                           : "normals per corner");
+  attributes.insert(attributes.end(), contents.attributes.begin(), contents.attributes.end());
+  std::cout << "attributes: " << (attributes.empty() ? "none" : listed(attributes)) << '\n';
+}
+
+void print_surfaces(const Inspection& mesh)
+{
+  std::cout << "pieces: " << with_commas(mesh.pieces.size()) << ", connected by vertex numbers\n"
+            << "surfaces: " << with_commas(mesh.surfaces.size())
+            << ", where coincident borders are sewn: " << kinds_of(mesh.surfaces) << '\n';
+  if (mesh.misoriented_edges > 0) {
+    std::vector<std::string> pieces;
+    for (const Index piece : mesh.misoriented_pieces)
+      pieces.push_back(std::to_string(piece + 1));
+    std::cout << "orientation: faces disagree along " << counted(mesh.misoriented_edges, "edge") << " of "
+              << counted(pieces.size(), "piece") << " (" << listed(pieces) << ")\n";
+  }
+  if (mesh.pairs.empty()) {
+    std::cout << "intersections: none (decided exactly)\n";
+  } else {
+    std::size_t counts[3] = {};
+    for (const Offending_pair& pair : mesh.pairs)
+      ++counts[int(pair.offence)];
+    std::cout << "intersections: " << counted(mesh.pairs.size(), "offending pair")
+              << " (decided exactly): " << with_commas(counts[int(Offence::intersection)]) << " intersect, "
+              << with_commas(counts[int(Offence::duplicate)]) << " have the same corners, "
+              << with_commas(counts[int(Offence::degenerate)]) << " degenerate\n";
+  }
+  if (mesh.surfaces.size() < 2) {
+    std::cout << "layers: one surface; the distance between its own folds is not measured\n";
+    return;
+  }
+  const auto nearest = std::min_element(mesh.surfaces.begin(), mesh.surfaces.end(),
+                                        [](const auto& a, const auto& b) { return a.distance < b.distance; });
+  std::cout << "layers: ";
+  if (nearest->distance > 0)
+    std::cout << "the least distance between two surfaces is " << with_digits(nearest->distance) << " ("
+              << percent(nearest->distance / mesh.diagonal) << " of the size, rounded), between ";
+  else
+    std::cout << "two surfaces meet, such as ";
+  std::cout << "surface " << nearest - mesh.surfaces.begin() + 1 << " and " << *nearest->nearest + 1
+            << "; folds of one surface are not measured\n";
+}
+
+void print_seams(const Inspection& mesh)
+{
+  const Inspection::Seams& seams = mesh.seams;
+  std::cout << "seams: ";
+  if (seams.edges == 0) {
+    std::cout << "none";
+  } else {
+    std::cout << counted(seams.edges, "edge") << "; across them differ";
+    const char* separator = " ";
+    for (const auto& [count, what] :
+         {std::pair(seams.by_vertices, "vertex numbers"), std::pair(seams.by_texture, "texture coordinates"),
+          std::pair(seams.by_normals, "normals"), std::pair(seams.by_labels, "groups, objects or materials")})
+      if (count > 0)
+        std::cout << std::exchange(separator, ", ") << what << " (" << with_commas(count) << ')';
+  }
+  if (mesh.normals == Normals_treatment::flat)
+    std::cout << " (normals are made anew, and make no seams)";
+  std::cout << "\nborders: ";
+  if (mesh.border_edges == 0) {
+    std::cout << "none\n";
+    return;
+  }
+  const std::vector<double>& gaps = mesh.partner_distances;
+  std::cout << counted(mesh.border_edges, "edge") << ", " << with_commas(mesh.border_vertices)
+            << (mesh.border_vertices == 1 ? " vertex" : " vertices") << '\n';
+  std::cout << "gaps: ";
+  if (gaps.empty())
+    std::cout << "no border vertex has a partner on another border within "
+              << with_digits(mesh.partner_limit);
+  else
+    std::cout << with_commas(gaps.size()) << " of the border vertices have a partner within "
+              << with_digits(gaps.back()) << ", half of these within " << with_digits(gaps[gaps.size() / 2])
+              << "; --weld closes gaps";
+  std::cout << " (looked for within 1 % of the size)\n";
+}
+
+void print_freedom(const Inspection& mesh)
+{
+  const Inspection::Vertices& count = mesh.movable;
+  std::cout << "vertices when sewn: " << with_commas(count.free) << " free, " << with_commas(count.on_lines)
+            << " on borders and seams, along which they move";
+  const auto print = [](std::size_t number, const char* what) {
+    if (number > 0)
+      std::cout << ", " << with_commas(number) << ' ' << what;
+  };
+  print(count.ends, "at ends and junctions of these, which stay");
+  print(count.frozen, "frozen with faces that offend");
+  print(count.non_manifold, "frozen at non-manifold places");
+  print(count.misoriented, "frozen where faces disagree in orientation");
+  std::cout << "\nfixed: " << counted(mesh.fixed_faces, "face") << " ("
+            << percent(double(mesh.fixed_faces) / double(mesh.faces))
+            << ") cannot change; a ratio is of the other " << with_commas(mesh.faces - mesh.fixed_faces)
+            << '\n';
+}
+
+void print(const Request& request, const Contents& contents, const std::vector<std::string>& notes,
+           const Inspection& mesh)
+{
+  std::cout << request.mesh << ": " << name(contents.format) << ", " << with_commas(contents.vertices)
+            << (contents.vertices == 1 ? " vertex, " : " vertices, ") << counted(contents.faces, "face")
+            << ", size (diagonal of the bounding box) " << with_digits(mesh.diagonal) << '\n';
+  for (const std::string& note : notes)
+    std::cout << "  " << note << '\n';
+  if (mesh.left_out_faces > 0)
+    std::cout << "  " << counted(mesh.left_out_faces, "face")
+              << " with two corners at one position, which count for nothing below\n";
+  if (mesh.unused_vertices > 0)
+    std::cout << "  " << with_commas(mesh.unused_vertices) << " of the vertices belong to no face\n";
+  print_content(contents);
+  print_surfaces(mesh);
+  print_seams(mesh);
+  print_freedom(mesh);
+  std::cout << std::flush;
+}
+
+Json to_json(const Contents& contents)
+{
+  return {{"format", name(contents.format)},
+          {"groups", contents.groups},
+          {"objects", contents.objects},
+          {"materials", contents.materials},
+          {"images", contents.images},
+          {"material_libraries", contents.material_libraries},
+          {"texture_coordinates", contents.texture_coordinates},
+          {"normals", name(contents.normals)},
+          {"attributes", contents.attributes}};
+}
+
+void add_inspection(Json& report, const Inspection& mesh)
+{
+  report["faces"] = {{"count", mesh.faces},
+                     {"left_out", mesh.left_out_faces},
+                     {"frozen", mesh.frozen_faces},
+                     {"fixed", mesh.fixed_faces}};
+  report["vertices"] = {{"unused", mesh.unused_vertices}, {"coincident", mesh.coincident_vertices}};
+  report["diagonal"] = mesh.diagonal;
+  report["pieces"] = {{"count", mesh.pieces.size()}};
+  Json pieces = Json::array();
+  for (std::size_t i = 0; i < (std::min)(most_listed, mesh.misoriented_pieces.size()); ++i)
+    pieces.push_back(mesh.misoriented_pieces[i] + 1);
+  report["orientation"] = {{"misoriented_edges", mesh.misoriented_edges},
+                           {"misoriented_pieces", mesh.misoriented_pieces.size()},
+                           {"first_pieces", std::move(pieces)}};
+
+  std::vector<Index> largest(mesh.surfaces.size());
+  std::iota(largest.begin(), largest.end(), Index(0));
+  std::stable_sort(largest.begin(), largest.end(), [&](Index a, Index b) {
+    return mesh.surfaces[a].shape.faces > mesh.surfaces[b].shape.faces;
+  });
+  largest.resize((std::min)(most_listed, largest.size()));
+  std::sort(largest.begin(), largest.end());
+  Json surfaces = Json::array();
+  for (const Index number : largest) {
+    const Connected_surface& surface = mesh.surfaces[number];
+    const auto genus = surface.genus();
+    surfaces.push_back({{"number", number + 1},
+                        {"first_triangle", surface.shape.first_triangle + 1},
+                        {"faces", surface.shape.faces},
+                        {"closed", surface.is_closed()},
+                        {"boundary_loops", surface.shape.boundary_loops},
+                        {"border_edges", surface.shape.border_edges},
+                        {"non_manifold_edges", surface.shape.non_manifold_edges},
+                        {"misoriented_edges", surface.misoriented_edges},
+                        {"euler_characteristic", surface.shape.euler_characteristic},
+                        {"genus", genus ? Json(*genus) : Json(nullptr)},
+                        {"nearest", surface.nearest ? Json(*surface.nearest + 1) : Json(nullptr)},
+                        {"distance", surface.nearest ? Json(surface.distance) : Json(nullptr)}});
+  }
+  const auto closed = std::count_if(mesh.surfaces.begin(), mesh.surfaces.end(),
+                                    [](const Connected_surface& surface) { return surface.is_closed(); });
+  report["surfaces"] = {
+      {"count", mesh.surfaces.size()}, {"closed", closed}, {"largest", std::move(surfaces)}};
+  std::size_t offences[3] = {};
+  for (const Offending_pair& pair : mesh.pairs)
+    ++offences[int(pair.offence)];
+  report["pairs"] = {{"count", mesh.pairs.size()},
+                     {"intersection", offences[int(Offence::intersection)]},
+                     {"duplicate", offences[int(Offence::duplicate)]},
+                     {"degenerate", offences[int(Offence::degenerate)]}};
+  report["seams"] = {{"normals", name_of(mesh.normals)},      {"edges", mesh.seams.edges},
+                     {"by_vertices", mesh.seams.by_vertices}, {"by_texture", mesh.seams.by_texture},
+                     {"by_normals", mesh.seams.by_normals},   {"by_labels", mesh.seams.by_labels}};
+  const std::vector<double>& gaps = mesh.partner_distances;
+  const auto within = [&](double share) {
+    return gaps.empty() ? Json(nullptr) : Json(gaps[std::size_t(share * double(gaps.size() - 1))]);
+  };
+  report["borders"] = {
+      {"edges", mesh.border_edges}, {"vertices", mesh.border_vertices}, {"partner_limit", mesh.partner_limit},
+      {"partnered", gaps.size()},   {"half_within", within(0.5)},       {"most_within", within(0.9)},
+      {"all_within", within(1)}};
+  report["movable"] = {{"free", mesh.movable.free},
+                       {"on_lines", mesh.movable.on_lines},
+                       {"ends", mesh.movable.ends},
+                       {"frozen", mesh.movable.frozen},
+                       {"non_manifold", mesh.movable.non_manifold},
+                       {"misoriented", mesh.movable.misoriented}};
+}
+
+Exit_code run(const Request& request)
+{
+  if (!request.report.empty()) {
+    require_distinct({{"--report", request.report}}, {{"MESH", request.mesh}});
+    require_writable(request.report);
+  }
+  Mesh_file file = read_mesh(request.mesh);
+  Json report = new_report("info");
+  report["input"] = input_json(request.mesh, file);
+  const Contents contents = contents_of(file);
+  Inspection mesh;
+  try {
+    mesh = inspect(std::move(file.soup));
+  } catch (const Input_error& error) {
+    throw Input_error(request.mesh + ": " + error.what());
+  }
+  report["contents"] = to_json(contents);
+  add_inspection(report, mesh);
+  report["memory"] = {{"peak_bytes", peak_memory_bytes()}};
+  report["exit_code"] = int(exit_done);
+  if (request.is_json)
+    std::cout << to_text(report) << std::flush;
+  else
+    print(request, contents, describe(file.notes), mesh);
+  if (!request.report.empty())
+    write_file(request.report, to_text(report));
+  return exit_done;
+}
+
+} // namespace
+
+Action add_info(CLI::App& command)
+{
+  const auto request = std::make_shared<Request>();
+  command.add_option("MESH", request->mesh, "Mesh to describe: .obj, .off, .ply, .stl, .glb or .gltf.")
+      ->required()
+      ->type_name("");
+  CLI::Option* const report =
+      command
+          .add_option("--report", request->report, "Write a JSON report, and print the text all the same.")
+          ->type_name("FILE");
+  command.add_flag("--json", request->is_json, "Print the JSON report instead of the text.")
+      ->excludes(report);
+  Thread_limit::add_option(command, request->threads);
+  command.footer(
+      "Examples:\n"
+      "  selvedge info jacket.obj\n"
+      "  selvedge info jacket.glb --json | jq .movable\n\n"
+      "It says what is in the file, and what `simplify` with its default options would find: pieces, and "
+      "surfaces\n"
+      "when coincident borders are sewn; pairs of faces that intersect, exactly; how near two surfaces "
+      "come,\n"
+      "rounded; seams, borders, and within what length border vertices have a partner; which vertices "
+      "cannot\n"
+      "move, and why; and how many faces are fixed thereby. Nothing is reduced or written. Pieces and "
+      "surfaces are\n"
+      "counted from 1, in the order of their first faces. The exit code is 0, however bad the mesh is, and 3 "
+      "when it\n"
+      "cannot be read.");
+  return [request] {
+    const Thread_limit limit(request->threads);
+    return run(*request);
+  };
+}
+
+} // namespace selvedge::app

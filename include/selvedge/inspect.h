@@ -1,0 +1,144 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_INSPECT_H
+#define SELVEDGE_INSPECT_H
+
+#include <selvedge/mesh_files.h>
+#include <selvedge/normals.h>
+#include <selvedge/verify.h>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+// Says what a mesh is, and what a reduction would find in it, before anything is reduced.
+
+namespace selvedge {
+
+/// Which normals a file has.
+enum class Normals_of_file {
+  none,
+  per_face,   ///< those of flat shading, as `has_flat_normals` says
+  per_vertex, ///< one for all corners at a vertex number
+  per_corner  ///< several at some vertex
+};
+
+/// What a file names and holds, apart from its shape.
+struct Contents
+{
+  Mesh_format format = Mesh_format::obj;
+  std::size_t vertices = 0;
+  std::size_t faces = 0;
+  std::vector<std::string> groups, objects, materials; ///< the names that triangles have
+  std::vector<std::string> images;                     ///< of a glTF file, by name, address or number
+  std::vector<std::string> material_libraries;         ///< of an OBJ file
+  std::size_t texture_coordinates = 0;
+  Normals_of_file normals = Normals_of_file::none;
+  std::vector<std::string> attributes; ///< names of all others, of vertices and then of triangles
+};
+
+/// Returns what a file holds. **Complexity** O(n).
+Contents contents_of(const Mesh_file& file);
+
+/// Triangles that are connected by positions, as coincident borders are when a reduction sews them.
+struct Connected_surface
+{
+  /// Its counts, with one vertex for each position.
+  Piece shape;
+
+  /// Edges of exactly two faces that face opposite ways.
+  std::size_t misoriented_edges = 0;
+
+  /// The nearest other surface, by number, and the distance to it. None when there is no other.
+  std::optional<Index> nearest;
+  double distance = 0;
+
+  /// Returns whether every edge has two faces.
+  bool is_closed() const { return shape.border_edges == 0 && shape.non_manifold_edges == 0; }
+
+  /// Returns the number of handles, for a closed surface whose faces all face the same way and whose Euler
+  /// characteristic is that of such a surface.
+  std::optional<std::size_t> genus() const;
+};
+
+/// What is in a mesh. Triangles with two corners at one position count for `left_out_faces` alone, because a
+/// reduction leaves them out; triangle numbers are those of the mesh without them.
+struct Inspection
+{
+  std::size_t vertices = 0;
+  std::size_t unused_vertices = 0;     ///< of no triangle
+  std::size_t coincident_vertices = 0; ///< at the position of an earlier one
+  std::size_t faces = 0;
+  std::size_t left_out_faces = 0;
+  double diagonal = 0; ///< of the bounding box of the triangles, in the unit of the file
+
+  /// What a reduction does with the normals. Those that are made anew make no seams.
+  Normals_treatment normals = Normals_treatment::none;
+
+  /// Pieces, connected by vertex numbers, in the order of their first triangles.
+  std::vector<Piece> pieces;
+
+  /// Edges of exactly two faces that face opposite ways, by position, and the numbers of the pieces that have
+  /// such edges, ascending.
+  std::size_t misoriented_edges = 0;
+  std::vector<Index> misoriented_pieces;
+
+  /// Surfaces, connected by positions, in the order of their first triangles.
+  std::vector<Connected_surface> surfaces;
+
+  /// All offending pairs, exactly.
+  std::vector<Offending_pair> pairs;
+  std::size_t frozen_faces = 0; ///< faces of offending pairs: their vertices do not move
+  std::size_t fixed_faces = 0;  ///< faces whose corners all cannot move; a ratio is of the others
+
+  /// How many vertices of the sewn mesh may move how, at the beginning.
+  struct Vertices
+  {
+    std::size_t free = 0;         ///< along any edge
+    std::size_t on_lines = 0;     ///< along a border or seam
+    std::size_t ends = 0;         ///< not at all: ends and junctions of borders and seams
+    std::size_t frozen = 0;       ///< not at all: in frozen faces
+    std::size_t non_manifold = 0; ///< not at all: their faces cannot be joined to one fan
+    std::size_t misoriented = 0;  ///< not at all: at edges whose faces face opposite ways
+  };
+  Vertices movable;
+
+  /// Edges of the sewn mesh that are kept as lines, with surface on both sides; and across how many of them
+  /// each of these differs.
+  struct Seams
+  {
+    std::size_t edges = 0;
+    std::size_t by_vertices = 0; ///< vertex numbers: a seam between pieces, or one that the format needs
+    std::size_t by_texture = 0;
+    std::size_t by_normals = 0;
+    std::size_t by_labels = 0; ///< groups, objects or materials
+  };
+  Seams seams;
+
+  /// Vertices on borders, by position, and, of each that has a partner on another border or farther along its
+  /// own, the least distance within which it has, ascending: what `Prepare_options::weld_distance` would have
+  /// to be. They are looked for within `partner_limit`.
+  std::size_t border_edges = 0;
+  std::size_t border_vertices = 0;
+  double partner_limit = 0;
+  std::vector<double> partner_distances;
+};
+
+/// Inspects a mesh as `prepare` and `simplify_soup` would treat it with default options, and with
+/// `Normals_choice::automatic`.
+///
+/// Throws `Input_error` when the mesh has no triangle, or when all have two corners at one position.
+///
+/// **Exactness** Offending pairs, pieces, surfaces, and which vertices may move are exact. Distances are
+/// computed in double: that of two surfaces is 0 when a pair of their triangles offends. Otherwise it is
+/// positive, the least distance of corners, edges and faces of any two of their triangles, rounded. Distances between parts
+/// of one surface, such as its folds, are not computed.
+///
+/// **Complexity** O(n log n) as a rule; more where many triangles lie at nearly the least distance.
+Inspection inspect(Triangle_soup soup);
+
+} // namespace selvedge
+
+#endif // SELVEDGE_INSPECT_H

@@ -1,0 +1,255 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <selvedge/inspect.h>
+
+#include "soup/Gltf_scene.h"
+#include "soup/Working_mesh.h"
+#include "surface_distances.h"
+#include "verify/pieces.h"
+#include "weld/snapping.h"
+
+#include <selvedge/prepare.h>
+
+#include <CGAL/Bbox_3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+namespace selvedge {
+namespace {
+
+// Seams that gape farther apart than this share of the diagonal are not looked for.
+constexpr double s_partner_limit = 0.01;
+
+std::vector<std::string> names_in_use(const Triangle_labels& labels)
+{
+  std::vector<char> is_used(labels.names.size(), false);
+  for (const Index label : labels.of_triangle)
+    is_used[label] = true;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < is_used.size(); ++i)
+    if (is_used[i] && !labels.names[i].empty())
+      names.push_back(labels.names[i]);
+  return names;
+}
+
+Normals_of_file normals_of(const Triangle_soup& soup)
+{
+  if (soup.normals.empty())
+    return Normals_of_file::none;
+  if (has_flat_normals(soup))
+    return Normals_of_file::per_face;
+  constexpr Index none = std::numeric_limits<Index>::max();
+  std::vector<Index> normal_of(soup.points.size(), none);
+  for (Index t = 0; t < soup.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      Index& known = normal_of[soup.triangles[t][k]];
+      const Index normal = soup.normals.of_triangle[t][k];
+      if (known != none && soup.normals.values[known] != soup.normals.values[normal])
+        return Normals_of_file::per_corner;
+      known = normal;
+    }
+  return Normals_of_file::per_vertex;
+}
+
+// An image has a name, or else a file beside the mesh, or else it is in the file.
+std::vector<std::string> images_of(const Triangle_soup& soup)
+{
+  std::vector<std::string> names;
+  if (!soup.scene || !soup.scene->document.contains("images"))
+    return names;
+  for (const auto& image : soup.scene->document["images"]) {
+    const auto text = [&](const char* key) {
+      return image.is_object() && image.contains(key) && image[key].is_string()
+                 ? image[key].get<std::string>()
+                 : std::string();
+    };
+    const std::string uri = text("uri");
+    const bool is_inside = uri.rfind("data:", 0) == 0;
+    names.push_back(!text("name").empty()        ? text("name")
+                    : !uri.empty() && !is_inside ? uri
+                                                 : "image " + std::to_string(names.size()));
+  }
+  return names;
+}
+
+/// One call of `inspect`.
+class Inspector
+{
+public:
+  explicit Inspector(const Prepared_soup& prepared)
+      : m_prepared(prepared), m_soup(prepared.soup),
+        m_working(prepared.soup, prepared.positions, prepared.is_frozen, {}, prepared.scale),
+        m_rule(m_working.mesh())
+  {
+    for (const auto e : m_working.constraints().line_edges)
+      m_rule.mark(e);
+    for (const auto v : m_working.constraints().locked_vertices)
+      m_rule.lock(v);
+  }
+
+  Inspection run()
+  {
+    const Sewing_notes& notes = m_working.notes();
+    m_result.vertices = m_soup.points.size();
+    m_result.unused_vertices = notes.unused_vertices;
+    m_result.coincident_vertices = notes.coincident_vertices;
+    m_result.faces = m_soup.triangles.size();
+    m_result.left_out_faces = m_prepared.left_out_faces;
+    m_result.normals = m_prepared.normals;
+    m_result.pairs = m_prepared.offending_pairs;
+    m_result.frozen_faces = m_prepared.frozen_faces;
+    measure();
+    find_pieces_and_surfaces();
+    count_vertices();
+    count_seams();
+    find_partners();
+    return std::move(m_result);
+  }
+
+private:
+  void measure()
+  {
+    CGAL::Bbox_3 box;
+    for (const Index_triple& triangle : m_soup.triangles)
+      for (const Index v : triangle)
+        box += m_prepared.scale(m_soup.points[v]).bbox();
+    m_result.diagonal = m_prepared.scale.undone(std::hypot(box.x_span(), box.y_span(), box.z_span()));
+  }
+
+  void find_pieces_and_surfaces()
+  {
+    const auto by_vertices = internal::numbered_pieces(m_soup.triangles, m_soup.points.size());
+    m_result.pieces = by_vertices.pieces;
+    std::vector<Index_triple> triangles = m_soup.triangles; // of positions
+    for (Index_triple& triangle : triangles)
+      for (Index& v : triangle)
+        v = m_prepared.positions[v];
+    const auto by_positions = internal::numbered_pieces(triangles, m_soup.points.size());
+    for (const Piece& shape : by_positions.pieces) {
+      m_result.surfaces.push_back({shape, 0, {}, 0});
+      m_result.border_edges += shape.border_edges;
+    }
+
+    std::set<Index> misoriented;
+    for (const Index side : m_working.misoriented_sides()) { // both sides of each edge are listed
+      misoriented.insert(by_vertices.of_triangle[side / 3]);
+      ++m_result.surfaces[by_positions.of_triangle[side / 3]].misoriented_edges;
+    }
+    for (Connected_surface& surface : m_result.surfaces)
+      surface.misoriented_edges /= 2;
+    m_result.misoriented_edges = m_working.notes().misoriented_edges;
+    m_result.misoriented_pieces.assign(misoriented.begin(), misoriented.end());
+
+    std::vector<Point_3> points;
+    for (const Point_3& point : m_soup.points)
+      points.push_back(m_prepared.scale(point));
+    const auto distances = internal::surface_distances(points, triangles, by_positions.of_triangle,
+                                                       m_result.surfaces.size(), m_result.pairs);
+    for (std::size_t s = 0; s < distances.size() && distances.size() > 1; ++s) {
+      m_result.surfaces[s].nearest = distances[s].nearest;
+      m_result.surfaces[s].distance = m_prepared.scale.undone(distances[s].distance);
+    }
+  }
+
+  void count_vertices()
+  {
+    const Working_mesh::Mesh& mesh = m_working.mesh();
+    Inspection::Vertices& count = m_result.movable;
+    for (const auto v : mesh.vertices()) {
+      if (m_rule.is_free(v))
+        ++count.free;
+      else if (!m_rule.is_locked(v))
+        ++(is_end(v) ? count.ends : count.on_lines);
+      else if (const Hindrance reason = m_working.lock_reason(v); reason == Hindrance::frozen)
+        ++count.frozen;
+      else
+        ++(reason == Hindrance::misoriented ? count.misoriented : count.non_manifold);
+    }
+    for (const auto face : mesh.faces()) {
+      const auto corners = mesh.vertices_around_face(mesh.halfedge(face));
+      m_result.fixed_faces +=
+          std::all_of(corners.begin(), corners.end(), [this](auto v) { return m_rule.is_locked(v); });
+    }
+  }
+
+  // Whether a vertex on a line cannot move along it, apart from limits of turn and drift.
+  bool is_end(Working_mesh::Mesh::Vertex_index v) const
+  {
+    const Working_mesh::Mesh& mesh = m_working.mesh();
+    const auto around = mesh.halfedges_around_target(mesh.halfedge(v));
+    return std::none_of(around.begin(), around.end(),
+                        [&](auto h) { return m_rule.may_move_along(mesh.opposite(h), m_rule); });
+  }
+
+  void count_seams()
+  {
+    Inspection::Seams& seams = m_result.seams;
+    for (const auto e : m_working.constraints().line_edges) {
+      const Working_mesh::Differences differences = m_working.differences(e);
+      ++seams.edges;
+      seams.by_vertices += differences.in_vertex;
+      seams.by_texture += differences.in_uv;
+      seams.by_normals += differences.in_normal;
+      seams.by_labels += differences.in_label;
+    }
+  }
+
+  void find_partners()
+  {
+    m_result.partner_limit = s_partner_limit * m_result.diagonal;
+    Border_gaps gaps = border_gaps(m_soup, m_prepared.positions, m_result.partner_limit, m_prepared.scale);
+    m_result.border_vertices = gaps.border_vertices;
+    m_result.partner_distances = std::move(gaps.lengths);
+  }
+
+  const Prepared_soup& m_prepared;
+  const Triangle_soup& m_soup;
+  Working_mesh m_working;
+  Border_rule<Working_mesh::Mesh> m_rule;
+  Inspection m_result;
+};
+
+} // namespace
+
+std::optional<std::size_t> Connected_surface::genus() const
+{
+  if (!is_closed() || misoriented_edges > 0 || shape.euler_characteristic > 2 ||
+      shape.euler_characteristic % 2 != 0)
+    return std::nullopt;
+  return std::size_t((2 - shape.euler_characteristic) / 2);
+}
+
+Contents contents_of(const Mesh_file& file)
+{
+  const Triangle_soup& soup = file.soup;
+  Contents contents;
+  contents.format = file.format;
+  contents.vertices = soup.points.size();
+  contents.faces = soup.triangles.size();
+  contents.groups = names_in_use(soup.groups);
+  contents.objects = names_in_use(soup.objects);
+  contents.materials = names_in_use(soup.materials);
+  contents.images = images_of(soup);
+  contents.material_libraries = soup.material_libraries;
+  contents.texture_coordinates = soup.uvs.empty() ? 0 : soup.uvs.values.size();
+  contents.normals = normals_of(soup);
+  for (const auto* attributes : {&soup.vertex_attributes, &soup.triangle_attributes})
+    for (const Attribute& attribute : *attributes)
+      contents.attributes.push_back(attribute.name);
+  return contents;
+}
+
+Inspection inspect(Triangle_soup soup)
+{
+  Prepare_options options;
+  options.normals = Normals_choice::automatic;
+  const Prepared_soup prepared = prepare(std::move(soup), options);
+  return Inspector(prepared).run();
+}
+
+} // namespace selvedge

@@ -1,0 +1,85 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// `selvedge info`: what it prints of files of every format, and of files that are hardly meshes.
+
+#include "App_run.h"
+
+#include <nlohmann/json.hpp>
+
+namespace selvedge::test {
+namespace {
+
+using Json = nlohmann::json;
+
+TEST(App_info, ReadsEveryFormat)
+{
+  const Workspace folder;
+  for (const auto& [ending, format] :
+       {std::pair("obj", "OBJ"), std::pair("off", "OFF"), std::pair("ply", "PLY"), std::pair("stl", "STL"),
+        std::pair("glb", "GLB"), std::pair("gltf", "glTF")}) {
+    const std::string mesh = folder.generate("nested", std::string("mesh.") + ending, 2000, 3);
+    const std::size_t files = folder.files();
+    const App_result text = run_app({"info", mesh});
+    EXPECT_EQ(text.code, 0) << text.err;
+    EXPECT_EQ(text.err, "");
+    for (const std::string& line :
+         {mesh + ": " + format + ", ", std::string("\nsurfaces: 3, "), std::string("3 closed, of genus 0\n"),
+          std::string("\nintersections: none (decided exactly)\n"),
+          std::string("\nlayers: the least distance "), std::string("\nfixed: 0 faces (0 %)")})
+      EXPECT_NE(text.out.find(line), std::string::npos) << line << text.out;
+    const Json report = Json::parse(run_app({"info", mesh, "--json"}).out);
+    EXPECT_EQ(report["contents"]["format"], format);
+    EXPECT_EQ(report["surfaces"]["closed"], 3);
+    EXPECT_EQ(folder.files(), files);
+  }
+}
+
+TEST(App_info, SaysWhatWouldBeFrozenAndWhy)
+{
+  const Workspace folder;
+  const std::string mesh = folder / "mesh.obj";
+  write_text(mesh, "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 -1\nv 1 1 1\nv 9 9 0\nf 1 2 3\nf 4 5 6\n");
+  const App_result text = run_app({"info", mesh});
+  EXPECT_EQ(text.code, 0) << text.err;
+  for (const char* line : {"\nintersections: 1 offending pair (decided exactly): 1 intersect, ",
+                           ", 6 frozen with faces that offend\n", "\nfixed: 2 faces (100 %) "})
+    EXPECT_NE(text.out.find(line), std::string::npos) << line << text.out;
+  const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\n";
+  write_text(mesh, square + "f 1 4 3\n");
+  EXPECT_NE(run_app({"info", mesh}).out.find("\norientation: faces disagree along 1 edge of 1 piece (1)\n"),
+            std::string::npos);
+  write_text(mesh, square + "f 1 3 4\n");
+  EXPECT_EQ(run_app({"info", mesh}).out.find("orientation"), std::string::npos);
+}
+
+TEST(App_info, WritesTheReportThatItPrints)
+{
+  const Workspace folder;
+  const std::string mesh = folder.generate("skirt", "mesh.obj", 2000), report = folder / "report.json";
+  const App_result text = run_app({"info", mesh, "--report", report});
+  EXPECT_EQ(text.code, 0) << text.err;
+  EXPECT_NE(text.out.find("pieces: "), std::string::npos);
+  Json written = Json::parse(contents_of(report)),
+       printed = Json::parse(run_app({"info", mesh, "--json"}).out);
+  written.erase("memory");
+  printed.erase("memory");
+  EXPECT_EQ(written, printed);
+}
+
+TEST(App_info, RefusesWhatIsNoMesh)
+{
+  const Workspace folder;
+  const std::string mesh = folder / "mesh.obj";
+  expect_refused({"info", mesh}, 3, mesh);
+  write_text(mesh, "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+  expect_refused({"info", mesh}, 3, mesh);
+  write_text(mesh, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 1 2\n");
+  expect_refused({"info", mesh}, 3, mesh);
+  expect_refused({"info"}, 2, "MESH");
+  write_text(mesh, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  expect_refused({"info", mesh, "--report", mesh}, 2, "--report");
+}
+
+} // namespace
+} // namespace selvedge::test

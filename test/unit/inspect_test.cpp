@@ -1,0 +1,226 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// What `inspect` says of meshes of which all of it is known.
+
+#include "inspect/surface_distances.h"
+#include "support/meshes.h"
+#include "support/reduction.h"
+#include "support/soups.h"
+
+#include <selvedge/Error.h>
+#include <selvedge/inspect.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <utility>
+
+namespace selvedge::test {
+namespace {
+
+Triangle_soup shifted(const Triangle_soup& soup, double x, double y, double z)
+{
+  return mapped(soup, [=](const Point_3& p) { return Point_3(p.x() + x, p.y() + y, p.z() + z); });
+}
+
+/// A ring of square cross-section around the z axis.
+Triangle_soup torus()
+{
+  Triangle_soup result;
+  constexpr Index around = 8, across = 4;
+  for (Index i = 0; i < around; ++i)
+    for (Index j = 0; j < across; ++j) {
+      const double a = 6.283185307179586 * i / around, b = 6.283185307179586 * j / across;
+      const double r = 3 + std::cos(b);
+      result.points.emplace_back(r * std::cos(a), r * std::sin(a), std::sin(b));
+    }
+  for (Index i = 0; i < around; ++i)
+    for (Index j = 0; j < across; ++j) {
+      const auto at = [&](Index k, Index l) { return (i + k) % around * across + (j + l) % across; };
+      result.triangles.push_back({at(0, 0), at(1, 0), at(1, 1)});
+      result.triangles.push_back({at(0, 0), at(1, 1), at(0, 1)});
+    }
+  return result;
+}
+
+double least_distance(const Triangle_soup& soup)
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (const Connected_surface& surface : inspect(soup).surfaces)
+    least = std::min(least, surface.distance);
+  return least;
+}
+
+TEST(Inspect, TellsSurfacesByTheirTopology)
+{
+  const Inspection result =
+      inspect(joined(joined(torus(), shifted(tetrahedron(), 20, 0, 0)), sheet(2, 2, 9)));
+  ASSERT_EQ(result.surfaces.size(), 3u);
+  EXPECT_EQ(result.surfaces[0].genus(), 1u);
+  EXPECT_EQ(result.surfaces[1].genus(), 0u);
+  EXPECT_EQ(result.surfaces[2].genus(), std::nullopt);
+  EXPECT_TRUE(result.surfaces[0].is_closed());
+  EXPECT_FALSE(result.surfaces[2].is_closed());
+  EXPECT_EQ(result.surfaces[2].shape.boundary_loops, 1u);
+  EXPECT_EQ(result.border_edges, 8u);
+  EXPECT_EQ(result.misoriented_edges, 0u);
+}
+
+TEST(Inspect, SewsPiecesToSurfaces)
+{
+  const Inspection result = inspect(joined(sheet(3, 3), shifted(sheet(3, 3), 3, 0, 0)));
+  EXPECT_EQ(result.pieces.size(), 2u);
+  ASSERT_EQ(result.surfaces.size(), 1u);
+  EXPECT_EQ(result.surfaces[0].nearest, std::nullopt);
+  EXPECT_EQ(result.seams.edges, 3u);
+  EXPECT_EQ(result.seams.by_vertices, 3u);
+  EXPECT_EQ(result.seams.by_texture + result.seams.by_normals + result.seams.by_labels, 0u);
+  // On the seam, two vertices move along it; where it meets the border, both ends stay.
+  EXPECT_EQ(result.movable.ends, 2u);
+  EXPECT_EQ(result.movable.on_lines, 2u + 16u);
+  EXPECT_EQ(result.movable.free, 8u);
+}
+
+TEST(Inspect, MeasuresCornersEdgesAndFaces)
+{
+  const Triangle_soup face = soup({{-5, -5, 0}, {5, -5, 0}, {0, 5, 0}}, {{0, 1, 2}});
+  const Triangle_soup tip = soup({{0, 0, 2}, {1, 0, 8}, {0, 1, 8}}, {{0, 1, 2}});
+  EXPECT_DOUBLE_EQ(least_distance(joined(face, tip)), 2); // a corner above a face
+  EXPECT_DOUBLE_EQ(least_distance(joined(tip, face)), 2);
+  const Triangle_soup along_x = soup({{-5, 0, 0}, {5, 0, 0}, {0, 0, -5}}, {{0, 1, 2}});
+  const Triangle_soup along_y = soup({{0, -5, 0.25}, {0, 5, 0.25}, {0, 0, 6}}, {{0, 1, 2}});
+  EXPECT_DOUBLE_EQ(least_distance(joined(along_x, along_y)), 0.25); // two edges
+  EXPECT_EQ(least_distance(crossing()), 0);
+  EXPECT_EQ(least_distance(vertex_touching_face()), 0);
+  EXPECT_GT(least_distance(joined(sheet(3, 3), sheet(3, 3, 1e-300))), 0); // 0 is for those that meet alone
+  for (const double gap : {1e-100, 1e-9, 1e9})
+    EXPECT_DOUBLE_EQ(least_distance(joined(sheet(3, 3), sheet(3, 3, gap))), gap);
+}
+
+TEST(Inspect, FindsTheNearestOfManySurfaces)
+{
+  // Sheets of different sizes at random places, compared with all pairs of their triangles.
+  std::mt19937 random(7);
+  const auto number = [&] { return double(random()) / 4294967296.0; };
+  for (int round = 0; round < 20; ++round) {
+    std::vector<Triangle_soup> sheets;
+    Triangle_soup all;
+    for (int i = 0; i < 8; ++i) {
+      sheets.push_back(
+          shifted(sheet(1 + random() % 3, 1 + random() % 3), 9 * number(), 9 * number(), 9 * number()));
+      all = joined(all, sheets.back());
+    }
+    const Inspection result = inspect(all);
+    ASSERT_EQ(result.surfaces.size(), sheets.size());
+    for (std::size_t i = 0; i < sheets.size(); ++i) {
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t j = 0; j < sheets.size(); ++j)
+        if (j != i) // flat boxes, parallel to the axes
+          least = std::min(least, [&] {
+            double squares = 0;
+            for (int axis = 0; axis < 3; ++axis) {
+              const auto extent = [&](const Triangle_soup& soup) {
+                const auto [low, high] =
+                    std::minmax_element(soup.points.begin(), soup.points.end(),
+                                        [&](const auto& a, const auto& b) { return a[axis] < b[axis]; });
+                return std::make_pair((*low)[axis], (*high)[axis]);
+              };
+              const auto a = extent(sheets[i]), b = extent(sheets[j]);
+              const double gap = std::max({a.first - b.second, b.first - a.second, 0.0});
+              squares += gap * gap;
+            }
+            return std::sqrt(squares);
+          }());
+      EXPECT_NEAR(result.surfaces[i].distance, least, 1e-12);
+    }
+  }
+}
+
+TEST(Inspect, SaysWhatIsFrozenAndWhy)
+{
+  const Inspection crossed = inspect(crossing());
+  EXPECT_EQ(crossed.pairs.size(), 1u);
+  EXPECT_EQ(crossed.frozen_faces, 2u);
+  EXPECT_EQ(crossed.fixed_faces, 2u);
+  EXPECT_EQ(crossed.movable.frozen, 6u);
+
+  Triangle_soup turned = sheet(2, 2);
+  std::swap(turned.triangles[0][0], turned.triangles[0][1]);
+  const Inspection disagreeing = inspect(joined(turned, sheet(2, 2, 5)));
+  EXPECT_EQ(disagreeing.misoriented_edges, 2u);
+  EXPECT_EQ(disagreeing.misoriented_pieces, std::vector<Index>{0});
+  EXPECT_EQ(disagreeing.surfaces[0].misoriented_edges, 2u);
+  EXPECT_EQ(disagreeing.surfaces[1].misoriented_edges, 0u);
+  EXPECT_GT(disagreeing.movable.misoriented, 0u);
+  EXPECT_EQ(disagreeing.movable.frozen + disagreeing.movable.non_manifold, 0u);
+
+  const Inspection fan = inspect(book());
+  EXPECT_GT(fan.movable.non_manifold, 0u);
+  EXPECT_EQ(fan.movable.misoriented, 0u);
+}
+
+TEST(Inspect, AgreesWithAReduction)
+{
+  for (const Triangle_soup& mesh : {skirt(2000), finned_sheet(10, 3), sewn_pieces(1000), moebius_band()}) {
+    const Inspection result = inspect(mesh);
+    const Reduction reduction = reduce(mesh, to_ratio(0.5));
+    EXPECT_EQ(result.fixed_faces, reduction.simplified.report.faces_fixed);
+    EXPECT_EQ(result.frozen_faces, reduction.prepared.frozen_faces);
+    EXPECT_EQ(result.seams.edges, reduction.simplified.sewing.seam_edges);
+    EXPECT_EQ(result.misoriented_edges, reduction.simplified.sewing.misoriented_edges);
+    EXPECT_EQ(result.misoriented_pieces.size(), reduction.simplified.sewing.misoriented_pieces);
+  }
+}
+
+TEST(Inspect, SaysHowFarPartnersAreApart)
+{
+  const Inspection result = inspect(joined(sheet(30, 3), shifted(sheet(30, 3), 30.125, 0, 0)));
+  EXPECT_EQ(result.border_vertices, 132u);
+  EXPECT_NEAR(result.partner_limit, 0.01 * result.diagonal, 1e-12);
+  EXPECT_EQ(result.partner_distances, std::vector<double>(8, 0.125));
+}
+
+TEST(Inspect, LeavesOutWhatHasTwoCornersAtOnePosition)
+{
+  Triangle_soup mesh = sheet(2, 2);
+  mesh.triangles.push_back({0, 0, 1});
+  mesh.points.emplace_back(7, 7, 7);
+  const Inspection result = inspect(mesh);
+  EXPECT_EQ(result.faces, 8u);
+  EXPECT_EQ(result.left_out_faces, 1u);
+  EXPECT_EQ(result.unused_vertices, 1u);
+  EXPECT_DOUBLE_EQ(result.diagonal, std::sqrt(8));
+  EXPECT_THROW(inspect(soup({{0, 0, 0}, {1, 0, 0}}, {{0, 0, 1}})), Input_error);
+}
+
+TEST(Contents, NamesWhatAFileHolds)
+{
+  Mesh_file file;
+  file.soup = sheet(2, 1);
+  file.soup.groups = {{0, 0, 2, 2}, {"front", "gone", "back"}};
+  file.soup.materials = {{0, 0, 0, 0}, {""}};
+  file.soup.vertex_attributes.emplace_back().name = "red";
+  const Contents plain = contents_of(file);
+  EXPECT_EQ(plain.groups, (std::vector<std::string>{"front", "back"}));
+  EXPECT_TRUE(plain.materials.empty());
+  EXPECT_EQ(plain.attributes, std::vector<std::string>{"red"});
+  EXPECT_EQ(plain.normals, Normals_of_file::none);
+
+  auto& normals = file.soup.normals;
+  normals.values = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
+  normals.of_triangle.assign(4, {0, 0, 0});
+  EXPECT_EQ(contents_of(file).normals, Normals_of_file::per_face);
+  for (Index t = 0; t < 4; ++t)
+    for (Index k = 0; k < 3; ++k)
+      normals.of_triangle[t][k] = file.soup.triangles[t][k] % 3;
+  EXPECT_EQ(contents_of(file).normals, Normals_of_file::per_vertex);
+  normals.of_triangle[3] = {0, 1, 0};
+  EXPECT_EQ(contents_of(file).normals, Normals_of_file::per_corner);
+}
+
+} // namespace
+} // namespace selvedge::test
