@@ -9,7 +9,7 @@
 #include <selvedge/Triangle_soup.h>
 #include <selvedge/replay.h>
 
-#include <CGAL/Gmpq.h>
+#include <CGAL/Gmpz.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@
 
 namespace selvedge::test {
 
-using Number = CGAL::Gmpq;
+using Number = CGAL::Gmpz;
 using Exact_point = oracle::Point<Number>;
 using Exact_triangle = std::array<Exact_point, 3>;
 using Verdict = std::pair<std::size_t, Violation_kind>; // which step, from 1; 0 and `result` for the end
@@ -37,14 +37,15 @@ struct Step
   Step(Index moved, Index kept, bool is_a_snap = false) : first(moved), second(kept), is_snap(is_a_snap) {}
 };
 
-/// A mesh as a plain list of triangles over positions, which knows nothing but how to look through it.
+/// A mesh as a plain list of triangles over positions, which knows nothing but how to look through it. Its
+/// coordinates are integers: all are multiplied by one power of two.
 class Slow_judge
 {
 public:
   explicit Slow_judge(const Triangle_soup& soup, double weld_distance = 0)
-      : m_points(soup.points), m_square_of_weld_distance(Number(weld_distance) * Number(weld_distance)),
-        m_weld_distance(weld_distance)
+      : m_points(soup.points), m_weld_distance(weld_distance)
   {
+    find_unit();
     std::map<std::array<double, 3>, Index> first;
     for (Index v = 0; v < m_points.size(); ++v)
       m_position.push_back(
@@ -165,7 +166,7 @@ private:
     if (m == t || star.empty() || !is_kept_there || contracted.empty() != step.is_snap)
       return Violation_kind::no_edge;
     if (step.is_snap) {
-      if (square_of_distance(m, t) > m_square_of_weld_distance)
+      if (is_beyond_weld_distance(m, t))
         return Violation_kind::weld_distance;
       if (!are_partners(m, t))
         return Violation_kind::partner;
@@ -267,8 +268,7 @@ private:
     const auto is_sewable = [&](Index a, Index b) {
       for (const Step& from_a : sides)
         for (const Step& to_b : sides)
-          if (from_a.first == a && to_b.second == b &&
-              square_of_distance(from_a.second, to_b.first) <= m_square_of_weld_distance)
+          if (from_a.first == a && to_b.second == b && !is_beyond_weld_distance(from_a.second, to_b.first))
             return true;
       return false;
     };
@@ -292,7 +292,7 @@ private:
       }
       if (next.size() != 1 || (at != a && arriving != 1) || next.front() == a)
         return false;
-      length += std::sqrt(CGAL::to_double(square_of_distance(at, next.front())));
+      length += std::sqrt(CGAL::squared_distance(m_points[at], m_points[next.front()]));
       at = next.front();
     }
     return false;
@@ -337,10 +337,10 @@ private:
     });
   }
 
-  Number square_of_distance(Index v, Index w) const
+  bool is_beyond_weld_distance(Index v, Index w) const
   {
     const Exact_point u = oracle::difference(exact(v), exact(w));
-    return oracle::dot(u, u);
+    return oracle::dot(u, u) > exact(m_weld_distance) * exact(m_weld_distance);
   }
 
   std::set<Index> neighbours(Index v) const
@@ -401,15 +401,28 @@ private:
     return box;
   }
 
+  void find_unit()
+  {
+    const auto consider = [&](double length) {
+      while (std::ldexp(length, m_scale) != std::trunc(std::ldexp(length, m_scale)))
+        ++m_scale;
+    };
+    consider(m_weld_distance);
+    for (const Point_3& point : m_points)
+      for (int axis = 0; axis < 3; ++axis)
+        consider(point[axis]);
+  }
+
+  Number exact(double length) const { return Number(std::ldexp(length, m_scale)); }
   Exact_point exact(Index v) const
   {
-    return {Number(m_points[v].x()), Number(m_points[v].y()), Number(m_points[v].z())};
+    return {exact(m_points[v].x()), exact(m_points[v].y()), exact(m_points[v].z())};
   }
   Exact_triangle exact(const Index_triple& f) const { return {exact(f[0]), exact(f[1]), exact(f[2])}; }
 
   std::vector<Point_3> m_points;
-  const Number m_square_of_weld_distance;
   const double m_weld_distance;
+  int m_scale = 0;               // the exponent of two that makes integers of all coordinates
   std::vector<Index> m_position; // by vertex, at the start
   std::vector<Index> m_now;      // and after the snaps so far
   std::vector<Index_triple> m_start, m_triangles;
