@@ -3,38 +3,35 @@
 
 #include <selvedge/Parts.h>
 
+#include "Disjoint_sets.h"
+
 #include <selvedge/Error.h>
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <set>
 #include <sstream>
 
 namespace selvedge {
-namespace {
 
-constexpr Index s_none = std::numeric_limits<Index>::max();
+using internal::Disjoint_sets;
+
+namespace {
 
 Part_kind pieces_of(const Triangle_soup& soup)
 {
-  std::vector<Index> parents(soup.points.size());
-  std::iota(parents.begin(), parents.end(), Index(0));
-  const auto root = [&](Index v) {
-    while (parents[v] != v)
-      v = parents[v] = parents[parents[v]];
-    return v;
-  };
+  Disjoint_sets sets(soup.points.size());
   for (const auto& [a, b, c] : soup.triangles) {
-    const Index i = root(a), j = root(b), k = root(c);
-    parents[i] = parents[j] = parents[k] = std::min({i, j, k});
+    sets.unite(a, b);
+    sets.unite(b, c);
   }
   Part_kind pieces{Part_kind::Name::piece, {}, {}, 0};
-  std::vector<Index> numbers(soup.points.size(), s_none); // by root
+  constexpr Index none = std::numeric_limits<Index>::max();
+  std::vector<Index> numbers(soup.points.size(), none); // by root
   pieces.of_triangle.reserve(soup.triangles.size());
   for (const Index_triple& triangle : soup.triangles) {
-    Index& number = numbers[root(triangle[0])];
-    if (number == s_none)
+    Index& number = numbers[sets.find(triangle[0])];
+    if (number == none)
       number = pieces.count++;
     pieces.of_triangle.push_back(number);
   }

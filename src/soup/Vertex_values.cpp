@@ -38,8 +38,8 @@ template <class Number>
 Number nearest_number(double value)
 {
   if constexpr (std::is_integral_v<Number>) {
-    using Limits = std::numeric_limits<Number>;
-    return Number(std::clamp(std::nearbyint(value), double(Limits::min()), double(Limits::max())));
+    using Range = std::numeric_limits<Number>;
+    return Number(std::clamp(std::nearbyint(value), double(Range::min()), double(Range::max())));
   } else {
     return Number(value);
   }

@@ -16,8 +16,8 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 case "${1:-}" in
-  --runs) limit=(-runs="$2" -seed=1) ;;
-  --minutes) limit=(-max_total_time="$((60 * $2))") ;;
+  --runs) limit=(-runs="$2" -seed=1) runs_for_a_time=no ;;
+  --minutes) limit=(-max_total_time="$((60 * $2))") runs_for_a_time=yes ;;
   *)
     echo "usage: test/fuzz/run.sh --runs NUMBER | --minutes NUMBER [KIND...]" >&2
     exit 2
@@ -33,15 +33,16 @@ if [[ -z "${TMPDIR:-}" && -w /dev/shm ]]; then
   export TMPDIR=/dev/shm
 fi
 mkdir -p build/fuzz/found
-status=0
-for kind in "${kinds[@]}"; do
-  if [[ $1 == --minutes ]]; then
+
+# Runs the program of one kind, and says in a line how it went.
+fuzz() {
+  local kind=$1 corpus log=build/fuzz/found/$1.log status=0
+  if [[ $runs_for_a_time == yes ]]; then
     corpus=build/fuzz/corpus/$kind
     mkdir -p "$corpus"
   else
     corpus=$(mktemp -d)
   fi
-  log=build/fuzz/found/$kind.log
   if build/fuzz/test/fuzz/fuzz_"$kind" "$corpus" test/fuzz/seeds/"$kind" "${limit[@]}" -dict=test/fuzz/words.dict \
     -max_len=4096 -timeout=20 -rss_limit_mb=1024 -malloc_limit_mb=256 -print_final_stats=1 \
     -artifact_prefix=build/fuzz/found/"$kind"- >"$log" 2>&1; then
@@ -51,8 +52,24 @@ for kind in "${kinds[@]}"; do
     echo "$kind: stopped, see $log" >&2
     tail -n 20 "$log" >&2
   fi
-  if [[ $1 == --runs ]]; then
+  if [[ $runs_for_a_time == no ]]; then
     rm -r "$corpus"
   fi
+  return $status
+}
+
+# One program for each processor at a time.
+status=0
+running=0
+for kind in "${kinds[@]}"; do
+  if ((running == $(nproc))); then
+    wait -n || status=1
+    running=$((running - 1))
+  fi
+  fuzz "$kind" &
+  running=$((running + 1))
+done
+for ((; running > 0; --running)); do
+  wait -n || status=1
 done
 exit $status

@@ -156,7 +156,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", default="", metavar="WORD", help="mutants whose file, change or reason holds this")
     parser.add_argument("--list", action="store_true", help="compile nothing")
-    parser.add_argument("--build", type=pathlib.Path, default=TREE / "build/release", metavar="FOLDER")
+    parser.add_argument("--build", type=pathlib.Path, default=TREE / "build/dev", metavar="FOLDER")
     parser.add_argument("--jobs", type=int, default=1, metavar="NUMBER", help="mutants at a time")
     arguments = parser.parse_args()
 
