@@ -13,7 +13,7 @@ namespace selvedge::internal {
 namespace {
 
 /// A rectangle within a piece's tile of the texture.
-struct Frame
+struct Texture_window
 {
   double left, right, bottom, top;
 };
@@ -31,7 +31,7 @@ struct Side
 /// texture.
 Side add_side(Soup_builder& builder, const Lattice& lattice, const Panel& panel,
               const std::vector<double>& offset, const std::vector<char>& diagonals, bool back,
-              const Frame& frame)
+              const Texture_window& window)
 {
   const auto parameter = [&](std::size_t i, std::size_t j) {
     return lattice.u[lattice.vertex(i, j)] + (lattice.closed && i >= lattice.columns ? 1 : 0);
@@ -50,8 +50,8 @@ Side add_side(Soup_builder& builder, const Lattice& lattice, const Panel& panel,
           builder.add_point(lattice.base[vertex] + offset[vertex] * lattice.direction[vertex]);
       const double u = (parameter(i, j) - u_first) / (u_last - u_first);
       const double v = (lattice.v[vertex] - v_first) / (v_last - v_first);
-      const Index uv = builder.add_uv(frame.left + (frame.right - frame.left) * (back ? 1 - u : u),
-                                      frame.bottom + (frame.top - frame.bottom) * v);
+      const Index uv = builder.add_uv(window.left + (window.right - window.left) * (back ? 1 - u : u),
+                                      window.bottom + (window.top - window.bottom) * v);
       if (i == panel.first_column && j == panel.first_row) {
         side.first = point;
         texture.first = uv;
@@ -79,7 +79,7 @@ Side add_side(Soup_builder& builder, const Lattice& lattice, const Panel& panel,
 /// Adds the triangles between the two sides of a panel at one border. `outer` and `inner` run along it with
 /// the cloth at their left.
 void add_hem(Soup_builder& builder, const std::vector<Index>& outer, const std::vector<Index>& inner,
-             const Frame& frame)
+             const Texture_window& window)
 {
   const std::size_t edges = outer.size() - 1;
   Index previous_outer = 0;
@@ -87,9 +87,9 @@ void add_hem(Soup_builder& builder, const std::vector<Index>& outer, const std::
   for (std::size_t k = 0; k <= edges; ++k) {
     // Seen from outside with its inner side up, the hem runs from right to left.
     const double u =
-        frame.right + (frame.left - frame.right) * (static_cast<double>(k) / static_cast<double>(edges));
-    const Index uv_outer = builder.add_uv(u, frame.bottom);
-    const Index uv_inner = builder.add_uv(u, frame.top);
+        window.right + (window.left - window.right) * (static_cast<double>(k) / static_cast<double>(edges));
+    const Index uv_outer = builder.add_uv(u, window.bottom);
+    const Index uv_inner = builder.add_uv(u, window.top);
     if (k > 0) {
       builder.add_triangle({outer[k], outer[k - 1], inner[k - 1]},
                            {uv_outer, previous_outer, previous_inner});

@@ -16,40 +16,38 @@ constexpr double s_degree = 3.14159265358979323846 / 180;
 // More than rounding adds to the distance from a point to a segment, as a share of the diagonal.
 constexpr double s_rounded_distance = 0x1p-46;
 
-using Vector = Coordinates;
-
-Vector difference(const Vector& u, const Vector& v)
+Coordinates difference(const Coordinates& u, const Coordinates& v)
 {
   return {u[0] - v[0], u[1] - v[1], u[2] - v[2]};
 }
-double dot(const Vector& u, const Vector& v)
+double dot(const Coordinates& u, const Coordinates& v)
 {
   return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
 }
-double length(const Vector& v)
+double length(const Coordinates& v)
 {
   return std::sqrt(dot(v, v));
 }
-Vector cross(const Vector& u, const Vector& v)
+Coordinates cross(const Coordinates& u, const Coordinates& v)
 {
   return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 
-bool is_angle_within(const Vector& u, const Vector& v, double degrees)
+bool is_angle_within(const Coordinates& u, const Coordinates& v, double degrees)
 {
   return degrees >= 180 ||
          dot(u, v) >= (std::cos(degrees * s_degree) - limit_tolerance) * length(u) * length(v);
 }
 
-double distance_to_segment(const Vector& p, const Vector& a, const Vector& b)
+double distance_to_segment(const Coordinates& p, const Coordinates& a, const Coordinates& b)
 {
-  const Vector along = difference(b, a), to_p = difference(p, a);
+  const Coordinates along = difference(b, a), to_p = difference(p, a);
   const double square = dot(along, along);
   const double share = square > 0 ? std::clamp(dot(to_p, along) / square, 0.0, 1.0) : 0;
   return length({to_p[0] - share * along[0], to_p[1] - share * along[1], to_p[2] - share * along[2]});
 }
 
-double aspect_ratio(const Vector& a, const Vector& b, const Vector& c)
+double aspect_ratio(const Coordinates& a, const Coordinates& b, const Coordinates& c)
 {
   const double longest =
       std::max({length(difference(a, b)), length(difference(b, c)), length(difference(c, a))});
@@ -168,12 +166,12 @@ std::optional<Violation_kind> Limits::judge_shapes(const Complex& complex, Index
       if (complex.has(f, other))
         continue;
       const auto [p, q] = complex.opposite_side(f, mover);
-      const Vector m = scaled(complex.point(mover)), a = scaled(complex.point(p)),
-                   b = scaled(complex.point(q)), goal = scaled(place);
+      const Coordinates m = scaled(complex.point(mover)), a = scaled(complex.point(p)),
+                        b = scaled(complex.point(q)), goal = scaled(place);
       least_before = std::min(least_before, aspect_ratio(m, a, b));
       least_after = std::min(least_after, aspect_ratio(goal, a, b));
-      const Vector before = cross(difference(a, m), difference(b, m));
-      const Vector after = cross(difference(a, goal), difference(b, goal));
+      const Coordinates before = cross(difference(a, m), difference(b, m));
+      const Coordinates after = cross(difference(a, goal), difference(b, goal));
       if (m_limits.normal_change && length(before) > 0)
         is_turned =
             is_turned || !(length(after) > 0) || !is_angle_within(before, after, *m_limits.normal_change);

@@ -10,18 +10,17 @@
 namespace selvedge {
 namespace {
 
-constexpr Index s_none = std::numeric_limits<Index>::max();
-
 // Renumbers the items to which triangles refer, such that only used ones remain, in their order. Returns the
 // old numbers of those that remain.
 std::vector<Index> keep_used(std::vector<Index_triple>& triangles, std::size_t size)
 {
-  std::vector<Index> numbers(size, s_none), kept;
+  constexpr Index none = std::numeric_limits<Index>::max();
+  std::vector<Index> numbers(size, none), kept;
   for (const Index_triple& triangle : triangles)
     for (const Index i : triangle)
       numbers[i] = 0;
   for (Index i = 0; i < size; ++i)
-    if (numbers[i] != s_none) {
+    if (numbers[i] != none) {
       numbers[i] = Index(kept.size());
       kept.push_back(i);
     }

@@ -5,12 +5,12 @@
 
 #include "Surface_tree.h"
 #include "positions.h"
+#include "sides.h"
 
 #include <selvedge/Cancellation_scope.h>
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 // Finds the borders and seams of a result and its original, measures how far apart they are, and finds seams
 // that have opened, for `compare`.
@@ -18,40 +18,14 @@
 namespace selvedge::internal {
 namespace {
 
-/// The side of a triangle, from the end with the lower position number to the other. Corner i of triangle t
-/// has the number 3t + i.
-struct Side
-{
-  Index low, high;
-  std::size_t corner_at_low, corner_at_high;
-};
-
-std::vector<Side> sorted_sides(const Triangle_soup& soup)
+std::vector<Side> sides_between_positions(const Triangle_soup& soup)
 {
   const std::vector<Index> positions = position_numbers(soup.points);
-  std::vector<Side> sides;
-  sides.reserve(3 * soup.triangles.size());
-  for (std::size_t triangle = 0; triangle < soup.triangles.size(); ++triangle) {
-    const auto& [a, b, c] = soup.triangles[triangle];
-    if (positions[a] == positions[b] || positions[b] == positions[c] || positions[c] == positions[a])
-      continue;
-    for (int i = 0; i < 3; ++i) {
-      const int j = (i + 1) % 3;
-      Side side = {positions[soup.triangles[triangle][i]], positions[soup.triangles[triangle][j]],
-                   3 * triangle + i, 3 * triangle + j};
-      if (side.high < side.low) {
-        std::swap(side.low, side.high);
-        std::swap(side.corner_at_low, side.corner_at_high);
-      }
-      sides.push_back(side);
-    }
-  }
-  Cancellation_poll poll;
-  std::sort(sides.begin(), sides.end(), [&](const Side& a, const Side& b) {
-    poll();
-    return std::tie(a.low, a.high, a.corner_at_low) < std::tie(b.low, b.high, b.corner_at_low);
-  });
-  return sides;
+  std::vector<Index_triple> triangles = soup.triangles;
+  for (Index_triple& triangle : triangles)
+    for (Index& corner : triangle)
+      corner = positions[corner];
+  return sorted_sides(triangles, soup.points.size());
 }
 
 /// Whether two corners at one position differ in vertex number, texture coordinate, group, object or
@@ -96,7 +70,7 @@ Borders_and_seams borders_and_seams(const Triangle_soup& soup)
     lines.edges.triangles.push_back({a, b, b});
     lines.opposite.push_back(soup.triangles[side.corner_at_low / 3][opposite]);
   };
-  const std::vector<Side> sides = sorted_sides(soup);
+  const std::vector<Side> sides = sides_between_positions(soup);
   Cancellation_poll poll;
   for (auto first = sides.begin(), last = first; first != sides.end(); first = last) {
     poll();

@@ -3,14 +3,14 @@
 
 #include "pieces.h"
 
+#include "sides.h"
+
 #include "soup/Disjoint_sets.h"
 
 #include <selvedge/Cancellation_scope.h>
 
 #include <algorithm>
 #include <map>
-#include <numeric>
-#include <tuple>
 #include <utility>
 
 // Finds the pieces of a mesh by vertex numbers and counts their edges, boundary loops and Euler
@@ -19,53 +19,6 @@
 namespace selvedge {
 
 using namespace internal;
-
-namespace {
-
-/// The side of a triangle, from the end with the lower vertex number to the other. Corner i of triangle t has
-/// the number 3t + i.
-struct Side
-{
-  Index low, high;
-  std::size_t corner_at_low, corner_at_high;
-};
-
-bool is_face(const Index_triple& corners)
-{
-  return corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0];
-}
-
-/// Returns all sides, sorted by their lower ends (in linear time), then by their other ends, then by corners.
-std::vector<Side> sorted_sides(const std::vector<Index_triple>& triangles, std::size_t vertices)
-{
-  const auto for_each_side = [&](const auto& function) {
-    for (std::size_t triangle = 0; triangle < triangles.size(); ++triangle)
-      for (int i = 0; is_face(triangles[triangle]) && i < 3; ++i) {
-        const int j = (i + 1) % 3;
-        const Index from = triangles[triangle][i], to = triangles[triangle][j];
-        const std::size_t corner_from = 3 * triangle + i, corner_to = 3 * triangle + j;
-        function(from < to ? Side{from, to, corner_from, corner_to} : Side{to, from, corner_to, corner_from});
-      }
-  };
-  std::vector<std::size_t> places(vertices + 1, 0);
-  for_each_side([&](const Side& side) { ++places[side.low + 1]; });
-  std::partial_sum(places.begin(), places.end(), places.begin());
-  std::vector<Side> sides(places.back());
-  for_each_side([&](const Side& side) { sides[places[side.low]++] = side; });
-  auto first = sides.begin();
-  Cancellation_poll poll;
-  for (std::size_t low = 0; low < vertices; ++low) {
-    poll();
-    const auto beyond = sides.begin() + std::ptrdiff_t(places[low]);
-    std::sort(first, beyond, [](const Side& a, const Side& b) {
-      return std::tie(a.high, a.corner_at_low) < std::tie(b.high, b.corner_at_low);
-    });
-    first = beyond;
-  }
-  return sides;
-}
-
-} // namespace
 
 Numbered_pieces internal::numbered_pieces(const std::vector<Index_triple>& triangles, std::size_t vertices)
 {

@@ -23,7 +23,7 @@ using selvedge::test::Temporary_folder;
 
 namespace {
 
-constexpr std::uint64_t seed = 20260117;
+constexpr std::uint64_t s_seed = 20260117;
 
 std::uint64_t bits_of(double value)
 {
@@ -100,7 +100,7 @@ std::vector<double> hard_doubles()
       if (std::isfinite(neighbour))
         values.push_back(neighbour);
     }
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(s_seed);
   while (values.size() < 9000) {
     const double value = double_of(random());
     if (std::isfinite(value))
@@ -114,7 +114,7 @@ std::vector<double> hard_floats()
   using limits = std::numeric_limits<float>;
   std::vector<double> values = {
       0.0f, 0.1f, 1.0f / 3, limits::max(), limits::lowest(), limits::min(), limits::denorm_min()};
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(s_seed);
   while (values.size() < 9000) {
     const float value = float_of(static_cast<std::uint32_t>(random()));
     if (std::isfinite(value))
@@ -168,7 +168,7 @@ class Written : public testing::TestWithParam<Form>
 
 TEST_P(Written, ReadsBackBitIdentical)
 {
-  SCOPED_TRACE("seed " + std::to_string(seed));
+  SCOPED_TRACE("seed " + std::to_string(s_seed));
   const Triangle_soup soup = soup_of(hard_doubles());
   expect_same_bits(write_and_read(soup, GetParam()), soup);
 }
@@ -183,7 +183,7 @@ class Written_floats : public Written
 
 TEST_P(Written_floats, ReadBackBitIdentical)
 {
-  SCOPED_TRACE("seed " + std::to_string(seed));
+  SCOPED_TRACE("seed " + std::to_string(s_seed));
   const Triangle_soup soup = soup_of(hard_floats());
   const Triangle_soup found = write_and_read(soup, GetParam());
   if (mesh_format(GetParam().file) != Mesh_format::stl)
@@ -245,7 +245,7 @@ TEST(WrittenFloats, StlRefusesWhatItWouldRound)
 
 TEST(WrittenFloats, RoundedSoupGoesThroughStlUnchanged)
 {
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(s_seed);
   std::uniform_real_distribution<double> coordinate(-3, 3);
   std::vector<double> coordinates(900);
   for (double& value : coordinates)

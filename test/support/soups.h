@@ -40,6 +40,11 @@ Triangle_soup mapped(Triangle_soup soup, Function function)
   return soup;
 }
 
+inline Triangle_soup moved(const Triangle_soup& soup, double x, double y, double z)
+{
+  return mapped(soup, [&](const Point_3& p) { return Point_3(p.x() + x, p.y() + y, p.z() + z); });
+}
+
 /// No two triangles share a vertex number any more; the positions stay.
 inline Triangle_soup unshared(const Triangle_soup& soup)
 {

@@ -20,11 +20,6 @@ using namespace test;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-Triangle_soup moved(const Triangle_soup& soup, double x, double y, double z)
-{
-  return mapped(soup, [&](const Point_3& p) { return Point_3(p.x() + x, p.y() + y, p.z() + z); });
-}
-
 // Three points as the other mesh: at the corners the distance is 0, and farthest from all is the middle of
 // the longest side.
 TEST(MaximumDistance, IsNotThatOfVertices)

@@ -22,11 +22,6 @@ namespace {
 
 using namespace test;
 
-Triangle_soup moved(const Triangle_soup& soup, double x, double y, double z)
-{
-  return mapped(soup, [&](const Point_3& p) { return Point_3(p.x() + x, p.y() + y, p.z() + z); });
-}
-
 Triangle_soup stretched(const Triangle_soup& soup, double factor)
 {
   return mapped(soup,
