@@ -1,0 +1,271 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// How good results look: ours with both placements, CGAL's two costs, OpenMesh and meshoptimizer, each
+// reduced to the number of faces that ours reaches, and measured in the same ways.
+
+#include "Mesh.h"
+#include "Peers.h"
+#include "Table.h"
+
+#include "verify/Surface_tree.h"
+#include "verify/face_samples.h"
+
+#include <selvedge/Surface_mesh_simplification/stop_predicates.h>
+#include <selvedge/compare.h>
+#include <selvedge/mesh_files.h>
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_cost.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_placement.h>
+#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
+
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <iostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace selvedge;
+using namespace selvedge::benchmark;
+namespace SMS = CGAL::Surface_mesh_simplification;
+
+using Cgal_mesh = CGAL::Surface_mesh<Point_3>;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+Cgal_mesh mesh_of(const Triangle_soup& soup)
+{
+  Cgal_mesh mesh;
+  for (const Point_3& p : soup.points)
+    mesh.add_vertex(p);
+  for (const auto& [a, b, c] : soup.triangles)
+    mesh.add_face(Cgal_mesh::Vertex_index(a), Cgal_mesh::Vertex_index(b), Cgal_mesh::Vertex_index(c));
+  return mesh;
+}
+
+Triangle_soup soup_of(Cgal_mesh& mesh)
+{
+  mesh.collect_garbage();
+  Triangle_soup soup;
+  for (const auto v : mesh.vertices())
+    soup.points.push_back(mesh.point(v));
+  for (const auto f : mesh.faces()) {
+    const auto h = mesh.halfedge(f);
+    soup.triangles.push_back({mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))});
+  }
+  return soup;
+}
+
+Triangle_soup by_planes(const Triangle_soup& soup, std::size_t faces)
+{
+  Cgal_mesh mesh = mesh_of(soup);
+  const SMS::GarlandHeckbert_plane_policies<Cgal_mesh, Kernel> policies(mesh);
+  SMS::edge_collapse(mesh, Face_count_stop(faces),
+                     CGAL::parameters::get_cost(policies.get_cost()).get_placement(policies.get_placement()));
+  return soup_of(mesh);
+}
+
+Triangle_soup by_lindstrom_turk(const Triangle_soup& soup, std::size_t faces)
+{
+  Cgal_mesh mesh = mesh_of(soup);
+  SMS::edge_collapse(mesh, Face_count_stop(faces),
+                     CGAL::parameters::get_cost(SMS::LindstromTurk_cost<Cgal_mesh>())
+                         .get_placement(SMS::LindstromTurk_placement<Cgal_mesh>()));
+  return soup_of(mesh);
+}
+
+/// Points all over a surface, each as a triangle, so that `distances` measures from them: as many on equal
+/// areas.
+Triangle_soup points_on(const Triangle_soup& soup, std::size_t count)
+{
+  const internal::Surface surface(soup, 0);
+  double area = 0;
+  for (Index t = 0; t < soup.triangles.size(); ++t)
+    area += std::sqrt(surface.normal(t).squared_length());
+  internal::Face_samples samples(surface);
+  Triangle_soup points;
+  double due = 0;
+  for (Index t = 0; t < soup.triangles.size(); ++t)
+    for (due += std::sqrt(surface.normal(t).squared_length()) / area * static_cast<double>(count); due >= 1;
+         --due) {
+      const Index number = static_cast<Index>(points.points.size());
+      points.points.push_back(samples.next(t));
+      points.triangles.push_back({number, number, number});
+    }
+  return points;
+}
+
+/// Returns the share of the area of a result whose texture coordinates are more than a hundredth of the
+/// texture's size away from those of the original at the nearest point that faces the same way; NaN without
+/// texture coordinates.
+double share_of_moved_texture(const Triangle_soup& result, const Triangle_soup& original, double limit)
+{
+  if (result.uvs.empty() || original.uvs.empty() || result.uvs.missing || original.uvs.missing)
+    return std::nan("");
+  const internal::Surface from(result, 0), to(original, 0);
+  const internal::Surface_tree tree(to);
+  std::vector<internal::Vector_3> normals;
+  for (Index t = 0; t < original.triangles.size(); ++t)
+    normals.push_back(to.normal(t));
+  CGAL::Bbox_2 box;
+  for (const auto& [u, v] : original.uvs.values)
+    box += CGAL::Bbox_2(u, v, u, v);
+  const double near = 0.01 * std::hypot(box.x_span(), box.y_span());
+  const auto uv_at = [](const internal::Surface& surface, const Triangle_soup& soup, Index t,
+                        const Point_3& p) {
+    const internal::Vector_3 normal = surface.normal(t);
+    std::array<double, 2> uv{0, 0};
+    for (int k = 0; k < 3; ++k) {
+      const double weight =
+          CGAL::cross_product(surface.corner(t, (k + 1) % 3) - p, surface.corner(t, (k + 2) % 3) - p) *
+          normal / normal.squared_length();
+      for (int i = 0; i < 2; ++i)
+        uv[i] += weight * soup.uvs.values[soup.uvs.of_triangle[t][k]][i];
+    }
+    return uv;
+  };
+  internal::Face_samples samples(from);
+  double area = 0, moved = 0;
+  for (Index t = 0; t < result.triangles.size(); ++t) {
+    if (from.is_degenerate(t))
+      continue;
+    constexpr int per_face = 4;
+    const double share = std::sqrt(from.normal(t).squared_length()) / per_face;
+    for (int i = 0; i < per_face; ++i) {
+      const Point_3 p = samples.next(t);
+      const auto nearest = tree.nearest_facing(p, normals, from.normal(t), limit);
+      area += share;
+      if (!nearest || to.is_degenerate(nearest->triangle))
+        continue;
+      const auto a = uv_at(from, result, t, p), b = uv_at(to, original, nearest->triangle, nearest->point);
+      if (std::hypot(a[0] - b[0], a[1] - b[1]) > near)
+        moved += share;
+    }
+  }
+  return area > 0 ? moved / area : 0;
+}
+
+struct Program
+{
+  std::string name;
+  std::function<Triangle_soup(std::size_t faces)> run;
+};
+
+const Row header{"mesh",
+                 "ratio",
+                 "program",
+                 "faces",
+                 "RMS at vertices",
+                 "RMS by area",
+                 "RMS of the result",
+                 "most (of the size)",
+                 "normals (degrees)",
+                 "moved texture",
+                 "new pairs"};
+
+struct Request
+{
+  std::vector<std::string> meshes{"skirt:30000", "shorts:30000", "folded:30000"};
+  std::vector<double> ratios{0.5, 0.3, 0.1, 0.05};
+  std::string csv, folder;
+};
+
+void add_rows(Table& table, const std::string& argument, const Request& request)
+{
+  const Mesh mesh = benchmark::mesh(argument);
+  const Prepared_soup& prepared = mesh.prepared;
+  const Triangle_soup soup = sewn(prepared), by_area = points_on(prepared.soup, 100'000);
+  const auto ours = [&](Placement placement) {
+    return [&prepared, placement](std::size_t faces) {
+      Simplify_options options;
+      options.faces = faces;
+      options.placement = placement;
+      return simplify_soup(prepared, options).soup;
+    };
+  };
+  const Simplify_options limits;
+  const std::vector<Program> programs{
+      {"selvedge vertices", ours(Placement::vertices)},
+      {"selvedge optimal", ours(Placement::optimal)},
+      {"CGAL GarlandHeckbert plane", [&](std::size_t faces) { return by_planes(soup, faces); }},
+      {"CGAL LindstromTurk", [&](std::size_t faces) { return by_lindstrom_turk(soup, faces); }},
+      {"OpenMesh", [&](std::size_t faces) { return run_openmesh(soup, limits, faces).soup; }},
+      {"meshoptimizer", [&](std::size_t faces) { return run_meshoptimizer(soup, faces).soup; }}};
+  if (!request.folder.empty())
+    write_mesh(std::filesystem::path(request.folder) / (mesh.name + "-original.obj"), prepared.soup);
+  for (const double ratio : request.ratios) {
+    std::size_t faces =
+        static_cast<std::size_t>(std::ceil(ratio * static_cast<double>(soup.triangles.size())));
+    for (std::size_t i = 0; i < programs.size(); ++i) {
+      const Triangle_soup result = programs[i].run(faces);
+      if (i == 0) // which may stop sooner; the others have the same number
+        faces = result.triangles.size();
+      const Distances at_vertices = distances(result, prepared.soup);
+      const Comparison comparison = compare(result, prepared.soup);
+      const auto pairs = offending_pairs(result);
+      table.add(
+          {mesh.name, text(ratio), programs[i].name, std::to_string(result.triangles.size()),
+           text(1000 * at_vertices.original_to_result.root_mean_square),
+           text(1000 * distance(by_area, result).root_mean_square / at_vertices.diagonal),
+           text(1000 * at_vertices.result_to_original.root_mean_square),
+           text(1000 * std::max(comparison.original_to_result.lower, comparison.result_to_original.lower)),
+           text(comparison.normals.root_mean_square),
+           text(share_of_moved_texture(result, prepared.soup, at_vertices.diagonal)),
+           std::to_string(new_pairs(result, pairs, prepared.soup, prepared.offending_pairs).size())});
+      if (!request.folder.empty())
+        write_mesh(std::filesystem::path(request.folder) /
+                       (mesh.name + '-' + text(ratio) + '-' + std::to_string(i) + ".obj"),
+                   result);
+    }
+  }
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  CLI::App app(
+      "How good the results of selvedge, CGAL, OpenMesh and meshoptimizer are at equal numbers of faces.");
+  Request request;
+  app.add_option("MESH", request.meshes, "Files, or SCENE:FACES for generated ones")->capture_default_str();
+  app.add_option("--ratio", request.ratios, "Shares of the faces to keep")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  app.add_option("--csv", request.csv, "The table once more")->type_name("FILE");
+  app.add_option("--write", request.folder, "Every result as OBJ, for quality_sheet.py")
+      ->type_name("FOLDER")
+      ->check(CLI::ExistingDirectory);
+  try {
+    app.parse(argc, argv);
+    Table table(header);
+    for (const std::string& mesh : request.meshes)
+      add_rows(table, mesh, request);
+    std::cout
+        << "\nAll have as many faces as 'selvedge vertices' reaches, and no bound of the error. RMS and most "
+           "are "
+           "thousandths of the\ndiagonal of the original: from its vertices to the result, from points "
+           "evenly "
+           "spread over it, and from the result's\nvertices to it; most is the largest distance that was "
+           "found in "
+           "either direction. Normals: RMS of the angle to the\noriginal. Moved texture: the share of the "
+           "area "
+           "whose texture coordinates are off by more than 1 % of the texture; the\npeers are given "
+           "positions "
+           "and faces alone. New pairs: of triangles that meet, and did not in the original, exactly.\n";
+    if (!request.csv.empty())
+      write_file(request.csv, table.csv());
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error);
+  } catch (const std::exception& error) {
+    std::cerr << "quality: " << error.what() << std::endl;
+    return 1;
+  }
+}
