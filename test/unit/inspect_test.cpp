@@ -22,11 +22,6 @@
 namespace selvedge::test {
 namespace {
 
-Triangle_soup shifted(const Triangle_soup& soup, double x, double y, double z)
-{
-  return mapped(soup, [=](const Point_3& p) { return Point_3(p.x() + x, p.y() + y, p.z() + z); });
-}
-
 /// A ring of square cross-section around the z axis.
 Triangle_soup torus()
 {
@@ -57,8 +52,7 @@ double least_distance(const Triangle_soup& soup)
 
 TEST(Inspect, TellsSurfacesByTheirTopology)
 {
-  const Inspection result =
-      inspect(joined(joined(torus(), shifted(tetrahedron(), 20, 0, 0)), sheet(2, 2, 9)));
+  const Inspection result = inspect(joined(joined(torus(), moved(tetrahedron(), 20, 0, 0)), sheet(2, 2, 9)));
   ASSERT_EQ(result.surfaces.size(), 3u);
   EXPECT_EQ(result.surfaces[0].genus(), 1u);
   EXPECT_EQ(result.surfaces[1].genus(), 0u);
@@ -72,7 +66,7 @@ TEST(Inspect, TellsSurfacesByTheirTopology)
 
 TEST(Inspect, SewsPiecesToSurfaces)
 {
-  const Inspection result = inspect(joined(sheet(3, 3), shifted(sheet(3, 3), 3, 0, 0)));
+  const Inspection result = inspect(joined(sheet(3, 3), moved(sheet(3, 3), 3, 0, 0)));
   EXPECT_EQ(result.pieces.size(), 2u);
   ASSERT_EQ(result.surfaces.size(), 1u);
   EXPECT_EQ(result.surfaces[0].nearest, std::nullopt);
@@ -111,7 +105,7 @@ TEST(Inspect, FindsTheNearestOfManySurfaces)
     Triangle_soup all;
     for (int i = 0; i < 8; ++i) {
       sheets.push_back(
-          shifted(sheet(1 + random() % 3, 1 + random() % 3), 9 * number(), 9 * number(), 9 * number()));
+          moved(sheet(1 + random() % 3, 1 + random() % 3), 9 * number(), 9 * number(), 9 * number()));
       all = joined(all, sheets.back());
     }
     const Inspection result = inspect(all);
@@ -178,7 +172,7 @@ TEST(Inspect, AgreesWithAReduction)
 
 TEST(Inspect, SaysHowFarPartnersAreApart)
 {
-  const Inspection result = inspect(joined(sheet(30, 3), shifted(sheet(30, 3), 30.125, 0, 0)));
+  const Inspection result = inspect(joined(sheet(30, 3), moved(sheet(30, 3), 30.125, 0, 0)));
   EXPECT_EQ(result.border_vertices, 132u);
   EXPECT_NEAR(result.partner_limit, 0.01 * result.diagonal, 1e-12);
   EXPECT_EQ(result.partner_distances, std::vector<double>(8, 0.125));
