@@ -45,6 +45,7 @@ bool is_fan_collapse_accepted(double height_of_d)
     EXPECT_NE(mesh.add_face(u, v, w), Mesh::null_face());
   EXPECT_TRUE(CGAL::is_valid_polygon_mesh(mesh));
   const Intersection_filter<Mesh> filter(mesh);
+  filter.visitor().OnStarted(mesh); // as a loop does
   const auto points = mesh.points();
   const Kernel kernel;
   const internal::Lazy_edge_profile<Mesh, Mesh::Property_map<Mesh::Vertex_index, Point_3>, Kernel> profile(
