@@ -234,6 +234,28 @@ TEST(Hindrances, NameTheLimitThatRefuses)
   expect(sphere, Hindrance::aspect_ratio, [](Simplify_options& options) { options.min_aspect_ratio = 0.95; });
 }
 
+TEST(Hindrances, NameLayersInTheWay)
+{
+  // A sphere, and in it a tetrahedron whose corners come near to it.
+  Triangle_soup sphere = nested_spheres(800, 1, 1e-2);
+  sphere.uvs = {};
+  CGAL::Bbox_3 box;
+  for (const Point_3& p : sphere.points)
+    box += p.bbox();
+  const double reach = 0.7 * box.x_span() / 2 / std::sqrt(3);
+  const auto corner = [&](double x, double y, double z) {
+    return Point_3((box.xmin() + box.xmax()) / 2 + reach * x, (box.ymin() + box.ymax()) / 2 + reach * y,
+                   (box.zmin() + box.zmax()) / 2 + reach * z);
+  };
+  const Triangle_soup both =
+      joined(sphere, soup({corner(1, 1, 1), corner(1, -1, -1), corner(-1, 1, -1), corner(-1, -1, 1)},
+                          {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}));
+  const Hindrances guarded = hindrances_of(both, to_nothing());
+  EXPECT_GT(guarded[Hindrance::intersection], 0u);
+  const Hindrances unguarded = hindrances_of(both, without_check(to_nothing()));
+  EXPECT_EQ(unguarded[Hindrance::intersection], 0u);
+}
+
 TEST(Hindrances, NamePartsAtTheirTarget)
 {
   Triangle_soup named = crooked(9);
