@@ -63,7 +63,7 @@ def panel(path, caption, viewport):
     camera.SetPosition(*place)
     camera.SetViewUp(*[1.0 if axis == up else 0.0 for axis in range(3)])
     renderer.ResetCamera()
-    camera.Zoom(1.35)
+    camera.Zoom(1.05)
     return renderer
 
 
