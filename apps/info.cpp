@@ -3,6 +3,7 @@
 
 #include "output_files.h"
 #include "report_json.h"
+#include "report_output.h"
 #include "subcommands.h"
 #include "text.h"
 #include "threads.h"
@@ -76,11 +77,6 @@ std::string listed(const std::vector<std::string>& words)
     text += (i == 0 ? "" : ", ") + words[i];
   return words.size() > most_printed ? text + " and " + with_commas(words.size() - most_printed) + " more"
                                      : text;
-}
-
-std::string percent(double share)
-{
-  return with_digits(100 * share) + " %";
 }
 
 /// Describes the kind of a piece or surface in words, such as "closed, of genus 1".
@@ -357,12 +353,7 @@ Exit_code run(const Request& request)
   add_inspection(report, mesh);
   report["memory"] = {{"peak_bytes", peak_memory_bytes()}};
   report["exit_code"] = int(exit_done);
-  if (request.is_json)
-    std::cout << to_text(report) << std::flush;
-  else
-    print(request, contents, describe(file.notes), mesh);
-  if (!request.report.empty())
-    write_file(request.report, to_text(report));
+  put_report(request, report, [&] { print(request, contents, describe(file.notes), mesh); });
   return exit_done;
 }
 
@@ -374,12 +365,7 @@ Action add_info(CLI::App& command)
   command.add_option("MESH", request->mesh, "Mesh to describe: .obj, .off, .ply, .stl, .glb or .gltf.")
       ->required()
       ->type_name("");
-  CLI::Option* const report =
-      command
-          .add_option("--report", request->report, "Write a JSON report, and print the text all the same.")
-          ->type_name("FILE");
-  command.add_flag("--json", request->is_json, "Print the JSON report instead of the text.")
-      ->excludes(report);
+  add_report_options(command, *request);
   Thread_limit::add_option(command, request->threads);
   command.footer(
       "Examples:\n"

@@ -5,6 +5,7 @@
 #include "interruption.h"
 #include "output_files.h"
 #include "report_json.h"
+#include "report_output.h"
 #include "subcommands.h"
 #include "text.h"
 
@@ -196,12 +197,7 @@ Exit_code run(const Request& request)
   add_replay(report, verdict);
   report["memory"] = {{"peak_bytes", peak_memory_bytes()}};
   report["exit_code"] = int(code);
-  if (request.is_json)
-    std::cout << to_text(report) << std::flush;
-  else
-    print(request, verdict);
-  if (!request.report.empty())
-    write_file(request.report, to_text(report));
+  put_report(request, report, [&] { print(request, verdict); });
   if (!request.scene.empty() && !verdict.violations.empty())
     write_file(request.scene, verdict.violations.front().scene);
   if (!request.output.empty() && !verdict.is_stopped)
@@ -234,12 +230,7 @@ Action add_replay(CLI::App& command)
   command.add_flag("--all", request->is_all_wanted, "Continue after a bad step, and list all bad steps.");
   command.add_option("--scene", request->scene, "Write the triangles of the first violation to an OBJ file.")
       ->type_name("FILE");
-  CLI::Option* const report =
-      command
-          .add_option("--report", request->report, "Write a JSON report, and print the text all the same.")
-          ->type_name("FILE");
-  command.add_flag("--json", request->is_json, "Print the JSON report instead of the text.")
-      ->excludes(report);
+  add_report_options(command, *request);
   command.add_flag("--ascii", request->is_ascii, "Write PLY and STL as text.");
   command.footer(
       "Examples:\n"

@@ -21,11 +21,6 @@ namespace {
 // From here on a user should know where the result is off.
 constexpr double far_off = 0.01;
 
-std::string percent(double share)
-{
-  return with_digits(100 * share) + " %";
-}
-
 /// Returns the reasons that hold edges back, those of most edges first.
 std::vector<Hindrances::Description> reasons(const Hindrances& hindrances)
 {

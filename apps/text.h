@@ -34,6 +34,12 @@ inline std::string with_digits(double value, const char* format = "%.3g")
   return text;
 }
 
+/// Returns a share of 0.5 as "50 %".
+inline std::string percent(double share)
+{
+  return with_digits(100 * share) + " %";
+}
+
 inline const char* name(Offence offence)
 {
   switch (offence) {

@@ -4,6 +4,7 @@
 #include "blind_spots.h"
 #include "output_files.h"
 #include "report_json.h"
+#include "report_output.h"
 #include "subcommands.h"
 #include "text.h"
 #include "threads.h"
@@ -213,12 +214,7 @@ Exit_code run(const Request& request)
   }
   report["memory"] = {{"peak_bytes", peak_memory_bytes()}};
   report["exit_code"] = int(code);
-  if (request.is_json)
-    std::cout << to_text(report) << std::flush;
-  else
-    print(request, mesh, *verification, comparison);
-  if (!request.report.empty())
-    write_file(request.report, to_text(report));
+  put_report(request, report, [&] { print(request, mesh, *verification, comparison); });
   return code;
 }
 
@@ -239,12 +235,7 @@ Action add_verify(CLI::App& command)
           "value that `simplify` was given, if MESH does not separate pieces (STL, --sewn).")
       ->check(in_range(0))
       ->type_name("EPS");
-  CLI::Option* const report =
-      command
-          .add_option("--report", request->report, "Write a JSON report, and print the text all the same.")
-          ->type_name("FILE");
-  command.add_flag("--json", request->is_json, "Print the JSON report instead of the text.")
-      ->excludes(report);
+  add_report_options(command, *request);
   Thread_limit::add_option(command, request->threads);
   command.footer(
       "Examples:\n"

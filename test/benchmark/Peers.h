@@ -39,11 +39,10 @@ private:
   Clock::time_point m_start = Clock::now();
 };
 
-/// The mesh that ours works on, in which coincident borders are sewn: what the others are given too.
-inline Triangle_soup sewn(const Prepared_soup& prepared)
+/// The triangles of a mesh, which has no garbage.
+template <class Surface_mesh>
+Triangle_soup soup_of(const Surface_mesh& mesh)
 {
-  Working_mesh working(prepared.soup, prepared.positions, prepared.is_frozen);
-  const Working_mesh::Mesh& mesh = working.mesh();
   Triangle_soup soup;
   for (const auto v : mesh.vertices())
     soup.points.push_back(mesh.point(v));
@@ -52,6 +51,13 @@ inline Triangle_soup sewn(const Prepared_soup& prepared)
     soup.triangles.push_back({mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))});
   }
   return soup;
+}
+
+/// The mesh that ours works on, in which coincident borders are sewn: what the others are given too.
+inline Triangle_soup sewn(const Prepared_soup& prepared)
+{
+  Working_mesh working(prepared.soup, prepared.positions, prepared.is_frozen);
+  return soup_of(working.mesh());
 }
 
 inline Outcome run_ours(const Prepared_soup& prepared, const Simplify_options& options)

@@ -51,25 +51,13 @@ Cgal_mesh mesh_of(const Triangle_soup& soup)
   return mesh;
 }
 
-Triangle_soup soup_of(Cgal_mesh& mesh)
-{
-  mesh.collect_garbage();
-  Triangle_soup soup;
-  for (const auto v : mesh.vertices())
-    soup.points.push_back(mesh.point(v));
-  for (const auto f : mesh.faces()) {
-    const auto h = mesh.halfedge(f);
-    soup.triangles.push_back({mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))});
-  }
-  return soup;
-}
-
 Triangle_soup by_planes(const Triangle_soup& soup, std::size_t faces)
 {
   Cgal_mesh mesh = mesh_of(soup);
   const SMS::GarlandHeckbert_plane_policies<Cgal_mesh, Kernel> policies(mesh);
   SMS::edge_collapse(mesh, Face_count_stop(faces),
                      CGAL::parameters::get_cost(policies.get_cost()).get_placement(policies.get_placement()));
+  mesh.collect_garbage();
   return soup_of(mesh);
 }
 
@@ -79,6 +67,7 @@ Triangle_soup by_lindstrom_turk(const Triangle_soup& soup, std::size_t faces)
   SMS::edge_collapse(mesh, Face_count_stop(faces),
                      CGAL::parameters::get_cost(SMS::LindstromTurk_cost<Cgal_mesh>())
                          .get_placement(SMS::LindstromTurk_placement<Cgal_mesh>()));
+  mesh.collect_garbage();
   return soup_of(mesh);
 }
 
