@@ -75,7 +75,7 @@ struct No_observer
   }
 
   /// Returns why an inner edge is a line: `Hindrance::seam`, or one of the reasons from there to `normals`.
-  /// Asked of lines, when a reduction ends short of its target.
+  /// The reduction calls it for edges that are lines, when it ends short of its target.
   template <class Edge>
   Hindrance line_reason(const Edge&) const
   {
