@@ -52,6 +52,49 @@ std::vector<Index> common_positions(const Triangle_soup& result, const Triangle_
              : position_numbers(result, original);
 }
 
+/// The names (groups, objects, materials) of the pieces of two meshes.
+class Piece_names
+{
+public:
+  Piece_names(const Piece_mesh& result, const Piece_mesh& original)
+  {
+    std::vector<Pair> now, before; // a piece and a name; names of different kinds have different numbers
+    Index beyond = 0;
+    const auto list = [&](std::vector<Pair>& pairs, const Piece_mesh& mesh, const auto& name_of) {
+      for (Index t = 0; t < mesh.soup.triangles.size(); ++t)
+        if (const Pair pair(mesh.piece(t), beyond + name_of(t));
+            mesh.piece(t) != no_piece && (pairs.empty() || pairs.back() != pair))
+          pairs.push_back(pair);
+    };
+    const auto add = [&](const Triangle_labels& labels_now, const Triangle_labels& labels_before) {
+      if (labels_now.empty() || labels_before.empty())
+        return;
+      const Common_names names(result.soup, labels_now, original.soup, labels_before);
+      list(now, result, [&](Index t) { return names.now(t); });
+      list(before, original, [&](Index t) { return names.before(t); });
+      beyond += Index(names.size());
+    };
+    add(result.soup.groups, original.soup.groups);
+    add(result.soup.objects, original.soup.objects);
+    add(result.soup.materials, original.soup.materials);
+    m_of_result = Lists(result.pieces().size(), std::move(now));
+    m_of_original = Lists(original.pieces().size(), std::move(before));
+  }
+
+  /// Returns how many names only one of two pieces has. Kinds of names that only one mesh has do not count.
+  std::size_t differing(Index of_result, Index of_original) const
+  {
+    const Lists::Range now = m_of_result[of_result], before = m_of_original[of_original];
+    std::vector<Index> different;
+    std::set_symmetric_difference(now.begin(), now.end(), before.begin(), before.end(),
+                                  std::back_inserter(different));
+    return different.size();
+  }
+
+private:
+  Lists m_of_result, m_of_original;
+};
+
 /// Runs the steps of `match_pieces` one after the other on the pieces that are left.
 class Matching
 {
@@ -159,7 +202,7 @@ private:
       }
     }
     std::sort(hits.begin(), hits.end());
-    const Part_names result_names(m_result.soup), original_names(m_original.soup);
+    const Piece_names names(m_result, m_original);
     std::vector<Possible_match> possible;
     for (auto first = hits.begin(), last = first; first != hits.end(); first = last) {
       last = std::find_if(first, hits.end(), [&](const Pair& pair) { return pair != *first; });
@@ -168,9 +211,7 @@ private:
       if (2 * count < sizes[r])
         continue;
       const double missing = 1 - double(count) / double(sizes[r]);
-      const bool differ = result_names.of(*m_result.triangles[r].begin()) !=
-                          original_names.of(*m_original.triangles[o].begin());
-      m_near.push_back({missing, differ, r, o});
+      m_near.push_back({missing, names.differing(r, o), r, o});
       if (kind(m_result.pieces()[r]) == kind(m_original.pieces()[o]))
         possible.push_back(m_near.back());
     }
@@ -467,7 +508,7 @@ private:
           distance.to_original <= most_excess * least_to_original[r] &&
           distance.to_result <= most_excess * least_to_result[o] &&
           std::max(distance.to_original, distance.to_result) <= most_distance * before[o].diagonal())
-        possible.push_back({distance.to_original, false, r, o});
+        possible.push_back({distance.to_original, 0, r, o});
     }
     for (const auto& [r, o] :
          one_to_one(std::move(possible), m_result.pieces().size(), m_original.pieces().size()))

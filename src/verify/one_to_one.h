@@ -13,14 +13,14 @@ namespace selvedge::internal {
 /// A piece of the result and a piece of the original that may match, a candidate of `match_pieces`.
 struct Possible_match
 {
-  double distance; ///< any measure; 0 is best
-  bool do_names_differ;
+  double distance;             ///< any measure; 0 is best
+  std::size_t names_differing; ///< that only one of the two has; decides between equal distances
   Index of_result, of_original;
 
   bool operator<(const Possible_match& other) const
   {
-    return std::tie(distance, do_names_differ, of_result, of_original) <
-           std::tie(other.distance, other.do_names_differ, other.of_result, other.of_original);
+    return std::tie(distance, names_differing, of_result, of_original) <
+           std::tie(other.distance, other.names_differing, other.of_result, other.of_original);
   }
 };
 

@@ -64,6 +64,9 @@ public:
   Index before(Index triangle) const { return m_before[triangle]; }
   const std::string& text(Index name) const { return m_texts[name]; }
 
+  /// How many names there are; their numbers are below.
+  std::size_t size() const { return m_texts.size(); }
+
   /// The number of the empty name.
   Index none() const { return 0; }
 

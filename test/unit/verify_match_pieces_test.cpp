@@ -471,6 +471,24 @@ TEST(MatchPieces, ThatCoincide)
   EXPECT_EQ(mismatches(layer(4, 0), twice), Mismatches{Mismatch::missing});
 }
 
+TEST(MatchPieces, ThatCoincideAreMatchedByAllTheirNames)
+{
+  // Both have faces of the first name, and their first faces have it.
+  Triangle_soup original = joined(layer(4, 0), layer(4, 0));
+  original.materials.names = {"silk", "wool"};
+  original.materials.of_triangle.assign(64, 0);
+  std::fill(original.materials.of_triangle.begin() + 48, original.materials.of_triangle.end(), 1);
+  Triangle_soup result = original; // the second piece comes first
+  std::rotate(result.triangles.begin(), result.triangles.begin() + 32, result.triangles.end());
+  std::rotate(result.materials.of_triangle.begin(), result.materials.of_triangle.begin() + 32,
+              result.materials.of_triangle.end());
+  const Piece_matching matching = match_pieces(result, original);
+  EXPECT_TRUE(matching.is_complete()) << matching.mismatches.front().message;
+  ASSERT_EQ(matching.matches.size(), 2u);
+  EXPECT_EQ(matching.matches[0].of_original, std::vector<Index>{1});
+  EXPECT_EQ(matching.matches[1].of_original, std::vector<Index>{0});
+}
+
 // The first piece of the result could be either of the original's, the second only the one that the first
 // would take.
 TEST(MatchPieces, GivesWayWhereAnotherHasNoChoice)
