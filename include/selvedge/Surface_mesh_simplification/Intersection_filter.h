@@ -17,6 +17,7 @@
 #include <memory>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace selvedge {
 
@@ -55,7 +56,9 @@ namespace selvedge {
 ///   into it, as OpenMesh's map of floats does, takes placements at an end of the edge alone
 ///   (`Halfedge_placement`). The collapse that fails this check has been done, and may intersect.
 ///
-/// **Not promised** for a mesh that is not embedded at the start; see `simplify_mesh` for such a mesh.
+/// **Meshes that are not embedded** at the start: nothing is promised, unless `exempt` names all offending
+/// pairs. Then these pairs and their descendants are exempt from G1 and G2, all others are not, and there are
+/// never more offending pairs than at the start (docs/guarantees.md).
 ///
 /// **Exactness** The predicates of `GeomTraits` decide. They must be exact, as those of
 /// `Exact_predicates_inexact_constructions_kernel` are; kernels for which they are not do not compile, nor
@@ -133,6 +136,17 @@ public:
   {
   }
 
+  /// Exempts pairs of faces that offend, and all pairs that descend from them; a degenerate face is a pair
+  /// with itself. Faces at the moving vertices pass on what they descend from to the faces that a collapse
+  /// leaves. A face that is degenerate never changes. By default, no pair is exempt.
+  ///
+  /// **Preconditions** The pairs are all that keep the mesh from being embedded, each once. No question has
+  /// been asked yet.
+  void exempt(const std::vector<std::pair<Face, Face>>& offending_pairs) const
+  {
+    m_guard->exempt(offending_pairs);
+  }
+
   Visitor visitor() const { return Visitor(m_guard); }
 
   template <class Collapse>
@@ -150,8 +164,8 @@ public:
   }
 
   /// Returns the faces because of which this filter refused the last collapse: at most one for each order of
-  /// motions that it tried. Empty where the star of the moving vertex alone decided, and where the base
-  /// filter refused.
+  /// motions that it tried, or all with which more exempt pairs would offend than before. Empty where the
+  /// star of the moving vertex alone decided, and where the base filter refused.
   auto& blockers() const { return m_guard->blockers(); }
 
   /// Returns, for the last collapse that this filter accepted with a place at neither end, in which order the

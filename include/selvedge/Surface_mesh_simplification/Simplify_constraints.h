@@ -7,6 +7,7 @@
 #include <CGAL/boost/graph/helpers.h>
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace selvedge {
@@ -39,6 +40,11 @@ struct Simplify_constraints
 
   /// Faces that no target and no count of the report includes: obstacles. Lock their vertices, too.
   std::vector<Face> uncounted_faces;
+
+  /// The pairs of faces that keep the mesh from being embedded, all of them and each once; a degenerate face
+  /// is a pair with itself. They and their descendants are exempt, see `Intersection_filter::exempt`. A mesh
+  /// of which all such faces have locked vertices needs none.
+  std::vector<std::pair<Face, Face>> offending_pairs;
 
   /// The length of which the lengths in the options are fractions; by default, the diagonal of the mesh. A
   /// mesh that is a part of another needs the diagonal of the whole.

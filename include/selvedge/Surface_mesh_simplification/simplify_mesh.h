@@ -35,9 +35,10 @@ namespace selvedge {
 ///   every edge that is left.
 /// - G8 *Determinism*: the same mesh and options give the same result.
 ///
-/// For a mesh that is not embedded, lock the vertices of every face of an offending pair, as `simplify_soup`
-/// does. Then the offending pairs of the result are those of the input, and the guarantees hold between all
-/// other faces.
+/// For a mesh that is not embedded, lock the vertices of every face of an offending pair; then the offending
+/// pairs of the result are those of the input, and the guarantees hold between all other faces. Or name all
+/// offending pairs in the constraints; then every offending pair of the result descends from one of the
+/// input, there are no more of them, and the guarantees hold for all other pairs (docs/guarantees.md).
 ///
 /// **Preconditions** The caller must ensure: all faces are triangles; `TriangleMesh` is a mutable face graph
 /// whose points belong to a kernel with exact predicates, as those of the vertex point map do. Checked at run

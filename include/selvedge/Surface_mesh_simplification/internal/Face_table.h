@@ -57,6 +57,7 @@ public:
   }
 
   Face descriptor(Id id) const { return m_faces[id]; }
+  Id id(Face face) const { return get(m_ids, face); }
   const Corners& corners(Id id) const { return m_corners[id]; }
   bool is_at(Id id, Number vertex) const
   {
@@ -83,8 +84,15 @@ public:
     remove_at(m_vertices.number(vertex), near);
     for (const Halfedge h : CGAL::halfedges_around_target(halfedge(vertex, m_mesh), m_mesh))
       if (!CGAL::is_border(h, m_mesh))
-        near.push_back(get(m_ids, face(h, m_mesh)));
+        near.push_back(id(face(h, m_mesh)));
     remove_at(mover, near);
+  }
+
+  /// Removes the faces at a vertex from a list of faces.
+  void remove_at(Number vertex, std::vector<Id>& near) const
+  {
+    near.erase(std::remove_if(near.begin(), near.end(), [&](Id id) { return is_at(id, vertex); }),
+               near.end());
   }
 
   /// Called before a collapse removes the face of `h`, a halfedge of its edge; a border halfedge has none.
@@ -92,7 +100,7 @@ public:
   {
     if (CGAL::is_border(h, m_mesh))
       return;
-    m_index.remove(get(m_ids, face(h, m_mesh)));
+    m_index.remove(id(face(h, m_mesh)));
     --m_size;
   }
 
@@ -123,12 +131,6 @@ private:
   {
     const auto& [a, b, c] = m_corners[id];
     return m_vertices.point(a).bbox() + m_vertices.point(b).bbox() + m_vertices.point(c).bbox();
-  }
-
-  void remove_at(Number vertex, std::vector<Id>& near) const
-  {
-    near.erase(std::remove_if(near.begin(), near.end(), [&](Id id) { return is_at(id, vertex); }),
-               near.end());
   }
 
   const TriangleMesh& m_mesh;

@@ -7,16 +7,21 @@
 #include <selvedge/Error.h>
 #include <selvedge/Surface_mesh_simplification/Intersection_statistics.h>
 #include <selvedge/Surface_mesh_simplification/internal/Collapse.h>
+#include <selvedge/Surface_mesh_simplification/internal/Descent.h>
 #include <selvedge/Surface_mesh_simplification/internal/Face_table.h>
 #include <selvedge/Surface_mesh_simplification/internal/Moving_star.h>
 #include <selvedge/Surface_mesh_simplification/internal/Star_view.h>
 #include <selvedge/Surface_mesh_simplification/internal/Vertex_table.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
+#include <selvedge/geometry/face_pair.h>
 #include <selvedge/geometry/star.h>
 #include <selvedge/geometry/sweep.h>
 #include <selvedge/internal/exact_predicates.h>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -37,6 +42,9 @@ namespace internal {
 /// 2. *Within the star*: moving faces do not degenerate, and meet each other only in what they share.
 ///
 /// A collapse onto one end of its edge is one motion. Any other takes two: one end moves, and then the other.
+///
+/// Conditions 1 and 2 are not asked of exempt pairs (`Descent`), but a collapse must not make more of them
+/// offend.
 template <class TriangleMesh, class VertexPointMap, class GeomTraits, class FaceIndex>
 class Intersection_guard
 {
@@ -47,6 +55,7 @@ class Intersection_guard
   using Motion = typename Star::Motion;
   using Vertex = typename Vertices::Vertex;
   using Id = typename Faces::Id;
+  using Triangle = std::array<typename Vertices::Point, 3>;
 
 public:
   using Face = typename Faces::Face;
@@ -58,6 +67,16 @@ public:
   {
     require_exact_predicates<GeomTraits>();
   }
+
+  /// Exempts all pairs that descend from these, which offend at the start. Call it before the first question.
+  void exempt(const std::vector<std::pair<Face, Face>>& offending)
+  {
+    std::vector<Descent::Pair> pairs;
+    for (const auto& [f, g] : offending)
+      pairs.push_back({m_faces.id(f), m_faces.id(g)});
+    m_descent.begin(pairs, m_faces.size());
+  }
+
   Intersection_guard(const Intersection_guard&) = delete; // its parts refer to each other
   Intersection_guard& operator=(const Intersection_guard&) = delete;
 
@@ -65,7 +84,9 @@ public:
   bool is_clear(const Collapse<Profile>& collapse)
   {
     refuse_missing_visitor();
-    m_is_announcement_due = are_motions_clear(collapse);
+    m_is_descent_asked = m_descent.is_needed() && is_descent_concerned(collapse);
+    m_is_announcement_due =
+        is_free_of_degenerate() && are_motions_clear(collapse) && is_number_of_pairs_kept(collapse);
     return m_is_announcement_due;
   }
 
@@ -81,6 +102,9 @@ public:
   void before_collapse(const Collapse<Profile>& collapse)
   {
     m_is_announcement_due = false;
+    m_is_descent_asked = m_descent.is_needed() && is_descent_concerned(collapse);
+    if (m_is_descent_asked)
+      find_pairs_after(collapse);
     // Must be read before the collapse removes these faces.
     m_faces.on_removing(collapse.profile().v0_v1());
     m_faces.on_removing(collapse.profile().v1_v0());
@@ -91,6 +115,8 @@ public:
   {
     m_vertices.on_collapsed(m_goal, kept);
     m_faces.on_collapsed(kept);
+    if (m_is_descent_asked)
+      m_descent.on_collapsed(m_changed_ids, m_pairs_after);
     if (m_vertices.point(m_vertices.number(kept)) != m_place)
       throw Argument_error(
           "the vertex point map holds another point than the one put into it and judged, perhaps because it "
@@ -98,8 +124,8 @@ public:
           "a map of doubles");
   }
 
-  /// Returns the faces that kept motions from being clear since `forget_blockers`, one at most for each
-  /// motion.
+  /// Returns the faces that kept motions from being clear since `forget_blockers`: one at most for each
+  /// motion, or those with which more pairs would offend.
   const std::vector<Face>& blockers() const { return m_blockers; }
   void forget_blockers() { m_blockers.clear(); }
   const Intersection_statistics& statistics() const { return m_statistics; }
@@ -141,6 +167,96 @@ private:
     return !m_is_mover_first || are_both_clear(collapse.mover(), collapse.goal());
   }
 
+  // Finds the faces that a collapse changes or removes. Returns whether they descend from offending ones.
+  template <class Profile>
+  bool is_descent_concerned(const Collapse<Profile>& collapse)
+  {
+    m_considered.clear();
+    m_changed.clear();
+    m_changed_ids.clear();
+    const auto add_all_at = [&](Vertex mover, Vertex other) {
+      for (const auto h : CGAL::halfedges_around_target(halfedge(mover, m_mesh), m_mesh)) {
+        if (CGAL::is_border(h, m_mesh))
+          continue;
+        const Id id = m_faces.id(face(h, m_mesh));
+        const Vertex a = target(next(h, m_mesh), m_mesh), b = source(h, m_mesh);
+        if (a != other && b != other) {
+          m_changed.push_back({collapse.place(), m_vertices.point(m_vertices.number(a)),
+                               m_vertices.point(m_vertices.number(b))});
+          m_changed_ids.push_back(id);
+        } else if (std::find(m_considered.begin(), m_considered.end(), id) != m_considered.end()) {
+          continue; // a contracted face of a collapse in which both ends move
+        }
+        m_considered.push_back(id);
+      }
+    };
+    add_all_at(collapse.mover(), collapse.goal());
+    if (collapse.are_both_moved())
+      add_all_at(collapse.goal(), collapse.mover());
+    return m_descent.consider(m_considered);
+  }
+
+  bool is_free_of_degenerate()
+  {
+    const bool is_free = !m_is_descent_asked || !m_descent.has_degenerate();
+    m_statistics.refused_by_star += !is_free;
+    return is_free;
+  }
+
+  template <class Profile>
+  bool is_number_of_pairs_kept(const Collapse<Profile>& collapse)
+  {
+    if (!m_is_descent_asked || find_pairs_after(collapse, m_descent.pairs_now()))
+      return true;
+    ++m_statistics.refused_by_descent;
+    for (const auto& [changed, other] : m_pairs_after)
+      if (std::find(m_considered.begin(), m_considered.end(), other) == m_considered.end())
+        m_blockers.push_back(m_faces.descriptor(other));
+    return false;
+  }
+
+  // Finds the exempt pairs with a changed face that offend after the collapse, in an order that does not
+  // depend on the index. When there are more than `limit`, it stops there and returns false.
+  template <class Profile>
+  bool find_pairs_after(const Collapse<Profile>& collapse,
+                        std::size_t limit = (std::numeric_limits<std::size_t>::max)())
+  {
+    m_pairs_after.clear();
+    const auto is_within_limit = [&](std::size_t i, const Triangle& other, Id id) {
+      if (do_faces_offend(m_changed[i], other, m_traits))
+        m_pairs_after.push_back({m_changed_ids[i], id});
+      return m_pairs_after.size() <= limit;
+    };
+    CGAL::Bbox_3 box;
+    for (std::size_t i = 0; i < m_changed.size(); ++i) {
+      box += box_of(m_changed[i]);
+      if (m_descent.is_exempt_inside())
+        for (std::size_t j = 0; j < i; ++j)
+          if (!is_within_limit(i, m_changed[j], m_changed_ids[j]))
+            return false;
+    }
+    m_faces.find_near(box, m_vertices.number(collapse.mover()), m_near);
+    if (collapse.are_both_moved())
+      m_faces.remove_at(m_vertices.number(collapse.goal()), m_near);
+    m_near.erase(
+        std::remove_if(m_near.begin(), m_near.end(), [&](Id id) { return !m_descent.is_exempt(id); }),
+        m_near.end());
+    std::sort(m_near.begin(), m_near.end());
+    for (const Id id : m_near) {
+      const auto& [a, b, c] = m_faces.corners(id);
+      const Triangle other{m_vertices.point(a), m_vertices.point(b), m_vertices.point(c)};
+      for (std::size_t i = 0; i < m_changed.size(); ++i)
+        if (CGAL::do_overlap(box_of(m_changed[i]), box_of(other)) && !is_within_limit(i, other, id))
+          return false;
+    }
+    return true;
+  }
+
+  static CGAL::Bbox_3 box_of(const Triangle& triangle)
+  {
+    return triangle[0].bbox() + triangle[1].bbox() + triangle[2].bbox();
+  }
+
   bool is_coincident(Vertex v) const { return m_vertices.is_coincident(m_vertices.number(v)); }
 
   bool is_motion_clear(const Motion& motion)
@@ -150,22 +266,34 @@ private:
       ++m_statistics.refused_by_link;
       return false;
     }
-    m_view.begin();
-    if (m_view.is_star_clear()) {
-      ++m_statistics.stars_clear_by_view;
-    } else {
-      const Star_verdict verdict = judge_star_motion(m_star.exact(), m_traits);
-      m_statistics.stars_clear_by_view += verdict == Star_verdict::clear_by_view;
-      if (verdict == Star_verdict::refused) {
-        ++m_statistics.refused_by_star;
-        return false;
-      }
+    if (!is_star_clear()) {
+      ++m_statistics.refused_by_star;
+      return false;
     }
     if (!are_sweeps_clear(motion)) {
       ++m_statistics.refused_by_sweep;
       return false;
     }
     return true;
+  }
+
+  bool is_star_clear()
+  {
+    if (m_is_descent_asked && m_descent.is_exempt_inside()) {
+      // No proof about the star as a whole holds where its faces may meet each other.
+      m_view.begin_without_view();
+      const auto& motion = m_star.exact();
+      return std::all_of(motion.moving.begin(), motion.moving.end(),
+                         [&](const auto& edge) { return is_face_kept(motion, edge, m_traits); });
+    }
+    m_view.begin();
+    if (m_view.is_star_clear()) {
+      ++m_statistics.stars_clear_by_view;
+      return true;
+    }
+    const Star_verdict verdict = judge_star_motion(m_star.exact(), m_traits);
+    m_statistics.stars_clear_by_view += verdict == Star_verdict::clear_by_view;
+    return verdict != Star_verdict::refused;
   }
 
   bool are_sweeps_clear(const Motion& motion)
@@ -184,6 +312,8 @@ private:
         for (const auto corner : face.corners)
           if (m_star[corner] == motion.place)
             face_at_place = id;
+      if (m_is_descent_asked && m_descent.is_exempt(id))
+        continue;
       if (!m_view.has_view() || !is_clear_of_star_in_view(face))
         m_stationary.push_back(face);
     }
@@ -260,6 +390,8 @@ private:
   bool m_is_run_announced = false;    // whether a loop that calls the visitor is running
   bool m_is_announcement_due = true;  // whether the mesh may have changed unannounced
   bool m_is_mover_first = false;
+  Descent m_descent;
+  bool m_is_descent_asked = false; // whether faces of the collapse in question have offending ancestors
   std::vector<Face> m_blockers;
   Intersection_statistics m_statistics;
 
@@ -267,6 +399,9 @@ private:
   std::vector<Id> m_near;
   std::vector<Stationary_face> m_stationary; // those of them not yet clear of the whole star
   std::vector<std::optional<Sweep_test<GeomTraits>>> m_sweeps; // by edge of the link, made when needed
+  std::vector<Id> m_considered, m_changed_ids; // the faces that a collapse changes or removes; changes alone
+  std::vector<Triangle> m_changed;             // these after the collapse
+  std::vector<Descent::Pair> m_pairs_after;    // exempt pairs with one of them that offend then
 };
 
 } // namespace internal

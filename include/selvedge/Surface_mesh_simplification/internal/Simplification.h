@@ -183,7 +183,7 @@ public:
         m_target(m_targets, m_border), m_aspect_ratio(options.min_aspect_ratio, m_target),
         m_normal_change(options.max_normal_change, m_aspect_ratio),
         m_uv({options.check_uv_orientation ? &observer : nullptr, m_rule}, m_normal_change), m_tracked(mesh),
-        m_error(max_error(), m_tracked, m_uv)
+        m_error(max_error(), m_tracked, m_uv), m_offending_pairs(constraints.offending_pairs)
   {
     refuse_out_of_range();
     if (!(options.uv_weight >= 0 && std::isfinite(options.uv_weight)))
@@ -366,7 +366,8 @@ private:
     if (!m_intersection)
       return Hindrance::by_loop;
     const auto refused_by_contact = [this] {
-      return m_intersection->statistics().refused_by_star + m_intersection->statistics().refused_by_sweep;
+      const Intersection_statistics& statistics = m_intersection->statistics();
+      return statistics.refused_by_star + statistics.refused_by_sweep + statistics.refused_by_descent;
     };
     const std::size_t before = refused_by_contact();
     if (m_intersection->accepts(collapse))
@@ -422,8 +423,10 @@ private:
   {
     const Clock::time_point start = Clock::now();
     Cancellation_scope::check();
-    if (m_options.check_intersections)
+    if (m_options.check_intersections) {
       m_intersection.emplace(m_mesh, m_error, empty_index(), m_points);
+      m_intersection->exempt(m_offending_pairs);
+    }
     Cancellation_scope::check();
     m_report.seconds_index = seconds_since(start);
   }
@@ -691,6 +694,7 @@ private:
   Uv m_uv;
   Tracked_vertices<TriangleMesh> m_tracked;
   Error m_error;
+  std::vector<std::pair<typename Intersection::Face, typename Intersection::Face>> m_offending_pairs;
   std::optional<Intersection> m_intersection;
   Simplify_report m_report;
   std::size_t m_accepted = 0;

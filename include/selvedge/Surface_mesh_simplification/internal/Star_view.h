@@ -61,6 +61,9 @@ public:
   }
   bool has_view() const { return m_has_view; }
 
+  /// Called in place of `begin` for a star that must be judged face by face, without a view.
+  void begin_without_view() { m_has_view = m_has_projection = false; }
+
   /// Called for every point that the star numbers after `begin`.
   void add(const Point& point)
   {
@@ -105,7 +108,7 @@ public:
     };
     const auto is_clear_beside = [&] {
       return m_has_projection ? m_projection.is_clear(m_view, face.corners)
-                          : m_view.is_clear_by_edge(face.corners, m_star_points);
+                              : m_view.is_clear_by_edge(face.corners, m_star_points);
     };
     // Neighbours lie beside the star, other layers above or below.
     const bool is_neighbour = (std::min)({face.corners[0], face.corners[1], face.corners[2]}) < m_star.size();
