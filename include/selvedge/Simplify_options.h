@@ -4,9 +4,9 @@
 #ifndef SELVEDGE_SIMPLIFY_OPTIONS_H
 #define SELVEDGE_SIMPLIFY_OPTIONS_H
 
+#include <selvedge/Soup_collapse.h>
 #include <selvedge/Surface_mesh_simplification/Quadric_cost_options.h>
 
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -25,23 +25,6 @@ struct Simplify_progress
 enum class Placement {
   vertices, ///< at one end of the edge: every vertex of the result is one of the input
   optimal   ///< where its quadric is least, and at an end where that is refused or an end must stay
-};
-
-/// A collapse of a soup.
-struct Soup_collapse
-{
-  std::size_t removed; ///< a vertex at the position that moves away
-  std::size_t kept;    ///< a vertex at the position with which it merges
-
-  /// Where both go, if that is neither of the two positions.
-  std::optional<std::array<double, 3>> place = std::nullopt;
-  bool is_removed_first = false; ///< whether `removed` goes there before `kept`
-
-  friend bool operator==(const Soup_collapse& a, const Soup_collapse& b)
-  {
-    return a.removed == b.removed && a.kept == b.kept && a.place == b.place &&
-           a.is_removed_first == b.is_removed_first;
-  }
 };
 
 /// Which loop takes edges from a queue and collapses them.

@@ -29,6 +29,7 @@ namespace selvedge {
 ///     input VERTICES TRIANGLES SHA256
 ///     rounding none|float32                  once at most; none where it is missing
 ///     normals kept|ignored                   once at most; kept where it is missing
+///     defects freeze|descend                 once at most; freeze where it is missing
 ///     obstacle VERTICES TRIANGLES SHA256     once at most
 ///     limit NAME NUMBER                      any number of them, each name once
 ///     s MOVED KEPT                           any number of them
@@ -47,6 +48,9 @@ namespace selvedge {
 ///   32-bit float, ties to even.
 /// - *normals*: whether an edge across which the normals of the input differ is a line, like one across which
 ///   texture coordinates or materials do. They are ignored when the writer makes the normals anew.
+/// - *defects*: what becomes of the offending pairs of the input. Their triangles stay as they are, or the
+/// pairs
+///   and all that descend from them are exempt (`pairs_without_descent` of verify.h says which do).
 /// - *obstacle*: a mesh that the writer kept clear of and did not change, described as in *input*. The line
 ///   only records that there was one. The log does not hold its triangles, so they cannot be judged.
 /// - *limit*: a limit that the writer kept to, and by which it wants to be judged. NAME is a key of
@@ -105,6 +109,7 @@ struct Log_header
   std::string sha256; ///< of the file; empty when unknown
   bool is_rounded_to_float32 = false;
   bool are_normals_ignored = false;
+  bool may_pairs_descend = false; ///< the policy for offending pairs is `descend`
 
   /// A mesh beside the input that the writer kept clear of.
   struct Obstacle

@@ -112,7 +112,7 @@ struct Replay_verdict
   Limits_source limits_source = Limits_source::log;
   bool is_input_stated = false;    ///< the log names the SHA-256 of its input, and it is the original's
   bool is_result_stated = false;   ///< the log names a digest of its result, and it is that of `soup`
-  std::size_t offending_pairs = 0; ///< of the original; their triangles do not move
+  std::size_t offending_pairs = 0; ///< of the original
 
   double largest_snap = 0;         ///< the longest snap, in the unit of the coordinates
   double largest_way_of_snaps = 0; ///< how far a vertex was moved by all of its snaps together, at most
@@ -131,7 +131,8 @@ struct Replay_verdict
 /// Something that a verdict says nothing about.
 struct Not_judged
 {
-  /// The key of a limit, or "lines", "limits_of_snaps", "obstacle", "input", "result" or "attributes".
+  /// The key of a limit, or "lines", "limits_of_snaps", "normals", "obstacle", "pairs", "input", "result" or
+  /// "attributes".
   std::string key;
 
   std::string sentence; ///< what it is, and why it was not judged, for a person
@@ -144,7 +145,9 @@ std::vector<Not_judged> not_judged(const Replay_verdict& verdict);
 ///
 /// **Guarantees** when the verdict is "accepted":
 /// 1. *Embedded*: after every step, any two faces meet exactly in what they share, except for the offending
-///    pairs of the original; these have stayed as they were.
+///    pairs of the original; these have stayed as they were. Where the log says that pairs may descend,
+///    except for pairs that descend from those (`pairs_without_descent` of verify.h), which no step made
+///    more.
 /// 2. *Motion*: during no step did two faces meet beyond what they share.
 /// 3. *Topology*: every collapse met the link condition over positions, so that pieces stay the manifolds
 ///    that they were.

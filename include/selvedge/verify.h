@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_VERIFY_H
 #define SELVEDGE_VERIFY_H
 
+#include <selvedge/Soup_collapse.h>
 #include <selvedge/Triangle_soup.h>
 
 #include <cstddef>
@@ -69,6 +70,27 @@ std::vector<Offending_pair> new_pairs(const Triangle_soup& result,
                                       const std::vector<Offending_pair>& pairs_of_result,
                                       const Triangle_soup& original,
                                       const std::vector<Offending_pair>& pairs_of_original);
+
+/// Returns those offending pairs of a result that descend from no offending pair of its original, in their
+/// order, and all pairs beyond the number that the original has: the last of them.
+///
+/// `collapses` lead from the original to the result. At first, every triangle of an offending pair descends
+/// from itself alone. A collapse makes all triangles at the moving vertices that it leaves descend from all
+/// that such triangles, left or removed, descended from. A pair descends from a pair of the original when one
+/// of its triangles descends from one triangle of that pair, and the other from the other one. Nothing else
+/// is used: the triangles of the result must be where the collapses lead, or they descend from nothing.
+///
+/// `triangles_of_original` has, for every triangle of the result, that of the original which it was, with the
+/// same corners first.
+///
+/// **Exactness.** Points are compared exactly. **Complexity.** O(n log n) for n triangles and collapses in
+/// practice.
+std::vector<Offending_pair> pairs_without_descent(const Triangle_soup& result,
+                                                  const std::vector<Offending_pair>& pairs_of_result,
+                                                  const Triangle_soup& original,
+                                                  const std::vector<Offending_pair>& pairs_of_original,
+                                                  const std::vector<Soup_collapse>& collapses,
+                                                  const std::vector<Index>& triangles_of_original);
 
 /// Counts of one piece: triangles that are connected by the numbers of their vertices.
 ///
@@ -192,6 +214,11 @@ struct Verify_options
   /// For every triangle of the result, the triangle of the original that it was, when the caller knows: as
   /// `Simplified_soup::triangles` says. Empty when nobody does.
   std::vector<Index> triangles_of_original;
+
+  /// The collapses that led from the original to the result, when its pairs were allowed to descend from
+  /// those of the original: then `Verification::new_pairs` are `pairs_without_descent`. It needs
+  /// `triangles_of_original`. Null when all pairs had to stay as they were.
+  const std::vector<Soup_collapse>* collapses = nullptr;
 };
 
 /// Matches the pieces of a result with those of its original, in these steps:
@@ -267,7 +294,8 @@ Distances distances(const Triangle_soup& result, const Triangle_soup& original);
 struct Verification
 {
   std::vector<Offending_pair> pairs;
-  /// The pairs that the original does not have; all pairs when no original was given.
+  /// The pairs that the original does not have, or, where pairs could descend, those that descend from none
+  /// of the original; all pairs when no original was given.
   std::vector<Offending_pair> new_pairs;
   std::vector<Piece> pieces;
   /// This and the next two stay empty when no original was given.

@@ -54,6 +54,8 @@ Log_writer::Log_writer(std::ostream& stream, const Log_header& header) : m_strea
   m_stream << "rounding " << (header.is_rounded_to_float32 ? "float32" : "none") << '\n';
   if (header.are_normals_ignored)
     m_stream << "normals ignored\n";
+  if (header.may_pairs_descend)
+    m_stream << "defects descend\n";
   if (header.obstacle)
     write_mesh("obstacle", *header.obstacle);
   for (const Limit_description& limit : limit_descriptions)
@@ -101,7 +103,7 @@ public:
     if (!next_line() || m_words[0] != "input")
       fail("the second line is 'input VERTICES TRIANGLES SHA256'");
     read_mesh(header, "input VERTICES TRIANGLES SHA256");
-    bool is_rounding_known = false, are_normals_known = false;
+    bool is_rounding_known = false, are_normals_known = false, are_defects_known = false;
     while (next_line()) {
       if (m_words[0] == "rounding" && !is_rounding_known) {
         expect_words(2, 2, "rounding none|float32");
@@ -115,6 +117,12 @@ public:
           fail("normals are 'kept' or 'ignored'");
         header.are_normals_ignored = m_words[1] == "ignored";
         are_normals_known = true;
+      } else if (m_words[0] == "defects" && !are_defects_known) {
+        expect_words(2, 2, "defects freeze|descend");
+        if (m_words[1] != "freeze" && m_words[1] != "descend")
+          fail("defects are to 'freeze' or to 'descend'");
+        header.may_pairs_descend = m_words[1] == "descend";
+        are_defects_known = true;
       } else if (m_words[0] == "obstacle" && !header.obstacle) {
         Log_header::Obstacle obstacle;
         read_mesh(obstacle, "obstacle VERTICES TRIANGLES SHA256");

@@ -28,6 +28,10 @@ std::vector<Not_judged> not_judged(const Replay_verdict& verdict)
     result.push_back({"obstacle",
                       "whether the steps keep clear of the obstacle that the log names: the log does "
                       "not hold its triangles"});
+  if (verdict.header.obstacle && verdict.header.may_pairs_descend)
+    result.push_back({"pairs",
+                      "whether there are ever more offending pairs than before a step: those with the "
+                      "obstacle are not known"});
   if (!verdict.is_input_stated)
     result.push_back(
         {"input", verdict.header.sha256.empty()

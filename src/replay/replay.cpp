@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <set>
 #include <unordered_map>
@@ -76,9 +77,10 @@ class Offences
 public:
   void add(Index f, Index g)
   {
-    m_partners[f].insert(g);
+    m_count += m_partners[f].insert(g).second;
     m_partners[g].insert(f);
   }
+  std::size_t count() const { return m_count; }
   bool has(Index f, Index g) const
   {
     const auto found = m_partners.find(f);
@@ -90,6 +92,7 @@ public:
     const auto found = m_partners.find(f);
     if (found == m_partners.end())
       return;
+    m_count -= found->second.size();
     for (const Index g : found->second)
       if (g != f) {
         const auto other = m_partners.find(g);
@@ -102,6 +105,72 @@ public:
 
 private:
   std::unordered_map<Index, std::set<Index>> m_partners;
+  std::size_t m_count = 0;
+};
+
+/// From which offending faces of the start every face descends, where pairs may descend; otherwise from none.
+class Lineage
+{
+public:
+  using Faces = std::vector<Index>; // in ascending order
+
+  void add_pair(Index f, Index g)
+  {
+    for (const auto& [first, second] : {std::make_pair(f, g), std::make_pair(g, f)}) {
+      m_ancestors[first] = std::make_shared<Faces>(1, first);
+      m_rivals[first].push_back(second);
+    }
+  }
+
+  /// Returns the ancestors of all of some faces.
+  Faces united(const std::vector<Index>& faces) const
+  {
+    Faces result;
+    for (const Index f : faces)
+      if (const auto found = m_ancestors.find(f); found != m_ancestors.end())
+        result.insert(result.end(), found->second->begin(), found->second->end());
+    return sorted(std::move(result));
+  }
+
+  /// Returns the faces that offended together with one of these at the start.
+  Faces rivals(const Faces& ancestors) const
+  {
+    Faces result;
+    for (const Index f : ancestors)
+      result.insert(result.end(), m_rivals.at(f).begin(), m_rivals.at(f).end());
+    return sorted(std::move(result));
+  }
+
+  void set(const std::vector<Index>& faces, const Faces& ancestors)
+  {
+    const auto shared = std::make_shared<Faces>(ancestors);
+    for (const Index f : faces)
+      m_ancestors[f] = shared;
+  }
+  void remove(Index f) { m_ancestors.erase(f); }
+
+  bool descends_from_one(Index f, const Faces& of) const
+  {
+    const auto found = m_ancestors.find(f);
+    return found != m_ancestors.end() && have_common(*found->second, of);
+  }
+
+  static bool have_common(const Faces& a, const Faces& b)
+  {
+    return std::any_of(a.begin(), a.end(),
+                       [&](Index f) { return std::binary_search(b.begin(), b.end(), f); });
+  }
+
+private:
+  static Faces sorted(Faces faces)
+  {
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    return faces;
+  }
+
+  std::unordered_map<Index, std::shared_ptr<const Faces>> m_ancestors;
+  std::unordered_map<Index, std::vector<Index>> m_rivals;
 };
 
 /// The original as the writer of the log took it: rounded if the log says so, and without triangles that have
@@ -112,6 +181,7 @@ struct Start
   std::vector<Index> numbers;  // of its triangles in the original
   std::vector<char> is_locked; // by position
   Offences offences;
+  Lineage lineage;
   std::size_t offending_pairs = 0;
 };
 
@@ -147,7 +217,10 @@ Start prepare(const Triangle_soup& original, const Log_header& header)
   const std::vector<Index> first = first_at_position(start.soup.points);
   std::vector<char> is_frozen(start.soup.triangles.size(), false);
   for (const Offending_pair& pair : offending_pairs(start.soup)) {
-    is_frozen[pair.first] = is_frozen[pair.second] = true;
+    if (!header.may_pairs_descend || pair.offence == Offence::degenerate)
+      is_frozen[pair.first] = is_frozen[pair.second] = true;
+    if (header.may_pairs_descend)
+      start.lineage.add_pair(pair.first, pair.second);
     start.offences.add(pair.first, pair.second);
     ++start.offending_pairs;
   }
@@ -279,7 +352,10 @@ private:
     Index removed = position(step.removed), kept = position(step.kept);
     if (!is_possible(is_snap, removed, kept))
       return;
+    m_changing.clear();
+    m_heritage.clear();
     if (is_snap) {
+      m_changing = m_complex.faces_at(removed);
       judge_lock(removed);
       judge_lock(kept);
       judge_partners(removed, kept);
@@ -289,6 +365,11 @@ private:
     }
     const std::array<Coordinates, 2> before{m_complex.point(removed), m_complex.point(kept)};
     const std::optional<Coordinates> place = place_of(step, removed, kept);
+    for (const Index end : {removed, kept})
+      if (m_complex.point(end) != place.value_or(before[1]))
+        m_changing.insert(m_changing.end(), m_complex.faces_at(end).begin(), m_complex.faces_at(end).end());
+    m_heritage = m_start.lineage.united(m_changing);
+    m_rivals = m_start.lineage.rivals(m_heritage);
     if (!place) {
       judge_lock(removed);
       judge_link(removed, kept);
@@ -313,7 +394,14 @@ private:
       shift(kept, *place);
       report_pending_limit(removed, kept);
     }
+    const std::size_t pairs_before = m_offences.count();
     apply(removed, kept, false, before);
+    // The pairs with an obstacle, which may have become fewer instead, are not known.
+    if (!m_verdict.header.obstacle && m_offences.count() > pairs_before)
+      report(Violation_kind::intersection,
+             "more pairs of triangles intersect afterwards than before, though all descend from pairs of the "
+             "original",
+             m_complex.faces_at(kept));
   }
 
   static constexpr Index no_position() { return Index(-1); }
@@ -454,6 +542,19 @@ private:
 
   // ---- Contacts
 
+  // Whether a pair of a moving face and another need not be apart after this step: it offends already, which
+  // is no fault of this step, or it descends from an offending pair of the original.
+  bool is_exempt(Index moving, Index other) const
+  {
+    if (m_offences.has(moving, other))
+      return true;
+    if (m_heritage.empty())
+      return false;
+    return std::find(m_changing.begin(), m_changing.end(), other) != m_changing.end()
+               ? Lineage::have_common(m_heritage, m_rivals)
+               : m_start.lineage.descends_from_one(other, m_rivals);
+  }
+
   void judge(const Motion& motion)
   {
     if (m_is_bad)
@@ -502,12 +603,12 @@ private:
       Cancellation_scope::check();
       const Box end = box_of(face.after);
       for (const Index f : m_standing)
-        if (end.overlaps(m_boxes[f]) && !m_offences.has(face.face, f) &&
+        if (end.overlaps(m_boxes[f]) && !is_exempt(face.face, f) &&
             do_meet(face.after, m_complex.triangle(f), m_statistics))
           return report_meeting(Violation_kind::intersection, motion, face.face, face.after, f,
                                 m_complex.triangle(f), meeting_point(face.after, m_complex.triangle(f)));
       for (const Moving& other : moving)
-        if (other.face < face.face && !m_offences.has(face.face, other.face) &&
+        if (other.face < face.face && !is_exempt(face.face, other.face) &&
             do_meet(face.after, other.after, m_statistics))
           return report_meeting(Violation_kind::intersection, motion, face.face, face.after, other.face,
                                 other.after, meeting_point(face.after, other.after));
@@ -515,7 +616,7 @@ private:
     for (const Moving& face : moving) {
       Cancellation_scope::check();
       for (const Index f : m_standing) {
-        if (!face.box.overlaps(m_boxes[f]) || m_offences.has(face.face, f))
+        if (!face.box.overlaps(m_boxes[f]) || is_exempt(face.face, f))
           continue;
         const Standing standing{m_complex.triangle(f), 3};
         if (face.sweep.touches(standing))
@@ -523,7 +624,7 @@ private:
                                 standing.corners, face.sweep.contact(standing));
       }
       for (const auto& [f, side] : sides)
-        if (f != face.face && !m_offences.has(face.face, f) && face.sweep.touches(side))
+        if (f != face.face && !is_exempt(face.face, f) && face.sweep.touches(side))
           return report_meeting(Violation_kind::tunnelling, motion, face.face, face.after, f,
                                 m_complex.triangle(f), face.sweep.contact(side));
     }
@@ -612,20 +713,28 @@ private:
   {
     if (m_is_bad && !m_options.is_all_wanted)
       return;
-    const std::vector<Index> changed = m_complex.faces_at(removed);
     if (is_snap) {
       m_complex.snap(removed, kept);
     } else {
       for (const Index f : m_complex.collapse(removed, kept, before)) {
         m_offences.remove(f);
+        m_start.lineage.remove(f);
         m_boxes[f] = Box();
         m_tree.set(f, Box());
       }
     }
     refit(m_complex.faces_at(kept));
-    const auto& faces = m_complex.faces_at(kept);
-    if (m_is_bad || std::any_of(faces.begin(), faces.end(), [&](Index f) { return m_offences.has(f); }))
-      find_offences(faces);
+    // Faces with both ends were listed twice where both have moved.
+    std::sort(m_changing.begin(), m_changing.end());
+    m_changing.erase(std::unique(m_changing.begin(), m_changing.end()), m_changing.end());
+    m_changing.erase(std::remove_if(m_changing.begin(), m_changing.end(),
+                                    [&](Index f) { return !m_complex.face(f).is_alive; }),
+                     m_changing.end());
+    if (!m_heritage.empty())
+      m_start.lineage.set(m_changing, m_heritage);
+    if (m_is_bad || !m_heritage.empty() ||
+        std::any_of(m_changing.begin(), m_changing.end(), [&](Index f) { return m_offences.has(f); }))
+      find_offences(m_changing);
     if (2 * m_complex.face_count() < m_faces_in_tree)
       build_tree();
   }
@@ -706,6 +815,10 @@ private:
   bool m_are_snaps_measured = false;
   std::optional<Violation_kind> m_pending_limit;
   std::vector<Index> m_standing;
+
+  // Of a step: the faces that it changes or removes, their ancestors, and what offended with these.
+  std::vector<Index> m_changing;
+  Lineage::Faces m_heritage, m_rivals;
 };
 
 } // namespace

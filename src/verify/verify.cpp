@@ -41,7 +41,15 @@ Verification verify(const Triangle_soup& result, const Triangle_soup& original,
   const auto find_new_pairs = [&](Verification& verification, const Triangle_soup& after,
                                   const Triangle_soup& before) {
     verification.pairs = offending_pairs(after);
-    verification.new_pairs = new_pairs(after, verification.pairs, before, pairs_of_original);
+    if (!options.collapses) {
+      verification.new_pairs = new_pairs(after, verification.pairs, before, pairs_of_original);
+      return;
+    }
+    std::vector<Index> triangles = options.triangles_of_original;
+    for (std::size_t t = original.triangles.size(); t < before.triangles.size(); ++t)
+      triangles.push_back(Index(t)); // of the obstacle
+    verification.new_pairs = pairs_without_descent(after, verification.pairs, before, pairs_of_original,
+                                                   *options.collapses, triangles);
   };
   Verification verification;
   tbb::parallel_invoke(Cancellation_scope::inherited([&] {
