@@ -72,6 +72,8 @@ void check(const Simplify_request& request)
     throw Argument_error("say how far to reduce the mesh: give --ratio, --faces, --error or --lods");
   if (!request.lods.empty() && (request.options.ratio || request.options.faces))
     throw Argument_error("--lods already says how far to reduce the mesh; leave out --ratio R and --faces");
+  if (request.is_strict && request.defects.value_or(Defects::refuse) != Defects::refuse)
+    throw Argument_error("--strict refuses what --defects would accept; leave out one of the two");
   if (request.is_in_cells && !request.intent.ratios.empty())
     throw Argument_error(
         "--cells: parts cannot have ratios of their own; leave out --cells or --ratio PART=R");
@@ -154,7 +156,13 @@ Json options_json(const Simplify_request& request)
           {"normals", name_of(request.normals)},
           {"threads", optional(request.threads)},
           {"cells", request.is_in_cells},
-          {"strict", request.is_strict}};
+          {"defects", name_of(defects_of(request))},
+          {"strict", defects_of(request) == Defects::refuse}};
+}
+
+Defects defects_of(const Simplify_request& request)
+{
+  return request.is_strict ? Defects::refuse : request.defects.value_or(Prepare_options().defects);
 }
 
 void complete(Simplify_request& request)
@@ -369,9 +377,20 @@ void add_options(CLI::App& command, Simplify_request& request)
 
   const char* const conduct = "Conduct";
   command
+      .add_option(
+          "--defects", request.defects,
+          "What becomes of pairs of faces that intersect in the input: reduce their faces like others, "
+          "so that only what descends from these pairs may intersect, and never more of it than in the "
+          "input; leave their faces as they are; or refuse the input. Degenerate faces are left as "
+          "they are in any case but the last.")
+      ->transform(one_of<Defects>(
+          {{"descend", Defects::descend}, {"freeze", Defects::freeze}, {"refuse", Defects::refuse}}))
+      ->type_name("descend|freeze|refuse")
+      ->default_str(name_of(Prepare_options().defects))
+      ->group(conduct);
+  command
       .add_flag("--strict", request.is_strict,
-                "Refuse an input with intersecting, duplicate or degenerate faces, instead of leaving these "
-                "faces as they are.")
+                "Refuse an input with intersecting, duplicate or degenerate faces: --defects refuse.")
       ->group(conduct);
   command
       .add_flag("--require-target", request.is_target_required,

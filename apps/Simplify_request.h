@@ -35,7 +35,8 @@ struct Simplify_request
   double weld_distance = 0;
   Normals_choice normals = Normals_choice::automatic;
   bool is_sewn = false;
-  bool is_strict = false;
+  std::optional<Defects> defects; // none: the default
+  bool is_strict = false;         // the same as Defects::refuse
   bool is_target_required = false;
   bool is_quiet = false;
   bool is_ascii = false;
@@ -57,6 +58,9 @@ std::vector<std::string> outputs(const Simplify_request& request);
 
 /// Returns whether the request asks for a mesh, report or log on this program's standard output.
 bool has_standard_output(const Simplify_request& request);
+
+/// Returns what becomes of offending pairs of the input.
+Defects defects_of(const Simplify_request& request);
 
 /// Returns the options of the request as the report lists them.
 Json options_json(const Simplify_request& request);

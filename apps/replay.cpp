@@ -102,7 +102,9 @@ void print_terms(const Replay_verdict& verdict)
   std::cout << "input: " << bound(verdict.is_input_stated)
             << (verdict.header.is_rounded_to_float32 ? "; rounded to 32-bit floats" : "");
   if (verdict.offending_pairs > 0)
-    std::cout << "; " << counted(verdict.offending_pairs, "offending pair") << " that must stay as they are";
+    std::cout << "; " << counted(verdict.offending_pairs, "offending pair")
+              << (verdict.header.may_pairs_descend ? ", from which others may descend"
+                                                   : " that must stay as they are");
   std::cout << "\nresult: " << bound(verdict.is_result_stated) << '\n';
   if (verdict.snaps > 0)
     std::cout << "snaps: at most " << with_digits(verdict.largest_snap)

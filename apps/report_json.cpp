@@ -150,7 +150,7 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
   report["passes"] = done.passes;
   report["cells"] = {{"count", done.cells}, {"collapses", done.collapses_in_cells}};
   report["refused"] = to_json(done.refused);
-  report["frozen"] = {{"faces", prepared.frozen_faces}};
+  report["frozen"] = {{"faces", prepared.frozen_faces}, {"pairs", prepared.offending_pairs.size()}};
   const Index_statistics& index = done.index;
   const Intersection_statistics& guard = done.intersections;
   report["index"] = {{"clusters", index.clusters},
@@ -167,7 +167,8 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
                      {"sweeps_tested", guard.sweeps_tested},
                      {"refused_by_link", guard.refused_by_link},
                      {"refused_by_star", guard.refused_by_star},
-                     {"refused_by_sweep", guard.refused_by_sweep}};
+                     {"refused_by_sweep", guard.refused_by_sweep},
+                     {"refused_by_descent", guard.refused_by_descent}};
   const Sewing_notes& welding = result.sewing;
   report["welding"] = {{"unused_vertices", welding.unused_vertices},
                        {"welded_vertices", welding.coincident_vertices},
@@ -326,7 +327,7 @@ void add_replay(Json& report, const Replay_verdict& verdict)
                      {"not_judged", std::move(open)}};
   report["steps"] = {{"taken", verdict.steps}, {"snaps", verdict.snaps}, {"collapses", verdict.collapses}};
   report["faces"] = {{"output", verdict.soup.triangles.size()}};
-  report["frozen"] = {{"pairs", verdict.offending_pairs}};
+  report["frozen"] = {{"pairs", verdict.offending_pairs}, {"may_descend", verdict.header.may_pairs_descend}};
   report["snap"] = {{"largest_distance", verdict.largest_snap},
                     {"largest_way", verdict.largest_way_of_snaps}};
   Json kinds = Json::array(), first = Json::array();

@@ -102,7 +102,7 @@ private:
     m_bar.begin("judging the input");
     Prepare_options options;
     options.round_to_float32 = needs_float32(file.soup, mesh_format(m_request.output));
-    options.is_strict = m_request.is_strict;
+    options.defects = defects_of(m_request);
     options.weld_distance = m_request.weld_distance;
     options.normals = m_request.normals;
     try {

@@ -38,6 +38,8 @@ std::string remedy(Hindrance reason, const Simplify_request& request, Normals_tr
 {
   const Simplify_options& options = request.options;
   switch (reason) {
+  case Hindrance::frozen:
+    return defects_of(request) == Defects::freeze ? "--defects descend" : "";
   case Hindrance::locked:
     return request.intent.locked.empty() ? "--keep for fewer parts" : "--lock for fewer parts";
   case Hindrance::normals:
@@ -71,7 +73,7 @@ std::string why_it_stays(Hindrance reason)
 {
   switch (reason) {
   case Hindrance::frozen:
-    return "faces that intersect in the input stay as they are, and `selvedge verify` lists them";
+    return "degenerate faces of the input stay as they are, and `selvedge verify` lists them";
   case Hindrance::non_manifold:
     return "what meets at edges of three faces or more stays as it is";
   case Hindrance::misoriented:
@@ -157,8 +159,9 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
 {
   stream << request.input << ": " << counted(prepared.soup.triangles.size(), "face");
   if (!prepared.offending_pairs.empty())
-    stream << ", " << counted(prepared.offending_pairs.size(), "offending pair") << ", "
-           << counted(prepared.frozen_faces, "face") << " frozen";
+    stream << ", " << counted(prepared.offending_pairs.size(), "offending pair");
+  if (prepared.frozen_faces > 0)
+    stream << ", " << counted(prepared.frozen_faces, "face") << " frozen";
   if (const std::size_t left_out = prepared.left_out_faces + prepared.left_out_by_rounding; left_out > 0)
     stream << ", " << counted(left_out, "degenerate face") << " left out";
   stream << '\n';
@@ -221,7 +224,10 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
   else
     stream << counted(verification.pairs.size(), "offending pair")
            << " (triangles that touch or cross, or are degenerate), "
-           << with_commas(verification.new_pairs.size()) << " of them new";
+           << (prepared.defects == Defects::descend
+                   ? with_commas(verification.new_pairs.size()) + " of them not descended from the " +
+                         with_commas(prepared.offending_pairs.size()) + " of the input"
+                   : with_commas(verification.new_pairs.size()) + " of them new");
   stream << ", topology " << (verification.same_topology() ? "kept" : "CHANGED")
          << "\ndistance from the original's vertices: " << percent(distance.root_mean_square)
          << " of the diagonal (RMS), at most " << percent(distance.maximum) << '\n';

@@ -16,15 +16,25 @@
 
 namespace selvedge {
 
+/// What becomes of the offending pairs of an input that is not embedded.
+enum class Defects {
+  descend, ///< they are exempt, and so are pairs that descend from them, of which there are never more
+  freeze,  ///< they stay as they are: the vertices of their faces do not move
+  refuse   ///< the input is refused (`Input_error`)
+};
+
+/// Returns "descend", "freeze" or "refuse".
+const char* name_of(Defects defects);
+
 /// The options of `prepare`.
 struct Prepare_options
 {
   /// Whether coordinates are first rounded to 32-bit floats, for an output format that stores no more.
   bool round_to_float32 = false;
 
-  /// Whether an input that is not embedded is refused (`Input_error`). Otherwise the faces that offend are
-  /// frozen. Pairs that offend only after rounding are frozen in either case.
-  bool is_strict = false;
+  /// What becomes of offending pairs. Pairs that offend only after rounding are never refused; with
+  /// `Defects::refuse` they are frozen. Degenerate faces are frozen in any case.
+  Defects defects = Defects::freeze;
 
   /// What a reduction does with the normals of corners.
   Normals_choice normals = Normals_choice::keep;
@@ -59,7 +69,8 @@ struct Prepare_options
   /// **Guarantees**
   /// 1. *Embedded, motion*: every snap is decided exactly, like a collapse. On the way nothing is met or
   ///    passed through, and no face degenerates. The offending pairs afterwards are those before.
-  /// 2. *Frozen*: vertices of frozen faces and of the obstacle do not move, and nothing moves onto them.
+  /// 2. *Frozen*: vertices of frozen or offending faces and of the obstacle do not move, and nothing moves
+  ///    onto them.
   /// 3. *Manifold*: two border edges that run in opposite directions become one edge; no other edges do.
   /// 4. *Deterministic*: the same input gives the same snaps.
   ///
@@ -103,9 +114,12 @@ struct Prepared_soup
   /// How many of them only rounding has made.
   std::size_t pairs_by_rounding = 0;
 
-  /// For every triangle, whether it is frozen: its vertices do not move, so that every offending pair stays
-  /// as it is and none is added. Frozen are the triangles of offending pairs, the triangles with a corner
-  /// where only rounding has made positions equal, and all triangles of the obstacle.
+  /// What becomes of these pairs: `descend` or `freeze`.
+  Defects defects = Defects::freeze;
+
+  /// For every triangle, whether it is frozen: its vertices do not move. Frozen are degenerate triangles,
+  /// triangles with a corner where only rounding has made positions equal, and all triangles of the obstacle;
+  /// unless pairs may descend, also the triangles of all offending pairs, so that these stay as they are.
   std::vector<char> is_frozen;
   std::size_t frozen_faces = 0; ///< of `soup`
 
@@ -121,19 +135,21 @@ struct Prepared_soup
   double seconds_snap = 0;      ///< for snapping
 };
 
-/// Prepares a soup for `simplify_soup`: takes out normals that are to be made anew, rounds it, finds coincident vertices, finds offending pairs, freezes
-/// their faces, and snaps borders, in this order.
+/// Prepares a soup for `simplify_soup`: takes out normals that are to be made anew, rounds it, finds
+/// coincident vertices, finds offending pairs, freezes their faces if asked for, and snaps borders, in this
+/// order.
 ///
 /// An `obstacle`, such as the body under a garment, takes part in every decision and never changes; it is not
-/// even rounded. Faces of the input that offend together with it are frozen like others, and so are faces
-/// that only rounding has brought to one of its vertices. The input is not sewn to the obstacle: along it,
-/// the input keeps its own borders.
+/// even rounded. Faces of the input that offend together with it are treated like others, and faces
+/// are frozen that only rounding has brought to one of its vertices. The input is not sewn to the obstacle:
+/// along it, the input keeps its own borders.
 ///
 /// Throws `Input_error`
 /// - when the input has no triangle, or every triangle has two corners at one position,
 /// - when rounding makes a coordinate overflow,
 /// - when coordinates are too far apart for one `Scale`,
-/// - with `is_strict`, when the input, together with the obstacle, is not embedded. The message says how many
+/// - with `Defects::refuse`, when the input, together with the obstacle, is not embedded. The message says
+/// how many
 ///   pairs offend, and names the first by the numbers of its triangles, counted from 1; those of the obstacle
 ///   follow those of the input.
 ///

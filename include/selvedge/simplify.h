@@ -55,6 +55,11 @@ struct Simplified_soup
   /// position and values of its own.
   std::vector<Index> triangles;
   std::vector<Index_triple> corners;
+
+  /// The collapses that led to it, in order, when offending pairs of the original were allowed to descend
+  /// (`Defects::descend`) and there are any; otherwise empty.
+  std::vector<Soup_collapse> collapses;
+
   std::size_t placed_vertices = 0; ///< how many vertices of `soup` are at new places
 
   Sewing_notes sewing;
@@ -70,8 +75,9 @@ struct Simplified_soup
 /// Reduces a soup.
 ///
 /// **Guarantees** All of `simplify_mesh` (Surface_mesh_simplification/simplify_mesh.h), and:
-/// 1. *Embedded*: the offending pairs of the result are among those of the input, so there are none when the
-///    input has none.
+/// 1. *Embedded*: the offending pairs of the result are among those of the input or, with `Defects::descend`,
+///    descend from those and are no more than them (docs/guarantees.md). There are none when the input has
+///    none.
 /// 2. *Attributes*: every corner of the result has the vertex number, texture coordinate and group that some
 ///    corner of the input has at the same position on the same side; coordinates are the same bits. With
 ///    `Placement::optimal` this holds for all vertices but `placed_vertices`. Those have new positions, and

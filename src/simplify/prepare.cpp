@@ -4,10 +4,10 @@
 #include <selvedge/prepare.h>
 
 #include "Stopwatch.h"
-#include "soup/transforms_of_vertices.h"
 #include "soup/number_positions.h"
 #include "soup/obstacle.h"
 #include "soup/selection.h"
+#include "soup/transforms_of_vertices.h"
 #include "weld/snapping.h"
 
 #include <selvedge/Error.h>
@@ -47,7 +47,7 @@ void refuse_if_any(const std::vector<Offending_pair>& pairs, std::size_t own_tri
   throw Input_error(
       "the mesh is not embedded: " + what +
       (pairs.size() == 1 ? "" : ", and " + std::to_string(pairs.size() - 1) + " more such pairs") +
-      "; repair it, or leave out the strict option to keep these triangles as they are");
+      "; repair it, or do not ask to refuse such a mesh");
 }
 
 // Gives different positions to vertices that rounding has separated: where a vertex of the soup has moved and
@@ -88,6 +88,7 @@ public:
     const std::size_t own_triangles = soup().triangles.size();
     append_obstacle(soup(), obstacle());
     judge(own_triangles);
+    m_prepared.defects = m_options.defects == Defects::descend ? Defects::descend : Defects::freeze;
     freeze(own_triangles);
     m_prepared.seconds_check += m_stopwatch.restart();
     snap();
@@ -99,6 +100,7 @@ public:
 private:
   Triangle_soup& soup() { return m_prepared.soup; }
   Triangle_soup& obstacle() { return m_prepared.obstacle; }
+  bool is_strict() const { return m_options.defects == Defects::refuse; }
 
   // The positions of the obstacle follow those of the soup.
   std::vector<Index> number_positions_of_both() const
@@ -130,8 +132,8 @@ private:
     };
     const auto& own = soup().triangles;
     auto& others = obstacle().triangles;
-    if (m_options.is_strict && (std::any_of(own.begin(), own.end(), is_degenerate(m_prepared.positions)) ||
-                                std::any_of(others.begin(), others.end(), is_degenerate(of_obstacle))))
+    if (is_strict() && (std::any_of(own.begin(), own.end(), is_degenerate(m_prepared.positions)) ||
+                        std::any_of(others.begin(), others.end(), is_degenerate(of_obstacle))))
       refuse_if_any(offending_pairs(geometry_with_obstacle(soup(), obstacle())), own.size());
     others.erase(std::remove_if(others.begin(), others.end(), is_degenerate(of_obstacle)), others.end());
     m_prepared.left_out_faces = leave_out(m_prepared.positions);
@@ -142,7 +144,7 @@ private:
   {
     Triangle_soup unrounded;
     unrounded.points = soup().points;
-    if (m_options.is_strict) { // judges before rounding, since triangles may have other numbers afterwards
+    if (is_strict()) { // judges before rounding, since triangles may have other numbers afterwards
       m_prepared.seconds_positions += m_stopwatch.restart();
       refuse_if_any(offending_pairs(geometry_with_obstacle(soup(), obstacle())), soup().triangles.size());
       m_prepared.seconds_check += m_stopwatch.restart();
@@ -152,7 +154,7 @@ private:
     m_prepared.left_out_by_rounding = leave_out(m_positions_rounded);
     take_apart(m_prepared.positions, m_positions_rounded);
     m_prepared.seconds_positions += m_stopwatch.restart();
-    if (!m_options.is_strict) {
+    if (!is_strict()) {
       unrounded.triangles = soup().triangles;
       append_obstacle(unrounded, obstacle());
       m_pairs_before_rounding = offending_pairs(unrounded);
@@ -164,7 +166,7 @@ private:
   {
     m_prepared.offending_pairs = offending_pairs(soup());
     if (m_prepared.rounding.coordinates == 0) {
-      if (m_options.is_strict)
+      if (is_strict())
         refuse_if_any(m_prepared.offending_pairs, own_triangles);
       return;
     }
@@ -184,7 +186,8 @@ private:
     std::vector<char>& is_frozen = m_prepared.is_frozen;
     is_frozen.assign(soup().triangles.size(), false);
     for (const Offending_pair& pair : m_prepared.offending_pairs)
-      is_frozen[pair.first] = is_frozen[pair.second] = true;
+      if (m_prepared.defects == Defects::freeze || pair.offence == Offence::degenerate)
+        is_frozen[pair.first] = is_frozen[pair.second] = true;
     if (!m_positions_rounded.empty()) {
       std::vector<char> is_merged(soup().points.size(), false); // by position after rounding: it was several
       for (Index v = 0; v < m_positions_rounded.size(); ++v)
@@ -203,9 +206,11 @@ private:
     std::vector<Index> transforms = transforms_of_vertices(soup());
     if (!transforms.empty()) // no node of the scene transforms the vertices of the obstacle
       transforms.resize(soup().points.size(), std::numeric_limits<Index>::max());
-    m_prepared.snapping =
-        snap_borders(soup(), m_prepared.positions, m_prepared.is_frozen, m_options.weld_distance, transforms,
-                     obstacle().triangles.size(), m_prepared.scale);
+    std::vector<char> stays = m_prepared.is_frozen;
+    for (const Offending_pair& pair : m_prepared.offending_pairs)
+      stays[pair.first] = stays[pair.second] = true;
+    m_prepared.snapping = snap_borders(soup(), m_prepared.positions, stays, m_options.weld_distance,
+                                       transforms, obstacle().triangles.size(), m_prepared.scale);
   }
 
   Prepare_options m_options;
@@ -216,6 +221,12 @@ private:
 };
 
 } // namespace
+
+const char* name_of(Defects defects)
+{
+  static constexpr const char* s_names[] = {"descend", "freeze", "refuse"};
+  return s_names[std::size_t(defects)];
+}
 
 Prepared_soup prepare(Triangle_soup input, const Prepare_options& options, const Triangle_soup& obstacle)
 {

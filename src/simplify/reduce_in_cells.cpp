@@ -186,17 +186,22 @@ struct Cell_run
   double last_cost = s_infinity; ///< the highest cost; infinite when the cell did not reach its target
 };
 
-// Locks all vertices that are not strictly inside the cell, and their neighbours. Returns the number of
-// vertices that are not locked.
-std::size_t lock_outside(Working_mesh& working, const Box& box)
+// Locks all vertices that are not strictly inside the cell, and their neighbours, and those of faces that
+// stay. Returns the number of vertices that are not locked.
+std::size_t lock_outside(Working_mesh& working, const Cell& cell, const std::vector<char>& stays)
 {
   const Working_mesh::Mesh& mesh = working.mesh();
   auto& locked = working.constraints().locked_vertices;
   std::vector<char> is_locked(mesh.number_of_vertices(), false), is_bound = is_locked;
   for (const auto v : mesh.vertices())
-    is_bound[v] = !box.contains(mesh.point(v));
+    is_bound[v] = !cell.box.contains(mesh.point(v));
   for (const auto v : locked)
     is_locked[v] = true;
+  for (const auto f : mesh.faces())
+    if (stays[cell.triangles[f]])
+      for (const auto v : mesh.vertices_around_face(mesh.halfedge(f)))
+        if (!std::exchange(is_locked[v], true))
+          locked.push_back(v);
   for (const auto e : mesh.edges()) {
     const auto a = mesh.vertex(e, 0), b = mesh.vertex(e, 1);
     for (const auto v : {a, b})
@@ -208,13 +213,14 @@ std::size_t lock_outside(Working_mesh& working, const Box& box)
   return mesh.number_of_vertices() - locked.size();
 }
 
-Cell_run run_cell(const Cell_context& whole, const Cell& cell, Shared_stop& stop)
+Cell_run run_cell(const Cell_context& whole, const Cell& cell, const std::vector<char>& stays,
+                  Shared_stop& stop)
 {
   Cell_run run;
   if (stop.ask())
     return run;
   Working_mesh working(whole.working, whole.rule, cell.triangles);
-  run.movable_vertices = lock_outside(working, cell.box);
+  run.movable_vertices = lock_outside(working, cell, stays);
   const std::size_t wanted = std::size_t(whole.share * double(run.movable_vertices));
   if (wanted == 0)
     return run;
@@ -271,7 +277,13 @@ Cell_collapses reduce_in_cells(const Cell_context& whole)
   if (cells.size() < 2)
     return result;
   std::vector<Cell_run> runs(cells.size());
-  const auto reduce = [&](std::size_t i) { runs[i] = run_cell(whole, cells[i], stop); };
+  // No cell sees all faces with which a face offends, and all their descendants. So no vertex of an offending
+  // face moves in a cell: only the reduction of the whole makes descendants.
+  const Prepared_soup& prepared = whole.prepared;
+  std::vector<char> stays(prepared.soup.triangles.size() + prepared.obstacle.triangles.size(), false);
+  for (const Offending_pair& pair : prepared.offending_pairs)
+    stays[pair.first] = stays[pair.second] = true;
+  const auto reduce = [&](std::size_t i) { runs[i] = run_cell(whole, cells[i], stays, stop); };
   tbb::parallel_for(std::size_t(0), cells.size(), Cancellation_scope::inherited(reduce),
                     tbb::simple_partitioner());
   result.is_stopped = stop.is_stopped();

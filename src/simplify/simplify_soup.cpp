@@ -81,6 +81,9 @@ private:
       add_share(part.name, part.ratio);
     for (const std::string& name : intent.kept)
       add_share(name, 1);
+    if (m_prepared.defects == Defects::descend)
+      for (const Offending_pair& pair : m_prepared.offending_pairs)
+        constraints.offending_pairs.emplace_back(pair.first, pair.second);
     if (!intent.weights.empty())
       m_working.weigh(vertex_weights(soup, intent.weights));
     if (m_options.placement == Placement::optimal)
@@ -88,7 +91,14 @@ private:
     if (m_options.uv_weight > 0)
       m_working.measure_uvs(uv_unit(soup, m_prepared.scale));
     m_working.count_refusals(part_kinds(soup));
-    m_working.on_collapse(m_options.on_collapse);
+    if (constraints.offending_pairs.empty())
+      m_working.on_collapse(m_options.on_collapse);
+    else
+      m_working.on_collapse([this](const Soup_collapse& collapse) {
+        m_collapses.push_back(collapse);
+        if (m_options.on_collapse)
+          m_options.on_collapse(collapse);
+      });
     return constraints;
   }
 
@@ -146,6 +156,7 @@ private:
     result.triangles = std::move(left.triangles);
     result.corners = std::move(left.corners);
     result.placed_vertices = left.placed_vertices;
+    result.collapses = m_collapses;
     result.sewing = m_working.notes();
     result.report = report;
     // When the cells have reached the target, nothing was left for the run to be stopped in.
@@ -163,6 +174,7 @@ private:
   Stopwatch m_stopwatch;
   Working_mesh m_working;
   double m_seconds_sew;
+  std::vector<Soup_collapse> m_collapses; // if they are needed to judge the result
   internal::Simplification<Working_mesh::Mesh, Working_mesh> m_simplification;
   bool m_is_stopped_in_cells = false;
   std::size_t m_cells = 0;
@@ -220,6 +232,8 @@ Verification verify(const Simplified_soup& result, const Prepared_soup& original
   options.are_shapes_judged = false; // limits take care of shapes, or the user wants none
   options.may_be_rounded = false;    // `prepare` has rounded the original where that was asked for
   options.triangles_of_original = result.triangles;
+  if (original.defects == Defects::descend)
+    options.collapses = &result.collapses;
   return verify(result.soup, original.soup, original.offending_pairs, options, original.obstacle);
 }
 

@@ -162,7 +162,7 @@ TEST(Embedded, FrozenPairsStayAsTheyAreAndNoneIsAdded)
 TEST(Embedded, StrictRefusesWhatIsNotAndNamesTheFirstPair)
 {
   Prepare_options options;
-  options.is_strict = true;
+  options.defects = Defects::refuse;
   EXPECT_NO_THROW(prepare(sheet(2, 2), options));
   try {
     prepare(crossing(), options);

@@ -243,7 +243,7 @@ TEST(Intent, PairsThatOffendBetweenGarmentAndObstacleAreFrozen)
   EXPECT_TRUE(verification.accepted());
 
   Prepare_options strict;
-  strict.is_strict = true;
+  strict.defects = Defects::refuse;
   EXPECT_THROW(prepare(cloth, strict, pin), Input_error);
   EXPECT_NO_THROW(prepare(cloth, strict));
 }

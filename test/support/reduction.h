@@ -43,10 +43,11 @@ struct Reduction
   Verification verification;
 };
 
-inline Reduction reduce(Triangle_soup soup, const Simplify_options& options)
+inline Reduction reduce(Triangle_soup soup, const Simplify_options& options,
+                        const Prepare_options& prepare_options = {})
 {
   Reduction reduction;
-  reduction.prepared = prepare(std::move(soup));
+  reduction.prepared = prepare(std::move(soup), prepare_options);
   reduction.simplified = simplify_soup(reduction.prepared, options);
   reduction.verification = verify(reduction.simplified, reduction.prepared);
   return reduction;

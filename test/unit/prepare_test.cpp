@@ -49,7 +49,7 @@ TEST(Refusal, NothingToReduce)
 TEST(Prepare, StrictRefusesByTheNumbersOfTheInput)
 {
   Prepare_options strict;
-  strict.is_strict = true;
+  strict.defects = Defects::refuse;
   const auto refusal = [&](const Triangle_soup& input, const Triangle_soup& obstacle = {}) -> std::string {
     try {
       prepare(input, strict, obstacle);

@@ -1,0 +1,276 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Meshes that intersect already: what intersects in the result descends from what did, and is never more.
+
+#include "support/logged_reduction.h"
+#include "support/meshes.h"
+#include "support/reduction.h"
+#include "support/soups.h"
+
+#include <selvedge/Error.h>
+#include <selvedge/Surface_mesh_simplification/Intersection_filter.h>
+#include <selvedge/Surface_mesh_simplification/internal/Lazy_edge_profile.h>
+
+#include <CGAL/Surface_mesh.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace selvedge::test {
+namespace {
+
+Prepare_options with(Defects defects)
+{
+  Prepare_options options;
+  options.defects = defects;
+  return options;
+}
+
+/// Two wavy sheets, one moved into the other.
+Triangle_soup sheets_through_each_other(std::size_t faces)
+{
+  const Triangle_soup sheet = sheets(faces, 1, 1e-3);
+  Triangle_soup lower;
+  lower.points = sheet.points;
+  lower.triangles = sheet.triangles;
+  return joined(lower, mapped(lower, [](const Point_3& p) {
+                  return Point_3(p.x() + 0.013, p.y() + 0.007, p.z() + 0.002);
+                }));
+}
+
+/// A sheet of 6 × 6 squares, and a needle that stands in it: a triangle that meets it between two points.
+Triangle_soup sheet_with_needle(double from, double to, double y)
+{
+  const double middle = (from + to) / 2, half = to - from;
+  return joined(sheet(6, 6),
+                soup({{middle - half, y, -1}, {middle + half, y, -1}, {middle, y, 1}}, {{0, 1, 2}}));
+}
+// The needle stands in the face of vertices 16, 17 and 24 alone, which the collapse of 16 onto 17 removes.
+// Then it stands in one other face, or in two.
+const Triangle_soup s_narrow = sheet_with_needle(2.5, 2.7, 2.2), s_wide = sheet_with_needle(2.5, 2.95, 2.2);
+
+std::string head_of(const Triangle_soup& soup, const char* line = "defects descend\n")
+{
+  return "selvedge-log 1\ninput " + std::to_string(soup.points.size()) + ' ' +
+         std::to_string(soup.triangles.size()) + " -\n" + line;
+}
+
+TEST(Descent, ReachesWhatFreezingDoesNot)
+{
+  const Triangle_soup soup = sheets_through_each_other(3000);
+  const Reduction frozen = reduce(soup, to_ratio(0.1), with(Defects::freeze));
+  const std::size_t before = frozen.prepared.offending_pairs.size();
+  ASSERT_GT(before, 100u);
+  EXPECT_EQ(frozen.verification.pairs.size(), before);
+  const Reduction descended = reduce(soup, to_ratio(0.1), with(Defects::descend));
+  EXPECT_TRUE(descended.simplified.report.is_reached());
+  EXPECT_LT(2 * descended.simplified.soup.triangles.size(), frozen.simplified.soup.triangles.size());
+  EXPECT_TRUE(descended.verification.accepted());
+  EXPECT_TRUE(descended.verification.same_topology());
+  EXPECT_LT(descended.verification.pairs.size(), before);
+  EXPECT_EQ(descended.prepared.frozen_faces, 0u);
+}
+
+TEST(Descent, HoldsWithEveryMeans)
+{
+  const Triangle_soup soup = sheets_through_each_other(1500);
+  std::vector<Simplify_options> all(5, without_limits(to_ratio(0.05)));
+  all[1].placement = Placement::optimal;
+  all[2].loop = Collapse_loop::cgal;
+  all[3].index = Face_index::clusters;
+  all[4].faces_per_cell = 300;
+  for (const Simplify_options& options : all) {
+    SCOPED_TRACE(&options - all.data());
+    const Prepared_soup prepared = prepare(soup, with(Defects::descend));
+    const Logged_reduction reduction = reduce_and_log(soup, options, with(Defects::descend));
+    const Verification verification = verify(reduction.simplified, prepared);
+    EXPECT_TRUE(verification.accepted());
+    EXPECT_LE(verification.pairs.size(), prepared.offending_pairs.size());
+    EXPECT_TRUE(reduction.simplified.report.is_reached());
+    const Replay_verdict verdict = replay_text(soup, reduction.log);
+    EXPECT_TRUE(verdict.is_accepted())
+        << verdict.violations.front().step << ": " << verdict.violations.front().message;
+    EXPECT_EQ(options.faces_per_cell > 0, reduction.simplified.report.collapses_in_cells > 0);
+  }
+}
+
+TEST(Descent, DoesNotDependOnTheIndex)
+{
+  Simplify_options options = without_limits(to_ratio(0.02));
+  const Triangle_soup soup = sheets_through_each_other(1000);
+  const Reduction packed = reduce(soup, options, with(Defects::descend));
+  options.index = Face_index::clusters;
+  const Reduction clusters = reduce(soup, options, with(Defects::descend));
+  EXPECT_GT(packed.simplified.report.intersections.refused_by_descent, 0u);
+  EXPECT_EQ(packed.simplified.collapses, clusters.simplified.collapses);
+}
+
+TEST(Descent, SpreadsNoDefect)
+{
+  for (const Triangle_soup& defective :
+       {bowtie(), book(), vertex_touching_face(), edge_touching_edge(), crossing(), coplanar_overlap(),
+        coplanar_inside(), duplicate(), opposite_duplicate(), t_junction(), folded_over(),
+        collinear_triangle(), moebius_band(), fan_of_three()}) {
+    const Reduction reduction =
+        reduce(joined(sheet(6, 6, 50), defective), without_limits(to_ratio(0.01)), with(Defects::descend));
+    EXPECT_TRUE(reduction.verification.accepted());
+    EXPECT_LE(reduction.verification.pairs.size(), reduction.prepared.offending_pairs.size());
+    EXPECT_TRUE(reduction.verification.same_topology());
+    EXPECT_GT(reduction.simplified.report.collapses, 20u);
+  }
+}
+
+TEST(Descent, LeavesDegenerateFacesAsTheyAre)
+{
+  const Triangle_soup soup = joined(sheet(4, 4, 50), collinear_triangle());
+  const Reduction reduction = reduce(soup, without_limits(to_ratio(0)), with(Defects::descend));
+  EXPECT_EQ(reduction.prepared.frozen_faces, 1u);
+  EXPECT_EQ(reduction.simplified.triangles.back(), soup.triangles.size() - 1);
+  EXPECT_EQ(reduction.verification.pairs.size(), 1u);
+}
+
+// The control of the judge: without the collapses, the pairs of the result are as new as any.
+TEST(Descent, IsNotGrantedWithoutItsCollapses)
+{
+  const Reduction reduction = reduce(sheets_through_each_other(1000), to_ratio(0.1), with(Defects::descend));
+  ASSERT_TRUE(reduction.verification.accepted());
+  ASSERT_GT(reduction.verification.pairs.size(), 0u);
+  Simplified_soup result = reduction.simplified;
+  result.collapses.clear();
+  EXPECT_EQ(verify(result, reduction.prepared).new_pairs.size(), reduction.verification.pairs.size());
+}
+
+TEST(Descent, IsOfPairsAndNotOfFaces)
+{
+  // Each of three triangles crosses the next one. The first and the third never met.
+  const auto crossing_at = [](double x) {
+    return soup({{x, 0, 0}, {x + 1.5, 0, 0}, {x, 1, 1}}, {{0, 1, 2}});
+  };
+  const Triangle_soup before = joined(joined(crossing_at(0), crossing_at(1)), crossing_at(2));
+  const auto pairs = offending_pairs(before);
+  ASSERT_EQ(pairs.size(), 2u);
+  const std::vector<Offending_pair> claimed{{0, 1, Offence::intersection}, {0, 2, Offence::intersection}};
+  const auto without = pairs_without_descent(before, claimed, before, pairs, {}, {0, 1, 2});
+  ASSERT_EQ(without.size(), 1u);
+  EXPECT_EQ(without[0].second, 2u);
+}
+
+TEST(Descent, NeverIsOfMorePairsThanThereWere)
+{
+  const Triangle_soup before = crossing();
+  const auto pairs = offending_pairs(before);
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_TRUE(pairs_without_descent(before, pairs, before, pairs, {}, {0, 1}).empty());
+  const std::vector<Offending_pair> twice{pairs[0], pairs[0]};
+  EXPECT_EQ(pairs_without_descent(before, twice, before, pairs, {}, {0, 1}).size(), 1u);
+}
+
+// What the filter says of the collapse of vertex 16 onto 17.
+bool is_accepted(const Triangle_soup& soup, bool is_exempt)
+{
+  using Mesh = CGAL::Surface_mesh<Point_3>;
+  using Vertex = Mesh::Vertex_index;
+  using Points = Mesh::Property_map<Vertex, Point_3>;
+  Mesh mesh;
+  for (const Point_3& p : soup.points)
+    mesh.add_vertex(p);
+  for (const auto& [a, b, c] : soup.triangles)
+    mesh.add_face(Vertex(a), Vertex(b), Vertex(c));
+  const Intersection_filter<Mesh> filter(mesh);
+  if (is_exempt) {
+    std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
+    for (const Offending_pair& pair : offending_pairs(soup))
+      pairs.emplace_back(pair.first, pair.second);
+    filter.exempt(pairs);
+  }
+  filter.visitor().OnStarted(mesh);
+  const Points points = mesh.points();
+  const Kernel kernel;
+  const internal::Lazy_edge_profile<Mesh, Points, Kernel> profile(mesh.halfedge(Vertex(16), Vertex(17)), mesh,
+                                                                  points, kernel);
+  return filter.accepts(
+      internal::Collapse<internal::Lazy_edge_profile<Mesh, Points, Kernel>>(profile, mesh.point(Vertex(17))));
+}
+
+TEST(Descent, PassesFromFacesThatAreRemoved)
+{
+  EXPECT_TRUE(is_accepted(s_narrow, true));
+  EXPECT_FALSE(is_accepted(s_narrow, false)) << "no pair is exempt by default";
+}
+
+TEST(Descent, RefusesAStepToMorePairs)
+{
+  EXPECT_FALSE(is_accepted(s_wide, true));
+}
+
+TEST(Replay, PairsMayDescendFromFacesThatAreRemoved)
+{
+  EXPECT_TRUE(replay_text(s_narrow, head_of(s_narrow) + "c 16 17\nresult 1 71 -\n").is_accepted());
+}
+
+TEST(Replay, PairsMayNotDescendUnlessTheLogSaysSo)
+{
+  for (const char* const line : {"", "defects freeze\n"}) {
+    const auto verdict = replay_text(s_narrow, head_of(s_narrow, line) + "c 16 17\nresult 1 71 -\n");
+    ASSERT_EQ(verdict.violations.size(), 1u);
+    EXPECT_EQ(verdict.violations[0].kind, Violation_kind::locked);
+  }
+}
+
+TEST(Replay, PairsMayDescendButNotBecomeMore)
+{
+  const auto verdict = replay_text(s_wide, head_of(s_wide) + "c 16 17\nresult 1 71 -\n");
+  ASSERT_EQ(verdict.violations.size(), 1u);
+  EXPECT_EQ(verdict.violations[0].kind, Violation_kind::intersection);
+  EXPECT_NE(verdict.violations[0].message.find("more pairs"), std::string::npos);
+}
+
+// A second triangle, under a bump of the sheet beside the needle, offends with nothing. The collapse flattens
+// the bump.
+TEST(Replay, PairsMayDescendOnlyFromPairsThatOffended)
+{
+  const Triangle_soup second = soup({{1.95, 2.1, 0.1}, {2.05, 2.1, 0.1}, {2, 2.1, 0.2}}, {{0, 1, 2}});
+  Triangle_soup both = joined(s_narrow, second);
+  both.points[16] = Point_3(2, 2, 0.5);
+  ASSERT_EQ(offending_pairs(both).size(), 1u);
+  const auto verdict = replay_text(both, head_of(both) + "c 16 17\nresult 1 72 -\n");
+  ASSERT_EQ(verdict.violations.size(), 1u);
+  EXPECT_EQ(verdict.violations[0].kind, Violation_kind::tunnelling);
+  EXPECT_EQ(verdict.violations[0].triangles.back(), 73u) << verdict.violations[0].message;
+}
+
+TEST(Replay, PairsMayDescendWithWhatALogDoesNotHold)
+{
+  const Triangle_soup obstacle = mapped(sheet(2, 2), [](const Point_3& p) {
+    return Point_3(p.z() + 0.51, 0.6 * p.x() + 0.21, 0.3 * p.y() - 0.31);
+  });
+  Triangle_soup garment = sheets_through_each_other(800);
+  const Logged_reduction reduction =
+      reduce_and_log(garment, without_limits(to_ratio(0.05)), with(Defects::descend), false, obstacle);
+  const Prepared_soup prepared = prepare(garment, with(Defects::descend), obstacle);
+  const Index own = Index(garment.triangles.size());
+  ASSERT_TRUE(std::any_of(prepared.offending_pairs.begin(), prepared.offending_pairs.end(),
+                          [&](const Offending_pair& pair) { return pair.second >= own; }));
+  EXPECT_TRUE(verify(reduction.simplified, prepared).accepted());
+  const auto verdict = replay_text(garment, reduction.log);
+  EXPECT_TRUE(verdict.is_accepted()) << verdict.violations.front().message;
+  const auto open = not_judged(verdict);
+  EXPECT_TRUE(
+      std::any_of(open.begin(), open.end(), [](const Not_judged& what) { return what.key == "pairs"; }));
+}
+
+TEST(Log, StatesThePolicyForDefectsOnce)
+{
+  const Triangle_soup soup = sheet(2, 2);
+  for (const char* const line : {"defects\n", "defects refuse\n", "defects descend\ndefects descend\n"})
+    EXPECT_THROW(replay_text(soup, head_of(soup, line) + "result 0 8 -\n"), Input_error) << line;
+  EXPECT_TRUE(replay_text(soup, head_of(soup) + "result 0 8 -\n").is_accepted());
+}
+
+} // namespace
+} // namespace selvedge::test
