@@ -16,6 +16,27 @@ std::string faces_named(Index f, Index g)
   return "faces " + std::to_string(f) + " and " + std::to_string(g);
 }
 
+template <class Box>
+bool do_overlap(const Box& a, const Box& b)
+{
+  return a.low[0] <= b.high[0] && b.low[0] <= a.high[0] && a.low[1] <= b.high[1] && b.low[1] <= a.high[1] &&
+         a.low[2] <= b.high[2] && b.low[2] <= a.high[2];
+}
+
+std::array<double, 3> coordinates_of(const Point_3& p)
+{
+  return {p.x(), p.y(), p.z()};
+}
+
+template <class Box>
+void add(Box& box, const Point_3& p)
+{
+  for (int i = 0; i < 3; ++i) {
+    box.low[i] = std::min(box.low[i], p[i]);
+    box.high[i] = std::max(box.high[i], p[i]);
+  }
+}
+
 } // namespace
 
 Judged_complex::Judged_complex(const Triangle_soup& own, const Triangle_soup& obstacle)
@@ -55,6 +76,72 @@ void Judged_complex::freeze(Index face)
     m_is_frozen[p] = true;
 }
 
+void Judged_complex::exempt(const std::set<std::pair<Index, Index>>& pairs)
+{
+  m_pairs_at_start = pairs;
+  m_ancestors.resize(m_faces.size());
+  for (const auto& [f, g] : pairs)
+    for (const Index face : {f, g}) {
+      m_ancestors[face].insert(face);
+      for (const Index p : m_faces[face].positions)
+        m_offending.insert(p);
+    }
+}
+
+// Gives all faces at the movers the ancestors of all: what a collapse asks is asked of pairs as they are
+// after it.
+void Judged_complex::begin_collapse(const std::vector<Index>& movers)
+{
+  m_changing.clear();
+  if (m_ancestors.empty())
+    return;
+  for (const Index p : movers)
+    m_changing.insert(m_faces_at[p].begin(), m_faces_at[p].end());
+  m_pairs_before = pairs_changing();
+  std::set<Index> all;
+  for (const Index f : m_changing)
+    all.insert(m_ancestors[f].begin(), m_ancestors[f].end());
+  for (const Index f : m_changing)
+    m_ancestors[f] = all;
+}
+
+std::optional<Broken_promise> Judged_complex::end_collapse()
+{
+  if (pairs_changing() > m_pairs_before)
+    return Broken_promise{Promise::embedded, "more pairs offend than before"};
+  return std::nullopt;
+}
+
+bool Judged_complex::is_exempt(Index changing, Index other) const
+{
+  if (m_ancestors.empty())
+    return false;
+  for (const Index f : m_ancestors[changing])
+    for (const Index g : m_ancestors[other])
+      if (m_pairs_at_start.count(std::minmax(f, g)) > 0)
+        return true;
+  return false;
+}
+
+// How many pairs offend now that have a changing face. Degenerate faces never change.
+std::size_t Judged_complex::pairs_changing() const
+{
+  std::size_t count = 0;
+  for (const Index f : m_changing) {
+    if (!m_faces[f].is_alive)
+      continue;
+    const auto [a, b, c] = places(f);
+    if (CGAL::collinear(a.at, b.at, c.at))
+      continue;
+    const Hull face(a, b, c);
+    for (Index g = 0; g < m_faces.size(); ++g)
+      if (m_faces[g].is_alive && g != f && !(g < f && m_changing.count(g) > 0) &&
+          do_overlap(m_faces[f].box, m_faces[g].box))
+        count += face.meets_beyond_shared(places(g));
+  }
+  return count;
+}
+
 Judged_complex::Box Judged_complex::box_of(const Index_triple& positions) const
 {
   Box box;
@@ -65,31 +152,6 @@ Judged_complex::Box Judged_complex::box_of(const Index_triple& positions) const
   }
   return box;
 }
-
-namespace {
-
-template <class Box>
-bool do_overlap(const Box& a, const Box& b)
-{
-  return a.low[0] <= b.high[0] && b.low[0] <= a.high[0] && a.low[1] <= b.high[1] && b.low[1] <= a.high[1] &&
-         a.low[2] <= b.high[2] && b.low[2] <= a.high[2];
-}
-
-std::array<double, 3> coordinates_of(const Point_3& p)
-{
-  return {p.x(), p.y(), p.z()};
-}
-
-template <class Box>
-void add(Box& box, const Point_3& p)
-{
-  for (int i = 0; i < 3; ++i) {
-    box.low[i] = std::min(box.low[i], p[i]);
-    box.high[i] = std::max(box.high[i], p[i]);
-  }
-}
-
-} // namespace
 
 Standing_face Judged_complex::places(Index face) const
 {
@@ -281,11 +343,12 @@ std::optional<Broken_promise> Judged_complex::judge_motion(Index moved, const Pl
     add(end_box, m_points[b]);
     for (Index f = 0; f < m_faces.size(); ++f)
       if (m_faces[f].is_alive && do_overlap(end_box, m_faces[f].box) && !has(f, moved) &&
-          ends[i].meets_beyond_shared(places(f)))
+          !is_exempt(moving[i], f) && ends[i].meets_beyond_shared(places(f)))
         return Broken_promise{Promise::embedded, faces_named(moving[i], f) + " meet afterwards"};
     for (std::size_t j = 0; j < i; ++j) {
       const auto [c, d] = others(moving[j], moved);
-      if (ends[i].meets_beyond_shared(Standing_face{t, place(c), place(d)}))
+      if (!is_exempt(moving[i], moving[j]) &&
+          ends[i].meets_beyond_shared(Standing_face{t, place(c), place(d)}))
         return Broken_promise{Promise::embedded, faces_named(moving[i], moving[j]) + " meet afterwards"};
     }
   }
@@ -296,13 +359,13 @@ std::optional<Broken_promise> Judged_complex::judge_motion(Index moved, const Pl
     const Hull sweep(m, t, place(a), place(b));
     for (Index g = 0; g < m_faces.size(); ++g)
       if (m_faces[g].is_alive && do_overlap(sweep_box, m_faces[g].box) && !has(g, moved) &&
-          sweep.meets_beyond_shared(places(g)))
+          !is_exempt(f, g) && sweep.meets_beyond_shared(places(g)))
         return Broken_promise{Promise::motion, faces_named(f, g) + " meet on the way"};
     // Two faces with one apex meet beyond what they share where the side of one, opposite to it, meets the
     // other.
     for (const Index g : m_faces_at[moved]) {
       const auto [c, d] = others(g, moved);
-      if (f != g && sweep.meets_beyond_shared(Standing_edge{place(c), place(d)}))
+      if (f != g && !is_exempt(f, g) && sweep.meets_beyond_shared(Standing_edge{place(c), place(d)}))
         return Broken_promise{Promise::motion, faces_named(f, g) + " of one star meet on the way"};
     }
   }
@@ -313,7 +376,7 @@ std::optional<Broken_promise> Judged_complex::snap(Index moved, Index kept)
 {
   if (moved == kept || m_faces_at[moved].empty() || m_faces_at[kept].empty())
     return Broken_promise{Promise::seams, "a snap between positions that are one, or have no face"};
-  if (m_is_frozen[moved] || m_is_frozen[kept])
+  if (m_is_frozen[moved] || m_is_frozen[kept] || m_offending.count(moved) > 0 || m_offending.count(kept) > 0)
     return Broken_promise{Promise::frozen, "a snap of what is frozen, or to it"};
   for (const Index f : m_faces_at[moved])
     if (has(f, kept))
@@ -347,10 +410,11 @@ std::optional<Broken_promise> Judged_complex::collapse(Index removed, Index kept
     return broken;
   if (auto broken = judge_line(removed, kept))
     return broken;
+  begin_collapse({removed});
   if (auto broken = judge_motion(removed, place(kept)))
     return broken;
   merge(removed, kept);
-  return std::nullopt;
+  return end_collapse();
 }
 
 std::optional<Broken_promise> Judged_complex::collapse(Index removed, Index kept, const Point_3& at,
@@ -374,6 +438,7 @@ std::optional<Broken_promise> Judged_complex::collapse(Index removed, Index kept
   if (auto broken = judge_link(removed, kept))
     return broken;
   const Index first = is_removed_first ? removed : kept, second = is_removed_first ? kept : removed;
+  begin_collapse({removed, kept});
   if (auto broken = judge_motion(first, {Index(-1), at}))
     return broken;
   place_at(first, at);
@@ -381,7 +446,7 @@ std::optional<Broken_promise> Judged_complex::collapse(Index removed, Index kept
     return broken;
   place_at(second, at);
   merge(removed, kept);
-  return std::nullopt;
+  return end_collapse();
 }
 
 void Judged_complex::place_at(Index position, const Point_3& at)

@@ -34,6 +34,10 @@ public:
   /// Nothing at the corners of this face moves from now on.
   void freeze(Index face);
 
+  /// These pairs, which offend, and all that descend from them need not be apart, but a collapse must not
+  /// make more of them offend. No snap moves their faces, or something to them.
+  void exempt(const std::set<std::pair<Index, Index>>& pairs);
+
   /// Of a vertex; those of the obstacle follow those of the soup.
   Index position(Index vertex) const { return m_position_of_vertex[vertex]; }
   bool is_alive(Index face) const { return m_faces[face].is_alive; }
@@ -84,6 +88,10 @@ private:
   std::optional<Broken_promise> judge_link(Index removed, Index kept) const;
   std::optional<Broken_promise> judge_line(Index removed, Index kept) const;
   std::optional<Broken_promise> judge_motion(Index moved, const Place& target) const;
+  void begin_collapse(const std::vector<Index>& movers);
+  std::optional<Broken_promise> end_collapse();
+  bool is_exempt(Index changing, Index other) const;
+  std::size_t pairs_changing() const;
   void place_at(Index position, const Point_3& at);
   void merge(Index removed, Index kept);
   void move(Index moved, Index kept);
@@ -92,7 +100,14 @@ private:
   std::vector<Index> m_position_of_vertex;
   std::vector<Face> m_faces;
   std::vector<std::vector<Index>> m_faces_at;
-  std::vector<char> m_is_frozen; // by position
+  std::vector<char> m_is_frozen;            // by position
+  std::set<Index> m_offending;              // positions
+  std::vector<std::set<Index>> m_ancestors; // by face
+  std::set<std::pair<Index, Index>> m_pairs_at_start;
+
+  // Of the present collapse.
+  std::set<Index> m_changing;
+  std::size_t m_pairs_before = 0;
   std::set<std::pair<Index, Index>> m_seams;
   std::size_t m_own_alive = 0;
 };

@@ -52,7 +52,7 @@ Prepare_options World::prepare_options() const
 {
   Prepare_options prepare;
   prepare.round_to_float32 = needs_float32(soup, output_format);
-  prepare.is_strict = is_strict;
+  prepare.defects = defects;
   prepare.weld_distance = weld_distance;
   prepare.normals = normals;
   return prepare;
@@ -75,7 +75,7 @@ void write_world(const World& world, const std::filesystem::path& folder)
                      {"has_obstacle", !world.obstacle.triangles.empty()},
                      {"output", extension(world.output_format)},
                      {"sewn", world.is_sewn},
-                     {"strict", world.is_strict},
+                     {"defects", name_of(world.defects)},
                      {"weld", world.weld_distance},
                      {"normals", name_of(world.normals)},
                      {"ratio", optional_json(options.ratio)},
@@ -120,7 +120,11 @@ World read_world(const std::filesystem::path& folder)
     world.obstacle = read_mesh(folder / "obstacle.obj").soup;
   world.output_format = format_of(json["output"]);
   world.is_sewn = json["sewn"];
-  world.is_strict = json["strict"];
+  // Worlds of earlier versions say whether they are strict.
+  const std::string defects = json.value("defects", json.value("strict", false) ? "refuse" : "freeze");
+  for (const Defects choice : {Defects::descend, Defects::freeze, Defects::refuse})
+    if (defects == name_of(choice))
+      world.defects = choice;
   world.weld_distance = json["weld"];
   const std::string normals = json.value("normals", "keep"); // worlds of earlier versions have none
   for (const Normals_choice choice :
@@ -213,8 +217,7 @@ std::string command_line(const World& world)
     add("--no-intersection-check", "");
   if (world.is_sewn)
     add("--sewn", "");
-  if (world.is_strict)
-    add("--strict", "");
+  add("--defects", name_of(world.defects));
   if (options.faces_per_cell > 0) {
     add("--cells", "");
     beyond += "; cells of " + std::to_string(options.faces_per_cell) + " faces";
@@ -233,6 +236,8 @@ std::set<std::string> options_used(const World& world)
   for (std::string word; words >> word;)
     if (word.compare(0, 2, "--") == 0)
       options.insert(word);
+  options.erase("--defects"); // which every world names
+  options.insert(std::string("defects_") + name_of(world.defects));
   if (!world.options.check_uv_orientation)
     options.insert("texture_may_turn");
   if (world.questions)

@@ -29,7 +29,7 @@ struct World
 
   Mesh_format output_format = Mesh_format::obj;
   bool is_sewn = false; ///< the file has one number for what lies at one position
-  bool is_strict = false;
+  Defects defects = Defects::freeze;
   double weld_distance = 0;
   Normals_choice normals = Normals_choice::automatic;
   Simplify_options options; ///< without who is to be told or asked

@@ -175,7 +175,7 @@ Verdict judge_refusal(const World& world, const std::string& message)
     for (const Point_3& p : world.soup.points)
       if (!std::isfinite(rounded(p).x()) || !std::isfinite(rounded(p).y()) || !std::isfinite(rounded(p).z()))
         return std::nullopt;
-  if (world.is_strict) {
+  if (world.defects == Defects::refuse) {
     const std::vector<Index> first = first_at_position(world.soup.points),
                              first_of_obstacle = first_at_position(world.obstacle.points);
     for (const Index_triple& t : world.soup.triangles)
@@ -217,12 +217,16 @@ Verdict judge_preparation(const World& world, const World_run& run, const Expect
   if (found != pairs)
     return broken(std::to_string(found.size()) + " offending pairs found, and there are " +
                   std::to_string(pairs.size()));
-  if (world.is_strict && world.prepare_options().round_to_float32 == false && !pairs.empty())
+  if (world.defects == Defects::refuse && world.prepare_options().round_to_float32 == false && !pairs.empty())
     return Broken_promise{Promise::refusal, "an input that is not embedded was accepted, though strict"};
 
   std::vector<char> is_frozen(own + expected.obstacle.triangles.size(), false);
+  const bool may_descend = world.defects == Defects::descend;
   for (const auto& [f, g] : pairs)
-    is_frozen[f] = is_frozen[g] = true;
+    if (f == g || !may_descend)
+      is_frozen[f] = is_frozen[g] = true;
+  if (may_descend)
+    complex.exempt(pairs);
   for (std::size_t t = 0; t < own; ++t)
     for (const Index v : expected.soup.triangles[t])
       is_frozen[t] |= expected.is_merged[v];

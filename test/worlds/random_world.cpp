@@ -240,7 +240,7 @@ World random_world(std::uint64_t seed)
     world.options.ratio.reset();
   }
   world.is_sewn = random.one_in(12);
-  world.is_strict = random.one_in(25);
+  world.defects = random.one_in(25) ? Defects::refuse : random.one_in(4) ? Defects::freeze : Defects::descend;
   return world;
 }
 

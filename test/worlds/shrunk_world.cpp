@@ -97,7 +97,7 @@ private:
     set<double>([](World& w) -> double& { return w.weld_distance; }, 0);
     set<Normals_choice>([](World& w) -> Normals_choice& { return w.normals; }, Normals_choice::keep);
     set<bool>([](World& w) -> bool& { return w.is_sewn; }, false);
-    set<bool>([](World& w) -> bool& { return w.is_strict; }, false);
+    set<Defects>([](World& w) -> Defects& { return w.defects; }, Defects::freeze);
     set<Mesh_format>([](World& w) -> Mesh_format& { return w.output_format; }, Mesh_format::obj);
     set<std::optional<std::size_t>>([](World& w) -> std::optional<std::size_t>& { return w.questions; },
                                     std::nullopt);

@@ -441,7 +441,7 @@ TEST(JudgeOfWorlds, SeesARefusalWithoutReason)
   EXPECT_EQ(verdict(plain_world(), run), "refusal");
   World strict = plain_world();
   strict.soup.points[24] = Point_3(3, 3, 1.5);
-  strict.is_strict = true;
+  strict.defects = Defects::refuse;
   run = test::run(strict);
   EXPECT_TRUE(run.refusal);
   EXPECT_EQ(verdict(strict, run), "kept");
