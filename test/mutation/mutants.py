@@ -362,3 +362,63 @@ group(
     ("if (is_along_line && before[1] != m_points[kept])", "if (false)", "what KEPT has passed is forgotten"),
     ("carry_corners(contracted, moving, removed, kept);", "", "corners do not follow"),
 )
+
+# Pairs that offend already
+filter_of_pairs = ("descent_test", "descent_filter_test")
+group(
+    headers + "Surface_mesh_simplification/internal/Intersection_guard.h",
+    filter_of_pairs,
+    ("        m_considered.push_back(id);\n      }", "        if (a != other && b != other)\n          m_considered.push_back(id);\n      }",
+     "faces that are removed hand on no ancestors"),
+    ("find_pairs_after(collapse, m_descent.pairs_now())", "find_pairs_after(collapse)", "pairs may become more"),
+    ("m_is_descent_asked && m_descent.is_exempt(id)", "false", "no pair is exempt"),
+    ("if (m_is_descent_asked && m_descent.is_exempt_inside()) {", "if (false) {",
+     "a star that meets itself is judged as a whole"),
+    ("[&](const auto& edge) { return is_face_kept(motion, edge, m_traits); }", "[](const auto&) { return true; }",
+     "faces of a star that meets itself may degenerate"),
+    ("    if (collapse.are_both_moved())\n      add_all_at(collapse.goal(), collapse.mover());", "",
+     "only one end of two that move hands on ancestors"),
+    ("m_faces.remove_at(m_vertices.number(collapse.goal()), m_near);", ";", "faces that change are also counted as they were"),
+    ("is_free_of_degenerate() && are_motions_clear", "are_motions_clear", "degenerate faces move"),
+)
+group(
+    headers + "Surface_mesh_simplification/internal/Descent.h",
+    filter_of_pairs,
+    ("      m_set_of_face[face] = set;", "      m_set_of_face[face] = s_none;", "faces that change lose their ancestors"),
+    ("    for (const Id a : m_union)\n      for", "    for (const Id a : m_sets[m_set_of_face[faces.front()]].ancestors)\n      for",
+     "exemption is asked of one face as it was before the collapse"),
+    ("    for (const Id face : m_considered)\n      remove_pairs(face);", "", "pairs that have gone still count"),
+    ("    for (const Pair& pair : pairs)\n      add_pair(pair);\n    if", "    if", "pairs that have come do not count"),
+    ("m_considered_at[other] == m_now && other != face ? 1 : 2", "2", "pairs within the star count twice"),
+    ("m_is_exempt_inside = is_any_marked(m_union);", "m_is_exempt_inside = false;", "no pair within the star is exempt"),
+    ("    if (m_considered_at[face] == m_now)\n      return m_is_exempt_inside;\n", "",
+     "faces at the other end that moves are asked for what they were before"),
+)
+group(
+    headers + "geometry/face_pair.h",
+    ("descent_filter_test",),
+    ("if (shared == 3)\n    return true;", "if (shared == 3)\n    return false;", "duplicates do not offend"),
+    ("orientation(a, b, c, r) == CGAL::COPLANAR &&\n           planar_orientation(a, b, c)", "planar_orientation(a, b, c)",
+     "faces at a common edge offend out of their plane"),
+    (" || do_intersect(triangle(p, q, r), segment(b, c));", ";", "one of two sides opposite to a common corner"),
+)
+group(
+    "src/verify/descent.cpp",
+    ("descent_test",),
+    ("changed.insert(changed.end(), m_triangles_at[position].begin(), m_triangles_at[position].end());",
+     "changed.push_back(m_triangles_at[position].front());", "one triangle alone hands on ancestors"),
+    ("is_surplus || !first", "!first", "pairs may become more"),
+    ("!descent.are_partners(*first, *second)", "false", "whatever has ancestors may offend with all others"),
+    ("if (result.points[result.triangles[i][k]] != descent.corner(t, k))", "if (false)",
+     "a triangle need not be where the collapses lead"),
+)
+group(
+    "src/replay/replay.cpp",
+    ("descent_test",),
+    ("m_offences.count() > pairs_before)", "false)", "pairs may become more"),
+    ("m_heritage = m_start.lineage.united(m_changing);", "m_heritage = m_start.lineage.united({m_changing.front()});",
+     "one triangle alone hands on ancestors"),
+    (": m_start.lineage.descends_from_one(other, m_rivals);", ": true;", "whatever has ancestors may offend with all others"),
+    ("if (!header.may_pairs_descend || pair.offence", "if (pair.offence", "pairs may descend in any log"),
+    ("if (!m_verdict.header.obstacle && m_off", "if (m_off", "pairs are counted without those with the obstacle"),
+)
