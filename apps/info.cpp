@@ -158,6 +158,9 @@ void print_surfaces(const Inspection& mesh)
               << " (decided exactly): " << with_commas(counts[int(Offence::intersection)]) << " intersect, "
               << with_commas(counts[int(Offence::duplicate)]) << " have the same corners, "
               << with_commas(counts[int(Offence::degenerate)]) << " degenerate\n";
+    if (mesh.pairs.size() > counts[int(Offence::degenerate)])
+      std::cout << "  their faces are reduced like others: only what descends from these pairs may intersect "
+                   "then (--defects descend); --defects freeze leaves them as they are\n";
   }
   if (mesh.surfaces.size() < 2) {
     std::cout << "layers: one surface; the distance between its own folds is not measured\n";
@@ -221,7 +224,7 @@ void print_freedom(const Inspection& mesh)
       std::cout << ", " << with_commas(number) << ' ' << what;
   };
   print(count.ends, "at ends and junctions of these, which stay");
-  print(count.frozen, "frozen with faces that offend");
+  print(count.frozen, "frozen in degenerate faces");
   print(count.non_manifold, "frozen at non-manifold places");
   print(count.misoriented, "frozen where faces disagree in orientation");
   std::cout << "\nfixed: " << counted(mesh.fixed_faces, "face") << " ("

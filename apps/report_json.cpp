@@ -203,6 +203,8 @@ void add_verification(Json& report, const Verification& verification, bool has_o
                         {"pairs", verification.pairs.size()},
                         {"new_pairs", verification.new_pairs.size()},
                         {"first_new_pairs", first_of(verification.new_pairs)}};
+  if (has_original)
+    report["verified"]["pairs_of_original"] = verification.pairs_of_original;
   report["pieces"] = {{"count", verification.pieces.size()}, {"kinds", kinds_of(verification.pieces)}};
   if (!has_original)
     return;

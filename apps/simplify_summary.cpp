@@ -226,7 +226,7 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
            << " (triangles that touch or cross, or are degenerate), "
            << (prepared.defects == Defects::descend
                    ? with_commas(verification.new_pairs.size()) + " of them not descended from the " +
-                         with_commas(prepared.offending_pairs.size()) + " of the input"
+                         with_commas(verification.pairs_of_original) + " of the input"
                    : with_commas(verification.new_pairs.size()) + " of them new");
   stream << ", topology " << (verification.same_topology() ? "kept" : "CHANGED")
          << "\ndistance from the original's vertices: " << percent(distance.root_mean_square)

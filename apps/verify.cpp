@@ -159,6 +159,11 @@ void print(const Request& request, const Mesh_file& mesh, const Verification& ve
       std::cout << "  " << describe(pairs[i]) << '\n';
     if (pairs.size() > named)
       std::cout << "  and " << with_commas(pairs.size() - named) << " more\n";
+    if (!verification.new_pairs.empty() && verification.pairs_of_original > 0)
+      std::cout
+          << "  the original has " << counted(verification.pairs_of_original, "offending pair")
+          << ", from which some of these may descend (--defects descend); `selvedge replay` judges that, "
+             "with a log\n";
   }
   if (has_original) {
     if (verification.is_original_rounded)

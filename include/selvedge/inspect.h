@@ -90,7 +90,7 @@ struct Inspection
 
   /// All offending pairs, exactly.
   std::vector<Offending_pair> pairs;
-  std::size_t frozen_faces = 0; ///< faces of offending pairs: their vertices do not move
+  std::size_t frozen_faces = 0; ///< degenerate faces: their vertices do not move
   std::size_t fixed_faces = 0;  ///< faces whose corners all cannot move; a ratio is of the others
 
   /// How many vertices of the sewn mesh may move how, at the beginning.

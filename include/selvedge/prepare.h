@@ -34,7 +34,7 @@ struct Prepare_options
 
   /// What becomes of offending pairs. Pairs that offend only after rounding are never refused; with
   /// `Defects::refuse` they are frozen. Degenerate faces are frozen in any case.
-  Defects defects = Defects::freeze;
+  Defects defects = Defects::descend;
 
   /// What a reduction does with the normals of corners.
   Normals_choice normals = Normals_choice::keep;

@@ -294,6 +294,8 @@ Distances distances(const Triangle_soup& result, const Triangle_soup& original);
 struct Verification
 {
   std::vector<Offending_pair> pairs;
+  /// How many the original has; none when no original was given.
+  std::size_t pairs_of_original = 0;
   /// The pairs that the original does not have, or, where pairs could descend, those that descend from none
   /// of the original; all pairs when no original was given.
   std::vector<Offending_pair> new_pairs;

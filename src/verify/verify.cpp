@@ -52,6 +52,7 @@ Verification verify(const Triangle_soup& result, const Triangle_soup& original,
                                                    *options.collapses, triangles);
   };
   Verification verification;
+  verification.pairs_of_original = pairs_of_original.size();
   tbb::parallel_invoke(Cancellation_scope::inherited([&] {
                          if (obstacle.triangles.empty())
                            find_new_pairs(verification, result, original);

@@ -26,6 +26,14 @@ struct Mesh
   Prepared_soup prepared;
 };
 
+/// Prepares a soup such that faces that intersect already do not move, which any program can be asked for.
+inline Prepared_soup prepare_frozen(Triangle_soup soup)
+{
+  Prepare_options options;
+  options.defects = Defects::freeze;
+  return prepare(std::move(soup), options);
+}
+
 /// A file, or what `generate` makes: SCENE:FACES.
 inline Mesh mesh(const std::string& argument)
 {
@@ -35,13 +43,13 @@ inline Mesh mesh(const std::string& argument)
       '_');
   const std::size_t colon = argument.rfind(':');
   if (colon == std::string::npos || std::filesystem::exists(argument))
-    return {name, prepare(read_mesh(argument).soup)};
+    return {name, prepare_frozen(read_mesh(argument).soup)};
   Generate_options options;
   const char* const end = argument.data() + argument.size();
   if (const auto [stop, error] = std::from_chars(argument.data() + colon + 1, end, options.faces);
       error != std::errc() || stop != end)
     throw CLI::ValidationError(argument + " is neither a file nor SCENE:FACES");
-  return {name, prepare(generate(argument.substr(0, colon), options))};
+  return {name, prepare_frozen(generate(argument.substr(0, colon), options))};
 }
 
 } // namespace selvedge::benchmark

@@ -39,11 +39,12 @@ TEST(App_info, SaysWhatWouldBeFrozenAndWhy)
 {
   const Workspace folder;
   const std::string mesh = folder / "mesh.obj";
-  write_text(mesh, "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 -1\nv 1 1 1\nv 9 9 0\nf 1 2 3\nf 4 5 6\n");
+  write_text(mesh, "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 -1\nv 1 1 1\nv 9 9 0\nf 1 2 3\nf 4 5 6\n"
+                   "v 0 0 9\nv 1 0 9\nv 2 0 9\nf 7 8 9\n");
   const App_result text = run_app({"info", mesh});
   EXPECT_EQ(text.code, 0) << text.err;
-  for (const char* line : {"\nintersections: 1 offending pair (decided exactly): 1 intersect, ",
-                           ", 6 frozen with faces that offend\n", "\nfixed: 2 faces (100 %) "})
+  for (const char* line : {"\nintersections: 2 offending pairs (decided exactly): 1 intersect, ",
+                           "(--defects descend)", ", 3 frozen in degenerate faces\n", "\nfixed: 1 face (33"})
     EXPECT_NE(text.out.find(line), std::string::npos) << line << text.out;
   const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\n";
   write_text(mesh, square + "f 1 4 3\n");

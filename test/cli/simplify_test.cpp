@@ -252,16 +252,26 @@ TEST(App_simplify, UncheckedIsWrittenAndNotVerified)
   EXPECT_TRUE(is_embedded(read_mesh(out).soup));
 }
 
-TEST(App_simplify, OffendingInputIsFrozenOrRefused)
+TEST(App_simplify, OffendingInputDescendsOrIsFrozenOrRefused)
 {
   const Workspace folder;
   const std::string in = folder / "in.obj";
   write_text(in, "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 -1\nv 1 1 1\nv 9 9 0\nf 1 2 3\nf 4 5 6\n");
   expect_refused({"simplify", in, "-o", folder / "out.obj", "--ratio", "0.5", "--strict"}, 3, in);
   EXPECT_EQ(folder.files(), 1u);
+  expect_refused({"simplify", in, "-o", folder / "out.obj", "--ratio", "0.5", "--defects", "refuse"}, 3, in);
+  expect_refused(
+      {"simplify", in, "-o", folder / "out.obj", "--ratio", "0.5", "--strict", "--defects", "freeze"}, 2,
+      "--strict");
+  const App_result frozen =
+      run_app({"simplify", in, "-o", folder / "out.obj", "--ratio", "0.5", "--defects", "freeze"});
+  EXPECT_EQ(frozen.code, 0) << frozen.err;
+  EXPECT_NE(frozen.out.find("1 offending pair, 2 faces frozen"), std::string::npos) << frozen.out;
   const App_result result = run_app({"simplify", in, "-o", folder / "out.obj", "--ratio", "0.5"});
   EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_NE(result.out.find("1 offending pair, 2 faces frozen"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("1 offending pair\n"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("0 of them not descended from the 1 of the input"), std::string::npos)
+      << result.out;
 }
 
 TEST(App_simplify, KeepsWhatStoodThereWhenWritingFails)

@@ -276,10 +276,12 @@ TEST(Projected_star, SeesNothingWrongInAPentagram)
   EXPECT_TRUE(Star(from, to, link).is_seen_clear());
   EXPECT_EQ(judge_star_motion<Kernel>(motion), Star_verdict::clear_by_view);
 
-  // So its faces are locked, and nothing of it moves.
-  const Reduction reduction = reduce(soup, without_limits(to_ratio(0)));
-  EXPECT_EQ(reduction.prepared.frozen_faces, soup.triangles.size());
-  EXPECT_EQ(reduction.simplified.report.collapses, 0u);
+  // So its faces are locked, and nothing of it moves, or its faces are exempt, and no view is used.
+  const Reduction frozen = reduce(soup, without_limits(to_ratio(0)), with(Defects::freeze));
+  EXPECT_EQ(frozen.prepared.frozen_faces, soup.triangles.size());
+  EXPECT_EQ(frozen.simplified.report.collapses, 0u);
+  const Reduction exempt = reduce(soup, without_limits(to_ratio(0)), with(Defects::descend));
+  EXPECT_EQ(exempt.simplified.report.intersections.stars_clear_by_view, 0u);
 }
 
 TEST(Projected_star, IsNeverWrongBesideStarsThatWindTwice)

@@ -24,13 +24,6 @@
 namespace selvedge::test {
 namespace {
 
-Prepare_options with(Defects defects)
-{
-  Prepare_options options;
-  options.defects = defects;
-  return options;
-}
-
 /// Two wavy sheets, one moved into the other.
 Triangle_soup sheets_through_each_other(std::size_t faces)
 {

@@ -29,7 +29,7 @@ Simplify_options to_nothing()
 Hindrances hindrances_of(const Triangle_soup& soup, const Simplify_options& options,
                          const Simplify_intent& intent = {}, Normals_choice normals = Normals_choice::keep)
 {
-  Prepare_options how;
+  Prepare_options how = with(Defects::freeze);
   how.normals = normals;
   return simplify_soup(prepare(soup, how), options, intent).report.hindrances;
 }

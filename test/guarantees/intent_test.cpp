@@ -234,7 +234,7 @@ TEST(Intent, PairsThatOffendBetweenGarmentAndObstacleAreFrozen)
 {
   const Triangle_soup cloth = two_groups();
   Triangle_soup pin = soup({{10.3, 10.2, -5}, {10.6, 10.2, 5}, {10.3, 10.6, 5}}, {{0, 1, 2}});
-  const Prepared_soup prepared = prepare(cloth, {}, pin);
+  const Prepared_soup prepared = prepare(cloth, with(Defects::freeze), pin);
   ASSERT_FALSE(prepared.offending_pairs.empty());
   EXPECT_GT(prepared.frozen_faces, 0u);
   const Simplified_soup result = simplify_soup(prepared, to_ratio(0.3));

@@ -35,6 +35,13 @@ inline Simplify_options without_limits(Simplify_options options)
   return options;
 }
 
+inline Prepare_options with(Defects defects)
+{
+  Prepare_options options;
+  options.defects = defects;
+  return options;
+}
+
 /// An original, what became of it, and what the judge says.
 struct Reduction
 {

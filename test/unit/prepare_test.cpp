@@ -110,6 +110,7 @@ TEST(Prepare, RoundingIsCountedApartFromTheInputsOwnDefects)
   EXPECT_EQ(prepare(input).offending_pairs.size(), 1u);
   Prepare_options options;
   options.round_to_float32 = true;
+  options.defects = Defects::freeze;
   const Prepared_soup rounded = prepare(input, options);
   EXPECT_EQ(rounded.rounding.vertices, 9u);
   EXPECT_GE(rounded.pairs_by_rounding, 8u);
