@@ -88,7 +88,7 @@ TEST(App_documentation, OptionsInReportsAreThoseOfTheHelp)
     }
     ++defaults;
   }
-  EXPECT_EQ(defaults, 14u);
+  EXPECT_EQ(defaults, 15u);
 }
 
 } // namespace

@@ -389,7 +389,7 @@ group(
      "exemption is asked of one face as it was before the collapse"),
     ("    for (const Id face : m_considered)\n      remove_pairs(face);", "", "pairs that have gone still count"),
     ("    for (const Pair& pair : pairs)\n      add_pair(pair);\n    if", "    if", "pairs that have come do not count"),
-    ("m_considered_at[other] == m_now && other != face ? 1 : 2", "2", "pairs within the star count twice"),
+    ("m_considered_at[other] == m_now && other != face ? 1u : 2u", "2u", "pairs within the star count twice"),
     ("m_is_exempt_inside = is_any_marked(m_union);", "m_is_exempt_inside = false;", "no pair within the star is exempt"),
     ("    if (m_considered_at[face] == m_now)\n      return m_is_exempt_inside;\n", "",
      "faces at the other end that moves are asked for what they were before"),

@@ -109,7 +109,7 @@ public:
     for (const Id face : m_considered)
       if (const auto found = m_pairs.find(face); found != m_pairs.end())
         for (const Id other : found->second)
-          twice += m_considered_at[other] == m_now && other != face ? 1 : 2;
+          twice += m_considered_at[other] == m_now && other != face ? 1u : 2u;
     return twice / 2;
   }
 
