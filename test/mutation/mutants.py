@@ -117,7 +117,7 @@ group(
     ("guard_test",),
     ("if (is_coincident(motion.mover) || !m_star.gather(motion)", "if (!m_star.gather(motion)", "coincident vertices move"),
     ("return !face_at_place;", "return true;", "a place where another vertex is"),
-    ("if (verdict == Star_verdict::refused) {", "if (false) {", "what the star says is not heard"),
+    ("return verdict != Star_verdict::refused;", "return true;", "what the star says is not heard"),
     ("return !m_is_mover_first || are_both_clear(collapse.mover(), collapse.goal());", "return true;",
      "a place that is clear in no order is taken"),
 )
