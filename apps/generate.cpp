@@ -18,7 +18,7 @@
 namespace selvedge::app {
 namespace {
 
-struct Request
+struct Generate_request
 {
   std::string name;
   std::string output;
@@ -28,7 +28,7 @@ struct Request
   bool is_ascii = false;
 };
 
-Exit_code run(const Request& request)
+Exit_code run(const Generate_request& request)
 {
   if (request.is_list) {
     for (const Scene_description& scene : scenes())
@@ -60,7 +60,7 @@ Exit_code run(const Request& request)
 
 Action add_generate(CLI::App& command)
 {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<Generate_request>();
   Generate_options& options = request->options;
   command.add_option("NAME", request->name, "Scene to make; --list names all of them.")->type_name("");
   command.add_option("-o,--output", request->output, "File to write: .obj, .off, .ply, .stl, .glb or .gltf.")

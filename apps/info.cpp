@@ -25,7 +25,7 @@
 namespace selvedge::app {
 namespace {
 
-struct Request
+struct Info_request
 {
   std::string mesh;
   std::string report;
@@ -35,7 +35,7 @@ struct Request
 
 constexpr std::size_t most_printed = 5, most_listed = 100;
 
-const char* name(Mesh_format format)
+const char* format_name(Mesh_format format)
 {
   switch (format) {
   case Mesh_format::obj:
@@ -54,7 +54,7 @@ const char* name(Mesh_format format)
   return "";
 }
 
-const char* name(Normals_of_file normals)
+const char* normals_name(Normals_of_file normals)
 {
   switch (normals) {
   case Normals_of_file::none:
@@ -233,10 +233,10 @@ void print_freedom(const Inspection& mesh)
             << '\n';
 }
 
-void print(const Request& request, const Contents& contents, const std::vector<std::string>& notes,
+void print(const Info_request& request, const Contents& contents, const std::vector<std::string>& notes,
            const Inspection& mesh)
 {
-  std::cout << request.mesh << ": " << name(contents.format) << ", " << with_commas(contents.vertices)
+  std::cout << request.mesh << ": " << format_name(contents.format) << ", " << with_commas(contents.vertices)
             << (contents.vertices == 1 ? " vertex, " : " vertices, ") << counted(contents.faces, "face")
             << ", size (diagonal of the bounding box) " << with_digits(mesh.diagonal) << '\n';
   for (const std::string& note : notes)
@@ -255,14 +255,14 @@ void print(const Request& request, const Contents& contents, const std::vector<s
 
 Json to_json(const Contents& contents)
 {
-  return {{"format", name(contents.format)},
+  return {{"format", format_name(contents.format)},
           {"groups", contents.groups},
           {"objects", contents.objects},
           {"materials", contents.materials},
           {"images", contents.images},
           {"material_libraries", contents.material_libraries},
           {"texture_coordinates", contents.texture_coordinates},
-          {"normals", name(contents.normals)},
+          {"normals", normals_name(contents.normals)},
           {"attributes", contents.attributes}};
 }
 
@@ -336,7 +336,7 @@ void add_inspection(Json& report, const Inspection& mesh)
                        {"misoriented", mesh.movable.misoriented}};
 }
 
-Exit_code run(const Request& request)
+Exit_code run(const Info_request& request)
 {
   if (!request.report.empty()) {
     require_distinct({{"--report", request.report}}, {{"MESH", request.mesh}});
@@ -364,7 +364,7 @@ Exit_code run(const Request& request)
 
 Action add_info(CLI::App& command)
 {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<Info_request>();
   command.add_option("MESH", request->mesh, "Mesh to describe: .obj, .off, .ply, .stl, .glb or .gltf.")
       ->required()
       ->type_name("");

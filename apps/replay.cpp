@@ -27,7 +27,7 @@
 namespace selvedge::app {
 namespace {
 
-struct Request
+struct Replay_request
 {
   std::string original;
   std::string log;
@@ -124,7 +124,7 @@ std::string summary_of_terms(const Replay_verdict& verdict)
          (verdict.is_result_stated ? ", result bound" : ", result NOT BOUND");
 }
 
-void print(const Request& request, const Replay_verdict& verdict)
+void print(const Replay_request& request, const Replay_verdict& verdict)
 {
   std::cout << request.log << ": " << counted(verdict.snaps, "snap") << ", "
             << counted(verdict.collapses, "collapse") << "; "
@@ -158,7 +158,7 @@ void print(const Request& request, const Replay_verdict& verdict)
   std::cout << std::flush;
 }
 
-Exit_code run(const Request& request)
+Exit_code run(const Replay_request& request)
 {
   if (!request.output.empty())
     output_format(request.output);
@@ -211,7 +211,7 @@ Exit_code run(const Request& request)
 
 Action add_replay(CLI::App& command)
 {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<Replay_request>();
   command.add_option("ORIGINAL", request->original, "Mesh that was reduced.")->required()->type_name("");
   command.add_option("LOG", request->log, "Log of the collapses that reduced it.")->required()->type_name("");
   command.add_option("-o,--output", request->output, "File for the mesh to which the steps lead.")

@@ -23,7 +23,7 @@
 namespace selvedge::app {
 namespace {
 
-struct Request
+struct Verify_request
 {
   std::string mesh;
   std::string original;
@@ -130,7 +130,7 @@ void print(const Piece_matching& matching)
     std::cout << "  and " << with_commas(matching.mismatches.size() - named) << " more\n";
 }
 
-void print(const Request& request, const Mesh_file& mesh, const Verification& verification,
+void print(const Verify_request& request, const Mesh_file& mesh, const Verification& verification,
            const std::optional<Comparison>& comparison)
 {
   const bool has_original = !request.original.empty();
@@ -185,7 +185,7 @@ void print(const Request& request, const Mesh_file& mesh, const Verification& ve
   std::cout << std::flush;
 }
 
-Exit_code run(const Request& request)
+Exit_code run(const Verify_request& request)
 {
   const bool has_original = !request.original.empty();
   if (!request.report.empty()) {
@@ -227,7 +227,7 @@ Exit_code run(const Request& request)
 
 Action add_verify(CLI::App& command)
 {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<Verify_request>();
   command.add_option("MESH", request->mesh, "Mesh to judge: .obj, .off, .ply, .stl, .glb or .gltf.")
       ->required()
       ->type_name("");
