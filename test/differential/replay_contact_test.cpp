@@ -5,8 +5,7 @@
 
 #include "../../src/replay/contact.h"
 #include "support/Exact_oracle.h"
-
-#include <CGAL/Gmpq.h>
+#include "support/Exact_unit.h"
 
 #include <gtest/gtest.h>
 
@@ -18,14 +17,9 @@
 namespace selvedge::test {
 namespace {
 
-using Number = CGAL::Gmpq;
+using Number = CGAL::Gmpz;
 using Exact_point = oracle::Point<Number>;
 using reference::Place;
-
-Exact_point exact(const Place& place)
-{
-  return {Number(place.at[0]), Number(place.at[1]), Number(place.at[2])};
-}
 
 struct Counts
 {
@@ -53,7 +47,11 @@ void compare(std::mt19937& random, const std::array<double, 3>& units, bool is_o
   std::array<Place, 3> f;
   for (Place& corner : f)
     corner = random() % 3 == 0 ? std::array{t, a, b}[random() % 3] : some_place();
-  const auto is_proper = [](const Place& x, const Place& y, const Place& z) {
+  Exact_axes axes;
+  for (const Place& place : places)
+    axes.consider(place.at);
+  const auto exact = [&](const Place& place) { return axes(place.at); };
+  const auto is_proper = [&](const Place& x, const Place& y, const Place& z) {
     return !oracle::are_collinear(exact(x), exact(y), exact(z));
   };
   if (!is_proper(m, a, b) || !is_proper(f[0], f[1], f[2]) || m.id == t.id)

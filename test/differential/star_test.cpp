@@ -4,6 +4,7 @@
 #include <selvedge/geometry/star.h>
 
 #include <support/Exact_oracle.h>
+#include <support/Exact_unit.h>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -246,7 +247,6 @@ TEST(Star, AgreesWithLinearProgrammingOnNearlyFlatDoubles)
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(-1, 1);
-  using Exact_point = selvedge::oracle::Point<CGAL::Gmpq>;
   std::map<Star_verdict, int> counts;
   for (int i = 0; i < 400 / case_scale;) {
     std::array<Kernel::Vector_3, 3> frame;
@@ -269,10 +269,11 @@ TEST(Star, AgreesWithLinearProgrammingOnNearlyFlatDoubles)
       (a == motion.to || b == motion.to ? motion.contracted : motion.moving).push_back({a, b});
     }
 
-    const auto to_exact = [](const Kernel::Point_3& p) {
-      return Exact_point{CGAL::Gmpq(p.x()), CGAL::Gmpq(p.y()), CGAL::Gmpq(p.z())};
-    };
-    selvedge::oracle::Star<CGAL::Gmpq> star{to_exact(motion.from), to_exact(motion.to), {}, {}};
+    selvedge::test::Exact_axes to_exact;
+    to_exact.consider(motion.from);
+    for (const Kernel::Point_3& p : link)
+      to_exact.consider(p);
+    selvedge::oracle::Star<CGAL::Gmpz> star{to_exact(motion.from), to_exact(motion.to), {}, {}};
     for (const auto& edge : motion.moving)
       star.moving.push_back({to_exact(edge[0]), to_exact(edge[1])});
     for (const auto& edge : motion.contracted)

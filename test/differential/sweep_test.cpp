@@ -4,6 +4,7 @@
 #include <selvedge/geometry/sweep.h>
 
 #include <support/Exact_oracle.h>
+#include <support/Exact_unit.h>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <random>
 #include <sstream>
@@ -360,6 +362,19 @@ private:
   Grid_cases m_grid;
 };
 
+Case<CGAL::Gmpz> integers(const Case<double>& c)
+{
+  selvedge::test::Exact_axes axes;
+  for (const auto& p : c.sweep)
+    axes.consider(p);
+  for (const auto& p : c.face)
+    axes.consider(p);
+  Case<CGAL::Gmpz> exact;
+  std::transform(c.sweep.begin(), c.sweep.end(), exact.sweep.begin(), std::cref(axes));
+  std::transform(c.face.begin(), c.face.end(), exact.face.begin(), std::cref(axes));
+  return exact;
+}
+
 TEST(Sweep, AgreesWithLinearProgrammingOnNearlyDegenerateDoubles)
 {
   constexpr unsigned seed = 4711;
@@ -368,7 +383,7 @@ TEST(Sweep, AgreesWithLinearProgrammingOnNearlyDegenerateDoubles)
   std::array<std::array<int, 2>, 4> counts{};
   for (int i = 0; i < 30000 / case_scale; ++i) {
     const Case<double> c = cases.next();
-    const bool is_clear = judge_by_oracle<CGAL::Gmpq>(c);
+    const bool is_clear = judge_by_oracle<CGAL::Gmpz>(integers(c));
     ASSERT_EQ(judge<Kernel>(c), is_clear) << to_string(c);
     std::size_t shared = 0;
     for (std::size_t k = 1; k < 4; ++k)

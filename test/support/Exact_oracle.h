@@ -26,16 +26,15 @@ using Point = std::array<Number, 3>;
 template <class Number>
 bool is_feasible(std::vector<std::vector<Number>> a, std::vector<Number> b, const std::vector<bool>& positive)
 {
-  const std::size_t rows = a.size(), columns = a[0].size(), width = columns + rows + 1;
+  const std::size_t rows = a.size(), columns = a[0].size(), width = columns + 1;
   // The last two rows are the objectives of the two phases, to be maximised; the last column is the
-  // right-hand side.
+  // right-hand side. An artificial variable that leaves the basis never comes back: it needs no column.
   std::vector<std::vector<Number>> table(rows + 2, std::vector<Number>(width, Number(0)));
-  std::vector<std::size_t> basis(rows);
+  std::vector<std::size_t> basis(rows); // numbers from `columns` on are those of artificial variables
   for (std::size_t i = 0; i < rows; ++i) {
     const bool is_negative = b[i] < Number(0);
     for (std::size_t j = 0; j < columns; ++j)
       table[i][j] = is_negative ? -a[i][j] : a[i][j];
-    table[i][columns + i] = Number(1);
     table[i][width - 1] = is_negative ? -b[i] : b[i];
     basis[i] = columns + i;
     for (std::size_t j = 0; j < columns; ++j)
@@ -54,9 +53,9 @@ bool is_feasible(std::vector<std::vector<Number>> a, std::vector<Number> b, cons
   const auto pivot = [&](std::size_t row, std::size_t column) {
     const Number p = table[row][column];
     for (std::size_t i = 0; i < table.size(); ++i) {
-      if (i == row)
-        continue;
       const Number factor = table[i][column];
+      if (i == row || (factor == Number(0) && p == denominator))
+        continue;
       for (std::size_t j = 0; j < width; ++j)
         table[i][j] = (table[i][j] * p - factor * table[row][j]) / denominator;
     }

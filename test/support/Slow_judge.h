@@ -5,11 +5,10 @@
 #define SELVEDGE_TEST_SUPPORT_SLOW_JUDGE_H
 
 #include "support/Exact_oracle.h"
+#include "support/Exact_unit.h"
 
 #include <selvedge/Triangle_soup.h>
 #include <selvedge/replay.h>
-
-#include <CGAL/Gmpz.h>
 
 #include <algorithm>
 #include <cmath>
@@ -340,7 +339,7 @@ private:
   bool is_beyond_weld_distance(Index v, Index w) const
   {
     const Exact_point u = oracle::difference(exact(v), exact(w));
-    return oracle::dot(u, u) > exact(m_weld_distance) * exact(m_weld_distance);
+    return oracle::dot(u, u) > m_unit(m_weld_distance) * m_unit(m_weld_distance);
   }
 
   std::set<Index> neighbours(Index v) const
@@ -403,26 +402,21 @@ private:
 
   void find_unit()
   {
-    const auto consider = [&](double length) {
-      while (std::ldexp(length, m_scale) != std::trunc(std::ldexp(length, m_scale)))
-        ++m_scale;
-    };
-    consider(m_weld_distance);
+    m_unit.consider(m_weld_distance);
     for (const Point_3& point : m_points)
       for (int axis = 0; axis < 3; ++axis)
-        consider(point[axis]);
+        m_unit.consider(point[axis]);
   }
 
-  Number exact(double length) const { return Number(std::ldexp(length, m_scale)); }
   Exact_point exact(Index v) const
   {
-    return {exact(m_points[v].x()), exact(m_points[v].y()), exact(m_points[v].z())};
+    return {m_unit(m_points[v].x()), m_unit(m_points[v].y()), m_unit(m_points[v].z())};
   }
   Exact_triangle exact(const Index_triple& f) const { return {exact(f[0]), exact(f[1]), exact(f[2])}; }
 
   std::vector<Point_3> m_points;
   const double m_weld_distance;
-  int m_scale = 0;               // the exponent of two that makes integers of all coordinates
+  Exact_unit m_unit;             // of all coordinates
   std::vector<Index> m_position; // by vertex, at the start
   std::vector<Index> m_now;      // and after the snaps so far
   std::vector<Index_triple> m_start, m_triangles;

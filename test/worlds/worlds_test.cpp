@@ -15,8 +15,6 @@
 
 #include <selvedge/Error.h>
 
-#include <CGAL/Gmpq.h>
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -141,7 +139,7 @@ TEST(Worlds, AreTheSameOnEveryMachine)
 // What the world is asked about most often
 // --------------------------------------------------------------------------------------------------------
 
-using Number = CGAL::Gmpq;
+using Number = std::int64_t; // enough for coordinates from 0 to 3
 using Exact_point = oracle::Point<Number>;
 
 struct Places
