@@ -7,6 +7,7 @@
 #include "support/meshes.h"
 #include "support/reduction.h"
 #include "support/soups.h"
+#include "support/threads.h"
 
 #include <gtest/gtest.h>
 
@@ -274,10 +275,16 @@ TEST(Hindrances, AreTheSameInCellsOnAnyNumberOfThreads)
   options.max_error = 1e-3;
   options.faces_per_cell = 300;
   const Triangle_soup cloth = skirt(3000);
-  const Hindrances first = hindrances_of(cloth, options), second = hindrances_of(cloth, options);
+  const auto with = [&](std::size_t threads) {
+    return with_threads(threads, [&] { return hindrances_of(cloth, options); });
+  };
+  const Hindrances first = with(1);
   EXPECT_GT(first.total(), 0u);
-  for (const Hindrances::Description& description : Hindrances::descriptions())
-    EXPECT_EQ(first[description.reason], second[description.reason]) << description.key;
+  for (const std::size_t threads : {2, 5}) {
+    const Hindrances again = with(threads);
+    for (const Hindrances::Description& description : Hindrances::descriptions())
+      EXPECT_EQ(first[description.reason], again[description.reason]) << description.key;
+  }
 }
 
 } // namespace

@@ -4,10 +4,9 @@
 #include <selvedge/generate.h>
 #include <selvedge/verify.h>
 
-#include <gtest/gtest.h>
+#include "support/threads.h"
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/task_arena.h>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -24,13 +23,7 @@ bool operator==(const Offending_pair& a, const Offending_pair& b)
 
 namespace {
 
-/// What `function` returns where oneTBB grants it so many threads, whatever the machine has.
-template <class Function>
-auto with_threads(std::size_t count, const Function& function)
-{
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, count);
-  return tbb::task_arena(static_cast<int>(count)).execute(function);
-}
+using test::with_threads;
 
 // Layers, large enough for many tasks, and pushed into one another.
 Triangle_soup garment(std::size_t faces)
