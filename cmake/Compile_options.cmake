@@ -5,6 +5,13 @@ target_compile_options(selvedge_warnings INTERFACE
   $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall -Wextra -Wpedantic -Wshadow -Wno-maybe-uninitialized -Wno-unknown-warning-option>
   $<$<AND:$<BOOL:${SELVEDGE_WARNINGS_AS_ERRORS}>,$<CXX_COMPILER_ID:GNU,Clang,AppleClang>>:-Werror>)
 
+# The sources of a target are read, with every template that they instantiate and every warning, but no code is generated.
+set(selvedge_read_only_launcher ${CMAKE_CURRENT_LIST_DIR}/read_only.sh)
+function(selvedge_read_only target)
+  set(launcher ${selvedge_read_only_launcher} ${CMAKE_CXX_COMPILER_LAUNCHER})
+  set_target_properties(${target} PROPERTIES CXX_COMPILER_LAUNCHER "${launcher}")
+endfunction()
+
 # In a unity build, the sources of a target that are in one folder are compiled as one.
 function(selvedge_unite_by_folder target)
   get_target_property(sources ${target} SOURCES)
