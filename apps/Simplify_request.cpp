@@ -143,6 +143,7 @@ Json options_json(const Simplify_request& request)
           {"cluster_size", options.faces_per_cluster},
           {"intersection_check", options.check_intersections},
           {"stabiliser", options.cost.stabiliser},
+          {"memory", options.cost.memory},
           {"border_weight", options.cost.border_weight},
           {"uv_weight", options.uv_weight},
           {"part_ratios", part_ratios},
@@ -359,6 +360,14 @@ void add_options(CLI::App& command, Simplify_request& request)
                   "is flat.")
       ->check(in_range(0))
       ->type_name("W")
+      ->capture_default_str()
+      ->group(tuning);
+  command
+      .add_option("--memory", options.cost.memory,
+                  "Share of the cost that is the distance to all planes since the original, from 0 to 1; the "
+                  "rest is that to the faces as they are. 1 is faster, with an error a third larger.")
+      ->check(in_range(0, 1))
+      ->type_name("SHARE")
       ->capture_default_str()
       ->group(tuning);
   command

@@ -60,6 +60,7 @@ TEST(App_usage, RefusesWhatMakesNoSense)
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--index", "none"},
        "--index: 'none' is none of clusters, packed"},
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--stabiliser", "-1"}, "--stabiliser"},
+      {{"simplify", in, "-o", out, "--ratio", "0.5", "--memory", "2"}, "--memory"},
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--border-weight", "x"}, "--border-weight"},
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--threads", "0"}, "--threads"},
       {{"verify", in, "--threads", "-1"}, "--threads"},

@@ -347,7 +347,35 @@ TEST(Placement, QuadricIsLeastWhereItSays)
   internal::Symmetric_quadric flat;
   flat.add_square({0, 0, 1}, 0, 1);
   EXPECT_FALSE(flat.least_point()) << "least in a whole plane";
+  EXPECT_FALSE(flat.least_point_on_plane({0, 0, 1}, 0, {0, 0, 0})) << "least in the whole plane";
+  EXPECT_FALSE(flat.least_point_on_plane({0, 0, 0}, 0, {0, 0, 0})) << "no plane";
   EXPECT_FALSE(flat.least_along({0, 0, 0}, {1, 0, 0}));
+}
+
+TEST(Placement, QuadricIsLeastOnAPlaneWhereItSays)
+{
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> number(-1, 1);
+  const auto any = [&] {
+    return internal::Vector_of_doubles{number(random), number(random), number(random)};
+  };
+  for (int round = 0; round < 100; ++round) {
+    internal::Symmetric_quadric quadric;
+    for (int i = 0; i < 4; ++i)
+      quadric.add_square(any(), number(random), 1);
+    const internal::Vector_of_doubles normal = any();
+    const double product = number(random);
+    const auto least = quadric.least_point_on_plane(normal, product, any());
+    ASSERT_TRUE(least);
+    EXPECT_NEAR(internal::dot(normal, *least), product, 1e-9);
+    const internal::Vector_of_doubles in_plane = internal::cross(normal, any());
+    for (const double step : {-1e-2, 1e-2}) {
+      internal::Vector_of_doubles beside = *least;
+      for (std::size_t i = 0; i < 3; ++i)
+        beside[i] += step * in_plane[i];
+      EXPECT_LT(quadric(*least), quadric(beside));
+    }
+  }
 }
 
 // Every inner edge of the triangle is a line, with one corner of it at each of its vertices. To merge two of

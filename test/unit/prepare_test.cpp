@@ -38,6 +38,9 @@ TEST(Refusal, OptionsOutOfRange)
   expect_refused([](Simplify_options& o) { o.uv_weight = std::numeric_limits<double>::infinity(); });
   expect_refused([](Simplify_options& o) { o.cost.border_weight = -1; });
   expect_refused([](Simplify_options& o) { o.cost.stabiliser = std::nan(""); });
+  expect_refused([](Simplify_options& o) { o.cost.memory = std::nan(""); });
+  expect_refused([](Simplify_options& o) { o.cost.memory = -0.1; });
+  expect_refused([](Simplify_options& o) { o.cost.memory = 1.1; });
 }
 
 TEST(Refusal, NothingToReduce)

@@ -4,12 +4,22 @@
 // What a collapse costs.
 
 #include "support/mesh_of.h"
+#include "support/meshes.h"
 #include "support/soups.h"
 
+#include <selvedge/Surface_mesh_simplification/Optimal_placement.h>
 #include <selvedge/Surface_mesh_simplification/Quadric_cost.h>
+#include <selvedge/Surface_mesh_simplification/edge_collapse.h>
 #include <selvedge/Surface_mesh_simplification/internal/Lazy_edge_profile.h>
+#include <selvedge/Surface_mesh_simplification/stop_predicates.h>
+
+#include <CGAL/boost/graph/Euler_operations.h>
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 
 namespace selvedge::test {
 namespace {
@@ -68,6 +78,102 @@ TEST(QuadricCost, IsWhatTheCollapseAdds)
               1e-9 * of_peak);
   const Peak before;
   EXPECT_NEAR(scene.cost_of(flat, beside), before.cost_of(flat, beside), 1e-9 * of_peak);
+}
+
+Quadric_cost_options with_memory(double share)
+{
+  Quadric_cost_options options;
+  options.memory = share;
+  return options;
+}
+
+/// A sphere reduced to half its edges, with the cost that was updated after each collapse.
+struct Reduced_sphere
+{
+  explicit Reduced_sphere(double memory)
+      : mesh(mesh_of(nested_spheres(1000, 1, 0))), cost(mesh, with_memory(memory))
+  {
+    cost.measure_by(1);
+    const Optimal_placement<Mesh, Quadric_cost<Mesh>> placement(cost);
+    const std::size_t edges = mesh.number_of_edges();
+    EXPECT_GE(selvedge::edge_collapse(mesh, Edge_ratio_stop(0.5),
+                                      CGAL::parameters::get_cost(cost).get_placement(placement)),
+              int(edges / 2));
+  }
+
+  /// Calls `compare(cost, other cost)` for both directions of every edge.
+  template <class Compare>
+  void compare_with(const Quadric_cost<Mesh>& other, const Compare& compare) const
+  {
+    const Kernel traits;
+    const auto points = get(CGAL::vertex_point, mesh);
+    other.initialize(mesh, points, traits);
+    for (const auto h : mesh.halfedges()) {
+      const internal::Lazy_edge_profile<Mesh, decltype(points), Kernel> edge(h, mesh, points, traits);
+      compare(*cost.cost_along(edge, h), *other.cost_along(edge, h));
+    }
+  }
+
+  mutable Mesh mesh;
+  Quadric_cost<Mesh> cost;
+};
+
+TEST(QuadricCost, WithoutMemoryIsThatOfTheMeshAsItIs)
+{
+  const auto compare = [](double memory, const auto& function) {
+    const Reduced_sphere scene(memory);
+    Quadric_cost<Mesh> anew(scene.mesh, with_memory(memory));
+    anew.measure_by(1);
+    scene.compare_with(anew, function);
+  };
+  std::size_t edges = 0;
+  compare(0, [&](double updated, double anew) {
+    EXPECT_NEAR(updated, anew, 1e-9 * anew);
+    ++edges;
+  });
+  EXPECT_GT(edges, 1000u);
+  std::size_t more = 0, of = 0;
+  compare(0.5, [&](double updated, double anew) {
+    more += updated > 1.01 * anew;
+    ++of;
+  });
+  EXPECT_GT(more, of / 2) << "what has accumulated counts";
+}
+
+TEST(QuadricCost, PlacesKeepTheVolume)
+{
+  const auto volume = [](const Mesh& mesh) {
+    double sum = 0;
+    for (const auto face : mesh.faces()) {
+      const auto h = mesh.halfedge(face);
+      sum += CGAL::volume(Point_3(0, 0, 0), mesh.point(mesh.source(h)), mesh.point(mesh.target(h)),
+                          mesh.point(mesh.target(mesh.next(h))));
+    }
+    return sum;
+  };
+  const auto largest_change = [&](double memory) {
+    Mesh mesh = mesh_of(nested_spheres(300, 1, 0));
+    const Quadric_cost<Mesh> cost(mesh, with_memory(memory));
+    const Kernel traits;
+    const auto points = get(CGAL::vertex_point, mesh);
+    cost.initialize(mesh, points, traits);
+    double largest = 0;
+    for (const auto e : mesh.edges()) {
+      const internal::Lazy_edge_profile<Mesh, decltype(points), Kernel> edge(mesh.halfedge(e), mesh, points,
+                                                                             traits);
+      const auto place = cost.least_place(edge, 1);
+      EXPECT_TRUE(place);
+      if (!place || !CGAL::Euler::does_satisfy_link_condition(e, mesh))
+        continue;
+      Mesh merged = mesh;
+      const auto kept = CGAL::Euler::collapse_edge(e, merged);
+      merged.point(kept) = Point_3((*place)[0], (*place)[1], (*place)[2]);
+      largest = std::max(largest, std::fabs(volume(merged) / volume(mesh) - 1));
+    }
+    return largest;
+  };
+  EXPECT_LT(largest_change(0.03), 1e-12);
+  EXPECT_GT(largest_change(1), 1e-6) << "which knows nothing of volumes";
 }
 
 TEST(QuadricCost, GivesSmallFacesMoreThanTheirShareOfTheArea)

@@ -96,6 +96,7 @@ void write_world(const World& world, const std::filesystem::path& folder)
                      {"faces_per_cell", options.faces_per_cell},
                      {"border_weight", options.cost.border_weight},
                      {"stabiliser", options.cost.stabiliser},
+                     {"memory", options.cost.memory},
                      {"locked", world.intent.locked},
                      {"kept", world.intent.kept},
                      {"ratios", ratios},
@@ -150,6 +151,7 @@ World read_world(const std::filesystem::path& folder)
   options.faces_per_cell = json["faces_per_cell"];
   options.cost.border_weight = json["border_weight"];
   options.cost.stabiliser = json["stabiliser"];
+  options.cost.memory = json["memory"];
   world.intent.locked = json["locked"].get<std::vector<std::string>>();
   world.intent.kept = json["kept"].get<std::vector<std::string>>();
   for (const Json& part : json["ratios"])
@@ -204,6 +206,7 @@ std::string command_line(const World& world)
   add_if_other("--uv-weight", options.uv_weight, plain.uv_weight);
   add_if_other("--border-weight", options.cost.border_weight, plain.cost.border_weight);
   add_if_other("--stabiliser", options.cost.stabiliser, plain.cost.stabiliser);
+  add_if_other("--memory", options.cost.memory, plain.cost.memory);
   add_if_other("--weld", world.weld_distance, 0);
   if (world.normals != Normals_choice::automatic)
     add("--normals", name_of(world.normals));

@@ -125,6 +125,7 @@ void choose_limits(Simplify_options& options, Random& random)
   sometimes(options.uv_weight, {0, 1e-3, 0.1, 10});
   sometimes(options.cost.border_weight, {0, 0.1, 1, 100});
   sometimes(options.cost.stabiliser, {0, 1e-5, 0.1, 1});
+  sometimes(options.cost.memory, {0, 0.5, 1});
   if (random.one_in(8))
     options.max_error = random.one_of({0., 1e-6, 1e-3, 0.02, 0.5});
   options.check_uv_orientation = !random.one_in(10);

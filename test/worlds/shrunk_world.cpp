@@ -94,6 +94,7 @@ private:
       set_limit(&Simplify_options::max_border_drift, limit, plain.max_border_drift);
     set<double>([](World& w) -> double& { return w.options.cost.border_weight; }, plain.cost.border_weight);
     set<double>([](World& w) -> double& { return w.options.cost.stabiliser; }, plain.cost.stabiliser);
+    set<double>([](World& w) -> double& { return w.options.cost.memory; }, plain.cost.memory);
     set<double>([](World& w) -> double& { return w.weld_distance; }, 0);
     set<Normals_choice>([](World& w) -> Normals_choice& { return w.normals; }, Normals_choice::keep);
     set<bool>([](World& w) -> bool& { return w.is_sewn; }, false);

@@ -6,7 +6,8 @@
 
 namespace selvedge {
 
-/// The weights of what a `Quadric_cost` adds to the planes of the faces. Both are ratios of at least 0.
+/// What a `Quadric_cost` adds to the planes of the faces of the mesh as it is. The weights are ratios of at
+/// least 0.
 struct Quadric_cost_options
 {
   /// Weight of the plane that stands on a border edge, relative to that of a face whose area is the squared
@@ -17,6 +18,10 @@ struct Quadric_cost_options
   /// the planes alone make every collapse free, so this weight decides: near vertices merge first, and
   /// triangles stay round. It is small enough not to outweigh the planes where there is a shape to keep.
   double stabiliser = 1e-5;
+
+  /// Share of the quadrics that have accumulated since the original, from 0 to 1. At 1, the cost is that of
+  /// Garland and Heckbert; at 0, it depends on nothing but the mesh as it is, as that of Lindstrom and Turk.
+  double memory = 0.03;
 };
 
 } // namespace selvedge

@@ -237,9 +237,13 @@ private:
       const Vertex neighbour = source(h, m_mesh);
       if (!is_wide && !get(m_has_stale_edges, neighbour))
         continue;
-      for (const Halfedge g : CGAL::halfedges_around_target(opposite(h, m_mesh), m_mesh))
-        if (g != opposite(h, m_mesh) && (is_stale(id(g)) || (is_wide && is_reached(kept, edge(g, m_mesh)))))
+      for (const Halfedge g : CGAL::halfedges_around_target(opposite(h, m_mesh), m_mesh)) {
+        // An edge between two neighbours is looked at from one of them.
+        const bool is_due = is_wide && (opposite(g, m_mesh) != next(opposite(h, m_mesh), m_mesh) ||
+                                        CGAL::is_border(opposite(h, m_mesh), m_mesh));
+        if (g != opposite(h, m_mesh) && (is_stale(id(g)) || (is_due && is_reached(kept, edge(g, m_mesh)))))
           refresh(g);
+      }
       put(m_has_stale_edges, neighbour, false);
     }
     put(m_has_stale_edges, kept, false);

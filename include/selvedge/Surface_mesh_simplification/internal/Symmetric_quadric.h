@@ -6,6 +6,7 @@
 
 #include <selvedge/internal/Vector_of_doubles.h>
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 
@@ -72,8 +73,7 @@ public:
   std::optional<Vector_of_doubles> least_point() const
   {
     // Decomposes the matrix into LDLᵀ. Without pivots: it is positive semidefinite.
-    constexpr double least_pivot = 1e-13; // relative to the trace
-    const double least = least_pivot * trace();
+    const double least = s_least_pivot * trace();
     if (!(m_xx > least))
       return std::nullopt;
     const double yx = m_xy / m_xx, zx = m_xz / m_xx;
@@ -88,6 +88,49 @@ public:
     x[2] = w / zz;
     x[1] = v / yy - zy * x[2];
     x[0] = u / m_xx - yx * x[1] - zx * x[2];
+    return x;
+  }
+
+  /// Returns where the function is least among the points x with normal · x = product, or none when that is
+  /// not one point to working precision. `near` is a point that may be far from the plane.
+  std::optional<Vector_of_doubles> least_point_on_plane(const Vector_of_doubles& normal, double product,
+                                                        const Vector_of_doubles& near) const
+  {
+    const double length = std::sqrt(dot(normal, normal));
+    if (!(length > 0))
+      return std::nullopt;
+    // Two unit vectors in the plane; the first is at a right angle to the axis that is nearest to the plane.
+    std::size_t axis = 0;
+    for (std::size_t i = 1; i < 3; ++i)
+      if (std::fabs(normal[i]) < std::fabs(normal[axis]))
+        axis = i;
+    Vector_of_doubles of_axis{0, 0, 0};
+    of_axis[axis] = 1;
+    Vector_of_doubles u = cross(normal, of_axis);
+    const double length_of_u = std::sqrt(dot(u, u));
+    for (double& coordinate : u)
+      coordinate /= length_of_u;
+    Vector_of_doubles v = cross(normal, u);
+    for (double& coordinate : v)
+      coordinate /= length;
+    const double off = (product - dot(normal, near)) / (length * length);
+    Vector_of_doubles x = near;
+    for (std::size_t i = 0; i < 3; ++i)
+      x[i] += off * normal[i];
+
+    const Vector_of_doubles times_u = times_matrix(u), times_v = times_matrix(v);
+    Vector_of_doubles half_gradient = times_matrix(x);
+    for (std::size_t i = 0; i < 3; ++i)
+      half_gradient[i] += m_b[i];
+    const double uu = dot(u, times_u), uv = dot(u, times_v), vv = dot(v, times_v);
+    const double determinant = uu * vv - uv * uv, trace = uu + vv;
+    if (!(determinant > s_least_pivot * trace * trace))
+      return std::nullopt;
+    const double at_u = dot(u, half_gradient), at_v = dot(v, half_gradient);
+    const double along_u = (uv * at_v - vv * at_u) / determinant,
+                 along_v = (uv * at_u - uu * at_v) / determinant;
+    for (std::size_t i = 0; i < 3; ++i)
+      x[i] += along_u * u[i] + along_v * v[i];
     return x;
   }
 
@@ -106,6 +149,8 @@ public:
   double trace() const { return m_xx + m_yy + m_zz; }
 
 private:
+  static constexpr double s_least_pivot = 1e-13; // relative to the trace
+
   Vector_of_doubles times_matrix(const Vector_of_doubles& x) const
   {
     return {m_xx * x[0] + m_xy * x[1] + m_xz * x[2], m_xy * x[0] + m_yy * x[1] + m_yz * x[2],

@@ -13,7 +13,7 @@ namespace internal {
 /// says why it is not the area itself.
 inline double relative_face_weight(double area)
 {
-  return std::pow(area, 0.15);
+  return std::sqrt(std::sqrt(area));
 }
 
 } // namespace internal
