@@ -207,9 +207,9 @@ void add_options(CLI::App& command, Simplify_request& request)
   command
       .add_option(
           "--error", request.error,
-          "Largest distance from a vertex of the original to the surface of the result, as a share of "
-          "the diagonal of the bounding box; none sets no limit. Without another target, the reduction "
-          "goes as far as this allows.")
+          "Largest distance between the surfaces of the original and the result, as a share of the "
+          "diagonal of the bounding box, measured at vertices and at points between them; none sets no "
+          "limit. Without another target, the reduction goes as far as this allows.")
       ->type_name("E|none")
       ->default_str("0.01")
       ->group(how_far);

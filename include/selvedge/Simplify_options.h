@@ -54,9 +54,12 @@ struct Simplify_options
   /// Faces to keep, of all.
   std::optional<std::size_t> faces;
 
-  /// The largest distance from a vertex of the original to the surface of the result, as a share of the
-  /// diagonal of the bounding box, at least 0. It is measured at every collapse, for every vertex of the
-  /// original that is near it, and holds at any time. (The original is the mesh as `prepare` left it.)
+  /// The largest distance E between the surfaces of the original and the result, as a share of the diagonal
+  /// of the bounding box, at least 0. It is measured at every collapse, and holds at any time: from every
+  /// vertex of the original to the result, and from the vertices of the result to the original; and both
+  /// ways from points between, of grids that divide the sides of triangles into parts no longer than E, and
+  /// into 8 at most (for an original of many long sides fewer, see internal/Tracked_points.h). Between these
+  /// points, the distance may be a little larger. (The original is the mesh as `prepare` left it.)
   std::optional<double> max_error;
 
   /// The largest change of a face's normal in one collapse, in degrees from 0 to 180.

@@ -136,7 +136,8 @@ Scene garment_scene()
 
 TEST(Scale, TakesTheSameStepsWithEveryLimitAtWork)
 {
-  const Scene scene = garment_scene();
+  Scene scene = garment_scene();
+  scene.options.uv_weight = 1;
   const Refusals refused = scene.run().simplified.report.refused;
   EXPECT_GT(refused.border, 0u);
   EXPECT_GT(refused.normal_change, 0u);

@@ -174,8 +174,8 @@ group(
 )
 
 group(
-    headers + "Surface_mesh_simplification/internal/Tracked_vertices.h",
-    ("tracked_vertices_test",),
+    headers + "Surface_mesh_simplification/internal/Tracked_points.h",
+    ("tracked_points_test",),
     ("return height * height + beside * beside > squared * (1 + 1e-6) + 1e-24;",
      "return 2 * (height * height + beside * beside) > squared;", "faces that are nearer are skipped"),
     ("1 / (length * std::sqrt(dot(sides[i], sides[i])))", "1 / length", "distances beyond long sides are too large"),

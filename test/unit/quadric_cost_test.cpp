@@ -91,7 +91,7 @@ Quadric_cost_options with_memory(double share)
 struct Reduced_sphere
 {
   explicit Reduced_sphere(double memory)
-      : mesh(mesh_of(nested_spheres(1000, 1, 0))), cost(mesh, with_memory(memory))
+      : mesh(mesh_of(nested_spheres(1000, 1, 1e-3))), cost(mesh, with_memory(memory))
   {
     cost.measure_by(1);
     const Optimal_placement<Mesh, Quadric_cost<Mesh>> placement(cost);
@@ -152,7 +152,7 @@ TEST(QuadricCost, PlacesKeepTheVolume)
     return sum;
   };
   const auto largest_change = [&](double memory) {
-    Mesh mesh = mesh_of(nested_spheres(300, 1, 0));
+    Mesh mesh = mesh_of(nested_spheres(300, 1, 1e-3));
     const Quadric_cost<Mesh> cost(mesh, with_memory(memory));
     const Kernel traits;
     const auto points = get(CGAL::vertex_point, mesh);

@@ -22,7 +22,7 @@
 #include <selvedge/Surface_mesh_simplification/internal/Halfedge_filter.h>
 #include <selvedge/Surface_mesh_simplification/internal/Lazy_edge_profile.h>
 #include <selvedge/Surface_mesh_simplification/internal/Topology_test.h>
-#include <selvedge/Surface_mesh_simplification/internal/Tracked_vertices.h>
+#include <selvedge/Surface_mesh_simplification/internal/Tracked_points.h>
 #include <selvedge/Surface_mesh_simplification/internal/perform_collapse.h>
 #include <selvedge/Surface_mesh_simplification/stop_predicates.h>
 #include <selvedge/spatial/internal/Selectable_index.h>
@@ -161,7 +161,7 @@ class Simplification
   using Aspect_ratio = Aspect_ratio_filter<Target>;
   using Normal_change = Normal_change_filter<Aspect_ratio>;
   using Uv = Halfedge_filter<Is_uv_orientation_kept, Normal_change>;
-  using Error = Error_filter<Tracked_vertices<TriangleMesh>, Uv>;
+  using Error = Error_filter<Tracked_points<TriangleMesh>, Uv>;
   using Intersection =
       Intersection_filter<TriangleMesh, Error, Selectable_index, VertexPointMap, Geom_traits>;
 
@@ -191,7 +191,7 @@ public:
     m_quadrics.weigh(mesh, constraints.vertex_weights);
     m_quadrics.measure_by(m_diagonal);
     if (options.max_error)
-      m_tracked.begin(m_points, m_diagonal);
+      m_tracked.begin(m_points, m_diagonal, max_error());
     m_report.faces_input = m_targets.total().faces;
     m_report.faces_fixed = m_targets.total().fixed;
   }
@@ -692,7 +692,7 @@ private:
   Aspect_ratio m_aspect_ratio;
   Normal_change m_normal_change;
   Uv m_uv;
-  Tracked_vertices<TriangleMesh> m_tracked;
+  Tracked_points<TriangleMesh> m_tracked;
   Error m_error;
   std::vector<std::pair<typename Intersection::Face, typename Intersection::Face>> m_offending_pairs;
   std::optional<Intersection> m_intersection;

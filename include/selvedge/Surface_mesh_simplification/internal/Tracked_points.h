@@ -1,10 +1,11 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_TRACKED_VERTICES_H
-#define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_TRACKED_VERTICES_H
+#ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_TRACKED_POINTS_H
+#define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_TRACKED_POINTS_H
 
 #include <selvedge/Surface_mesh_simplification/internal/Collapse.h>
+#include <selvedge/Surface_mesh_simplification/internal/Original_surface.h>
 #include <selvedge/internal/Vector_of_doubles.h>
 
 #include <CGAL/Dynamic_property_map.h>
@@ -28,17 +29,27 @@
 namespace selvedge {
 namespace internal {
 
-/// Knows for every vertex of the original a face of the present mesh that is near it, its *carrier*, and so
-/// how far a collapse would leave original vertices from the surface.
+/// Knows for every vertex of the original, and for further points of its large faces, a face of the present
+/// mesh that is near it, its *carrier*; and so how far a collapse would leave them from the surface.
 ///
 /// The carrier of a vertex is at first the first face, in the order of `faces(mesh)`, at this vertex. A
-/// collapse hands the vertices of the faces that it changes or removes to the nearest of the faces that it
+/// collapse hands the points of the faces that it changes or removes to the nearest of the faces that it
 /// changes; if it changes none, to those beyond the faces that it removes. A face that no collapse changes
-/// keeps its vertices.
+/// keeps its points.
 ///
-/// **Guarantees** When `error_at` is at most E for every collapse that is done, every original vertex is at
-/// most E away from the mesh, at any time. This also holds when the same collapses are found in parts of a
-/// mesh, and done to the whole.
+/// Between the points, surfaces are compared at the points of *grids*: a grid divides each side of a triangle
+/// into as many parts as it takes for none to be longer than E, and into 8 at most. For an original of many
+/// long sides it is less than 8, so that there are no more points of grids than 100,000, or twice as many as
+/// faces.
+///
+/// **Guarantees** When `error_at` is at most E, as given to `begin`, for every collapse that is done, then at
+/// any time
+/// 1. every vertex of the original, and every point of the grids of its triangles, is at most E away from the
+///    mesh,
+/// 2. every point of the grid of each triangle that has changed is at most E away from the original, and so
+///    is every vertex that is at a new place.
+///
+/// This also holds when the same collapses are found in parts of a mesh, and done to the whole.
 ///
 /// It serves `Error_filter` as the error, and is a listener of collapses. Copies share one state.
 ///
@@ -46,13 +57,13 @@ namespace internal {
 ///
 /// **Exactness** Floating point.
 ///
-/// **Complexity** Linear in the size of the mesh to begin; for each collapse, the number of vertices that its
+/// **Complexity** Linear in the size of the mesh to begin; for each collapse, the number of points that its
 /// faces carry, times the number of these faces. What `error_at` has found is not computed again when this
 /// collapse is the next one done. Without `begin`, it does nothing, and all errors are 0.
 ///
 /// **Reference** Klein, Liebich, Strasser: Mesh reduction with error control, 1996.
 template <class TriangleMesh>
-class Tracked_vertices
+class Tracked_points
 {
   using Graph_traits = boost::graph_traits<TriangleMesh>;
   using Vertex = typename Graph_traits::vertex_descriptor;
@@ -63,43 +74,54 @@ class Tracked_vertices
   using Number = std::uint32_t;
 
 public:
-  explicit Tracked_vertices(const TriangleMesh& mesh) : m_state(std::make_shared<State>(mesh)) {}
+  explicit Tracked_points(const TriangleMesh& mesh) : m_state(std::make_shared<State>(mesh)) {}
 
-  /// Begins to track the vertices of the mesh as it is now. `diagonal` is the length of its diagonal, or
-  /// another one of that order.
+  /// Begins to track the points of the mesh as it is now. `diagonal` is the length of its diagonal, or
+  /// another one of that order. `max_error`, the length E above, is infinite if there are to be no grids.
   template <class VertexPointMap>
-  void begin(const VertexPointMap& points, double diagonal)
+  void begin(const VertexPointMap& points, double diagonal,
+             double max_error = std::numeric_limits<double>::infinity())
   {
     State& state = *m_state;
     // A power of two brings the mesh to a size at which sixth powers of lengths are numbers.
     if (diagonal > 0)
       state.scale = std::ldexp(1, -std::ilogb(diagonal));
+    state.max_error = max_error * state.scale;
     state.is_tracking = true;
-    const auto is_tracked = get(CGAL::dynamic_vertex_property_t<unsigned char>(), state.mesh);
+    const auto number_of = get(CGAL::dynamic_vertex_property_t<Number>(), state.mesh);
     for (const Vertex v : vertices(state.mesh))
-      put(is_tracked, v, false);
+      put(number_of, v, s_none);
     for (const Face face : faces(state.mesh)) {
       put(state.first_of_face, face, s_none);
+      std::array<Number, 3> corners;
+      auto corner = corners.begin();
       for (const Vertex v : CGAL::vertices_around_face(halfedge(face, state.mesh), state.mesh)) {
-        if (get(is_tracked, v))
-          continue;
-        put(is_tracked, v, true);
-        state.points.push_back(point(get(points, v)));
-        state.next.push_back(s_none);
-        give(Number(state.points.size() - 1), face);
+        if (get(number_of, v) == s_none) {
+          put(number_of, v, Number(state.points.size()));
+          track(point(get(points, v)), face);
+        }
+        *corner++ = get(number_of, v);
       }
+      state.original.add(corners);
     }
+    if (std::isfinite(max_error))
+      track_grids();
   }
 
-  /// Returns the largest distance from a vertex that the changed faces carry to its new carrier, in units of
-  /// the mesh; infinity when no face is left to carry it.
+  /// Returns the largest distance from a point that the changed faces carry to its new carrier, in units of
+  /// the mesh; infinity when no face is left to carry it, or a changed face would be too far from the
+  /// original.
   template <class Profile, class Place>
   double error_at(const Profile& profile, const Place& place) const
   {
     if (!m_state->is_tracking)
       return 0;
-    m_state->found = find_carriers(Collapse<Profile>(profile, place));
-    return std::sqrt(m_state->squared_error) / m_state->scale;
+    const Collapse<Profile> collapse(profile, place);
+    m_state->found = find_carriers(collapse);
+    const double error = std::sqrt(m_state->squared_error);
+    return error > m_state->max_error || are_changed_faces_near(collapse.are_both_moved())
+               ? error / m_state->scale
+               : std::numeric_limits<double>::infinity();
   }
 
   template <class Collapse>
@@ -120,7 +142,9 @@ public:
 private:
   static constexpr Number s_none = std::numeric_limits<Number>::max();
 
-  // A face that can take vertices, as it is after the collapse.
+  static constexpr int s_most_parts = 8;
+
+  // A face that can take points, as it is after the collapse.
   class Candidate
   {
     using Vector = Vector_of_doubles;
@@ -148,6 +172,7 @@ private:
     }
 
     Face face() const { return m_face; }
+    std::array<Point, 3> corners() const { return {m_triangle[0], m_triangle[1], m_triangle[2]}; }
 
     double squared_distance(const Point& p) const { return CGAL::squared_distance(p, m_triangle); }
 
@@ -209,13 +234,15 @@ private:
     const TriangleMesh& mesh;
     bool is_tracking = false;
     double scale = 1;
-    std::vector<Point> points; // the vertices of the original, times the scale
-    // The vertices of a face are a list: the first one of the face, and for each vertex the next one.
+    double max_error = std::numeric_limits<double>::infinity(); // times the scale
+    std::vector<Point> points;                                  // of the original, times the scale
+    Original_surface original{points};
+    // The points of a face are a list: the first one of the face, and for each point the next one.
     std::vector<Number> next;
     typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<Number>>::const_type
         first_of_face;
 
-    // What a collapse does: the faces whose vertices it hands on, the faces that can take them, and who does.
+    // What a collapse does: the faces whose points it hands on, the faces that can take them, and who does.
     std::vector<Face> emptied;
     std::vector<Candidate> candidates;
     std::vector<Move> moves;
@@ -229,6 +256,97 @@ private:
     const double scale = m_state->scale;
     return Point(scale * CGAL::to_double(p.x()), scale * CGAL::to_double(p.y()),
                  scale * CGAL::to_double(p.z()));
+  }
+
+  void track(const Point& p, Face face) const
+  {
+    m_state->points.push_back(p);
+    m_state->next.push_back(s_none);
+    give(Number(m_state->points.size() - 1), face);
+  }
+
+  // Tracks the points of the grids of all triangles, which are the faces of the mesh in their order.
+  void track_grids()
+  {
+    State& state = *m_state;
+    const auto corners = [&](std::size_t i) {
+      const auto& [a, b, c] = state.original.triangle(i);
+      return std::array<Point, 3>{state.points[a], state.points[b], state.points[c]};
+    };
+    const std::size_t triangles = state.original.number_of_triangles();
+    int most_parts = s_most_parts;
+    for (; most_parts > 1; --most_parts) {
+      std::size_t points = 0;
+      for (std::size_t i = 0; i < triangles; ++i)
+        if (const int parts = parts_of(corners(i), most_parts); parts > 1)
+          points += std::size_t((parts + 1) * (parts + 2) / 2 - 3);
+      if (points <= (std::max)(std::size_t(100'000), 2 * triangles))
+        break;
+    }
+    std::size_t i = 0;
+    for (const Face face : faces(state.mesh))
+      visit_grid(corners(i++), most_parts, [&](const Point& p) {
+        track(p, face);
+        return true;
+      });
+  }
+
+  // Into how many parts the grid of a triangle divides its sides.
+  int parts_of(const std::array<Point, 3>& corners, int most) const
+  {
+    double longest = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      longest = (std::max)(longest, CGAL::squared_distance(corners[i], corners[(i + 1) % 3]));
+    longest = std::sqrt(longest);
+    int parts = 1;
+    while (parts < most && longest > parts * m_state->max_error)
+      ++parts;
+    return parts;
+  }
+
+  // Calls function(point) for the points of the grid of a triangle, but the corners, until it returns false.
+  // Returns whether it never did.
+  template <class Function>
+  bool visit_grid(const std::array<Point, 3>& corners, int most_parts, const Function& function) const
+  {
+    const int parts = parts_of(corners, most_parts);
+    const auto along = [&](std::size_t to, int share) {
+      return (double(share) / parts) * (corners[to] - corners[0]);
+    };
+    for (int i = 0; i <= parts; ++i)
+      for (int j = 0; i + j <= parts; ++j) {
+        const bool is_corner = i == parts || j == parts || i + j == 0;
+        if (!is_corner && !function(corners[0] + (along(1, i) + along(2, j))))
+          return false;
+      }
+    return true;
+  }
+
+  // Whether the grids of the faces that `find_carriers` has found, and their common corner if it is at a new
+  // place, are near enough to the original.
+  bool are_changed_faces_near(bool is_new_place) const
+  {
+    const State& state = *m_state;
+    if (!std::isfinite(state.max_error))
+      return true;
+    const double squared = state.max_error * state.max_error * (1 + 1e-6) + 1e-24; // with room for rounding
+    std::size_t likely = 0;
+    const auto is_near = [&](const Point& p) {
+      // The points that these faces carry are of the original, and at hand.
+      for (std::size_t i = 0; i < state.moves.size(); ++i) {
+        const std::size_t at = (likely + i) % state.moves.size();
+        if (CGAL::squared_distance(state.points[state.moves[at].number], p) <= squared) {
+          likely = at;
+          return true;
+        }
+      }
+      return state.original.is_near(p, squared);
+    };
+    if (is_new_place && !state.candidates.empty() && !is_near(state.candidates.front().corners()[0]))
+      return false;
+    return std::all_of(state.candidates.begin(), state.candidates.end(), [&](const Candidate& candidate) {
+      return visit_grid(candidate.corners(), s_most_parts, is_near);
+    });
   }
 
   void give(Number number, Face face) const
@@ -338,4 +456,4 @@ private:
 } // namespace internal
 } // namespace selvedge
 
-#endif // SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_TRACKED_VERTICES_H
+#endif // SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_TRACKED_POINTS_H

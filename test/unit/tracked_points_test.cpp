@@ -1,0 +1,178 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Tracked_points: what it skips changes no distance, and what it compares between vertices.
+
+#include "support/mesh_of.h"
+#include "support/soups.h"
+
+#include <selvedge/Surface_mesh_simplification/internal/Lazy_edge_profile.h>
+#include <selvedge/Surface_mesh_simplification/internal/Tracked_points.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <random>
+#include <set>
+#include <type_traits>
+#include <vector>
+
+namespace selvedge::test {
+namespace {
+
+using Face = Mesh::Face_index;
+
+// Asks every triangle that the collapse of an edge to a place changes about every vertex that the star of the
+// edge carries, in a mesh in which nothing was collapsed.
+double error_by_brute_force(const Mesh& mesh, Mesh::Halfedge_index h, const Point_3& place)
+{
+  std::set<Face> star, removed;
+  for (const Mesh::Halfedge_index end : {h, mesh.opposite(h)})
+    for (const Mesh::Halfedge_index g : mesh.halfedges_around_target(end))
+      if (!mesh.is_border(g))
+        star.insert(mesh.face(g));
+  for (const Mesh::Halfedge_index g : {h, mesh.opposite(h)})
+    if (!mesh.is_border(g))
+      removed.insert(mesh.face(g));
+  double largest = 0;
+  for (const Mesh::Vertex_index v : mesh.vertices()) {
+    Face carrier = Mesh::null_face();
+    for (const Face f : mesh.faces_around_target(mesh.halfedge(v)))
+      if (f != Mesh::null_face())
+        carrier = (std::min)(carrier, f); // the null face is the largest
+    if (star.count(carrier) == 0)
+      continue;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Face f : star) {
+      if (removed.count(f) > 0)
+        continue;
+      std::vector<Point_3> corners;
+      for (const Mesh::Vertex_index w : mesh.vertices_around_face(mesh.halfedge(f)))
+        corners.push_back(w == mesh.source(h) || w == mesh.target(h) ? place : mesh.point(w));
+      const auto point = [](const Point_3& p) {
+        return CGAL::Simple_cartesian<double>::Point_3(p.x(), p.y(), p.z());
+      };
+      least = std::min(least,
+                       CGAL::squared_distance(point(mesh.point(v)),
+                                              CGAL::Simple_cartesian<double>::Triangle_3(
+                                                  point(corners[0]), point(corners[1]), point(corners[2]))));
+    }
+    largest = std::max(largest, least);
+  }
+  return std::sqrt(largest);
+}
+
+TEST(Tracked_points, ErrorIsThatOfTheNearestTriangles)
+{
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> number(-0.3, 0.3);
+  for (const double width : {1., 1e-3, 1e-7}) { // the last two have needles
+    Mesh mesh = mesh_of(mapped(sheet(9, 9), [&](const Point_3& p) {
+      return Point_3(p.x() + number(random), width * (p.y() + number(random)), width * number(random));
+    }));
+    internal::Tracked_points<Mesh> tracked(mesh);
+    const auto points = get(CGAL::vertex_point, mesh);
+    tracked.begin(points, 1);
+    std::size_t asked = 0;
+    for (const Mesh::Edge_index e : mesh.edges()) {
+      const Mesh::Halfedge_index h = mesh.halfedge(e);
+      const Kernel traits;
+      const internal::Lazy_edge_profile<Mesh, std::decay_t<decltype(points)>, Kernel> profile(h, mesh, points,
+                                                                                              traits);
+      const Point_3 middle = CGAL::midpoint(profile.p0(), profile.p1());
+      const Point_3 place(middle.x() + 0.1 * number(random), middle.y(),
+                          middle.z() + 0.1 * width * number(random));
+      const double expected = error_by_brute_force(mesh, h, place);
+      EXPECT_NEAR(tracked.error_at(profile, place), expected, 1e-6 * expected + 1e-8) << e;
+      asked += expected > 0;
+    }
+    EXPECT_GT(asked, 200u);
+  }
+}
+
+// Grids by their own formula: the points with barycentric coordinates in n-ths, n parts of the longest side.
+std::vector<Point_3> grid_of(const std::array<Point_3, 3>& corners, double max_error)
+{
+  double longest = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    longest = std::max(longest, std::sqrt(CGAL::squared_distance(corners[i], corners[(i + 1) % 3])));
+  const int parts = int(std::min(8., std::max(1., std::ceil(longest / max_error))));
+  std::vector<Point_3> points;
+  for (int a = 0; a <= parts; ++a)
+    for (int b = 0; a + b <= parts; ++b)
+      if (const int c = parts - a - b; a < parts && b < parts && c < parts)
+        points.push_back(CGAL::barycenter(corners[0], double(a) / parts, corners[1], double(b) / parts,
+                                          corners[2], double(c) / parts));
+  return points;
+}
+
+double squared_distance(const Point_3& p, const std::array<Point_3, 3>& t)
+{
+  return CGAL::squared_distance(p, Kernel::Triangle_3(t[0], t[1], t[2]));
+}
+
+TEST(Tracked_points, ChangedFacesKeepToTheOriginalBetweenTheirCorners)
+{
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> number(-0.3, 0.3);
+  Mesh mesh = mesh_of(mapped(sheet(9, 9), [&](const Point_3& p) {
+    return Point_3(p.x() + number(random), p.y() + number(random), 2 * number(random));
+  }));
+  const auto corners_of = [&](Face f, Mesh::Halfedge_index h, const Point_3& place) {
+    std::array<Point_3, 3> corners;
+    auto next = corners.begin();
+    for (const Mesh::Vertex_index v : mesh.vertices_around_face(mesh.halfedge(f)))
+      *next++ = h.is_valid() && (v == mesh.source(h) || v == mesh.target(h)) ? place : mesh.point(v);
+    return corners;
+  };
+  std::vector<std::array<Point_3, 3>> original;
+  for (const Face f : mesh.faces())
+    original.push_back(corners_of(f, {}, {}));
+  const auto points = get(CGAL::vertex_point, mesh);
+  std::size_t too_far = 0, near = 0, too_far_between_corners = 0;
+  for (const double max_error : {0.1, 0.2, 0.3, 0.5}) {
+    internal::Tracked_points<Mesh> tracked(mesh), tracked_vertices(mesh);
+    tracked.begin(points, 1, max_error);
+    tracked_vertices.begin(points, 1);
+    for (const Mesh::Edge_index e : mesh.edges()) {
+      const Mesh::Halfedge_index h = mesh.halfedge(e);
+      const Kernel traits;
+      const internal::Lazy_edge_profile<Mesh, std::decay_t<decltype(points)>, Kernel> profile(h, mesh, points,
+                                                                                              traits);
+      const Point_3 place = CGAL::midpoint(profile.p0(), profile.p1());
+      const double error = tracked.error_at(profile, place);
+      EXPECT_GE(error, tracked_vertices.error_at(profile, place));
+      if (error > max_error && std::isfinite(error))
+        continue; // refused because of the original's points, before the grids of the changed faces are asked
+      double farthest = 0; // of all grids, to the nearest of all triangles
+      for (const Mesh::Halfedge_index end : {h, mesh.opposite(h)})
+        for (const Face f : mesh.faces_around_target(end)) {
+          if (f == Mesh::null_face() || f == mesh.face(h) || f == mesh.face(mesh.opposite(h)))
+            continue;
+          std::vector<Point_3> asked = grid_of(corners_of(f, h, place), max_error);
+          asked.push_back(place);
+          for (const Point_3& p : asked) {
+            double least = std::numeric_limits<double>::infinity();
+            for (const auto& triangle : original)
+              least = std::min(least, squared_distance(p, triangle));
+            farthest = std::max(farthest, std::sqrt(least));
+          }
+        }
+      ASSERT_GT(std::fabs(farthest - max_error), 1e-9) << "the test cannot tell";
+      EXPECT_EQ(std::isfinite(error), farthest <= max_error) << e;
+      ++(farthest <= max_error ? near : too_far);
+      too_far_between_corners +=
+          farthest > max_error && tracked_vertices.error_at(profile, place) <= max_error;
+    }
+  }
+  EXPECT_GT(near, 100u);
+  EXPECT_GT(too_far, 20u);
+  EXPECT_GT(too_far_between_corners, 10u) << "which vertices alone would not tell";
+}
+
+} // namespace
+} // namespace selvedge::test
