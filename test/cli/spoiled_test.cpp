@@ -305,7 +305,7 @@ const std::vector<Spoiled> ways = {
      }},
     {"AllIsSomewhereElse", "missing", true,
      [](Result& r) { r.move(r.all(), [](const Point_3& p) { return moved(p, 3, 0, 0); }); }},
-    {"AllHasMovedByTwoMillimetres", "name", true,
+    {"AllHasMovedByTwoMillimetres", "missing", true,
      [](Result& r) { r.move(r.all(), [](const Point_3& p) { return moved(p, 0.002, 0, 0); }); }},
     // No farther than the reduction itself moves the surface.
     {"AllHasMovedByAMillimetre", parts, false,
