@@ -143,7 +143,7 @@ TEST(Placement, MeshOfTheCallerIsEmbeddedAfterEveryCollapse)
       violations += !is_embedded(soup_of(*mesh));
     }
   };
-  Mesh mesh = mesh_of(nested_spheres(700, 3, 1e-3));
+  Mesh mesh = mesh_of(nested_spheres(700, 2, 1e-2));
   Judging_observer observer;
   observer.mesh = &mesh;
   const Simplify_report report = simplify_mesh(mesh, optimal(to_ratio(0.2)), {}, observer);
