@@ -163,7 +163,7 @@ public:
       Vertex_quadric of_vertex;
       if (!m_state->weights.empty())
         of_vertex.weight = *weight++;
-      of_vertex.accumulated = add_faces(v, mesh, points, of_vertex);
+      of_vertex.accumulated = compute_quadric(v, mesh, points, of_vertex);
       put(m_state->quadrics, v, of_vertex);
     }
     m_state->is_initialised = true;
@@ -281,12 +281,12 @@ public:
     merged.weight = (std::max)(at_v0.weight, at_v1.weight);
     const auto& mesh = profile.surface_mesh();
     const auto& points = profile.vertex_point_map();
-    add_faces(kept, mesh, points, merged);
+    compute_quadric(kept, mesh, points, merged);
     put(m_state->quadrics, kept, merged);
     if (m_state->options.memory < 1)
       for (const Vertex v : CGAL::vertices_around_target(halfedge(kept, mesh), mesh)) {
         Vertex_quadric of_vertex = get(m_state->quadrics, v);
-        add_faces(v, mesh, points, of_vertex);
+        compute_quadric(v, mesh, points, of_vertex);
         put(m_state->quadrics, v, of_vertex);
       }
   }
@@ -360,8 +360,8 @@ private:
   // Computes everything about a vertex that follows from the faces around it and from what it has
   // accumulated. Returns the quadric of the faces.
   template <class VertexPointMap>
-  Quadric add_faces(Vertex v, const TriangleMesh& mesh, const VertexPointMap& points,
-                    Vertex_quadric& of_vertex) const
+  Quadric compute_quadric(Vertex v, const TriangleMesh& mesh, const VertexPointMap& points,
+                          Vertex_quadric& of_vertex) const
   {
     const State& state = *m_state;
     Quadric of_faces;
