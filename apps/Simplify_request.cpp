@@ -365,7 +365,7 @@ void add_options(CLI::App& command, Simplify_request& request)
   command
       .add_option("--memory", options.cost.memory,
                   "Share of the cost that is the distance to all planes since the original, from 0 to 1; the "
-                  "rest is that to the faces as they are. 1 is faster, with an error a third larger.")
+                  "rest is that to the faces as they are. 1 is faster, with an error up to 40 % larger.")
       ->check(in_range(0, 1))
       ->type_name("SHARE")
       ->capture_default_str()

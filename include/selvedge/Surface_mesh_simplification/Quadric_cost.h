@@ -45,9 +45,9 @@ struct No_line_map
 /// *adds* to both, each taken at its vertex: what has been lost before is no reason to keep a vertex.
 ///
 /// The quadrics of the mesh as it is decide most of it. They say how far the next surface is from the last,
-/// whereas planes of the original say less the farther apart their faces lie: with them alone, the error at
-/// 10 % of the faces of a garment is a third to a half larger. `Quadric_cost_options::memory` is the share
-/// of what has accumulated; a little of it keeps errors of many steps from adding up in one direction.
+/// whereas planes of the original say less the farther apart their faces lie: with them alone, the error of
+/// garments at 10 % of the faces is 27 to 41 % larger (scans: 15 to 30 %). `Quadric_cost_options::memory` is
+/// the share of what has accumulated; a little of it keeps small errors from adding up in one direction.
 ///
 /// The plane of a face of area A has the weight (A / D²)^¼, where D is the diagonal. An exponent of 1 would
 /// give every patch of the surface the same error, and 0 every vertex. A mesh is dense where it has detail,
