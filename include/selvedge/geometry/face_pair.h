@@ -47,7 +47,7 @@ bool do_faces_offend(std::array<CGAL::Point_3<Kernel>, 3> face, std::array<CGAL:
         ++shared;
         break;
       }
-  const auto& [a, b, c] = face;
+  const auto &a = face[0], &b = face[1], &c = face[2]; // C++17 lets no lambda use structured bindings
   const auto& [p, q, r] = other;
   if (shared == 3)
     return true;
