@@ -201,6 +201,18 @@ TEST(Descent, RefusesAStepToMorePairs)
   EXPECT_FALSE(is_accepted(s_wide, true));
 }
 
+TEST(Descent, MovesNoDegenerateFaceInTheFilter)
+{
+  Triangle_soup bent = sheet(6, 6);
+  bent.points[16] = Point_3(2.5, 2, 0);
+  EXPECT_TRUE(is_accepted(bent, true));
+  bent.points[16] = Point_3(3, 2.5, 0); // between the two other corners of a face
+  const auto pairs = offending_pairs(bent);
+  ASSERT_TRUE(std::any_of(pairs.begin(), pairs.end(),
+                          [](const Offending_pair& pair) { return pair.offence == Offence::degenerate; }));
+  EXPECT_FALSE(is_accepted(bent, true));
+}
+
 TEST(Replay, PairsMayDescendFromFacesThatAreRemoved)
 {
   EXPECT_TRUE(replay_text(s_narrow, head_of(s_narrow) + "c 16 17\nresult 1 71 -\n").is_accepted());

@@ -396,7 +396,7 @@ group(
 )
 group(
     headers + "geometry/face_pair.h",
-    ("descent_filter_test",),
+    ("geometry_face_pair_test",),
     ("if (shared == 3)\n    return true;", "if (shared == 3)\n    return false;", "duplicates do not offend"),
     ("orientation(a, b, c, r) == CGAL::COPLANAR &&\n           planar_orientation(a, b, c)", "planar_orientation(a, b, c)",
      "faces at a common edge offend out of their plane"),
