@@ -17,12 +17,12 @@
 namespace selvedge::test {
 namespace {
 
-using Face = std::array<Point_3, 3>;
+using Corners = std::array<Point_3, 3>;
 
-Face drawn_face(std::mt19937& random)
+Corners drawn_corners(std::mt19937& random)
 {
   const auto coordinate = [&] { return double(random() % 3); };
-  Face face;
+  Corners face;
   do {
     for (Point_3& corner : face)
       corner = Point_3(coordinate(), coordinate(), coordinate());
@@ -37,7 +37,7 @@ TEST(Face_pair, OffendsWhereTheJudgeSaysSo)
   std::array<std::size_t, 4> offending{}, clear{}; // by the number of common positions
   std::size_t collinear = 0;
   for (int i = 0; i < 60000; ++i) {
-    const Face face = drawn_face(random), other = drawn_face(random);
+    const Corners face = drawn_corners(random), other = drawn_corners(random);
     if (CGAL::collinear(face[0], face[1], face[2]))
       continue;
     Triangle_soup both;
