@@ -93,12 +93,21 @@ class Build:
         status, output = run(words, self.folder)
         return (result, None) if status == 0 else (None, output)
 
-    def link(self, test, objects, overlay):
-        """Links a test with some objects in place of the build's. Returns the program."""
+    def link_command(self, test):
+        """Returns the words of the command that links a test."""
         commands = subprocess.check_output(["ninja", "-C", self.folder, "-t", "commands", test], text=True)
         words = shlex.split(commands.strip().splitlines()[-1])
         words = words[words.index("&&") + 1:]
-        words = words[:words.index("&&")]
+        return words[:words.index("&&")]
+
+    def program(self, test):
+        """Returns where the build puts a test's program."""
+        words = self.link_command(test)
+        return self.folder / words[words.index("-o") + 1]
+
+    def link(self, test, objects, overlay):
+        """Links a test with some objects in place of the build's. Returns the program."""
+        words = self.link_command(test)
         output = words.index("-o")
         program = overlay / test
         words[output + 1] = str(program)
@@ -179,7 +188,7 @@ def main():
     for test in tests:
         name, options = parts(test)
         start = time.monotonic()
-        status, output = run([str(build.folder / "test" / name), *options], build.folder)
+        status, output = run([str(build.program(name)), *options], build.folder)
         seconds[test] = time.monotonic() - start
         if status != 0:
             stop(output + f"\n{test} does not pass on the unchanged tree.")
