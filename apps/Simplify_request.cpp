@@ -4,6 +4,7 @@
 #include "Simplify_request.h"
 
 #include "output_files.h"
+#include "standard_streams.h"
 #include "subcommands.h"
 #include "threads.h"
 
@@ -82,11 +83,12 @@ void check(const Simplify_request& request)
         "--log: a log holds one reduction, but --lods asks for several; leave out one of the two");
   std::vector<Named_file> written;
   for (const std::string& output : outputs(request)) {
-    output_format(output);
+    format_of(output, request.format);
     written.push_back({"--output", output});
   }
-  // A mesh may replace its input, but nothing else may.
   written.insert(written.end(), {{"--report", request.report}, {"--log", request.log}});
+  check_streams({{"IN", request.input}, {"--obstacle", request.obstacle}}, written, request.format);
+  // A mesh may replace its input, but nothing else may.
   require_distinct(written, {{"--obstacle", request.obstacle}});
   require_distinct({{"--report", request.report}, {"--log", request.log}}, {{"IN", request.input}});
   for (const Named_file& file : written)
@@ -178,7 +180,7 @@ void complete(Simplify_request& request)
 void add_options(CLI::App& command, Simplify_request& request)
 {
   Simplify_options& options = request.options;
-  command.add_option("IN", request.input, "Mesh to reduce: .obj, .off, .ply, .stl, .glb or .gltf.")
+  command.add_option("IN", request.input, std::string("Mesh to reduce: ") + mesh_endings + ".")
       ->required()
       ->type_name("");
   command
@@ -186,6 +188,7 @@ void add_options(CLI::App& command, Simplify_request& request)
                   "File to write; its ending chooses the format. It may be IN.")
       ->required()
       ->type_name("FILE");
+  add_format_option(command, request.format);
 
   const char* const how_far =
       "How far to reduce (with several of these, the reduction stops at the first one that is met)";

@@ -22,6 +22,7 @@ struct Simplify_request
 {
   std::string input;
   std::string output;
+  std::optional<Mesh_format> format; // of IN or output where they are "-"
   std::string report;
   std::string log;
   std::vector<std::string> ratios; // "R" or "PART=R"

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "output_files.h"
+#include "standard_streams.h"
 #include "subcommands.h"
 #include "text.h"
 
@@ -22,6 +23,7 @@ struct Generate_request
 {
   std::string name;
   std::string output;
+  std::optional<Mesh_format> mesh_format;
   Generate_options options;
   bool is_list = false;
   bool is_quiet = false;
@@ -40,7 +42,8 @@ Exit_code run(const Generate_request& request)
     throw Argument_error("say what to generate; selvedge generate --list names all scenes");
   if (request.output.empty())
     throw Argument_error("say where to write the mesh: -o FILE");
-  const Mesh_format format = output_format(request.output);
+  check_streams({}, {{"--output", request.output}}, request.mesh_format);
+  const Mesh_format format = format_of(request.output, request.mesh_format);
   require_writable(request.output);
 
   Triangle_soup soup = generate(request.name, request.options);
@@ -48,7 +51,8 @@ Exit_code run(const Generate_request& request)
     throw Output_error(request.output +
                        ": not written, because rounding to the 32-bit floats of this format would make "
                        "triangles touch; choose .ply or .obj, or a larger --gap");
-  write_output(request.output, soup, request.is_ascii);
+  write_output(request.output, soup, format, request.is_ascii);
+  const Text_to_standard_error elsewhere(is_standard_output(request.output));
   if (!request.is_quiet)
     std::cout << request.output << ": '" << request.name << "' with "
               << counted(soup.triangles.size(), "face") << ", free of intersections by construction"
@@ -63,8 +67,9 @@ Action add_generate(CLI::App& command)
   const auto request = std::make_shared<Generate_request>();
   Generate_options& options = request->options;
   command.add_option("NAME", request->name, "Scene to make; --list names all of them.")->type_name("");
-  command.add_option("-o,--output", request->output, "File to write: .obj, .off, .ply, .stl, .glb or .gltf.")
+  command.add_option("-o,--output", request->output, std::string("File to write: ") + mesh_endings + ".")
       ->type_name("FILE");
+  add_format_option(command, request->mesh_format);
   command.add_flag("--list", request->is_list, "List all scenes.");
   command.add_option("--faces", options.faces, "Number of faces, within 2 %.")
       ->transform(whole_number())

@@ -4,6 +4,7 @@
 #include "output_files.h"
 #include "report_json.h"
 #include "report_output.h"
+#include "standard_streams.h"
 #include "subcommands.h"
 #include "text.h"
 #include "threads.h"
@@ -29,6 +30,7 @@ struct Info_request
 {
   std::string mesh;
   std::string report;
+  std::optional<Mesh_format> format;
   bool is_json = false;
   std::optional<std::size_t> threads;
 };
@@ -236,9 +238,10 @@ void print_freedom(const Inspection& mesh)
 void print(const Info_request& request, const Contents& contents, const std::vector<std::string>& notes,
            const Inspection& mesh)
 {
-  std::cout << request.mesh << ": " << format_name(contents.format) << ", " << with_commas(contents.vertices)
-            << (contents.vertices == 1 ? " vertex, " : " vertices, ") << counted(contents.faces, "face")
-            << ", size (diagonal of the bounding box) " << with_digits(mesh.diagonal) << '\n';
+  std::cout << input_name(request.mesh) << ": " << format_name(contents.format) << ", "
+            << with_commas(contents.vertices) << (contents.vertices == 1 ? " vertex, " : " vertices, ")
+            << counted(contents.faces, "face") << ", size (diagonal of the bounding box) "
+            << with_digits(mesh.diagonal) << '\n';
   for (const std::string& note : notes)
     std::cout << "  " << note << '\n';
   if (mesh.left_out_faces > 0)
@@ -338,11 +341,12 @@ void add_inspection(Json& report, const Inspection& mesh)
 
 Exit_code run(const Info_request& request)
 {
+  check_streams({{"MESH", request.mesh}}, {}, request.format);
   if (!request.report.empty()) {
     require_distinct({{"--report", request.report}}, {{"MESH", request.mesh}});
     require_writable(request.report);
   }
-  Mesh_file file = read_mesh(request.mesh);
+  Mesh_file file = Mesh_input(request.mesh, request.format).read();
   Json report = new_report("info");
   report["input"] = input_json(request.mesh, file);
   const Contents contents = contents_of(file);
@@ -350,7 +354,7 @@ Exit_code run(const Info_request& request)
   try {
     mesh = inspect(std::move(file.soup));
   } catch (const Input_error& error) {
-    throw Input_error(request.mesh + ": " + error.what());
+    throw Input_error(input_name(request.mesh) + ": " + error.what());
   }
   report["contents"] = to_json(contents);
   add_inspection(report, mesh);
@@ -365,9 +369,10 @@ Exit_code run(const Info_request& request)
 Action add_info(CLI::App& command)
 {
   const auto request = std::make_shared<Info_request>();
-  command.add_option("MESH", request->mesh, "Mesh to describe: .obj, .off, .ply, .stl, .glb or .gltf.")
+  command.add_option("MESH", request->mesh, std::string("Mesh to describe: ") + mesh_endings + ".")
       ->required()
       ->type_name("");
+  add_format_option(command, request->format);
   add_report_options(command, *request);
   Thread_limit::add_option(command, request->threads);
   command.footer(

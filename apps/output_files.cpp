@@ -48,8 +48,14 @@ Mesh_format output_format(const fs::path& path)
   }
 }
 
-void require_writable(const fs::path& path)
+fs::path output_path(const fs::path& name)
 {
+  return name == "-" ? "/dev/stdout" : name;
+}
+
+void require_writable(const fs::path& name)
+{
+  const fs::path path = output_path(name);
   const auto refuse = [&](int error) {
     throw Output_error(path.string() + ": cannot be written: " + std::generic_category().message(error));
   };
@@ -70,8 +76,9 @@ void require_writable(const fs::path& path)
     refuse(errno);
 }
 
-bool is_standard_output(const fs::path& path)
+bool is_standard_output(const fs::path& name)
 {
+  const fs::path path = output_path(name);
   return path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1";
 }
 
@@ -81,20 +88,21 @@ void require_distinct(const std::vector<Named_file>& written, const std::vector<
     std::vector<Named_file> others = read;
     others.insert(others.end(), written.begin(), file);
     for (const Named_file& other : others)
-      if (is_same_file(file->path, other.path))
+      if (is_same_file(output_path(file->path), other.path))
         throw Argument_error(file->option + " and " + other.option +
                              " name the same file; give them different names: " + file->path.string());
   }
 }
 
-void write_output(const fs::path& path, const Triangle_soup& soup, bool is_ascii)
+void write_output(const fs::path& name, const Triangle_soup& soup, Mesh_format format, bool is_ascii)
 {
   Write_options options;
+  options.format = format;
   options.encoding = is_ascii ? Encoding::ascii : Encoding::binary;
   try {
-    write_mesh(path, soup, options);
+    write_mesh(output_path(name), soup, options);
   } catch (const Argument_error& error) {
-    throw Output_error(path.string() + ": cannot be written: " + error.what());
+    throw Output_error(name.string() + ": cannot be written: " + error.what());
   }
 }
 

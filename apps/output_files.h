@@ -16,8 +16,11 @@ namespace selvedge::app {
 /// none.
 Mesh_format output_format(const std::filesystem::path& path);
 
-/// Throws `Output_error` when `path` cannot be written, as far as that is clear before any work is done.
-void require_writable(const std::filesystem::path& path);
+/// Returns the path to write to for the name of a file; "-" stands for standard output.
+std::filesystem::path output_path(const std::filesystem::path& name);
+
+/// Throws `Output_error` when a file cannot be written, as far as that is clear before any work is done.
+void require_writable(const std::filesystem::path& name);
 
 /// A file of a run, and the option that names it. An empty path stands for an option that was not given.
 struct Named_file
@@ -30,12 +33,13 @@ struct Named_file
 /// when one of them is also read. The files need not exist. Devices and pipes may be named several times.
 void require_distinct(const std::vector<Named_file>& written, const std::vector<Named_file>& read);
 
-/// Returns whether the path names this program's standard output.
-bool is_standard_output(const std::filesystem::path& path);
+/// Returns whether the name of a file stands for this program's standard output.
+bool is_standard_output(const std::filesystem::path& name);
 
 /// Writes a mesh as `write_mesh` does, but throws `Output_error` when the format cannot hold it: the command
 /// line is not at fault then.
-void write_output(const std::filesystem::path& path, const Triangle_soup& soup, bool is_ascii);
+void write_output(const std::filesystem::path& name, const Triangle_soup& soup, Mesh_format format,
+                  bool is_ascii);
 
 } // namespace selvedge::app
 

@@ -6,6 +6,7 @@
 #include "output_files.h"
 #include "report_json.h"
 #include "report_output.h"
+#include "standard_streams.h"
 #include "subcommands.h"
 #include "text.h"
 
@@ -35,6 +36,7 @@ struct Replay_request
   std::string scene;
   std::string limits;
   std::string report;
+  std::optional<Mesh_format> format;
   bool is_free_of_limits = false;
   bool is_all_wanted = false;
   bool is_ascii = false;
@@ -126,7 +128,7 @@ std::string summary_of_terms(const Replay_verdict& verdict)
 
 void print(const Replay_request& request, const Replay_verdict& verdict)
 {
-  std::cout << request.log << ": " << counted(verdict.snaps, "snap") << ", "
+  std::cout << input_name(request.log) << ": " << counted(verdict.snaps, "snap") << ", "
             << counted(verdict.collapses, "collapse") << "; "
             << counted(verdict.soup.triangles.size(), "triangle") << " left\n"
             << "judged: " << with_commas(verdict.pairs_judged) << " pairs of triangles, "
@@ -160,34 +162,39 @@ void print(const Replay_request& request, const Replay_verdict& verdict)
 
 Exit_code run(const Replay_request& request)
 {
-  if (!request.output.empty())
-    output_format(request.output);
   const std::vector<Named_file> written{
       {"--output", request.output}, {"--scene", request.scene}, {"--report", request.report}};
+  std::vector<Named_file> put_out = written;
+  if (request.is_json)
+    put_out.push_back({"--json", "-"});
+  check_streams({{"ORIGINAL", request.original}, {"LOG", request.log}}, put_out, request.format);
+  std::optional<Mesh_format> format;
+  if (!request.output.empty())
+    format = format_of(request.output, request.format);
   require_distinct(written, {{"ORIGINAL", request.original}, {"LOG", request.log}});
   for (const Named_file& file : written)
     if (!file.path.empty())
       require_writable(file.path);
   Replay_options options;
   options.limits = imposed_limits(request.limits);
-  std::ifstream stream(request.log, std::ios::binary);
-  if (!stream)
-    throw Input_error(request.log + ": cannot be opened; check its name and permissions");
-  Log_reader log(stream, request.log);
-  const Mesh_file original = read_mesh(request.original);
+  const std::unique_ptr<std::istream> stream = open_text(request.log);
+  Log_reader log(*stream, input_name(request.log));
+  Mesh_input input(request.original, request.format);
+  const Mesh_file original = input.read();
 
   // A signal during the steps keeps the verdict until then. At any other time it ends the run without one.
   std::atomic<bool> is_kept = false;
   const Cancellation_scope scope([&] { return is_interrupted() && !is_kept; });
   options.are_limits_judged = !request.is_free_of_limits;
-  options.sha256_of_original = sha256_of_file(request.original);
+  options.sha256_of_original = input.sha256();
   options.is_all_wanted = request.is_all_wanted;
   options.should_stop = [&](std::size_t) { return is_kept = is_interrupted(); };
   const Replay_verdict verdict = [&] {
     try {
       return replay(original.soup, original.format == Mesh_format::stl, log, options);
     } catch (const Input_error& error) {
-      throw Input_error(request.original + " with " + request.log + ": " + error.what());
+      throw Input_error(input_name(request.original) + " with " + input_name(request.log) + ": " +
+                        error.what());
     }
   }();
   const Exit_code code = !verdict.violations.empty() ? exit_not_verified
@@ -199,11 +206,15 @@ Exit_code run(const Replay_request& request)
   add_replay(report, verdict);
   report["memory"] = {{"peak_bytes", peak_memory_bytes()}};
   report["exit_code"] = int(code);
-  put_report(request, report, [&] { print(request, verdict); });
+  {
+    const Text_to_standard_error elsewhere(is_standard_output(request.output) ||
+                                           is_standard_output(request.scene));
+    put_report(request, report, [&] { print(request, verdict); });
+  }
   if (!request.scene.empty() && !verdict.violations.empty())
-    write_file(request.scene, verdict.violations.front().scene);
+    write_file(output_path(request.scene), verdict.violations.front().scene);
   if (!request.output.empty() && !verdict.is_stopped)
-    write_output(request.output, verdict.soup, request.is_ascii);
+    write_output(request.output, verdict.soup, *format, request.is_ascii);
   return code;
 }
 
@@ -232,6 +243,7 @@ Action add_replay(CLI::App& command)
   command.add_flag("--all", request->is_all_wanted, "Continue after a bad step, and list all bad steps.");
   command.add_option("--scene", request->scene, "Write the triangles of the first violation to an OBJ file.")
       ->type_name("FILE");
+  add_format_option(command, request->format);
   add_report_options(command, *request);
   command.add_flag("--ascii", request->is_ascii, "Write PLY and STL as text.");
   command.footer(

@@ -5,6 +5,7 @@
 #define SELVEDGE_APPS_REPORT_OUTPUT_H
 
 #include "report_json.h"
+#include "standard_streams.h"
 #include "subcommands.h"
 
 #include <selvedge/mesh_files.h>
@@ -30,12 +31,14 @@ void add_report_options(CLI::App& command, Request& request)
 template <class Request, class Print_text>
 void put_report(const Request& request, const Json& report, const Print_text& print_text)
 {
-  if (request.is_json)
+  if (request.is_json) {
     std::cout << to_text(report) << std::flush;
-  else
+  } else {
+    const Text_to_standard_error elsewhere(is_standard_output(request.report));
     print_text();
+  }
   if (!request.report.empty())
-    write_file(request.report, to_text(report));
+    write_file(output_path(request.report), to_text(report));
 }
 
 } // namespace selvedge::app

@@ -8,6 +8,7 @@
 #include "output_files.h"
 #include "report_json.h"
 #include "simplify_summary.h"
+#include "standard_streams.h"
 #include "subcommands.h"
 #include "text.h"
 #include "threads.h"
@@ -74,41 +75,45 @@ public:
   }
 
 private:
+  Mesh_format output_format() const { return format_of(m_request.output, m_request.format); }
+
   Prepared_soup read_and_prepare()
   {
     m_bar.begin("reading");
     const Clock::time_point start = Clock::now();
-    Mesh_file file = read_mesh(m_request.input);
+    Mesh_input input(m_request.input, m_request.format);
+    Mesh_file file = input.read();
     m_seconds["read"] = seconds_since(start);
     m_report["input"] = input_json(m_request.input, file);
     if (!m_request.log.empty()) {
       m_numbering.emplace(file.soup, file.format == Mesh_format::stl);
       m_log_header.vertices = m_numbering->size();
       m_log_header.triangles = file.soup.triangles.size();
-      m_log_header.sha256 = sha256_of_file(m_request.input);
-      m_log_header.is_rounded_to_float32 = needs_float32(file.soup, mesh_format(m_request.output));
+      m_log_header.sha256 = input.sha256();
+      m_log_header.is_rounded_to_float32 = needs_float32(file.soup, output_format());
     }
-    const Triangle_soup obstacle =
-        m_request.obstacle.empty() ? Triangle_soup() : read_mesh(m_request.obstacle).soup;
-    if (!m_request.obstacle.empty())
-      m_log_header.obstacle = {obstacle.points.size(), obstacle.triangles.size(),
-                               sha256_of_file(m_request.obstacle)};
+    Triangle_soup obstacle;
+    if (!m_request.obstacle.empty()) {
+      Mesh_input obstacle_input(m_request.obstacle, m_request.format);
+      obstacle = obstacle_input.read().soup;
+      m_log_header.obstacle = {obstacle.points.size(), obstacle.triangles.size(), obstacle_input.sha256()};
+    }
 
     if (!is_standard_output(m_request.output))
-      m_references = relocate_references(file.soup, mesh_format(m_request.output),
+      m_references = relocate_references(file.soup, output_format(),
                                          std::filesystem::path(m_request.input).parent_path(),
                                          std::filesystem::path(m_request.output).parent_path());
 
     m_bar.begin("judging the input");
     Prepare_options options;
-    options.round_to_float32 = needs_float32(file.soup, mesh_format(m_request.output));
+    options.round_to_float32 = needs_float32(file.soup, output_format());
     options.defects = defects_of(m_request);
     options.weld_distance = m_request.weld_distance;
     options.normals = m_request.normals;
     try {
       return prepare(std::move(file.soup), options, obstacle);
     } catch (const Input_error& error) {
-      throw Input_error(m_request.input + ": " + error.what());
+      throw Input_error(input_name(m_request.input) + ": " + error.what());
     }
   }
 
@@ -181,13 +186,13 @@ private:
       // Merging changes nothing but vertex numbers: the verdict on positions stands.
       for (const auto& [output, result, verification] : levels) {
         write_output(output, m_request.is_sewn ? merged_at_positions(result.soup) : result.soup,
-                     m_request.is_ascii);
+                     output_format(), m_request.is_ascii);
         m_files_written.push_back(output);
       }
     }
     // The log is written even when the result was refused, because it shows why.
     if (!m_request.log.empty()) {
-      write_file(m_request.log, m_log.str());
+      write_file(output_path(m_request.log), m_log.str());
       m_files_written.push_back(m_request.log);
     }
     m_seconds["write"] = seconds_since(start);
@@ -199,8 +204,7 @@ private:
 
   void report(const Prepared_soup& prepared, const std::vector<Level>& levels)
   {
-    const Mesh_format format = mesh_format(m_request.output);
-    const std::vector<std::string> dropped = not_carried(prepared.soup, format);
+    const std::vector<std::string> dropped = not_carried(prepared.soup, output_format());
     if (!m_request.is_quiet) {
       std::ostream& stream = has_standard_output(m_request) ? std::cerr : std::cout;
       print_input(stream, m_request, prepared, m_report["input"]["notes"], dropped, m_references);
@@ -235,7 +239,7 @@ private:
       m_report["seconds"][phase] = m_seconds[phase];
     m_report["memory"] = {{"peak_bytes", peak_memory_bytes()}};
     m_report["exit_code"] = int(m_outcome.exit_code());
-    write_file(m_request.report, to_text(m_report));
+    write_file(output_path(m_request.report), to_text(m_report));
   }
 
   std::string files_written() const

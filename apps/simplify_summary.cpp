@@ -3,6 +3,7 @@
 
 #include "simplify_summary.h"
 
+#include "standard_streams.h"
 #include "text.h"
 
 #include <selvedge/Parts.h>
@@ -157,7 +158,7 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
                  const Json& notes, const std::vector<std::string>& dropped,
                  const std::vector<std::string>& references)
 {
-  stream << request.input << ": " << counted(prepared.soup.triangles.size(), "face");
+  stream << input_name(request.input) << ": " << counted(prepared.soup.triangles.size(), "face");
   if (!prepared.offending_pairs.empty())
     stream << ", " << counted(prepared.offending_pairs.size(), "offending pair");
   if (prepared.frozen_faces > 0)

@@ -5,6 +5,7 @@
 #include "output_files.h"
 #include "report_json.h"
 #include "report_output.h"
+#include "standard_streams.h"
 #include "subcommands.h"
 #include "text.h"
 #include "threads.h"
@@ -28,6 +29,7 @@ struct Verify_request
   std::string mesh;
   std::string original;
   std::string report;
+  std::optional<Mesh_format> format;
   double weld_distance = 0;
   bool is_json = false;
   std::optional<std::size_t> threads;
@@ -140,7 +142,7 @@ void print(const Verify_request& request, const Mesh_file& mesh, const Verificat
     loops += piece.boundary_loops;
     euler += piece.euler_characteristic;
   }
-  std::cout << request.mesh << ": " << counted(mesh.soup.triangles.size(), "face") << ", "
+  std::cout << input_name(request.mesh) << ": " << counted(mesh.soup.triangles.size(), "face") << ", "
             << counted(verification.pieces.size(), "piece") << ", " << counted(loops, "boundary loop")
             << ", Euler characteristic " << euler << '\n';
   for (const std::string& note : describe(mesh.notes))
@@ -188,18 +190,19 @@ void print(const Verify_request& request, const Mesh_file& mesh, const Verificat
 Exit_code run(const Verify_request& request)
 {
   const bool has_original = !request.original.empty();
+  check_streams({{"MESH", request.mesh}, {"--against", request.original}}, {}, request.format);
   if (!request.report.empty()) {
     require_distinct({{"--report", request.report}},
                      {{"MESH", request.mesh}, {"--against", request.original}});
     require_writable(request.report);
   }
-  const Mesh_file mesh = read_mesh(request.mesh);
+  const Mesh_file mesh = Mesh_input(request.mesh, request.format).read();
   Json report = new_report("verify");
   report["input"] = input_json(request.mesh, mesh);
   std::optional<Verification> verification;
   std::optional<Comparison> comparison;
   if (has_original) {
-    const Mesh_file original = read_mesh(request.original);
+    const Mesh_file original = Mesh_input(request.original, request.format).read();
     report["original"] = input_json(request.original, original);
     Verify_options options;
     options.weld_distance = request.weld_distance;
@@ -228,7 +231,7 @@ Exit_code run(const Verify_request& request)
 Action add_verify(CLI::App& command)
 {
   const auto request = std::make_shared<Verify_request>();
-  command.add_option("MESH", request->mesh, "Mesh to judge: .obj, .off, .ply, .stl, .glb or .gltf.")
+  command.add_option("MESH", request->mesh, std::string("Mesh to judge: ") + mesh_endings + ".")
       ->required()
       ->type_name("");
   command.add_option("--against", request->original, "Original mesh, of which MESH is a reduction.")
@@ -240,6 +243,7 @@ Action add_verify(CLI::App& command)
           "value that `simplify` was given, if MESH does not separate pieces (STL, --sewn).")
       ->check(in_range(0))
       ->type_name("EPS");
+  add_format_option(command, request->format);
   add_report_options(command, *request);
   Thread_limit::add_option(command, request->threads);
   command.footer(

@@ -13,6 +13,7 @@ packages=(
   libcli11-dev          # options of the app
   libssl-dev            # SHA-256, for logs of collapses
   libtbb-dev            # threads
+  zlib1g-dev            # files in .gz
   libtinygltf-dev       # glTF documents
   nlohmann-json3-dev    # glTF documents, reports of the app
   libgtest-dev          # tests

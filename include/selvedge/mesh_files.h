@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -61,16 +62,24 @@ namespace selvedge {
 /// full and without gaps, and all buffers become one. Primitives of points or lines, and meshes outside the
 /// scene, stay as they are. Those without a triangle left are removed.
 ///
+/// **Packed files.** A file whose name ends in `.gz` is unpacked by zlib when it is read, and packed when it
+/// is written; all else is as without `.gz`. A packed file that is damaged or truncated is refused, and so is
+/// one whose contents are more than 100 times its size (and 64 KiB): a small file cannot fill the memory.
+/// The same mesh gives the same packed bytes.
+///
 /// **Complexity.** Time is linear in the size of the file, but quadratic in the number of corners of a
 /// polygon. Memory is linear, with two exceptions: a glTF scene may show a part in many of its nodes, and a
 /// polygon in a PLY file gives its attributes to each of its triangles. A file for which these take more than
-/// 64 times its size is refused.
+/// 64 times its size (unpacked) is refused.
 
 enum class Mesh_format { obj, off, ply, stl, glb, gltf };
 
 /// Returns the format that a path's extension names (`.obj`, `.off`, `.ply`, `.stl`, `.glb`, `.gltf`, in
-/// upper or lower case). Throws `Input_error` when it names none of them.
+/// upper or lower case, also followed by `.gz`). Throws `Input_error` when it names none of them.
 Mesh_format mesh_format(const std::filesystem::path& path);
+
+/// Returns whether a path's extension is `.gz`, in upper or lower case: the file is packed.
+bool is_gzip(const std::filesystem::path& path);
 
 /// Returns whether every file of this format holds its positions as 32-bit floats, as STL and glTF do. A mesh
 /// that is written to such a format must be rounded (`round_to_float32`) before it is judged. PLY holds
@@ -155,6 +164,9 @@ struct Write_options
   /// Comment lines at the head of OBJ, OFF and PLY files; other formats ignore them. Precondition, checked
   /// (`Argument_error`): no control characters.
   std::vector<std::string> comments = {};
+
+  /// The format; when there is none, the path's extension says it.
+  std::optional<Mesh_format> format = std::nullopt;
 };
 
 /// Writes a mesh. The path's extension says the format.
@@ -197,7 +209,13 @@ std::vector<std::string> not_carried(const Triangle_soup& soup, Mesh_format form
 std::vector<std::string> missing_material_libraries(const std::filesystem::path& path,
                                                     const Triangle_soup& soup);
 
-/// Writes any contents to a file as `write_mesh` does: whole or not at all. Throws `Output_error`.
+/// Returns the contents of any file, unpacked when its name ends in `.gz`. `/dev/stdin` and the like stand
+/// for the file that is open already, from where it is now. Waiting for a pipe can be cancelled. Throws
+/// `Input_error`.
+std::string read_file(const std::filesystem::path& path);
+
+/// Writes any contents to a file as `write_mesh` does: whole or not at all, and packed when the name ends in
+/// `.gz`. Throws `Output_error`.
 void write_file(const std::filesystem::path& path, std::string_view contents);
 
 } // namespace selvedge

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "files/Atomic_file.h"
+#include "files/open_file_named.h"
 
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
 
 #include <cerrno>
-#include <charconv>
 #include <string>
 #include <system_error>
 
@@ -20,30 +20,8 @@
 
 namespace selvedge::files {
 
-namespace {
-
-// Returns the number of the open file that /dev/stdout, /dev/fd/3 and the like name; -1 for other paths.
-int open_file_named(const std::filesystem::path& path)
-{
-  const std::string name = path.string();
-  if (name == "/dev/stdout")
-    return STDOUT_FILENO;
-  if (name == "/dev/stderr")
-    return STDERR_FILENO;
-  for (const std::string folder : {"/dev/fd/", "/proc/self/fd/"})
-    if (int number = -1; name.compare(0, folder.size(), folder) == 0) {
-      const char* const end = name.data() + name.size();
-      const auto [last, error] = std::from_chars(name.data() + folder.size(), end, number);
-      return error == std::errc() && last == end ? number : -1;
-    }
-  return -1;
-}
-
-} // namespace
-
 Atomic_file::Atomic_file(const std::filesystem::path& path) : m_name(path.string()), m_target(path)
 {
-  // To open such a path anew would begin at the start of the file to which the output is directed.
   if (const int number = open_file_named(path); number >= 0) {
     m_descriptor = ::dup(number);
     if (m_descriptor < 0)

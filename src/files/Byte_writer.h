@@ -5,31 +5,39 @@
 #define SELVEDGE_SRC_FILES_BYTE_WRITER_H
 
 #include "files/Atomic_file.h"
+#include "files/gzip.h"
 
 #include <selvedge/Cancellation_scope.h>
+#include <selvedge/mesh_files.h>
 
 #include <array>
 #include <charconv>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <string_view>
 #include <type_traits>
 #include <vector>
 
 namespace selvedge::files {
 
-/// Writes text and binary numbers to an `Atomic_file` through a buffer. The writers of all formats use it.
+/// Writes text and binary numbers to an `Atomic_file` through a buffer, and packs them when the name of the
+/// file ends in .gz. The writers of all formats use it.
 class Byte_writer
 {
 public:
-  explicit Byte_writer(const std::filesystem::path& path) : m_file(path), m_buffer(capacity) {}
+  explicit Byte_writer(const std::filesystem::path& path) : m_file(path), m_buffer(capacity)
+  {
+    if (is_gzip(path))
+      m_packer.emplace([this](const char* data, std::size_t size) { m_file.write(data, size); });
+  }
 
   Byte_writer& operator<<(std::string_view text)
   {
     if (text.size() > m_buffer.size() - m_size)
       flush();
     if (text.size() > m_buffer.size()) {
-      m_file.write(text.data(), text.size());
+      put(text.data(), text.size());
     } else {
       std::memcpy(m_buffer.data() + m_size, text.data(), text.size());
       m_size += text.size();
@@ -73,6 +81,8 @@ public:
   void commit()
   {
     flush();
+    if (m_packer)
+      m_packer->finish();
     m_file.commit();
   }
 
@@ -82,11 +92,20 @@ private:
   void flush()
   {
     Cancellation_scope::check();
-    m_file.write(m_buffer.data(), m_size);
+    put(m_buffer.data(), m_size);
     m_size = 0;
   }
 
+  void put(const char* data, std::size_t size)
+  {
+    if (m_packer)
+      m_packer->add(data, size);
+    else
+      m_file.write(data, size);
+  }
+
   Atomic_file m_file;
+  std::optional<Gzip_packer> m_packer;
   std::vector<char> m_buffer;
   std::size_t m_size = 0;
 };

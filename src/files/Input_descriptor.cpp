@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "files/Input_descriptor.h"
+#include "files/open_file_named.h"
 
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
@@ -16,9 +17,10 @@
 namespace selvedge::files {
 
 // Opens a file to read. Without O_NONBLOCK, opening a pipe that nobody writes to yet would wait.
-Input_descriptor::Input_descriptor(const std::filesystem::path& path)
-    : m_name(path.string()), m_descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK))
+Input_descriptor::Input_descriptor(const std::filesystem::path& path) : m_name(path.string())
 {
+  const int number = open_file_named(path);
+  m_descriptor = number >= 0 ? ::dup(number) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (m_descriptor < 0)
     throw Input_error(m_name + ": cannot be opened; check its permissions");
   struct stat status = {};

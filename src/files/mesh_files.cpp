@@ -9,6 +9,7 @@
 #include "files/Input_descriptor.h"
 #include "files/columns.h"
 #include "files/formats.h"
+#include "files/gzip.h"
 #include "soup/first_alike.h"
 
 #include <algorithm>
@@ -23,7 +24,7 @@
 namespace selvedge {
 namespace {
 
-std::string read_contents(const std::filesystem::path& path)
+std::string bytes_of_file(const std::filesystem::path& path)
 {
   const std::string name = path.string();
   std::error_code error;
@@ -49,6 +50,14 @@ std::string read_contents(const std::filesystem::path& path)
       return contents;
     }
   }
+}
+
+std::string lower_case_extension(const std::filesystem::path& path)
+{
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return extension;
 }
 
 bool is_gltf(Mesh_format format)
@@ -122,11 +131,14 @@ Mesh_file connected(Mesh_file file)
 
 } // namespace
 
+bool is_gzip(const std::filesystem::path& path)
+{
+  return lower_case_extension(path) == ".gz";
+}
+
 Mesh_format mesh_format(const std::filesystem::path& path)
 {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const std::string extension = lower_case_extension(is_gzip(path) ? path.stem() : path);
   if (extension == ".obj")
     return Mesh_format::obj;
   if (extension == ".off")
@@ -141,7 +153,8 @@ Mesh_format mesh_format(const std::filesystem::path& path)
     return Mesh_format::gltf;
   throw Input_error(
       path.string() +
-      ": the name does not end in .obj, .off, .ply, .stl, .glb or .gltf; rename or convert the file");
+      ": the name does not end in .obj, .off, .ply, .stl, .glb or .gltf, with or without .gz; rename or "
+      "convert the file");
 }
 
 bool stores_float32(Mesh_format format)
@@ -171,10 +184,16 @@ std::vector<std::string> describe(const Read_notes& notes)
   return sentences;
 }
 
+std::string read_file(const std::filesystem::path& path)
+{
+  std::string bytes = bytes_of_file(path);
+  return is_gzip(path) ? files::unpacked(bytes, path.string()) : bytes;
+}
+
 Mesh_file read_mesh(const std::filesystem::path& path)
 {
   const Mesh_format format = mesh_format(path);
-  const std::string contents = read_contents(path);
+  const std::string contents = read_file(path);
   if (const std::filesystem::path folder = path.parent_path(); is_gltf(format) && !contents.empty())
     return files::read_gltf(contents, format, path.string(), &folder);
   return read_mesh(contents, format, path.string());
@@ -202,7 +221,7 @@ Mesh_file read_mesh(std::string_view contents, Mesh_format format, const std::st
 
 void write_mesh(const std::filesystem::path& path, const Triangle_soup& soup, const Write_options& options)
 {
-  const Mesh_format format = mesh_format(path);
+  const Mesh_format format = options.format ? *options.format : mesh_format(path);
   check_writable(soup, format, options);
   files::Byte_writer out(path);
   switch (format) {
