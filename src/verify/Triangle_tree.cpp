@@ -6,7 +6,9 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include <cmath>
 #include <tuple>
+#include <utility>
 
 namespace selvedge {
 namespace {
@@ -65,6 +67,23 @@ private:
   std::size_t m_parts;
 };
 
+/// Returns whether a triangle is so thin, and its box with the corners `low` and `high` so wide in two
+/// directions, that the box says little about it. A wrong answer costs time, and nothing else.
+bool is_askew_sliver(const Point_3& a, const Point_3& b, const Point_3& c, const Capsule::Vector& low,
+                     const Capsule::Vector& high)
+{
+  using internal::dot;
+  const auto coordinates = [](const Point_3& p) { return Capsule::Vector{p.x(), p.y(), p.z()}; };
+  const Capsule::Vector o = coordinates(a),
+                        normal = internal::cross(internal::difference(coordinates(b), o),
+                                                 internal::difference(coordinates(c), o)),
+                        width = internal::difference(high, low);
+  const double second =
+      (std::max)((std::min)(width[0], width[1]), (std::min)((std::max)(width[0], width[1]), width[2]));
+  constexpr double thin = 8; // the second width of the box, in widths of the triangle
+  return second * second * dot(width, width) > thin * thin * dot(normal, normal);
+}
+
 } // namespace
 
 void sort_by_halves(std::vector<Numbered_point>& points, std::size_t parts)
@@ -101,18 +120,69 @@ Triangle_tree::Triangle_tree(const std::vector<Point_3>& points, const std::vect
   }
   for_each_triangle([&](std::size_t i) {
     const auto& [a, b, c] = triangles[m_triangles[i]];
+    Box& box = m_boxes[i];
     for (int axis = 0; axis < 3; ++axis)
-      std::tie(m_boxes[i].low[axis], m_boxes[i].high[axis]) =
+      std::tie(box.low[axis], box.high[axis]) =
           std::minmax({points[a][axis], points[b][axis], points[c][axis]});
+    box.capsule = is_askew_sliver(points[a], points[b], points[c], box.low, box.high);
   });
-  m_nodes.resize(2 * leaf_count);
-  for (std::size_t node = 2 * leaf_count; --node > 0;)
-    if (node < leaf_count) {
-      m_nodes[node] = m_nodes[2 * node];
-      m_nodes[node].add(m_nodes[2 * node + 1]);
-    } else {
-      for_each_in(node, [&](std::size_t i) { m_nodes[node].add(m_boxes[i]); });
+  Box all;
+  for (const Box& box : m_boxes)
+    all.add(box);
+  double largest = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    largest = (std::max)({largest, std::fabs(all.low[axis]), std::fabs(all.high[axis])});
+  m_margin = Capsule::margin_for(largest);
+  for (std::size_t i = 0; i < m_boxes.size(); ++i)
+    if (std::exchange(m_boxes[i].capsule, 0) != 0) {
+      const auto coordinates = [&](int corner) {
+        const Point_3& p = points[triangles[m_triangles[i]][corner]];
+        return Capsule::Vector{p.x(), p.y(), p.z()};
+      };
+      add_capsule(m_boxes[i], Capsule(coordinates(0), coordinates(1), coordinates(2), m_margin));
     }
+  m_nodes.resize(2 * leaf_count);
+  for (std::size_t node = 2 * leaf_count; --node > 0;) {
+    if (node < leaf_count) {
+      enclose(m_nodes[node], &m_nodes[2 * node], &m_nodes[2 * node] + 2);
+    } else {
+      const std::size_t leaf = node - leaf_count;
+      enclose(m_nodes[node], m_boxes.data() + first_of(leaf), m_boxes.data() + first_of(leaf + 1));
+    }
+  }
+}
+
+Capsule Triangle_tree::capsule_around(const Box& box) const
+{
+  return box.capsule != 0 ? m_capsules[box.capsule] : Capsule(box.low, box.high, m_margin);
+}
+
+bool Triangle_tree::are_capsules_apart(const Box& a, const Box& b) const
+{
+  return are_apart(capsule_around(a), capsule_around(b));
+}
+
+void Triangle_tree::add_capsule(Box& box, const Capsule& capsule)
+{
+  if (m_margin == 0 || !capsule.is_slender())
+    return;
+  box.capsule = m_capsules.size();
+  m_capsules.push_back(capsule);
+}
+
+void Triangle_tree::enclose(Box& node, const Box* first, const Box* beyond)
+{
+  std::size_t any = 0;
+  for (const Box* box = first; box != beyond; ++box) {
+    node.add(*box);
+    any |= box->capsule;
+  }
+  if (any == 0)
+    return;
+  Capsule capsule = capsule_around(*first);
+  for (const Box* box = first + 1; box != beyond; ++box)
+    capsule = Capsule(capsule, capsule_around(*box), m_margin);
+  add_capsule(node, capsule);
 }
 
 } // namespace selvedge

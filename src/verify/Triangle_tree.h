@@ -4,6 +4,8 @@
 #ifndef SELVEDGE_SRC_VERIFY_TRIANGLE_TREE_H
 #define SELVEDGE_SRC_VERIFY_TRIANGLE_TREE_H
 
+#include "verify/Capsule.h"
+
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Triangle_soup.h>
 
@@ -34,14 +36,20 @@ void sort_by_halves(std::vector<Numbered_point>& points, std::size_t parts);
 /// The boxes of triangles in a balanced binary tree. The judge finds in it pairs of triangles that may meet,
 /// and triangles near a point. As many threads as oneTBB grants build the tree and search for pairs; the
 /// answers do not depend on their number.
+///
+/// A box says little about a sliver askew to the axes: in a fringe, those of almost all threads meet. So such
+/// a triangle has a capsule as well, and so has a node of the tree where the capsule is long and thin. The
+/// search for pairs asks them where boxes meet.
+///
+/// **Exactness** Boxes are exact. Capsules leave out only what is proved apart.
 class Triangle_tree
 {
 public:
   /// Neither argument needs to outlive the tree.
   Triangle_tree(const std::vector<Point_3>& points, const std::vector<Index_triple>& triangles);
 
-  /// Calls `function(i, j)` once for each pair of triangles whose boxes meet, in no particular order and
-  /// concurrently.
+  /// Calls `function(i, j)` once for each pair of triangles that may meet, in no particular order and
+  /// concurrently: those whose boxes meet, but for slivers that are proved apart.
   template <class Function>
   void for_each_pair(const Function& function) const
   {
@@ -71,6 +79,7 @@ private:
   {
     std::array<double, 3> low{s_infinity, s_infinity, s_infinity};
     std::array<double, 3> high{-s_infinity, -s_infinity, -s_infinity};
+    std::size_t capsule = 0; // its number, or 0 when it has none
 
     CGAL::Bbox_3 bbox() const { return {low[0], low[1], low[2], high[0], high[1], high[2]}; }
 
@@ -95,6 +104,20 @@ private:
     };
     return (is_met(0) & is_met(1) & is_met(2)) != 0;
   }
+
+  bool may_meet(const Box& a, const Box& b) const
+  {
+    return overlap(a, b) && ((a.capsule | b.capsule) == 0 || !are_capsules_apart(a, b));
+  }
+
+  Capsule capsule_around(const Box& box) const;
+  bool are_capsules_apart(const Box& a, const Box& b) const;
+
+  // Gives a box the capsule around what is in it, if this is slender.
+  void add_capsule(Box& box, const Capsule& capsule);
+
+  // Adds the boxes from `first` to `beyond` to a node, and gives it a capsule if they have some.
+  void enclose(Box& node, const Box* first, const Box* beyond);
 
   static double squared_distance(const Point_3& query, const Box& box)
   {
@@ -125,7 +148,7 @@ private:
     if (node >= leaves()) {
       for_each_in(node, [&](std::size_t i) {
         for (std::size_t j = first_of(node - leaves()); j < i; ++j)
-          if (overlap(m_boxes[i], m_boxes[j]))
+          if (may_meet(m_boxes[i], m_boxes[j]))
             function(m_triangles[i], m_triangles[j]);
       });
       return;
@@ -141,13 +164,13 @@ private:
   template <class Function>
   void pairs_between(std::size_t a, std::size_t b, std::size_t size, const Function& function) const
   {
-    if (!overlap(m_nodes[a], m_nodes[b]))
+    if (!may_meet(m_nodes[a], m_nodes[b]))
       return;
     if (a >= leaves()) {
       for_each_in(a, [&](std::size_t i) {
-        if (overlap(m_boxes[i], m_nodes[b]))
+        if (may_meet(m_boxes[i], m_nodes[b]))
           for_each_in(b, [&](std::size_t j) {
-            if (overlap(m_boxes[i], m_boxes[j]))
+            if (may_meet(m_boxes[i], m_boxes[j]))
               function(m_triangles[i], m_triangles[j]);
           });
       });
@@ -208,6 +231,8 @@ private:
   std::vector<Index> m_triangles; // in the order of the leaves, each of which has an equal share
   std::vector<Box> m_boxes;       // in the same order
   std::vector<Box> m_nodes;       // node k has the children 2k and 2k + 1, all leaves are on the last level
+  std::vector<Capsule> m_capsules{1}; // the first is nobody's
+  double m_margin = 0;                // of capsules; none is made where it is 0
 };
 
 } // namespace selvedge

@@ -79,6 +79,16 @@ group(
 )
 
 group(
+    "src/verify/Capsule.cpp",
+    ("triangle_tree_test",),
+    ("radii = a.m_radius + b.m_radius", "radii = a.m_radius", "a capsule without its radius"),
+    (" + a.m_radius,", ",", "a capsule around capsules forgets the radius of one"),
+    ("(std::max)(distance(other[0], segment), distance(other[1], segment))", "distance(other[0], segment)",
+     "a capsule around capsules forgets an end"),
+    ("0x1p-44 * largest", "0x1p-84 * largest", "no margin for rounding"),
+)
+
+group(
     headers + "geometry/sweep.h",
     ("geometry_sweep_test", "sweep_test"),
     ("return is_flat();", "return true;", "a face inside the wedge of a sweep is clear"),

@@ -1,0 +1,130 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "verify/Triangle_tree.h"
+
+#include "support/soups.h"
+
+#include <CGAL/intersections.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <mutex>
+#include <random>
+#include <set>
+#include <utility>
+
+namespace selvedge {
+namespace {
+
+using namespace test;
+using Sliver_pairs = std::set<std::pair<Index, Index>>;
+
+Sliver_pairs pairs_in_tree(const Triangle_soup& soup)
+{
+  Sliver_pairs pairs;
+  std::mutex mutex;
+  Triangle_tree(soup.points, soup.triangles).for_each_pair([&](Index i, Index j) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    EXPECT_TRUE(pairs.insert(std::minmax(i, j)).second) << i << ' ' << j;
+  });
+  return pairs;
+}
+
+/// Slivers of width up to `width` along a direction that all share, but for `spread` at random. Some start
+/// where others have a corner, and some are reflected at a corner of another, so that only rounding keeps
+/// capsules around the two from being tangent.
+Triangle_soup random_slivers(unsigned seed, Index count, double width, double spread)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto vector = [&](double size) {
+    const double x = unit(random), y = unit(random), z = unit(random);
+    return Kernel::Vector_3(size * x, size * y, size * z);
+  };
+  const Kernel::Vector_3 direction = vector(1);
+  Triangle_soup result;
+  for (Index i = 0; i < count; ++i) {
+    if (i % 8 == 6) {
+      const Point_3 *q = &result.points[3 * i - 3], apex = q[2];
+      result.points.insert(result.points.end(), {apex + (apex - q[0]), apex + (apex - q[1]), apex});
+      result.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+      continue;
+    }
+    const Point_3 start = i % 8 == 7 ? result.points[random() % result.points.size()]
+                                     : Point_3(0, 0, 0) + vector(i % 2 == 0 ? 1 : 4 * width);
+    const Kernel::Vector_3 along = direction + vector(spread);
+    const Point_3 apex = start + (unit(random) + 1) / 2 * along + vector(width);
+    result.points.insert(result.points.end(), {start, start + along, apex});
+    result.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  return result;
+}
+
+// Parallel ribbons of two layers, each of `segments` long quads, or such ribbons bent to an arc.
+Triangle_soup fringe(Index ribbons, Index segments, double bend)
+{
+  const Kernel::Vector_3 along(1, 1.01, 0.99), across(1, -1, 0), up(0.3, 0.4, -0.7);
+  const double step = 1.0 / ribbons;
+  Triangle_soup result;
+  for (Index i = 0; i < ribbons; ++i)
+    for (Index k = 0; k <= segments; ++k) {
+      const double t = double(k) / segments;
+      const Point_3 p =
+          Point_3(0, 0, 0) + 10 * t * along + (i * step) * across + (i % 2 * step + bend * t * t) * up;
+      const Index first = Index(result.points.size());
+      result.points.push_back(p);
+      result.points.push_back(p + 0.8 * step * across);
+      if (k < segments) {
+        result.triangles.push_back({first, first + 1, first + 3});
+        result.triangles.push_back({first, first + 3, first + 2});
+      }
+    }
+  return result;
+}
+
+TEST(TriangleTree, FindsAllSliversThatMeet)
+{
+  std::size_t meeting = 0, boxes = 0, found = 0;
+  for (unsigned seed = 0; seed < 240; ++seed) {
+    SCOPED_TRACE(seed);
+    const double width = std::ldexp(1, -3 - int(seed % 12)), spread = seed % 3 == 0 ? 1 : 4 * width;
+    Triangle_soup soup = random_slivers(seed, 96, width, spread);
+    if (seed % 4 == 1)
+      soup = moved(soup, 1e6, -3e5, 2e7);
+    else if (const int exponent = seed % 4 == 2 ? -150 : seed % 4 == 3 ? 150 : 0; exponent != 0)
+      soup = mapped(soup, [&](const Point_3& p) {
+        return Point_3(std::ldexp(p.x(), exponent), std::ldexp(p.y(), exponent), std::ldexp(p.z(), exponent));
+      });
+    const Sliver_pairs pairs = pairs_in_tree(soup);
+    found += pairs.size();
+    const auto triangle = [&](Index i) {
+      const auto& [a, b, c] = soup.triangles[i];
+      return Kernel::Triangle_3(soup.points[a], soup.points[b], soup.points[c]);
+    };
+    for (Index j = 0; j < soup.triangles.size(); ++j)
+      for (Index i = 0; i < j; ++i) {
+        boxes += CGAL::do_overlap(triangle(i).bbox(), triangle(j).bbox());
+        if (triangle(i).is_degenerate() || triangle(j).is_degenerate() ||
+            !CGAL::do_intersect(triangle(i), triangle(j)))
+          continue;
+        ++meeting;
+        EXPECT_EQ(pairs.count({i, j}), 1U) << i << ' ' << j;
+      }
+  }
+  EXPECT_GT(meeting, 5000U);
+  EXPECT_GT(boxes, 2 * found); // capsules leave out most of the others
+}
+
+TEST(TriangleTree, FindsFewPairsInAFringeOfAnySize)
+{
+  for (const Index ribbons : {125U, 250U, 500U, 1000U, 2000U})
+    for (const double bend : {0.0, 8.0}) {
+      const Triangle_soup soup = fringe(ribbons, 4, bend);
+      EXPECT_LT(pairs_in_tree(soup).size(), 20 * soup.triangles.size()) << ribbons << ' ' << bend;
+    }
+}
+
+} // namespace
+} // namespace selvedge
