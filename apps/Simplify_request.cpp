@@ -157,6 +157,7 @@ Json options_json(const Simplify_request& request)
           {"weld", request.weld_distance},
           {"sewn", request.is_sewn},
           {"normals", name_of(request.normals)},
+          {"polygons", request.are_polygons_split ? "split" : "keep"},
           {"threads", optional(request.threads)},
           {"cells", request.is_in_cells},
           {"defects", name_of(defects_of(request))},
@@ -422,6 +423,7 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->group(conduct);
   command.add_flag("--quiet", request.is_quiet, "Print no summary and no progress bar.")->group(conduct);
   command.add_flag("--ascii", request.is_ascii, "Write PLY and STL as text.")->group(conduct);
+  add_polygons_option(command, request.are_polygons_split)->group(conduct);
 
   command.footer(
       "Examples:\n"

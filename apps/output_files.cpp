@@ -3,6 +3,8 @@
 
 #include "output_files.h"
 
+#include "subcommands.h"
+
 #include <selvedge/Error.h>
 
 #include <cerrno>
@@ -92,6 +94,17 @@ void require_distinct(const std::vector<Named_file>& written, const std::vector<
         throw Argument_error(file->option + " and " + other.option +
                              " name the same file; give them different names: " + file->path.string());
   }
+}
+
+CLI::Option* add_polygons_option(CLI::App& command, bool& are_split)
+{
+  return command
+      .add_option("--polygons", are_split,
+                  "Faces of more than three corners, which are cut into triangles on reading: keep those as "
+                  "polygons in OBJ, OFF and PLY of which nothing has changed, or write triangles alone.")
+      ->transform(one_of<bool>({{"keep", false}, {"split", true}}))
+      ->type_name("keep|split")
+      ->default_str("keep");
 }
 
 void write_output(const fs::path& name, const Triangle_soup& soup, Mesh_format format, bool is_ascii)

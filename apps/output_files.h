@@ -6,6 +6,8 @@
 
 #include <selvedge/mesh_files.h>
 
+#include <CLI/CLI.hpp>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -35,6 +37,9 @@ void require_distinct(const std::vector<Named_file>& written, const std::vector<
 
 /// Returns whether the name of a file stands for this program's standard output.
 bool is_standard_output(const std::filesystem::path& name);
+
+/// Adds `--polygons`; `are_split` says that triangles are wanted.
+CLI::Option* add_polygons_option(CLI::App& command, bool& are_split);
 
 /// Writes a mesh as `write_mesh` does, but throws `Output_error` when the format cannot hold it: the command
 /// line is not at fault then.

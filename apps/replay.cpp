@@ -40,6 +40,7 @@ struct Replay_request
   bool is_free_of_limits = false;
   bool is_all_wanted = false;
   bool is_ascii = false;
+  bool are_polygons_split = false;
   bool is_json = false;
 };
 
@@ -180,7 +181,9 @@ Exit_code run(const Replay_request& request)
   const std::unique_ptr<std::istream> stream = open_text(request.log);
   Log_reader log(*stream, input_name(request.log));
   Mesh_input input(request.original, request.format);
-  const Mesh_file original = input.read();
+  Mesh_file original = input.read();
+  if (request.are_polygons_split)
+    original.soup.polygons.clear();
 
   // A signal during the steps keeps the verdict until then. At any other time it ends the run without one.
   std::atomic<bool> is_kept = false;
@@ -245,6 +248,7 @@ Action add_replay(CLI::App& command)
       ->type_name("FILE");
   add_format_option(command, request->format);
   add_report_options(command, *request);
+  add_polygons_option(command, request->are_polygons_split);
   command.add_flag("--ascii", request->is_ascii, "Write PLY and STL as text.");
   command.footer(
       "Examples:\n"

@@ -85,6 +85,9 @@ private:
     Mesh_file file = input.read();
     m_seconds["read"] = seconds_since(start);
     m_report["input"] = input_json(m_request.input, file);
+    if (m_request.are_polygons_split)
+      file.soup.polygons.clear();
+    m_polygons = file.soup.polygons.size();
     if (!m_request.log.empty()) {
       m_numbering.emplace(file.soup, file.format == Mesh_format::stl);
       m_log_header.vertices = m_numbering->size();
@@ -158,9 +161,14 @@ private:
       m_seconds["index"] = std::max(m_seconds["index"], results[i].report.seconds_index);
       m_seconds["cells"] = std::max(m_seconds["cells"], results[i].report.seconds_cells);
       m_seconds["reduce"] = std::max(m_seconds["reduce"], results[i].report.seconds_reduce);
-      levels.push_back({names[i], std::move(results[i]), {}});
+      levels.push_back({names[i], std::move(results[i]), {}, {}});
     }
     return levels;
+  }
+
+  Triangle_soup written(const Simplified_soup& result) const
+  {
+    return m_request.is_sewn ? merged_at_positions(result.soup) : result.soup;
   }
 
   void judge(std::vector<Level>& levels, const Prepared_soup& prepared)
@@ -171,6 +179,7 @@ private:
     m_outcome.is_target_required = m_request.is_target_required;
     for (Level& level : levels) {
       level.verification = verify(level.result, prepared);
+      level.polygons = {m_polygons, written_polygons(written(level.result), output_format())};
       m_outcome.is_accepted &= level.verification.accepted() && level.verification.same_topology();
       m_outcome.is_interrupted |= level.result.report.is_stopped;
       m_outcome.is_reached &= level.result.report.is_reached();
@@ -184,10 +193,9 @@ private:
     if (m_outcome.is_written()) {
       m_bar.begin("writing");
       // Merging changes nothing but vertex numbers: the verdict on positions stands.
-      for (const auto& [output, result, verification] : levels) {
-        write_output(output, m_request.is_sewn ? merged_at_positions(result.soup) : result.soup,
-                     output_format(), m_request.is_ascii);
-        m_files_written.push_back(output);
+      for (const Level& level : levels) {
+        write_output(level.output, written(level.result), output_format(), m_request.is_ascii);
+        m_files_written.push_back(level.output);
       }
     }
     // The log is written even when the result was refused, because it shows why.
@@ -217,6 +225,7 @@ private:
     const auto add_level = [&](Json& json, const Level& level) {
       json["output"] = {{"path", level.output},
                         {"written", m_outcome.is_written()},
+                        {"polygons", level.polygons.output},
                         {"not_carried", dropped},
                         {"references", m_references},
                         {"normals", name_of(prepared.normals)}};
@@ -264,6 +273,7 @@ private:
   Log_header m_log_header;
   std::ostringstream m_log;
   std::map<std::string, double> m_seconds;
+  std::size_t m_polygons = 0; // of the input, faces of more than three corners that may be written
   bool m_is_stop_told = false;
   std::atomic<bool> m_is_kept = false; // a signal keeps what the reduction has reached
   std::vector<std::string> m_files_written;

@@ -190,7 +190,7 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
 void print_summary(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
                    const Level& level, const Outcome& outcome)
 {
-  const auto& [output, result, verification] = level;
+  const auto& [output, result, verification, polygons] = level;
   const Simplify_report& done = result.report;
   const std::size_t faces = result.soup.triangles.size();
   const Distance& distance = verification.distances->original_to_result;
@@ -219,6 +219,9 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
     stream << "\nvertices: " << with_commas(result.soup.points.size() - result.placed_vertices)
            << " kept bit for bit, " << with_commas(result.placed_vertices)
            << " at new places with interpolated attributes";
+  if (polygons.input > 0)
+    stream << "\npolygons: " << with_commas(polygons.output) << " of " << counted(polygons.input, "face")
+           << " of more than three corners written as they were";
   stream << "\njudged: ";
   if (verification.embedded())
     stream << "embedded (no triangles touch or cross)";
@@ -240,7 +243,7 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
 
 std::string complaint(const Simplify_request& request, const Level& level, const Outcome& outcome)
 {
-  const auto& [output, result, verification] = level;
+  const auto& [output, result, verification, polygons] = level;
   const std::string where = request.lods.empty() ? "" : output + ": ";
   if (!outcome.is_written()) {
     if (verification.accepted() && verification.same_topology())

@@ -22,6 +22,12 @@ struct Level
   std::string output;
   Simplified_soup result;
   Verification verification;
+
+  /// Faces of more than three corners, in the input and in the file.
+  struct Polygons
+  {
+    std::size_t input = 0, output = 0;
+  } polygons;
 };
 
 /// Prints to `stream` what was read and prepared. `notes` are those of the report about the file; `dropped`

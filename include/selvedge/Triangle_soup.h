@@ -64,6 +64,15 @@ struct Attribute
   std::vector<unsigned char> rows;
 };
 
+/// A face of more than three corners that a reader has cut into triangles: two fewer than it has corners, one
+/// after another.
+struct Cut_polygon
+{
+  Index first_triangle;
+  Index corners; ///< how many it has
+  Index start;   ///< its first corner: 3 × triangle + place in it, counting triangles from `first_triangle`
+};
+
 /// What a glTF file holds beyond its triangles. Opaque.
 struct Gltf_scene;
 
@@ -100,6 +109,11 @@ struct Triangle_soup
   /// vertices only, the others have NaN.
   std::vector<Attribute> vertex_attributes;
   std::vector<Attribute> triangle_attributes;
+
+  /// The faces of the file that had more than three corners, in ascending order, as far as all their
+  /// triangles are here as they were cut. A file gets them as they were, where that changes no triangle; see
+  /// mesh_files.h. Without this list it gets the triangles.
+  std::vector<Cut_polygon> polygons;
 
   /// The material libraries of an OBJ file, one entry per `mtllib` statement, in its own words: the name of a
   /// file relative to the folder of the OBJ file, or several names.

@@ -42,6 +42,12 @@ namespace selvedge {
 /// its first corner. Faces of fewer than three corners are skipped and counted. Faces that name a vertex
 /// twice are kept, because a soup may hold degenerate triangles.
 ///
+/// The soup remembers which of its triangles were one face (`Triangle_soup::polygons`). `write_mesh` writes
+/// such a face to OBJ, OFF and PLY as it was, but only if the rule above cuts it again into exactly the
+/// triangles of the soup, in the same order, and all of these have the same labels and attributes and the
+/// same values at each corner. So guarantee 2 holds for polygons as well: what is read back is the triangles
+/// that were written, judged or not. `written_polygons` counts such faces.
+///
 /// **Scenes.** A vertex of a glTF file is reduced and judged at its world position, in doubles:
 ///
 ///     ((G_0 x + G_1 y) + G_2 z) + G_3        for each row G of the global matrix of its node
@@ -204,6 +210,9 @@ void write_mesh(const std::filesystem::path& path, const Triangle_soup& soup,
 
 /// Returns the names of what this soup holds and a file of that format does not; empty when it holds all.
 std::vector<std::string> not_carried(const Triangle_soup& soup, Mesh_format format);
+
+/// Returns how many faces of more than three corners `write_mesh` writes to a file of that format.
+std::size_t written_polygons(const Triangle_soup& soup, Mesh_format format);
 
 /// Returns the names of the material libraries of this soup that are not there for an OBJ file at `path`.
 std::vector<std::string> missing_material_libraries(const std::filesystem::path& path,

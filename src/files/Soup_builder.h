@@ -53,7 +53,8 @@ public:
       ++m_file.notes.fewer_than_three;
       return 0;
     }
-    if (has_repeated(corners))
+    const bool is_simple = !has_repeated(corners);
+    if (!is_simple)
       ++m_file.notes.repeated_corner;
     const std::size_t first = mesh.triangles.size();
     if (corners.size() == 3) {
@@ -61,6 +62,8 @@ public:
     } else {
       ++m_file.notes.polygons_cut;
       m_cut = triangulate_polygon(mesh.points, corners);
+      if (is_simple)
+        mesh.polygons.push_back({Index(first), Index(corners.size()), place_of_first_corner()});
     }
     for (const auto& [a, b, c] : m_cut)
       mesh.triangles.push_back({corners[a], corners[b], corners[c]});
@@ -95,6 +98,15 @@ public:
 
 private:
   static constexpr Index s_none = std::numeric_limits<Index>::max();
+
+  // Where the triangles have the first corner of the polygon: 3 × triangle + place in it.
+  Index place_of_first_corner() const
+  {
+    Index place = 0;
+    while (m_cut[place / 3][place % 3] != 0)
+      ++place;
+    return place;
+  }
 
   template <std::size_t dimension>
   void add_values(Corner_values<dimension>& values, const std::vector<Index>& numbers, std::size_t first)

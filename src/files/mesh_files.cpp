@@ -7,6 +7,7 @@
 #include <selvedge/rounding.h>
 
 #include "files/Input_descriptor.h"
+#include "files/Written_faces.h"
 #include "files/columns.h"
 #include "files/formats.h"
 #include "files/gzip.h"
@@ -272,6 +273,11 @@ std::vector<std::string> not_carried(const Triangle_soup& soup, Mesh_format form
     for (const std::string& name : files::only_in_gltf(*soup.scene))
       say(true, name);
   return names;
+}
+
+std::size_t written_polygons(const Triangle_soup& soup, Mesh_format format)
+{
+  return files::Written_faces(soup, format).polygons();
 }
 
 std::vector<std::string> missing_material_libraries(const std::filesystem::path& path,

@@ -3,6 +3,7 @@
 
 #include "files/Soup_builder.h"
 #include "files/Text_reader.h"
+#include "files/Written_faces.h"
 #include "files/columns.h"
 #include "files/formats.h"
 
@@ -304,11 +305,11 @@ void write_values(Byte_writer& out, std::string_view keyword, const Corner_value
 
 /// Returns the number of a value in the file, from 1; 0 when there is none.
 template <std::size_t dimension>
-std::uint64_t written_number(const Corner_values<dimension>& values, std::size_t triangle, std::size_t corner)
+std::uint64_t written_number(const Corner_values<dimension>& values, Index corner)
 {
   if (values.empty())
     return 0;
-  const Index number = values.of_triangle[triangle][corner];
+  const Index number = values.of_triangle[corner / 3][corner % 3];
   if (number == values.missing)
     return 0;
   return std::uint64_t{number} + 1 - (values.missing && number > *values.missing ? 1 : 0);
@@ -393,13 +394,13 @@ void write_obj(Byte_writer& out, const Triangle_soup& soup, const Write_options&
   write_values(out, "vt", soup.uvs);
   write_values(out, "vn", soup.normals);
   Label_writer labels(soup);
-  for (std::size_t i = 0; i < soup.triangles.size(); ++i) {
-    labels.write(out, i);
+  Written_faces(soup, Mesh_format::obj).for_each([&](Index triangle, const std::vector<Index>& corners) {
+    labels.write(out, triangle);
     out << 'f';
-    for (int corner = 0; corner < 3; ++corner) {
-      out << ' ' << std::uint64_t{soup.triangles[i][corner]} + 1;
-      const std::uint64_t uv = written_number(soup.uvs, i, corner),
-                          normal = written_number(soup.normals, i, corner);
+    for (const Index corner : corners) {
+      out << ' ' << std::uint64_t{soup.triangles[corner / 3][corner % 3]} + 1;
+      const std::uint64_t uv = written_number(soup.uvs, corner),
+                          normal = written_number(soup.normals, corner);
       if (uv != 0 || normal != 0)
         out << '/';
       if (uv != 0)
@@ -408,7 +409,7 @@ void write_obj(Byte_writer& out, const Triangle_soup& soup, const Write_options&
         out << '/' << normal;
     }
     out << '\n';
-  }
+  });
   out.commit();
 }
 

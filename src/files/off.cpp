@@ -3,6 +3,7 @@
 
 #include "files/Soup_builder.h"
 #include "files/Text_reader.h"
+#include "files/Written_faces.h"
 #include "files/formats.h"
 
 // Reads and writes OFF: points and triangles alone.
@@ -97,11 +98,16 @@ void write_off(Byte_writer& out, const Triangle_soup& soup, const Write_options&
   out << "OFF\n";
   for (const std::string& comment : options.comments)
     out << "# " << comment << '\n';
-  out << soup.points.size() << ' ' << soup.triangles.size() << " 0\n";
+  const Written_faces faces(soup, Mesh_format::off);
+  out << soup.points.size() << ' ' << faces.size() << " 0\n";
   for (const Point_3& p : soup.points)
     out << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
-  for (const auto& [a, b, c] : soup.triangles)
-    out << "3 " << a << ' ' << b << ' ' << c << '\n';
+  faces.for_each([&](Index, const std::vector<Index>& corners) {
+    out << corners.size();
+    for (const Index corner : corners)
+      out << ' ' << soup.triangles[corner / 3][corner % 3];
+    out << '\n';
+  });
   out.commit();
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "files/Text_reader.h"
+#include "files/Written_faces.h"
 #include "files/columns.h"
 #include "files/formats.h"
 #include "files/ply_types.h"
@@ -183,7 +184,8 @@ void write_ply(Byte_writer& out, const Triangle_soup& soup, const Write_options&
   if (layout.has_vertex_uvs)
     write_properties(out, float32_uvs, {"s", "t"});
   write_properties(out, layout.vertex_columns);
-  out << "element face " << soup.triangles.size() << "\nproperty list uchar " << (is_small ? "int" : "uint")
+  const Written_faces faces(soup, Mesh_format::ply);
+  out << "element face " << faces.size() << "\nproperty list uchar " << (is_small ? "int" : "uint")
       << " vertex_indices\n";
   if (layout.has_face_uvs)
     out << "property list uchar " << (float32_uvs ? "float" : "double") << " texcoord\n";
@@ -207,20 +209,21 @@ void write_ply(Byte_writer& out, const Triangle_soup& soup, const Write_options&
     write_columns(layout.vertex_columns, i);
     values.end_element();
   }
-  for (std::size_t i = 0; i < soup.triangles.size(); ++i) {
-    values.write(std::uint8_t{3});
-    for (const Index corner : soup.triangles[i])
-      values.write(corner);
+  faces.for_each([&](Index triangle, const std::vector<Index>& corners) {
+    values.write(std::uint8_t(corners.size()));
+    for (const Index corner : corners)
+      values.write(soup.triangles[corner / 3][corner % 3]);
     if (layout.has_face_uvs) {
-      const bool has_uvs = soup.uvs.of_triangle[i][0] != soup.uvs.missing;
-      values.write(std::uint8_t(has_uvs ? 6 : 0));
-      for (int corner = 0; corner < 3 && has_uvs; ++corner)
-        for (const double coordinate : soup.uvs.values[soup.uvs.of_triangle[i][corner]])
-          values.write_real(coordinate, float32_uvs);
+      const bool has_uvs = soup.uvs.of_triangle[triangle][0] != soup.uvs.missing;
+      values.write(std::uint8_t(has_uvs ? 2 * corners.size() : 0));
+      for (const Index corner : corners)
+        if (has_uvs)
+          for (const double coordinate : soup.uvs.values[soup.uvs.of_triangle[corner / 3][corner % 3]])
+            values.write_real(coordinate, float32_uvs);
     }
-    write_columns(layout.face_columns, i);
+    write_columns(layout.face_columns, triangle);
     values.end_element();
-  }
+  });
   out.commit();
 }
 

@@ -303,6 +303,7 @@ Triangle_soup Complex::result() const
     if (moved.points[v] != place)
       moved.points[v] = place;
   }
+  forget_moved_polygons(moved, m_soup.points);
   std::vector<Index> triangles;
   std::vector<Index_triple> corners;
   for (Index f = 0; f < m_faces.size(); ++f)

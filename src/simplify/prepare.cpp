@@ -209,8 +209,10 @@ private:
     std::vector<char> stays = m_prepared.is_frozen;
     for (const Offending_pair& pair : m_prepared.offending_pairs)
       stays[pair.first] = stays[pair.second] = true;
+    const std::vector<Point_3> points_before = soup().points;
     m_prepared.snapping = snap_borders(soup(), m_prepared.positions, stays, m_options.weld_distance,
                                        transforms, obstacle().triangles.size(), m_prepared.scale);
+    forget_moved_polygons(soup(), points_before);
   }
 
   Prepare_options m_options;

@@ -758,6 +758,7 @@ Working_mesh::Result Working_mesh::result() const
   result.soup = selected(m_soup, result.triangles, result.corners);
   if (m_placed.empty())
     return result;
+  const std::vector<Point_3> points_before = result.soup.points;
   Vertex_values::Of_vertices values(result.soup.points.size(), nullptr);
   for (std::size_t t = 0; t < result.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k)
@@ -767,6 +768,7 @@ Working_mesh::Result Working_mesh::result() const
         result.soup.points[vertex] = placed->second.point;
         values[vertex] = &placed->second.values;
       }
+  forget_moved_polygons(result.soup, points_before);
   m_values->put(values, result.soup);
   return result;
 }

@@ -113,10 +113,19 @@ void join_fans(Triangle_soup& soup)
 
 void restore_flat(Triangle_soup& soup)
 {
+  std::vector<Vector>& values = soup.normals.values;
   soup.normals = {};
+  auto polygon = soup.polygons.begin();
+  Index polygon_end = 0; // of the triangles of the polygon before this one
   for (Index t = 0; t < soup.triangles.size(); ++t) {
-    soup.normals.values.push_back(stored(unit_normal(soup, t)));
-    soup.normals.of_triangle.push_back({t, t, t});
+    // A polygon that is flat, but for rounding, has one normal.
+    const Vector normal = unit_normal(soup, t);
+    if (t >= polygon_end || !is_within(normal, values.back(), s_cosine_flat))
+      values.push_back(stored(normal));
+    if (polygon != soup.polygons.end() && polygon->first_triangle == t)
+      polygon_end = t + polygon++->corners - 2;
+    const Index last = Index(values.size() - 1);
+    soup.normals.of_triangle.push_back({last, last, last});
   }
 }
 

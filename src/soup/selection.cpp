@@ -91,6 +91,30 @@ Triangle_labels selected(const Triangle_labels& from, const std::vector<Index>& 
   return result;
 }
 
+// Returns the polygons of which all triangles are there, one after another, and `is_as_it_was(i)` is true for
+// each of their places i.
+template <class Function>
+std::vector<Cut_polygon> polygons_left(const std::vector<Cut_polygon>& from,
+                                       const std::vector<Index>& triangles, const Function& is_as_it_was)
+{
+  std::vector<Cut_polygon> result;
+  for (std::size_t i = 0; i < triangles.size() && !from.empty(); ++i) {
+    const auto polygon =
+        std::lower_bound(from.begin(), from.end(), triangles[i],
+                         [](const Cut_polygon& p, Index triangle) { return p.first_triangle < triangle; });
+    if (polygon == from.end() || polygon->first_triangle != triangles[i])
+      continue;
+    const std::size_t size = polygon->corners - std::size_t(2);
+    std::size_t left = 0;
+    while (left < size && i + left < triangles.size() && triangles[i + left] == triangles[i] + left &&
+           is_as_it_was(i + left))
+      ++left;
+    if (left == size)
+      result.push_back({Index(i), polygon->corners, polygon->start});
+  }
+  return result;
+}
+
 } // namespace
 
 std::size_t row_size(const Attribute& attribute)
@@ -115,6 +139,7 @@ void keep_triangles(Triangle_soup& soup, const std::vector<Index>& triangles)
     if (!of_triangle.empty())
       of_triangle = rows(of_triangle, triangles);
   };
+  soup.polygons = polygons_left(soup.polygons, triangles, [](std::size_t) { return true; });
   soup.triangles = rows(soup.triangles, triangles);
   keep(soup.uvs.of_triangle);
   keep(soup.normals.of_triangle);
@@ -123,6 +148,19 @@ void keep_triangles(Triangle_soup& soup, const std::vector<Index>& triangles)
   keep(soup.materials.of_triangle);
   keep(soup.smoothing_groups.of_triangle);
   soup.triangle_attributes = rows(soup.triangle_attributes, triangles);
+}
+
+void forget_moved_polygons(Triangle_soup& soup, const std::vector<Point_3>& points_before)
+{
+  const auto has_moved = [&](const Cut_polygon& polygon) {
+    const auto first = soup.triangles.begin() + polygon.first_triangle;
+    return std::any_of(first, first + (polygon.corners - 2), [&](const Index_triple& triangle) {
+      return std::any_of(triangle.begin(), triangle.end(),
+                         [&](Index v) { return soup.points[v] != points_before[v]; });
+    });
+  };
+  soup.polygons.erase(std::remove_if(soup.polygons.begin(), soup.polygons.end(), has_moved),
+                      soup.polygons.end());
 }
 
 Triangle_soup selected(const Triangle_soup& soup, const std::vector<Index>& triangles,
@@ -140,6 +178,10 @@ Triangle_soup selected(const Triangle_soup& soup, const std::vector<Index>& tria
   result.objects = selected(soup.objects, triangles);
   result.materials = selected(soup.materials, triangles);
   result.smoothing_groups = selected(soup.smoothing_groups, triangles);
+  result.polygons = polygons_left(soup.polygons, triangles, [&](std::size_t i) {
+    const Index first = 3 * triangles[i];
+    return corners[i] == Index_triple{first, first + 1, first + 2};
+  });
   result.material_libraries = soup.material_libraries;
   result.header_comments = soup.header_comments;
   result.scene = soup.scene;

@@ -15,15 +15,19 @@ namespace selvedge {
 /// normals.
 ///
 /// Vertices, texture coordinates and normals that are still used keep their order, and the others are
-/// dropped. Every number is copied bit for bit. The names of labels stay as they are, used or not.
+/// dropped. A polygon stays one when all its triangles are there with the corners that they had, one after
+/// another. Every number is copied bit for bit. The names of labels stay as they are, used or not.
 ///
-/// **Complexity** Linear.
+/// **Complexity** Linear; O(log p) more for every triangle where there are p polygons.
 Triangle_soup selected(const Triangle_soup& soup, const std::vector<Index>& triangles,
                        const std::vector<Index_triple>& corners);
 
 /// Keeps only some triangles of a soup, in the order given, with all their labels and attributes. Vertices
-/// and values keep their numbers, used or not.
+/// and values keep their numbers, used or not. A polygon stays one when all its triangles do.
 void keep_triangles(Triangle_soup& soup, const std::vector<Index>& triangles);
+
+/// Forgets the polygons with a vertex that is not at its place in `points_before`.
+void forget_moved_polygons(Triangle_soup& soup, const std::vector<Point_3>& points_before);
 
 /// Returns the number of bytes in one row of an attribute.
 std::size_t row_size(const Attribute& attribute);

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// "-" is standard input or output, and a name in .gz is a packed file.
+// "-" is standard input or output, a name in .gz is a packed file, and polygons come out as they were.
 
 #include "App_run.h"
 
@@ -9,7 +9,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdlib>
+#include <sstream>
 
 namespace selvedge::test {
 namespace {
@@ -124,6 +126,57 @@ TEST(App_packed, FilesAreReadAndWrittenEverywhere)
   EXPECT_TRUE(contents_of(folder / "again.ply") == read_file(out));
   write_text(folder / "cut.obj.gz", contents_of(in).substr(0, 1000));
   expect_refused({"info", folder / "cut.obj.gz"}, 3, "truncated");
+}
+
+/// How many faces of an OBJ file have more than three corners.
+std::size_t polygons_in(const std::string& path)
+{
+  std::istringstream lines(contents_of(path));
+  std::size_t count = 0;
+  for (std::string line; std::getline(lines, line);)
+    count += line.rfind("f ", 0) == 0 && std::count(line.begin(), line.end(), ' ') > 3;
+  return count;
+}
+
+TEST(App_polygons, AreKeptCountedAndSplitOnDemand)
+{
+  const Workspace folder;
+  const std::string in = folder / "in.obj", out = folder / "out.obj", log = folder / "steps.log",
+                    report = folder / "report.json", again = folder / "again.obj";
+  // A wave of 20 x 20 quads.
+  std::ostringstream text;
+  constexpr int side = 21;
+  for (int i = 0; i < side * side; ++i)
+    text << "v " << i % side << ' ' << i / side << ' ' << (i % side) * (i % side) / 40.0 << '\n';
+  for (int i = 0; i + side + 1 < side * side; ++i)
+    if (i % side + 1 < side)
+      text << "f " << i + 1 << ' ' << i + 2 << ' ' << i + side + 2 << ' ' << i + side + 1 << '\n';
+  write_text(in, text.str());
+  const std::vector<std::string> command{"simplify", in,      "-o", out,        "--ratio",
+                                         "0.8",      "--log", log,  "--report", report};
+  const App_result kept = run_app(command);
+  EXPECT_EQ(kept.code, 0) << kept.err;
+  const std::size_t count = polygons_in(out);
+  EXPECT_GT(count, 0u);
+  EXPECT_LT(count, 400u);
+  EXPECT_NE(kept.out.find("\npolygons: " + std::to_string(count) +
+                          " of 400 faces of more than three corners written as they were\n"),
+            std::string::npos)
+      << kept.out;
+  EXPECT_EQ(Json::parse(contents_of(report))["output"]["polygons"], count);
+  EXPECT_EQ(run_app({"verify", out, "--against", in}).code, 0);
+  EXPECT_EQ(run_app({"replay", in, log, "-o", again}).code, 0);
+  EXPECT_TRUE(contents_of(again) == contents_of(out));
+  const auto triangles = read_mesh(out).soup.triangles;
+
+  std::vector<std::string> split = command;
+  split.insert(split.end(), {"--polygons", "split"});
+  EXPECT_EQ(run_app(split).code, 0);
+  EXPECT_EQ(polygons_in(out), 0u);
+  EXPECT_TRUE(read_mesh(out).soup.triangles == triangles);
+  EXPECT_EQ(Json::parse(contents_of(report))["output"]["polygons"], 0);
+  EXPECT_EQ(run_app({"replay", in, log, "-o", again, "--polygons", "split"}).code, 0);
+  EXPECT_TRUE(contents_of(again) == contents_of(out));
 }
 
 } // namespace

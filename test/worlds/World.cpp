@@ -245,6 +245,8 @@ std::set<std::string> options_used(const World& world)
     options.insert("texture_may_turn");
   if (world.questions)
     options.insert("stopped_early");
+  if (!world.soup.polygons.empty())
+    options.insert("polygons");
   return options;
 }
 

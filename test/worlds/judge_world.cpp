@@ -854,6 +854,7 @@ Triangle_soup permuted(Triangle_soup soup, Random& random)
   soup.points = reordered(soup.points, vertices);
   reorder(soup.vertex_attributes, vertices);
   soup.triangles = reordered(soup.triangles, triangles);
+  soup.polygons.clear();
   soup.uvs.of_triangle = reordered(soup.uvs.of_triangle, triangles);
   soup.normals.of_triangle = reordered(soup.normals.of_triangle, triangles);
   reorder(soup.triangle_attributes, triangles);

@@ -93,6 +93,20 @@ std::vector<std::string> part_names(const Triangle_soup& soup)
   return {names.begin(), names.end()};
 }
 
+/// Takes triangles that follow each other for a polygon, wherever they are a fan of their first corner.
+std::vector<Cut_polygon> fans(const Triangle_soup& soup)
+{
+  std::vector<Cut_polygon> polygons;
+  for (Index t = 0, end = 0; t < soup.triangles.size(); t = end) {
+    for (end = t + 1; end < soup.triangles.size() && soup.triangles[end][0] == soup.triangles[t][0] &&
+                      soup.triangles[end][1] == soup.triangles[end - 1][2];)
+      ++end;
+    if (end - t > 1)
+      polygons.push_back({t, end - t + 2, 0});
+  }
+  return polygons;
+}
+
 double diagonal(const Triangle_soup& soup)
 {
   CGAL::Bbox_3 box;
@@ -241,6 +255,10 @@ World random_world(std::uint64_t seed)
     world.options.ratio.reset();
   }
   world.is_sewn = random.one_in(12);
+  const bool has_polygons =
+      world.seed % 2 == 0; // no random number, so that worlds of earlier versions stay what they were
+  if (has_polygons)
+    world.soup.polygons = fans(world.soup);
   world.defects = random.one_in(25) ? Defects::refuse : random.one_in(4) ? Defects::freeze : Defects::descend;
   return world;
 }
