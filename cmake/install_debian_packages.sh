@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # Installs what Selvedge is built from, on Debian 12 or later; does nothing where all of it is there already.
-# With the argument "benchmark" also the peers that the benchmark programs measure, with "fuzz" clang and its run-time
-# libraries, of which libFuzzer is one, with "manual" Doxygen.
+# With the argument "fuzz" also clang and its run-time libraries, of which libFuzzer is one, with "manual" Doxygen. The argument
+# "benchmark" asks for the peers that the benchmark programs measure, which are among the packages of every build.
 set -euo pipefail
 
 packages=(
@@ -14,6 +14,8 @@ packages=(
   libssl-dev            # SHA-256, for logs of collapses
   libtbb-dev            # threads
   zlib1g-dev            # files in .gz
+  libmeshoptimizer-dev  # compressed glTF files; may be left out
+  libdraco-dev          # compressed glTF files; may be left out
   libtinygltf-dev       # glTF documents
   nlohmann-json3-dev    # glTF documents, reports of the app
   libgtest-dev          # tests
@@ -21,9 +23,7 @@ packages=(
   libopenmesh-dev       # tests: a mesh of floats, through CGAL's adaptor
   libeigen3-dev         # tests: the Garland-Heckbert policies of CGAL, beside which ours must work
 )
-if [[ "${1:-}" == benchmark ]]; then
-  packages+=(libmeshoptimizer-dev)
-elif [[ "${1:-}" == fuzz ]]; then
+if [[ "${1:-}" == fuzz ]]; then
   packages+=(clang libclang-rt-dev)
 elif [[ "${1:-}" == manual ]]; then
   packages+=(doxygen)

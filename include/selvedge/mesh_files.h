@@ -63,10 +63,10 @@ namespace selvedge {
 ///
 /// When a scene is written to glTF again, every vertex that is not at a new place keeps its rows of all
 /// accessors, morph targets included, bit for bit, and so its world position. The rest of the document stays
-/// as it is: images byte for byte, addresses of files, numbers of accessors and buffer views. There are three
-/// exceptions: a mesh that several nodes share becomes one for each, accessors of triangles are written in
-/// full and without gaps, and all buffers become one. Primitives of points or lines, and meshes outside the
-/// scene, stay as they are. Those without a triangle left are removed.
+/// as it is: images byte for byte, addresses of files, numbers of accessors and buffer views. Exceptions: a
+/// mesh that several nodes share becomes one for each, accessors of triangles are written in full and without
+/// gaps, buffers become one, and bytes that nothing can refer to go. Primitives of points or lines, and
+/// meshes outside the scene, stay as they are. Those without a triangle left are removed.
 ///
 /// **Packed files.** A file whose name ends in `.gz` is unpacked by zlib when it is read, and packed when it
 /// is written; all else is as without `.gz`. A packed file that is damaged or truncated is refused, and so is
@@ -144,8 +144,8 @@ struct Mesh_file
 ///   second is subtracted from 1, because it points down in glTF. Normals are turned with their nodes, and
 ///   COLOR_0 is a colour. Other attributes are carried when all vertices have them in the same form. In
 ///   primitives without indices, vertices that agree in every attribute become one. Buffers are in the file,
-///   in data addresses, or in files relative to its folder (none when read from memory). Refused, by name:
-///   compressed and quantised meshes, instances by extension, unknown extensions that the file requires.
+///   data addresses, or files beside it. What EXT_meshopt_compression, KHR_draco_mesh_compression (2.2) and
+///   KHR_mesh_quantization pack is decoded and written plain. Refused: instances, other required extensions.
 ///
 /// In OBJ, OFF and PLY files of at least 100 triangles, or of quads, in which no two faces share a vertex,
 /// corners at one position with the same vertex attributes refer to the first of their vertices, as in STL;

@@ -4,6 +4,7 @@
 #include "files/gltf_document.h"
 
 #include "files/Binary_reader.h"
+#include "files/gltf_decoding.h"
 
 #include <selvedge/Error.h>
 
@@ -77,17 +78,17 @@ void parse(std::string_view json, Gltf_document& document)
     document.fail("this is not glTF of version 2; export it as glTF 2.0");
 }
 
+bool is_decoded(const std::string& extension)
+{
+  return extension == "EXT_meshopt_compression" || extension == "KHR_draco_mesh_compression" ||
+         extension == "KHR_mesh_quantization";
+}
+
 void refuse_extensions(const Gltf_document& document)
 {
   const std::map<std::string, std::string> refused = {
-      {"KHR_draco_mesh_compression",
-       "its meshes are compressed with KHR_draco_mesh_compression; export it without compression"},
-      {"EXT_meshopt_compression",
-       "its buffers are compressed with EXT_meshopt_compression; export it without compression"},
       {"KHR_meshopt_compression",
        "its buffers are compressed with KHR_meshopt_compression; export it without compression"},
-      {"KHR_mesh_quantization",
-       "its vertices are quantised with KHR_mesh_quantization; export it without quantisation"},
       {"EXT_mesh_gpu_instancing",
        "it places meshes with EXT_mesh_gpu_instancing; export it with one node for each"}};
   for (const char* list : {"extensionsRequired", "extensionsUsed"})
@@ -100,9 +101,12 @@ void refuse_extensions(const Gltf_document& document)
       const auto begins_with = [&](std::string_view prefix) {
         return name.compare(0, prefix.size(), prefix) == 0;
       };
-      if (list == std::string_view("extensionsRequired") && !begins_with("KHR_materials_") &&
-          !begins_with("KHR_texture_") && !begins_with("EXT_texture_") && !begins_with("MSFT_texture_") &&
-          !begins_with("KHR_lights_") && !begins_with("KHR_xmp"))
+      if (const std::string library = missing_decoder(name); !library.empty())
+        document.fail("it is compressed with " + name + ", and this program was built without " + library +
+                      ", which decodes that; export it without compression");
+      if (list == std::string_view("extensionsRequired") && !is_decoded(name) &&
+          !begins_with("KHR_materials_") && !begins_with("KHR_texture_") && !begins_with("EXT_texture_") &&
+          !begins_with("MSFT_texture_") && !begins_with("KHR_lights_") && !begins_with("KHR_xmp"))
         document.fail("it requires the extension " + name + ", which is not known here; export it without");
     }
 }
@@ -158,6 +162,7 @@ void load(const std::optional<std::string_view>& embedded, const std::filesystem
        {"asset", "buffers", "bufferViews", "accessors", "meshes", "nodes", "scenes", "scene"})
     if (document.json.contains(name))
       reduced[name] = without_extensions(document.json[name]);
+  prepare_for_decoding(document.json, reduced);
   Buffer_sources sources{embedded.value_or(""), folder};
   const Json& buffers = member(reduced, "buffers");
   if (embedded && buffers.is_array() && !buffers.empty() && buffers[0].is_object() &&
@@ -318,6 +323,8 @@ Gltf_document read_gltf_document(std::string_view contents, Mesh_format format, 
   refuse_extensions(document);
   load(chunks.embedded, folder, document);
   check_lists(document);
+  decode_views(document);
+  decode_primitives(document);
   place_nodes(document);
   return document;
 }

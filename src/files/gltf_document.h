@@ -10,19 +10,22 @@
 
 #include <tiny_gltf.h>
 
+#include <map>
 #include <optional>
+#include <string>
 
 namespace selvedge::files {
 
-/// A glTF file as JSON and as tinygltf understands it, before `read_gltf` makes a soup of it. The lists of
-/// both correspond, and the nodes of the scene are a forest. What accessors and buffer views say of
-/// themselves is not checked yet.
+/// A glTF file as JSON and as tinygltf understands it, decoded where it was compressed, before `read_gltf`
+/// makes a soup of it. The lists of both correspond, and the nodes of the scene are a forest. What accessors
+/// and buffer views say of themselves is not checked yet.
 struct Gltf_document
 {
   std::string name; ///< stands for the file in messages
   Gltf_scene::Json json;
   tinygltf::Model model;
   std::vector<std::optional<Gltf_scene::Matrix>> to_world; ///< of every node that is in the scene
+  std::map<std::string, std::size_t> remarks;              ///< for `Read_notes`
 
   /// Throws an `Input_error` that names the file.
   [[noreturn]] void fail(const std::string& message) const;

@@ -3,6 +3,7 @@
 
 #include "files/formats.h"
 #include "files/gltf_column_reader.h"
+#include "files/gltf_decoding.h"
 #include "files/row_unlike.h"
 
 #include "soup/selection.h"
@@ -40,12 +41,17 @@ public:
   Gltf_reader(Gltf_document document, Mesh_format format) : m_document(std::move(document))
   {
     m_file.format = format;
+    m_file.notes.remarks = m_document.remarks;
+    const Json& extensions = member(json(), "extensionsUsed");
+    m_may_be_quantised =
+        std::find(extensions.begin(), extensions.end(), "KHR_mesh_quantization") != extensions.end();
   }
 
   Mesh_file read()
   {
     find_parts();
     fill_soup();
+    close_quantization();
     set_free();
     if (soup().triangles.empty())
       fail("the file has no triangles in its scene; export the mesh as triangles");
@@ -198,16 +204,16 @@ private:
       fail(place + ": it has more than 4294967294 vertices; split it");
     block.size = Index(model().accessors[position].count);
     const Column& positions =
-        block.attributes.emplace_back(read_column(position, "POSITION", block.size, place));
+        block.attributes.emplace_back(read_plain_column(position, "POSITION", block.size, place));
     if (positions.component_type != type_float32 || positions.components != 3 || positions.row_size != 12)
-      fail(place + ": its positions are not three 32-bit floats each; export it without quantisation");
+      fail(place + ": its positions are not three 32-bit floats each; export the file again");
     for (const auto& [name, accessor] : primitive.attributes)
       if (name != "POSITION")
-        block.attributes.push_back(read_column(accessor, name, block.size, place));
+        block.attributes.push_back(read_plain_column(accessor, name, block.size, place));
     for (const auto& target : primitive.targets) {
       block.targets.emplace_back();
       for (const auto& [name, accessor] : target)
-        block.targets.back().push_back(read_column(accessor, name, block.size, place));
+        block.targets.back().push_back(read_plain_column(accessor, name, block.size, place));
     }
     return it->second;
   }
@@ -221,6 +227,87 @@ private:
     return result;
   }
 
+  // Whether only KHR_mesh_quantization allows this type for an attribute of this name.
+  static bool is_quantised(const std::string& name, int component_type, bool is_normalized)
+  {
+    if (component_type == type_float32 || component_type == type_uint32)
+      return false;
+    if (name == "POSITION" || name == "NORMAL" || name == "TANGENT")
+      return true;
+    const bool is_plain_uv = is_normalized && (component_type == type_uint8 || component_type == type_uint16);
+    return name.compare(0, 9, "TEXCOORD_") == 0 && !is_plain_uv;
+  }
+
+  // Returns what a normalised integer stands for.
+  static double normalised(const Column& column, double number)
+  {
+    const double most = column.component_type == type_int8    ? 127
+                        : column.component_type == type_uint8 ? 255
+                        : column.component_type == type_int16 ? 32767
+                                                              : 65535;
+    return std::max(number / most, -1.0);
+  }
+
+  // Reads a column, and makes 32-bit floats of quantised numbers: each the one nearest to what it stands for.
+  Column read_plain_column(int accessor, const std::string& name, std::size_t count, const std::string& place)
+  {
+    const Column quantised = read_column(accessor, name, count, place);
+    if (!m_may_be_quantised || !is_quantised(name, quantised.component_type, quantised.is_normalized()))
+      return quantised;
+    Column plain = {name, quantised.accessor, type_float32, quantised.components, 4 * quantised.components,
+                    {}};
+    plain.accessor["componentType"] = int(type_float32);
+    for (const char* key : {"normalized", "min", "max"})
+      plain.accessor.erase(key);
+    plain.rows.reserve(count * plain.row_size);
+    for (std::size_t i = 0; i < count; ++i) {
+      m_poll();
+      for (std::size_t k = 0; k < plain.components; ++k) {
+        const double number = component(quantised, i, k);
+        append_little_endian(plain.rows,
+                             float(quantised.is_normalized() ? normalised(quantised, number) : number));
+      }
+    }
+    remark("attributes quantised by KHR_mesh_quantization, from now on 32-bit floats");
+    return plain;
+  }
+
+  // The extension is named no longer, unless what is kept as it is still needs it.
+  void close_quantization()
+  {
+    bool is_needed = false;
+    const auto look_at = [&](const std::map<std::string, int>& attributes) {
+      for (const auto& [name, number] : attributes)
+        if (m_kept_accessors.count(number) != 0 && number >= 0 && number < int(model().accessors.size()))
+          is_needed = is_needed || is_quantised(name, model().accessors[number].componentType,
+                                                model().accessors[number].normalized);
+    };
+    for (const tinygltf::Mesh& mesh : model().meshes)
+      for (const tinygltf::Primitive& primitive : mesh.primitives) {
+        look_at(primitive.attributes);
+        for (const auto& target : primitive.targets)
+          look_at(target);
+      }
+    if (!is_needed)
+      remove_extension(json(), "KHR_mesh_quantization");
+  }
+
+  // Whether all that may refer to accessors and buffer views is known here.
+  bool is_all_known()
+  {
+    for (const Json& extension : member(json(), "extensionsUsed")) {
+      const std::string name = extension.is_string() ? extension.get<std::string>() : "";
+      const auto begins_with = [&](std::string_view prefix) {
+        return name.compare(0, prefix.size(), prefix) == 0;
+      };
+      if (!begins_with("KHR_materials_") && !begins_with("KHR_texture_") && !begins_with("EXT_texture_") &&
+          !begins_with("MSFT_texture_") && !begins_with("KHR_lights_") && !begins_with("KHR_xmp") &&
+          name != "KHR_mesh_quantization")
+        return false;
+    }
+    return true;
+  }
+
   // Finds the accessors and buffer views that only the triangles of the soup need, and keeps the bytes of all
   // other views.
   void set_free()
@@ -232,10 +319,12 @@ private:
     for (const Json& skin : member(json(), "skins"))
       m_kept_accessors.insert(skin.value("inverseBindMatrices", -1));
     const Gltf_column_reader columns(m_document, "the file");
+    // What nothing refers to goes, where that is certain: buffers are often left behind, or compressed.
+    const bool may_drop = is_all_known();
     std::set<int> freed, kept;
     for (std::size_t i = 0; i < model().accessors.size(); ++i) {
       const tinygltf::Accessor& accessor = model().accessors[i];
-      const bool is_free = m_is_free_accessor[i] && m_kept_accessors.count(int(i)) == 0;
+      const bool is_free = (m_is_free_accessor[i] || may_drop) && m_kept_accessors.count(int(i)) == 0;
       if (is_free)
         m_scene->free_accessors.push_back(Index(i));
       std::set<int>& views = is_free ? freed : kept;
@@ -251,7 +340,7 @@ private:
     }
     m_scene->views.resize(model().bufferViews.size());
     for (int i = 0; i < int(model().bufferViews.size()); ++i)
-      if (freed.count(i) != 0 && kept.count(i) == 0)
+      if ((freed.count(i) != 0 || may_drop) && kept.count(i) == 0)
         m_scene->free_views.push_back(Index(i));
       else
         m_scene->views[i] = columns.view(i);
@@ -524,6 +613,7 @@ private:
       m_block_numbers;
   std::vector<char> m_is_free_accessor;
   std::set<int> m_kept_accessors;
+  bool m_may_be_quantised = false;
 };
 
 } // namespace

@@ -1,0 +1,508 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// glTF files that are compressed or quantised are decoded on the way in and written plain.
+
+#include "support/Temporary_folder.h"
+
+#include <selvedge/Error.h>
+#include <selvedge/mesh_files.h>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#ifdef SELVEDGE_HAS_MESHOPTIMIZER
+#include <meshoptimizer.h>
+#endif
+#ifdef SELVEDGE_HAS_DRACO
+#include <draco/compression/expert_encode.h>
+#include <draco/mesh/triangle_soup_mesh_builder.h>
+#endif
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace selvedge::test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::uint32_t s_side = 20, s_vertices = s_side * s_side;
+
+template <class Number>
+std::string bytes_of(const std::vector<Number>& numbers)
+{
+  return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)};
+}
+
+/// A wavy sheet of s_side × s_side vertices.
+struct Sheet
+{
+  Sheet()
+  {
+    for (std::uint32_t i = 0; i < s_vertices; ++i) {
+      const float x = float(i % s_side), y = float(i / s_side);
+      positions.insert(positions.end(), {x / 7, y / 7, std::sin(x) / 10});
+      normals.insert(normals.end(), {0.6f, 0, 0.8f});
+    }
+    for (std::uint32_t y = 0; y + 1 < s_side; ++y)
+      for (std::uint32_t x = 0; x + 1 < s_side; ++x) {
+        const auto a = std::uint16_t(y * s_side + x), b = std::uint16_t(a + s_side);
+        for (const int corner : {int(a), a + 1, b + 1, int(a), b + 1, int(b)})
+          indices.push_back(std::uint16_t(corner));
+      }
+  }
+
+  std::vector<float> positions, normals;
+  std::vector<std::uint16_t> indices;
+};
+
+/// A glTF file in the making: a mesh of one primitive.
+class Document_of_sheet
+{
+public:
+  Document_of_sheet()
+  {
+    json = {{"asset", {{"version", "2.0"}}},
+            {"scene", 0},
+            {"scenes", {{{"nodes", {0}}}}},
+            {"nodes", {{{"mesh", 0}}}},
+            {"buffers", Json::array({{{"byteLength", 0}}})},
+            {"bufferViews", Json::array()},
+            {"accessors", Json::array()},
+            {"meshes", {{{"primitives", {{{"attributes", Json::object()}}}}}}}};
+  }
+
+  std::size_t add_view(const std::string& contents)
+  {
+    bytes.resize((bytes.size() + 3) / 4 * 4, '\0');
+    json["bufferViews"].push_back(
+        {{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", contents.size()}});
+    bytes += contents;
+    return json["bufferViews"].size() - 1;
+  }
+
+  std::size_t add_accessor(const Json& view, std::size_t count, int component_type, const char* type)
+  {
+    Json accessor = {{"componentType", component_type}, {"count", count}, {"type", type}};
+    if (!view.is_null())
+      accessor["bufferView"] = view;
+    json["accessors"].push_back(accessor);
+    return json["accessors"].size() - 1;
+  }
+
+  void use(const char* extension)
+  {
+    json["extensionsUsed"].push_back(extension);
+    json["extensionsRequired"].push_back(extension);
+  }
+
+  Json& primitive() { return json["meshes"][0]["primitives"][0]; }
+
+  std::string glb() const
+  {
+    Json complete = json;
+    complete["buffers"][0]["byteLength"] = bytes.size();
+    std::string text = complete.dump(), body = bytes;
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    body.resize((body.size() + 3) / 4 * 4, '\0');
+    const auto number = [](std::size_t value) {
+      return bytes_of(std::vector<std::uint32_t>{std::uint32_t(value)});
+    };
+    return "glTF" + number(2) + number(28 + text.size() + body.size()) + number(text.size()) + "JSON" + text +
+           number(body.size()) + std::string("BIN\0", 4) + body;
+  }
+
+  Json json;
+  std::string bytes;
+};
+
+Document_of_sheet plain_sheet()
+{
+  const Sheet sheet;
+  Document_of_sheet document;
+  Json& attributes = document.primitive()["attributes"];
+  attributes["POSITION"] =
+      document.add_accessor(document.add_view(bytes_of(sheet.positions)), s_vertices, 5126, "VEC3");
+  attributes["NORMAL"] =
+      document.add_accessor(document.add_view(bytes_of(sheet.normals)), s_vertices, 5126, "VEC3");
+  document.primitive()["indices"] =
+      document.add_accessor(document.add_view(bytes_of(sheet.indices)), sheet.indices.size(), 5123, "SCALAR");
+  return document;
+}
+
+Mesh_file read(const Document_of_sheet& document)
+{
+  return read_mesh(document.glb(), Mesh_format::glb, "sheet");
+}
+
+/// The corners of every triangle as points, with the least first: what a codec may not change.
+std::multiset<std::array<std::array<double, 3>, 3>> triangles_of(const Triangle_soup& soup)
+{
+  std::multiset<std::array<std::array<double, 3>, 3>> result;
+  for (const Index_triple& triangle : soup.triangles) {
+    std::array<std::array<double, 3>, 3> corners;
+    for (int k = 0; k < 3; ++k) {
+      const Point_3& p = soup.points[triangle[k]];
+      corners[k] = {p.x(), p.y(), p.z()};
+    }
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    result.insert(corners);
+  }
+  return result;
+}
+
+Json json_of(const std::string& glb)
+{
+  std::uint32_t size = 0;
+  std::memcpy(&size, glb.data() + 12, sizeof size);
+  return Json::parse(glb.substr(20, size));
+}
+
+/// Writes a mesh, and expects a plain file that reads as the same.
+std::string expect_written_plain(const Mesh_file& file)
+{
+  const Temporary_folder folder;
+  write_mesh(folder / "m.glb", file.soup);
+  const std::string glb = read_file(folder / "m.glb");
+  const Json json = json_of(glb);
+  EXPECT_FALSE(json.contains("extensionsUsed")) << json["extensionsUsed"];
+  EXPECT_FALSE(json.contains("extensionsRequired"));
+  EXPECT_EQ(json.dump().find("\"extensions\""), std::string::npos);
+  const Mesh_file again = read_mesh(folder / "m.glb");
+  EXPECT_EQ(triangles_of(again.soup), triangles_of(file.soup));
+  EXPECT_EQ(again.notes.remarks.size(), 0u);
+  return glb;
+}
+
+/// Changes bytes of the compressed part, some hundred all over it, each in turn: the file is read or refused.
+void expect_damage_is_survived(const Document_of_sheet& document, std::size_t first, std::size_t last)
+{
+  std::size_t refused = 0;
+  for (std::size_t at = first; at < last; at += 1 + (last - first) / 250)
+    for (const int change : {1, 0x80, 0xff}) {
+      Document_of_sheet damaged = document;
+      damaged.bytes[at] = char(damaged.bytes[at] ^ change);
+      try {
+        read(damaged);
+      } catch (const Input_error&) {
+        ++refused;
+      }
+    }
+  EXPECT_GT(refused, 0u);
+}
+
+bool has_remark(const Mesh_file& file, const std::string& what)
+{
+  return std::any_of(file.notes.remarks.begin(), file.notes.remarks.end(),
+                     [&](const auto& remark) { return remark.first.find(what) != std::string::npos; });
+}
+
+TEST(Gltf_dead_views, AreNotWrittenUnlessSomethingUnknownMayReferToThem)
+{
+  const Temporary_folder folder;
+  Document_of_sheet document = plain_sheet();
+  write_mesh(folder / "plain.glb", read(document).soup);
+  const std::size_t size = read_file(folder / "plain.glb").size();
+  const std::size_t dead = document.add_view(std::string(100'000, 'x'));
+  document.add_accessor(document.add_view(std::string(40'000, 'y')), 10'000, 5126, "SCALAR");
+  const std::string glb = expect_written_plain(read(document));
+  EXPECT_LT(glb.size(), size + 1000);
+  EXPECT_LT(glb.size(), document.glb().size());
+  // A view that an image needs stays.
+  document.json["images"] = {{{"bufferView", dead}, {"mimeType", "image/png"}}};
+  write_mesh(folder / "image.glb", read(document).soup);
+  EXPECT_GT(read_file(folder / "image.glb").size(), size + 100'000);
+  document.json.erase("images");
+  document.json["extensionsUsed"] = {"ACME_reads_views"};
+  write_mesh(folder / "unknown.glb", read(document).soup);
+  EXPECT_GT(read_file(folder / "unknown.glb").size(), size + 140'000);
+}
+
+TEST(Gltf_quantised, BecomesFloatsOfTheSameValues)
+{
+  const Sheet sheet;
+  Document_of_sheet document;
+  std::vector<std::int16_t> positions;
+  std::vector<std::int8_t> normals;
+  std::vector<std::uint16_t> uvs;
+  for (std::uint32_t i = 0; i < s_vertices; ++i) {
+    for (int k = 0; k < 3; ++k)
+      positions.push_back(std::int16_t(std::lround(sheet.positions[3 * i + k] * 10'000)));
+    positions.push_back(0); // rows begin at multiples of four bytes
+    for (const int number : {76, 0, 102, 0})
+      normals.push_back(std::int8_t(number));
+    uvs.push_back(std::uint16_t(i % s_side));
+    uvs.push_back(std::uint16_t(i / s_side));
+  }
+  positions[0] = -32768;
+  Json& attributes = document.primitive()["attributes"];
+  const auto add = [&](const char* name, const std::string& bytes, int component_type, const char* type,
+                       bool is_normalized) {
+    const std::size_t view = document.add_view(bytes);
+    document.json["bufferViews"][view]["byteStride"] = bytes.size() / s_vertices;
+    attributes[name] = document.add_accessor(view, s_vertices, component_type, type);
+    document.json["accessors"].back()["normalized"] = is_normalized;
+  };
+  add("POSITION", bytes_of(positions), 5122, "VEC3", true);
+  add("NORMAL", bytes_of(normals), 5120, "VEC3", true);
+  add("TEXCOORD_0", bytes_of(uvs), 5123, "VEC2", false);
+  document.json["accessors"][0]["min"] = {-32768, 0, -1000};
+  document.json["accessors"][0]["max"] = {32767, 32767, 1000};
+  document.primitive()["indices"] =
+      document.add_accessor(document.add_view(bytes_of(sheet.indices)), sheet.indices.size(), 5123, "SCALAR");
+  document.json["nodes"][0]["scale"] = {2, 2, 2};
+  document.use("KHR_mesh_quantization");
+
+  const Mesh_file file = read(document);
+  EXPECT_TRUE(has_remark(file, "KHR_mesh_quantization"));
+  EXPECT_EQ(file.soup.points[0].x(), -2);
+  for (std::uint32_t i = 1; i < s_vertices; ++i)
+    EXPECT_EQ(file.soup.points[i].x(), 2 * double(float(positions[4 * i] / 32767.0)));
+  EXPECT_EQ(file.soup.uvs.values[s_vertices - 1],
+            (std::array<double, 2>{s_side - 1.0, 1.0 - (s_side - 1.0)}));
+  const Json json = json_of(expect_written_plain(file));
+  for (const auto& [name, accessor] : json["meshes"][0]["primitives"][0]["attributes"].items()) {
+    EXPECT_EQ(json["accessors"][accessor.get<int>()]["componentType"], 5126) << name;
+    EXPECT_FALSE(json["accessors"][accessor.get<int>()].contains("normalized")) << name;
+  }
+  // What is kept as it is keeps the extension.
+  document.json["meshes"].push_back(document.json["meshes"][0]);
+  const Temporary_folder folder;
+  write_mesh(folder / "kept.glb", read(document).soup);
+  EXPECT_EQ(json_of(read_file(folder / "kept.glb"))["extensionsRequired"], Json({"KHR_mesh_quantization"}));
+}
+
+#ifdef SELVEDGE_HAS_MESHOPTIMIZER
+std::string encoded_vertices(const void* rows, std::size_t count, std::size_t stride)
+{
+  std::string result(meshopt_encodeVertexBufferBound(count, stride), '\0');
+  result.resize(meshopt_encodeVertexBuffer(reinterpret_cast<unsigned char*>(result.data()), result.size(),
+                                           rows, count, stride));
+  return result;
+}
+
+/// The sheet with all views compressed, over a buffer that is not there.
+Document_of_sheet meshopt_sheet(const char* mode_of_indices, bool is_filtered)
+{
+  const Sheet sheet;
+  Document_of_sheet document;
+  std::size_t fallback_size = 0;
+  const auto add_view = [&](const std::string& encoded, std::size_t count, std::size_t stride,
+                            const char* mode, const char* filter) {
+    const std::size_t view = document.add_view(encoded);
+    Json& json = document.json["bufferViews"][view];
+    json["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0},
+                                                     {"byteOffset", json["byteOffset"]},
+                                                     {"byteLength", encoded.size()},
+                                                     {"byteStride", stride},
+                                                     {"count", count},
+                                                     {"mode", mode},
+                                                     {"filter", filter}};
+    json["buffer"] = 1;
+    json["byteOffset"] = fallback_size;
+    json["byteLength"] = count * stride;
+    fallback_size += count * stride;
+    return view;
+  };
+  Json& attributes = document.primitive()["attributes"];
+  attributes["POSITION"] =
+      document.add_accessor(add_view(encoded_vertices(sheet.positions.data(), s_vertices, 12), s_vertices, 12,
+                                     "ATTRIBUTES", "NONE"),
+                            s_vertices, 5126, "VEC3");
+  if (is_filtered) {
+    std::vector<float> four;
+    for (std::uint32_t i = 0; i < s_vertices; ++i)
+      four.insert(four.end(), {0.6f, 0, 0.8f, 0});
+    std::vector<std::int8_t> rows(4 * s_vertices);
+    meshopt_encodeFilterOct(rows.data(), s_vertices, 4, 8, four.data());
+    attributes["NORMAL"] = document.add_accessor(
+        add_view(encoded_vertices(rows.data(), s_vertices, 4), s_vertices, 4, "ATTRIBUTES", "OCTAHEDRAL"),
+        s_vertices, 5120, "VEC3");
+    document.json["accessors"].back()["normalized"] = true;
+    document.json["bufferViews"].back()["byteStride"] = 4;
+    document.use("KHR_mesh_quantization");
+  } else {
+    attributes["NORMAL"] =
+        document.add_accessor(add_view(encoded_vertices(sheet.normals.data(), s_vertices, 12), s_vertices, 12,
+                                       "ATTRIBUTES", "NONE"),
+                              s_vertices, 5126, "VEC3");
+  }
+  const std::vector<unsigned> indices(sheet.indices.begin(), sheet.indices.end());
+  std::string encoded(10 * indices.size() + 100, '\0');
+  auto* const data = reinterpret_cast<unsigned char*>(encoded.data());
+  encoded.resize(std::string(mode_of_indices) == "TRIANGLES"
+                     ? meshopt_encodeIndexBuffer(data, encoded.size(), indices.data(), indices.size())
+                     : meshopt_encodeIndexSequence(data, encoded.size(), indices.data(), indices.size()));
+  document.primitive()["indices"] = document.add_accessor(
+      add_view(encoded, indices.size(), 2, mode_of_indices, "NONE"), indices.size(), 5123, "SCALAR");
+  document.json["buffers"].push_back(
+      {{"byteLength", fallback_size}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}});
+  document.use("EXT_meshopt_compression");
+  return document;
+}
+
+TEST(Gltf_meshopt, IsReadAsThePlainFileAndWrittenPlain)
+{
+  const Mesh_file plain = read(plain_sheet());
+  for (const char* mode : {"TRIANGLES", "INDICES"}) {
+    const Mesh_file file = read(meshopt_sheet(mode, false));
+    EXPECT_TRUE(has_remark(file, "EXT_meshopt_compression"));
+    EXPECT_EQ(file.soup.points, plain.soup.points);
+    EXPECT_EQ(file.soup.normals.values, plain.soup.normals.values);
+    EXPECT_EQ(triangles_of(file.soup), triangles_of(plain.soup));
+    EXPECT_LE(expect_written_plain(file).size(), plain_sheet().glb().size() + 500);
+  }
+  const Mesh_file filtered = read(meshopt_sheet("INDICES", true));
+  EXPECT_EQ(filtered.soup.points, plain.soup.points);
+  for (const auto& normal : filtered.soup.normals.values) {
+    EXPECT_NEAR(normal[0], 0.6, 0.02);
+    EXPECT_NEAR(normal[2], 0.8, 0.02);
+  }
+  expect_written_plain(filtered);
+}
+
+TEST(Gltf_meshopt, IsRefusedWhereItIsBroken)
+{
+  const Document_of_sheet document = meshopt_sheet("TRIANGLES", true);
+  expect_damage_is_survived(document, 0, document.bytes.size());
+  const std::pair<const char*, Json> changes[] = {{"count", 1u << 30},
+                                                  {"count", 0},
+                                                  {"count", -1},
+                                                  {"byteStride", 3},
+                                                  {"byteStride", 512},
+                                                  {"buffer", 7},
+                                                  {"byteLength", 1u << 30},
+                                                  {"byteOffset", 1u << 30},
+                                                  {"mode", "OTHER"},
+                                                  {"filter", "QUATERNION"}};
+  for (const auto& [key, value] : changes) {
+    Document_of_sheet changed = document;
+    changed.json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"][key] = value;
+    EXPECT_THROW(read(changed), Input_error) << key << " " << value;
+  }
+  Document_of_sheet bomb = document;
+  bomb.json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"]["count"] = 1u << 30;
+  try {
+    read(bomb);
+  } catch (const Input_error& error) {
+    EXPECT_NE(std::string(error.what()).find("more than 256 times its size"), std::string::npos)
+        << error.what();
+  }
+}
+#else
+TEST(Gltf_meshopt, IsRefusedWithTheNameOfWhatIsMissing)
+{
+  Document_of_sheet document = plain_sheet();
+  document.use("EXT_meshopt_compression");
+  try {
+    read(document);
+    ADD_FAILURE();
+  } catch (const Input_error& error) {
+    EXPECT_NE(std::string(error.what()).find("built without meshoptimizer"), std::string::npos);
+  }
+}
+#endif
+
+#ifdef SELVEDGE_HAS_DRACO
+/// The sheet compressed by Draco, without loss.
+Document_of_sheet draco_sheet(bool is_edgebreaker)
+{
+  const Sheet sheet;
+  draco::TriangleSoupMeshBuilder builder;
+  builder.Start(int(sheet.indices.size() / 3));
+  const int position = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
+  const int normal = builder.AddAttribute(draco::GeometryAttribute::GENERIC, 3, draco::DT_FLOAT32);
+  for (std::uint32_t t = 0; t < sheet.indices.size() / 3; ++t) {
+    const auto at = [&](int k) { return &sheet.positions[3 * sheet.indices[3 * t + k]]; };
+    builder.SetAttributeValuesForFace(position, draco::FaceIndex(t), at(0), at(1), at(2));
+    const float* const n = sheet.normals.data();
+    builder.SetAttributeValuesForFace(normal, draco::FaceIndex(t), n, n, n);
+  }
+  const std::unique_ptr<draco::Mesh> mesh = builder.Finalize();
+  draco::ExpertEncoder encoder(*mesh);
+  encoder.SetEncodingMethod(is_edgebreaker ? draco::MESH_EDGEBREAKER_ENCODING
+                                           : draco::MESH_SEQUENTIAL_ENCODING);
+  draco::EncoderBuffer buffer;
+  EXPECT_TRUE(encoder.EncodeToBuffer(&buffer).ok());
+
+  Document_of_sheet document;
+  Json& primitive = document.primitive();
+  primitive["extensions"]["KHR_draco_mesh_compression"] = {
+      {"bufferView", document.add_view({buffer.data(), buffer.size()})},
+      {"attributes",
+       {{"POSITION", mesh->attribute(position)->unique_id()},
+        {"NORMAL", mesh->attribute(normal)->unique_id()}}}};
+  primitive["attributes"]["POSITION"] =
+      document.add_accessor(nullptr, encoder.num_encoded_points(), 5126, "VEC3");
+  primitive["attributes"]["NORMAL"] =
+      document.add_accessor(nullptr, encoder.num_encoded_points(), 5126, "VEC3");
+  primitive["indices"] = document.add_accessor(nullptr, sheet.indices.size(), 5123, "SCALAR");
+  document.use("KHR_draco_mesh_compression");
+  // Without the number that the encoder counts: every vertex of the sheet is a point.
+  for (int accessor : {0, 1})
+    document.json["accessors"][accessor]["count"] = s_vertices;
+  return document;
+}
+
+TEST(Gltf_draco, IsReadAsThePlainFileAndWrittenPlain)
+{
+  const Mesh_file plain = read(plain_sheet());
+  for (const bool is_edgebreaker : {false, true}) {
+    const Mesh_file file = read(draco_sheet(is_edgebreaker));
+    EXPECT_TRUE(has_remark(file, "KHR_draco_mesh_compression"));
+    EXPECT_EQ(triangles_of(file.soup), triangles_of(plain.soup));
+    EXPECT_EQ(file.soup.points.size(), plain.soup.points.size());
+    for (const auto& value : file.soup.normals.values)
+      EXPECT_EQ(value, plain.soup.normals.values.front());
+    EXPECT_LE(expect_written_plain(file).size(), plain_sheet().glb().size() + 500);
+  }
+}
+
+TEST(Gltf_draco, IsRefusedWhereItIsBroken)
+{
+  for (const bool is_edgebreaker : {false, true}) {
+    const Document_of_sheet document = draco_sheet(is_edgebreaker);
+    expect_damage_is_survived(document, 0, std::min<std::size_t>(document.bytes.size(), 400));
+    for (const int accessor : {0, 1, 2})
+      for (const std::uint64_t count : {std::uint64_t(3), std::uint64_t(1) << 30, std::uint64_t(1) << 60}) {
+        Document_of_sheet changed = document;
+        changed.json["accessors"][accessor]["count"] = count;
+        EXPECT_THROW(read(changed), Input_error) << accessor << " " << count;
+      }
+    const std::pair<const char*, Json> changes[] = {
+        {"bufferView", 9}, {"bufferView", -1}, {"bufferView", nullptr}};
+    for (const auto& [key, value] : changes) {
+      Document_of_sheet changed = document;
+      changed.primitive()["extensions"]["KHR_draco_mesh_compression"][key] = value;
+      EXPECT_THROW(read(changed), Input_error) << value;
+    }
+    Document_of_sheet no_attribute = document;
+    no_attribute.primitive()["extensions"]["KHR_draco_mesh_compression"]["attributes"]["POSITION"] = 77;
+    EXPECT_THROW(read(no_attribute), Input_error);
+    Document_of_sheet cut = document;
+    cut.json["bufferViews"][0]["byteLength"] = document.bytes.size() / 2;
+    EXPECT_THROW(read(cut), Input_error);
+  }
+}
+#else
+TEST(Gltf_draco, IsRefusedWithTheNameOfWhatIsMissing)
+{
+  Document_of_sheet document = plain_sheet();
+  document.use("KHR_draco_mesh_compression");
+  try {
+    read(document);
+    ADD_FAILURE();
+  } catch (const Input_error& error) {
+    EXPECT_NE(std::string(error.what()).find("built without Draco"), std::string::npos);
+  }
+}
+#endif
+
+} // namespace
+} // namespace selvedge::test
