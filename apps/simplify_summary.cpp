@@ -69,6 +69,17 @@ std::string remedy(Hindrance reason, const Simplify_request& request, Normals_tr
   }
 }
 
+/// Says how many of the offending pairs the input does not explain.
+std::string origin_of_pairs(const Verification& verification, Defects defects)
+{
+  const std::size_t unexplained = verification.new_pairs.size();
+  if (defects != Defects::descend)
+    return with_commas(unexplained) + " of them new";
+  const std::string of_input = with_commas(verification.pairs_of_original) + " of the input";
+  return unexplained == 0 ? "all descended from the " + of_input
+                          : with_commas(unexplained) + " of them NOT descended from the " + of_input;
+}
+
 /// Says why no option takes a reason away.
 std::string why_it_stays(Hindrance reason)
 {
@@ -228,10 +239,7 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
   else
     stream << counted(verification.pairs.size(), "offending pair")
            << " (triangles that touch or cross, or are degenerate), "
-           << (prepared.defects == Defects::descend
-                   ? with_commas(verification.new_pairs.size()) + " of them not descended from the " +
-                         with_commas(verification.pairs_of_original) + " of the input"
-                   : with_commas(verification.new_pairs.size()) + " of them new");
+           << origin_of_pairs(verification, prepared.defects);
   stream << ", topology " << (verification.same_topology() ? "kept" : "CHANGED")
          << "\ndistance from the original's vertices: " << percent(distance.root_mean_square)
          << " of the diagonal (RMS), at most " << percent(distance.maximum) << '\n';

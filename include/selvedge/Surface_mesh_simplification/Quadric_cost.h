@@ -163,7 +163,7 @@ public:
       Vertex_quadric of_vertex;
       if (!m_state->weights.empty())
         of_vertex.weight = *weight++;
-      of_vertex.accumulated = compute_quadric(v, mesh, points, of_vertex);
+      of_vertex.accumulated = compute_quadric(v, mesh, points, 0, of_vertex);
       put(m_state->quadrics, v, of_vertex);
     }
     m_state->is_initialised = true;
@@ -281,12 +281,13 @@ public:
     merged.weight = (std::max)(at_v0.weight, at_v1.weight);
     const auto& mesh = profile.surface_mesh();
     const auto& points = profile.vertex_point_map();
-    compute_quadric(kept, mesh, points, merged);
+    const double memory = m_state->options.memory;
+    compute_quadric(kept, mesh, points, memory, merged);
     put(m_state->quadrics, kept, merged);
-    if (m_state->options.memory < 1)
+    if (memory < 1)
       for (const Vertex v : CGAL::vertices_around_target(halfedge(kept, mesh), mesh)) {
         Vertex_quadric of_vertex = get(m_state->quadrics, v);
-        compute_quadric(v, mesh, points, of_vertex);
+        compute_quadric(v, mesh, points, memory, of_vertex);
         put(m_state->quadrics, v, of_vertex);
       }
   }
@@ -357,16 +358,16 @@ private:
                                      internal::difference(corners[2], corners[0]))};
   }
 
-  // Computes everything about a vertex that follows from the faces around it and from what it has
-  // accumulated. Returns the quadric of the faces.
+  // Computes everything about a vertex that follows from the faces around it and, as far as `memory` says,
+  // from what it has accumulated. Returns the quadric of the faces, which a memory of 1 does not ask for.
   template <class VertexPointMap>
-  Quadric compute_quadric(Vertex v, const TriangleMesh& mesh, const VertexPointMap& points,
+  Quadric compute_quadric(Vertex v, const TriangleMesh& mesh, const VertexPointMap& points, double memory,
                           Vertex_quadric& of_vertex) const
   {
     const State& state = *m_state;
     Quadric of_faces;
     of_vertex.enclosure = {};
-    if (halfedge(v, mesh) != Graph_traits::null_halfedge())
+    if (memory < 1 && halfedge(v, mesh) != Graph_traits::null_halfedge())
       for (const Halfedge to_v : CGAL::halfedges_around_target(v, mesh)) {
         if (CGAL::is_border(to_v, mesh)) {
           of_vertex.enclosure.is_closed = false;
@@ -382,7 +383,6 @@ private:
         add_line(to_v, normal, corners[2], corners[0], mesh, of_faces);
       }
     of_faces *= of_vertex.weight;
-    const double memory = state.is_initialised ? state.options.memory : 0; // until then, it is the same
     of_vertex.quadric = of_faces;
     of_vertex.quadric *= 1 - memory;
     Quadric remembered = of_vertex.accumulated;
