@@ -139,7 +139,8 @@ group(
     ("m_is_closed && m_size + m_has_target == m_link.size() + 2;", "m_is_closed;", "links that wind twice are cycles"),
     ("for (std::size_t i = 0; i < m_size; ++i)", "for (std::size_t i = 0; i < 2; ++i)", "only the way is asked of the index"),
     ("if (!is_contracted && motion.target && (first == s_to || second == s_to))", "if (false)",
-     "a face beside the edge has a corner at the target"),
+     "a face beside the edge has a corner at the target",
+     "the star is judged with this corner at the target's place, where the face has no area, and refused as well"),
 )
 group(
     loop + "Star_view.h",

@@ -89,7 +89,7 @@ class Build:
         words[words.index("-c") + 1] = str(mutated if mutated.is_file() else TREE / source)
         first = next(i for i, word in enumerate(words) if word.startswith("-I"))
         words[first:first] = [f"-iquote{(TREE / source).parent}", f"-I{overlay / 'include'}", f"-I{overlay / 'src'}"]
-        words.append("-O1")
+        words += ["-O1", "-w"]  # a warning kills no mutant
         status, output = run(words, self.folder)
         return (result, None) if status == 0 else (None, output)
 
