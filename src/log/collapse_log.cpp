@@ -106,22 +106,13 @@ public:
     bool is_rounding_known = false, are_normals_known = false, are_defects_known = false;
     while (next_line()) {
       if (m_words[0] == "rounding" && !is_rounding_known) {
-        expect_words(2, 2, "rounding none|float32");
-        if (m_words[1] != "none" && m_words[1] != "float32")
-          fail("rounding is 'none' or 'float32'");
-        header.is_rounded_to_float32 = m_words[1] == "float32";
+        header.is_rounded_to_float32 = is_second_word("none", "float32");
         is_rounding_known = true;
       } else if (m_words[0] == "normals" && !are_normals_known) {
-        expect_words(2, 2, "normals kept|ignored");
-        if (m_words[1] != "kept" && m_words[1] != "ignored")
-          fail("normals are 'kept' or 'ignored'");
-        header.are_normals_ignored = m_words[1] == "ignored";
+        header.are_normals_ignored = is_second_word("kept", "ignored");
         are_normals_known = true;
       } else if (m_words[0] == "defects" && !are_defects_known) {
-        expect_words(2, 2, "defects freeze|descend");
-        if (m_words[1] != "freeze" && m_words[1] != "descend")
-          fail("defects are to 'freeze' or to 'descend'");
-        header.may_pairs_descend = m_words[1] == "descend";
+        header.may_pairs_descend = is_second_word("freeze", "descend");
         are_defects_known = true;
       } else if (m_words[0] == "obstacle" && !header.obstacle) {
         Log_header::Obstacle obstacle;
@@ -216,6 +207,16 @@ private:
     if (m_stream.bad())
       fail("cannot be read on");
     return false;
+  }
+
+  /// Reads a line of a key and one of two words. Returns whether it is the second.
+  bool is_second_word(const std::string& first, const std::string& second) const
+  {
+    const std::string key(m_words[0]);
+    expect_words(2, 2, (key + ' ' + first + '|' + second).c_str());
+    if (m_words[1] != first && m_words[1] != second)
+      fail("after '" + key + "' comes '" + first + "' or '" + second + "'");
+    return m_words[1] == second;
   }
 
   void expect_words(std::size_t least, std::size_t most, const char* form) const

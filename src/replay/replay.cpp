@@ -5,24 +5,20 @@
 
 #include "Box_tree.h"
 #include "Complex.h"
+#include "Start.h"
 #include "contact.h"
 #include "limits.h"
 #include "snap.h"
 
-#include "soup/selection.h"
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
 #include <selvedge/Sha256.h>
-#include <selvedge/rounding.h>
-#include <selvedge/verify.h>
 
 #include <algorithm>
 #include <charconv>
 #include <chrono>
-#include <memory>
 #include <optional>
 #include <set>
-#include <unordered_map>
 #include <utility>
 
 // Repeats a log on the original and judges every step, exactly and apart from the reduction that wrote it.
@@ -71,174 +67,6 @@ double seconds_since(Clock::time_point start)
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// The pairs of faces that offend at present; f == g for a face without an area.
-class Offences
-{
-public:
-  void add(Index f, Index g)
-  {
-    m_count += m_partners[f].insert(g).second;
-    m_partners[g].insert(f);
-  }
-  std::size_t count() const { return m_count; }
-  bool has(Index f, Index g) const
-  {
-    const auto found = m_partners.find(f);
-    return found != m_partners.end() && found->second.count(g) > 0;
-  }
-  bool has(Index f) const { return m_partners.count(f) > 0; }
-  void remove(Index f)
-  {
-    const auto found = m_partners.find(f);
-    if (found == m_partners.end())
-      return;
-    m_count -= found->second.size();
-    for (const Index g : found->second)
-      if (g != f) {
-        const auto other = m_partners.find(g);
-        other->second.erase(f);
-        if (other->second.empty())
-          m_partners.erase(other);
-      }
-    m_partners.erase(found);
-  }
-
-private:
-  std::unordered_map<Index, std::set<Index>> m_partners;
-  std::size_t m_count = 0;
-};
-
-/// From which offending faces of the start every face descends, where pairs may descend; otherwise from none.
-class Lineage
-{
-public:
-  using Faces = std::vector<Index>; // in ascending order
-
-  void add_pair(Index f, Index g)
-  {
-    for (const auto& [first, second] : {std::make_pair(f, g), std::make_pair(g, f)}) {
-      m_ancestors[first] = std::make_shared<Faces>(1, first);
-      m_rivals[first].push_back(second);
-    }
-  }
-
-  /// Returns the ancestors of all of some faces.
-  Faces united(const std::vector<Index>& faces) const
-  {
-    Faces result;
-    for (const Index f : faces)
-      if (const auto found = m_ancestors.find(f); found != m_ancestors.end())
-        result.insert(result.end(), found->second->begin(), found->second->end());
-    return sorted(std::move(result));
-  }
-
-  /// Returns the faces that offended together with one of these at the start.
-  Faces rivals(const Faces& ancestors) const
-  {
-    Faces result;
-    for (const Index f : ancestors)
-      result.insert(result.end(), m_rivals.at(f).begin(), m_rivals.at(f).end());
-    return sorted(std::move(result));
-  }
-
-  void set(const std::vector<Index>& faces, const Faces& ancestors)
-  {
-    const auto shared = std::make_shared<Faces>(ancestors);
-    for (const Index f : faces)
-      m_ancestors[f] = shared;
-  }
-  void remove(Index f) { m_ancestors.erase(f); }
-
-  bool descends_from_one(Index f, const Faces& of) const
-  {
-    const auto found = m_ancestors.find(f);
-    return found != m_ancestors.end() && have_common(*found->second, of);
-  }
-
-  static bool have_common(const Faces& a, const Faces& b)
-  {
-    return std::any_of(a.begin(), a.end(),
-                       [&](Index f) { return std::binary_search(b.begin(), b.end(), f); });
-  }
-
-private:
-  static Faces sorted(Faces faces)
-  {
-    std::sort(faces.begin(), faces.end());
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-    return faces;
-  }
-
-  std::unordered_map<Index, std::shared_ptr<const Faces>> m_ancestors;
-  std::unordered_map<Index, std::vector<Index>> m_rivals;
-};
-
-/// The original as the writer of the log took it: rounded if the log says so, and without triangles that have
-/// two corners at one position.
-struct Start
-{
-  Triangle_soup soup;
-  std::vector<Index> numbers;  // of its triangles in the original
-  std::vector<char> is_locked; // by position
-  Offences offences;
-  Lineage lineage;
-  std::size_t offending_pairs = 0;
-};
-
-void leave_out_needless(Start& start)
-{
-  const std::vector<Index> first = first_at_position(start.soup.points);
-  std::vector<Index> kept, numbers;
-  for (Index t = 0; t < start.soup.triangles.size(); ++t) {
-    const auto& [a, b, c] = start.soup.triangles[t];
-    if (first[a] == first[b] || first[b] == first[c] || first[c] == first[a])
-      continue;
-    kept.push_back(t);
-    numbers.push_back(start.numbers[t]);
-  }
-  keep_triangles(start.soup, kept);
-  start.numbers = std::move(numbers);
-}
-
-Start prepare(const Triangle_soup& original, const Log_header& header)
-{
-  Start start;
-  start.soup = original;
-  if (header.are_normals_ignored)
-    start.soup.normals = {};
-  for (Index t = 0; t < original.triangles.size(); ++t)
-    start.numbers.push_back(t);
-  leave_out_needless(start);
-  const std::vector<Index> before = first_at_position(start.soup.points);
-  if (header.is_rounded_to_float32) {
-    round_to_float32(start.soup);
-    leave_out_needless(start);
-  }
-  const std::vector<Index> first = first_at_position(start.soup.points);
-  std::vector<char> is_frozen(start.soup.triangles.size(), false);
-  for (const Offending_pair& pair : offending_pairs(start.soup)) {
-    if (!header.may_pairs_descend || pair.offence == Offence::degenerate)
-      is_frozen[pair.first] = is_frozen[pair.second] = true;
-    if (header.may_pairs_descend)
-      start.lineage.add_pair(pair.first, pair.second);
-    start.offences.add(pair.first, pair.second);
-    ++start.offending_pairs;
-  }
-  // Where rounding alone has made several positions one, the faces there are frozen.
-  std::vector<char> is_merged(first.size(), false);
-  for (Index v = 0; v < first.size(); ++v)
-    if (before[v] != before[first[v]])
-      is_merged[first[v]] = true;
-  start.is_locked.assign(first.size(), false);
-  for (Index t = 0; t < start.soup.triangles.size(); ++t) {
-    for (const Index v : start.soup.triangles[t])
-      is_frozen[t] = is_frozen[t] || is_merged[first[v]];
-    for (const Index v : start.soup.triangles[t])
-      start.is_locked[first[v]] = start.is_locked[first[v]] || is_frozen[t];
-  }
-  return start;
-}
-
 /// A motion of the vertices at a position: to another position, with which they merge, or to a place that is
 /// no position.
 struct Motion
@@ -253,7 +81,7 @@ class Replay
 public:
   Replay(const Triangle_soup& original, bool is_stl, Log_reader& log, const Replay_options& options)
       : m_numbering(original, is_stl), m_log(log), m_options(options),
-        m_start(prepare(original, log.header())), m_complex(m_start.soup),
+        m_start(start_of(original, log.header())), m_complex(m_start.soup),
         m_limits(judged_limits(log.header(), options))
   {
     const Log_header& header = log.header();

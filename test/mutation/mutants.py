@@ -336,6 +336,17 @@ group(
     ("m_volume == at_end ? Answer::touching : Answer::clear;", "Answer::clear;", "a face may fold through another"),
 )
 group(
+    "src/replay/Start.cpp",
+    ("replay_all_test", "replay_test", "replay_mutation_test"),
+    ("is_merged[first[v]] = true;", "", "what rounding merges moves"),
+    ("start.is_locked[first[v]] || is_frozen[t];", "start.is_locked[first[v]];", "faces that offend move"),
+)
+group(
+    "src/replay/Start.cpp",
+    ("descent_test",),
+    ("if (!header.may_pairs_descend || pair.offence", "if (pair.offence", "pairs may descend in any log"),
+)
+group(
     "src/replay/replay.cpp",
     ("replay_all_test", "replay_test", "replay_mutation_test"),
     ("!m_complex.is_one_fan(position))", "false)", "what holds sheets together moves"),
@@ -345,9 +356,7 @@ group(
     ("if (!m_complex.has(f, motion.mover))", "if (f % 2 == 0)", "half of what stands still is not seen"),
     ("if (face.sweep.touches(standing))", "if (false)", "tunnelling through what stands still"),
     ("face.sweep.touches(side))", "false)", "tunnelling within the star"),
-    ("is_merged[first[v]] = true;", "", "what rounding merges moves"),
     ("m_tree.set(f, m_boxes[f]);", "", "the tree does not follow"),
-    ("start.is_locked[first[v]] || is_frozen[t];", "start.is_locked[first[v]];", "faces that offend move"),
 )
 group(
     "src/replay/snap.cpp",
@@ -430,6 +439,5 @@ group(
     ("m_heritage = m_start.lineage.united(m_changing);", "m_heritage = m_start.lineage.united({m_changing.front()});",
      "one triangle alone hands on ancestors"),
     (": m_start.lineage.descends_from_one(other, m_rivals);", ": true;", "whatever has ancestors may offend with all others"),
-    ("if (!header.may_pairs_descend || pair.offence", "if (pair.offence", "pairs may descend in any log"),
     ("if (!m_verdict.header.obstacle && m_off", "if (m_off", "pairs are counted without those with the obstacle"),
 )

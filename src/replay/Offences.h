@@ -1,0 +1,56 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_REPLAY_OFFENCES_H
+#define SELVEDGE_REPLAY_OFFENCES_H
+
+#include <selvedge/Triangle_soup.h>
+
+#include <cstddef>
+#include <set>
+#include <unordered_map>
+
+namespace selvedge {
+namespace reference {
+
+/// The pairs of faces that offend at present; f == g for a face without an area.
+class Offences
+{
+public:
+  void add(Index f, Index g)
+  {
+    m_count += m_partners[f].insert(g).second;
+    m_partners[g].insert(f);
+  }
+  std::size_t count() const { return m_count; }
+  bool has(Index f, Index g) const
+  {
+    const auto found = m_partners.find(f);
+    return found != m_partners.end() && found->second.count(g) > 0;
+  }
+  bool has(Index f) const { return m_partners.count(f) > 0; }
+  void remove(Index f)
+  {
+    const auto found = m_partners.find(f);
+    if (found == m_partners.end())
+      return;
+    m_count -= found->second.size();
+    for (const Index g : found->second)
+      if (g != f) {
+        const auto other = m_partners.find(g);
+        other->second.erase(f);
+        if (other->second.empty())
+          m_partners.erase(other);
+      }
+    m_partners.erase(found);
+  }
+
+private:
+  std::unordered_map<Index, std::set<Index>> m_partners;
+  std::size_t m_count = 0;
+};
+
+} // namespace reference
+} // namespace selvedge
+
+#endif // SELVEDGE_REPLAY_OFFENCES_H

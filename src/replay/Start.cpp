@@ -1,0 +1,75 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "Start.h"
+
+#include "Complex.h"
+
+#include "soup/selection.h"
+#include <selvedge/rounding.h>
+#include <selvedge/verify.h>
+
+#include <utility>
+
+namespace selvedge {
+namespace reference {
+namespace {
+
+void leave_out_needless(Start& start)
+{
+  const std::vector<Index> first = first_at_position(start.soup.points);
+  std::vector<Index> kept, numbers;
+  for (Index t = 0; t < start.soup.triangles.size(); ++t) {
+    const auto& [a, b, c] = start.soup.triangles[t];
+    if (first[a] == first[b] || first[b] == first[c] || first[c] == first[a])
+      continue;
+    kept.push_back(t);
+    numbers.push_back(start.numbers[t]);
+  }
+  keep_triangles(start.soup, kept);
+  start.numbers = std::move(numbers);
+}
+
+} // namespace
+
+Start start_of(const Triangle_soup& original, const Log_header& header)
+{
+  Start start;
+  start.soup = original;
+  if (header.are_normals_ignored)
+    start.soup.normals = {};
+  for (Index t = 0; t < original.triangles.size(); ++t)
+    start.numbers.push_back(t);
+  leave_out_needless(start);
+  const std::vector<Index> before = first_at_position(start.soup.points);
+  if (header.is_rounded_to_float32) {
+    round_to_float32(start.soup);
+    leave_out_needless(start);
+  }
+  const std::vector<Index> first = first_at_position(start.soup.points);
+  std::vector<char> is_frozen(start.soup.triangles.size(), false);
+  for (const Offending_pair& pair : offending_pairs(start.soup)) {
+    if (!header.may_pairs_descend || pair.offence == Offence::degenerate)
+      is_frozen[pair.first] = is_frozen[pair.second] = true;
+    if (header.may_pairs_descend)
+      start.lineage.add_pair(pair.first, pair.second);
+    start.offences.add(pair.first, pair.second);
+    ++start.offending_pairs;
+  }
+  // Where rounding alone has made several positions one, the faces there are frozen.
+  std::vector<char> is_merged(first.size(), false);
+  for (Index v = 0; v < first.size(); ++v)
+    if (before[v] != before[first[v]])
+      is_merged[first[v]] = true;
+  start.is_locked.assign(first.size(), false);
+  for (Index t = 0; t < start.soup.triangles.size(); ++t) {
+    for (const Index v : start.soup.triangles[t])
+      is_frozen[t] = is_frozen[t] || is_merged[first[v]];
+    for (const Index v : start.soup.triangles[t])
+      start.is_locked[first[v]] = start.is_locked[first[v]] || is_frozen[t];
+  }
+  return start;
+}
+
+} // namespace reference
+} // namespace selvedge

@@ -1,0 +1,37 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_REPLAY_START_H
+#define SELVEDGE_REPLAY_START_H
+
+#include "Lineage.h"
+#include "Offences.h"
+
+#include <selvedge/Triangle_soup.h>
+#include <selvedge/collapse_log.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace selvedge {
+namespace reference {
+
+/// The original as the writer of the log took it: rounded if the log says so, and without triangles that have
+/// two corners at one position.
+struct Start
+{
+  Triangle_soup soup;
+  std::vector<Index> numbers;  // of its triangles in the original
+  std::vector<char> is_locked; // by position
+  Offences offences;
+  Lineage lineage;
+  std::size_t offending_pairs = 0;
+};
+
+/// Takes the original as the header of a log says.
+Start start_of(const Triangle_soup& original, const Log_header& header);
+
+} // namespace reference
+} // namespace selvedge
+
+#endif // SELVEDGE_REPLAY_START_H
