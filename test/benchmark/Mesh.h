@@ -26,30 +26,26 @@ struct Mesh
   Prepared_soup prepared;
 };
 
-/// Prepares a soup such that faces that intersect already do not move, which any program can be asked for.
-inline Prepared_soup prepare_frozen(Triangle_soup soup)
+/// A file, or what `generate` makes: SCENE:FACES. By default faces that intersect already do not move, which
+/// any program can be asked for.
+inline Mesh mesh(const std::string& argument, Defects defects = Defects::freeze)
 {
-  Prepare_options options;
-  options.defects = Defects::freeze;
-  return prepare(std::move(soup), options);
-}
-
-/// A file, or what `generate` makes: SCENE:FACES.
-inline Mesh mesh(const std::string& argument)
-{
+  Prepare_options of_soup;
+  of_soup.defects = defects;
+  of_soup.normals = Normals_choice::automatic;
   std::string name = std::filesystem::path(argument).stem().string();
   std::replace_if(
       name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c) && c != '-' && c != ':'; },
       '_');
   const std::size_t colon = argument.rfind(':');
   if (colon == std::string::npos || std::filesystem::exists(argument))
-    return {name, prepare_frozen(read_mesh(argument).soup)};
+    return {name, prepare(read_mesh(argument).soup, of_soup)};
   Generate_options options;
   const char* const end = argument.data() + argument.size();
   if (const auto [stop, error] = std::from_chars(argument.data() + colon + 1, end, options.faces);
       error != std::errc() || stop != end)
     throw CLI::ValidationError(argument + " is neither a file nor SCENE:FACES");
-  return {name, prepare_frozen(generate(argument.substr(0, colon), options))};
+  return {name, prepare(generate(argument.substr(0, colon), options), of_soup)};
 }
 
 } // namespace selvedge::benchmark
