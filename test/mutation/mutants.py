@@ -167,7 +167,12 @@ group(
     loop + "Collapse.h",
     ("guard_test", "policies_test", "motion_test"),
     ("place != profile.p0(), place != profile.p1(),", "place != profile.p0(), place == profile.p0(),", "the second motion to a new place is not judged"),
-    ("!is_onto_v0, is_onto_v0, is_onto_v0)", "is_onto_v0, !is_onto_v0, is_onto_v0)", "the wrong end moves"),
+)
+group(
+    loop + "Collapse.h",
+    ("replay_test:Replay.Accepts*",),
+    ("!is_onto_v0, is_onto_v0, is_onto_v0)", "is_onto_v0, !is_onto_v0, is_onto_v0)", "the limits judge the end that stays"),
+    sources=("src/simplify/simplify_soup.cpp",),
 )
 
 group(
