@@ -130,6 +130,23 @@ TEST(Sweep, FaceInsideTheSweepIsNotClear)
   EXPECT_FALSE(is_clear(sweep, {Point(1, 1, 1), Point(2, 1, 1), Point(3, 1, 1)}));
 }
 
+TEST(Sweep, FaceInsideAFacetOfTheSweepIsNotClear)
+{
+  // Facet k is opposite to corner k. No edge of the face leaves its plane, and no corner of the sweep is in
+  // the face.
+  const std::array<Point, 4> sweep{Point(0, 0, 0), Point(8, 0, 0), Point(0, 8, 0), Point(0, 0, 8)};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::array<Point, 3> corners{sweep[k ^ 1], sweep[k ^ 2], sweep[k ^ 3]};
+    std::array<Point, 3> face;
+    for (std::size_t i = 0; i < 3; ++i)
+      face[i] = CGAL::barycenter(corners[i], 6, corners[(i + 1) % 3], 1, corners[(i + 2) % 3], 1);
+    EXPECT_FALSE(is_clear(sweep, face)) << k;
+    EXPECT_FALSE(
+        selvedge::Sweep_test<Kernel>(sweep[0], sweep[1], sweep[2], sweep[3]).is_clear(face[0], face[1]))
+        << k;
+  }
+}
+
 TEST(Sweep, SmallestGapsAndContactsAreTold)
 {
   // The sheet one step of a double below the lowest point of the sweep, and at it.
