@@ -65,12 +65,11 @@ Vector shortest_between(const Segment& first, const Segment& second)
 // Let m be the largest coordinate, and ε = 2⁻⁵³. Ends of capsules are no larger than m, the radius of a
 // capsule that is asked is below 2 m, and so the sum r of two radii is below 4 m.
 // - A distance from a segment, plus a radius, is too small by at most 2⁶ ε m: a coordinate of the point on
-// the
-//   segment is wrong by at most 6 ε m, one of the difference by 8 ε m, its length by 14 ε m for these and
+//   the segment is wrong by at most 6 ε m, one of the difference by 8 ε m, its length by 14 ε m for these and
 //   14 ε m for its own rounding, and the sum with a radius by 8 ε m.
 // - For any vector n, a product with an end is wrong by at most 3 ε m (|n₁| + |n₂| + |n₃|) < 6 ε m |n|. The
-// gap
-//   between two capsules' segments along n, the least of four differences, is wrong by less than 2⁴ ε m |n|.
+//   gap between two capsules' segments along n, the least of four differences, is wrong by less than
+//   2⁴ ε m |n|.
 // - The product of r and |n|, as it is compared, is wrong by at most 2⁴ ε r |n| < 2⁶ ε m |n|.
 // A margin of 2⁹ ε m for each capsule covers the first and half of the others. It holds as well where the
 // compiler contracts a product and a sum into one operation.
