@@ -103,6 +103,13 @@ TEST(Hindrances, TellFrozenFromLocked)
   EXPECT_EQ(locked[Hindrance::frozen], 0u);
   EXPECT_GT(locked[Hindrance::locked], 0u);
   EXPECT_EQ(hindrances_of(named, to_nothing())[Hindrance::locked], 0u);
+
+  // An edge with one locked end counts for what refuses the other end.
+  Simplify_options refused = to_nothing();
+  refused.min_aspect_ratio = 1;
+  const Hindrances by_aspect = hindrances_of(named, refused, intent);
+  EXPECT_LE(by_aspect[Hindrance::locked], 5u); // within the two faces
+  EXPECT_GT(by_aspect[Hindrance::aspect_ratio], 100u);
 }
 
 TEST(Hindrances, LeaveOutWhatIsFixedFromTheStart)
