@@ -179,7 +179,8 @@ private:
     m_outcome.is_target_required = m_request.is_target_required;
     for (Level& level : levels) {
       level.verification = verify(level.result, prepared);
-      level.polygons = {m_polygons, written_polygons(written(level.result), output_format())};
+      if (m_polygons > 0) // otherwise the soup need not be merged and copied for it
+        level.polygons = {m_polygons, written_polygons(written(level.result), output_format())};
       m_outcome.is_accepted &= level.verification.accepted() && level.verification.same_topology();
       m_outcome.is_interrupted |= level.result.report.is_stopped;
       m_outcome.is_reached &= level.result.report.is_reached();

@@ -9,6 +9,7 @@
 #include <selvedge/Error.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -98,15 +99,10 @@ void refuse_extensions(const Gltf_document& document)
       const std::string name = extension;
       if (const auto found = refused.find(name); found != refused.end())
         document.fail(found->second);
-      const auto begins_with = [&](std::string_view prefix) {
-        return name.compare(0, prefix.size(), prefix) == 0;
-      };
       if (const std::string library = missing_decoder(name); !library.empty())
         document.fail("it is compressed with " + name + ", and this program was built without " + library +
                       ", which decodes that; export it without compression");
-      if (list == std::string_view("extensionsRequired") && !is_decoded(name) &&
-          !begins_with("KHR_materials_") && !begins_with("KHR_texture_") && !begins_with("EXT_texture_") &&
-          !begins_with("MSFT_texture_") && !begins_with("KHR_lights_") && !begins_with("KHR_xmp"))
+      if (list == std::string_view("extensionsRequired") && !is_decoded(name) && !is_apart_from_meshes(name))
         document.fail("it requires the extension " + name + ", which is not known here; export it without");
     }
 }
@@ -307,6 +303,15 @@ void place_nodes(Gltf_document& document)
 }
 
 } // namespace
+
+bool is_apart_from_meshes(const std::string& extension)
+{
+  constexpr std::array<std::string_view, 6> prefixes{"KHR_materials_", "KHR_texture_", "EXT_texture_",
+                                                     "MSFT_texture_",  "KHR_lights_",  "KHR_xmp"};
+  return std::any_of(prefixes.begin(), prefixes.end(), [&](std::string_view prefix) {
+    return extension.compare(0, prefix.size(), prefix) == 0;
+  });
+}
 
 void Gltf_document::fail(const std::string& message) const
 {

@@ -39,6 +39,10 @@ Gltf_document read_gltf_document(std::string_view contents, Mesh_format format, 
 /// Returns a list in an object; an empty one when it is not there.
 const Gltf_scene::Json& member(const Gltf_scene::Json& object, const char* name);
 
+/// Returns whether an extension of this name is of materials, textures, lights or metadata: it says nothing
+/// of meshes, and refers to no accessor or buffer view.
+bool is_apart_from_meshes(const std::string& extension);
+
 } // namespace selvedge::files
 
 #endif // SELVEDGE_SRC_FILES_GLTF_DOCUMENT_H

@@ -297,12 +297,7 @@ private:
   {
     for (const Json& extension : member(json(), "extensionsUsed")) {
       const std::string name = extension.is_string() ? extension.get<std::string>() : "";
-      const auto begins_with = [&](std::string_view prefix) {
-        return name.compare(0, prefix.size(), prefix) == 0;
-      };
-      if (!begins_with("KHR_materials_") && !begins_with("KHR_texture_") && !begins_with("EXT_texture_") &&
-          !begins_with("MSFT_texture_") && !begins_with("KHR_lights_") && !begins_with("KHR_xmp") &&
-          name != "KHR_mesh_quantization")
+      if (!is_apart_from_meshes(name) && name != "KHR_mesh_quantization")
         return false;
     }
     return true;
