@@ -321,6 +321,35 @@ TEST(Placement, LevelsAndCellsAreWhatTheyAreWithEnds)
   EXPECT_TRUE(verdict.is_result_stated);
 }
 
+// Two rough pyramids without their tips, which nearly touch at the wall between two cells: neither cell sees
+// the end of the other pyramid. The best places are where the tips were: the pyramids would go through each
+// other.
+TEST(Placement, NewPlacesStayInTheirCell)
+{
+  const Triangle_soup pyramid = mapped(sheet(20, 20), [](const Point_3& p) {
+    const double u = p.x() / 10 - 1, v = p.y() / 10 - 1, beside = std::max(std::abs(u), std::abs(v));
+    const double roughness = beside < 0.35 ? 0 : 0.05 * std::sin(5 * p.x() + 7 * p.y());
+    return Point_3(-std::max(beside * beside - 0.01, 0.0) / 2 - 1e-4 - roughness, u * std::abs(u),
+                   v * std::abs(v));
+  });
+  const auto is_beyond = [](const Point_3& p) { return p.x() > 1e-4; };
+  const Triangle_soup alone = reduce(pyramid, optimal(to_ratio(0.3))).simplified.soup;
+  EXPECT_TRUE(std::any_of(alone.points.begin(), alone.points.end(), is_beyond));
+
+  const Triangle_soup half = joined(pyramid, soup({{-9, 0, 0}, {-9, 0, 1}, {-9, 1, 0}}, {{0, 1, 2}}));
+  const auto turned = [](const Point_3& p) { return Point_3(-p.x(), -p.y(), p.z()); };
+  // A triangle in the plane that halves the vertices: this is where the wall is.
+  const Triangle_soup both =
+      joined(joined(half, mapped(half, turned)), soup({{0, 2, 0}, {0, 2, 1}, {0, 3, 0}}, {{0, 1, 2}}));
+  Simplify_options in_cells = optimal(to_ratio(0.1));
+  in_cells.faces_per_cell = 900;
+  const Logged_reduction reduction = reduce_and_log(both, in_cells);
+  EXPECT_EQ(reduction.simplified.report.cells, 2u);
+  EXPECT_GT(reduction.simplified.report.collapses_in_cells, 100u);
+  const Replay_verdict verdict = replay_text(both, reduction.log);
+  EXPECT_TRUE(verdict.is_accepted()) << verdict.violations.front().message;
+}
+
 TEST(Placement, QuadricIsLeastWhereItSays)
 {
   std::mt19937 random(7);

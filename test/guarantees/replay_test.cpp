@@ -330,6 +330,14 @@ TEST(Replay, RefusesASnapThatMakesAnEdgeOfThreeTriangles)
   EXPECT_EQ(verdict.violations[0].step, 4u);
 }
 
+TEST(Replay, RefusesASnapThatMakesAnEdgeOfTrianglesThatFaceOppositeWays)
+{
+  // Two faces at vertex 1: the borders run from 0 to 1 and from 3 to 1, and 4 is near 1.
+  const Triangle_soup soup =
+      test::soup({{1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {1, 0, 0.005}, {0, 0, 0.005}}, {{0, 1, 2}, {4, 3, 1}});
+  EXPECT_EQ(kind_of_first(soup, with_snaps(soup, "0.01", "s 0 3\n")), Violation_kind::link);
+}
+
 TEST(Replay, RefusesASnapThroughWhatLiesInTheGapOrToWhatOffends)
 {
   const Triangle_soup hanging =
@@ -460,6 +468,38 @@ TEST(Replay, JudgesPlacesThatAreNoVertices)
       << "where 12 is";
 }
 
+TEST(Replay, RefusesATouchOfTwoVertices)
+{
+  // The border of a sheet goes where the tip of another face in its plane is.
+  const Triangle_soup flat = joined(sheet(4, 4), soup({{5, 0.5, 0}, {6, 0, 0}, {6, 1, 0}}, {{0, 1, 2}}));
+  const auto kind = [&](const std::string& place) {
+    return kind_of_first(flat, head_of(flat) + "c 9 4 " + place + "\nresult 1 32 -\n");
+  };
+  EXPECT_EQ(kind("5 0.5 0"), Violation_kind::intersection);
+  EXPECT_TRUE(replay_text(flat, head_of(flat) + "c 9 4 4.9 0.5 0\nresult 1 32 -\n").is_accepted());
+}
+
+TEST(Replay, RefusesWhatTheLinkConditionForbids)
+{
+  // A tube of three sides: around it no triangle joins the three vertices of a ring.
+  std::vector<Point_3> points;
+  std::vector<Index_triple> triangles;
+  for (Index ring = 0; ring < 4; ++ring) {
+    points.insert(points.end(), {{0, 0, double(ring)}, {1, 0, double(ring)}, {0, 1, double(ring)}});
+    for (Index k = 0; k < 3 && ring > 0; ++k) {
+      const Index a = 3 * ring - 3 + k, b = 3 * ring - 3 + (k + 1) % 3;
+      triangles.insert(triangles.end(), {{a, b, b + 3}, {a, b + 3, a + 3}});
+    }
+  }
+  const Triangle_soup tube = soup(points, triangles);
+  EXPECT_EQ(kind_of_first(tube, head_of(tube) + "c 3 4\nresult 1 16 -\n"), Violation_kind::link);
+  // Of a single face nothing would be left.
+  const Triangle_soup two = joined(one_triangle(), moved(one_triangle(), 9, 0, 0));
+  EXPECT_EQ(kind_of_first(two, head_of(two) + "c 0 1\nresult 1 1 -\n"), Violation_kind::link);
+  // Two sheets that meet in a vertex: it stays.
+  EXPECT_EQ(kind_of_first(bowtie(), head_of(bowtie()) + "c 0 1\nresult 1 1 -\n"), Violation_kind::locked);
+}
+
 TEST(Replay, RefusesToLeaveALineAndToTurnASeamTooFar)
 {
   // Two groups meet in a seam that turns by 45 degrees at its middle vertex, 7.
@@ -477,6 +517,9 @@ TEST(Replay, RefusesToLeaveALineAndToTurnASeamTooFar)
   EXPECT_TRUE(replay_text(soup, head_of(soup, "limit seam_turn 46\n") + along).is_accepted());
   EXPECT_EQ(kind_of_first(soup, head_of(soup, "limit seam_turn 180\n") + off), Violation_kind::line);
   EXPECT_TRUE(replay_text(soup, head_of(soup) + off).is_accepted()) << "without a limit there is no line";
+  // Where a seam ends on the border, the vertex stays.
+  EXPECT_EQ(kind_of_first(soup, head_of(soup, "limit seam_turn 180\n") + "c 5 10\nresult 1 15 -\n"),
+            Violation_kind::line);
 }
 
 TEST(Replay, FrozenFacesDoNotMove)

@@ -263,6 +263,7 @@ group(
     ("line_reason(e) < weakest_gone", "line_reason(e) <= weakest_gone", "the kinds of lines are mixed up"),
     ("m_targets.is_reached() || m_report.is_stopped)\n      return;", "m_report.is_stopped)\n      return;",
      "reasons where the target is reached"),
+    sources=("src/simplify/simplify_soup.cpp",),
 )
 group(
     loop + "Edge_queue.h",

@@ -10,6 +10,7 @@ every test must pass. With ccache a second run compiles only what has changed. T
 
     test/mutation/run.py                       all mutants
     test/mutation/run.py --only Projected_star    those whose file, change or reason holds a word
+    test/mutation/run.py --rows 82-               what an earlier run did not come to
     test/mutation/run.py --list                only tells whether the tree still has every place that is to be changed
 
 What becomes of a mutant:
@@ -164,6 +165,7 @@ def judge(build, mutant, seconds, overlay):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", default="", metavar="WORD", help="mutants whose file, change or reason holds this")
+    parser.add_argument("--rows", default="1-", metavar="FIRST-LAST", help="of these, by their numbers: 82-120, 82-")
     parser.add_argument("--list", action="store_true", help="compile nothing")
     parser.add_argument("--build", type=pathlib.Path, default=TREE / "build/dev", metavar="FOLDER")
     parser.add_argument("--jobs", type=int, default=1, metavar="NUMBER", help="mutants at a time")
@@ -171,6 +173,8 @@ def main():
 
     chosen = [mutant for mutant in mutants.ALL
               if arguments.only in " ".join([mutant.file, mutant.old, mutant.new, mutant.reason])]
+    first, _, last = arguments.rows.partition("-")
+    chosen = chosen[int(first) - 1:int(last) if last else None]
     for mutant in chosen:
         count = (TREE / mutant.file).read_text(encoding="utf-8").count(mutant.old) if (TREE / mutant.file).is_file() else 0
         if count != 1:
@@ -202,7 +206,7 @@ def main():
 
     counts = {}
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        for number, (mutant, (became, by)) in enumerate(zip(chosen, pool.map(outcome, chosen)), 1):
+        for number, (mutant, (became, by)) in enumerate(zip(chosen, pool.map(outcome, chosen)), int(first)):
             counts[became] = counts.get(became, 0) + 1
             print(f"| {number} | {mutant.file.rsplit('/')[-1]} | {mutant.reason} | {became} | {by} |", flush=True)
     print(", ".join(f"{count} {outcome}" for outcome, count in sorted(counts.items())))

@@ -227,6 +227,55 @@ TEST(Snapping_rules, AnEdgeGetsNoThirdFace)
   EXPECT_TRUE(alone.notes.snaps.empty()) << "the two are joined by an edge";
 }
 
+// A sheet whose corner is between two partners goes to the nearer one, which is too far from the other: there
+// is no edge any more that the vertex beside it could have in common with the other sheet.
+TEST(Snapping_rules, PartnersThatAnotherSnapHasPartedStay)
+{
+  const Triangle_soup above = shifted(sheet(2, 1), 0, 1.006), beside = shifted(sheet(1, 1), 1.009, -0.003);
+  const Snapped apart = snap(joined(joined(sheet(1, 1), above), beside));
+  EXPECT_EQ(apart.notes.snaps.size(), 2u);
+  EXPECT_EQ(apart.notes.seam_edges, 1u);
+  EXPECT_EQ(snap(joined(sheet(1, 1), beside)).notes.snaps.size(), 2u) << "the control";
+}
+
+TEST(Snapping_rules, AnInnerEdgeGetsNoThirdFace)
+{
+  // Two faces at the edge from 0 to 1, and two that hang on vertex 0 and come near vertices 1 and 2.
+  const Snapped result =
+      snap(soup({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, -1, 0}, {1, 0, 0.005}, {1, 1, 0.005}, {0.7, 0.3, 1}},
+                {{0, 1, 2}, {1, 0, 3}, {4, 6, 5}, {4, 0, 6}}));
+  EXPECT_EQ(result.notes.left_unmanifold, 2u);
+  EXPECT_EQ(result.notes.snaps.size(), 1u);
+}
+
+TEST(Snapping_rules, NoFaceTurnsOver)
+{
+  // The first face would have to pass through its own longest edge.
+  const Snapped result =
+      snap(soup({{0, 0.003, 0}, {-1, 0, 0}, {1, 0, 0}, {-1, -0.004, 0}, {0, -0.003, 0}, {-0.5, -1, 0}},
+                {{0, 1, 2}, {3, 4, 5}}));
+  EXPECT_EQ(result.notes.left_folding, 2u);
+  EXPECT_EQ(result.notes.snaps.size(), 1u);
+}
+
+TEST(Snapping_rules, WhatHasSnappedIsInTheWay)
+{
+  // One face above the gap and one below it: their snaps, which come first, draw one of them across it.
+  const Triangle_soup faces = soup({{3.004, 0.8, 0.002},
+                                    {3.004, 1.5, 0.002},
+                                    {3.004, 1.2, 1},
+                                    {3.004, 0.8, -0.001},
+                                    {3.004, 1.5, -0.001},
+                                    {3.004, 1.2, -1}},
+                                   {{0, 1, 2}, {4, 3, 5}});
+  const Triangle_soup sheets = joined(sheet(3, 3), shifted(sheet(3, 3), 3.008, 0));
+  const Snapped result = snap(joined(sheets, faces));
+  EXPECT_EQ(result.notes.left_blocked, 2u);
+  EXPECT_EQ(result.notes.snaps.size(), 5u);
+  EXPECT_TRUE(is_embedded(result.soup));
+  EXPECT_EQ(snap(sheets).notes.left_blocked, 0u) << "the control";
+}
+
 // Distances as large as the faces ask for what would degenerate, fold or pierce: it is refused.
 TEST(Snapping_rules, AnyDistanceLeavesTheMeshEmbedded)
 {
