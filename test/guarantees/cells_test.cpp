@@ -112,6 +112,22 @@ TEST(Cells, AreAsTrueToTheOriginalAsTheWhole)
   EXPECT_LT(deviation(in_cells(to_ratio(0.3), 20000)), 1.03 * deviation(to_ratio(0.3)));
 }
 
+// A rough sheet beside a flat one of more vertices, each in a cell: the flat one alone reaches the target.
+TEST(Cells, AllStopAtTheCostThatHalfOfThemHaveReached)
+{
+  const Triangle_soup flat = sheet(26, 24);
+  const Triangle_soup rough = mapped(sheet(24, 24), [](const Point_3& p) {
+    return Point_3(p.x() + 30, p.y(), std::sin(5 * p.x() + 7 * p.y()));
+  });
+  const Triangle_soup both = joined(flat, rough);
+  const Reduction reduction = reduce(both, in_cells(to_ratio(0.6), both.triangles.size() - 100));
+  EXPECT_EQ(reduction.simplified.report.cells, 2u);
+  EXPECT_GT(reduction.simplified.report.collapses_in_cells, 100u);
+  const auto is_rough = [&](Index t) { return t >= flat.triangles.size(); };
+  const auto& left = reduction.simplified.triangles;
+  EXPECT_EQ(std::size_t(std::count_if(left.begin(), left.end(), is_rough)), rough.triangles.size());
+}
+
 // The control of the replay: what has no cells but layers, each reduced as if the other were not there, is
 // not legal when put together.
 TEST(Cells, WouldNotBeLegalIfTheyWereNotConvex)
@@ -270,6 +286,9 @@ TEST(Cells, GoAsFarAsAnErrorAllows)
   const Reduction reduction = reduce(skirt(8000, 2), options);
   EXPECT_TRUE(reduction.verification.accepted());
   options.faces_per_cell = 0;
+  // In a cell too the error is a share of the whole, not of the cell.
+  EXPECT_GT(double(reduction.simplified.report.collapses_in_cells),
+            0.4 * double(reduction.simplified.report.collapses));
   const std::size_t faces = reduction.simplified.soup.triangles.size();
   const std::size_t faces_without = reduce(skirt(8000, 2), options).simplified.soup.triangles.size();
   EXPECT_LT(faces, 6000u);

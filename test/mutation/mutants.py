@@ -276,13 +276,14 @@ group(
     ("cells_sewing_test", "cells_test"),
     ("if (!(low[i] < p[i] && p[i] < high[i]))", "if (!(low[i] <= p[i] && p[i] <= high[i]))", "walls belong to cells"),
     ("if (!is_locked[v] && (is_bound[a] || is_bound[b]))", "if (!is_locked[v] && is_bound[v])", "neighbours of the wall move"),
-    ("if (low <= plane)", "if (low < plane)", "faces that touch the wall are not in the cell below"),
+    ("if (low <= plane)", "if (low < plane)", "faces that touch the wall are not in the cell below",
+     "what moves in a cell is with its neighbours inside the wall, which such a face does not come into"),
     ("if (cost > limit)", "if (false)", "every cell goes to its own cost"),
     ("working.constraints().diagonal = whole.diagonal;", "", "drift as a share of the cell"),
 )
 group(
     "src/soup/Working_mesh.cpp",
-    ("working_mesh_part_test", "cells_test", "attributes_test", "seams_test"),
+    ("working_mesh_part_test", "cells_test", "attributes_test", "seams_test", "random_soups_test", "worlds_test"),
     ("side < sewing.mate(side) && rule.is_line(mesh.edge(originals[side])))", "side < sewing.mate(side) && false)",
      "cells know no lines"),
     ("differ_in_label(m_soup.groups) || differ_in_label(m_soup.objects)", "differ_in_label(m_soup.objects)",
@@ -296,7 +297,7 @@ group(
 )
 group(
     "src/soup/Sewing.cpp",
-    ("slits_test", "cells_sewing_test", "topology_test", "seams_test", "random_soups_test"),
+    ("slits_test", "cells_sewing_test", "topology_test", "seams_test", "random_soups_test", "obstacle_test", "worlds_test"),
     ("if (tear_parallel_edges(matching.unsewn()))", "if (false)", "two edges between two vertices"),
     ("beyond - first == 2 && is_opposite &&\n", "beyond - first == 2 &&\n", "sides that run the same way are sewn"),
     ("side.high != it->high || is_own(side.side) != is_own(it->side);", "side.high != it->high;", "the soup is sewn to the obstacle"),
@@ -368,7 +369,8 @@ group(
     "src/replay/snap.cpp",
     ("replay_test:*nap*", "replay_mutation_test"),
     ("if (!partners.are_near(moved, kept))", "if (false)", "snaps over any distance"),
-    ("if (of_moved.is_empty())", "if (false)", "what is on no border snaps"),
+    ("if (of_moved.is_empty())", "if (false)", "what is on no border snaps",
+     "it has no edge that could be sewn either, and is refused for that"),
     ("edge.outgoing != other.incoming))", "false))", "edges whose faces run the same way"),
 )
 group(
@@ -378,7 +380,8 @@ group(
     ("if (is_far(complex.point(mover)))", "if (false)", "the vertex that moves may drift"),
     ("if (std::any_of(passed->begin(), passed->end(), is_far))", "if (false)", "what was passed before may drift"),
     ("least_after <= least_before * (1 - limit_tolerance))", "false)", "triangles get thin"),
-    ("if (behind.is_border() != ahead->is_border())", "if (false)", "from a border on to a seam"),
+    ("if (behind.is_border() != ahead->is_border())", "if (false)", "from a border on to a seam",
+     "a vertex that moves is in one fan, which has two border edges or none"),
 )
 group(
     "src/replay/Complex.cpp",

@@ -162,10 +162,19 @@ def judge(build, mutant, seconds, overlay):
     return ("equal" if mutant.equal else "survived"), ""
 
 
+def rows(text, last):
+    """Returns the numbers that a list of them and of their ranges names."""
+    numbers = set()
+    for part in text.split(","):
+        first, is_range, beyond = part.partition("-")
+        numbers.update(range(int(first), (int(beyond) if beyond else last if is_range else int(first)) + 1))
+    return numbers
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", default="", metavar="WORD", help="mutants whose file, change or reason holds this")
-    parser.add_argument("--rows", default="1-", metavar="FIRST-LAST", help="of these, by their numbers: 82-120, 82-")
+    parser.add_argument("--rows", default="1-", help="of these, by their numbers: 5,82-120,130-")
     parser.add_argument("--list", action="store_true", help="compile nothing")
     parser.add_argument("--build", type=pathlib.Path, default=TREE / "build/dev", metavar="FOLDER")
     parser.add_argument("--jobs", type=int, default=1, metavar="NUMBER", help="mutants at a time")
@@ -173,20 +182,19 @@ def main():
 
     chosen = [mutant for mutant in mutants.ALL
               if arguments.only in " ".join([mutant.file, mutant.old, mutant.new, mutant.reason])]
-    first, _, last = arguments.rows.partition("-")
-    chosen = chosen[int(first) - 1:int(last) if last else None]
-    for mutant in chosen:
+    chosen = {number: mutant for number, mutant in enumerate(chosen, 1) if number in rows(arguments.rows, len(chosen))}
+    for mutant in chosen.values():
         count = (TREE / mutant.file).read_text(encoding="utf-8").count(mutant.old) if (TREE / mutant.file).is_file() else 0
         if count != 1:
             stop(f"{mutant.file} has this text {count} times, not once; state the mutant anew:\n{mutant.old}")
     if arguments.list:
-        for mutant in chosen:
+        for mutant in chosen.values():
             print(f"{mutant.file}: {mutant.reason}")
         print(f"{len(chosen)} mutants")
         return 0
 
     build = Build(arguments.build.resolve())
-    tests = sorted({test for mutant in chosen for test in mutant.tests})
+    tests = sorted({test for mutant in chosen.values() for test in mutant.tests})
     build.update(sorted({parts(test)[0] for test in tests}))
     seconds = {}
     for test in tests:
@@ -206,7 +214,7 @@ def main():
 
     counts = {}
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        for number, (mutant, (became, by)) in enumerate(zip(chosen, pool.map(outcome, chosen)), int(first)):
+        for (number, mutant), (became, by) in zip(chosen.items(), pool.map(outcome, chosen.values())):
             counts[became] = counts.get(became, 0) + 1
             print(f"| {number} | {mutant.file.rsplit('/')[-1]} | {mutant.reason} | {became} | {by} |", flush=True)
     print(", ".join(f"{count} {outcome}" for outcome, count in sorted(counts.items())))
