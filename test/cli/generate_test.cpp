@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "App_run.h"
+#include "support/sanitizers.h"
 
 #include <selvedge/generate.h>
 #include <selvedge/mesh_files.h>
@@ -65,7 +66,7 @@ TEST(App_generate, RefusesWhatItCannotMake)
   EXPECT_EQ(folder.files(), 0u);
 }
 
-#if !defined(__SANITIZE_ADDRESS__)
+#if !defined(SELVEDGE_IS_SANITIZED)
 TEST(App_generate, TooLittleMemoryIsSaid)
 {
   const Workspace folder;

@@ -11,6 +11,7 @@
 #include "support/Exact_oracle.h"
 #include "support/Temporary_folder.h"
 #include "support/reduction.h"
+#include "support/sanitizers.h"
 #include "support/soups.h"
 
 #include <selvedge/Error.h>
@@ -28,7 +29,7 @@
 namespace selvedge::test {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(SELVEDGE_IS_SANITIZED)
 constexpr std::uint64_t s_seeds = 100; // each takes eight times as long
 #else
 constexpr std::uint64_t s_seeds = 400;
