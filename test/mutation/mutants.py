@@ -297,8 +297,9 @@ group(
 )
 group(
     "src/soup/Sewing.cpp",
-    ("slits_test", "cells_sewing_test", "topology_test", "seams_test", "random_soups_test", "obstacle_test", "worlds_test"),
-    ("if (tear_parallel_edges(matching.unsewn()))", "if (false)", "two edges between two vertices"),
+    ("slits_test", "cells_sewing_test", "topology_test", "seams_test", "random_soups_test", "obstacle_test"),
+    ("if (tear_parallel_edges(matching.unsewn()))", "if (false)", "two edges between two vertices",
+     "three faces or more meet in such edges, so that other vertices are at both ends too, and all of them are locked"),
     ("beyond - first == 2 && is_opposite &&\n", "beyond - first == 2 &&\n", "sides that run the same way are sewn"),
     ("side.high != it->high || is_own(side.side) != is_own(it->side);", "side.high != it->high;", "the soup is sewn to the obstacle"),
 )
