@@ -24,7 +24,7 @@ enum class Normals_choice {
 enum class Normals_treatment {
   none,   ///< the soup has no normals
   kept,   ///< they are treated like any other attribute
-  flat,   ///< every corner gets the normal of its triangle
+  flat,   ///< every corner gets the normal of its triangle, or of the polygon that this is a part of
   smooth, ///< every corner gets the mean normal of the triangles around its vertex, up to hard edges
   dropped
 };
@@ -36,7 +36,8 @@ const char* name_of(Normals_choice choice);
 const char* name_of(Normals_treatment treatment);
 
 /// Returns whether normals are *flat*: those of 99 % of all corners differ from the normal of their triangle
-/// by at most 0.1°, which is what numbers of four decimals tell. Triangles without an area are not counted.
+/// by at most 0.1°, which is what numbers of four decimals tell, or by at most 60° where the three corners have
+/// one normal, up to 0.1°: that of a polygon which is not plane. Triangles without an area are not counted.
 /// False for a soup without normals, or with normals for some of its triangles only.
 ///
 /// **Complexity** O(n) for n triangles. Computed in double; no decision about intersections depends on it.

@@ -76,6 +76,8 @@ Mesh_file read_off(std::string_view contents, const std::string& name)
     const std::size_t size = read_count(text, "corners of a face", 2);
     corners.clear();
     for (std::size_t corner = 0; corner < size; ++corner) {
+      if (text.at_line_end())
+        text.to_next_statement(); // some programs break the lines of a face
       const std::int64_t index = text.integer();
       if (index < 0 || static_cast<std::uint64_t>(index) >= vertices)
         fail("face " + std::to_string(i) + " names vertex " + std::to_string(index) +

@@ -296,7 +296,7 @@ private:
       if (element.name == "vertex" && !has_vertices) {
         read_vertices(values, element);
         has_vertices = true;
-      } else if (element.name == "face" && faces == nullptr) {
+      } else if ((element.name == "face" || is_of_strips(element)) && faces == nullptr) {
         faces = &element;
         faces_begin = values;
         has_faces = has_vertices;
@@ -311,13 +311,8 @@ private:
     }
     if (!has_vertices)
       values.fail("the header announces no element 'vertex'; export the file as a mesh");
-    if (faces == nullptr) {
-      const bool strips = std::any_of(m_elements.begin(), m_elements.end(),
-                                      [](const Element& element) { return element.name == "tristrips"; });
-      values.fail(
-          strips ? "the faces are triangle strips, which are not read; export the file as a list of faces"
-                 : "the header announces no element 'face'; export the file as a mesh");
-    }
+    if (faces == nullptr)
+      values.fail("the header announces no element 'face'; export the file as a mesh");
     if (!has_faces)
       read_faces(*faces_begin, *faces);
   }
@@ -495,6 +490,52 @@ private:
     const Property* const list = find_list(element);
     if (list == nullptr || !list->count_type || !is_integer(list->type))
       values.fail("the faces lack a list of integers 'vertex_indices'; export the file as a mesh");
+    if (is_of_strips(element))
+      read_strips(values, element, *list);
+    else
+      read_polygons(values, element, *list);
+    Triangle_soup& soup = m_builder.soup();
+    if (m_has_normals)
+      m_builder.set_vertex_values(soup.normals, std::move(m_normals));
+    if (m_has_uvs)
+      m_builder.set_vertex_values(soup.uvs, std::move(m_uvs));
+  }
+
+  static bool is_of_strips(const Element& element) { return element.name == "tristrips"; }
+
+  /// Reads strips of triangles. Each three numbers in a row are a triangle, and every second one is turned
+  /// over; −1 begins another strip. Repeated numbers only lead from one strip to the next.
+  template <class Values>
+  void read_strips(Values& values, const Element& element, const Property& list)
+  {
+    for (std::uint64_t i = 0; i < element.count; ++i)
+      for (const Property& property : element.properties) {
+        if (&property != &list) {
+          skip_property(values, property);
+          continue;
+        }
+        std::size_t in_strip = 0;
+        Index before = 0, last = 0;
+        for (std::uint64_t left = read_length(values, list); left > 0; --left) {
+          const std::int64_t index = values.integer(list.type);
+          if (index == -1 || index == std::numeric_limits<std::uint32_t>::max()) {
+            in_strip = 0;
+            continue;
+          }
+          const Index corner = checked_vertex(values, index, "a triangle strip");
+          const bool is_triangle = ++in_strip > 2 && before != last && last != corner && corner != before;
+          if (is_triangle && in_strip % 2 == 1)
+            m_builder.add_face({before, last, corner});
+          else if (is_triangle)
+            m_builder.add_face({last, before, corner});
+          before = std::exchange(last, corner);
+        }
+      }
+  }
+
+  template <class Values>
+  void read_polygons(Values& values, const Element& element, const Property& list)
+  {
     const Property* const uv_list = find_uv_list(element);
     Triangle_soup& soup = m_builder.soup();
     std::vector<Target> targets(element.properties.size());
@@ -505,7 +546,7 @@ private:
     for (std::uint64_t i = 0; i < element.count; ++i) {
       for (std::size_t p = 0; p < targets.size(); ++p) {
         const Property& property = element.properties[p];
-        if (&property == list)
+        if (&property == &list)
           read_corners(values, property, i, corners);
         else if (&property == uv_list)
           read_numbers(values, property, uvs);
@@ -515,25 +556,27 @@ private:
       number_uvs(values, uvs, corners.size(), i, uv_corners);
       repeat_last_rows(values, m_builder.add_face(corners, uv_corners));
     }
-    if (m_has_normals)
-      m_builder.set_vertex_values(soup.normals, std::move(m_normals));
-    if (m_has_uvs)
-      m_builder.set_vertex_values(soup.uvs, std::move(m_uvs));
   }
 
   template <class Values>
   void read_corners(Values& values, const Property& list, std::uint64_t face, std::vector<Index>& corners)
   {
-    const std::size_t vertices = m_builder.soup().points.size();
     corners.resize(read_length(values, list));
-    for (Index& corner : corners) {
-      const std::int64_t index = values.integer(list.type);
-      if (index < 0 || static_cast<std::uint64_t>(index) >= vertices)
-        values.fail("face " + std::to_string(face) + " names vertex " + std::to_string(index) +
-                    ", but there are only " + std::to_string(vertices) +
-                    " counted from 0; correct or remove the face");
-      corner = static_cast<Index>(index);
-    }
+    for (Index& corner : corners)
+      corner = checked_vertex(values, values.integer(list.type), "face ", face);
+  }
+
+  /// Returns the number of a vertex, or refuses it for the sake of what names it.
+  template <class Values>
+  Index checked_vertex(const Values& values, std::int64_t index, const char* what,
+                       std::optional<std::uint64_t> number = {})
+  {
+    const std::size_t vertices = m_builder.soup().points.size();
+    if (index < 0 || static_cast<std::uint64_t>(index) >= vertices)
+      values.fail(what + (number ? std::to_string(*number) : "") + " names vertex " + std::to_string(index) +
+                  ", but there are only " + std::to_string(vertices) +
+                  " counted from 0; correct or remove it");
+    return static_cast<Index>(index);
   }
 
   template <class Values>

@@ -23,9 +23,10 @@ using Vector = internal::Vector_of_doubles;
 using internal::cross;
 using internal::dot;
 
-// Cosines of 0.1° and of 1°.
+// Cosines of 0.1°, 1° and 60°.
 constexpr double s_cosine_flat = 0.9999984769;
 constexpr double s_cosine_smooth = 0.9998476952;
+constexpr double s_cosine_of_polygon = 0.5;
 
 Vector difference(const Point_3& a, const Point_3& b)
 {
@@ -52,6 +53,35 @@ Vector unit_normal(const Triangle_soup& soup, Index triangle)
   const Vector u = unit(difference(soup.points[q], soup.points[p]));
   const Vector v = unit(difference(soup.points[r], soup.points[p]));
   return unit(cross(u, v));
+}
+
+// Returns that of a polygon, the triangles from `first` to before `end`: the direction of its area.
+Vector unit_normal(const Triangle_soup& soup, Index first, Index end)
+{
+  double largest = 0; // so that squares neither overflow nor underflow
+  const auto side = [&](Index triangle, int k) {
+    const Index_triple& corners = soup.triangles[triangle];
+    return difference(soup.points[corners[k]], soup.points[corners[0]]);
+  };
+  for (Index t = first; t < end; ++t)
+    for (const int k : {1, 2})
+      for (const double x : side(t, k))
+        largest = std::max(largest, std::abs(x));
+  if (!(largest > 0 && std::isfinite(largest)))
+    return {};
+  const int exponent = -std::ilogb(largest);
+  Vector sum = {};
+  for (Index t = first; t < end; ++t) {
+    Vector u = side(t, 1), v = side(t, 2);
+    for (int i = 0; i < 3; ++i) {
+      u[i] = std::scalbn(u[i], exponent);
+      v[i] = std::scalbn(v[i], exponent);
+    }
+    const Vector area = cross(u, v);
+    for (int i = 0; i < 3; ++i)
+      sum[i] += area[i];
+  }
+  return unit(sum);
 }
 
 bool is_within(const Vector& a, const Vector& b, double cosine)
@@ -116,16 +146,12 @@ void restore_flat(Triangle_soup& soup)
   std::vector<Vector>& values = soup.normals.values;
   soup.normals = {};
   auto polygon = soup.polygons.begin();
-  Index polygon_end = 0; // of the triangles of the polygon before this one
-  for (Index t = 0; t < soup.triangles.size(); ++t) {
-    // A polygon that is flat, but for rounding, has one normal.
-    const Vector normal = unit_normal(soup, t);
-    if (t >= polygon_end || !is_within(normal, values.back(), s_cosine_flat))
-      values.push_back(stored(normal));
-    if (polygon != soup.polygons.end() && polygon->first_triangle == t)
-      polygon_end = t + polygon++->corners - 2;
-    const Index last = Index(values.size() - 1);
-    soup.normals.of_triangle.push_back({last, last, last});
+  for (Index t = 0, end = 0; t < soup.triangles.size(); t = end) {
+    const bool is_polygon = polygon != soup.polygons.end() && polygon->first_triangle == t;
+    end = t + (is_polygon ? polygon++->corners - 2 : 1);
+    const Index number = Index(values.size());
+    values.push_back(stored(is_polygon ? unit_normal(soup, t, end) : unit_normal(soup, t)));
+    soup.normals.of_triangle.resize(end, {number, number, number});
   }
 }
 
@@ -206,9 +232,13 @@ bool has_flat_normals(const Triangle_soup& soup)
     const Vector normal = unit_normal(soup, t);
     if (normal == Vector{})
       continue;
-    for (const Index value : soup.normals.of_triangle[t]) {
+    const auto value = [&](int k) { return soup.normals.values[soup.normals.of_triangle[t][k]]; };
+    const bool is_of_polygon = is_within(value(0), value(1), s_cosine_flat) &&
+                               is_within(value(0), value(2), s_cosine_flat) &&
+                               is_within(value(0), normal, s_cosine_of_polygon);
+    for (int k = 0; k < 3; ++k) {
       ++judged;
-      flat += is_within(soup.normals.values[value], normal, s_cosine_flat);
+      flat += is_of_polygon || is_within(value(k), normal, s_cosine_flat);
     }
   }
   return judged > 0 && 100 * flat >= 99 * judged;

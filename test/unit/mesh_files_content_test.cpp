@@ -300,6 +300,24 @@ TEST(Ply, EveryTypeOfNumberIsRead)
     }
 }
 
+// Two strips, the second of which begins with a corner that is repeated.
+TEST(Ply, StripsAreTriangles)
+{
+  const Mesh_file file = read_mesh(
+      "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+      "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n10 0 1 2 3 4 -1 4 4 3 2\n",
+      Mesh_format::ply, "text");
+  EXPECT_EQ(file.soup.triangles, (Triangles{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {3, 4, 2}}));
+}
+
+TEST(Off, LinesOfFacesMayBeBroken)
+{
+  const Mesh_file file =
+      read_mesh("OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 \n1 2\n3\n0 2 3\n", Mesh_format::off, "text");
+  EXPECT_EQ(file.soup.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+}
+
 TEST(Ply, ValuesBeyondTheDoublesKeepTheirSign)
 {
   const Mesh_file file = read_mesh(

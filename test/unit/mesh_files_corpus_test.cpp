@@ -306,8 +306,8 @@ const std::vector<Entry>& corpus()
       {"PlyTriangleStrips", ply,
        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
        "element tristrips 1\nproperty list int int vertex_indices\nend_header\n" +
-           ply_points + "3 0 1 2\n",
-       "triangle strips, which are not read"},
+           ply_points + "5 0 1 2 -1 3\n",
+       "a triangle strip names vertex 3"},
       {"PlyPointCloud", ply,
        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
        "z\nend_header\n" +

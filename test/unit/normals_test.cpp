@@ -78,6 +78,25 @@ TEST(Normals, FlatOnesDoNotHoldTheMeshTogether)
   EXPECT_GT(simplify_soup(kept, to_ratio(0.3)).soup.triangles.size(), soup.triangles.size() / 2);
 }
 
+// Squares that are bent along their diagonals, each with one normal, as programs write them that shade flat.
+TEST(Normals, AreFlatWhereEachPolygonHasOne)
+{
+  Triangle_soup soup = hills();
+  for (Index square = 0; square < 400; ++square)
+    soup.polygons.push_back({2 * square, 4, 0});
+  soup = with_flat_normals(soup);
+  for (Index t = 0; t < soup.triangles.size(); t += 2)
+    ASSERT_EQ(soup.normals.of_triangle[t], soup.normals.of_triangle[t + 1]);
+  EXPECT_TRUE(has_flat_normals(soup));
+  EXPECT_LE(simplify_soup(prepared(soup, Normals_choice::automatic), to_ratio(0.3)).soup.triangles.size(),
+            soup.triangles.size() * 3 / 10);
+  // The control: one normal for all says nothing of faces.
+  soup = mapped(soup, [](const Point_3& p) { return Point_3(p.x(), p.y(), 9 * p.z()); });
+  soup.normals.values.assign(1, {0, 0, 1});
+  soup.normals.of_triangle.assign(soup.triangles.size(), {0, 0, 0});
+  EXPECT_FALSE(has_flat_normals(soup));
+}
+
 TEST(Normals, ThatAreNotFlatAreKeptUnlessAsked)
 {
   Triangle_soup soup = hills();
