@@ -62,8 +62,8 @@ Vector shortest_between(const Segment& first, const Segment& second)
 
 } // namespace
 
-// Let m be the largest coordinate, and ε = 2⁻⁵³. Ends of capsules are no larger than m, the radius of a
-// capsule that is asked is below 2 m, and so the sum r of two radii is below 4 m.
+// Let m be the largest coordinate, and ε = 2⁻⁵³. Ends of capsules are no larger than m. The sum r of the
+// radii of two capsules that are found apart is below the distance of two ends, and so below 4 m.
 // - A distance from a segment, plus a radius, is too small by at most 2⁶ ε m: a coordinate of the point on
 //   the segment is wrong by at most 6 ε m, one of the difference by 8 ε m, its length by 14 ε m for these and
 //   14 ε m for its own rounding, and the sum with a radius by 8 ε m.
@@ -71,8 +71,9 @@ Vector shortest_between(const Segment& first, const Segment& second)
 //   gap between two capsules' segments along n, the least of four differences, is wrong by less than
 //   2⁴ ε m |n|.
 // - The product of r and |n|, as it is compared, is wrong by at most 2⁴ ε r |n| < 2⁶ ε m |n|.
-// A margin of 2⁹ ε m for each capsule covers the first and half of the others. It holds as well where the
-// compiler contracts a product and a sum into one operation.
+// A margin of 2⁹ ε m for each capsule covers the first and half of the others, and that of either capsule
+// covers all of the others. It holds as well where the compiler contracts a product and a sum into one
+// operation.
 double Capsule::margin_for(double largest)
 {
   constexpr double least = 1e-50;

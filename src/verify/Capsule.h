@@ -14,7 +14,8 @@ namespace selvedge {
 /// than a box with sides along the axes.
 ///
 /// **Exactness** `are_apart` is one-sided: true is proved, false is undecided. The proof holds for capsules
-/// that were all made with one `margin`, as `margin_for` returns it, whatever points they enclose.
+/// that were all made with one `margin`, as `margin_for` returns it, whatever points they enclose. One of two
+/// may have a smaller margin, for the coordinates of what it encloses, when the other's is for all.
 class Capsule
 {
 public:

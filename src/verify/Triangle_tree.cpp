@@ -129,10 +129,9 @@ Triangle_tree::Triangle_tree(const std::vector<Point_3>& points, const std::vect
   Box all;
   for (const Box& box : m_boxes)
     all.add(box);
-  double largest = 0;
   for (int axis = 0; axis < 3; ++axis)
-    largest = (std::max)({largest, std::fabs(all.low[axis]), std::fabs(all.high[axis])});
-  m_margin = Capsule::margin_for(largest);
+    m_largest = (std::max)({m_largest, std::fabs(all.low[axis]), std::fabs(all.high[axis])});
+  m_margin = Capsule::margin_for(m_largest);
   for (std::size_t i = 0; i < m_boxes.size(); ++i)
     if (std::exchange(m_boxes[i].capsule, 0) != 0) {
       const auto coordinates = [&](int corner) {
@@ -160,6 +159,15 @@ Capsule Triangle_tree::capsule_around(const Box& box) const
 bool Triangle_tree::are_capsules_apart(const Box& a, const Box& b) const
 {
   return are_apart(capsule_around(a), capsule_around(b));
+}
+
+bool Triangle_tree::is_capsule_beyond(const Point_3& query, const Box& box, double squared_bound) const
+{
+  const Capsule::Vector at{query.x(), query.y(), query.z()};
+  // The query may lie outside of everything that the tree's own margin was made for.
+  const double margin =
+      Capsule::margin_for((std::max)({m_largest, std::fabs(at[0]), std::fabs(at[1]), std::fabs(at[2])}));
+  return margin > 0 && are_apart(Capsule(at, at, std::sqrt(squared_bound) + margin), m_capsules[box.capsule]);
 }
 
 void Triangle_tree::add_capsule(Box& box, const Capsule& capsule)

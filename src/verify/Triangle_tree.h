@@ -39,7 +39,7 @@ void sort_by_halves(std::vector<Numbered_point>& points, std::size_t parts);
 ///
 /// A box says little about a sliver askew to the axes: in a fringe, those of almost all threads meet. So such
 /// a triangle has a capsule as well, and so has a node of the tree where the capsule is long and thin. The
-/// search for pairs asks them where boxes meet.
+/// searches ask them where boxes decide nothing.
 ///
 /// **Exactness** Boxes are exact. Capsules leave out only what is proved apart.
 class Triangle_tree
@@ -65,8 +65,9 @@ public:
       visit(is_wanted, function, 1);
   }
 
-  /// Calls `function(i)` for triangles whose boxes are nearer to `query` than the root of `squared_bound`, as
-  /// a rule nearer boxes first. The function lowers the bound when it finds something nearer.
+  /// Calls `function(i)` for triangles whose boxes are nearer to `query` than the root of `squared_bound`,
+  /// but for slivers that are proved farther away; as a rule nearer boxes first. The function lowers the
+  /// bound when it finds something nearer.
   template <class Function>
   void approach(const Point_3& query, const double& squared_bound, const Function& function) const
   {
@@ -110,7 +111,15 @@ private:
     return overlap(a, b) && ((a.capsule | b.capsule) == 0 || !are_capsules_apart(a, b));
   }
 
+  // Whether `box` may hold something nearer to `query` than the root of `squared_bound`, from which it is a
+  // `squared` distance away.
+  bool may_be_near(const Point_3& query, const Box& box, double squared, double squared_bound) const
+  {
+    return squared < squared_bound && (box.capsule == 0 || !is_capsule_beyond(query, box, squared_bound));
+  }
+
   Capsule capsule_around(const Box& box) const;
+  bool is_capsule_beyond(const Point_3& query, const Box& box, double squared_bound) const;
   bool are_capsules_apart(const Box& a, const Box& b) const;
 
   // Gives a box the capsule around what is in it, if this is slender.
@@ -212,7 +221,7 @@ private:
                 double distance) const
   {
     while (node < leaves()) {
-      if (!(distance < squared_bound))
+      if (!may_be_near(query, m_nodes[node], distance, squared_bound))
         return;
       const double left = squared_distance(query, m_nodes[2 * node]);
       const double right = squared_distance(query, m_nodes[2 * node + 1]);
@@ -221,9 +230,9 @@ private:
       node = 2 * node + !nearer;
       distance = (std::max)(left, right);
     }
-    if (distance < squared_bound)
+    if (may_be_near(query, m_nodes[node], distance, squared_bound))
       for_each_in(node, [&](std::size_t i) {
-        if (squared_distance(query, m_boxes[i]) < squared_bound)
+        if (may_be_near(query, m_boxes[i], squared_distance(query, m_boxes[i]), squared_bound))
           function(m_triangles[i]);
       });
   }
@@ -232,6 +241,7 @@ private:
   std::vector<Box> m_boxes;       // in the same order
   std::vector<Box> m_nodes;       // node k has the children 2k and 2k + 1, all leaves are on the last level
   std::vector<Capsule> m_capsules{1}; // the first is nobody's
+  double m_largest = 0;               // of all coordinates
   double m_margin = 0;                // of capsules; none is made where it is 0
 };
 

@@ -6,10 +6,12 @@
 #include "support/soups.h"
 
 #include <CGAL/intersections.h>
+#include <CGAL/squared_distance_3.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <random>
 #include <set>
@@ -124,6 +126,56 @@ TEST(TriangleTree, FindsFewPairsInAFringeOfAnySize)
       const Triangle_soup soup = fringe(ribbons, 4, bend);
       EXPECT_LT(pairs_in_tree(soup).size(), 20 * soup.triangles.size()) << ribbons << ' ' << bend;
     }
+}
+
+// The squared distance of a query from all triangles, and how many were asked, from a first guess.
+std::pair<double, std::size_t> approached(const Triangle_tree& tree, const Triangle_soup& soup,
+                                          const Point_3& query, double squared_bound)
+{
+  std::size_t asked = 0;
+  tree.approach(query, squared_bound, [&](Index i) {
+    ++asked;
+    const auto& [a, b, c] = soup.triangles[i];
+    const Kernel::Triangle_3 triangle(soup.points[a], soup.points[b], soup.points[c]);
+    squared_bound = (std::min)(squared_bound, CGAL::squared_distance(query, triangle));
+  });
+  return {squared_bound, asked};
+}
+
+TEST(TriangleTree, FindsTheSliverThatIsNearest)
+{
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    const double width = std::ldexp(1, -3 - int(seed % 12));
+    Triangle_soup soup = random_slivers(seed, 96, width, seed % 3 == 0 ? 1 : 4 * width);
+    if (seed % 2 == 1)
+      soup = moved(soup, 1e6, -3e5, 2e7);
+    const Triangle_tree tree(soup.points, soup.triangles);
+    Triangle_soup far = soup;
+    far.points[0] = far.points[0] + Kernel::Vector_3(1e3, 1e3, 1e3);
+    for (const Triangle_soup* queries : {&soup, &far})
+      for (std::size_t k = 0; k < soup.points.size(); ++k) {
+        const Point_3 query = CGAL::midpoint(queries->points[0], queries->points[k]);
+        double least = std::numeric_limits<double>::infinity();
+        for (const auto& [a, b, c] : soup.triangles)
+          least =
+              std::min(least, CGAL::squared_distance(
+                                  query, Kernel::Triangle_3(soup.points[a], soup.points[b], soup.points[c])));
+        EXPECT_EQ(approached(tree, soup, query, std::numeric_limits<double>::infinity()).first, least);
+      }
+  }
+}
+
+TEST(TriangleTree, AsksFewTrianglesOfAFringeOfAnySizeForTheirDistance)
+{
+  for (const Index ribbons : {250U, 2000U}) {
+    const Triangle_soup soup = fringe(ribbons, 4, 8.0);
+    const Triangle_tree tree(soup.points, soup.triangles);
+    std::size_t asked = 0;
+    for (const Point_3& point : soup.points)
+      asked += approached(tree, soup, point, 0.25 / ribbons / ribbons).second;
+    EXPECT_LT(asked, 20 * soup.points.size()) << ribbons;
+  }
 }
 
 } // namespace
