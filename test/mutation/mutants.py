@@ -87,6 +87,11 @@ group(
      "a capsule around capsules forgets an end"),
     ("0x1p-44 * largest", "0x1p-84 * largest", "no margin for rounding"),
 )
+group(
+    "src/verify/Triangle_tree.cpp",
+    ("triangle_tree_test",),
+    ("std::sqrt(squared_bound) + margin", "margin", "slivers within the bound are passed by"),
+)
 
 group(
     headers + "geometry/sweep.h",
@@ -216,10 +221,23 @@ group(
     headers + "spatial/Packed_R_tree.h",
     ("spatial_index_test",),
     ("if (bounds.contains(box))", "if (true)", "nodes do not grow"),
-    ("for (std::size_t i = m_leaves_in_tree; i < m_leaves.size(); ++i)",
-     "for (std::size_t i = m_leaves_in_tree + 1; i < m_leaves.size(); ++i)", "the first new leaf not visited"),
+    ("for (std::size_t i = m_leaves_in_tree; i < m_leaves.size() &&",
+     "for (std::size_t i = m_leaves_in_tree + 1; i < m_leaves.size() &&", "the first new leaf not visited"),
     ("leaf.boxes.set(slot % s_width, internal::Monotone_box::empty());", "leaf.boxes.set(slot % s_width, leaf.boxes[0]);",
      "what is removed is still found"),
+)
+group(
+    headers + "spatial/internal/Rod_block.h",
+    ("spatial_index_test",),
+    ("rod_margin = 0x1p-20, beam_margin = 0x1p-16;", "rod_margin = 0, beam_margin = 0;", "no margin for rounding"),
+    ("if (enclosure == before)", "if (true)", "rods of nodes do not grow"),
+    ("const float gap = a < b ? a : b;", "const float gap = a;", "an end of a rod not looked at"),
+)
+group(
+    headers + "Surface_mesh_simplification/internal/Original_surface.h",
+    ("tracked_points_test",),
+    ("if (from <= at_c && at_c <= to)", "if (false)", "a corner of a sliver in none of its boxes"),
+    ("return m_last != last && is_found();", "return is_found() && false;", "nothing but the last triangle is near"),
 )
 group(
     headers + "spatial/internal/Box_block.h",

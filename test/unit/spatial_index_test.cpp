@@ -6,8 +6,12 @@
 #include <selvedge/spatial/Clustered_AABB_tree.h>
 #include <selvedge/spatial/Packed_R_tree.h>
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/intersections.h>
+
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <set>
@@ -146,6 +150,115 @@ TEST_P(Packed_index, NeverMissesABoxWhileBoxesComeChangeAndGo)
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, Packed_index, testing::Combine(origins, extents));
+
+using Corners = Packed_R_tree::Corners;
+
+CGAL::Bbox_3 box_of(const Corners& corners)
+{
+  CGAL::Bbox_3 box;
+  for (const auto& [x, y, z] : corners)
+    box += CGAL::Bbox_3(x, y, z, x, y, z);
+  return box;
+}
+
+bool do_meet(const Corners& a, const Corners& b)
+{
+  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+  const auto triangle = [](const Corners& c) {
+    const auto point = [&](int i) { return Kernel::Point_3(c[i][0], c[i][1], c[i][2]); };
+    return Kernel::Triangle_3(point(0), point(1), point(2));
+  };
+  for (const auto& corner : a)
+    if (std::find(b.begin(), b.end(), corner) != b.end())
+      return true;
+  return !triangle(a).is_degenerate() && !triangle(b).is_degenerate() &&
+         CGAL::do_intersect(triangle(a), triangle(b));
+}
+
+TEST(Packed_index, LeavesOutNoSliverThatAHullMeets)
+{
+  std::size_t meeting = 0, left_out = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    Random_boxes random(seed, 0, 1);
+    const double origin = seed % 4 == 1 ? 1e5 : 0, width = seed % 3 == 0 ? 0 : 0.01; // needles, and slivers
+    std::vector<Corners> slivers(400);
+    const auto renew = [&](Corners& corners) {
+      const double length = random.number(), spread = seed % 2 == 0 ? 1 : 0.02;
+      const bool is_joined = random.number() < 0.3;
+      const auto start = slivers[random.index(slivers.size())][random.index(3)];
+      for (int axis = 0; axis < 3; ++axis) {
+        corners[0][axis] = is_joined ? start[axis] : origin + random.number();
+        const double along = length * (spread * (random.number() - 0.5) + 0.5);
+        corners[1][axis] = corners[0][axis] + along;
+        corners[2][axis] = corners[0][axis] + along / 2 + width * random.number();
+      }
+    };
+    std::vector<Id> faces;
+    for (Id face = 0; face < slivers.size(); ++face) {
+      renew(slivers[face]);
+      if (face % 2 == 0) // the others come later
+        faces.push_back(face);
+    }
+    std::vector<bool> is_in(slivers.size(), false);
+    for (const Id face : faces)
+      is_in[face] = true;
+    const auto corners_of = [&](Id face) { return slivers[face]; };
+    Packed_R_tree index;
+    index.build(
+        faces, [&](Id face) { return box_of(slivers[face]); }, corners_of);
+    for (int step = 0; step < 1000; ++step) {
+      const Id face = random.index(slivers.size());
+      if (is_in[face] && random.number() < (step < 700 ? 0.4 : 1)) {
+        index.remove(face);
+        is_in[face] = false;
+      } else if (step < 700) {
+        renew(slivers[face]);
+        index.set(face, box_of(slivers[face]), corners_of);
+        is_in[face] = true;
+      }
+      Corners query;
+      renew(query);
+      std::set<Id> found;
+      index.visit_overlapping(box_of(query), query, [&](Id id) { ASSERT_TRUE(found.insert(id).second); });
+      for (Id id = 0; id < slivers.size(); ++id)
+        if (is_in[id] && CGAL::do_overlap(box_of(query), box_of(slivers[id]))) {
+          left_out += found.count(id) == 0;
+          if (do_meet(query, slivers[id])) {
+            ++meeting;
+            ASSERT_EQ(found.count(id), 1u) << "face " << id << " was missed in step " << step;
+          }
+        }
+    }
+  }
+  EXPECT_GT(meeting, 2000u);
+  EXPECT_GT(left_out, 20 * meeting);
+}
+
+TEST(Packed_index, VisitsFewFacesOfAFringeOfAnySize)
+{
+  for (const Id count : {1000u, 8000u}) {
+    std::vector<Corners> slivers;
+    std::vector<Id> faces;
+    Random_boxes random(count, 0, 1);
+    for (Id face = 0; face < count; ++face) {
+      const double x = face % 40, y = face / 40, bend = random.number();
+      slivers.push_back(
+          {{{x, y, -x - y}, {x + 400, y + 420, 380 - x - y}, {x + 200 + bend, y + 210, 190 - x - y}}});
+      faces.push_back(face);
+    }
+    Packed_R_tree index;
+    index.build(
+        faces, [&](Id face) { return box_of(slivers[face]); }, [&](Id face) { return slivers[face]; });
+    std::size_t visits = 0, visits_of_boxes = 0;
+    for (const Corners& corners : slivers) {
+      index.visit_overlapping(box_of(corners), corners, [&](Id) { ++visits; });
+      index.visit_overlapping(box_of(corners), [&](Id) { ++visits_of_boxes; });
+    }
+    EXPECT_LT(visits, 20 * count);
+    EXPECT_GT(visits_of_boxes, 500 * count);
+  }
+}
 
 template <class Index>
 class Spatial_index : public testing::Test

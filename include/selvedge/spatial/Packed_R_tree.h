@@ -4,11 +4,13 @@
 #ifndef SELVEDGE_SPATIAL_PACKED_R_TREE_H
 #define SELVEDGE_SPATIAL_PACKED_R_TREE_H
 
+#include <selvedge/internal/Vector_of_doubles.h>
 #include <selvedge/internal/instructions.h>
 #include <selvedge/spatial/Index_statistics.h>
 #include <selvedge/spatial/internal/Box_block.h>
 #include <selvedge/spatial/internal/Hilbert_curve.h>
 #include <selvedge/spatial/internal/Monotone_box.h>
+#include <selvedge/spatial/internal/Rod_block.h>
 
 #include <CGAL/Bbox_3.h>
 
@@ -35,25 +37,33 @@ namespace selvedge {
 /// than 8 and an eighth of those in the tree. Faces then keep their order, unless there are new leaves: then
 /// all are sorted along the curve again.
 ///
+/// A box says little about a sliver askew to the axes: those of all threads of a fringe meet. When the index
+/// is told the corners of faces, and many are such slivers, it also encloses each face and node in a *rod*,
+/// the points within a radius of a segment. A query that is long and thin itself passes by the rods that are
+/// proved apart from it.
+///
 /// **Guarantees**
-/// 1. A query visits every face whose box overlaps the query box, each exactly once. It may visit others.
+/// 1. A query visits every face whose box overlaps the query box, each exactly once. It may visit others. A
+///    query for the hull of some points may leave out faces that have no point in common with it.
 /// 2. The order of visits depends on the sequence of calls alone, not on addresses or on the platform.
 ///
 /// **Preconditions** Boxes are finite and not empty. The caller numbers the faces 0 … n−1. The index knows
 /// nothing of a face but its number and its box. It stores boxes and never computes one again, so a face that
 /// is gone from the mesh is not read.
 ///
-/// **Exactness** Boxes are stored as floats, through a monotone map that can only add overlaps.
+/// **Exactness** Boxes are stored as floats, through a monotone map that can only add overlaps. Rods are
+/// floats with bounds on rounding: they leave out only what is proved apart.
 ///
 /// **Complexity** Building is O(n). A query is logarithmic in n for each face that it finds, when boxes
 /// overlap as those of faces of a surface do. A change is O(log n), and amortised O(1) as a rule. The index
-/// takes about 34 bytes per face, and twice as many more while it is built.
+/// takes about 34 bytes per face, and twice as many more while it is built; with rods, 64 bytes more.
 ///
 /// **Reference** Kamel, Faloutsos: On packing R-trees.
 class Packed_R_tree
 {
 public:
   using Id = std::uint32_t;
+  using Corners = std::array<internal::Vector_of_doubles, 3>;
 
   /// Replaces the content by `faces`. The box of face `faces[i]` is `box_of(faces[i])`, a `CGAL::Bbox_3`.
   template <class BoxOf>
@@ -64,12 +74,27 @@ public:
       sample += box_of(faces[i]);
     m_map = internal::Monotone_box_map(sample);
     m_slots.clear();
+    m_rods.clear();
+    m_rod_of_face.clear();
+    m_sliver_balance = 0;
+    m_rod_extent = 0;
     Content content;
     content.reserve(faces.size());
     for (const Id face : faces)
       content.push_back({m_map(box_of(face)), face});
     sort_along_curve(content);
     fill(content);
+  }
+
+  /// Likewise, and says of any of these faces what its corners are: `corners_of(faces[i])`.
+  template <class BoxOf, class Corners_of>
+  void build(const std::vector<Id>& faces, const BoxOf& box_of, const Corners_of& corners_of)
+  {
+    build(faces, box_of);
+    for (const Id face : faces)
+      count_sliver(corners_of(face));
+    if (are_rods_due())
+      note_all_rods(corners_of);
   }
 
   /// Adds a face, or gives another box to a face that is in the index.
@@ -89,6 +114,23 @@ public:
       rebuild();
   }
 
+  /// Likewise, and says of any face that is then in the index what its corners are: `corners_of(face)`.
+  template <class Corners_of>
+  void set(Id face, const CGAL::Bbox_3& box, const Corners_of& corners_of)
+  {
+    const Corners corners = corners_of(face);
+    if (!m_rods.empty())
+      note_rod(face, corners);
+    set(face, box);
+    if (!m_rods.empty()) {
+      put_rod(face);
+    } else {
+      count_sliver(corners);
+      if (are_rods_due())
+        note_all_rods(corners_of);
+    }
+  }
+
   /// Removes a face. **Precondition** It is in the index.
   void remove(Id face)
   {
@@ -105,20 +147,37 @@ public:
   template <class Visitor>
   void visit_overlapping(const CGAL::Bbox_3& box, Visitor&& visit) const
   {
-    const internal::Monotone_box query = m_map(box);
-    std::size_t visits = 0;
-    const auto visit_faces = [&](const Leaf& leaf) {
-      for (Mask mask = leaf.boxes.overlapping(query); mask != 0; mask &= mask - 1) {
-        ++visits;
-        visit(leaf.faces[Box_block::first(mask)]);
-      }
+    const auto visit_and_go_on = [&](Id face) {
+      visit(face);
+      return false;
     };
-    if (m_leaves_in_tree > 0)
-      visit_leaves_below(m_levels.size() - 1, 0, query, visit_faces);
-    for (std::size_t i = m_leaves_in_tree; i < m_leaves.size(); ++i)
-      visit_faces(m_leaves[i]);
-    ++m_statistics.queries;
-    m_statistics.visits += visits;
+    visit_near({m_map(box), nullptr}, visit_and_go_on);
+  }
+
+  /// Likewise for the hull of some points that lie in the box. It may leave out faces that do not meet it.
+  /// Each point has its coordinates at [0], [1] and [2].
+  template <class Points, class Visitor>
+  void visit_overlapping(const CGAL::Bbox_3& box, const Points& points, Visitor&& visit) const
+  {
+    if (m_rods.empty())
+      return visit_overlapping(box, visit);
+    m_query_points.clear();
+    for (const auto& point : points)
+      m_query_points.push_back(from_origin(point));
+    const internal::Beam beam(m_query_points, m_rod_extent);
+    const auto visit_and_go_on = [&](Id face) {
+      visit(face);
+      return false;
+    };
+    visit_near({m_map(box), beam.is_usable() ? &beam : nullptr}, visit_and_go_on);
+  }
+
+  /// Returns whether `is_wanted(face)` holds for one of the faces whose boxes overlap `box`, and perhaps of
+  /// some more. It asks none after the first for which it does.
+  template <class Is_wanted>
+  bool has_overlapping(const CGAL::Bbox_3& box, const Is_wanted& is_wanted) const
+  {
+    return visit_near({m_map(box), nullptr}, is_wanted);
   }
 
   /// Counts since construction, for reports.
@@ -258,6 +317,8 @@ private:
       m_levels.push_back(std::move(level));
     } while (boxes.size() > 1);
     m_statistics.clusters = m_leaves.size();
+    if (!m_rods.empty())
+      make_rods();
   }
 
   Slot new_slot()
@@ -292,21 +353,145 @@ private:
     }
   }
 
-  template <class Visitor>
-  void visit_leaves_below(std::size_t level, std::size_t node, const internal::Monotone_box& query,
-                          Visitor& visit) const
+  struct Query
   {
-    const Mask found = m_levels[level][node].overlapping(query);
-    const auto for_each_child = [&](const auto& function) {
+    internal::Monotone_box box;
+    const internal::Beam* beam; // none, or one around what is asked for
+  };
+
+  // The children of a block that the query may meet; on level 0 they are faces.
+  Mask children_near(const Box_block& boxes, std::size_t level, std::size_t block, const Query& query) const
+  {
+    const Mask mask = boxes.overlapping(query.box);
+    return query.beam == nullptr || mask == 0 ? mask : mask & m_rods[level][block].near(*query.beam);
+  }
+
+  // Calls the visitor for faces that the query may meet, until it returns true. Returns whether it did.
+  template <class Visitor>
+  bool visit_near(const Query& query, Visitor& visit) const
+  {
+    std::size_t visits = 0;
+    const auto visit_faces = [&](std::size_t leaf) {
+      for (Mask mask = children_near(m_leaves[leaf].boxes, 0, leaf, query); mask != 0; mask &= mask - 1) {
+        ++visits;
+        if (visit(m_leaves[leaf].faces[Box_block::first(mask)]))
+          return true;
+      }
+      return false;
+    };
+    bool is_stopped = m_leaves_in_tree > 0 && visit_leaves_below(m_levels.size() - 1, 0, query, visit_faces);
+    for (std::size_t i = m_leaves_in_tree; i < m_leaves.size() && !is_stopped; ++i)
+      is_stopped = visit_faces(i);
+    ++m_statistics.queries;
+    m_statistics.visits += visits;
+    return is_stopped;
+  }
+
+  template <class Visitor>
+  bool visit_leaves_below(std::size_t level, std::size_t node, const Query& query, Visitor& visit) const
+  {
+    const Mask found = children_near(m_levels[level][node], level + 1, node, query);
+    const auto is_any_child = [&](const auto& function) {
       for (Mask mask = found; mask != 0; mask &= mask - 1)
-        function(s_width * node + Box_block::first(mask));
+        if (function(s_width * node + Box_block::first(mask)))
+          return true;
+      return false;
+    };
+    const auto prefetch_all = [&](const auto& blocks) {
+      for (Mask mask = found; mask != 0; mask &= mask - 1)
+        internal::prefetch(blocks[s_width * node + Box_block::first(mask)]);
     };
     if (level > 0) {
-      for_each_child([&](std::size_t child) { internal::prefetch(m_levels[level - 1][child]); });
-      for_each_child([&](std::size_t child) { visit_leaves_below(level - 1, child, query, visit); });
-    } else {
-      for_each_child([&](std::size_t child) { internal::prefetch(m_leaves[child]); });
-      for_each_child([&](std::size_t child) { visit(m_leaves[child]); });
+      prefetch_all(m_levels[level - 1]);
+      return is_any_child(
+          [&](std::size_t child) { return visit_leaves_below(level - 1, child, query, visit); });
+    }
+    prefetch_all(m_leaves);
+    return is_any_child(visit);
+  }
+
+  template <class Point>
+  internal::Vector_of_doubles from_origin(const Point& point) const
+  {
+    const auto& origin = m_map.origin();
+    return {point[0] - origin[0], point[1] - origin[1], point[2] - origin[2]};
+  }
+
+  // The balance rises as long as more than an eighth of the faces that come in are slivers.
+  void count_sliver(const Corners& corners)
+  {
+    constexpr std::size_t worth = 7;
+    if (internal::is_askew_sliver(corners))
+      m_sliver_balance += worth;
+    else if (m_sliver_balance > 0)
+      --m_sliver_balance;
+  }
+  bool are_rods_due() const { return m_sliver_balance > m_size / 2; }
+
+  template <class Corners_of>
+  void note_all_rods(const Corners_of& corners_of)
+  {
+    for (const Leaf& leaf : m_leaves)
+      for (const Id face : leaf.faces)
+        if (face != s_none)
+          note_rod(face, corners_of(face));
+    make_rods();
+  }
+
+  void note_rod(Id face, const Corners& corners)
+  {
+    if (face >= m_rod_of_face.size())
+      m_rod_of_face.resize(face + std::size_t(1));
+    const auto& [a, b, c] = corners;
+    m_rod_of_face[face] = internal::Rod::around_triangle({from_origin(a), from_origin(b), from_origin(c)});
+    m_rod_extent = (std::max)(m_rod_extent, m_rod_of_face[face].extent());
+  }
+
+  // Makes the rods of all nodes from those of the faces.
+  void make_rods()
+  {
+    m_rods.assign(1 + m_levels.size(), {});
+    m_rods[0].resize(m_leaves.size());
+    for (std::size_t leaf = 0; leaf < m_leaves.size(); ++leaf)
+      for (std::size_t i = 0; i < s_width; ++i)
+        if (const Id face = m_leaves[leaf].faces[i]; face != s_none)
+          m_rods[0][leaf].set(i, m_rod_of_face[face]);
+    std::vector<internal::Rod> below;
+    for (std::size_t level = 1; level < m_rods.size(); ++level) {
+      m_rods[level].resize(m_levels[level - 1].size());
+      const std::size_t children = level == 1 ? m_leaves_in_tree : m_levels[level - 2].size();
+      for (std::size_t child = 0; child < children; ++child) {
+        const Box_block& boxes = level == 1 ? m_leaves[child].boxes : m_levels[level - 2][child];
+        below.clear();
+        for (std::size_t i = 0; i < s_width; ++i)
+          if (!boxes[i].is_empty())
+            below.push_back(m_rods[level - 1][child][i]);
+        const internal::Rod rod = internal::Rod::around(below);
+        m_rod_extent = std::isinf(rod.radius) ? m_rod_extent : (std::max)(m_rod_extent, rod.extent());
+        m_rods[level][child / s_width].set(child % s_width, rod);
+      }
+    }
+  }
+
+  // Stores the rod of a face that has a slot, and enlarges those above so that they enclose it.
+  void put_rod(Id face)
+  {
+    const std::size_t slot = m_slots[face], leaf = slot / s_width;
+    m_rods[0].resize(m_leaves.size());
+    m_rods[0][leaf].set(slot % s_width, m_rod_of_face[face]);
+    if (leaf >= m_leaves_in_tree)
+      return;
+    internal::Rod rod = m_rod_of_face[face];
+    std::size_t child = leaf;
+    for (std::size_t level = 1; level < m_rods.size(); ++level) {
+      internal::Rod_block& block = m_rods[level][child / s_width];
+      internal::Rod parent = block[child % s_width];
+      if (!parent.enclose(rod))
+        return;
+      block.set(child % s_width, parent);
+      m_rod_extent = (std::max)(m_rod_extent, parent.extent());
+      rod = parent;
+      child /= s_width;
     }
   }
 
@@ -317,6 +502,12 @@ private:
   std::vector<Slot> m_slots;                    // by face
   std::size_t m_size = 0;
   Slot m_slot_count = 0; // slots given to faces since the tree was made
+  std::vector<std::vector<internal::Rod_block>>
+      m_rods; // of faces by leaf, then of the children in `m_levels`
+  std::vector<internal::Rod> m_rod_of_face;
+  std::size_t m_sliver_balance = 0;
+  double m_rod_extent = 0;                                         // no coordinate of a known rod is larger
+  mutable std::vector<internal::Vector_of_doubles> m_query_points; // a buffer
   mutable Index_statistics m_statistics;
 };
 

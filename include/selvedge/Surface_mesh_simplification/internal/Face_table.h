@@ -4,21 +4,34 @@
 #ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_FACE_TABLE_H
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_FACE_TABLE_H
 
+#include <selvedge/internal/Vector_of_doubles.h>
 #include <selvedge/internal/instructions.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Dynamic_property_map.h>
+#include <CGAL/Kernel_traits.h>
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/iterator.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace selvedge {
 namespace internal {
+
+/// Whether an index wants to know the corners of faces, and not their boxes alone.
+template <class FaceIndex, class = void>
+struct Wants_corners : std::false_type
+{
+};
+template <class FaceIndex>
+struct Wants_corners<FaceIndex, std::void_t<typename FaceIndex::Corners>> : std::true_type
+{
+};
 
 /// Numbers the faces of a mesh, and keeps the corners of each and an index of their boxes.
 ///
@@ -31,6 +44,11 @@ class Face_table
   using Vertex = typename Graph_traits::vertex_descriptor;
   using Halfedge = typename Graph_traits::halfedge_descriptor;
   using Number = typename VertexTable::Number;
+  using Point = typename VertexTable::Point;
+  // In other kernels, coordinates may be exact numbers that no double represents.
+  static constexpr bool s_are_corners_wanted =
+      Wants_corners<FaceIndex>::value &&
+      std::is_same_v<typename CGAL::Kernel_traits<Point>::Kernel::FT, double>;
 
 public:
   using Face = typename Graph_traits::face_descriptor;
@@ -53,7 +71,11 @@ public:
       ids.push_back(id);
     }
     m_size = m_faces.size();
-    m_index.build(ids, [this](Id id) { return box(id); });
+    const auto box_of = [this](Id id) { return box(id); };
+    if constexpr (s_are_corners_wanted)
+      m_index.build(ids, box_of, coordinates_of());
+    else
+      m_index.build(ids, box_of);
   }
 
   Face descriptor(Id id) const { return m_faces[id]; }
@@ -70,11 +92,21 @@ public:
   void find_near(const CGAL::Bbox_3& box, Number mover, std::vector<Id>& near)
   {
     near.clear();
-    m_index.visit_overlapping(box, [&](Id id) {
-      prefetch(m_corners[id]);
-      near.push_back(id);
-    });
+    m_index.visit_overlapping(box, collect(near));
     remove_at(mover, near);
+  }
+
+  /// Likewise, for the hull of some points in the box. It may leave out faces that do not meet this.
+  void find_near(const CGAL::Bbox_3& box, const std::vector<Point>& points, Number mover,
+                 std::vector<Id>& near)
+  {
+    if constexpr (s_are_corners_wanted) {
+      near.clear();
+      m_index.visit_overlapping(box, points, collect(near));
+      remove_at(mover, near);
+    } else {
+      find_near(box, mover, near);
+    }
   }
 
   /// Adds all faces at `vertex`, each once, except those at `mover`: for a vertex that is judged as if it
@@ -111,7 +143,10 @@ public:
       if (!CGAL::is_border(h, m_mesh)) {
         const Id id = get(m_ids, face(h, m_mesh));
         m_corners[id] = find_corners(h);
-        m_index.set(id, box(id));
+        if constexpr (s_are_corners_wanted)
+          m_index.set(id, box(id), coordinates_of());
+        else
+          m_index.set(id, box(id));
       }
   }
 
@@ -125,6 +160,26 @@ private:
   {
     return {m_vertices.number(source(h, m_mesh)), m_vertices.number(target(h, m_mesh)),
             m_vertices.number(target(next(h, m_mesh), m_mesh))};
+  }
+
+  auto collect(std::vector<Id>& near) const
+  {
+    return [&near, this](Id id) {
+      prefetch(m_corners[id]);
+      near.push_back(id);
+    };
+  }
+
+  auto coordinates_of() const
+  {
+    return [this](Id id) {
+      std::array<Vector_of_doubles, 3> result;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Point& p = m_vertices.point(m_corners[id][i]);
+        result[i] = {p[0], p[1], p[2]};
+      }
+      return result;
+    };
   }
 
   CGAL::Bbox_3 box(Id id) const

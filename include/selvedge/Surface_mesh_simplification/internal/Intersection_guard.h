@@ -333,7 +333,7 @@ private:
   void gather_faces_near(const Motion& motion)
   {
     const auto mover = m_vertices.number(motion.mover);
-    m_faces.find_near(m_star.box(), mover, m_near);
+    m_faces.find_near(m_star.box(), m_star.points(), mover, m_near);
     if (motion.is_target_moved)
       m_faces.add_all_at(*motion.target, mover, m_near);
     for (const Id id : m_near)

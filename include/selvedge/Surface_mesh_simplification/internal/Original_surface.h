@@ -4,14 +4,20 @@
 #ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_ORIGINAL_SURFACE_H
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_ORIGINAL_SURFACE_H
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/Simple_cartesian.h>
+#include <selvedge/spatial/Packed_R_tree.h>
 
+#include <CGAL/Bbox_3.h>
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/squared_distance_3.h>
+
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <numeric>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace selvedge {
@@ -19,10 +25,12 @@ namespace internal {
 
 /// The triangles of a mesh as it was, of which one can ask whether a point is near.
 ///
-/// The tree that answers is built at the first question, since most reductions of dense meshes ask none.
+/// The index that answers is made at the first question, since most reductions of dense meshes ask none. It
+/// has several boxes for a sliver askew to the axes, one for each part of its length: one box around all of
+/// it would say little about it.
 ///
-/// **Exactness** Floating point. **Complexity** O(n log n) for the first question about n triangles, and
-/// about O(log n) for others. Copies share nothing.
+/// **Exactness** Floating point. **Complexity** O(n) for the first question about n triangles, and about
+/// O(log n) for others. Copies share nothing.
 class Original_surface
 {
   using Kernel = CGAL::Simple_cartesian<double>;
@@ -40,53 +48,98 @@ public:
   std::size_t number_of_triangles() const { return m_triangles.size(); }
   const std::array<Number, 3>& triangle(std::size_t number) const { return m_triangles[number]; }
 
-  /// Returns whether a triangle is at most a squared distance away from a point.
+  /// Returns whether a triangle is at most a squared distance away from a point. It is fast when the triangle
+  /// that was near the point before is near this one, too.
   bool is_near(const Point& point, double squared_distance) const
   {
-    if (!m_tree) {
-      Traits traits;
-      traits.set_shared_data(this);
-      m_tree = std::make_unique<Tree>(traits);
-      for (std::size_t i = 0; i < m_triangles.size(); ++i)
-        m_tree->insert(Primitive(i));
-      m_tree->build();
-    }
-    return m_tree->do_intersect(Kernel::Sphere_3(point, squared_distance));
+    if (!m_index)
+      make_index();
+    const Kernel::Sphere_3 sphere(point, squared_distance);
+    const auto is_found = [&] { return CGAL::do_intersect(sphere, triangle_at(m_last)); };
+    if (is_found())
+      return true;
+    const auto is_found_within = [&](double radius) {
+      return m_index->has_overlapping(CGAL::Bbox_3(point.x() - radius, point.y() - radius, point.z() - radius,
+                                                   point.x() + radius, point.y() + radius,
+                                                   point.z() + radius),
+                                      [&](Number part) {
+                                        const Number last = std::exchange(m_last, m_triangle_of_part[part]);
+                                        return m_last != last && is_found();
+                                      });
+    };
+    // Most points that are near are far nearer, and few boxes meet a small one.
+    const double radius = (1 + 1e-9) * std::sqrt(squared_distance);
+    return is_found_within(radius / 8) || is_found_within(radius);
   }
 
 private:
-  // A triangle by its number, as CGAL's tree asks for it.
-  struct Primitive
+  Kernel::Triangle_3 triangle_at(Number number) const
   {
-    using Id = std::size_t;
-    using Point = Original_surface::Point;
-    using Datum = Kernel::Triangle_3;
-    using Datum_reference = Datum;
-    using Point_reference = Point;
-    using Shared_data = const Original_surface*;
+    const auto& [a, b, c] = m_triangles[number];
+    return {m_points[a], m_points[b], m_points[c]};
+  }
 
-    explicit Primitive(Id number) : m_number(number) {}
-    Id id() const { return m_number; }
-    Datum datum(Shared_data surface) const
-    {
-      const auto& [a, b, c] = surface->m_triangles[m_number];
-      return Datum(surface->m_points[a], surface->m_points[b], surface->m_points[c]);
+  void make_index() const
+  {
+    std::vector<CGAL::Bbox_3> boxes;
+    for (Number i = 0; i < m_triangles.size(); ++i) {
+      add_boxes(triangle_at(i), boxes);
+      m_triangle_of_part.resize(boxes.size(), i);
     }
-    Point reference_point(Shared_data surface) const
-    {
-      return surface->m_points[surface->m_triangles[m_number][0]];
-    }
-    static Shared_data construct_shared_data(Shared_data surface) { return surface; }
+    std::vector<Number> parts(boxes.size());
+    std::iota(parts.begin(), parts.end(), Number(0));
+    m_index.emplace();
+    m_index->build(parts, [&](Number part) { return boxes[part]; });
+  }
 
-  private:
-    Id m_number;
-  };
-  using Traits = CGAL::AABB_traits<Kernel, Primitive>;
-  using Tree = CGAL::AABB_tree<Traits>;
+  // Adds boxes that cover a triangle: one, unless it is thin, and its box wide in two directions.
+  static void add_boxes(const Kernel::Triangle_3& triangle, std::vector<CGAL::Bbox_3>& boxes)
+  {
+    const CGAL::Bbox_3 box = triangle.bbox();
+    std::array<double, 3> widths{box.x_span(), box.y_span(), box.z_span()};
+    std::sort(widths.begin(), widths.end());
+    std::size_t longest = 0;
+    std::array<double, 3> squares;
+    for (int i = 0; i < 3; ++i) {
+      squares[std::size_t(i)] = CGAL::squared_distance(triangle[i], triangle[i + 1]);
+      if (squares[std::size_t(i)] > squares[longest])
+        longest = std::size_t(i);
+    }
+    // The width of the triangle is its double area by its longest side.
+    const double width = std::sqrt(4 * triangle.squared_area() / squares[longest]);
+    constexpr int most_parts = 8;
+    if (!(widths[1] > most_parts * width)) {
+      boxes.push_back(box);
+      return;
+    }
+    // From a to b on the longest side and through c on the others, at equal shares of the way.
+    const Point &a = triangle[int(longest)], &b = triangle[int(longest) + 1], &c = triangle[int(longest) + 2];
+    const double at_c = (std::min)((std::max)(((c - a) * (b - a)) / squares[longest], 0.), 1.);
+    const auto between = [](const Point& p, const Point& q, double share) { return p + share * (q - p); };
+    const auto across = [&](double share) {
+      const Point beside = share < at_c ? between(a, c, share / at_c)
+                                        : between(c, b, at_c < 1 ? (share - at_c) / (1 - at_c) : 1);
+      return between(a, b, share).bbox() + beside.bbox();
+    };
+    // Points between others are rounded by less than this.
+    const double margin =
+        0x1p-48 * (std::max)({std::fabs(box.xmin()), std::fabs(box.ymin()), std::fabs(box.zmin()),
+                              std::fabs(box.xmax()), std::fabs(box.ymax()), std::fabs(box.zmax())});
+    for (int i = 0; i < most_parts; ++i) {
+      const double from = double(i) / most_parts, to = double(i + 1) / most_parts;
+      CGAL::Bbox_3 part = across(from) + across(to);
+      if (from <= at_c && at_c <= to)
+        part += c.bbox();
+      boxes.emplace_back(part.xmin() - margin, part.ymin() - margin, part.zmin() - margin,
+                         part.xmax() + margin, part.ymax() + margin, part.zmax() + margin);
+    }
+  }
 
   const std::vector<Point>& m_points;
   std::vector<std::array<Number, 3>> m_triangles;
-  mutable std::unique_ptr<Tree> m_tree;
+  mutable std::optional<Packed_R_tree> m_index; // of parts of triangles
+  mutable std::vector<Number> m_triangle_of_part;
+  mutable Number m_last = 0; // the triangle that was asked last
 };
 
 } // namespace internal

@@ -48,6 +48,8 @@ struct Monotone_box
     return (is_met(0) & is_met(1) & is_met(2)) != 0;
   }
 
+  bool is_empty() const { return lower[0] > upper[0]; }
+
   bool contains(const Monotone_box& other) const
   {
     return lower[0] <= other.lower[0] && lower[1] <= other.lower[1] && lower[2] <= other.lower[2] &&
@@ -89,6 +91,8 @@ public:
     }
     return result;
   }
+
+  const std::array<double, 3>& origin() const { return m_origin; }
 
 private:
   // The conversion of a double beyond the range of float is not defined. Clamping to that range is monotone.
