@@ -52,6 +52,15 @@ void read_error(Simplify_request& request)
   request.options.max_error = error;
 }
 
+void read_weld(Simplify_request& request)
+{
+  if (request.weld.empty() || request.weld == "auto")
+    return;
+  request.weld_distance = number_in(request.weld);
+  if (!(request.weld_distance >= 0 && std::isfinite(request.weld_distance)))
+    throw Argument_error("--weld: '" + request.weld + "' is neither a number of at least 0 nor auto");
+}
+
 void read_ratios(Simplify_request& request)
 {
   for (const std::string& text : request.ratios)
@@ -154,7 +163,7 @@ Json options_json(const Simplify_request& request)
           {"keep", request.intent.kept},
           {"weights", request.intent.weights.empty() ? Json(nullptr) : Json(request.intent.weights)},
           {"obstacle", request.obstacle.empty() ? Json(nullptr) : Json(request.obstacle)},
-          {"weld", request.weld_distance},
+          {"weld", request.weld == "auto" ? Json(request.weld) : Json(request.weld_distance)},
           {"sewn", request.is_sewn},
           {"normals", name_of(request.normals)},
           {"polygons", request.are_polygons_split ? "split" : "keep"},
@@ -175,6 +184,7 @@ void complete(Simplify_request& request)
   request.options.faces_per_cell = request.is_in_cells ? faces_per_cell : 0;
   read_ratios(request);
   read_error(request);
+  read_weld(request);
   check(request);
 }
 
@@ -308,12 +318,11 @@ void add_options(CLI::App& command, Simplify_request& request)
 
   const char* const seams = "Seams";
   command
-      .add_option("--weld", request.weld_distance,
+      .add_option("--weld", request.weld,
                   "Close seams that gape: snap a border vertex onto its partner on another border within "
-                  "this length, in "
-                  "the unit of the file.")
-      ->check(in_range(0))
-      ->type_name("EPS")
+                  "this length, in the unit of the file, or within the length at which most gaps clearly "
+                  "end, if there is one. Without this option, the summary says what that length is.")
+      ->type_name("EPS|auto")
       ->group(seams);
   command
       .add_flag(
@@ -434,7 +443,7 @@ void add_options(CLI::App& command, Simplify_request& request)
       "  selvedge simplify jacket.obj -o small.obj --ratio 0.2 --ratio collar=0.8 --keep logo --obstacle "
       "body.obj\n"
       "  selvedge simplify jacket.obj -o small.obj --ratio 0.1 --require-target || echo missed\n"
-      "  selvedge simplify draped.obj -o small.obj --ratio 0.3 --weld 0.0001    # close narrow gaps\n\n"
+      "  selvedge simplify draped.obj -o small.obj --ratio 0.3 --weld auto      # close narrow gaps\n\n"
       "The result is always judged before it is written. A target that cannot be reached is no error: the\n"
       "result is written, and summary and report say what prevented more. Ctrl-C during the reduction stops "
       "it,\n"

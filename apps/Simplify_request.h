@@ -33,7 +33,8 @@ struct Simplify_request
   Simplify_intent intent;
   bool is_unguarded = false;
   bool is_in_cells = false;
-  double weld_distance = 0;
+  std::string weld;         // "EPS", "auto", or empty
+  double weld_distance = 0; // 0 for auto
   Normals_choice normals = Normals_choice::automatic;
   bool is_sewn = false;
   std::optional<Defects> defects; // none: the default

@@ -202,18 +202,20 @@ void print_seams(const Inspection& mesh)
     std::cout << "none\n";
     return;
   }
-  const std::vector<double>& gaps = mesh.partner_distances;
-  std::cout << counted(mesh.border_edges, "edge") << ", " << with_commas(mesh.border_vertices)
-            << (mesh.border_vertices == 1 ? " vertex" : " vertices") << '\n';
-  std::cout << "gaps: ";
-  if (gaps.empty())
-    std::cout << "no border vertex has a partner on another border within "
-              << with_digits(mesh.partner_limit);
+  const Border_gaps& gaps = mesh.border_gaps;
+  std::cout << counted(mesh.border_edges, "edge") << ", " << with_commas(gaps.border_vertices)
+            << (gaps.border_vertices == 1 ? " vertex" : " vertices") << '\n';
+  if (gaps.lengths.empty())
+    std::cout << "gaps: no border vertex has a partner on another border";
   else
-    std::cout << with_commas(gaps.size()) << " of the border vertices have a partner within "
-              << with_digits(gaps.back()) << ", half of these within " << with_digits(gaps[gaps.size() / 2])
-              << "; --weld closes gaps";
-  std::cout << " (looked for within 1 % of the size)\n";
+    std::cout << "gaps: " << with_commas(gaps.lengths.size())
+              << " of the border vertices have a partner within " << with_digits_up(gaps.lengths.back())
+              << ", half of these within " << with_digits_up(gaps.lengths[gaps.lengths.size() / 2]);
+  std::cout << " (looked for within the median length of border edges, " << with_digits(gaps.limit) << ")\n";
+  if (gaps.clear_length)
+    std::cout << "open seams: " << partners_in_clear_gaps(gaps, mesh.diagonal) << "; --weld auto joins them\n";
+  else if (!gaps.lengths.empty())
+    std::cout << "open seams: none that are clearly narrower than what lies beside them\n";
 }
 
 void print_freedom(const Inspection& mesh)
@@ -323,14 +325,8 @@ void add_inspection(Json& report, const Inspection& mesh)
   report["seams"] = {{"normals", name_of(mesh.normals)},      {"edges", mesh.seams.edges},
                      {"by_vertices", mesh.seams.by_vertices}, {"by_texture", mesh.seams.by_texture},
                      {"by_normals", mesh.seams.by_normals},   {"by_labels", mesh.seams.by_labels}};
-  const std::vector<double>& gaps = mesh.partner_distances;
-  const auto within = [&](double share) {
-    return gaps.empty() ? Json(nullptr) : Json(gaps[std::size_t(share * double(gaps.size() - 1))]);
-  };
-  report["borders"] = {
-      {"edges", mesh.border_edges}, {"vertices", mesh.border_vertices}, {"partner_limit", mesh.partner_limit},
-      {"partnered", gaps.size()},   {"half_within", within(0.5)},       {"most_within", within(0.9)},
-      {"all_within", within(1)}};
+  report["borders"] = {{"edges", mesh.border_edges}};
+  report["border_gaps"] = border_gaps_json(mesh.border_gaps);
   report["movable"] = {{"free", mesh.movable.free},
                        {"on_lines", mesh.movable.on_lines},
                        {"ends", mesh.movable.ends},

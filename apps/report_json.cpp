@@ -132,6 +132,22 @@ Json input_json(const std::filesystem::path& path, const Mesh_file& file)
           {"notes", describe(file.notes)}};
 }
 
+Json border_gaps_json(const Border_gaps& gaps)
+{
+  const std::vector<double>& lengths = gaps.lengths;
+  const auto within = [&](double share) {
+    return lengths.empty() ? Json(nullptr) : Json(lengths[std::size_t(share * double(lengths.size() - 1))]);
+  };
+  return {{"border_vertices", gaps.border_vertices},
+          {"limit", gaps.limit},
+          {"partnered", lengths.size()},
+          {"half_within", within(0.5)},
+          {"most_within", within(0.9)},
+          {"all_within", within(1)},
+          {"clear_length", gaps.clear_length ? Json(*gaps.clear_length) : Json(nullptr)},
+          {"within_clear_length", gaps.within_clear_length}};
+}
+
 void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified_soup& result)
 {
   const Simplify_report& done = result.report;
@@ -179,7 +195,9 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
                        {"unwelded_positions", welding.unsewn_positions},
                        {"left_out_faces", prepared.left_out_faces}};
   const Snapping_notes& snap = prepared.snapping;
-  report["snap"] = {{"border_vertices", snap.border_vertices},
+  report["border_gaps"] = border_gaps_json(prepared.border_gaps);
+  report["snap"] = {{"distance", snap.distance},
+                    {"border_vertices", snap.border_vertices},
                     {"partnered", snap.partnered},
                     {"sewn", snap.snapped},
                     {"left_ambiguous", snap.left_ambiguous},

@@ -29,8 +29,11 @@ Json new_report(const std::string& command);
 /// Returns what a report says of a file that was read.
 Json input_json(const std::filesystem::path& path, const Mesh_file& file);
 
+/// Returns what a report says of the gaps between borders.
+Json border_gaps_json(const Border_gaps& gaps);
+
 /// Sets `faces`, `target`, `collapses`, `passes`, `cells`, `hindrances`, `refused`, `frozen`, `index`,
-/// `welding`, `snap` and `rounding`.
+/// `welding`, `border_gaps`, `snap` and `rounding`.
 void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified_soup& result);
 
 /// Sets `verified`, `pieces`, and `topology`, `matching` and `distance` where there is an original.

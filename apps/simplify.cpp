@@ -112,6 +112,8 @@ private:
     options.round_to_float32 = needs_float32(file.soup, output_format());
     options.defects = defects_of(m_request);
     options.weld_distance = m_request.weld_distance;
+    options.weld_clear_gaps = m_request.weld == "auto";
+    options.measure_border_gaps = m_request.weld.empty() && (!m_request.is_quiet || !m_request.report.empty());
     options.normals = m_request.normals;
     try {
       return prepare(std::move(file.soup), options, obstacle);
@@ -216,7 +218,8 @@ private:
     const std::vector<std::string> dropped = not_carried(prepared.soup, output_format());
     if (!m_request.is_quiet) {
       std::ostream& stream = has_standard_output(m_request) ? std::cerr : std::cout;
-      print_input(stream, m_request, prepared, m_report["input"]["notes"], dropped, m_references);
+      print_input(stream, m_request, prepared, levels.front().verification.distances->diagonal,
+                  m_report["input"]["notes"], dropped, m_references);
       for (const Level& level : levels)
         print_summary(stream, m_request, prepared, level, m_outcome);
     }

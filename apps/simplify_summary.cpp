@@ -163,10 +163,22 @@ void print_snapping(std::ostream& stream, const Snapping_notes& notes)
   print(notes.near_without_edge, "no edge beside them can be sewn to the border that is near");
 }
 
+void print_border_gaps(std::ostream& stream, const Simplify_request& request, const Border_gaps& gaps,
+                       double diagonal)
+{
+  if (request.weld == "auto" && !gaps.clear_length)
+    stream << "  --weld auto: nothing is closed, because no gaps in seams are clearly narrower than what lies "
+              "beside them; --weld EPS closes gaps up to a length\n";
+  else if (gaps.clear_length)
+    stream << (request.weld == "auto" ? "  --weld auto: " : "  open seams: ")
+           << partners_in_clear_gaps(gaps, diagonal)
+           << (request.weld == "auto" ? ", which is the length chosen\n" : "; --weld auto joins them\n");
+}
+
 } // namespace
 
 void print_input(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
-                 const Json& notes, const std::vector<std::string>& dropped,
+                 double diagonal, const Json& notes, const std::vector<std::string>& dropped,
                  const std::vector<std::string>& references)
 {
   stream << input_name(request.input) << ": " << counted(prepared.soup.triangles.size(), "face");
@@ -186,7 +198,8 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
     stream << "  normals made anew: every face of the input has its own, as in flat shading\n";
   if (prepared.normals == Normals_treatment::smooth)
     stream << "  normals made anew, with the hard edges of the input\n";
-  if (request.weld_distance > 0)
+  print_border_gaps(stream, request, prepared.border_gaps, diagonal);
+  if (prepared.snapping.distance > 0)
     print_snapping(stream, prepared.snapping);
   const char* separator = "  not in the output, because its format cannot hold them: ";
   for (const std::string& what : dropped)

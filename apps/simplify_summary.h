@@ -30,10 +30,11 @@ struct Level
   } polygons;
 };
 
-/// Prints to `stream` what was read and prepared. `notes` are those of the report about the file; `dropped`
-/// is what the output's format cannot hold; `references` are the names of other files that have been changed.
+/// Prints to `stream` what was read and prepared. `diagonal` is that of the bounding box; `notes` are those of
+/// the report about the file; `dropped` is what the output's format cannot hold; `references` are the names of
+/// other files that have been changed.
 void print_input(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
-                 const Json& notes, const std::vector<std::string>& dropped,
+                 double diagonal, const Json& notes, const std::vector<std::string>& dropped,
                  const std::vector<std::string>& references);
 
 /// Prints to `stream` what the reduction and the judge say of a level.

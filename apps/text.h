@@ -4,8 +4,10 @@
 #ifndef SELVEDGE_APPS_TEXT_H
 #define SELVEDGE_APPS_TEXT_H
 
+#include <selvedge/Border_gaps.h>
 #include <selvedge/verify.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <string>
@@ -34,10 +36,26 @@ inline std::string with_digits(double value, const char* format = "%.3g")
   return text;
 }
 
+/// Returns a positive number with three digits, rounded up: whoever types them gets no less.
+inline std::string with_digits_up(double value)
+{
+  const std::string text = with_digits(value);
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 2);
+  return std::stod(text) >= value ? text : with_digits(value + unit / 2);
+}
+
 /// Returns a share of 0.5 as "50 %".
 inline std::string percent(double share)
 {
   return with_digits(100 * share) + " %";
+}
+
+/// Says how many border vertices have a partner within the clear length, which there is.
+inline std::string partners_in_clear_gaps(const Border_gaps& gaps, double diagonal)
+{
+  return with_commas(gaps.within_clear_length) + " of " +
+         with_commas(gaps.border_vertices) + " border vertices have a partner within " +
+         with_digits_up(*gaps.clear_length) + " (" + percent(*gaps.clear_length / diagonal) + " of the size)";
 }
 
 inline const char* name(Offence offence)

@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_INSPECT_H
 #define SELVEDGE_INSPECT_H
 
+#include <selvedge/Border_gaps.h>
 #include <selvedge/mesh_files.h>
 #include <selvedge/normals.h>
 #include <selvedge/verify.h>
@@ -117,13 +118,10 @@ struct Inspection
   };
   Seams seams;
 
-  /// Vertices on borders, by position, and, of each that has a partner on another border or farther along its
-  /// own, the least distance within which it has, ascending: what `Prepare_options::weld_distance` would have
-  /// to be. They are looked for within `partner_limit`.
   std::size_t border_edges = 0;
-  std::size_t border_vertices = 0;
-  double partner_limit = 0;
-  std::vector<double> partner_distances;
+
+  /// The gaps between borders, and the length that `Prepare_options::weld_clear_gaps` would weld.
+  Border_gaps border_gaps;
 };
 
 /// Inspects a mesh as `prepare` and `simplify_soup` would treat it with default options, and with

@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_PREPARE_H
 #define SELVEDGE_PREPARE_H
 
+#include <selvedge/Border_gaps.h>
 #include <selvedge/Snapping_notes.h>
 #include <selvedge/Triangle_soup.h>
 #include <selvedge/internal/Scale.h>
@@ -81,6 +82,13 @@ struct Prepare_options
   /// for n triangles; in every round, as many steps as there are pairs of border vertices within this
   /// distance.
   double weld_distance = 0;
+
+  /// Whether the gaps between borders are measured: `Prepared_soup::border_gaps`.
+  bool measure_border_gaps = false;
+
+  /// Whether the clear length of these gaps, if there is one, takes the place of the weld distance, which must
+  /// be 0; otherwise `Argument_error` is thrown.
+  bool weld_clear_gaps = false;
 };
 
 /// A soup that has been rounded, judged and snapped. `simplify_soup` reduces it, and the result is judged
@@ -129,6 +137,10 @@ struct Prepared_soup
 
   Rounding_notes rounding;
   bool is_float32 = false; ///< whether new coordinates must be 32-bit floats, too
+
+  /// The gaps between borders before anything snaps, if they were to be measured or welded.
+  Border_gaps border_gaps;
+
   Snapping_notes snapping;
   double seconds_positions = 0; ///< for rounding, and finding coincident vertices
   double seconds_check = 0;     ///< for judging

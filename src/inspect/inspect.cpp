@@ -7,7 +7,6 @@
 #include "soup/Working_mesh.h"
 #include "surface_distances.h"
 #include "verify/pieces.h"
-#include "weld/snapping.h"
 
 #include <selvedge/prepare.h>
 
@@ -21,9 +20,6 @@
 
 namespace selvedge {
 namespace {
-
-// Seams that gape farther apart than this share of the diagonal are not looked for.
-constexpr double s_partner_limit = 0.01;
 
 std::vector<std::string> names_in_use(const Triangle_labels& labels)
 {
@@ -107,7 +103,7 @@ public:
     find_pieces_and_surfaces();
     count_vertices();
     count_seams();
-    find_partners();
+    m_result.border_gaps = m_prepared.border_gaps;
     return std::move(m_result);
   }
 
@@ -199,14 +195,6 @@ private:
     }
   }
 
-  void find_partners()
-  {
-    m_result.partner_limit = s_partner_limit * m_result.diagonal;
-    Border_gaps gaps = border_gaps(m_soup, m_prepared.positions, m_result.partner_limit, m_prepared.scale);
-    m_result.border_vertices = gaps.border_vertices;
-    m_result.partner_distances = std::move(gaps.lengths);
-  }
-
   const Prepared_soup& m_prepared;
   const Triangle_soup& m_soup;
   Working_mesh m_working;
@@ -248,6 +236,7 @@ Inspection inspect(Triangle_soup soup)
 {
   Prepare_options options;
   options.normals = Normals_choice::automatic;
+  options.measure_border_gaps = true;
   const Prepared_soup prepared = prepare(std::move(soup), options);
   return Inspector(prepared).run();
 }

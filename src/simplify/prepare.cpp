@@ -210,8 +210,15 @@ private:
     for (const Offending_pair& pair : m_prepared.offending_pairs)
       stays[pair.first] = stays[pair.second] = true;
     const std::vector<Point_3> points_before = soup().points;
-    m_prepared.snapping = snap_borders(soup(), m_prepared.positions, stays, m_options.weld_distance,
-                                       transforms, obstacle().triangles.size(), m_prepared.scale);
+    const std::size_t obstacle_triangles = obstacle().triangles.size();
+    double distance = m_options.weld_distance;
+    if (m_options.measure_border_gaps || m_options.weld_clear_gaps)
+      m_prepared.border_gaps =
+          border_gaps(soup(), m_prepared.positions, transforms, obstacle_triangles, m_prepared.scale);
+    if (m_options.weld_clear_gaps)
+      distance = m_prepared.border_gaps.clear_length.value_or(0);
+    m_prepared.snapping = snap_borders(soup(), m_prepared.positions, stays, distance, transforms,
+                                       obstacle_triangles, m_prepared.scale);
     forget_moved_polygons(soup(), points_before);
   }
 
@@ -234,6 +241,8 @@ Prepared_soup prepare(Triangle_soup input, const Prepare_options& options, const
 {
   if (input.triangles.empty())
     throw Input_error("the mesh has no triangles");
+  if (options.weld_clear_gaps && options.weld_distance != 0)
+    throw Argument_error("the weld distance is either given or found, not both");
   return Preparation(std::move(input), options, obstacle).run();
 }
 

@@ -75,29 +75,40 @@ public:
   }
 
   /// Looks for partners without snapping any.
-  Border_gaps gaps(double limit)
+  Border_gaps gaps()
   {
     Border_gaps result;
     result.border_vertices = m_sites.size();
+    result.limit = median_border_edge();
     std::vector<Index> on_border;
     const FaceIndex index = index_borders(on_border);
+    std::vector<Gap> found;
     Cancellation_poll poll;
     for (const Index i : on_border) {
       constexpr int halvings = 12; // a seam is usually far narrower than what it is looked for in
-      for (double within = std::ldexp(limit, -halvings);; within = (std::min)(limit, 2 * within)) {
-        double least = std::numeric_limits<double>::infinity();
+      for (double within = std::ldexp(result.limit, -halvings);;
+           within = (std::min)(result.limit, 2 * within)) {
+        Gap least{std::numeric_limits<double>::infinity(), false};
         visit_near(index, i, within, [&](Index j) {
           poll();
-          if (const double length = gap(i, j); length < least && are_partners_within(length, i, j))
-            least = length;
+          const double length = gap(i, j);
+          if (length > least.length || m_sites[i].transform != m_sites[j].transform ||
+              !are_partners_within(length, i, j))
+            return;
+          // Of several at one distance, none comes first, so that no numbering matters.
+          least.is_continued = (length == least.length && least.is_continued) || is_continued(i, j);
+          least.length = length;
         });
-        if (least <= within)
-          result.lengths.push_back(least);
-        if (least <= within || within >= limit)
+        if (least.length <= within)
+          found.push_back(least);
+        if (least.length <= within || within >= result.limit)
           break;
       }
     }
-    std::sort(result.lengths.begin(), result.lengths.end());
+    std::sort(found.begin(), found.end(), [](const Gap& a, const Gap& b) { return a.length < b.length; });
+    for (const Gap& gap : found)
+      result.lengths.push_back(gap.length);
+    choose_clear_length(found, result);
     return result;
   }
 
@@ -133,6 +144,12 @@ private:
     {
       return std::tie(distance, low, high) < std::tie(other.distance, other.low, other.high);
     }
+  };
+
+  struct Gap
+  {
+    double length;
+    bool is_continued; // by the surface at the partner
   };
 
   using Side = std::array<Index, 2>; // from position to position, as the triangle runs
@@ -326,6 +343,56 @@ private:
       for (const Index q : b.previous)
         least = (std::min)(least, p == q ? 0 : distance(m_sites[p], m_sites[q]));
     return least;
+  }
+
+  double median_border_edge() const
+  {
+    std::vector<double> lengths;
+    lengths.reserve(m_sides.size());
+    for (const Side& side : m_sides)
+      lengths.push_back(distance(m_sites[m_site_at[side[0]]], m_sites[m_site_at[side[1]]]));
+    if (lengths.empty())
+      return 0;
+    const auto middle = lengths.begin() + std::ptrdiff_t(lengths.size() / 2);
+    std::nth_element(lengths.begin(), middle, lengths.end());
+    return *middle;
+  }
+
+  // Whether the directions into the surface at two sites make an obtuse angle.
+  bool is_continued(Index i, Index j) const { return inward(m_sites[i]) * inward(m_sites[j]) < 0; }
+
+  Kernel::Vector_3 inward(const Site& site) const
+  {
+    Kernel::Vector_3 sum = CGAL::NULL_VECTOR;
+    for (const Index face : site.faces) {
+      const auto [a, b] = link_edge(face, site.position);
+      sum += (m_points[a] - point(site)) + (m_points[b] - point(site));
+    }
+    return sum;
+  }
+
+  // `Border_gaps` says which lengths are clear.
+  static void choose_clear_length(const std::vector<Gap>& gaps, Border_gaps& result)
+  {
+    const std::vector<double>& lengths = result.lengths;
+    const auto number_within = [&](double length) {
+      return std::size_t(std::upper_bound(lengths.begin(), lengths.end(), length) - lengths.begin());
+    };
+    const std::size_t near = number_within(result.limit / 2);
+    double largest_step = 0;
+    std::size_t continued = 0;
+    for (std::size_t within = 1; within <= near; ++within) {
+      continued += gaps[within - 1].is_continued;
+      const double length = lengths[within - 1];
+      const double step = within == lengths.size() ? std::numeric_limits<double>::infinity()
+                                                   : lengths[within] / length;
+      if (2 * within < near || !(step > (std::max)(1., largest_step)) || 3 * continued < within ||
+          20 * (number_within(2 * length) - within) > within)
+        continue;
+      largest_step = step;
+      result.clear_length = length;
+      result.within_clear_length = within;
+    }
   }
 
   // Whether the border leads from i to j within twice a distance, without a branch on the way.
@@ -551,14 +618,19 @@ Snapping_notes snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
   return notes;
 }
 
-Border_gaps border_gaps(const Triangle_soup& soup, const std::vector<Index>& positions, double limit,
+Border_gaps border_gaps(const Triangle_soup& soup, const std::vector<Index>& positions,
+                        const std::vector<Index>& transforms, std::size_t obstacle_triangles,
                         const Scale& scale)
 {
   const std::vector<char> is_frozen(soup.triangles.size(), false);
-  Border_gaps gaps = Border_snapping<Packed_R_tree>(soup, positions, is_frozen, scale(limit), {}, 0, scale)
-                         .gaps(scale(limit));
+  Border_gaps gaps = Border_snapping<Packed_R_tree>(soup, positions, is_frozen, 0, transforms,
+                                                    obstacle_triangles, scale)
+                         .gaps();
   for (double& length : gaps.lengths)
     length = scale.undone(length);
+  gaps.limit = scale.undone(gaps.limit);
+  if (gaps.clear_length)
+    gaps.clear_length = scale.undone(*gaps.clear_length);
   return gaps;
 }
 

@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_WELD_SNAPPING_H
 #define SELVEDGE_WELD_SNAPPING_H
 
+#include <selvedge/Border_gaps.h>
 #include <selvedge/Snapping_notes.h>
 #include <selvedge/Triangle_soup.h>
 #include <selvedge/internal/Scale.h>
@@ -66,21 +67,16 @@ Snapping_notes snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
                             const std::vector<Index>& transforms = {}, std::size_t obstacle_triangles = 0,
                             const Scale& scale = Scale());
 
-/// How far apart the two sides of open seams are.
-struct Border_gaps
-{
-  std::size_t border_vertices = 0; ///< counted by position
-  std::vector<double> lengths; ///< of each that has a partner, the least distance at which it has; ascending
-};
-
 /// Finds, for every vertex on a border, the least distance within which it has a partner, as `snap_borders`
-/// defines partners, as far as that is at most `limit`. Nothing is moved. (A vertex may cease to have a
-/// partner within larger distances, because then a short stretch of border joins the two.)
+/// defines partners, as far as that is at most the median length of border edges; and which length is clear.
+/// Nothing is moved. (A vertex may cease to have a partner within larger distances, because then a short
+/// stretch of border joins the two.) Vertices under different transforms are no partners. Frozen ones may be.
 ///
-/// **Preconditions** as for `snap_borders`. **Exactness** Distances are rounded to double. **Complexity**
-/// O(n log n) for n triangles, and as many steps as there are pairs of border vertices within twice the
-/// lengths found.
-Border_gaps border_gaps(const Triangle_soup& soup, const std::vector<Index>& positions, double limit,
+/// **Preconditions** and other parameters as for `snap_borders`. **Exactness** Distances are rounded to
+/// double. **Complexity** O(n log n) for n triangles, and as many steps as there are pairs of border vertices
+/// within twice the lengths found.
+Border_gaps border_gaps(const Triangle_soup& soup, const std::vector<Index>& positions,
+                        const std::vector<Index>& transforms = {}, std::size_t obstacle_triangles = 0,
                         const Scale& scale = Scale());
 
 } // namespace selvedge

@@ -327,6 +327,8 @@ group(
     ("snapping_rules_test", "snapping_test"),
     ("if (!are_partners(pair.low, pair.high))", "if (false)", "partners of before other joins are joined"),
     ("if (!is_manifold(goes, stays))", "if (false)", "edges of three faces"),
+    (" || 3 * continued < within", "", "layers upon each other are taken for seams"),
+    ("20 * (number_within(2 * length) - within) > within", "false", "seams end where other gaps begin"),
     ("if (!is_star_motion_clear<Kernel>(m_star))", "if (false)", "a star folds onto itself"),
     ("if (!are_sweeps_clear(goes))", "if (false)", "a seam is closed through another layer"),
     ("if (site.is_frozen || m_sites[j].is_frozen)", "if (site.is_frozen)", "what moves may snap to a face that offends"),

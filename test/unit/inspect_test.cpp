@@ -177,9 +177,10 @@ TEST(Inspect, AgreesWithAReduction)
 TEST(Inspect, SaysHowFarPartnersAreApart)
 {
   const Inspection result = inspect(joined(sheet(30, 3), moved(sheet(30, 3), 30.125, 0, 0)));
-  EXPECT_EQ(result.border_vertices, 132u);
-  EXPECT_NEAR(result.partner_limit, 0.01 * result.diagonal, 1e-12);
-  EXPECT_EQ(result.partner_distances, std::vector<double>(8, 0.125));
+  EXPECT_EQ(result.border_gaps.border_vertices, 132u);
+  EXPECT_EQ(result.border_gaps.limit, 1);
+  EXPECT_EQ(result.border_gaps.lengths, std::vector<double>(8, 0.125));
+  EXPECT_EQ(result.border_gaps.clear_length, 0.125);
 }
 
 TEST(Inspect, LeavesOutWhatHasTwoCornersAtOnePosition)

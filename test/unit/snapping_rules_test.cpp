@@ -53,12 +53,17 @@ Snapped snap(Triangle_soup soup, const std::set<Index>& frozen = {}, double dist
   return {std::move(soup), std::move(positions), std::move(notes)};
 }
 
+Border_gaps gaps_of(const Triangle_soup& soup)
+{
+  return border_gaps(soup, number_positions(soup.points));
+}
+
 TEST(Border_gaps, AreTheLeastDistancesAtWhichPartnersSnap)
 {
   // The gap between the two sheets is 0.005 wide at its ends, and wider and wider in between.
   const Triangle_soup sheets = mapped(
       two_sheets(3, 8), [](const Point_3& p) { return p.x() > 3 ? Point_3(p.x(), p.y(), p.y() / 64) : p; });
-  const Border_gaps gaps = border_gaps(sheets, number_positions(sheets.points), 1);
+  const Border_gaps gaps = gaps_of(sheets);
   EXPECT_EQ(gaps.border_vertices, 44u);
   ASSERT_EQ(gaps.lengths.size(), 18u); // nine on either side
   EXPECT_TRUE(std::is_sorted(gaps.lengths.begin(), gaps.lengths.end()));
@@ -68,9 +73,34 @@ TEST(Border_gaps, AreTheLeastDistancesAtWhichPartnersSnap)
                                              [&](double other) { return other <= length; });
     EXPECT_EQ(snap(sheets, {}, length).notes.partnered, within) << length;
   }
+  EXPECT_DOUBLE_EQ(gaps.limit, 1);
   // Nothing is found beyond the limit, nor on a border that is alone.
-  EXPECT_TRUE(border_gaps(sheets, number_positions(sheets.points), gaps.lengths.front() / 2).lengths.empty());
-  EXPECT_TRUE(border_gaps(sheet(3, 3), number_positions(sheet(3, 3).points), 0.5).lengths.empty());
+  EXPECT_TRUE(gaps_of(joined(sheet(3, 3), moved(sheet(3, 3), 4.25, 0, 0))).lengths.empty());
+  EXPECT_TRUE(gaps_of(sheet(3, 3)).lengths.empty());
+}
+
+TEST(Border_gaps, AreClearWhereSeamsEndAndNothingElseBegins)
+{
+  const auto clear_length = [](double gap, double other_gap) {
+    const auto pair_of_sheets = [](Index depth, double between) {
+      return joined(sheet(1, depth), moved(sheet(1, depth), 1 + between, 0, 0));
+    };
+    return gaps_of(joined(pair_of_sheets(8, gap), moved(pair_of_sheets(3, other_gap), 9, 0, 0))).clear_length;
+  };
+  EXPECT_EQ(clear_length(0.125, 3), 0.125);
+  EXPECT_EQ(clear_length(0.125, 0.25), 0.25) << "two seams";
+  EXPECT_EQ(clear_length(0.125, 0.625), 0.125) << "distances of more than half an edge are no gaps";
+  EXPECT_EQ(clear_length(0.375, 0.625), std::nullopt) << "nor are those just below";
+  EXPECT_EQ(clear_length(0.625, 3), std::nullopt);
+
+  // Two layers, of which one faces down: their borders run opposite ways, but neither surface continues the
+  // other.
+  Triangle_soup below = sheet(3, 3, -0.125);
+  for (Index_triple& triangle : below.triangles)
+    std::swap(triangle[0], triangle[1]);
+  const Border_gaps layers = gaps_of(joined(sheet(3, 3), below));
+  EXPECT_EQ(layers.lengths, std::vector<double>(24, 0.125));
+  EXPECT_EQ(layers.clear_length, std::nullopt);
 }
 
 TEST(Snapping_rules, TwoSheets)

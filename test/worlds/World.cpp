@@ -54,6 +54,7 @@ Prepare_options World::prepare_options() const
   prepare.round_to_float32 = needs_float32(soup, output_format);
   prepare.defects = defects;
   prepare.weld_distance = weld_distance;
+  prepare.weld_clear_gaps = are_clear_gaps_welded;
   prepare.normals = normals;
   return prepare;
 }
@@ -77,6 +78,7 @@ void write_world(const World& world, const std::filesystem::path& folder)
                      {"sewn", world.is_sewn},
                      {"defects", name_of(world.defects)},
                      {"weld", world.weld_distance},
+                     {"weld_auto", world.are_clear_gaps_welded},
                      {"normals", name_of(world.normals)},
                      {"ratio", optional_json(options.ratio)},
                      {"faces", optional_json(options.faces)},
@@ -127,6 +129,7 @@ World read_world(const std::filesystem::path& folder)
     if (defects == name_of(choice))
       world.defects = choice;
   world.weld_distance = json["weld"];
+  world.are_clear_gaps_welded = json.value("weld_auto", false);
   const std::string normals = json.value("normals", "keep"); // worlds of earlier versions have none
   for (const Normals_choice choice :
        {Normals_choice::automatic, Normals_choice::keep, Normals_choice::recompute, Normals_choice::drop})
@@ -208,6 +211,8 @@ std::string command_line(const World& world)
   add_if_other("--stabiliser", options.cost.stabiliser, plain.cost.stabiliser);
   add_if_other("--memory", options.cost.memory, plain.cost.memory);
   add_if_other("--weld", world.weld_distance, 0);
+  if (world.are_clear_gaps_welded)
+    add("--weld", "auto");
   if (world.normals != Normals_choice::automatic)
     add("--normals", name_of(world.normals));
   if (options.placement != plain.placement)

@@ -31,6 +31,7 @@ struct World
   bool is_sewn = false; ///< the file has one number for what lies at one position
   Defects defects = Defects::freeze;
   double weld_distance = 0;
+  bool are_clear_gaps_welded = false; ///< then the distance is 0
   Normals_choice normals = Normals_choice::automatic;
   Simplify_options options; ///< without who is to be told or asked
   Simplify_intent intent;

@@ -57,9 +57,10 @@ World_run run(const World& world)
     return run;
   const Prepare_options prepare_options = world.prepare_options();
   run.unsnapped = run.prepared;
-  if (world.weld_distance > 0) {
+  if (world.weld_distance > 0 || world.are_clear_gaps_welded) {
     Prepare_options without = prepare_options;
     without.weld_distance = 0;
+    without.weld_clear_gaps = false;
     run.unsnapped = prepare(world.soup, without, world.obstacle);
   }
 

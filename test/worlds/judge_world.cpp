@@ -244,10 +244,14 @@ Verdict judge_preparation(const World& world, const World_run& run, const Expect
 Verdict judge_snaps(const World& world, const World_run& run, Judged_complex& complex,
                     Judgement_counts& counts)
 {
+  const double distance = run.prepared.snapping.distance;
+  if (distance != (world.are_clear_gaps_welded ? run.prepared.border_gaps.clear_length.value_or(0)
+                                               : world.weld_distance))
+    return Broken_promise{Promise::seams, "the distance of snaps is not the one that was asked for"};
   for (const Snap& snap : run.prepared.snapping.snaps) {
     const Index from = complex.position(snap.from), to = complex.position(snap.to);
     const Point_3 &p = complex.point(from), &q = complex.point(to);
-    if (!(std::hypot(p.x() - q.x(), p.y() - q.y(), p.z() - q.z()) <= world.weld_distance * (1 + 1e-12)))
+    if (!(std::hypot(p.x() - q.x(), p.y() - q.y(), p.z() - q.z()) <= distance * (1 + 1e-12)))
       return Broken_promise{Promise::seams, "a snap goes further than the distance"};
     ++counts.snaps;
     if (auto broken = complex.snap(from, to)) {

@@ -246,6 +246,8 @@ World random_world(std::uint64_t seed)
     world.weld_distance = diagonal(soup) * random.one_of({1e-12, 1e-6, 1e-3, 0.02, 0.1});
   if (!std::isfinite(world.weld_distance))
     world.weld_distance = 0;
+  // No random number, so that worlds of earlier versions stay what they were.
+  world.are_clear_gaps_welded = world.weld_distance == 0 && world.seed % 4 == 1;
   if (!world.soup.normals.empty())
     world.normals = random.one_of(
         {Normals_choice::automatic, Normals_choice::keep, Normals_choice::recompute, Normals_choice::drop});
