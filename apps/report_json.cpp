@@ -208,7 +208,9 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
                     {"near_without_edge", snap.near_without_edge},
                     {"motions", snap.snaps.size()},
                     {"seam_edges", snap.seam_edges},
-                    {"largest_distance", snap.largest_distance}};
+                    {"largest_distance", snap.largest_distance},
+                    {"tied", snap.tied.size()},
+                    {"left_alone", done.left_alone}};
   report["rounding"] = {{"coordinates", prepared.rounding.coordinates},
                         {"vertices", prepared.rounding.vertices},
                         {"pairs", prepared.pairs_by_rounding},

@@ -160,6 +160,9 @@ void print_snapping(std::ostream& stream, const Snapping_notes& notes)
   print(notes.left_frozen, "a face there is frozen");
   print(notes.left_foreign, "the partner belongs to a node with another transform");
   print(notes.left_ambiguous, "every partner has a nearer one");
+  if (!notes.tied.empty())
+    stream << "  tied: " << counted(notes.tied.size(), "pair")
+           << " of border vertices that stay apart leave their borders together, so that the gap does not grow\n";
   print(notes.near_without_edge, "no edge beside them can be sewn to the border that is near");
 }
 

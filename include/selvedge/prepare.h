@@ -78,6 +78,12 @@ struct Prepare_options
   /// Vertices under different transforms of a glTF scene are not joined. A vertex whose snap is refused stays
   /// where it is; `Prepared_soup::snapping` counts such vertices by reason.
   ///
+  /// **What stays open** Partners that choose each other in the end, be they frozen, are *tied*: a reduction
+  /// lets one leave its border only to a tied vertex, only if its partner could go to the partner of that,
+  /// and lets the partner go next. While both do, the two sides are nowhere farther apart than the pairs of
+  /// vertices that are left. (The own loop only. A partner that is refused once the first has gone tries again
+  /// later; `Simplify_report::left_alone` counts those left in the end.)
+  ///
   /// **Exactness** Distances, which choose what is tried, are rounded to double. **Complexity** O(n log n)
   /// for n triangles; in every round, as many steps as there are pairs of border vertices within this
   /// distance.

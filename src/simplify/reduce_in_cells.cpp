@@ -283,6 +283,15 @@ Cell_collapses reduce_in_cells(const Cell_context& whole)
   std::vector<char> stays(prepared.soup.triangles.size() + prepared.obstacle.triangles.size(), false);
   for (const Offending_pair& pair : prepared.offending_pairs)
     stays[pair.first] = stays[pair.second] = true;
+  // Partners leave their borders together, and may lie in two cells.
+  if (!prepared.snapping.tied.empty()) {
+    std::vector<char> is_tied(prepared.soup.points.size(), false); // by position
+    for (const auto& [a, b] : prepared.snapping.tied)
+      is_tied[a] = is_tied[b] = true;
+    for (std::size_t t = 0; t < prepared.soup.triangles.size(); ++t)
+      for (const Index v : prepared.soup.triangles[t])
+        stays[t] |= is_tied[prepared.positions[v]];
+  }
   const auto reduce = [&](std::size_t i) { runs[i] = run_cell(whole, cells[i], stays, stop); };
   tbb::parallel_for(std::size_t(0), cells.size(), Cancellation_scope::inherited(reduce),
                     tbb::simple_partitioner());

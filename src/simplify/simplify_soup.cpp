@@ -84,6 +84,7 @@ private:
     if (m_prepared.defects == Defects::descend)
       for (const Offending_pair& pair : m_prepared.offending_pairs)
         constraints.offending_pairs.emplace_back(pair.first, pair.second);
+    tie(constraints.partners);
     if (!intent.weights.empty())
       m_working.weigh(vertex_weights(soup, intent.weights));
     if (m_options.placement == Placement::optimal)
@@ -100,6 +101,21 @@ private:
           m_options.on_collapse(collapse);
       });
     return constraints;
+  }
+
+  void tie(std::vector<std::pair<Working_mesh::Mesh::Vertex_index, Working_mesh::Mesh::Vertex_index>>& partners)
+  {
+    const auto& tied = m_prepared.snapping.tied;
+    if (tied.empty())
+      return;
+    const Triangle_soup& soup = m_prepared.soup;
+    std::vector<Working_mesh::Mesh::Vertex_index> vertices(soup.points.size()); // by position
+    for (Index t = 0; t < soup.triangles.size(); ++t)
+      for (unsigned char k = 0; k < 3; ++k)
+        vertices[m_prepared.positions[soup.triangles[t][k]]] =
+            m_working.mesh().source(m_working.halfedge({t, k, false}));
+    for (const auto& pair : tied)
+      partners.emplace_back(vertices[pair.first], vertices[pair.second]);
   }
 
   // Finds collapses in cells, and does them to the whole mesh, which then knows as much of them as of its own

@@ -71,6 +71,8 @@ public:
       drop_sewn_sides();
     }
     count();
+    for (const Pair& pair : mutual_partners(true))
+      m_notes.tied.emplace_back(m_sites[pair.low].position, m_sites[pair.high].position);
     return std::move(m_notes);
   }
 
@@ -275,7 +277,8 @@ private:
   }
 
   // Returns the pairs of sites that name each other, in the order in which they are to be snapped together.
-  std::vector<Pair> mutual_partners()
+  // Frozen sites are neither named nor name others, unless that is asked for, when all is counted.
+  std::vector<Pair> mutual_partners(bool are_frozen_named = false)
   {
     std::vector<Index> on_border;
     const FaceIndex index = index_borders(on_border);
@@ -289,7 +292,7 @@ private:
         if (!are_partners(i, j))
           return;
         site.is_partnered = true;
-        if (site.is_frozen || m_sites[j].is_frozen)
+        if ((site.is_frozen || m_sites[j].is_frozen) && !are_frozen_named)
           return;
         if (site.transform != m_sites[j].transform) {
           if (site.obstacle == Obstacle::frozen)
@@ -614,6 +617,10 @@ Snapping_notes snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
     if (first_at[place] == s_none)
       first_at[place] = v;
     positions[v] = first_at[place];
+  }
+  for (auto& [a, b] : notes.tied) {
+    a = first_at[a];
+    b = first_at[b];
   }
   return notes;
 }

@@ -15,6 +15,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <ostream>
@@ -183,6 +185,49 @@ TEST(Snapping, SeamsStayClosedAtEveryRatio)
 }
 
 // The control of the test above: where nothing was sewn, vertices go whose partners stay.
+// Two curved sheets with a narrow gap in which a third stands. One is smooth, the other has ripples.
+Triangle_soup seam_that_stays_open()
+{
+  const auto height = [](const Point_3& p) { return 0.02 * p.y() * p.y(); };
+  const auto curved = [&](const Point_3& p) { return Point_3(p.x(), p.y(), height(p)); };
+  const auto rippled = [&](const Point_3& p) {
+    return Point_3(p.x(), p.y(), height(p) + (p.x() > 3.5 ? 0.1 * std::sin(2 * p.y()) : 0));
+  };
+  const Triangle_soup between = soup({{3.0625, -50, -50}, {3.0625, 100, -50}, {3.0625, 25, 100}}, {{0, 1, 2}});
+  return joined(joined(mapped(sheet(3, 40), curved), mapped(moved(sheet(3, 40), 3.125, 0, 0), rippled)),
+                between);
+}
+
+TEST(Snapping, SidesThatStayApartLeaveTogether)
+{
+  Prepared_soup prepared = snapped(seam_that_stays_open(), 0.125);
+  EXPECT_EQ(prepared.snapping.snapped, 0u);
+  EXPECT_EQ(prepared.snapping.left_blocked, 82u);
+  EXPECT_EQ(prepared.snapping.tied.size(), 41u);
+  const auto sides = [&](const Simplify_options& options) {
+    const Simplified_soup result = simplify_soup(prepared, options);
+    EXPECT_EQ(result.report.left_alone, 0u);
+    EXPECT_TRUE(is_embedded(result.soup));
+    std::array<std::set<double>, 2> places; // along the seam
+    for (const Point_3& p : result.soup.points)
+      for (const int side : {0, 1})
+        if (p.x() == (side == 0 ? 3 : 3.125))
+          places[side].insert(p.y());
+    return places;
+  };
+  Simplify_options options = to_ratio(0.2);
+  Simplify_options in_cells = options;
+  in_cells.faces_per_cell = 100;
+  for (const Simplify_options& each : {options, in_cells}) {
+    const auto [left, right] = sides(each);
+    EXPECT_LT(left.size(), 35u);
+    EXPECT_EQ(left, right);
+  }
+  prepared.snapping.tied.clear();
+  const auto [left, right] = sides(options);
+  EXPECT_NE(left, right) << "as strangers, they go their own ways";
+}
+
 TEST(Snapping, WithoutItSeamsGape)
 {
   const Triangle_soup original = skirt(6000, 2);

@@ -331,7 +331,7 @@ group(
     ("20 * (number_within(2 * length) - within) > within", "false", "seams end where other gaps begin"),
     ("if (!is_star_motion_clear<Kernel>(m_star))", "if (false)", "a star folds onto itself"),
     ("if (!are_sweeps_clear(goes))", "if (false)", "a seam is closed through another layer"),
-    ("if (site.is_frozen || m_sites[j].is_frozen)", "if (site.is_frozen)", "what moves may snap to a face that offends"),
+    ("if ((site.is_frozen || m_sites[j].is_frozen) && !are_frozen_named)", "if (site.is_frozen && !are_frozen_named)", "what moves may snap to a face that offends"),
     ("!is_shortly_followed(i, j, length) && !is_shortly_followed(j, i, length);", "true;", "a border is sewn to itself"),
     ("m_index.set(face, face_box(face));", "", "the index does not follow a snap"),
     ("p == q ? 0 : distance(m_sites[p], m_sites[q]));", "p == q ? 0 : least);", "gaps are closed only from their ends"),
@@ -411,6 +411,19 @@ group(
     ("carry_passed(removed, kept, before);\n", "\n", "what was passed is forgotten"),
     ("if (is_along_line && before[1] != m_points[kept])", "if (false)", "what KEPT has passed is forgotten"),
     ("carry_corners(contracted, moving, removed, kept);", "", "corners do not follow"),
+)
+
+# Partners across a gap
+group(
+    headers + "Surface_mesh_simplification/internal/Border_partners.h",
+    ("snapping_test",),
+    ("!partner_of(source(moving, m_mesh)) || partner_motion(moving);", "true;", "a vertex goes where its partner cannot follow"),
+    ("      join(kept, *m_partner_of_kept);", "      ;", "a pair to which others have gone is none any more"),
+)
+group(
+    headers + "Surface_mesh_simplification/internal/Edge_collapse.h",
+    ("snapping_test",),
+    ("          try_along(*moving);", "          ;", "partners go when their own turn comes"),
 )
 
 # Pairs that offend already

@@ -22,7 +22,8 @@ enum class Hindrance : unsigned char {
   group,        ///< the vertex would leave a line between groups, objects or materials
   texture,      ///< the vertex would leave a line across which texture coordinates differ
   normals,      ///< the vertex could go if no edge were a line because of its normals alone
-  line_end,     ///< the vertex is an end, a junction or a corner face of borders and seams
+  line_end,     ///< the vertex is an end, a junction or a corner face of borders and seams, or is tied to a
+                ///< partner across a gap that has no way to go along
   border_turn,  ///< a border turns too much at the vertex
   seam_turn,    ///< a seam turns too much at the vertex
   drift,        ///< a border or seam would come too far from where it was

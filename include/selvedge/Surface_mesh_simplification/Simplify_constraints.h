@@ -24,6 +24,12 @@ struct Simplify_constraints
   /// Edges inside the mesh that are kept like borders: seams.
   std::vector<typename boost::graph_traits<TriangleMesh>::edge_descriptor> line_edges;
 
+  /// Pairs of border vertices on the two sides of a gap that is not to grow; a vertex in at most one of them.
+  /// When one of a pair leaves its border, the other does so next, along its own.
+  std::vector<std::pair<typename boost::graph_traits<TriangleMesh>::vertex_descriptor,
+                        typename boost::graph_traits<TriangleMesh>::vertex_descriptor>>
+      partners;
+
   /// Factors of at least 0 for the cost of moving each vertex: one for every vertex, in the order of
   /// `vertices(mesh)`, or none at all. The number is not checked.
   std::vector<double> vertex_weights;

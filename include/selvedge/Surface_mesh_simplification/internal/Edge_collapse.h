@@ -66,6 +66,17 @@ struct Has_choice<Placement, Cost, std::void_t<typename Placement::Cost_policy>>
 {
 };
 
+// Whether the visitor may name a motion that is tried next, after a collapse.
+template <class Visitor, class = void>
+struct Has_follow_up : std::false_type
+{
+};
+template <class Visitor>
+struct Has_follow_up<Visitor, std::void_t<decltype(std::declval<const Visitor&>().follow_up())>>
+    : std::true_type
+{
+};
+
 /// Collapses the edges of a mesh in the order of their costs: the loop behind `selvedge::edge_collapse`.
 ///
 /// It exists because CGAL's loop drops a refused edge until its neighbourhood changes, and builds a full
@@ -184,6 +195,9 @@ private:
     const bool is_asked = collapse && (!m_is_geometry_tested || Dihedral_angle_filter<>().accepts(*collapse));
     if (is_asked && is_allowed(m_filter, *collapse)) {
       perform(*collapse, edge_id);
+      if constexpr (Has_follow_up<Visitor>::value)
+        if (const auto moving = m_visitor.follow_up())
+          try_along(*moving);
       return true;
     }
     on_refused(of_edge);
@@ -197,6 +211,20 @@ private:
         m_queue.set(edge_id, *next);
     }
     return true;
+  }
+
+  // Moves the source of `moving` onto its target if allowed. Otherwise its edge stays as it is in the queue.
+  void try_along(Halfedge moving)
+  {
+    const Id edge_id = id(moving);
+    const Profile of_edge = profile(m_halfedges[edge_id]);
+    if (get(m_is_constrained, edge(moving, m_mesh)) || !m_topology.is_kept(of_edge, m_is_constrained))
+      return;
+    const Collapse_of_edge collapse = Collapse_of_edge::along(of_edge, moving);
+    if (is_allowed(m_filter, collapse))
+      perform(collapse, edge_id);
+    else
+      on_refused(of_edge);
   }
 
   void perform(const Collapse_of_edge& collapse, Id edge_id)

@@ -17,6 +17,7 @@
 #include <selvedge/Surface_mesh_simplification/Quadric_cost.h>
 #include <selvedge/Surface_mesh_simplification/Simplify_constraints.h>
 #include <selvedge/Surface_mesh_simplification/edge_collapse.h>
+#include <selvedge/Surface_mesh_simplification/internal/Border_partners.h>
 #include <selvedge/Surface_mesh_simplification/internal/Cgal_pass.h>
 #include <selvedge/Surface_mesh_simplification/internal/Face_targets.h>
 #include <selvedge/Surface_mesh_simplification/internal/Halfedge_filter.h>
@@ -62,6 +63,7 @@ class Simplification
   using Rule = Border_rule<TriangleMesh, VertexPointMap>;
   using Targets = Face_targets<TriangleMesh>;
   using Quadrics = Quadric_cost<TriangleMesh, Rule>;
+  using Partner_profile = Lazy_edge_profile<TriangleMesh, VertexPointMap, Geom_traits>;
 
   /// Adds the cost of the texture to that of the quadrics. An edge has no cost if none of its faces counts.
   class Cost
@@ -155,8 +157,16 @@ class Simplification
     bool operator()(const Halfedge& moving) const { return observer->keeps_pieces(moving, rule); }
   };
 
+  struct Are_partners_kept
+  {
+    const Border_partners<TriangleMesh>* partners;
+
+    bool operator()(const Halfedge& moving) const { return partners->allows(moving); }
+  };
+
   using Line = Border_filter<Rule>;
-  using Border = Halfedge_filter<Are_pieces_kept, Line>;
+  using Pieces = Halfedge_filter<Are_pieces_kept, Line>;
+  using Border = Halfedge_filter<Are_partners_kept, Pieces>;
   using Target = Halfedge_filter<Targets, Border>;
   using Aspect_ratio = Aspect_ratio_filter<Target>;
   using Normal_change = Normal_change_filter<Aspect_ratio>;
@@ -179,7 +189,8 @@ public:
       : m_start(Clock::now()), m_mesh(mesh), m_points(points), m_options(options), m_observer(observer),
         m_diagonal(constraints.diagonal ? *constraints.diagonal : diagonal_of_box()),
         m_rule(make_rule(constraints)), m_targets(make_targets(constraints)),
-        m_quadrics(mesh, options.cost, m_rule), m_line(m_rule), m_border({&observer, m_rule}, m_line),
+        m_quadrics(mesh, options.cost, m_rule), m_partners(mesh, constraints.partners), m_line(m_rule),
+        m_pieces({&observer, m_rule}, m_line), m_border({&m_partners}, m_pieces),
         m_target(m_targets, m_border), m_aspect_ratio(options.min_aspect_ratio, m_target),
         m_normal_change(options.max_normal_change, m_aspect_ratio),
         m_uv({options.check_uv_orientation ? &observer : nullptr, m_rule}, m_normal_change), m_tracked(mesh),
@@ -337,7 +348,7 @@ private:
       const Line_refusal refusal = m_rule.refusal(moving);
       const Hindrance reason = refusal != Line_refusal::none ? hindrance_of_lines(moving, refusal)
                                : !is_topology_kept           ? Hindrance::topology
-                                                   : hindrance(Collapse<Profile>::along(profile, moving));
+                                                   : hindrance_with_partner(profile, moving);
       weakest = (std::max)(weakest, reason);
     }
     if constexpr (std::is_same_v<Places, Optimal_places>)
@@ -347,12 +358,30 @@ private:
     return weakest;
   }
 
+  // A vertex that could go is held back by what holds its partner back.
+  template <class Profile>
+  Hindrance hindrance_with_partner(const Profile& profile, const Halfedge& moving)
+  {
+    const Hindrance reason = hindrance(Collapse<Profile>::along(profile, moving));
+    const auto motion = m_partners.partner_motion(moving);
+    if (reason != Hindrance::by_loop || !motion)
+      return reason;
+    const Partner_profile of_partner(*motion, m_mesh, m_points, m_traits);
+    if (const Line_refusal refusal = m_rule.refusal(*motion); refusal != Line_refusal::none)
+      return hindrance_of_lines(*motion, refusal);
+    return m_topology.is_kept(of_partner, No_constrained_edges())
+               ? hindrance(Collapse<Partner_profile>::along(of_partner, *motion))
+               : Hindrance::topology;
+  }
+
   // Asks the filters in the order of their chain.
   template <class Profile>
   Hindrance hindrance(const Collapse<Profile>& collapse)
   {
-    if (!m_border.accepts(collapse))
+    if (!m_pieces.accepts(collapse))
       return Hindrance::topology;
+    if (!m_border.accepts(collapse))
+      return Hindrance::line_end;
     if (!m_target.accepts(collapse))
       return Hindrance::target;
     if (!m_aspect_ratio.accepts(collapse))
@@ -502,13 +531,38 @@ private:
       simplification->after_collapse(kept);
     }
 
+    // The loop tries this motion next, before the cheapest edge.
+    std::optional<Halfedge> follow_up() const
+    {
+      return simplification->m_targets.is_reached() ? std::nullopt : simplification->m_partners.follow_up();
+    }
+
     Simplification* simplification;
   };
+
+  // Whether the partner of the vertex that moves, if it has one, may move along, as far as the mesh tells
+  // before either does. Once one has moved, its partner is asked again, and may then be refused.
+  template <class Profile>
+  bool allows_partner(const Collapse<Profile>& collapse)
+  {
+    if (collapse.are_both_moved())
+      return true;
+    const auto motion = m_partners.partner_motion(collapse.moving());
+    if (!motion)
+      return true;
+    const Partner_profile profile(*motion, m_mesh, m_points, m_traits);
+    if (!m_topology.is_kept(profile, No_constrained_edges()))
+      return false;
+    const auto of_partner = Collapse<Partner_profile>::along(profile, *motion);
+    return m_intersection ? m_intersection->allows(of_partner) : m_error.allows(of_partner);
+  }
 
   template <class Profile>
   bool allows(const Collapse<Profile>& collapse)
   {
-    if (m_intersection ? m_intersection->allows(collapse) : m_error.allows(collapse)) {
+    // The filters remember what they found of the last collapse that they accepted: so it is asked last.
+    if (allows_partner(collapse) &&
+        (m_intersection ? m_intersection->allows(collapse) : m_error.allows(collapse))) {
       ++m_accepted;
       m_is_mover_first = m_intersection && m_intersection->is_mover_first();
       return true;
@@ -527,6 +581,7 @@ private:
       m_observer.before_collapse(collapse.moving(), m_rule);
     }
     m_targets.before_collapse(collapse.moving());
+    m_partners.before_collapse(collapse.moving());
     m_tracked.before_collapse(collapse);
     m_rule.before_collapse(collapse);
     if (m_intersection)
@@ -537,6 +592,7 @@ private:
   void after_collapse(const Vertex& kept)
   {
     ++m_report.collapses;
+    m_partners.after_collapse(kept);
     m_rule.after_collapse(kept);
     if (m_intersection)
       m_intersection->visitor().after_collapse(kept);
@@ -644,7 +700,7 @@ private:
   Refusals refusals() const
   {
     Refusals result;
-    result.border = m_line.refusals() + m_border.refusals();
+    result.border = m_line.refusals() + m_pieces.refusals() + m_border.refusals();
     result.target = m_target.refusals();
     result.error = m_error.refusals();
     result.aspect_ratio = m_aspect_ratio.refusals();
@@ -664,6 +720,7 @@ private:
     report.faces_target = total.target;
     report.faces_to_go = m_targets.total_excess();
     report.refused = refusals();
+    report.left_alone = m_partners.alone();
     report.seconds_reduce = seconds_since(m_start);
     if (m_intersection) {
       report.intersections = m_intersection->statistics();
@@ -682,11 +739,15 @@ private:
   VertexPointMap m_points;
   const Simplify_options& m_options;
   Observer& m_observer;
+  Geom_traits m_traits;
+  Topology_test<TriangleMesh> m_topology;
   double m_diagonal;
   Rule m_rule;
   Targets m_targets;
   Quadrics m_quadrics;
+  Border_partners<TriangleMesh> m_partners;
   Line m_line;
+  Pieces m_pieces;
   Border m_border;
   Target m_target;
   Aspect_ratio m_aspect_ratio;
