@@ -359,7 +359,8 @@ group(
     ("if (!other.is_one_sided || one.side * other.side > 0)", "if (!other.is_one_sided)",
      "a line parts what is on one side of it"),
     ("return end < begin || (end == begin && a.high->id == b.low->id);", "return end <= begin;",
-     "segments of a line that touch are apart"),
+     "segments of a line that touch are apart",
+     "they touch in a corner of the sweep, which is there before or after the motion too, and both states are judged"),
     ("return size == 3 ? Answer::touching : Answer::clear;", "return Answer::clear;", "a face may end on top of another"),
     ("m_volume == at_end ? Answer::touching : Answer::clear;", "Answer::clear;", "a face may fold through another"),
 )
