@@ -311,7 +311,7 @@ group(
     ("is_locked[v] = vertices_at[position_of(v)] > 1;", "is_locked[v] = vertices_at[position_of(v)] > 2;", "pairs of twins move"),
     ("is_locked[sewing.vertex(corner)] |= is_frozen[corner / 3];", "", "faces that offend move"),
     ("if (rule.is_line(m_mesh.edge(h)))\n        return false;", "", "corners are carried across lines"),
-    ("m_places[m_mesh.next(h)] = m_places[m_mesh.opposite(m_mesh.prev(h))];", "", "corners do not follow the edges that merge"),
+    ("m_places[m_mesh.next(h)] = m_places[m_mesh.opposite(m_mesh.prev(h))];", ";", "corners do not follow the edges that merge"),
 )
 group(
     "src/soup/Sewing.cpp",
