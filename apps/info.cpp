@@ -213,7 +213,8 @@ void print_seams(const Inspection& mesh)
               << ", half of these within " << with_digits_up(gaps.lengths[gaps.lengths.size() / 2]);
   std::cout << " (looked for within the median length of border edges, " << with_digits(gaps.limit) << ")\n";
   if (gaps.clear_length)
-    std::cout << "open seams: " << partners_in_clear_gaps(gaps, mesh.diagonal) << "; --weld auto joins them\n";
+    std::cout << "open seams: " << partners_in_clear_gaps(gaps, mesh.diagonal)
+              << "; --weld auto joins them\n";
   else if (!gaps.lengths.empty())
     std::cout << "open seams: none that are clearly narrower than what lies beside them\n";
 }

@@ -113,7 +113,8 @@ private:
     options.defects = defects_of(m_request);
     options.weld_distance = m_request.weld_distance;
     options.weld_clear_gaps = m_request.weld == "auto";
-    options.measure_border_gaps = m_request.weld.empty() && (!m_request.is_quiet || !m_request.report.empty());
+    options.measure_border_gaps =
+        m_request.weld.empty() && (!m_request.is_quiet || !m_request.report.empty());
     options.normals = m_request.normals;
     try {
       return prepare(std::move(file.soup), options, obstacle);

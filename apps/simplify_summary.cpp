@@ -162,7 +162,8 @@ void print_snapping(std::ostream& stream, const Snapping_notes& notes)
   print(notes.left_ambiguous, "every partner has a nearer one");
   if (!notes.tied.empty())
     stream << "  tied: " << counted(notes.tied.size(), "pair")
-           << " of border vertices that stay apart leave their borders together, so that the gap does not grow\n";
+           << " of border vertices that stay apart leave their borders together, so that the gap does not "
+              "grow\n";
   print(notes.near_without_edge, "no edge beside them can be sewn to the border that is near");
 }
 
@@ -170,8 +171,9 @@ void print_border_gaps(std::ostream& stream, const Simplify_request& request, co
                        double diagonal)
 {
   if (request.weld == "auto" && !gaps.clear_length)
-    stream << "  --weld auto: nothing is closed, because no gaps in seams are clearly narrower than what lies "
-              "beside them; --weld EPS closes gaps up to a length\n";
+    stream
+        << "  --weld auto: nothing is closed, because no gaps in seams are clearly narrower than what lies "
+           "beside them; --weld EPS closes gaps up to a length\n";
   else if (gaps.clear_length)
     stream << (request.weld == "auto" ? "  --weld auto: " : "  open seams: ")
            << partners_in_clear_gaps(gaps, diagonal)
@@ -242,6 +244,9 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
     stream << "\norientation: faces disagree along " << counted(sewing.misoriented_edges, "edge") << " of "
            << counted(sewing.misoriented_pieces, "piece")
            << ", whose vertices there do not move; `selvedge info` names them";
+  if (done.left_alone > 0)
+    stream << "\ntied: the partners of " << with_commas(done.left_alone)
+           << " border vertices left without them; there the gap may be wider than it was";
   if (result.placed_vertices > 0)
     stream << "\nvertices: " << with_commas(result.soup.points.size() - result.placed_vertices)
            << " kept bit for bit, " << with_commas(result.placed_vertices)

@@ -30,9 +30,9 @@ struct Level
   } polygons;
 };
 
-/// Prints to `stream` what was read and prepared. `diagonal` is that of the bounding box; `notes` are those of
-/// the report about the file; `dropped` is what the output's format cannot hold; `references` are the names of
-/// other files that have been changed.
+/// Prints to `stream` what was read and prepared. `diagonal` is that of the bounding box; `notes` are those
+/// of the report about the file; `dropped` is what the output's format cannot hold; `references` are the
+/// names of other files that have been changed.
 void print_input(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
                  double diagonal, const Json& notes, const std::vector<std::string>& dropped,
                  const std::vector<std::string>& references);

@@ -53,9 +53,9 @@ inline std::string percent(double share)
 /// Says how many border vertices have a partner within the clear length, which there is.
 inline std::string partners_in_clear_gaps(const Border_gaps& gaps, double diagonal)
 {
-  return with_commas(gaps.within_clear_length) + " of " +
-         with_commas(gaps.border_vertices) + " border vertices have a partner within " +
-         with_digits_up(*gaps.clear_length) + " (" + percent(*gaps.clear_length / diagonal) + " of the size)";
+  return with_commas(gaps.within_clear_length) + " of " + with_commas(gaps.border_vertices) +
+         " border vertices have a partner within " + with_digits_up(*gaps.clear_length) + " (" +
+         percent(*gaps.clear_length / diagonal) + " of the size)";
 }
 
 inline const char* name(Offence offence)

@@ -131,8 +131,8 @@ struct Inspection
 ///
 /// **Exactness** Offending pairs, pieces, surfaces, and which vertices may move are exact. Distances are
 /// computed in double: that of two surfaces is 0 when a pair of their triangles offends. Otherwise it is
-/// positive, the least distance of corners, edges and faces of any two of their triangles, rounded. Distances between parts
-/// of one surface, such as its folds, are not computed.
+/// positive, the least distance of corners, edges and faces of any two of their triangles, rounded. Distances
+/// between parts of one surface, such as its folds, are not computed.
 ///
 /// **Complexity** O(n log n) as a rule; more where many triangles lie at nearly the least distance.
 Inspection inspect(Triangle_soup soup);

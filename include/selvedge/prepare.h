@@ -81,8 +81,8 @@ struct Prepare_options
   /// **What stays open** Partners that choose each other in the end, be they frozen, are *tied*: a reduction
   /// lets one leave its border only to a tied vertex, only if its partner could go to the partner of that,
   /// and lets the partner go next. While both do, the two sides are nowhere farther apart than the pairs of
-  /// vertices that are left. (The own loop only. A partner that is refused once the first has gone tries again
-  /// later; `Simplify_report::left_alone` counts those left in the end.)
+  /// vertices that are left. (The own loop only. A partner that is refused once the first has gone tries
+  /// again later; `Simplify_report::left_alone` counts those left in the end.)
   ///
   /// **Exactness** Distances, which choose what is tried, are rounded to double. **Complexity** O(n log n)
   /// for n triangles; in every round, as many steps as there are pairs of border vertices within this
@@ -92,8 +92,8 @@ struct Prepare_options
   /// Whether the gaps between borders are measured: `Prepared_soup::border_gaps`.
   bool measure_border_gaps = false;
 
-  /// Whether the clear length of these gaps, if there is one, takes the place of the weld distance, which must
-  /// be 0; otherwise `Argument_error` is thrown.
+  /// Whether the clear length of these gaps, if there is one, takes the place of the weld distance, which
+  /// must be 0; otherwise `Argument_error` is thrown.
   bool weld_clear_gaps = false;
 };
 

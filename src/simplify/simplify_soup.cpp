@@ -103,7 +103,8 @@ private:
     return constraints;
   }
 
-  void tie(std::vector<std::pair<Working_mesh::Mesh::Vertex_index, Working_mesh::Mesh::Vertex_index>>& partners)
+  void
+  tie(std::vector<std::pair<Working_mesh::Mesh::Vertex_index, Working_mesh::Mesh::Vertex_index>>& partners)
   {
     const auto& tied = m_prepared.snapping.tied;
     if (tied.empty())

@@ -387,8 +387,8 @@ private:
     for (std::size_t within = 1; within <= near; ++within) {
       continued += gaps[within - 1].is_continued;
       const double length = lengths[within - 1];
-      const double step = within == lengths.size() ? std::numeric_limits<double>::infinity()
-                                                   : lengths[within] / length;
+      const double step =
+          within == lengths.size() ? std::numeric_limits<double>::infinity() : lengths[within] / length;
       if (2 * within < near || !(step > (std::max)(1., largest_step)) || 3 * continued < within ||
           20 * (number_within(2 * length) - within) > within)
         continue;
@@ -630,9 +630,9 @@ Border_gaps border_gaps(const Triangle_soup& soup, const std::vector<Index>& pos
                         const Scale& scale)
 {
   const std::vector<char> is_frozen(soup.triangles.size(), false);
-  Border_gaps gaps = Border_snapping<Packed_R_tree>(soup, positions, is_frozen, 0, transforms,
-                                                    obstacle_triangles, scale)
-                         .gaps();
+  Border_gaps gaps =
+      Border_snapping<Packed_R_tree>(soup, positions, is_frozen, 0, transforms, obstacle_triangles, scale)
+          .gaps();
   for (double& length : gaps.lengths)
     length = scale.undone(length);
   gaps.limit = scale.undone(gaps.limit);

@@ -108,7 +108,8 @@ TEST(App_simplify, ClosesSeamsAndLeavesThemSewnWhenAsked)
     EXPECT_EQ(result.code, 0) << result.err;
     const bool is_closed = result.out.find("seams closed: 6 of 6") != std::string::npos;
     EXPECT_EQ(is_closed, options.size() > 6 && options[6] == "--weld") << result.out;
-    EXPECT_NE(result.out.find("6 of 16 border vertices have a partner within"), is_closed ? 0 : std::string::npos);
+    EXPECT_NE(result.out.find("6 of 16 border vertices have a partner within"),
+              is_closed ? 0 : std::string::npos);
     const Triangle_soup soup = read_mesh(folder / "out.obj").soup;
     EXPECT_EQ(positions(soup).size(), is_closed ? 15u : 18u);
     return pieces(soup).size();

@@ -193,7 +193,8 @@ Triangle_soup seam_that_stays_open()
   const auto rippled = [&](const Point_3& p) {
     return Point_3(p.x(), p.y(), height(p) + (p.x() > 3.5 ? 0.1 * std::sin(2 * p.y()) : 0));
   };
-  const Triangle_soup between = soup({{3.0625, -50, -50}, {3.0625, 100, -50}, {3.0625, 25, 100}}, {{0, 1, 2}});
+  const Triangle_soup between =
+      soup({{3.0625, -50, -50}, {3.0625, 100, -50}, {3.0625, 25, 100}}, {{0, 1, 2}});
   return joined(joined(mapped(sheet(3, 40), curved), mapped(moved(sheet(3, 40), 3.125, 0, 0), rippled)),
                 between);
 }

@@ -18,8 +18,8 @@
 namespace selvedge {
 namespace internal {
 
-/// Knows pairs of vertices on the two sides of a seam that gapes, and which motions keep the sides alike: when
-/// one of a pair goes along its border to the next vertex, its partner can go to the partner of that.
+/// Knows pairs of vertices on the two sides of a seam that gapes, and which motions keep the sides alike:
+/// when one of a pair goes along its border to the next vertex, its partner can go to the partner of that.
 ///
 /// As long as both always go, the sides are chains of as many edges between vertices that are partners. Such
 /// edges are nowhere farther apart than the farther of the two pairs at their ends, because the distance of
@@ -34,7 +34,8 @@ class Border_partners
   using Halfedge = typename Graph_traits::halfedge_descriptor;
 
 public:
-  Border_partners(const TriangleMesh& mesh, const std::vector<std::pair<Vertex, Vertex>>& pairs) : m_mesh(mesh)
+  Border_partners(const TriangleMesh& mesh, const std::vector<std::pair<Vertex, Vertex>>& pairs)
+      : m_mesh(mesh)
   {
     for (const auto& [a, b] : pairs)
       join(a, b);

@@ -348,7 +348,7 @@ private:
       const Line_refusal refusal = m_rule.refusal(moving);
       const Hindrance reason = refusal != Line_refusal::none ? hindrance_of_lines(moving, refusal)
                                : !is_topology_kept           ? Hindrance::topology
-                                                   : hindrance_with_partner(profile, moving);
+                                                             : hindrance_with_partner(profile, moving);
       weakest = (std::max)(weakest, reason);
     }
     if constexpr (std::is_same_v<Places, Optimal_places>)
