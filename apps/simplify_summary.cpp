@@ -162,8 +162,7 @@ void print_snapping(std::ostream& stream, const Snapping_notes& notes)
   print(notes.left_ambiguous, "every partner has a nearer one");
   if (!notes.tied.empty())
     stream << "  tied: " << counted(notes.tied.size(), "pair")
-           << " of border vertices that stay apart leave their borders together, so that the gap does not "
-              "grow\n";
+           << " of border vertices that stay apart leave their borders together\n";
   print(notes.near_without_edge, "no edge beside them can be sewn to the border that is near");
 }
 
