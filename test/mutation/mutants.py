@@ -90,7 +90,7 @@ group(
 group(
     "src/verify/Triangle_tree.cpp",
     ("triangle_tree_test",),
-    ("std::sqrt(squared_bound) + margin", "margin", "slivers within the bound are passed by"),
+    ("std::sqrt(squared_bound) + margin", "std::sqrt(squared_bound) / 2 + margin", "slivers within the bound are passed by"),
 )
 
 group(
@@ -230,8 +230,8 @@ group(
     headers + "spatial/internal/Rod_block.h",
     ("spatial_index_test",),
     ("rod_margin = 0x1p-20, beam_margin = 0x1p-16;", "rod_margin = 0, beam_margin = 0;", "no margin for rounding"),
-    ("if (enclosure == before)", "if (true)", "rods of nodes do not grow"),
-    ("const float gap = a < b ? a : b;", "const float gap = a;", "an end of a rod not looked at"),
+    ("*this = enclosure.rod();", "", "rods of nodes do not grow"),
+    ("radii = m_radius[i] + beam.m_radius;", "radii = beam.m_radius;", "a rod without its radius"),
 )
 group(
     headers + "Surface_mesh_simplification/internal/Original_surface.h",

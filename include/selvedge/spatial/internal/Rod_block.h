@@ -100,8 +100,8 @@ struct Rod
   double extent() const
   {
     double largest = 0;
-    for (const auto& end : ends)
-      for (const float coordinate : end)
+    for (const auto& place : ends)
+      for (const float coordinate : place)
         largest = (std::max)(largest, std::fabs(double(coordinate)));
     return largest;
   }
@@ -116,13 +116,13 @@ private:
     {
     }
 
-    void add(const Vector& centre, double radius)
+    void add(const Vector& centre, double around)
     {
       const double along = m_square > 0 ? dot(difference(centre, m_origin), m_direction) / m_square : 0;
       const Vector away = difference(centre, at(along));
       m_first = (std::min)(m_first, along);
       m_last = (std::max)(m_last, along);
-      m_radius = (std::max)(m_radius, std::sqrt(dot(away, away)) + radius);
+      m_radius = (std::max)(m_radius, std::sqrt(dot(away, away)) + around);
       for (const double coordinate : centre)
         m_extent = (std::max)(m_extent, std::fabs(coordinate));
     }
@@ -139,18 +139,18 @@ private:
 
     Rod rod() const
     {
-      const std::array<Vector, 2> ends{at(m_first), at(m_last)};
-      double extent = m_extent;
-      for (const Vector& end : ends)
-        for (const double coordinate : end)
-          extent = (std::max)(extent, std::fabs(coordinate));
+      const std::array<Vector, 2> limits{at(m_first), at(m_last)};
+      double largest = m_extent;
+      for (const Vector& limit : limits)
+        for (const double coordinate : limit)
+          largest = (std::max)(largest, std::fabs(coordinate));
       Rod result;
-      if (!(extent > least_rod_extent && extent < largest_rod_extent && m_radius < largest_rod_extent))
+      if (!(largest > least_rod_extent && largest < largest_rod_extent && m_radius < largest_rod_extent))
         return result;
       for (std::size_t i = 0; i < 2; ++i)
         for (std::size_t axis = 0; axis < 3; ++axis)
-          result.ends[i][axis] = float(ends[i][axis]);
-      result.radius = float(m_radius + rod_margin * extent);
+          result.ends[i][axis] = float(limits[i][axis]);
+      result.radius = float(m_radius + rod_margin * largest);
       return result;
     }
 
