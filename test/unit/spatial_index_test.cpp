@@ -257,6 +257,11 @@ TEST(Packed_index, VisitsFewFacesOfAFringeOfAnySize)
     }
     EXPECT_LT(visits, 20 * count);
     EXPECT_GT(visits_of_boxes, 500 * count);
+    // A face whose corners are not told any more is known by its box.
+    bool is_found = false;
+    index.set(0, box_of(slivers.back()));
+    index.visit_overlapping(box_of(slivers.back()), slivers.back(), [&](Id id) { is_found |= id == 0; });
+    EXPECT_TRUE(is_found);
   }
 }
 

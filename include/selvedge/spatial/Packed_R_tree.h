@@ -97,21 +97,14 @@ public:
       note_all_rods(corners_of);
   }
 
-  /// Adds a face, or gives another box to a face that is in the index.
+  /// Adds a face, or gives another box to a face that is in the index. No rod leaves it out from now on.
   void set(Id face, const CGAL::Bbox_3& box)
   {
-    const internal::Monotone_box mapped = m_map(box);
-    if (face >= m_slots.size())
-      m_slots.resize(face + std::size_t(1), s_none);
-    Slot& slot = m_slots[face];
-    const bool is_new = slot == s_none;
-    if (is_new)
-      slot = new_slot();
-    put({mapped, face}, slot);
-    grow(slot / s_width, mapped);
-    constexpr std::size_t least = 8;
-    if (is_new && m_leaves.size() - m_leaves_in_tree > least + m_leaves_in_tree / 8)
-      rebuild();
+    if (!m_rods.empty())
+      note_rod(face, {});
+    set_box(face, box);
+    if (!m_rods.empty())
+      put_rod(face);
   }
 
   /// Likewise, and says of any face that is then in the index what its corners are: `corners_of(face)`.
@@ -120,8 +113,8 @@ public:
   {
     const Corners corners = corners_of(face);
     if (!m_rods.empty())
-      note_rod(face, corners);
-    set(face, box);
+      note_rod(face, rod_around(corners));
+    set_box(face, box);
     if (!m_rods.empty()) {
       put_rod(face);
     } else {
@@ -321,6 +314,22 @@ private:
       make_rods();
   }
 
+  void set_box(Id face, const CGAL::Bbox_3& box)
+  {
+    const internal::Monotone_box mapped = m_map(box);
+    if (face >= m_slots.size())
+      m_slots.resize(face + std::size_t(1), s_none);
+    Slot& slot = m_slots[face];
+    const bool is_new = slot == s_none;
+    if (is_new)
+      slot = new_slot();
+    put({mapped, face}, slot);
+    grow(slot / s_width, mapped);
+    constexpr std::size_t least = 8;
+    if (is_new && m_leaves.size() - m_leaves_in_tree > least + m_leaves_in_tree / 8)
+      rebuild();
+  }
+
   Slot new_slot()
   {
     if (m_slot_count == s_width * m_leaves.size())
@@ -434,17 +443,22 @@ private:
     for (const Leaf& leaf : m_leaves)
       for (const Id face : leaf.faces)
         if (face != s_none)
-          note_rod(face, corners_of(face));
+          note_rod(face, rod_around(corners_of(face)));
     make_rods();
   }
 
-  void note_rod(Id face, const Corners& corners)
+  internal::Rod rod_around(const Corners& corners) const
+  {
+    const auto& [a, b, c] = corners;
+    return internal::Rod::around_triangle({from_origin(a), from_origin(b), from_origin(c)});
+  }
+
+  void note_rod(Id face, const internal::Rod& rod)
   {
     if (face >= m_rod_of_face.size())
       m_rod_of_face.resize(face + std::size_t(1));
-    const auto& [a, b, c] = corners;
-    m_rod_of_face[face] = internal::Rod::around_triangle({from_origin(a), from_origin(b), from_origin(c)});
-    m_rod_extent = (std::max)(m_rod_extent, m_rod_of_face[face].extent());
+    m_rod_of_face[face] = rod;
+    m_rod_extent = (std::max)(m_rod_extent, rod.extent());
   }
 
   // Makes the rods of all nodes from those of the faces.
