@@ -88,7 +88,7 @@ void compare(std::mt19937& random, const std::array<double, 3>& units, bool is_o
 #ifdef NDEBUG
 constexpr int s_cases = 12000;
 #else
-constexpr int s_cases = 2000;
+constexpr int s_cases = 3000;
 #endif
 
 TEST(Contact, BothWaysAgreeWithLinearProgramming)
