@@ -420,11 +420,13 @@ group(
     ("snapping_test",),
     ("!partner_of(source(moving, m_mesh)) || partner_motion(moving);", "true;", "a vertex goes where its partner cannot follow"),
     ("      join(kept, *m_partner_of_kept);", "      ;", "a pair to which others have gone is none any more"),
+    sources=("src/simplify/simplify_soup.cpp",),
 )
 group(
     headers + "Surface_mesh_simplification/internal/Edge_collapse.h",
     ("snapping_test",),
     ("          try_along(*moving);", "          ;", "partners go when their own turn comes"),
+    sources=("src/simplify/simplify_soup.cpp",),
 )
 
 # Pairs that offend already
