@@ -182,7 +182,8 @@ def main():
 
     chosen = [mutant for mutant in mutants.ALL
               if arguments.only in " ".join([mutant.file, mutant.old, mutant.new, mutant.reason])]
-    chosen = {number: mutant for number, mutant in enumerate(chosen, 1) if number in rows(arguments.rows, len(chosen))}
+    wanted = rows(arguments.rows, len(chosen))
+    chosen = {number: mutant for number, mutant in enumerate(chosen, 1) if number in wanted}
     for mutant in chosen.values():
         count = (TREE / mutant.file).read_text(encoding="utf-8").count(mutant.old) if (TREE / mutant.file).is_file() else 0
         if count != 1:
