@@ -229,6 +229,25 @@ TEST(Snapping, SidesThatStayApartLeaveTogether)
   EXPECT_NE(left, right) << "as strangers, they go their own ways";
 }
 
+TEST(Snapping, ATiedVertexStaysWhereItsPartnerCannotFollow)
+{
+  Prepared_soup prepared = snapped(seam_that_stays_open(), 0.125);
+  auto& tied = prepared.snapping.tied;
+  std::set<double> places; // along the seam, of every second pair: their neighbours are free
+  for (std::size_t i = tied.size(); i-- > 0;)
+    if (const double y = prepared.soup.points[tied[i].first].y(); std::fmod(y, 2) == 0)
+      places.insert(y);
+    else
+      tied.erase(tied.begin() + i);
+  ASSERT_EQ(places.size(), tied.size());
+  const Simplified_soup result = simplify_soup(prepared, to_ratio(0.3));
+  EXPECT_LE(result.report.left_alone, 1u) << "one partner is refused by the guard; without ties, ten stay alone";
+  std::size_t left = 0;
+  for (const Point_3& p : result.soup.points)
+    left += p.x() == 3 && places.count(p.y()) != 0;
+  EXPECT_LT(left, places.size()) << "pairs go where both can";
+}
+
 TEST(Snapping, WithoutItSeamsGape)
 {
   const Triangle_soup original = skirt(6000, 2);
