@@ -100,6 +100,7 @@ TEST_P(Cell_scenes, DoNotDependOnThreads)
   EXPECT_EQ(logs.size(), 1u);
 }
 
+#ifdef NDEBUG // with CGAL's expensive checks it takes longer than ten minutes
 // As good as without: the cost at which cells stop is one for all, and all that they have gathered goes on.
 TEST(Cells, AreAsTrueToTheOriginalAsTheWhole)
 {
@@ -111,6 +112,7 @@ TEST(Cells, AreAsTrueToTheOriginalAsTheWhole)
   };
   EXPECT_LT(deviation(in_cells(to_ratio(0.3), 20000)), 1.03 * deviation(to_ratio(0.3)));
 }
+#endif
 
 // A rough sheet beside a flat one of more vertices, each in a cell: the flat one alone reaches the target.
 TEST(Cells, AllStopAtTheCostThatHalfOfThemHaveReached)

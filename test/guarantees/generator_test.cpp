@@ -7,7 +7,6 @@
 #include <selvedge/generate.h>
 #include <selvedge/verify.h>
 
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 
 #include <gtest/gtest.h>
 
@@ -336,14 +335,7 @@ TEST(Generator, NeedlesAreNeedles)
   }
 }
 
-// The tunnelling scene, in exact arithmetic.
-
-using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
-
-Exact::Point_3 exact(const Point_3& p)
-{
-  return {p.x(), p.y(), p.z()};
-}
+// The tunnelling scene, with exact predicates.
 
 Triangle_soup collapse(const Triangle_soup& soup, Index moving, Index target)
 {
@@ -361,28 +353,34 @@ Triangle_soup collapse(const Triangle_soup& soup, Index moving, Index target)
   return result;
 }
 
+CGAL::Orientation turn(const Triangle_soup& soup, Index a, Index b, Index c)
+{
+  const auto from_above = [&](Index v) { return Kernel::Point_2(soup.points[v].x(), soup.points[v].y()); };
+  return CGAL::orientation(from_above(a), from_above(b), from_above(c));
+}
+
 /// Sign of the patch's height over the sheet: 1 above, −1 below, 0 when neither all above nor all below.
 int side_of_patch(const Triangle_soup& soup)
 {
-  using Line_3 = Exact::Line_3;
   int side = 2;
   for (std::size_t k = 0; k < soup.triangles.size(); ++k) {
     if (soup.groups.names[soup.groups.of_triangle[k]] != "patch_0")
       continue;
     for (const Index v : soup.triangles[k]) {
-      const Exact::Point_3 p = exact(soup.points[v]);
       bool covered = false;
       for (std::size_t f = 0; f < soup.triangles.size(); ++f) {
         if (soup.groups.of_triangle[f] == soup.groups.of_triangle[k])
           continue;
         const Index_triple& t = soup.triangles[f];
-        const Exact::Triangle_3 sheet(exact(soup.points[t[0]]), exact(soup.points[t[1]]),
-                                      exact(soup.points[t[2]]));
-        if (!CGAL::do_intersect(sheet, Line_3(p, Exact::Vector_3(0, 0, 1))))
+        // Whether p is above or below the face: it is not on different sides of its edges, seen from above.
+        const auto [least, most] = std::minmax({turn(soup, t[0], t[1], v), turn(soup, t[1], t[2], v),
+                                                turn(soup, t[2], t[0], v)});
+        if (least == CGAL::RIGHT_TURN && most == CGAL::LEFT_TURN)
           continue;
         covered = true;
         // Counter-clockwise from above, so positive is above.
-        const int here = static_cast<int>(CGAL::orientation(sheet[0], sheet[1], sheet[2], p));
+        const auto [a, b, c] = t;
+        const int here = CGAL::orientation(soup.points[a], soup.points[b], soup.points[c], soup.points[v]);
         side = side == 2 || side == here ? here : 0;
       }
       if (!covered)
