@@ -8,6 +8,8 @@
 #include "Peers.h"
 #include "Table.h"
 
+#include "soup/Disjoint_sets.h"
+#include "soup/number_positions.h"
 #include "verify/Surface_tree.h"
 #include "verify/face_samples.h"
 
@@ -22,12 +24,15 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <exception>
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -142,6 +147,81 @@ double share_of_moved_texture(const Triangle_soup& result, const Triangle_soup& 
   return area > 0 ? moved / area : 0;
 }
 
+/// Returns the edges, by position, at which a surface ends, branches, or bends by more than `degrees`, each
+/// as a triangle {a, b, b}.
+Triangle_soup hard_edges(const Triangle_soup& soup, double degrees)
+{
+  const internal::Surface surface(soup, 0);
+  const std::vector<Index> positions = number_positions(soup.points);
+  std::map<std::array<Index, 2>, std::vector<Index>> faces_of_edge;
+  for (Index t = 0; t < soup.triangles.size(); ++t)
+    for (int k = 0; k < 3 && !surface.is_degenerate(t); ++k) {
+      const Index a = positions[soup.triangles[t][k]], b = positions[soup.triangles[t][(k + 1) % 3]];
+      faces_of_edge[{std::min(a, b), std::max(a, b)}].push_back(t);
+    }
+  Triangle_soup edges;
+  edges.points.resize(soup.points.size());
+  for (Index v = 0; v < soup.points.size(); ++v)
+    edges.points[positions[v]] = soup.points[v];
+  for (const auto& [ends, faces] : faces_of_edge)
+    if (faces.size() != 2 ||
+        CGAL::approximate_angle(surface.normal(faces[0]), surface.normal(faces[1])) > degrees)
+      edges.triangles.push_back({ends[0], ends[1], ends[1]});
+  return edges;
+}
+
+/// Returns how far the hard edges of an original are from those of a result, from their middles and ends:
+/// RMS, NaN where there are none.
+double distance_of_hard_edges(const Triangle_soup& result, const Triangle_soup& original)
+{
+  const Triangle_soup to = hard_edges(result, 30);
+  Triangle_soup from = hard_edges(original, 40);
+  if (from.triangles.empty() || to.triangles.empty())
+    return std::nan("");
+  for (Index_triple& edge : from.triangles) {
+    from.points.push_back(CGAL::midpoint(from.points[edge[0]], from.points[edge[1]]));
+    edge[2] = static_cast<Index>(from.points.size() - 1);
+  }
+  return distance(from, to).root_mean_square;
+}
+
+/// Returns the vertices of each piece of at least a dozen faces, as soups of points.
+std::vector<Triangle_soup> points_of_pieces(const Triangle_soup& soup)
+{
+  const std::vector<Index> positions = number_positions(soup.points);
+  internal::Disjoint_sets pieces(soup.points.size());
+  for (const auto& [a, b, c] : soup.triangles) {
+    pieces.unite(positions[a], positions[b]);
+    pieces.unite(positions[b], positions[c]);
+  }
+  std::map<std::size_t, Triangle_soup> of_piece;
+  for (const Index_triple& triangle : soup.triangles) {
+    Triangle_soup& points = of_piece[pieces.find(positions[triangle[0]])];
+    const Index first = static_cast<Index>(points.points.size());
+    for (const Index v : triangle)
+      points.points.push_back(soup.points[v]);
+    points.triangles.push_back({first, first + 1, first + 2});
+  }
+  std::vector<Triangle_soup> result;
+  for (auto& [piece, points] : of_piece)
+    if (points.triangles.size() >= 12)
+      result.push_back(std::move(points));
+  return result;
+}
+
+/// Returns how far pieces are from a result, each measured by the diagonal of its own box: RMS over pieces,
+/// so that a button counts as much as the coat.
+double distance_of_pieces(const Triangle_soup& result, const std::vector<Triangle_soup>& pieces)
+{
+  double sum = 0;
+  for (const Triangle_soup& piece : pieces) {
+    const CGAL::Bbox_3 box = CGAL::bbox_3(piece.points.begin(), piece.points.end());
+    const double diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
+    sum += diagonal > 0 ? std::pow(distance(piece, result).root_mean_square / diagonal, 2) : 0;
+  }
+  return std::sqrt(sum / static_cast<double>(pieces.size()));
+}
+
 struct Program
 {
   std::string name;
@@ -157,6 +237,8 @@ const Row header{"mesh",
                  "RMS of the result",
                  "most (of the size)",
                  "normals (degrees)",
+                 "hard edges",
+                 "pieces",
                  "moved texture",
                  "pairs (original)"};
 
@@ -172,6 +254,7 @@ void add_rows(Table& table, const std::string& argument, const Request& request)
   const Mesh mesh = benchmark::mesh(argument, Defects::descend);
   const Prepared_soup& prepared = mesh.prepared;
   const Triangle_soup soup = sewn(prepared), by_area = points_on(prepared.soup, 100'000);
+  const std::vector<Triangle_soup> pieces = points_of_pieces(prepared.soup);
   const auto ours = [&](Placement placement) {
     return [&prepared, placement](std::size_t faces) {
       Simplify_options options;
@@ -206,6 +289,8 @@ void add_rows(Table& table, const std::string& argument, const Request& request)
            text(1000 * at_vertices.result_to_original.root_mean_square),
            text(1000 * std::max(comparison.original_to_result.lower, comparison.result_to_original.lower)),
            text(comparison.normals.root_mean_square),
+           text(1000 * distance_of_hard_edges(result, prepared.soup) / at_vertices.diagonal),
+           text(1000 * distance_of_pieces(result, pieces)),
            text(share_of_moved_texture(result, prepared.soup, at_vertices.diagonal)),
            std::to_string(offending_pairs(result).size()) + " (" +
                std::to_string(prepared.offending_pairs.size()) + ')'});
@@ -237,19 +322,16 @@ int main(int argc, char** argv)
     Table table(header);
     for (const std::string& mesh : request.meshes)
       add_rows(table, mesh, request);
-    std::cout
-        << "\nAll have as many faces as 'selvedge vertices' reaches, and no bound of the error. RMS and most "
-           "are "
-           "thousandths of the\ndiagonal of the original: from its vertices to the result, from points "
-           "evenly "
-           "spread over it, and from the result's\nvertices to it; most is the largest distance that was "
-           "found in "
-           "either direction. Normals: RMS of the angle to the\noriginal. Moved texture: the share of the "
-           "area "
-           "whose texture coordinates are off by more than 1 % of the texture; the\npeers are given "
-           "positions "
-           "and faces alone. Pairs: of triangles that meet, decided exactly, and how many did in the "
-           "original.\n";
+    std::cout << R"(
+All have as many faces as 'selvedge vertices' reaches, and no bound of the error. RMS and most are thousandths of the
+diagonal of the original: from its vertices to the result, from points evenly spread over it, and from the result's
+vertices to it; most is the largest distance that was found in either direction. Normals: RMS of the angle to the
+original. Hard edges: RMS from the original's edges that bend by more than 40 degrees, or are a border, to the
+result's that bend by more than 30 or are one. Pieces: RMS over connected pieces of how far each is from the result, in
+thousandths of its own diagonal. Moved texture: the share of the area whose texture coordinates are off by more than
+1 % of the texture; the peers are given positions and faces alone. Pairs: of triangles that meet, decided exactly, and
+how many did in the original.
+)";
     if (!request.csv.empty())
       write_file(request.csv, table.csv());
   } catch (const CLI::ParseError& error) {
