@@ -84,7 +84,8 @@ struct Gltf_scene;
 /// neighbours share a vertex number.
 ///
 /// **Preconditions** of every function that takes a soup: coordinates are finite; indices are in range; each
-/// array of per-triangle data is empty or as long as `triangles`. The readers of mesh_files.h ensure this.
+/// array of per-triangle data is empty or as long as `triangles`. The readers of mesh_files.h ensure this,
+/// and `prepare` checks it.
 struct Triangle_soup
 {
   /// One per vertex of the file, used or not.

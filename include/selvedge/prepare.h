@@ -167,9 +167,11 @@ struct Prepared_soup
 /// - when rounding makes a coordinate overflow,
 /// - when coordinates are too far apart for one `Scale`,
 /// - with `Defects::refuse`, when the input, together with the obstacle, is not embedded. The message says
-/// how many
-///   pairs offend, and names the first by the numbers of its triangles, counted from 1; those of the obstacle
-///   follow those of the input.
+///   how many pairs offend, and names the first by the numbers of its triangles, counted from 1; those of the
+///   obstacle follow those of the input.
+///
+/// Throws `Argument_error` when the input or the obstacle breaks a precondition of `Triangle_soup`, such as
+/// an array of another length than it should have.
 ///
 /// **Threads** The judge uses the threads that oneTBB grants; see verify.h.
 Prepared_soup prepare(Triangle_soup input, const Prepare_options& options = {},

@@ -4,6 +4,7 @@
 #include <selvedge/prepare.h>
 
 #include "Stopwatch.h"
+#include "soup/check_soup.h"
 #include "soup/number_positions.h"
 #include "soup/obstacle.h"
 #include "soup/selection.h"
@@ -243,6 +244,8 @@ Prepared_soup prepare(Triangle_soup input, const Prepare_options& options, const
     throw Input_error("the mesh has no triangles");
   if (options.weld_clear_gaps && options.weld_distance != 0)
     throw Argument_error("the weld distance is either given or found, not both");
+  check_soup(input, "the mesh");
+  check_soup(obstacle, "the obstacle");
   return Preparation(std::move(input), options, obstacle).run();
 }
 

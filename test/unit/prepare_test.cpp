@@ -49,6 +49,34 @@ TEST(Refusal, NothingToReduce)
   EXPECT_THROW(prepare(soup({{0, 0, 0}, {1, 0, 0}}, {{0, 1, 1}})), Input_error);
 }
 
+TEST(Refusal, SoupsThatBreakTheirPreconditions)
+{
+  const auto expect_refused = [](const std::string& words, auto&& change) {
+    Triangle_soup input = sheet(3, 3);
+    input.uvs = {{{0, 0}}, std::vector<Index_triple>(input.triangles.size(), Index_triple{0, 0, 0})};
+    input.groups = {std::vector<Index>(input.triangles.size(), 0), {"sheet"}};
+    input.vertex_attributes = {{"quality", Attribute::Type::float32, 2, false, {}}};
+    input.vertex_attributes[0].rows.resize(8 * input.points.size());
+    EXPECT_NO_THROW(prepare(input));
+    const Triangle_soup sound = input;
+    change(input);
+    try {
+      prepare(input);
+      ADD_FAILURE() << words;
+    } catch (const Argument_error& error) {
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
+    EXPECT_THROW(prepare(sound, {}, input), Argument_error) << words;
+  };
+  expect_refused("triangle 2 (counted from 0) refers to number 99", [](auto& s) { s.triangles[2][1] = 99; });
+  expect_refused("vertex 1 ", [](auto& s) { s.points[1] = Point_3(0, std::nan(""), 0); });
+  expect_refused("uvs.of_triangle has 17 entries", [](auto& s) { s.uvs.of_triangle.pop_back(); });
+  expect_refused("number 1 of the 1 uvs", [](auto& s) { s.uvs.of_triangle[0][0] = 1; });
+  expect_refused("groups.of_triangle", [](auto& s) { s.groups.of_triangle.push_back(0); });
+  expect_refused("among the groups", [](auto& s) { s.groups.names.clear(); });
+  expect_refused("'quality'", [](auto& s) { s.vertex_attributes[0].rows.pop_back(); });
+}
+
 TEST(Prepare, StrictRefusesByTheNumbersOfTheInput)
 {
   Prepare_options strict;

@@ -1,0 +1,102 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "soup/check_soup.h"
+
+#include "soup/with_number.h"
+
+#include <selvedge/Error.h>
+
+#include <cmath>
+#include <cstddef>
+
+namespace selvedge {
+namespace {
+
+class Soup_check
+{
+public:
+  Soup_check(const Triangle_soup& soup, const std::string& what) : m_soup(soup), m_what(what) {}
+
+  void run() const
+  {
+    for (std::size_t v = 0; v < m_soup.points.size(); ++v)
+      for (int axis = 0; axis < 3; ++axis)
+        require(std::isfinite(m_soup.points[v][axis]), "vertex", v, "has a coordinate that is not finite");
+    check_corners(m_soup.triangles, m_soup.points.size(), "points");
+    check_values(m_soup.uvs, "uvs");
+    check_values(m_soup.normals, "normals");
+    check_labels(m_soup.groups, "groups");
+    check_labels(m_soup.objects, "objects");
+    check_labels(m_soup.materials, "materials");
+    check_labels(m_soup.smoothing_groups, "smoothing_groups");
+    check_attributes(m_soup.vertex_attributes, m_soup.points.size());
+    check_attributes(m_soup.triangle_attributes, m_soup.triangles.size());
+    if (m_soup.scene)
+      check_size(m_soup.scene_vertices.size(), m_soup.points.size(), "scene_vertices");
+  }
+
+private:
+  void require(bool is_met, const char* element, std::size_t number, const std::string& problem) const
+  {
+    if (!is_met)
+      throw Argument_error(m_what + ": " + element + ' ' + std::to_string(number) + " (counted from 0) " +
+                           problem);
+  }
+
+  void check_size(std::size_t size, std::size_t due, const std::string& name) const
+  {
+    if (size != due)
+      throw Argument_error(m_what + ": the array " + name + " has " + std::to_string(size) +
+                           " entries, and should have " + std::to_string(due));
+  }
+
+  void check_corners(const std::vector<Index_triple>& corners, std::size_t values,
+                     const std::string& name) const
+  {
+    for (std::size_t t = 0; t < corners.size(); ++t)
+      for (const Index value : corners[t])
+        require(value < values, "triangle", t,
+                "refers to number " + std::to_string(value) + " of the " + std::to_string(values) + ' ' +
+                    name);
+  }
+
+  template <std::size_t dimension>
+  void check_values(const Corner_values<dimension>& values, const std::string& name) const
+  {
+    if (values.empty())
+      return;
+    check_size(values.of_triangle.size(), m_soup.triangles.size(), name + ".of_triangle");
+    check_corners(values.of_triangle, values.values.size(), name);
+  }
+
+  void check_labels(const Triangle_labels& labels, const std::string& name) const
+  {
+    if (labels.empty())
+      return;
+    check_size(labels.of_triangle.size(), m_soup.triangles.size(), name + ".of_triangle");
+    for (std::size_t t = 0; t < labels.of_triangle.size(); ++t)
+      require(labels.of_triangle[t] < labels.names.size(), "triangle", t, "has no name among the " + name);
+  }
+
+  void check_attributes(const std::vector<Attribute>& attributes, std::size_t rows) const
+  {
+    for (const Attribute& attribute : attributes) {
+      const std::size_t bytes =
+          with_number(attribute.type, [](auto number) { return sizeof number; }) * attribute.components;
+      check_size(attribute.rows.size(), rows * bytes, "rows of attribute '" + attribute.name + "'");
+    }
+  }
+
+  const Triangle_soup& m_soup;
+  const std::string& m_what;
+};
+
+} // namespace
+
+void check_soup(const Triangle_soup& soup, const std::string& what)
+{
+  Soup_check(soup, what).run();
+}
+
+} // namespace selvedge
