@@ -284,6 +284,20 @@ TEST(Edge_collapse, KnowsEveryNamedParameterThatItIsGiven)
   EXPECT_TRUE((internal::Are_tags_among<Default, np::all_default_t, np::filter_t>::value));
 }
 
+TEST(Edge_collapse, TakesEdgesOfATileTogetherInRelaxedOrder)
+{
+  const auto points_after = [](const auto& is_relaxed) {
+    Mesh mesh = mesh_of(skirt(20000, 1)); // two tiles
+    const auto parameters = CGAL::parameters::get_cost(Deducing_cost())
+                                .get_placement(Deducing_placement())
+                                .use_relaxed_order(is_relaxed);
+    selvedge::edge_collapse(mesh, Deducing_stop(), parameters);
+    return soup_of(mesh).points;
+  };
+  EXPECT_EQ(points_after(true), points_after(CGAL::Tag_true()));
+  EXPECT_NE(points_after(true), points_after(CGAL::Tag_false()));
+}
+
 TEST(Edge_collapse, MakesNoMorePairsThanCgalsLoopDoesByDefault)
 {
   const auto pairs_after = [](const auto& reduce) {

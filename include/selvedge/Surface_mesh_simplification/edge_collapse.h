@@ -23,13 +23,14 @@ template <class TriangleMesh, class GeomTraits, class Stop, class VertexPointMap
 int collapse_edges(TriangleMesh& mesh, const Stop& stop, const GeomTraits& traits,
                    const VertexPointMap& points, const HalfedgeIndexMap& numbers,
                    const EdgeIsConstrainedMap& is_constrained, const Cost& cost, const Placement& placement,
-                   const Filter& filter, const Visitor& visitor, bool is_geometry_tested)
+                   const Filter& filter, const Visitor& visitor, bool is_geometry_tested,
+                   bool is_order_relaxed)
 {
-  return int(
-      Edge_collapse<TriangleMesh, GeomTraits, Stop, VertexPointMap, HalfedgeIndexMap, EdgeIsConstrainedMap,
-                    Cost, Placement, Filter, Visitor>(mesh, traits, stop, points, numbers, is_constrained,
-                                                      cost, placement, filter, visitor, is_geometry_tested)
-          .run());
+  return int(Edge_collapse<TriangleMesh, GeomTraits, Stop, VertexPointMap, HalfedgeIndexMap,
+                           EdgeIsConstrainedMap, Cost, Placement, Filter, Visitor>(
+                 mesh, traits, stop, points, numbers, is_constrained, cost, placement, filter, visitor,
+                 is_geometry_tested, is_order_relaxed)
+                 .run());
 }
 
 } // namespace internal
@@ -44,8 +45,8 @@ int collapse_edges(TriangleMesh& mesh, const Stop& stop, const GeomTraits& trait
 /// Named parameters, with CGAL's meanings and defaults: `get_cost`, `get_placement`, `filter`, `visitor`,
 /// `edge_is_constrained_map`, `vertex_point_map`, `halfedge_index_map`, `geom_traits`, and
 /// `vertex_index_map`, which is taken and not needed. Besides, `selvedge::parameters::geometric_test(false)`
-/// leaves out CGAL's geometric test. Any other parameter does not compile, `use_relaxed_order` among them:
-/// edges are always considered in the order of their costs.
+/// leaves out CGAL's geometric test, and `use_relaxed_order(true)`, or `Tag_true`, relaxes the order a
+/// little. Any other parameter does not compile.
 ///
 /// Policies, filters and visitors are models of CGAL's concepts. The loop also uses the following, where it
 /// exists:
@@ -61,6 +62,10 @@ int collapse_edges(TriangleMesh& mesh, const Stop& stop, const GeomTraits& trait
 /// 1. *Order*: edges are considered by (cost, edge number) alone. Both loops collapse the same edges in the
 ///    same order where no two edges cost the same, none has length zero, and `second` and `blockers` are not
 ///    in use. Where costs tie, CGAL's order depends on its heap, and the counts of edges removed may differ.
+///    In relaxed order, edges are considered by (class of cost, tile, cost, edge number). Costs of one class
+///    differ by at most a sixteenth; a tile is 16,384 edges with consecutive numbers. A large mesh in which
+///    near edges have near numbers is reduced in a third less time, since what is needed next is in the
+///    cache. A stop by cost may leave edges that cost up to a sixteenth less than the one at which it stops.
 /// 2. *Completeness*: when the loop ends without a stop, every edge that is not constrained and has a cost
 ///    has been refused since the last collapse at one of its ends or at a neighbour of one, and since the
 ///    last change of a face that was named as its blocker.
@@ -88,9 +93,10 @@ int edge_collapse(TriangleMesh& mesh, const StopPredicate& stop,
       internal::Are_tags_among<NamedParameters, np::all_default_t, np::get_cost_policy_t,
                                np::get_placement_policy_t, np::filter_t, np::visitor_t,
                                np::edge_is_constrained_t, np::vertex_point_t, np::vertex_index_t,
-                               np::halfedge_index_t, np::geom_traits_t, internal::Geometric_test_t>::value,
+                               np::halfedge_index_t, np::geom_traits_t, np::use_relaxed_order_t,
+                               internal::Geometric_test_t>::value,
       "selvedge::edge_collapse does not know one of these named parameters; its documentation lists "
-      "those that it takes (use_relaxed_order is not among them)");
+      "those that it takes");
   using CGAL::parameters::choose_parameter;
   using CGAL::parameters::get_parameter;
   using Geom_traits = typename CGAL::GetGeomTraits<TriangleMesh, NamedParameters>::type;
@@ -105,7 +111,8 @@ int edge_collapse(TriangleMesh& mesh, const StopPredicate& stop,
           get_parameter(parameters, np::get_placement_policy)),
       choose_parameter<No_filter>(get_parameter(parameters, np::filter)),
       choose_parameter<internal::No_visitor>(get_parameter(parameters, np::visitor)),
-      choose_parameter(get_parameter(parameters, internal::Geometric_test_t()), true));
+      choose_parameter(get_parameter(parameters, internal::Geometric_test_t()), true),
+      choose_parameter(get_parameter(parameters, np::use_relaxed_order), false));
 }
 
 } // namespace selvedge

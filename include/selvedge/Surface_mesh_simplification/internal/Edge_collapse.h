@@ -119,11 +119,11 @@ public:
   Edge_collapse(TriangleMesh& mesh, const GeomTraits& traits, const Stop& stop, const VertexPointMap& points,
                 const HalfedgeIndexMap& numbers, const EdgeIsConstrainedMap& is_constrained, const Cost& cost,
                 const Placement& placement, const Filter& filter, const Visitor& visitor,
-                bool is_geometry_tested)
+                bool is_geometry_tested, bool is_order_relaxed)
       : m_mesh(mesh), m_traits(traits), m_stop(stop), m_points(points), m_numbers(numbers),
         m_is_constrained(is_constrained), m_cost(cost), m_placement(placement), m_filter(filter),
         m_visitor(visitor), m_is_geometry_tested(is_geometry_tested), m_halfedges(num_edges(mesh)),
-        m_records(num_edges(mesh)), m_queue(num_edges(mesh)), m_waiting(mesh),
+        m_records(num_edges(mesh)), m_queue(num_edges(mesh), is_order_relaxed), m_waiting(mesh),
         m_has_stale_edges(get(CGAL::dynamic_vertex_property_t<unsigned char>(), mesh))
   {
   }
@@ -144,8 +144,7 @@ public:
 private:
   void collect()
   {
-    std::vector<typename Queue::Entry> entries;
-    entries.reserve(num_edges(m_mesh));
+    m_queue.reserve(num_edges(m_mesh));
     for (const Vertex v : vertices(m_mesh))
       put(m_has_stale_edges, v, false);
     Cancellation_poll poll;
@@ -160,13 +159,13 @@ private:
       const Profile of_edge = profile(h);
       const Optional_cost cost = cost_of(of_edge, m_records[id(h)]);
       if (cost)
-        entries.push_back({*cost, id(h)});
+        m_queue.append(id(h), *cost);
       call_with_profile(
           [&](const auto& p) -> decltype(m_visitor.OnCollected(p, cost)) { m_visitor.OnCollected(p, cost); },
           of_edge);
     }
     m_initial_edges = m_edges;
-    m_queue.push_all(std::move(entries));
+    m_queue.sort();
   }
 
   // Takes the cheapest edge from the queue and collapses it if allowed. Returns whether the loop goes on.

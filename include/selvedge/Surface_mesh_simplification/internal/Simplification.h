@@ -289,6 +289,8 @@ private:
         is_promising = run_pass();
       }
     };
+    // A smaller mesh lies in the cache as it is.
+    const bool is_order_relaxed = num_edges(m_mesh) > std::size_t(1) << 17;
     if (m_options.loop == Collapse_loop::own) {
       run_passes([&] {
         const std::size_t collapses_before = m_report.collapses;
@@ -296,6 +298,7 @@ private:
                                 parameters::geometric_test(false, CGAL::parameters::get_cost(costs)
                                                                       .get_placement(places)
                                                                       .vertex_point_map(m_points)
+                                                                      .use_relaxed_order(is_order_relaxed)
                                                                       .filter(Filter{this})
                                                                       .visitor(Visitor(*this))));
         // The loop leaves no collapse undone that a change nearby or of a blocker has made possible. Should a

@@ -1,0 +1,78 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The two orders of the queue of edges.
+
+#include <selvedge/Surface_mesh_simplification/internal/Edge_queue.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <random>
+#include <tuple>
+#include <vector>
+
+namespace selvedge::test {
+namespace {
+
+using Queue = internal::Edge_queue<double>;
+
+std::vector<std::uint32_t> popped(Queue& queue)
+{
+  std::vector<std::uint32_t> edges;
+  while (!queue.is_empty())
+    edges.push_back(queue.pop().second);
+  return edges;
+}
+
+// The number of the sixteenth of a power of two in which a cost lies.
+double class_of(double cost)
+{
+  if (!(cost > 0))
+    return -std::numeric_limits<double>::infinity();
+  int exponent = 0;
+  const double mantissa = std::frexp(cost, &exponent); // from 1/2 to 1
+  return 16 * exponent + std::floor(32 * mantissa);
+}
+
+TEST(Edge_queue, TakesEdgesInEitherOrder)
+{
+  constexpr std::uint32_t edges = 60000; // four tiles
+  for (const bool is_relaxed : {false, true}) {
+    SCOPED_TRACE(is_relaxed);
+    std::mt19937 random(7);
+    const auto cost = [&]() -> double {
+      const std::uint32_t kind = random() % 16;
+      return kind == 0 ? 0 : kind == 1 ? -double(random() % 9) : std::ldexp(1 + random() % 99, int(kind) - 8);
+    };
+    Queue queue(edges, is_relaxed);
+    std::map<std::uint32_t, double> costs;
+    for (std::uint32_t edge = 0; edge < edges / 2; ++edge)
+      queue.append(edge, costs[edge] = cost());
+    queue.sort();
+    for (std::uint32_t i = 0; i < edges; ++i) { // changed, added, removed
+      const std::uint32_t edge = random() % edges;
+      if (random() % 4 == 0) {
+        queue.erase(edge);
+        costs.erase(edge);
+      } else {
+        queue.set(edge, costs[edge] = cost());
+      }
+    }
+    std::vector<std::tuple<double, std::uint32_t, double, std::uint32_t>> keys;
+    for (const auto& [edge, c] : costs)
+      keys.emplace_back(is_relaxed ? class_of(c) : 0, is_relaxed ? edge / 16384 : 0, c, edge);
+    std::sort(keys.begin(), keys.end());
+    std::vector<std::uint32_t> expected;
+    for (const auto& key : keys)
+      expected.push_back(std::get<3>(key));
+    EXPECT_EQ(popped(queue), expected);
+  }
+}
+
+} // namespace
+} // namespace selvedge::test
