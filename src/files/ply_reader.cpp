@@ -215,6 +215,8 @@ private:
         read_property();
       else if (keyword == "comment" || keyword == "obj_info")
         read_comment(keyword);
+      else if (!keyword.empty() && m_elements.empty())
+        m_builder.ignore("lines of the header that PLY does not know"); // some programs sign their files so
       else if (!keyword.empty())
         m_text.fail("the header has an unknown statement " + in_quotes(keyword) + "; remove it");
     }

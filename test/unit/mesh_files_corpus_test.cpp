@@ -326,6 +326,14 @@ const std::vector<Entry>& corpus()
        "element face 1\r\nproperty list uchar int vertex_indices\r\nend_header\r\n0 0 0\r\n4 0 0\r\n0 4 "
        "0\r\n3 0 1 2\r\n",
        "", 3, 1},
+      {"PlyHeaderLineOfText", ply,
+       "ply\nCreated by a program\n" + ply_header("ascii", "3", "1").substr(4) + ply_points + "3 0 1 2\n", "",
+       3, 1, "not carried, lines of the header that PLY does not know: 1"},
+      {"PlyMisspeltElement", ply,
+       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+       "elemnt face 1\nproperty list uchar int vertex_indices\nend_header\n" +
+           ply_points + "3 0 1 2\n",
+       ":7: the header has an unknown statement 'elemnt'"},
       {"PlyNoFaces", ply, ply_header("ascii", "3", "0") + ply_points, ": the file has no faces"},
       {"PlyEmpty", ply, "", ": the file is empty"},
       {"PlyNoPly", ply, "solid\n", ":1: the first line is not 'ply'"},
