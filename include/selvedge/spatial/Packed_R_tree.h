@@ -140,11 +140,7 @@ public:
   template <class Visitor>
   void visit_overlapping(const CGAL::Bbox_3& box, Visitor&& visit) const
   {
-    const auto visit_and_go_on = [&](Id face) {
-      visit(face);
-      return false;
-    };
-    visit_near({m_map(box), nullptr}, visit_and_go_on);
+    visit_all_near({m_map(box), nullptr}, visit);
   }
 
   /// Likewise for the hull of some points that lie in the box. It may leave out faces that do not meet it.
@@ -158,11 +154,7 @@ public:
     for (const auto& point : points)
       m_query_points.push_back(from_origin(point));
     const internal::Beam beam(m_query_points, m_rod_extent);
-    const auto visit_and_go_on = [&](Id face) {
-      visit(face);
-      return false;
-    };
-    visit_near({m_map(box), beam.is_usable() ? &beam : nullptr}, visit_and_go_on);
+    visit_all_near({m_map(box), beam.is_usable() ? &beam : nullptr}, visit);
   }
 
   /// Returns whether `is_wanted(face)` holds for one of the faces whose boxes overlap `box`, and perhaps of
@@ -373,6 +365,16 @@ private:
   {
     const Mask mask = boxes.overlapping(query.box);
     return query.beam == nullptr || mask == 0 ? mask : mask & m_rods[level][block].near(*query.beam);
+  }
+
+  template <class Visitor>
+  void visit_all_near(const Query& query, Visitor& visit) const
+  {
+    const auto visit_and_go_on = [&](Id face) {
+      visit(face);
+      return false;
+    };
+    visit_near(query, visit_and_go_on);
   }
 
   // Calls the visitor for faces that the query may meet, until it returns true. Returns whether it did.
