@@ -487,3 +487,20 @@ group(
     (": m_start.lineage.descends_from_one(other, m_rivals);", ": true;", "whatever has ancestors may offend with all others"),
     ("if (!m_verdict.header.obstacle && m_off", "if (m_off", "pairs are counted without those with the obstacle"),
 )
+
+# The order of edges, and the soups of callers
+group(
+    headers + "Surface_mesh_simplification/internal/Edge_queue.h",
+    ("edge_queue_test",),
+    ("Id(bits >> 48)", "Id(bits >> 50)", "costs of a class differ by a quarter"),
+    ("edge >> 14 : 0", "0 : 0", "no tiles"),
+    ("if (i > 0 && entry < m_heap[parent(i)])", "if (false)", "an edge that gets cheaper stays where it is"),
+)
+group(
+    "src/soup/check_soup.cpp",
+    ("prepare_test",),
+    ("require(value < values,", "require(value <= values,", "a number beyond the last value"),
+    ("    check_corners(values.of_triangle, values.values.size(), name);", "", "values that do not exist"),
+    ("attribute.rows.size(), rows * bytes,", "attribute.rows.size(), attribute.rows.size(),",
+     "attributes of another length"),
+)
