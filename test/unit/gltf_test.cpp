@@ -314,8 +314,10 @@ std::vector<std::string> rows_of(const Document& document, std::size_t number)
       return document.json["bufferViews"][sparse[part]["bufferView"].get<std::size_t>()]["byteOffset"]
           .get<std::size_t>();
     };
+    const bool are_bytes = sparse["indices"]["componentType"] == 5121;
     for (std::size_t i = 0; i < sparse["count"]; ++i)
-      rows[get<std::uint16_t>(document.bytes, begin("indices") + 2 * i)] =
+      rows[are_bytes ? get<std::uint8_t>(document.bytes, begin("indices") + i)
+                     : get<std::uint16_t>(document.bytes, begin("indices") + 2 * i)] =
           document.bytes.substr(begin("values") + i * size, size);
   }
   return rows;
@@ -566,6 +568,11 @@ TEST(Gltf, RoundTripKeepsEverything)
   write_mesh(folder / "a.glb", file.soup);
   const Document after = from_glb(contents(folder / "a.glb"));
   expect_everything_kept(after, before);
+  const Json& target =
+      after.json["accessors"]
+                [after.json["meshes"][0]["primitives"][0]["targets"][0]["POSITION"].get<std::size_t>()];
+  EXPECT_TRUE(target.contains("sparse"));
+  EXPECT_FALSE(target.contains("bufferView")) << "a sparse target became a full one";
   for (std::size_t p = 0; p < 2; ++p)
     EXPECT_EQ(indices_of(after, after.json["meshes"][0]["primitives"][p]).size(),
               indices_of(before, before.json["meshes"][0]["primitives"][p]).size());
@@ -683,8 +690,8 @@ TEST(Gltf, GroupsMaterialsAndNotes)
     return std::any_of(notes.begin(), notes.end(),
                        [&](const std::string& note) { return note.find(word) != std::string::npos; });
   };
-  for (const char* word : {"several nodes share", "bind pose", "morph targets", "points or lines", "sparse",
-                           "files of their own"})
+  for (const char* word :
+       {"several nodes share", "bind pose", "morph targets", "points or lines", "files of their own"})
     EXPECT_TRUE(says(word)) << word;
 }
 
@@ -937,7 +944,13 @@ TEST(Gltf, RefusesWhatIsBroken)
   };
   refused("version", [](Json& json) { json["asset"]["version"] = "1.0"; });
   refused("no triangles", [](Json& json) { json["nodes"][0].erase("mesh"); });
-  refused("no triangles", [](Json& json) { json["meshes"][0]["primitives"][0]["mode"] = 1; });
+  refused("points or lines and no triangles",
+          [](Json& json) { json["meshes"][0]["primitives"][0]["mode"] = 1; });
+  refused("animations and no mesh", [](Json& json) {
+    json.erase("meshes");
+    json["nodes"][0].erase("mesh");
+    json["animations"] = {{{"channels", Json::array()}, {"samplers", Json::array()}}};
+  });
   refused("mesh 7", [](Json& json) { json["nodes"][0]["mesh"] = 7; });
   refused("node 9", [](Json& json) { json["scenes"][0]["nodes"] = {9}; });
   refused("twice", [](Json& json) { json["nodes"][0]["children"] = {0}; });
