@@ -67,10 +67,10 @@ namespace selvedge {
 /// says: the row of a vertex of the file that has this normal, where there is one, else the normal turned
 /// back into its node; without normals, the file gets neither NORMAL nor TANGENT. The rest of the document
 /// stays as it is: images byte for byte, addresses of files, numbers of accessors and buffer views.
-/// Exceptions: a mesh that several nodes share becomes one for each, accessors of triangles are written
-/// without gaps, and in full unless the file has nothing but sparse values for them, buffers become one, and
-/// bytes that nothing can refer to go. Primitives of points or lines, and meshes outside the scene, stay as
-/// they are. Those without a triangle left are removed.
+/// Exceptions: a mesh that several nodes share becomes one for each node in which it has been reduced
+/// otherwise, accessors of triangles are written without gaps, and in full unless the file has nothing but
+/// sparse values for them, buffers become one, and bytes that nothing can refer to go. Primitives of points
+/// or lines, and meshes outside the scene, stay as they are. Those without a triangle left are removed.
 ///
 /// **Flat shading.** PLY and glTF hold one normal for each vertex, so that a file with a normal for each face
 /// has several vertices at every corner of its mesh. Where the normals are flat (normals.h), triangles name

@@ -91,6 +91,7 @@ private:
   // Gives every node of the scene a mesh of its own, and lists its primitives.
   void find_parts()
   {
+    m_scene->first_copy = Index(model().meshes.size());
     m_is_free_accessor.assign(model().accessors.size(), false);
     std::vector<std::size_t> in_scene(model().meshes.size(), 0);
     std::vector<char> is_taken(model().meshes.size(), false); // nodes outside the scene keep their meshes
@@ -108,7 +109,7 @@ private:
     }
     for (std::size_t m = 0; m < in_scene.size(); ++m) {
       if (in_scene[m] > 1 || (in_scene[m] == 1 && is_taken[m]))
-        remark("meshes that several nodes share, from now on each with its own");
+        remark("meshes that several nodes share, each reduced where it stands");
       if (in_scene[m] == 0) {
         remark("meshes that are not in the scene, kept as they are");
         keep_accessors(m, [](const tinygltf::Primitive&) { return true; });

@@ -9,10 +9,13 @@
 #include <selvedge/Error.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
 #include <optional>
+#include <unordered_map>
+#include <utility>
 
 namespace selvedge::files {
 namespace {
@@ -46,7 +49,7 @@ public:
   /// The scene may hold normals though the soup has none, if it was made for this soup.
   Gltf_writer(const Triangle_soup& soup, const Gltf_scene& scene, bool is_scene_made)
       : m_is_scene_made(is_scene_made), m_soup(soup), m_scene(scene), m_split(vertices_by_normal(soup)),
-        m_document(scene.document), m_views(scene.views),
+        m_document(scene.document), m_first_copy(scene.first_copy), m_views(scene.views),
         m_free_accessors(scene.free_accessors.rbegin(), scene.free_accessors.rend()),
         m_free_views(scene.free_views.rbegin(), scene.free_views.rend())
   {
@@ -59,6 +62,7 @@ public:
     put_triangles();
     fill_free();
     remove_empty();
+    merge_copies();
     std::string bytes = put_buffer();
     if (format == Mesh_format::gltf) {
       m_document["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64(bytes);
@@ -305,19 +309,32 @@ private:
     return number;
   }
 
+  // Accessors that say the same of the same bytes become one, as in files that share them.
   std::size_t put_accessor(const Column& column, std::size_t count, int target)
   {
+    Json rest = column.accessor;
+    rest["count"] = count;
+    if (column.name == "POSITION" || rest.contains("min") || rest.contains("max"))
+      put_bounds(rest, column, count);
+    std::string bytes = column.is_sparse ? column.rows : bytes_of_view(column, count, target);
+    const std::size_t hash = std::hash<std::string>()(bytes);
+    for (auto range = m_written.equal_range(hash); range.first != range.second; ++range.first) {
+      const Written& known = range.first->second;
+      if (known.target == target && known.is_sparse == column.is_sparse && known.rest == rest &&
+          (known.is_sparse ? known.sparse_rows : m_views[known.view]) == bytes)
+        return known.accessor;
+    }
+    Written& written = m_written.emplace(hash, Written{rest, target, column.is_sparse, {}, 0, 0})->second;
     Json accessor = Json::object();
+    if (column.is_sparse)
+      written.sparse_rows = std::exchange(bytes, bytes_of_view(column, count, target));
     if (!column.is_sparse || !put_sparse(accessor, column, count))
-      accessor["bufferView"] = put_view(column, count, target);
-    accessor.update(column.accessor);
-    accessor["count"] = count;
-    if (column.name == "POSITION" || accessor.contains("min") || accessor.contains("max"))
-      put_bounds(accessor, column, count);
+      accessor["bufferView"] = written.view = put_view(column, std::move(bytes), target);
+    accessor.update(rest);
     Json& accessors = m_document["accessors"];
-    const std::size_t number = next(m_free_accessors, accessors.size());
-    accessors[number] = std::move(accessor);
-    return number;
+    written.accessor = next(m_free_accessors, accessors.size());
+    accessors[written.accessor] = std::move(accessor);
+    return written.accessor;
   }
 
   // Puts only the rows that are not zero, where that takes less space. Returns whether it does.
@@ -342,8 +359,8 @@ private:
     if (size > 0)
       accessor["sparse"] = {
           {"count", size},
-          {"indices", {{"bufferView", put_view(indices, size, s_any)}, {"componentType", type}}},
-          {"values", {{"bufferView", put_view(values, size, s_any)}}}};
+          {"indices", {{"bufferView", put_view(indices, indices.rows, s_any)}, {"componentType", type}}},
+          {"values", {{"bufferView", put_view(values, values.rows, s_any)}}}};
     return true;
   }
 
@@ -374,22 +391,30 @@ private:
     accessor["max"] = std::move(largest);
   }
 
-  std::size_t put_view(const Column& column, std::size_t count, int target)
+  // Rows of vertices begin at multiples of four bytes.
+  static std::size_t stride_of(const Column& column, int target)
   {
-    // Rows of vertices begin at multiples of four bytes.
-    const std::size_t stride = target == s_vertices ? (column.row_size + 3) / 4 * 4 : column.row_size;
+    return target == s_vertices ? (column.row_size + 3) / 4 * 4 : column.row_size;
+  }
+
+  static std::string bytes_of_view(const Column& column, std::size_t count, int target)
+  {
+    const std::size_t stride = stride_of(column, target);
+    if (stride == column.row_size)
+      return column.rows;
     std::string bytes;
-    if (stride == column.row_size) {
-      bytes = column.rows;
-    } else {
-      bytes.reserve(count * stride);
-      for (std::size_t i = 0; i < count; ++i) {
-        bytes.append(column.rows, i * column.row_size, column.row_size);
-        bytes.append(stride - column.row_size, '\0');
-      }
+    bytes.reserve(count * stride);
+    for (std::size_t i = 0; i < count; ++i) {
+      bytes.append(column.rows, i * column.row_size, column.row_size);
+      bytes.append(stride - column.row_size, '\0');
     }
+    return bytes;
+  }
+
+  std::size_t put_view(const Column& column, std::string bytes, int target)
+  {
     Json view = {{"buffer", 0}, {"byteOffset", 0}, {"byteLength", bytes.size()}};
-    if (stride != column.row_size)
+    if (const std::size_t stride = stride_of(column, target); stride != column.row_size)
       view["byteStride"] = stride;
     if (target != s_any)
       view["target"] = target;
@@ -426,6 +451,7 @@ private:
       if (!primitives.empty())
         continue;
       meshes.erase(part->mesh);
+      m_first_copy -= part->mesh < m_first_copy;
       for (Json& node : m_document["nodes"]) {
         const auto mesh = node.find("mesh");
         if (mesh == node.end() || *mesh < part->mesh)
@@ -437,6 +463,28 @@ private:
             node.erase(key);
       }
     }
+  }
+
+  // Makes one mesh of the copies that have stayed alike.
+  void merge_copies()
+  {
+    Json& meshes = m_document["meshes"];
+    if (m_first_copy >= meshes.size())
+      return;
+    std::map<std::string, std::size_t> first;
+    std::vector<std::size_t> numbers;
+    Json kept = Json::array();
+    for (Json& mesh : meshes) {
+      const auto [it, is_new] = first.emplace(mesh.dump(), kept.size());
+      const bool is_kept = is_new || numbers.size() < m_first_copy;
+      numbers.push_back(is_kept ? kept.size() : it->second);
+      if (is_kept)
+        kept.push_back(std::move(mesh));
+    }
+    meshes = std::move(kept);
+    for (Json& node : m_document["nodes"])
+      if (const auto mesh = node.find("mesh"); mesh != node.end())
+        *mesh = numbers[mesh->get<std::size_t>()];
   }
 
   // Puts all buffer views into one buffer, each at a multiple of four bytes.
@@ -462,6 +510,7 @@ private:
   const Gltf_scene& m_scene;
   Vertices_by_normal m_split;
   Json m_document;
+  std::size_t m_first_copy;
   std::vector<std::string> m_views;
   std::vector<Index> m_free_accessors, m_free_views; // the first at the back
   std::vector<Index> m_numbers;                      // by vertex of `m_split`, in its instance
@@ -469,6 +518,15 @@ private:
   std::vector<std::vector<Json>> m_targets;
   std::vector<std::size_t> m_sizes;
   std::vector<const Gltf_scene::Part*> m_empty;
+  struct Written
+  {
+    Json rest; // of an accessor
+    int target;
+    bool is_sparse;
+    std::string sparse_rows; // in full
+    std::size_t view, accessor;
+  };
+  std::unordered_multimap<std::size_t, Written> m_written; // by the hash of the bytes
   std::optional<std::map<std::tuple<Gltf_scene::Matrix, double, double, double>, std::string_view>>
       m_positions;
   // By instance: rows by the bits of their normals and positions.

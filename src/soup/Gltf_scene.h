@@ -77,6 +77,7 @@ struct Gltf_scene
   std::vector<Block> blocks;
   std::vector<Instance> instances;
   std::vector<Part> parts;
+  Index first_copy = Index(-1); ///< the first of the meshes that are copies of those that several nodes share
   std::vector<std::string> only_in_gltf; ///< names of what no other format holds
 };
 

@@ -103,6 +103,8 @@ std::size_t share_flat_vertices(Triangle_soup& soup)
   if (!has_flat_normals(soup))
     return 0;
   const std::vector<Index> normals = numbers_of_vertices(soup, soup.normals.of_triangle);
+  if (normals.empty())
+    return 0;
   const std::size_t used =
       normals.size() - std::size_t(std::count(normals.begin(), normals.end(), s_no_number));
   constexpr std::size_t few = 100;
@@ -124,7 +126,7 @@ std::size_t share_flat_vertices(Triangle_soup& soup)
                                                              soup.normals.values[normals[first[v]]]);
   }
   std::size_t joined = 0;
-  for (std::size_t t = 0; t < soup.triangles.size() && !normals.empty(); ++t)
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       Index& v = soup.triangles[t][k];
       if (first[v] == v || !is_shared[first[v]])
