@@ -199,7 +199,8 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
     stream << "  " << counted(prepared.rounding.coordinates, "coordinate")
            << " rounded to 32-bit floats, because the output's format stores nothing more precise\n";
   if (prepared.normals == Normals_treatment::flat)
-    stream << "  normals made anew: every face of the input has its own, as in flat shading\n";
+    stream << "  normals made anew where faces change: every face of the input has its own, as in flat "
+              "shading\n";
   if (prepared.normals == Normals_treatment::smooth)
     stream << "  normals made anew, with the hard edges of the input\n";
   print_border_gaps(stream, request, prepared.border_gaps, diagonal);

@@ -25,7 +25,8 @@ namespace selvedge {
 ///    where the file declares a narrower type for it; a binary number becomes the double of the same value.
 /// 2. *Written* (G3): `read_mesh(p)` after `write_mesh(p, soup)` gives the same coordinates bit for bit, the
 ///    same triangles in the same order, and the same number of every vertex. STL, which has no vertex
-///    numbers, gives the same triangles up to those numbers (and the sign of zeros).
+///    numbers, gives the same triangles up to those numbers (and the sign of zeros); so do PLY and glTF where
+///    vertices are split (**Flat shading**).
 /// 3. *Refusal* (G9): a file that is not a mesh with at least one triangle and finite coordinates is refused
 ///    with an `Input_error` of one line, which names the file, the line (in text), the element, and how to
 ///    mend it. Whatever a file contains, however damaged it is, it is either read or refused in this way.
@@ -62,11 +63,21 @@ namespace selvedge {
 /// they make. Triangles of nodes that mirror are turned over, so that outside is outside.
 ///
 /// When a scene is written to glTF again, every vertex that is not at a new place keeps its rows of all
-/// accessors, morph targets included, bit for bit, and so its world position. The rest of the document stays
-/// as it is: images byte for byte, addresses of files, numbers of accessors and buffer views. Exceptions: a
-/// mesh that several nodes share becomes one for each, accessors of triangles are written in full and without
-/// gaps, buffers become one, and bytes that nothing can refer to go. Primitives of points or lines, and
-/// meshes outside the scene, stay as they are. Those without a triangle left are removed.
+/// accessors, morph targets included, bit for bit, and so its world position. Only NORMAL is what the soup
+/// says: the row of a vertex of the file that has this normal, where there is one, else the normal turned
+/// back into its node; without normals, the file gets neither NORMAL nor TANGENT. The rest of the document
+/// stays as it is: images byte for byte, addresses of files, numbers of accessors and buffer views.
+/// Exceptions: a mesh that several nodes share becomes one for each node in which it has been reduced
+/// otherwise, accessors of triangles are written without gaps, and in full unless the file has nothing but
+/// sparse values for them, buffers become one, and bytes that nothing can refer to go. Primitives of points
+/// or lines, and meshes outside the scene, stay as they are. Those without a triangle left are removed.
+///
+/// **Flat shading.** PLY and glTF hold one normal for each vertex, so that a file with a normal for each face
+/// has several vertices at every corner of its mesh. Where the normals are flat (normals.h), triangles name
+/// the first of the vertices that differ in nothing but the normal, and each corner keeps its own normal, as
+/// in OBJ. The others are unused, and all keep their numbers: those of the file, in a log too. Vertices that
+/// differ in nothing at all stay apart unless another one differs from them in its normal, or every face has
+/// vertices of its own. Writers split such vertices again, in the order that they had.
 ///
 /// **Packed files.** A file whose name ends in `.gz` is unpacked by zlib when it is read, and packed when it
 /// is written; all else is as without `.gz`. A packed file that is damaged or truncated is refused, and so is
@@ -192,7 +203,8 @@ struct Write_options
 ///   another folder: `missing_material_libraries` tells what then has to be copied there.
 /// - PLY: texture coordinates stand at the vertices (`s t`) when they have the numbers of the vertices and no
 ///   attribute has these names, else at the faces (`texcoord`). An attribute of several components becomes
-///   several properties: `name_0`, `name_1`, ...
+///   several properties: `name_0`, `name_1`, ... A vertex with several normals becomes one for each if the
+///   normals are flat, and unused vertices then go; other normals of corners are not written.
 /// - GLB, glTF: a soup that was read from glTF goes back into its document, see **Scenes** above. Any other
 ///   soup becomes a new document. It has a node and a mesh for each group, and in it a primitive for each
 ///   material; of materials it has the names alone. Vertices are split where corners differ in texture

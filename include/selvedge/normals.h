@@ -6,6 +6,8 @@
 
 #include <selvedge/Triangle_soup.h>
 
+#include <vector>
+
 namespace selvedge {
 
 /// What a reduction does with the normals that a file has for the corners of its triangles.
@@ -14,7 +16,8 @@ namespace selvedge {
 /// of a line move only along it. That is right for hard edges, and freezes a mesh in which every triangle has
 /// normals of its own.
 enum class Normals_choice {
-  automatic, ///< `recompute` when the normals are flat, `keep` otherwise
+  automatic, ///< flat normals are made anew for the faces that change (`keep_flat_normals`); all others are
+             ///< kept
   keep,      ///< every corner of the result has a normal that some corner of the input has, bit for bit
   recompute, ///< the result gets new normals, made as those of the input seem to be made
   drop       ///< the result has no normals
@@ -24,7 +27,8 @@ enum class Normals_choice {
 enum class Normals_treatment {
   none,   ///< the soup has no normals
   kept,   ///< they are treated like any other attribute
-  flat,   ///< every corner gets the normal of its triangle, or of the polygon that this is a part of
+  flat,   ///< every corner gets the normal of its triangle, or of the polygon that this is a part of, bit
+          ///< for bit that of the input where it has not changed
   smooth, ///< every corner gets the mean normal of the triangles around its vertex, up to hard edges
   dropped
 };
@@ -36,9 +40,9 @@ const char* name_of(Normals_choice choice);
 const char* name_of(Normals_treatment treatment);
 
 /// Returns whether normals are *flat*: those of 99 % of all corners differ from the normal of their triangle
-/// by at most 0.1°, which is what numbers of four decimals tell, or by at most 60° where the three corners have
-/// one normal, up to 0.1°: that of a polygon which is not plane. Triangles without an area are not counted.
-/// False for a soup without normals, or with normals for some of its triangles only.
+/// by at most 0.1°, which is what numbers of four decimals tell, or by at most 60° where the three corners
+/// have one normal, up to 0.1°: that of a polygon which is not plane. Triangles without an area are not
+/// counted. False for a soup without normals, or with normals for some of its triangles only.
 ///
 /// **Complexity** O(n) for n triangles. Computed in double; no decision about intersections depends on it.
 bool has_flat_normals(const Triangle_soup& soup);
@@ -48,13 +52,24 @@ bool has_flat_normals(const Triangle_soup& soup);
 /// corners between two hard edges at a vertex, so that hard edges, and no others, are lines. An edge is hard
 /// where the normals on its two sides differ by more than 1° at one of its ends.
 ///
+/// Flat normals go to `flat`, unless it is null or all are to be made anew (`Normals_choice::recompute`).
+///
 /// **Complexity** O(n log n) for n triangles.
-Normals_treatment take_normals(Triangle_soup& soup, Normals_choice choice);
+Normals_treatment take_normals(Triangle_soup& soup, Normals_choice choice, Corner_values<3>* flat = nullptr);
 
 /// Makes the normals of a reduced soup, unless they are kept, dropped or absent. They have the precision of
 /// 32-bit floats. A mean is weighted by the angles at the vertex (Thürmer and Wüthrich 1998). A triangle
 /// without an area has the normal (0, 0, 1).
 void restore_normals(Triangle_soup& soup, Normals_treatment treatment);
+
+/// Gives triangles with flat normals those of the original again, bit for bit, where they still are theirs:
+/// all corners are where they were, or the normals differ from those made anew by at most 0.1°. Triangle i is
+/// what is left of triangle `triangles[i]` of the original, whose corners have `normals`. A polygon keeps its
+/// normals if all its triangles do. Normals that are kept have the least numbers, in their order.
+///
+/// **Complexity** O(n) for n triangles and normals of the original.
+void keep_flat_normals(Triangle_soup& result, const std::vector<Index>& triangles,
+                       const Triangle_soup& original, const Corner_values<3>& normals);
 
 } // namespace selvedge
 

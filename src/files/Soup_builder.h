@@ -85,10 +85,14 @@ public:
   Mesh_file take(const std::string& name, bool is_truncated = false)
   {
     if (m_file.soup.triangles.empty())
-      throw Input_error(name + ": the file has no faces" +
-                        (m_file.notes.fewer_than_three != 0 ? " of three or more corners" : "") +
-                        (is_truncated ? ", and ends within a line: it seems to be truncated"
-                                      : "; export the mesh as polygons"));
+      throw Input_error(
+          name + ": the file has no faces" +
+          (m_file.notes.fewer_than_three != 0 ? " of three or more corners" : "") +
+          (m_file.notes.ignored.count("line elements") + m_file.notes.ignored.count("point elements") != 0
+               ? ", only points or lines"
+               : "") +
+          (is_truncated ? ", and ends within a line: it seems to be truncated"
+                        : "; export the mesh as polygons"));
     if (is_truncated)
       ++m_file.notes.remarks["lines that are not ended, as at the end of a truncated file"];
     close(m_file.soup.uvs, "texture coordinates");

@@ -51,6 +51,7 @@ Gltf_scene::Column Gltf_column_reader::read(int number, const std::string& name,
     column.rows.assign(count * column.row_size, '\0');
   if (accessor.sparse.isSparse)
     put_sparse_values(accessor, column, count);
+  column.is_sparse = accessor.sparse.isSparse && accessor.bufferView < 0;
   Cancellation_poll poll;
   if (column.component_type == type_float32)
     for (std::size_t i = 0; i < count; ++i) {

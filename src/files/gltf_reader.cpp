@@ -54,7 +54,7 @@ public:
     close_quantization();
     set_free();
     if (soup().triangles.empty())
-      fail("the file has no triangles in its scene; export the mesh as triangles");
+      fail(what_there_is() + "; export the mesh as triangles");
     m_scene->document = std::move(json());
     soup().scene = m_scene;
     return std::move(m_file);
@@ -62,6 +62,19 @@ public:
 
 private:
   static constexpr Index s_none = std::numeric_limits<Index>::max();
+  static constexpr const char* s_no_triangles =
+      "primitives of points or lines, or without positions, kept as they are";
+
+  // Says what a file without triangles in its scene has instead.
+  std::string what_there_is()
+  {
+    if (model().meshes.empty())
+      return member(json(), "animations").empty() ? "the file holds no mesh"
+                                                  : "the file holds animations and no mesh";
+    if (soup().points.empty() && m_file.notes.remarks.count(s_no_triangles) != 0)
+      return "the file holds points or lines and no triangles";
+    return "the file has no triangles in its scene";
+  }
 
   Triangle_soup& soup() { return m_file.soup; }
   Json& json() { return m_document.json; }
@@ -78,6 +91,7 @@ private:
   // Gives every node of the scene a mesh of its own, and lists its primitives.
   void find_parts()
   {
+    m_scene->first_copy = Index(model().meshes.size());
     m_is_free_accessor.assign(model().accessors.size(), false);
     std::vector<std::size_t> in_scene(model().meshes.size(), 0);
     std::vector<char> is_taken(model().meshes.size(), false); // nodes outside the scene keep their meshes
@@ -95,7 +109,7 @@ private:
     }
     for (std::size_t m = 0; m < in_scene.size(); ++m) {
       if (in_scene[m] > 1 || (in_scene[m] == 1 && is_taken[m]))
-        remark("meshes that several nodes share, from now on each with its own");
+        remark("meshes that several nodes share, each reduced where it stands");
       if (in_scene[m] == 0) {
         remark("meshes that are not in the scene, kept as they are");
         keep_accessors(m, [](const tinygltf::Primitive&) { return true; });
@@ -148,7 +162,7 @@ private:
     for (Index p = 0; p < primitives.size(); ++p) {
       const tinygltf::Primitive& primitive = primitives[p];
       if (!is_reducible(primitive)) {
-        remark("primitives of points or lines, or without positions, kept as they are");
+        remark(s_no_triangles);
         continue;
       }
       const std::string place = "mesh " + std::to_string(mesh) + ", primitive " + std::to_string(p);
@@ -222,7 +236,7 @@ private:
   {
     Column result = Gltf_column_reader(m_document, place).read(accessor, name, count);
     m_is_free_accessor[accessor] = true;
-    if (model().accessors[accessor].sparse.isSparse)
+    if (model().accessors[accessor].sparse.isSparse && !result.is_sparse)
       remark("sparse accessors, from now on written in full");
     return result;
   }
@@ -255,7 +269,7 @@ private:
     if (!m_may_be_quantised || !is_quantised(name, quantised.component_type, quantised.is_normalized()))
       return quantised;
     Column plain = {name, quantised.accessor, type_float32, quantised.components, 4 * quantised.components,
-                    {}};
+                    {},   quantised.is_sparse};
     plain.accessor["componentType"] = int(type_float32);
     for (const char* key : {"normalized", "min", "max"})
       plain.accessor.erase(key);

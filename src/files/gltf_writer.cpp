@@ -3,15 +3,19 @@
 
 #include "files/formats.h"
 #include "soup/Gltf_scene.h"
+#include "soup/flat_shading.h"
 
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
 #include <optional>
+#include <unordered_map>
+#include <utility>
 
 namespace selvedge::files {
 namespace {
@@ -19,7 +23,7 @@ namespace {
 using Json = Gltf_scene::Json;
 using Column = Gltf_scene::Column;
 
-constexpr int s_vertices = 34962, s_indices = 34963; // targets of buffer views
+constexpr int s_vertices = 34962, s_indices = 34963, s_any = 0; // targets of buffer views; 0 stands for none
 
 std::string base64(const std::string& bytes)
 {
@@ -42,8 +46,10 @@ std::string base64(const std::string& bytes)
 class Gltf_writer
 {
 public:
-  Gltf_writer(const Triangle_soup& soup, const Gltf_scene& scene)
-      : m_soup(soup), m_scene(scene), m_document(scene.document), m_views(scene.views),
+  /// The scene may hold normals though the soup has none, if it was made for this soup.
+  Gltf_writer(const Triangle_soup& soup, const Gltf_scene& scene, bool is_scene_made)
+      : m_is_scene_made(is_scene_made), m_soup(soup), m_scene(scene), m_split(vertices_by_normal(soup)),
+        m_document(scene.document), m_first_copy(scene.first_copy), m_views(scene.views),
         m_free_accessors(scene.free_accessors.rbegin(), scene.free_accessors.rend()),
         m_free_views(scene.free_views.rbegin(), scene.free_views.rend())
   {
@@ -56,6 +62,7 @@ public:
     put_triangles();
     fill_free();
     remove_empty();
+    merge_copies();
     std::string bytes = put_buffer();
     if (format == Mesh_format::gltf) {
       m_document["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64(bytes);
@@ -79,8 +86,6 @@ public:
   }
 
 private:
-  static constexpr Index s_none = std::numeric_limits<Index>::max();
-
   const Gltf_scene::Block& block(const Gltf_scene::Instance& instance) const
   {
     return m_scene.blocks[instance.block];
@@ -147,20 +152,59 @@ private:
     return bytes;
   }
 
+  // Returns the bytes of the normal that a vertex has in its node: those of its row where that is its normal,
+  // else those of another row of the instance with this normal, at this position if there is one, or else new
+  // ones.
+  std::string local_normal_of(const Vertices_by_normal::Vertex& v, const Column& column)
+  {
+    const Index scene_vertex = m_soup.scene_vertices[v.vertex];
+    const std::size_t number = m_scene.instance_of(scene_vertex);
+    const Gltf_scene::Instance& own = m_scene.instances[number];
+    const std::array<double, 3>& normal = m_soup.normals.values[v.normal];
+    const auto row_of = [](const Column& of, std::size_t row) {
+      return std::string_view(of.rows).substr(row * of.row_size, of.row_size);
+    };
+    const auto bits_of = [](const std::array<double, 3>& numbers) {
+      return std::string(reinterpret_cast<const char*>(numbers.data()), sizeof numbers);
+    };
+    const auto normal_of = [&](std::size_t row) {
+      return bits_of(world_normal(
+          own, {component(column, row, 0), component(column, row, 1), component(column, row, 2)}));
+    };
+    if (v.normal == m_soup.normals.missing || column.component_type != type_float32 ||
+        normal_of(scene_vertex - own.first) == bits_of(normal))
+      return std::string(row_of(column, scene_vertex - own.first));
+    const Column& positions = block(own).attributes.front();
+    const auto [rows, is_new] = m_rows_of_normals.try_emplace(number);
+    if (is_new)
+      for (Index row = 0; row < block(own).size; ++row)
+        rows->second.emplace(normal_of(row).append(row_of(positions, row)), row);
+    auto row = rows->second.find(bits_of(normal).append(row_of(positions, scene_vertex - own.first)));
+    if (row == rows->second.end())
+      row = rows->second.lower_bound(bits_of(normal));
+    if (row != rows->second.end() && row->first.compare(0, sizeof normal, bits_of(normal)) == 0)
+      return std::string(row_of(column, row->second));
+    std::string result;
+    for (const double coordinate : local_normal(own, normal))
+      append_little_endian(result, static_cast<float>(coordinate));
+    return result;
+  }
+
+  // Whether a column of normals, or one that means nothing without them, is left out: the soup has none.
+  bool is_dropped(const Column& column) const
+  {
+    return m_soup.normals.empty() && !m_is_scene_made &&
+           (column.name == "NORMAL" || column.name == "TANGENT");
+  }
+
   void put_vertices()
   {
-    std::vector<std::vector<Index>> vertices(m_scene.instances.size());
-    std::vector<char> is_used(m_soup.points.size(), false);
-    for (const Index_triple& triangle : m_soup.triangles)
-      for (const Index v : triangle)
-        is_used[v] = true;
-    m_numbers.assign(m_soup.points.size(), s_none);
-    for (Index v = 0; v < m_soup.points.size(); ++v)
-      if (is_used[v]) {
-        std::vector<Index>& of_instance = vertices[m_scene.instance_of(m_soup.scene_vertices[v])];
-        m_numbers[v] = Index(of_instance.size());
-        of_instance.push_back(v);
-      }
+    std::vector<std::vector<Vertices_by_normal::Vertex>> vertices(m_scene.instances.size());
+    for (const Vertices_by_normal::Vertex& v : m_split.vertices) {
+      auto& of_instance = vertices[m_scene.instance_of(m_soup.scene_vertices[v.vertex])];
+      m_numbers.push_back(Index(of_instance.size()));
+      of_instance.push_back(v);
+    }
     m_attributes.resize(m_scene.instances.size());
     m_targets.resize(m_scene.instances.size());
     m_sizes.resize(m_scene.instances.size());
@@ -169,27 +213,39 @@ private:
       if (vertices[i].empty())
         continue;
       const Gltf_scene::Instance& instance = m_scene.instances[i];
-      const auto put = [&](const Column& column, bool is_position) {
+      const auto put = [&](const Column& column, const auto& bytes_of) {
         Column left = {column.name,       column.accessor, column.component_type,
-                       column.components, column.row_size, {}};
+                       column.components, column.row_size, {},
+                       column.is_sparse};
         left.rows.reserve(vertices[i].size() * column.row_size);
         Cancellation_poll poll;
-        for (const Index v : vertices[i]) {
+        for (const Vertices_by_normal::Vertex& v : vertices[i]) {
           poll();
-          if (is_position)
-            left.rows += local_position_of(v);
-          else
-            left.rows.append(column.rows, (m_soup.scene_vertices[v] - instance.first) * column.row_size,
-                             column.row_size);
+          left.rows += bytes_of(v);
         }
         return put_accessor(left, vertices[i].size(), s_vertices);
       };
+      const auto put_rows = [&](const Column& column) {
+        return put(column, [&](const Vertices_by_normal::Vertex& v) {
+          return std::string_view(column.rows)
+              .substr((m_soup.scene_vertices[v.vertex] - instance.first) * column.row_size, column.row_size);
+        });
+      };
       for (const Column& column : block(instance).attributes)
-        m_attributes[i][column.name] = put(column, &column == &block(instance).attributes.front());
+        if (&column == &block(instance).attributes.front())
+          m_attributes[i][column.name] =
+              put(column, [&](const Vertices_by_normal::Vertex& v) { return local_position_of(v.vertex); });
+        else if (is_dropped(column))
+          m_attributes[i][column.name] = nullptr;
+        else if (column.name == "NORMAL" && column.components == 3 && !m_soup.normals.empty())
+          m_attributes[i][column.name] =
+              put(column, [&](const Vertices_by_normal::Vertex& v) { return local_normal_of(v, column); });
+        else
+          m_attributes[i][column.name] = put_rows(column);
       for (const std::vector<Column>& target : block(instance).targets) {
         Json& accessors = m_targets[i].emplace_back(Json::object());
         for (const Column& column : target)
-          accessors[column.name] = put(column, false);
+          accessors[column.name] = is_dropped(column) ? Json() : Json(put_rows(column));
       }
     }
   }
@@ -201,7 +257,7 @@ private:
     for (std::size_t t = 0; t < m_soup.triangles.size(); ++t) {
       poll();
       const Index group = m_soup.groups.of_triangle[t];
-      auto [a, b, c] = m_soup.triangles[t];
+      auto [a, b, c] = m_split.triangles[t];
       if (m_scene.instances[m_scene.parts[group].instance].is_mirrored)
         std::swap(b, c);
       for (const Index v : {a, b, c})
@@ -214,11 +270,9 @@ private:
         continue;
       }
       Json& primitive = m_document["meshes"][part.mesh]["primitives"][part.primitive];
-      for (const auto& [name, accessor] : m_attributes[part.instance].items())
-        primitive["attributes"][name] = accessor;
+      put_accessors(m_attributes[part.instance], primitive["attributes"]);
       for (std::size_t k = 0; k < m_targets[part.instance].size(); ++k)
-        for (const auto& [name, accessor] : m_targets[part.instance][k].items())
-          primitive["targets"][k][name] = accessor;
+        put_accessors(m_targets[part.instance][k], primitive["targets"][k]);
       // glTF does not allow the largest value of a type as an index.
       const std::size_t size = m_sizes[part.instance];
       const int type = part.index_type != 0 ? part.index_type
@@ -229,11 +283,20 @@ private:
       column.accessor["componentType"] = type;
       column.rows.reserve(corners[i].size() * column.row_size);
       for (const Index corner : corners[i])
-        for (std::size_t k = 0; k < column.row_size; ++k)
-          column.rows += static_cast<char>(corner >> (8 * k) & 0xff);
+        append_index(column, corner);
       primitive["indices"] = put_accessor(column, corners[i].size(), s_indices);
       primitive.erase("mode");
     }
+  }
+
+  // Sets the numbers of accessors by name; null stands for one that goes.
+  static void put_accessors(const Json& from, Json& to)
+  {
+    for (const auto& [name, accessor] : from.items())
+      if (accessor.is_null())
+        to.erase(name);
+      else
+        to[name] = accessor;
   }
 
   // Returns a number for a new element. Free numbers are used first, so that all others stay.
@@ -246,17 +309,65 @@ private:
     return number;
   }
 
+  // Accessors that say the same of the same bytes become one, as in files that share them.
   std::size_t put_accessor(const Column& column, std::size_t count, int target)
   {
-    Json accessor = {{"bufferView", put_view(column, count, target)}};
-    accessor.update(column.accessor);
-    accessor["count"] = count;
-    if (column.name == "POSITION" || accessor.contains("min") || accessor.contains("max"))
-      put_bounds(accessor, column, count);
+    Json rest = column.accessor;
+    rest["count"] = count;
+    if (column.name == "POSITION" || rest.contains("min") || rest.contains("max"))
+      put_bounds(rest, column, count);
+    std::string bytes = column.is_sparse ? column.rows : bytes_of_view(column, count, target);
+    const std::size_t hash = std::hash<std::string>()(bytes);
+    for (auto range = m_written.equal_range(hash); range.first != range.second; ++range.first) {
+      const Written& known = range.first->second;
+      if (known.target == target && known.is_sparse == column.is_sparse && known.rest == rest &&
+          (known.is_sparse ? known.sparse_rows : m_views[known.view]) == bytes)
+        return known.accessor;
+    }
+    Written& written = m_written.emplace(hash, Written{rest, target, column.is_sparse, {}, 0, 0})->second;
+    Json accessor = Json::object();
+    if (column.is_sparse)
+      written.sparse_rows = std::exchange(bytes, bytes_of_view(column, count, target));
+    if (!column.is_sparse || !put_sparse(accessor, column, count))
+      accessor["bufferView"] = written.view = put_view(column, std::move(bytes), target);
+    accessor.update(rest);
     Json& accessors = m_document["accessors"];
-    const std::size_t number = next(m_free_accessors, accessors.size());
-    accessors[number] = std::move(accessor);
-    return number;
+    written.accessor = next(m_free_accessors, accessors.size());
+    accessors[written.accessor] = std::move(accessor);
+    return written.accessor;
+  }
+
+  // Puts only the rows that are not zero, where that takes less space. Returns whether it does.
+  bool put_sparse(Json& accessor, const Column& column, std::size_t count)
+  {
+    const int type = count <= 0x100     ? int(type_uint8)
+                     : count <= 0x10000 ? int(type_uint16)
+                                        : int(type_uint32);
+    Column indices = {"indices", {}, type, 1, component_size(type), {}};
+    Column values = {"values", {}, column.component_type, column.components, column.row_size, {}};
+    std::size_t size = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::string_view row = std::string_view(column.rows).substr(i * column.row_size, column.row_size);
+      if (row.find_first_not_of('\0') == row.npos)
+        continue;
+      ++size;
+      append_index(indices, Index(i));
+      values.rows += row;
+    }
+    if (indices.rows.size() + values.rows.size() >= column.rows.size())
+      return false;
+    if (size > 0)
+      accessor["sparse"] = {
+          {"count", size},
+          {"indices", {{"bufferView", put_view(indices, indices.rows, s_any)}, {"componentType", type}}},
+          {"values", {{"bufferView", put_view(values, values.rows, s_any)}}}};
+    return true;
+  }
+
+  static void append_index(Column& column, Index index)
+  {
+    for (std::size_t k = 0; k < column.row_size; ++k)
+      column.rows += static_cast<char>(index >> (8 * k) & 0xff);
   }
 
   static void put_bounds(Json& accessor, const Column& column, std::size_t count)
@@ -280,24 +391,33 @@ private:
     accessor["max"] = std::move(largest);
   }
 
-  std::size_t put_view(const Column& column, std::size_t count, int target)
+  // Rows of vertices begin at multiples of four bytes.
+  static std::size_t stride_of(const Column& column, int target)
   {
-    // Rows of vertices begin at multiples of four bytes.
-    const std::size_t stride = target == s_vertices ? (column.row_size + 3) / 4 * 4 : column.row_size;
+    return target == s_vertices ? (column.row_size + 3) / 4 * 4 : column.row_size;
+  }
+
+  static std::string bytes_of_view(const Column& column, std::size_t count, int target)
+  {
+    const std::size_t stride = stride_of(column, target);
+    if (stride == column.row_size)
+      return column.rows;
     std::string bytes;
-    if (stride == column.row_size) {
-      bytes = column.rows;
-    } else {
-      bytes.reserve(count * stride);
-      for (std::size_t i = 0; i < count; ++i) {
-        bytes.append(column.rows, i * column.row_size, column.row_size);
-        bytes.append(stride - column.row_size, '\0');
-      }
+    bytes.reserve(count * stride);
+    for (std::size_t i = 0; i < count; ++i) {
+      bytes.append(column.rows, i * column.row_size, column.row_size);
+      bytes.append(stride - column.row_size, '\0');
     }
+    return bytes;
+  }
+
+  std::size_t put_view(const Column& column, std::string bytes, int target)
+  {
     Json view = {{"buffer", 0}, {"byteOffset", 0}, {"byteLength", bytes.size()}};
-    if (stride != column.row_size)
+    if (const std::size_t stride = stride_of(column, target); stride != column.row_size)
       view["byteStride"] = stride;
-    view["target"] = target;
+    if (target != s_any)
+      view["target"] = target;
     Json& views = m_document["bufferViews"];
     const std::size_t number = next(m_free_views, views.size());
     views[number] = std::move(view);
@@ -331,6 +451,7 @@ private:
       if (!primitives.empty())
         continue;
       meshes.erase(part->mesh);
+      m_first_copy -= part->mesh < m_first_copy;
       for (Json& node : m_document["nodes"]) {
         const auto mesh = node.find("mesh");
         if (mesh == node.end() || *mesh < part->mesh)
@@ -342,6 +463,28 @@ private:
             node.erase(key);
       }
     }
+  }
+
+  // Makes one mesh of the copies that have stayed alike.
+  void merge_copies()
+  {
+    Json& meshes = m_document["meshes"];
+    if (m_first_copy >= meshes.size())
+      return;
+    std::map<std::string, std::size_t> first;
+    std::vector<std::size_t> numbers;
+    Json kept = Json::array();
+    for (Json& mesh : meshes) {
+      const auto [it, is_new] = first.emplace(mesh.dump(), kept.size());
+      const bool is_kept = is_new || numbers.size() < m_first_copy;
+      numbers.push_back(is_kept ? kept.size() : it->second);
+      if (is_kept)
+        kept.push_back(std::move(mesh));
+    }
+    meshes = std::move(kept);
+    for (Json& node : m_document["nodes"])
+      if (const auto mesh = node.find("mesh"); mesh != node.end())
+        *mesh = numbers[mesh->get<std::size_t>()];
   }
 
   // Puts all buffer views into one buffer, each at a multiple of four bytes.
@@ -362,18 +505,32 @@ private:
     return bytes;
   }
 
+  bool m_is_scene_made;
   const Triangle_soup& m_soup;
   const Gltf_scene& m_scene;
+  Vertices_by_normal m_split;
   Json m_document;
+  std::size_t m_first_copy;
   std::vector<std::string> m_views;
   std::vector<Index> m_free_accessors, m_free_views; // the first at the back
-  std::vector<Index> m_numbers;                      // by vertex of the soup, in its instance
+  std::vector<Index> m_numbers;                      // by vertex of `m_split`, in its instance
   std::vector<Json> m_attributes;                    // by instance
   std::vector<std::vector<Json>> m_targets;
   std::vector<std::size_t> m_sizes;
   std::vector<const Gltf_scene::Part*> m_empty;
+  struct Written
+  {
+    Json rest; // of an accessor
+    int target;
+    bool is_sparse;
+    std::string sparse_rows; // in full
+    std::size_t view, accessor;
+  };
+  std::unordered_multimap<std::size_t, Written> m_written; // by the hash of the bytes
   std::optional<std::map<std::tuple<Gltf_scene::Matrix, double, double, double>, std::string_view>>
       m_positions;
+  // By instance: rows by the bits of their normals and positions.
+  std::map<std::size_t, std::map<std::string, Index>> m_rows_of_normals;
 };
 
 } // namespace
@@ -383,9 +540,9 @@ void write_gltf(Byte_writer& out, const Triangle_soup& soup, Mesh_format format)
   if (soup.triangles.empty())
     throw Argument_error("a glTF file cannot hold a mesh without triangles; write OBJ, OFF or PLY");
   if (soup.scene)
-    return Gltf_writer(soup, *soup.scene).write(out, format);
+    return Gltf_writer(soup, *soup.scene, false).write(out, format);
   const Triangle_soup of_scene = with_gltf_scene(soup);
-  Gltf_writer(of_scene, *of_scene.scene).write(out, format);
+  Gltf_writer(of_scene, *of_scene.scene, true).write(out, format);
 }
 
 } // namespace selvedge::files

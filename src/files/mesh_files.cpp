@@ -12,6 +12,7 @@
 #include "files/formats.h"
 #include "files/gzip.h"
 #include "soup/first_alike.h"
+#include "soup/flat_shading.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,6 +65,31 @@ std::string lower_case_extension(const std::filesystem::path& path)
 bool is_gltf(Mesh_format format)
 {
   return format == Mesh_format::glb || format == Mesh_format::gltf;
+}
+
+// Says of a file under the name of a mesh what it is instead.
+void refuse_what_is_no_mesh(std::string_view contents, Mesh_format format, const std::string& name)
+{
+  const auto begins_with = [&](std::string_view text) { return contents.substr(0, text.size()) == text; };
+  if (contents.empty())
+    throw Input_error(name + ": the file is empty; export it again");
+  if (begins_with("version https://git-lfs"))
+    throw Input_error(name +
+                      ": this is only a pointer of Git LFS to the file; fetch the file (git lfs pull)");
+  if (begins_with("<!DOCTYPE") || begins_with("<!doctype") || begins_with("<html"))
+    throw Input_error(name + ": this is a web page; download the file itself");
+  using namespace std::string_view_literals;
+  const bool is_text = format != Mesh_format::stl && format != Mesh_format::glb; // those may begin like this
+  if ((is_text && (begins_with("\xff\xfe"sv) || begins_with("\xfe\xff"sv))) || begins_with("\xff\xfes\0"sv))
+    throw Input_error(name + ": the text of the file is in UTF-16; save it in UTF-8 or ASCII");
+}
+
+// PLY and glTF: connects the faces of a file that shades flat.
+Mesh_file with_shared_vertices(Mesh_file file)
+{
+  if (const std::size_t joined = share_flat_vertices(file.soup); joined > 0)
+    file.notes.remarks["corners joined, for their vertices differ in nothing but flat normals"] += joined;
+  return file;
 }
 
 void check_writable(const Triangle_soup& soup, Mesh_format format, const Write_options& options)
@@ -195,25 +221,26 @@ Mesh_file read_mesh(const std::filesystem::path& path)
 {
   const Mesh_format format = mesh_format(path);
   const std::string contents = read_file(path);
-  if (const std::filesystem::path folder = path.parent_path(); is_gltf(format) && !contents.empty())
-    return files::read_gltf(contents, format, path.string(), &folder);
+  if (const std::filesystem::path folder = path.parent_path(); is_gltf(format)) {
+    refuse_what_is_no_mesh(contents, format, path.string());
+    return with_shared_vertices(files::read_gltf(contents, format, path.string(), &folder));
+  }
   return read_mesh(contents, format, path.string());
 }
 
 Mesh_file read_mesh(std::string_view contents, Mesh_format format, const std::string& name)
 {
-  if (contents.empty())
-    throw Input_error(name + ": the file is empty; export it again");
+  refuse_what_is_no_mesh(contents, format, name);
   switch (format) {
   case Mesh_format::obj:
     return connected(files::read_obj(contents, name));
   case Mesh_format::off:
     return connected(files::read_off(contents, name));
   case Mesh_format::ply:
-    return connected(files::read_ply(contents, name));
+    return with_shared_vertices(connected(files::read_ply(contents, name)));
   case Mesh_format::glb:
   case Mesh_format::gltf:
-    return files::read_gltf(contents, format, name, nullptr);
+    return with_shared_vertices(files::read_gltf(contents, format, name, nullptr));
   case Mesh_format::stl:
     break;
   }
@@ -252,7 +279,8 @@ std::vector<std::string> not_carried(const Triangle_soup& soup, Mesh_format form
   };
   say(!is_obj && !is_ply && !soup.uvs.empty(), "texture coordinates");
   if (is_ply)
-    say(!soup.normals.empty() && files::values_of_vertices(soup.normals, soup).empty(),
+    say(!soup.normals.empty() && !files::is_split_by_normals(soup) &&
+            files::values_of_vertices(soup.normals, soup).empty(),
         "normals, for not every vertex has one and only one");
   else
     say(!is_obj && !soup.normals.empty(), "normals");

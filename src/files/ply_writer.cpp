@@ -6,8 +6,10 @@
 #include "files/columns.h"
 #include "files/formats.h"
 #include "files/ply_types.h"
+#include "soup/flat_shading.h"
 
 #include <selvedge/Error.h>
+#include <selvedge/normals.h>
 #include <selvedge/rounding.h>
 
 #include <algorithm>
@@ -160,8 +162,15 @@ std::vector<std::array<double, 3>> values_of_vertices(const Corner_values<3>& va
   return result;
 }
 
+bool is_split_by_normals(const Triangle_soup& soup)
+{
+  return values_of_vertices(soup.normals, soup).empty() && has_flat_normals(soup);
+}
+
 void write_ply(Byte_writer& out, const Triangle_soup& soup, const Write_options& options)
 {
+  if (is_split_by_normals(soup))
+    return write_ply(out, split_by_normals(soup), options);
   const Ply_layout layout(soup);
   const bool as_float32 = are_float32(soup.points, 3), float32_normals = are_float32(layout.normals, 3),
              float32_uvs = are_float32(soup.uvs.values, 2);

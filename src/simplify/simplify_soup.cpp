@@ -169,8 +169,10 @@ private:
     Simplified_soup result;
     Working_mesh::Result left = m_working.result();
     result.soup = std::move(left.soup);
-    restore_normals(result.soup, m_prepared.normals);
     result.triangles = std::move(left.triangles);
+    restore_normals(result.soup, m_prepared.normals);
+    if (!m_prepared.flat_normals.empty())
+      keep_flat_normals(result.soup, result.triangles, m_prepared.soup, m_prepared.flat_normals);
     result.corners = std::move(left.corners);
     result.placed_vertices = left.placed_vertices;
     result.collapses = m_collapses;

@@ -125,6 +125,25 @@ std::array<double, 3> world_normal(const Gltf_scene::Instance& instance, const s
   return result;
 }
 
+std::array<double, 3> local_normal(const Gltf_scene::Instance& instance, const std::array<double, 3>& normal)
+{
+  const Matrix& m = instance.to_world;
+  Matrix linear = m;
+  for (auto& row : linear)
+    row[3] = 0;
+  if (linear == identity_matrix)
+    return normal;
+  // The inverse of the matrix of cofactors is the transposed matrix, up to a factor of the sign of its
+  // determinant, which `world_normal` takes out again.
+  std::array<double, 3> result;
+  for (std::size_t i = 0; i < 3; ++i)
+    result[i] = m[0][i] * normal[0] + m[1][i] * normal[1] + m[2][i] * normal[2];
+  const double length = std::sqrt(product(result, result));
+  for (double& coordinate : result)
+    coordinate = length > 0 ? coordinate / length : 0;
+  return result;
+}
+
 Point_3 world_position(const Matrix& to_world, const std::array<double, 3>& local)
 {
   const auto coordinate = [&](const std::array<double, 4>& m) {

@@ -35,6 +35,7 @@ struct Gltf_scene
     std::size_t components = 0;
     std::size_t row_size = 0;
     std::string rows;
+    bool is_sparse = false; ///< the file holds only rows that are not zero
 
     bool is_normalized() const { return accessor.value("normalized", false); }
   };
@@ -76,6 +77,7 @@ struct Gltf_scene
   std::vector<Block> blocks;
   std::vector<Instance> instances;
   std::vector<Part> parts;
+  Index first_copy = Index(-1); ///< the first of the meshes that are copies of those that several nodes share
   std::vector<std::string> only_in_gltf; ///< names of what no other format holds
 };
 
@@ -118,6 +120,9 @@ double fraction(Attribute::Type type, double number);
 /// Returns the direction of a normal in world space, computed by the matrix of cofactors; the normal itself
 /// where the transform neither turns nor scales.
 std::array<double, 3> world_normal(const Gltf_scene::Instance& instance, const std::array<double, 3>& normal);
+
+/// Returns a normal of length 1 whose direction in world space is about this one.
+std::array<double, 3> local_normal(const Gltf_scene::Instance& instance, const std::array<double, 3>& normal);
 
 /// Returns ((m0 x + m1 y) + m2 z) + m3 in doubles, for each row m of the matrix.
 Point_3 world_position(const Gltf_scene::Matrix& to_world, const std::array<double, 3>& local);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -244,7 +245,7 @@ bool has_flat_normals(const Triangle_soup& soup)
   return judged > 0 && 100 * flat >= 99 * judged;
 }
 
-Normals_treatment take_normals(Triangle_soup& soup, Normals_choice choice)
+Normals_treatment take_normals(Triangle_soup& soup, Normals_choice choice, Corner_values<3>* flat)
 {
   if (soup.normals.empty())
     return Normals_treatment::none;
@@ -253,6 +254,8 @@ Normals_treatment take_normals(Triangle_soup& soup, Normals_choice choice)
     return Normals_treatment::dropped;
   }
   if (choice != Normals_choice::keep && has_flat_normals(soup)) {
+    if (flat && choice == Normals_choice::automatic)
+      *flat = std::move(soup.normals);
     soup.normals = {};
     return Normals_treatment::flat;
   }
@@ -260,6 +263,58 @@ Normals_treatment take_normals(Triangle_soup& soup, Normals_choice choice)
     return Normals_treatment::kept;
   join_fans(soup);
   return Normals_treatment::smooth;
+}
+
+void keep_flat_normals(Triangle_soup& result, const std::vector<Index>& triangles,
+                       const Triangle_soup& original, const Corner_values<3>& normals)
+{
+  const auto is_in_its_place = [&](Index t) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (result.points[result.triangles[t][k]] != original.points[original.triangles[triangles[t]][k]])
+        return false;
+    return true;
+  };
+  const auto fits = [&](Index t) {
+    const Vector& normal = result.normals.values[result.normals.of_triangle[t][0]];
+    const Index_triple& old = normals.of_triangle[triangles[t]];
+    return std::all_of(old.begin(), old.end(),
+                       [&](Index n) { return is_within(normals.values[n], normal, s_cosine_flat); });
+  };
+  std::vector<char> is_kept(result.triangles.size(), false);
+  std::vector<Index> numbers(normals.values.size(), 0);
+  auto polygon = result.polygons.begin();
+  for (Index t = 0, end = 0; t < is_kept.size(); t = end) {
+    const bool is_polygon = polygon != result.polygons.end() && polygon->first_triangle == t;
+    end = t + (is_polygon ? polygon++->corners - 2 : 1);
+    bool keeps = true;
+    for (Index i = t; i < end; ++i)
+      keeps = keeps && (is_in_its_place(i) || fits(i));
+    for (Index i = t; i < end && keeps; ++i) {
+      is_kept[i] = true;
+      for (const Index number : normals.of_triangle[triangles[i]])
+        numbers[number] = 1;
+    }
+  }
+  Corner_values<3> kept;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    if (numbers[i] != 0) {
+      numbers[i] = Index(kept.values.size());
+      kept.values.push_back(normals.values[i]);
+    }
+  std::vector<Index> made(result.normals.values.size(), std::numeric_limits<Index>::max());
+  for (std::size_t t = 0; t < is_kept.size(); ++t) {
+    Index_triple corners = is_kept[t] ? normals.of_triangle[triangles[t]] : result.normals.of_triangle[t];
+    for (Index& corner : corners) {
+      Index& number = is_kept[t] ? numbers[corner] : made[corner];
+      if (number == std::numeric_limits<Index>::max()) {
+        number = Index(kept.values.size());
+        kept.values.push_back(result.normals.values[corner]);
+      }
+      corner = number;
+    }
+    kept.of_triangle.push_back(corners);
+  }
+  result.normals = std::move(kept);
 }
 
 void restore_normals(Triangle_soup& soup, Normals_treatment treatment)

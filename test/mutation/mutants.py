@@ -185,6 +185,14 @@ group(
     ("placement_test",),
     ("||\n        is_cut_off(profile.v0_v1(), *this))", ")", "a face whose edges are all lines vanishes"),
 )
+for file, *entry in (
+    ("src/soup/flat_shading.cpp", 'if (column.name != "NORMAL")', "if (true)", "normals keep vertices of glTF apart"),
+    ("src/soup/flat_shading.cpp", "|= have_faces_own ||", "|= true ||", "pieces beside each other are joined"),
+    ("src/soup/normals.cpp", "(is_in_its_place(i) || fits(i))", "true", "faces keep normals that are no longer theirs"),
+    ("src/soup/normals.cpp", "is_in_its_place(i) || fits(i)", "false", "all flat normals are made anew"),
+    ("src/files/gltf_writer.cpp", "m_soup.normals.empty() && !m_is_scene_made", "false", "dropped normals stay in glTF"),
+):
+    group(file, ("flat_shading_test",), tuple(entry))
 group(
     "src/soup/Working_mesh.cpp",
     ("placement_test", "worlds_test"),

@@ -6,6 +6,10 @@
 
 #include <selvedge/Triangle_soup.h>
 
+#include <array>
+#include <cstddef>
+#include <cstring>
+#include <map>
 #include <random>
 #include <utility>
 #include <vector>
@@ -56,6 +60,20 @@ inline Triangle_soup unshared(const Triangle_soup& soup)
     result.triangles.push_back({first, first + 1, first + 2});
   }
   return result;
+}
+
+/// PLY files have several vertices for such a one, or no normals.
+inline bool has_vertices_of_several_normals(const Triangle_soup& soup)
+{
+  std::map<Index, std::array<double, 3>> known;
+  for (std::size_t t = 0; t < soup.normals.of_triangle.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto& normal = soup.normals.values[soup.normals.of_triangle[t][k]];
+      const auto found = known.emplace(soup.triangles[t][k], normal).first;
+      if (std::memcmp(&found->second, &normal, sizeof normal) != 0)
+        return true;
+    }
+  return false;
 }
 
 /// A flat sheet of width × depth squares of side 1 at height z, two triangles each.

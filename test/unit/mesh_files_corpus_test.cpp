@@ -189,7 +189,11 @@ const std::vector<Entry>& corpus()
       {"ObjEmpty", obj, "", ": the file is empty"},
       {"ObjOnlyComment", obj, "# there was something here\n", ": the file has no faces"},
       {"ObjOnlyVertices", obj, corner, ": the file has no faces"},
-      {"ObjOnlyLines", obj, corner + "l 1 2\n", ": the file has no faces"},
+      {"ObjOnlyLines", obj, corner + "l 1 2\n", ": the file has no faces, only points or lines"},
+      {"ObjUtf16", obj, "\xff\xfev\0 \0"s, ": the text of the file is in UTF-16; save it in UTF-8 or ASCII"},
+      {"ObjGitLfs", obj, "version https://git-lfs.github.com/spec/v1\n",
+       ": this is only a pointer of Git LFS"},
+      {"ObjWebPage", obj, "<!DOCTYPE html>\n", ": this is a web page"},
       {"ObjOnlyLineEnds", obj, "\n\r\n\n", ": the file has no faces"},
       {"ObjBinaryRubbish", obj, "\0\xff\x01 7\n\xfe\0\0\n"s, ": the file has no faces"},
 

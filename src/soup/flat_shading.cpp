@@ -1,0 +1,225 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "flat_shading.h"
+
+#include "Gltf_scene.h"
+#include "selection.h"
+#include <selvedge/Cancellation_scope.h>
+#include <selvedge/normals.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+
+// Joins the vertices of files that shade flat, for readers, and splits them again, for writers.
+
+namespace selvedge {
+namespace {
+
+constexpr Index s_no_number = std::numeric_limits<Index>::max();
+
+template <class Row>
+bool have_same_bits(const Row& a, const Row& b)
+{
+  return std::memcmp(&a, &b, sizeof(Row)) == 0;
+}
+
+// Returns the number of each vertex at all of its corners, `s_no_number` for unused ones; nothing when there
+// are no such numbers, or a vertex has several.
+std::vector<Index> numbers_of_vertices(const Triangle_soup& soup,
+                                       const std::vector<Index_triple>& of_triangle)
+{
+  if (of_triangle.empty())
+    return {};
+  std::vector<Index> numbers(soup.points.size(), s_no_number);
+  for (std::size_t t = 0; t < of_triangle.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      Index& number = numbers[soup.triangles[t][k]];
+      if (number != s_no_number && number != of_triangle[t][k])
+        return {};
+      number = of_triangle[t][k];
+    }
+  return numbers;
+}
+
+// Whether texture coordinates are those of vertices, as they may be in PLY, and not of corners.
+bool have_vertices_uvs(const Triangle_soup& soup)
+{
+  return !soup.uvs.missing && soup.uvs.of_triangle == soup.triangles &&
+         soup.uvs.values.size() == soup.points.size();
+}
+
+// Everything that a vertex has but its normal, as bytes.
+class Vertex_bytes
+{
+public:
+  Vertex_bytes(const Triangle_soup& soup, const std::vector<Index>& uvs) : m_soup(soup), m_uvs(uvs) {}
+
+  std::string operator()(Index vertex) const
+  {
+    std::string bytes;
+    const auto append = [&bytes](const auto& value) {
+      bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+    };
+    if (m_soup.scene) {
+      const std::size_t number = m_soup.scene->instance_of(m_soup.scene_vertices[vertex]);
+      const Gltf_scene::Instance& instance = m_soup.scene->instances[number];
+      const Gltf_scene::Block& block = m_soup.scene->blocks[instance.block];
+      const std::size_t row = m_soup.scene_vertices[vertex] - instance.first;
+      append(number);
+      for (const Gltf_scene::Column& column : block.attributes)
+        if (column.name != "NORMAL")
+          bytes.append(column.rows, row * column.row_size, column.row_size);
+      for (const std::vector<Gltf_scene::Column>& target : block.targets)
+        for (const Gltf_scene::Column& column : target)
+          bytes.append(column.rows, row * column.row_size, column.row_size);
+      return bytes;
+    }
+    for (int i = 0; i < 3; ++i)
+      append(m_soup.points[vertex][i]);
+    if (!m_uvs.empty())
+      append(m_soup.uvs.values[m_uvs[vertex]]);
+    for (const Attribute& attribute : m_soup.vertex_attributes) {
+      const std::size_t size = row_size(attribute);
+      bytes.append(reinterpret_cast<const char*>(attribute.rows.data()) + vertex * size, size);
+    }
+    return bytes;
+  }
+
+private:
+  const Triangle_soup& m_soup;
+  const std::vector<Index>& m_uvs; // by vertex; empty where corners have them
+};
+
+} // namespace
+
+std::size_t share_flat_vertices(Triangle_soup& soup)
+{
+  if (!has_flat_normals(soup))
+    return 0;
+  const std::vector<Index> normals = numbers_of_vertices(soup, soup.normals.of_triangle);
+  if (normals.empty())
+    return 0;
+  const std::size_t used =
+      normals.size() - std::size_t(std::count(normals.begin(), normals.end(), s_no_number));
+  constexpr std::size_t few = 100;
+  const bool have_faces_own = soup.triangles.size() >= few && used >= 2 * soup.triangles.size();
+  std::vector<Index> uvs;
+  if (soup.scene || have_vertices_uvs(soup))
+    uvs = numbers_of_vertices(soup, soup.uvs.of_triangle);
+  std::unordered_map<std::string, Index> first_of;
+  std::vector<Index> first(soup.points.size(), s_no_number);
+  std::vector<char> is_shared(soup.points.size(), false); // by first vertex
+  const Vertex_bytes bytes_of(soup, uvs);
+  Cancellation_poll poll;
+  for (Index v = 0; v < normals.size(); ++v) {
+    poll();
+    if (normals[v] == s_no_number)
+      continue;
+    first[v] = first_of.emplace(bytes_of(v), v).first->second;
+    is_shared[first[v]] |= have_faces_own || !have_same_bits(soup.normals.values[normals[v]],
+                                                             soup.normals.values[normals[first[v]]]);
+  }
+  std::size_t joined = 0;
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      Index& v = soup.triangles[t][k];
+      if (first[v] == v || !is_shared[first[v]])
+        continue;
+      v = first[v];
+      if (!uvs.empty())
+        soup.uvs.of_triangle[t][k] = uvs[v];
+      ++joined;
+    }
+  return joined;
+}
+
+Vertices_by_normal vertices_by_normal(const Triangle_soup& soup)
+{
+  struct Entry
+  {
+    Vertices_by_normal::Vertex vertex;
+    Index next; // of the same vertex
+  };
+  const Corner_values<3>& normals = soup.normals;
+  std::vector<Entry> entries;
+  std::vector<Index> first(soup.points.size(), s_no_number);
+  Vertices_by_normal result;
+  result.triangles.resize(soup.triangles.size());
+  std::size_t used = 0;
+  Cancellation_poll poll;
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      poll();
+      const Index v = soup.triangles[t][k], normal = normals.empty() ? 0 : normals.of_triangle[t][k];
+      used += first[v] == s_no_number;
+      Index found = first[v];
+      while (found != s_no_number && entries[found].vertex.normal != normal &&
+             !have_same_bits(normals.values[entries[found].vertex.normal], normals.values[normal]))
+        found = entries[found].next;
+      if (found == s_no_number) {
+        found = Index(entries.size());
+        entries.push_back({{v, normal}, std::exchange(first[v], found)});
+      }
+      entries[found].vertex.normal = std::min(entries[found].vertex.normal, normal);
+      result.triangles[t][k] = found;
+    }
+  std::vector<Index> order(entries.size()), place(entries.size());
+  if (entries.size() == used) {
+    auto next = order.begin();
+    for (const Index entry : first)
+      if (entry != s_no_number)
+        *next++ = entry;
+  } else {
+    for (Index i = 0; i < order.size(); ++i)
+      order[i] = i;
+    std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+      const auto key = [&](Index i) {
+        return std::make_pair(entries[i].vertex.normal, entries[i].vertex.vertex);
+      };
+      return key(a) < key(b);
+    });
+  }
+  for (Index i = 0; i < order.size(); ++i) {
+    place[order[i]] = i;
+    result.vertices.push_back(entries[order[i]].vertex);
+  }
+  for (Index_triple& triangle : result.triangles)
+    for (Index& v : triangle)
+      v = place[v];
+  return result;
+}
+
+Triangle_soup split_by_normals(const Triangle_soup& soup)
+{
+  const Vertices_by_normal split = vertices_by_normal(soup);
+  const bool are_uvs_split = have_vertices_uvs(soup);
+  Triangle_soup result = soup;
+  result.points.clear();
+  result.normals = {{}, split.triangles};
+  if (are_uvs_split)
+    result.uvs = {{}, split.triangles};
+  for (Attribute& attribute : result.vertex_attributes)
+    attribute.rows.clear();
+  for (const auto& [vertex, normal] : split.vertices) {
+    result.points.push_back(soup.points[vertex]);
+    result.normals.values.push_back(soup.normals.values[normal]);
+    if (are_uvs_split)
+      result.uvs.values.push_back(soup.uvs.values[vertex]);
+    for (std::size_t i = 0; i < result.vertex_attributes.size(); ++i) {
+      const Attribute& from = soup.vertex_attributes[i];
+      const auto row = from.rows.begin() + std::ptrdiff_t(vertex * row_size(from));
+      result.vertex_attributes[i].rows.insert(result.vertex_attributes[i].rows.end(), row,
+                                              row + std::ptrdiff_t(row_size(from)));
+    }
+  }
+  result.triangles = split.triangles;
+  return result;
+}
+
+} // namespace selvedge

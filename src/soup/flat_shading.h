@@ -1,0 +1,55 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SRC_SOUP_FLAT_SHADING_H
+#define SELVEDGE_SRC_SOUP_FLAT_SHADING_H
+
+#include <selvedge/Triangle_soup.h>
+
+#include <cstddef>
+#include <vector>
+
+// PLY and glTF hold one normal for each vertex. So a file that shades flat has a vertex for every normal at a
+// corner of the mesh, and different vertices on the two sides of every edge.
+
+namespace selvedge {
+
+/// Makes triangles share the vertices that differ in nothing but their normals, if these are flat
+/// (`has_flat_normals`). Triangles then name the first of such vertices, and the others are unused; vertices
+/// keep their numbers, and corners their normals. Vertices that differ in nothing at all stay apart, because
+/// pieces may lie beside each other, unless a third one differs from them in its normal, or every face has
+/// vertices of its own (at least 100 triangles, and twice as many vertices).
+///
+/// Alike, bit for bit, must be position, attributes, and texture coordinates if they are those of vertices;
+/// in a glTF scene the node and the rows of all accessors but NORMAL, those of morph targets included.
+///
+/// Returns how many corners name another vertex now. Does nothing where a vertex has two normals.
+///
+/// **Complexity** O(n) expected for n triangles.
+std::size_t share_flat_vertices(Triangle_soup& soup);
+
+/// The vertices of a soup as a file holds them that has one normal for each.
+struct Vertices_by_normal
+{
+  struct Vertex
+  {
+    Index vertex;
+    Index normal; ///< the least number among those of this normal at this vertex
+  };
+  std::vector<Vertex> vertices;        ///< those that triangles use
+  std::vector<Index_triple> triangles; ///< indices into `vertices`
+};
+
+/// Returns a vertex for each vertex of the soup and each of its normals, bit for bit: in the order of the
+/// vertices where each has one, else in that of the normals, which is the order of the file before
+/// `share_flat_vertices`. Linear for bounded numbers of normals at a vertex; O(n log n) where some have
+/// several.
+Vertices_by_normal vertices_by_normal(const Triangle_soup& soup);
+
+/// Returns the same triangles with vertices that have one normal each. Precondition: the soup has normals,
+/// and no glTF scene.
+Triangle_soup split_by_normals(const Triangle_soup& soup);
+
+} // namespace selvedge
+
+#endif // SELVEDGE_SRC_SOUP_FLAT_SHADING_H

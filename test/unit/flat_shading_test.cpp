@@ -1,0 +1,183 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Files that hold one normal for each vertex, and have several vertices where a mesh shades flat.
+
+#include "support/Temporary_folder.h"
+#include "support/reduction.h"
+#include "support/soups.h"
+
+#include <selvedge/mesh_files.h>
+#include <selvedge/normals.h>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace selvedge::test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Triangle_soup flat_hills()
+{
+  Triangle_soup soup = mapped(sheet(20, 20), [](const Point_3& p) {
+    return Point_3(p.x(), p.y(), float(std::sin(p.x() / 4) + std::cos(p.y() / 5)));
+  });
+  restore_normals(soup, Normals_treatment::flat);
+  return soup;
+}
+
+std::string written(const Triangle_soup& soup, const char* name)
+{
+  const Temporary_folder folder;
+  write_mesh(folder / name, soup);
+  std::ostringstream text;
+  text << std::ifstream(folder / name, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+Triangle_soup through(const Triangle_soup& soup, const char* name)
+{
+  return read_mesh(written(soup, name), mesh_format(name), name).soup;
+}
+
+Reduction reduced(Triangle_soup soup, double ratio, Normals_choice choice = Normals_choice::automatic)
+{
+  Prepare_options options;
+  options.normals = choice;
+  return reduce(std::move(soup), to_ratio(ratio), options);
+}
+
+std::size_t vertices_used(const Triangle_soup& soup)
+{
+  std::set<Index> used;
+  for (const Index_triple& triangle : soup.triangles)
+    used.insert(triangle.begin(), triangle.end());
+  return used.size();
+}
+
+// A document of one node, whose transform turns, scales and mirrors.
+Triangle_soup in_a_node(const Triangle_soup& soup)
+{
+  Json json = Json::parse(written(soup, "m.gltf"));
+  json["nodes"][0]["matrix"] = {0, 2, 0, 0, 1, 0, 0, 0, 0, 0, 0.5, 0, 3, 4, 5, 1};
+  return read_mesh(json.dump(), Mesh_format::gltf, "m.gltf").soup;
+}
+
+TEST(Flat_shading, FilesOfSplitVerticesAreReducedLikeAnyOther)
+{
+  const Triangle_soup soup = flat_hills();
+  for (const Triangle_soup& file : {through(soup, "m.ply"), through(soup, "m.glb"), in_a_node(soup)}) {
+    EXPECT_EQ(vertices_used(file), soup.points.size());
+    EXPECT_GT(file.points.size(), soup.triangles.size()) << "the vertices of the file keep their numbers";
+    ASSERT_TRUE(has_flat_normals(file));
+    const Reduction result = reduced(file, 0.3);
+    EXPECT_TRUE(result.verification.accepted());
+    EXPECT_LE(result.simplified.soup.triangles.size(), soup.triangles.size() * 3 / 10);
+    // Written again, they are split again, so that no normal is lost.
+    const Triangle_soup again = through(result.simplified.soup, file.scene ? "m.glb" : "m.ply");
+    EXPECT_EQ(vertices_used(again), vertices_used(result.simplified.soup));
+    EXPECT_TRUE(has_flat_normals(again));
+    EXPECT_TRUE(verify(again, file).accepted());
+  }
+  // The control: with normals that are not flat, vertices stay apart, and hold the mesh together.
+  Triangle_soup other = soup;
+  for (std::array<double, 3>& normal : other.normals.values)
+    normal = {normal[2], normal[0], normal[1]};
+  const Triangle_soup file = through(other, "m.glb");
+  EXPECT_EQ(vertices_used(file), file.points.size());
+  EXPECT_GT(reduced(file, 0.3).simplified.soup.triangles.size(), soup.triangles.size() / 2);
+}
+
+TEST(Flat_shading, WhatIsNotReducedKeepsItsBytes)
+{
+  for (const char* name : {"m.ply", "m.glb"}) {
+    const std::string file = written(through(flat_hills(), name), name);
+    const Triangle_soup soup = read_mesh(file, mesh_format(name), name).soup;
+    EXPECT_EQ(written(soup, name), file);
+    EXPECT_EQ(written(reduced(soup, 1).simplified.soup, name), file);
+  }
+}
+
+TEST(Flat_shading, NormalsOfFacesThatStayAreThoseOfTheFile)
+{
+  Triangle_soup soup = flat_hills();
+  for (std::array<double, 3>& normal : soup.normals.values)
+    for (double& x : normal)
+      x = std::round(1e4 * x) / 1e4; // as text has them
+  const Reduction result = reduced(soup, 0.5);
+  const Triangle_soup& left = result.simplified.soup;
+  std::size_t stayed = 0, unlike = 0;
+  for (std::size_t t = 0; t < left.triangles.size(); ++t) {
+    const Index from = result.simplified.triangles[t];
+    bool is_same = true;
+    for (std::size_t k = 0; k < 3; ++k)
+      is_same = is_same && left.points[left.triangles[t][k]] == soup.points[soup.triangles[from][k]];
+    stayed += is_same;
+    unlike += is_same && left.normals.values[left.normals.of_triangle[t][0]] !=
+                             soup.normals.values[soup.normals.of_triangle[from][0]];
+  }
+  EXPECT_GT(stayed, 10u);
+  EXPECT_EQ(unlike, 0u);
+  EXPECT_TRUE(has_flat_normals(left));
+  // The control: on request, all are made anew.
+  EXPECT_NE(reduced(soup, 1, Normals_choice::recompute).simplified.soup.normals.values, soup.normals.values);
+}
+
+TEST(Flat_shading, GltfGetsTheNormalsOfTheResult)
+{
+  const Triangle_soup scene = in_a_node(flat_hills());
+  const Triangle_soup result = reduced(scene, 0.3).simplified.soup, file = through(result, "m.glb");
+  ASSERT_EQ(file.triangles.size(), result.triangles.size());
+  for (std::size_t t = 0; t < file.triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NEAR(file.normals.values[file.normals.of_triangle[t][0]][i],
+                  result.normals.values[result.normals.of_triangle[t][0]][i], 1e-6);
+  EXPECT_TRUE(through(reduced(scene, 0.3, Normals_choice::drop).simplified.soup, "m.glb").normals.empty());
+}
+
+TEST(Flat_shading, VerticesThatDifferInMoreStayApart)
+{
+  const std::string text = written(flat_hills(), "m.gltf");
+  const auto used_with = [&](const char* attribute, bool is_target) {
+    Json json = Json::parse(text);
+    // Every normal is that of one face, so that these rows differ where normals do.
+    Json& primitive = json["meshes"][0]["primitives"][0];
+    const Json normals = primitive["attributes"]["NORMAL"];
+    if (is_target)
+      primitive["targets"] = {{{attribute, normals}}};
+    else
+      primitive["attributes"][attribute] = normals;
+    return vertices_used(read_mesh(json.dump(), Mesh_format::gltf, "m.gltf").soup);
+  };
+  EXPECT_EQ(used_with("NORMAL", false), flat_hills().points.size()); // the control
+  EXPECT_GT(used_with("_ID", false), flat_hills().triangles.size());
+  EXPECT_GT(used_with("POSITION", true), flat_hills().triangles.size());
+
+  Triangle_soup soup = through(flat_hills(), "m.ply"); // a colour for each vertex of the file
+  Attribute red{"red", Attribute::Type::uint16, 1, false, {}};
+  soup.triangles = soup.normals.of_triangle;
+  for (std::size_t v = 0; v < soup.points.size(); ++v)
+    red.rows.insert(red.rows.end(), {static_cast<unsigned char>(v), static_cast<unsigned char>(v >> 8)});
+  soup.vertex_attributes.push_back(red);
+  EXPECT_EQ(vertices_used(through(soup, "m.ply")), soup.points.size());
+}
+
+TEST(Flat_shading, PiecesBesideEachOtherStayPieces)
+{
+  Triangle_soup pieces = joined(sheet(5, 5), moved(sheet(5, 5), 5, 0, 0));
+  restore_normals(pieces, Normals_treatment::flat);
+  ASSERT_TRUE(has_flat_normals(pieces));
+  EXPECT_EQ(vertices_used(through(pieces, "m.ply")), pieces.points.size());
+  EXPECT_EQ(vertices_used(through(pieces, "m.glb")), pieces.points.size());
+}
+
+} // namespace
+} // namespace selvedge::test
