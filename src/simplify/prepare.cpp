@@ -225,7 +225,7 @@ private:
     forget_moved_polygons(soup(), points_before);
   }
 
-  // No edge of the obstacle is one of the soup, so its triangles need not be asked.
+  // Nothing is sewn to the obstacle, so its triangles need not be asked.
   void orient()
   {
     std::vector<Index_triple> triangles = soup().triangles; // of positions

@@ -75,7 +75,7 @@ TEST(Orientation, IsInTheLogOnWhichTheReplayRests)
   EXPECT_EQ(reduce_and_log(skirt(1000), to_ratio(0.3)).log.find("\nt "), std::string::npos);
 }
 
-TEST(Orientation, NoEdgeThatIsSewnWithoutTurningIsLost)
+TEST(Orientation, WhatAgreesStillDoes)
 {
   const Triangle_soup band = moebius_band();
   const auto notes = [](const Triangle_soup& soup, const Prepare_options& options) {
