@@ -166,6 +166,7 @@ Json options_json(const Simplify_request& request)
           {"weld", request.weld == "auto" ? Json(request.weld) : Json(request.weld_distance)},
           {"sewn", request.is_sewn},
           {"normals", name_of(request.normals)},
+          {"orient", request.are_faces_oriented ? "auto" : "keep"},
           {"polygons", request.are_polygons_split ? "split" : "keep"},
           {"threads", optional(request.threads)},
           {"cells", request.is_in_cells},
@@ -331,6 +332,16 @@ void add_options(CLI::App& command, Simplify_request& request)
           "pieces that are separate in the input are separate in the output.")
       ->group(seams);
 
+  command
+      .add_option(
+          "--orient", request.are_faces_oriented,
+          "Faces that run against the others of their surface: turn them for the reduction, and what "
+          "is left of them back in the output, so that their surface is reduced as one; or keep them, "
+          "so that nothing moves where two faces disagree.")
+      ->transform(one_of<bool>({{"auto", true}, {"keep", false}}))
+      ->type_name("auto|keep")
+      ->default_str("auto")
+      ->group(seams);
   command
       .add_option(
           "--normals", request.normals,

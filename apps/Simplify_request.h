@@ -36,6 +36,7 @@ struct Simplify_request
   std::string weld;         // "EPS", "auto", or empty
   double weld_distance = 0; // 0 for auto
   Normals_choice normals = Normals_choice::automatic;
+  bool are_faces_oriented = true;
   bool is_sewn = false;
   std::optional<Defects> defects; // none: the default
   bool is_strict = false;         // the same as Defects::refuse

@@ -143,13 +143,18 @@ void print_surfaces(const Inspection& mesh)
   std::cout << "pieces: " << with_commas(mesh.pieces.size()) << ", connected by vertex numbers\n"
             << "surfaces: " << with_commas(mesh.surfaces.size())
             << ", where coincident borders are sewn: " << kinds_of(mesh.surfaces) << '\n';
-  if (mesh.misoriented_edges > 0) {
-    std::vector<std::string> pieces;
-    for (const Index piece : mesh.misoriented_pieces)
-      pieces.push_back(std::to_string(piece + 1));
+  const auto named = [](const std::vector<Index>& pieces) {
+    std::vector<std::string> names;
+    for (const Index piece : pieces)
+      names.push_back(std::to_string(piece + 1));
+    return counted(names.size(), "piece") + " (" + listed(names) + ")";
+  };
+  if (mesh.turned_faces > 0)
+    std::cout << "orientation: " << counted(mesh.turned_faces, "face") << " of " << named(mesh.turned_pieces)
+              << " against the rest of the surface; turned while reducing, and back in the output\n";
+  if (mesh.misoriented_edges > 0)
     std::cout << "orientation: faces disagree along " << counted(mesh.misoriented_edges, "edge") << " of "
-              << counted(pieces.size(), "piece") << " (" << listed(pieces) << ")\n";
-  }
+              << named(mesh.misoriented_pieces) << ", and turning does not help: nothing moves there\n";
   if (mesh.pairs.empty()) {
     std::cout << "intersections: none (decided exactly)\n";
   } else {
@@ -281,12 +286,18 @@ void add_inspection(Json& report, const Inspection& mesh)
   report["vertices"] = {{"unused", mesh.unused_vertices}, {"coincident", mesh.coincident_vertices}};
   report["diagonal"] = mesh.diagonal;
   report["pieces"] = {{"count", mesh.pieces.size()}};
-  Json pieces = Json::array();
-  for (std::size_t i = 0; i < (std::min)(most_listed, mesh.misoriented_pieces.size()); ++i)
-    pieces.push_back(mesh.misoriented_pieces[i] + 1);
-  report["orientation"] = {{"misoriented_edges", mesh.misoriented_edges},
+  const auto first_of = [](const std::vector<Index>& pieces) {
+    Json first = Json::array();
+    for (std::size_t i = 0; i < (std::min)(most_listed, pieces.size()); ++i)
+      first.push_back(pieces[i] + 1);
+    return first;
+  };
+  report["orientation"] = {{"turned_faces", mesh.turned_faces},
+                           {"turned_pieces", mesh.turned_pieces.size()},
+                           {"first_turned_pieces", first_of(mesh.turned_pieces)},
+                           {"misoriented_edges", mesh.misoriented_edges},
                            {"misoriented_pieces", mesh.misoriented_pieces.size()},
-                           {"first_pieces", std::move(pieces)}};
+                           {"first_pieces", first_of(mesh.misoriented_pieces)}};
 
   std::vector<Index> largest(mesh.surfaces.size());
   std::iota(largest.begin(), largest.end(), Index(0));

@@ -190,6 +190,7 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
                        {"welded_vertices", welding.coincident_vertices},
                        {"seam_edges", welding.seam_edges},
                        {"non_manifold_edges", welding.non_manifold_edges},
+                       {"turned_faces", prepared.turned_faces()},
                        {"misoriented_edges", welding.misoriented_edges},
                        {"misoriented_pieces", welding.misoriented_pieces},
                        {"unwelded_positions", welding.unsewn_positions},

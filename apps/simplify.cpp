@@ -116,6 +116,7 @@ private:
     options.measure_border_gaps =
         m_request.weld.empty() && (!m_request.is_quiet || !m_request.report.empty());
     options.normals = m_request.normals;
+    options.orient = m_request.are_faces_oriented;
     try {
       return prepare(std::move(file.soup), options, obstacle);
     } catch (const Input_error& error) {

@@ -41,6 +41,8 @@ std::string remedy(Hindrance reason, const Simplify_request& request, Normals_tr
   switch (reason) {
   case Hindrance::frozen:
     return defects_of(request) == Defects::freeze ? "--defects descend" : "";
+  case Hindrance::misoriented:
+    return request.are_faces_oriented ? "" : "--orient auto";
   case Hindrance::locked:
     return request.intent.locked.empty() ? "--keep for fewer parts" : "--lock for fewer parts";
   case Hindrance::normals:
@@ -89,7 +91,7 @@ std::string why_it_stays(Hindrance reason)
   case Hindrance::non_manifold:
     return "what meets at edges of three faces or more stays as it is";
   case Hindrance::misoriented:
-    return "the faces of a piece must face the same way first";
+    return "what cannot be turned to face one way, like a Moebius band, stays as it is there";
   case Hindrance::topology:
     return "every piece keeps its holes and handles";
   case Hindrance::intersection:
@@ -240,6 +242,9 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
     stream << "\nfixed: " << counted(done.faces_fixed, "face")
            << " with all corners frozen, locked or coincident; a ratio is of the other "
            << with_commas(done.faces_input - done.faces_fixed);
+  if (const std::size_t turned = prepared.turned_faces(); turned > 0)
+    stream << "\norientation: " << counted(turned, "face")
+           << " against the rest of the surface; turned while reducing, and back in the output";
   if (const Sewing_notes& sewing = result.sewing; sewing.misoriented_edges > 0)
     stream << "\norientation: faces disagree along " << counted(sewing.misoriented_edges, "edge") << " of "
            << counted(sewing.misoriented_pieces, "piece")

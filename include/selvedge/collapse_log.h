@@ -34,6 +34,7 @@ namespace selvedge {
 ///     limit NAME NUMBER                      any number of them, each name once
 ///     s MOVED KEPT                           any number of them
 ///     w VERTEX VERTEX ...                    any number of them
+///     t TRIANGLE TRIANGLE ...                any number of them
 ///     c REMOVED KEPT [X Y Z [FIRST]]         any number of them
 ///     result COLLAPSES TRIANGLES SHA256
 ///
@@ -64,6 +65,10 @@ namespace selvedge {
 ///   edge joins the two.
 /// - *w*, a group of coincident vertices, which move together from here on. Coincident vertices always do,
 ///   stated or not; the line spares readers the search for them. A writer states all groups or none.
+/// - *t*, triangles that run against the others of their surface, by their 0-based numbers among those that
+///   have corners at three positions. From here on the second and the third corner of each change places, so
+///   that the sides at an edge run opposite ways: such an edge is no border. Nothing moves by that, and the
+///   text for *result* has the corners in the order of the input.
 /// - *c*, a collapse: the vertices at the position of REMOVED go to the position of KEPT, along their common
 ///   edge, and merge with the vertices there. When X Y Z is given, both go to that place instead: KEPT first,
 ///   or REMOVED first when FIRST is `removed`. FIRST may also be `kept`. Numbers are decimal, with a point,
@@ -123,17 +128,17 @@ struct Log_header
   Reduction_limits limits;
 };
 
-/// One line of a log that moves vertices, or states a group of coincident ones.
+/// One line of a log that moves vertices, states a group of coincident ones, or turns triangles.
 struct Log_step
 {
-  enum class Kind { snap, weld, collapse };
+  enum class Kind { snap, weld, turn, collapse };
 
   Kind kind = Kind::collapse;
   Index removed = 0; ///< REMOVED of a collapse, or MOVED of a snap
   Index kept = 0;
   std::optional<std::array<double, 3>> place; ///< X Y Z: where both go, if not to the position of KEPT
   bool is_removed_first = false;
-  std::vector<Index> group; ///< of a weld: the coincident vertices
+  std::vector<Index> group; ///< of a weld: the coincident vertices; of a turn: the triangles
   std::size_t line = 0;     ///< number of the line, from 1; set by the reader
 };
 
@@ -170,7 +175,8 @@ public:
 
   const Log_header& header() const;
 
-  /// Reads the next line that moves or welds. Returns false after the last, when `result` has been read.
+  /// Reads the next line that moves, welds or turns. Returns false after the last, when `result` has been
+  /// read.
   bool read(Log_step& step);
 
   const Log_result& result() const;

@@ -81,8 +81,13 @@ struct Inspection
   /// Pieces, connected by vertex numbers, in the order of their first triangles.
   std::vector<Piece> pieces;
 
-  /// Edges of exactly two faces that face opposite ways, by position, and the numbers of the pieces that have
-  /// such edges, ascending.
+  /// Faces that a reduction turns because they run against the others of their surface, and the numbers of
+  /// their pieces, ascending.
+  std::size_t turned_faces = 0;
+  std::vector<Index> turned_pieces;
+
+  /// Edges at which that does not help: of exactly two faces that face opposite ways, by position. And the
+  /// numbers of the pieces that have such edges, ascending.
   std::size_t misoriented_edges = 0;
   std::vector<Index> misoriented_pieces;
 

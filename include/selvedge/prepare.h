@@ -95,6 +95,11 @@ struct Prepare_options
   /// Whether the clear length of these gaps, if there is one, takes the place of the weld distance, which
   /// must be 0; otherwise `Argument_error` is thrown.
   bool weld_clear_gaps = false;
+
+  /// Whether a reduction turns faces that run against the others of their surface, so that the surface is
+  /// connected there, too, and turns what is left of them back in its result. Otherwise no vertex moves where
+  /// two faces disagree.
+  bool orient = true;
 };
 
 /// A soup that has been rounded, judged and snapped. `simplify_soup` reduces it, and the result is judged
@@ -143,6 +148,11 @@ struct Prepared_soup
   /// Triangles of the input that are left out because two of their corners are at one position.
   std::size_t left_out_faces = 0;       ///< before rounding
   std::size_t left_out_by_rounding = 0; ///< only after rounding
+
+  /// For every triangle of `soup`, whether a reduction turns it; empty when none is turned. Which it turns is
+  /// decided after snapping.
+  std::vector<char> is_turned;
+  std::size_t turned_faces() const;
 
   Rounding_notes rounding;
   bool is_float32 = false; ///< whether new coordinates must be 32-bit floats, too

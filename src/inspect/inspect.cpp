@@ -79,7 +79,8 @@ class Inspector
 public:
   explicit Inspector(const Prepared_soup& prepared)
       : m_prepared(prepared), m_soup(prepared.soup),
-        m_working(prepared.soup, prepared.positions, prepared.is_frozen, {}, prepared.scale),
+        m_working(prepared.soup, prepared.positions, prepared.is_frozen, {}, prepared.scale,
+                  prepared.is_turned),
         m_rule(m_working.mesh())
   {
     for (const auto e : m_working.constraints().line_edges)
@@ -131,7 +132,12 @@ private:
       m_result.border_edges += shape.border_edges;
     }
 
-    std::set<Index> misoriented;
+    std::set<Index> turned, misoriented;
+    for (Index t = 0; t < m_prepared.is_turned.size(); ++t)
+      if (m_prepared.is_turned[t])
+        turned.insert(by_vertices.of_triangle[t]);
+    m_result.turned_faces = m_prepared.turned_faces();
+    m_result.turned_pieces.assign(turned.begin(), turned.end());
     for (const Index side : m_working.misoriented_sides()) { // both sides of each edge are listed
       misoriented.insert(by_vertices.of_triangle[side / 3]);
       ++m_result.surfaces[by_positions.of_triangle[side / 3]].misoriented_edges;

@@ -65,10 +65,10 @@ Log_writer::Log_writer(std::ostream& stream, const Log_header& header) : m_strea
 
 void Log_writer::write(const Log_step& step)
 {
-  if (step.kind == Log_step::Kind::weld) {
-    std::string line = "w";
-    for (const Index vertex : step.group)
-      line += ' ' + text_of(vertex);
+  if (step.kind == Log_step::Kind::weld || step.kind == Log_step::Kind::turn) {
+    std::string line = step.kind == Log_step::Kind::weld ? "w" : "t";
+    for (const Index number : step.group)
+      line += ' ' + text_of(number);
     m_stream << line << '\n';
     return;
   }
@@ -154,7 +154,7 @@ public:
     } else if (m_words[0] == "s" || m_words[0] == "w") {
       const bool is_snap = m_words[0] == "s";
       if (m_stage > (is_snap ? 0 : 1))
-        fail("snaps come first, then welds, then collapses");
+        fail("snaps come first, then welds, then turns, then collapses");
       m_stage = is_snap ? 0 : 1;
       step.kind = is_snap ? Log_step::Kind::snap : Log_step::Kind::weld;
       if (is_snap) {
@@ -165,6 +165,13 @@ public:
         for (std::size_t i = 1; i < m_words.size(); ++i)
           step.group.push_back(vertex(i));
       }
+    } else if (m_words[0] == "t") {
+      if (m_stage > 2)
+        fail("triangles are turned before the first collapse");
+      m_stage = 2;
+      step.kind = Log_step::Kind::turn;
+      for (std::size_t i = 1; i < m_words.size(); ++i)
+        step.group.push_back(triangle(i));
     } else if (m_words[0] == "result") {
       expect_words(4, 4, "result COLLAPSES TRIANGLES SHA256");
       result = {number<std::size_t>(1), number<std::size_t>(2), digest(3)};
@@ -245,6 +252,15 @@ private:
     return value;
   }
 
+  Index triangle(std::size_t word) const
+  {
+    const Index value = number<Index>(word);
+    if (value >= header.triangles)
+      fail("there is no triangle " + std::to_string(value) + "; they are numbered from 0 to " +
+           std::to_string(header.triangles) + " - 1");
+    return value;
+  }
+
   std::string digest(std::size_t word) const
   {
     std::string text(m_words[word]);
@@ -288,7 +304,7 @@ private:
 
   void read_collapse(Log_step& step)
   {
-    m_stage = 2;
+    m_stage = 3;
     step.kind = Log_step::Kind::collapse;
     if (m_words.size() != 3 && m_words.size() != 6 && m_words.size() != 7)
       fail("the line does not read 'c REMOVED KEPT [X Y Z [FIRST]]'");
@@ -310,7 +326,7 @@ private:
   std::string m_line;
   std::vector<std::string_view> m_words;
   std::size_t m_line_number = 0;
-  int m_stage = 0; // 0 snaps, 1 welds, 2 collapses
+  int m_stage = 0; // 0 snaps, 1 welds, 2 turns, 3 collapses
   bool m_is_line_pending = false;
   bool m_is_over = false;
 };

@@ -136,6 +136,21 @@ bool Complex::is_seam_between(Index a, Index b) const
          differ_in(m_soup.groups) || differ_in(m_soup.objects) || differ_in(m_soup.materials);
 }
 
+void Complex::turn(Index face)
+{
+  Face& turned = m_faces[face];
+  std::swap(turned.positions[1], turned.positions[2]);
+  std::swap(turned.corners[1], turned.corners[2]);
+  turned.is_turned = !turned.is_turned;
+}
+
+Index_triple Complex::in_order_of_soup(Index face, Index_triple of_face) const
+{
+  if (m_faces[face].is_turned)
+    std::swap(of_face[1], of_face[2]);
+  return of_face;
+}
+
 void Complex::find_seams()
 {
   m_has_seams = true;
@@ -309,7 +324,7 @@ Triangle_soup Complex::result() const
   for (Index f = 0; f < m_faces.size(); ++f)
     if (m_faces[f].is_alive) {
       triangles.push_back(f);
-      corners.push_back(m_faces[f].corners);
+      corners.push_back(in_order_of_soup(f, m_faces[f].corners));
     }
   return selected(moved, triangles, corners);
 }

@@ -25,7 +25,7 @@ public:
     Index_triple positions;
     Index_triple corners;          // of the soup, 3 × triangle + place in it
     std::array<bool, 3> is_seam{}; // side k runs from corner k to the next
-    bool is_alive = true;
+    bool is_alive = true, is_turned = false;
   };
 
   /// The edge from a position to a neighbour, as the faces at the position show it.
@@ -67,6 +67,12 @@ public:
 
   /// Whether the faces at a position are connected across edges that are no borders.
   bool is_one_fan(Index position) const;
+
+  /// Lets a face run the other way from now on, and back again in `result`. To be called before `find_seams`.
+  void turn(Index face);
+
+  /// Returns the positions or corners of a face in the order that they have in the soup.
+  Index_triple in_order_of_soup(Index face, Index_triple of_face) const;
 
   /// Marks the edges across which a vertex number, a label or a value of the soup's corners changes.
   void find_seams();

@@ -110,6 +110,10 @@ public:
         check_weld(step);
         continue;
       }
+      if (step.kind == Log_step::Kind::turn) {
+        turn(step);
+        continue;
+      }
       ++m_verdict.steps;
       take(step);
       if ((!m_verdict.violations.empty() && !m_options.is_all_wanted))
@@ -165,6 +169,18 @@ private:
         throw Input_error("line " + std::to_string(step.line) + " of the log: vertices " +
                           std::to_string(step.group.front()) + " and " + std::to_string(number) +
                           " are welded there, but they are not at one position");
+  }
+
+  // Turning moves nothing: it says along which edges two faces are one surface.
+  void turn(const Log_step& step)
+  {
+    for (const Index face : step.group) {
+      if (face >= m_complex.size())
+        throw Input_error("line " + std::to_string(step.line) + " of the log: triangle " +
+                          std::to_string(face) + " is turned there, but only " +
+                          std::to_string(m_complex.size()) + " triangles have corners at three positions");
+      m_complex.turn(face);
+    }
   }
 
   Index position(Index number) const { return m_complex.position(m_numbering.vertex(number)); }
@@ -618,7 +634,7 @@ private:
       poll();
       if (!m_complex.face(f).is_alive)
         continue;
-      const Index_triple& p = m_complex.face(f).positions;
+      const Index_triple p = m_complex.in_order_of_soup(f, m_complex.face(f).positions);
       sha256.add(std::to_string(smallest[p[0]]) + ' ' + std::to_string(smallest[p[1]]) + ' ' +
                  std::to_string(smallest[p[2]]) + '\n');
     }

@@ -73,6 +73,13 @@ Reduction_log::Reduction_log(std::ostream& stream, Log_header header, const Log_
     step.group.insert(step.group.begin(), first);
     m_writer.write(step);
   }
+  Log_step turn;
+  turn.kind = Log_step::Kind::turn;
+  for (Index t = 0; t < prepared.is_turned.size(); ++t)
+    if (prepared.is_turned[t])
+      turn.group.push_back(t);
+  if (!turn.group.empty())
+    m_writer.write(turn);
 }
 
 void Reduction_log::add_collapse(const Soup_collapse& collapse)

@@ -4,6 +4,7 @@
 #include <selvedge/prepare.h>
 
 #include "Stopwatch.h"
+#include "soup/Sewing.h"
 #include "soup/check_soup.h"
 #include "soup/number_positions.h"
 #include "soup/obstacle.h"
@@ -95,6 +96,8 @@ public:
     snap();
     m_prepared.seconds_snap = m_stopwatch.restart();
     remove_obstacle(soup(), obstacle());
+    if (m_options.orient)
+      orient();
     return std::move(m_prepared);
   }
 
@@ -229,6 +232,17 @@ private:
     forget_moved_polygons(soup(), points_before);
   }
 
+  // Nothing is sewn to the obstacle, so its triangles need not be asked.
+  void orient()
+  {
+    std::vector<Index_triple> triangles = soup().triangles; // of positions
+    for (Index_triple& triangle : triangles)
+      for (Index& v : triangle)
+        v = m_prepared.positions[v];
+    m_prepared.is_turned =
+        turned_triangles(triangles, Index(3 * triangles.size()), Index(m_prepared.positions.size()));
+  }
+
   Prepare_options m_options;
   Prepared_soup m_prepared;
   std::vector<Index> m_positions_rounded;              // by vertex; empty when nothing was rounded
@@ -237,6 +251,11 @@ private:
 };
 
 } // namespace
+
+std::size_t Prepared_soup::turned_faces() const
+{
+  return std::size_t(std::count(is_turned.begin(), is_turned.end(), char(true)));
+}
 
 const char* name_of(Defects defects)
 {

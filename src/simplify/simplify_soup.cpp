@@ -31,7 +31,7 @@ public:
                  const Simplify_intent& intent)
       : m_options(options), m_prepared(prepared),
         m_working(prepared.soup, prepared.positions, frozen(prepared, intent), prepared.obstacle,
-                  prepared.scale),
+                  prepared.scale, prepared.is_turned),
         m_seconds_sew(m_stopwatch.seconds()),
         m_simplification(m_working.mesh(), m_options, constraints(prepared.soup, intent), m_working)
   {

@@ -137,6 +137,70 @@ void Sewing::number_vertices()
   }
 }
 
+// Each surface is a tree of triangles; a triangle knows whether it runs against the root.
+std::vector<char> turned_triangles(const std::vector<Index_triple>& triangles, Index own_sides,
+                                   Index position_count)
+{
+  Sewing_notes notes;
+  Side_matching matching(triangles, own_sides, position_count, notes);
+  if (notes.misoriented_edges == 0)
+    return {};
+  std::vector<std::pair<Index, Index>> disagreeing;
+  const std::vector<Index> sides = matching.take_misoriented();
+  for (std::size_t i = 0; i < sides.size(); i += 2) {
+    const auto position = [&](Index corner) { return triangles[corner / 3][corner % 3]; };
+    const Index a = sides[i], b = sides[i + 1];
+    if (a < own_sides && position(Sewing::previous(a)) != position(Sewing::previous(b)))
+      disagreeing.emplace_back(a, b);
+  }
+  std::sort(disagreeing.begin(), disagreeing.end());
+
+  const Index count = own_sides / 3;
+  std::vector<Index> parent(count);
+  std::vector<char> is_against(count, false); // the parent
+  std::iota(parent.begin(), parent.end(), Index(0));
+  const auto find = [&](Index triangle) { // returns the root, and makes it the parent
+    Index root = triangle;
+    bool against = false; // the root, from here
+    for (; parent[root] != root; root = parent[root])
+      against = against != bool(is_against[root]);
+    while (parent[triangle] != root && triangle != root) {
+      const Index next = parent[triangle];
+      const bool beyond = against != bool(is_against[triangle]);
+      parent[triangle] = root;
+      is_against[triangle] = std::exchange(against, beyond);
+      triangle = next;
+    }
+    return root;
+  };
+  const auto unite = [&](Index a, Index b, bool do_disagree) {
+    const Index root = find(a), other = find(b);
+    if (root == other)
+      return;
+    parent[std::max(root, other)] = std::min(root, other);
+    is_against[std::max(root, other)] = (is_against[a] != is_against[b]) != do_disagree;
+  };
+  const std::vector<Index> mates = matching.take_mates();
+  for (Index side = 0; side < own_sides; ++side)
+    if (mates[side] != Sewing::none && side < mates[side])
+      unite(side / 3, mates[side] / 3, false);
+  for (const auto& [a, b] : disagreeing)
+    unite(a / 3, b / 3, true);
+
+  std::vector<Index> size(count, 0), against(count, 0); // by root, which is the first triangle
+  for (Index t = 0; t < count; ++t) {
+    const Index root = find(t);
+    ++size[root];
+    against[root] += is_against[t] != 0; // a root is not against itself
+  }
+  std::vector<char> is_turned(count);
+  for (Index t = 0; t < count; ++t)
+    is_turned[t] = bool(is_against[t]) != (2 * against[parent[t]] > size[parent[t]]);
+  if (std::find(is_turned.begin(), is_turned.end(), char(true)) == is_turned.end())
+    is_turned.clear();
+  return is_turned;
+}
+
 // Undoes the sewing where unsewn sides would make two edges between the same two vertices. When all sides
 // sewn at these vertices are torn apart, every corner there is a vertex of its own. Once is enough: all torn
 // sides end at such corners, and no two of these are one vertex. Returns whether there were such edges.

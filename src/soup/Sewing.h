@@ -8,6 +8,7 @@
 #include <selvedge/Triangle_soup.h>
 
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace selvedge {
@@ -70,6 +71,26 @@ private:
   std::vector<Index> m_vertices;
   Index m_vertex_count = 0;
 };
+
+/// Says which triangles of the soup run against the others of their surface, and are to be turned, so that
+/// the two sides of an edge run opposite ways. Triangles, `own_sides` and `position_count` are those of
+/// `Sewing`; those of an obstacle are never turned. The result is empty when no triangle is to be turned.
+///
+/// Triangles belong together that agree across edges. Then the edges along which two disagree are taken in
+/// the order of their sides, and each joins two such surfaces, one of them turned; where both are already one
+/// surface (as in a Möbius band), the edge stays as it is. So triangles that agree
+/// across an edge still do. In every surface, the fewer triangles are turned; of equal numbers, those that
+/// its first triangle disagrees with.
+///
+/// **Complexity** O(n log n); that of `Sewing` where no two triangles disagree.
+std::vector<char> turned_triangles(const std::vector<Index_triple>& triangles, Index own_sides,
+                                   Index position_count);
+
+/// Turns a triangle of corners, positions or vertices: its second and third change places.
+inline void turn(Index_triple& triangle)
+{
+  std::swap(triangle[1], triangle[2]);
+}
 
 } // namespace selvedge
 

@@ -71,8 +71,8 @@ Nearest_point nearest_point(const std::array<internal::Vector_of_doubles, 3>& co
 
 Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& positions,
                            const std::vector<char>& is_frozen, const Triangle_soup& obstacle,
-                           const Scale& scale)
-    : m_soup(soup), m_scale(scale)
+                           const Scale& scale, const std::vector<char>& is_turned)
+    : m_soup(soup), m_scale(scale), m_is_turned(is_turned)
 {
   const Index own_vertices = Index(soup.points.size());
   const Index own_corners = Index(3 * soup.triangles.size());
@@ -85,6 +85,10 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
     const Corner first = Corner(3 * triangles.size());
     m_corners.push_back({first, first + 1, first + 2});
     triangles.push_back({positions[v[0]], positions[v[1]], positions[v[2]]});
+    if (!is_turned.empty() && is_turned[triangles.size() - 1]) {
+      turn(m_corners.back());
+      turn(triangles.back());
+    }
     for (const Index i : v)
       is_used[i] = true;
   }
@@ -98,6 +102,7 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
         {positions[own_vertices + a], positions[own_vertices + b], positions[own_vertices + c]});
   }
 
+  const auto own_corner = [this](Corner corner) { return m_corners[corner / 3][corner % 3]; };
   const Sewing sewing(triangles, own_corners, Index(positions.size()), m_notes);
   Cancellation_scope::check();
   std::vector<Corner> corner_of(sewing.vertex_count()); // the first corner of each vertex
@@ -106,7 +111,7 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
   const std::vector<Mesh::Halfedge_index> halfedges = make_mesh(sewing, [&](Index vertex) {
     const Corner corner = corner_of[vertex];
     if (corner < own_corners)
-      return scale(soup.points[vertex_of(corner)]);
+      return scale(soup.points[vertex_of(own_corner(corner))]);
     const Corner beside = corner - own_corners;
     return scale(obstacle.points[obstacle.triangles[beside / 3][beside % 3]]);
   });
@@ -136,7 +141,8 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
     if (side >= own_corners)
       continue;
     m_misoriented_sides.push_back(side);
-    m_is_misoriented[vertex_of(side)] = m_is_misoriented[vertex_of(Sewing::next(side))] = true;
+    for (const Corner end : {side, Sewing::next(side)})
+      m_is_misoriented[vertex_of(own_corner(end))] = true;
   }
   if (!m_misoriented_sides.empty()) {
     const std::vector<Index> piece_of = part_kinds(soup).front().of_triangle;
@@ -150,7 +156,8 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
   for (Index side = 0; side < own_corners; ++side) {
     const Index mate = sewing.mate(side), end = Sewing::next(side);
     if (mate != s_none && side < mate &&
-        (differences(side, Sewing::next(mate)).any() || differences(end, mate).any()))
+        (differences(own_corner(side), own_corner(Sewing::next(mate))).any() ||
+         differences(own_corner(end), own_corner(mate)).any()))
       m_constraints.line_edges.push_back(m_mesh.edge(halfedges[side]));
   }
   m_notes.seam_edges = m_constraints.line_edges.size();
@@ -753,6 +760,8 @@ Working_mesh::Result Working_mesh::result() const
       break; // the faces of the obstacle come last
     result.triangles.push_back(face);
     result.corners.push_back(m_corners[face]);
+    if (!m_is_turned.empty() && m_is_turned[face])
+      turn(result.corners.back());
   }
   Cancellation_scope::check();
   result.soup = selected(m_soup, result.triangles, result.corners);

@@ -63,14 +63,15 @@ public:
   /// `by_wish` when the user wants it so, another number but 0 for any other reason.
   /// In both arrays, as in the faces of the mesh, vertices and triangles of the obstacle follow those of the
   /// soup. Nothing else of the obstacle is used, and all its triangles are frozen. The points of the mesh are
-  /// those of both, divided by the scale; the result has the original ones.
+  /// those of both, divided by the scale; the result has the original ones. Triangle t of the soup is turned
+  /// in the mesh when `is_turned[t]`, and back again in the result; none is when the array is empty.
   ///
   /// **Preconditions** No triangle has two corners at one position. The soup outlives the mesh.
   ///
   /// **Complexity** O(n log n).
   Working_mesh(const Triangle_soup& soup, const std::vector<Index>& positions,
                const std::vector<char>& is_frozen, const Triangle_soup& obstacle = {},
-               const Scale& scale = Scale());
+               const Scale& scale = Scale(), const std::vector<char>& is_turned = {});
 
   /// Makes a mesh of some faces of another, so that this part can be reduced separately. Face i of the part
   /// is face `faces[i]` of the whole.
@@ -160,7 +161,8 @@ public:
   };
   Differences differences(Mesh::Edge_index e) const;
 
-  /// The sides of the soup's triangles, 3 × triangle + place, along which two faces face opposite ways.
+  /// The sides of the soup's triangles, 3 × triangle + place as they are turned, along which two faces face
+  /// opposite ways.
   const std::vector<Index>& misoriented_sides() const { return m_misoriented_sides; }
 
   // Called by the reduction, whose observer this is.
@@ -241,6 +243,7 @@ private:
   Mesh m_mesh;
   std::vector<Index_triple> m_corners; // by face; those of the obstacle have none
   std::vector<char> m_is_frozen;       // by face, as given
+  std::vector<char> m_is_turned;       // by face, or empty
   std::vector<Index> m_misoriented_sides;
   std::vector<char> m_is_misoriented;  // by vertex of the soup: at such a side
   std::vector<unsigned char> m_places; // by halfedge that is no border: the place of its target in its face

@@ -32,6 +32,7 @@ Hindrances hindrances_of(const Triangle_soup& soup, const Simplify_options& opti
 {
   Prepare_options how = with(Defects::freeze);
   how.normals = normals;
+  how.orient = false;
   return simplify_soup(prepare(soup, how), options, intent).report.hindrances;
 }
 

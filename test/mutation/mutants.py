@@ -329,6 +329,24 @@ group(
     ("beyond - first == 2 && is_opposite &&\n", "beyond - first == 2 &&\n", "sides that run the same way are sewn"),
     ("side.high != it->high || is_own(side.side) != is_own(it->side);", "side.high != it->high;", "the soup is sewn to the obstacle"),
 )
+group(
+    "src/soup/Sewing.cpp",
+    ("orientation_test",),
+    ("unite(side / 3, mates[side] / 3, false);", ";", "edges that agree may come to disagree"),
+    ("(2 * against[parent[t]] > size[parent[t]])", "false", "the first triangle of a surface is never turned"),
+)
+group(
+    "src/soup/Working_mesh.cpp",
+    ("orientation_test",),
+    ("turn(result.corners.back());", ";", "the result keeps turned faces"),
+    ("turn(m_corners.back());", ";", "corners of turned faces lie at other vertices"),
+)
+group(
+    "src/replay/Complex.cpp",
+    ("orientation_test",),
+    ("std::swap(turned.positions[1], turned.positions[2]);", "", "the replay turns nothing"),
+    ("if (m_faces[face].is_turned)", "if (false)", "the replay's result keeps turned faces"),
+)
 
 group(
     "src/weld/snapping.cpp",

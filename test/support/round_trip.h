@@ -311,7 +311,9 @@ inline bool judge_log(std::string_view contents)
   for (std::size_t i = 0; i < first.steps.size(); ++i) {
     const Log_step &a = first.steps[i], &b = second.steps[i];
     promise(a.kind == b.kind && a.group == b.group, "a step changes");
-    promise(a.kind == Log_step::Kind::weld || (a.removed == b.removed && a.kept == b.kept), "a step changes");
+    promise(a.kind == Log_step::Kind::weld || a.kind == Log_step::Kind::turn ||
+                (a.removed == b.removed && a.kept == b.kept),
+            "a step changes");
     promise(a.place.has_value() == b.place.has_value(), "a place comes or goes");
     promise(!a.place || a.is_removed_first == b.is_removed_first, "an order changes");
     for (std::size_t k = 0; a.place && k < 3; ++k)

@@ -148,10 +148,15 @@ TEST(Inspect, SaysWhatIsFrozenAndWhy)
 
   Triangle_soup turned = sheet(2, 2);
   std::swap(turned.triangles[0][0], turned.triangles[0][1]);
-  const Inspection disagreeing = inspect(joined(turned, sheet(2, 2, 5)));
-  EXPECT_EQ(disagreeing.misoriented_edges, 2u);
+  const Inspection oriented = inspect(joined(turned, sheet(2, 2, 5)));
+  EXPECT_EQ(oriented.turned_faces, 1u);
+  EXPECT_EQ(oriented.turned_pieces, std::vector<Index>{0});
+  EXPECT_EQ(oriented.misoriented_edges + oriented.movable.misoriented, 0u);
+  const Inspection disagreeing = inspect(joined(moebius_band(), sheet(2, 2, 5)));
+  EXPECT_EQ(disagreeing.turned_faces, 0u);
+  EXPECT_EQ(disagreeing.misoriented_edges, 1u);
   EXPECT_EQ(disagreeing.misoriented_pieces, std::vector<Index>{0});
-  EXPECT_EQ(disagreeing.surfaces[0].misoriented_edges, 2u);
+  EXPECT_EQ(disagreeing.surfaces[0].misoriented_edges, 1u);
   EXPECT_EQ(disagreeing.surfaces[1].misoriented_edges, 0u);
   EXPECT_GT(disagreeing.movable.misoriented, 0u);
   EXPECT_EQ(disagreeing.movable.frozen + disagreeing.movable.non_manifold, 0u);

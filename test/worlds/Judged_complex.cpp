@@ -212,6 +212,11 @@ std::vector<Judged_complex::Edge> Judged_complex::edges_at(Index position) const
   return edges;
 }
 
+void Judged_complex::turn(Index face)
+{
+  std::swap(m_faces[face].positions[1], m_faces[face].positions[2]);
+}
+
 void Judged_complex::find_seams(const Triangle_soup& own)
 {
   const auto differ = [](const auto& values, Index corner_a, Index corner_b) {
@@ -222,8 +227,10 @@ void Judged_complex::find_seams(const Triangle_soup& own)
     return !labels.empty() && labels.of_triangle[f] != labels.of_triangle[g];
   };
   const auto corner_at = [&](Index f, Index position) {
-    const Index_triple& p = m_faces[f].positions;
-    return Index(3 * f + (p[0] == position ? 0 : p[1] == position ? 1 : 2));
+    const Index_triple& v = own.triangles[f];
+    return Index(3 * f + (m_position_of_vertex[v[0]] == position   ? 0
+                          : m_position_of_vertex[v[1]] == position ? 1
+                                                                   : 2));
   };
   for (Index p = 0; p < m_points.size(); ++p)
     for (const Edge& edge : edges_at(p)) {

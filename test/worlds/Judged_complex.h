@@ -45,6 +45,9 @@ public:
   const Point_3& point(Index position) const { return m_points[position]; }
   std::size_t own_faces_alive() const { return m_own_alive; }
 
+  /// Lets a face run the other way from now on.
+  void turn(Index face);
+
   /// Lines of the soup: edges across which a number, label or value changes. To be called after snaps.
   void find_seams(const Triangle_soup& own);
 

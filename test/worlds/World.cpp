@@ -56,6 +56,7 @@ Prepare_options World::prepare_options() const
   prepare.weld_distance = weld_distance;
   prepare.weld_clear_gaps = are_clear_gaps_welded;
   prepare.normals = normals;
+  prepare.orient = are_faces_oriented;
   return prepare;
 }
 
@@ -80,6 +81,7 @@ void write_world(const World& world, const std::filesystem::path& folder)
                      {"weld", world.weld_distance},
                      {"weld_auto", world.are_clear_gaps_welded},
                      {"normals", name_of(world.normals)},
+                     {"orient", world.are_faces_oriented},
                      {"ratio", optional_json(options.ratio)},
                      {"faces", optional_json(options.faces)},
                      {"error", optional_json(options.max_error)},
@@ -135,6 +137,7 @@ World read_world(const std::filesystem::path& folder)
        {Normals_choice::automatic, Normals_choice::keep, Normals_choice::recompute, Normals_choice::drop})
     if (normals == name_of(choice))
       world.normals = choice;
+  world.are_faces_oriented = json.value("orient", false);
   Simplify_options& options = world.options;
   read_optional(json["ratio"], options.ratio);
   read_optional(json["faces"], options.faces);
@@ -215,6 +218,8 @@ std::string command_line(const World& world)
     add("--weld", "auto");
   if (world.normals != Normals_choice::automatic)
     add("--normals", name_of(world.normals));
+  if (!world.are_faces_oriented)
+    add("--orient", "keep");
   if (options.placement != plain.placement)
     add("--placement", "optimal");
   if (options.loop != plain.loop)

@@ -33,6 +33,7 @@ struct World
   double weld_distance = 0;
   bool are_clear_gaps_welded = false; ///< then the distance is 0
   Normals_choice normals = Normals_choice::automatic;
+  bool are_faces_oriented = true;
   Simplify_options options; ///< without who is to be told or asked
   Simplify_intent intent;
   std::vector<double> lods;

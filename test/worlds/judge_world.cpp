@@ -49,6 +49,7 @@ Judgement_counts& Judgement_counts::operator+=(const Judgement_counts& other)
   collapses += other.collapses;
   placed += other.placed;
   snaps += other.snaps;
+  turned += other.turned;
   twins += other.twins;
   option_sets += other.option_sets;
   for (const auto& [option, count] : other.options)
@@ -686,10 +687,18 @@ Verdict judge_reduction(const World& world, const World_run& run, Judged_complex
   for (Index t = 0; t < is_held.size(); ++t)
     if (is_held[t])
       complex.freeze(t);
+  const auto turn_faces = [&] {
+    for (Index t = 0; t < run.prepared.is_turned.size(); ++t)
+      if (run.prepared.is_turned[t])
+        complex.turn(t);
+  };
+  counts.turned += run.prepared.turned_faces();
+  turn_faces();
   complex.find_seams(run.prepared.soup);
   const std::vector<Index> regions = complex.regions();
   if (auto broken = judge_collapses(run, complex, counts))
     return broken;
+  turn_faces(); // the result has the winding of the input
   if (auto broken = judge_attributes(world, run, complex, regions, is_held))
     return broken;
   if (auto broken = judge_pieces(run))

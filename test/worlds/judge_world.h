@@ -21,6 +21,7 @@ struct Judgement_counts
   std::size_t collapses = 0; ///< judged by brute force
   std::size_t placed = 0;    ///< how many of them go to new places
   std::size_t snaps = 0;
+  std::size_t turned = 0; ///< faces that were turned
   std::size_t twins = 0;
   std::size_t option_sets = 0;                ///< beyond the first of each world
   std::map<std::string, std::size_t> options; ///< how many reductions had it

@@ -248,6 +248,7 @@ World random_world(std::uint64_t seed)
     world.weld_distance = 0;
   // No random number, so that worlds of earlier versions stay what they were.
   world.are_clear_gaps_welded = world.weld_distance == 0 && world.seed % 4 == 1;
+  world.are_faces_oriented = world.seed % 8 != 5;
   if (!world.soup.normals.empty())
     world.normals = random.one_of(
         {Normals_choice::automatic, Normals_choice::keep, Normals_choice::recompute, Normals_choice::drop});

@@ -48,6 +48,7 @@ TEST(Worlds, KeepEveryPromise)
   EXPECT_GT(counts.collapses, s_seeds * 12);
   EXPECT_GT(counts.placed, s_seeds);
   EXPECT_GT(counts.snaps, s_seeds / 20);
+  EXPECT_GT(counts.turned, s_seeds / 20);
   EXPECT_GT(counts.twins, s_seeds);
   EXPECT_GT(counts.option_sets, s_seeds / 3);
 }
