@@ -7,7 +7,6 @@
 #include <selvedge/generate.h>
 #include <selvedge/verify.h>
 
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -373,8 +372,8 @@ int side_of_patch(const Triangle_soup& soup)
           continue;
         const Index_triple& t = soup.triangles[f];
         // Whether p is above or below the face: it is not on different sides of its edges, seen from above.
-        const auto [least, most] = std::minmax({turn(soup, t[0], t[1], v), turn(soup, t[1], t[2], v),
-                                                turn(soup, t[2], t[0], v)});
+        const auto [least, most] =
+            std::minmax({turn(soup, t[0], t[1], v), turn(soup, t[1], t[2], v), turn(soup, t[2], t[0], v)});
         if (least == CGAL::RIGHT_TURN && most == CGAL::LEFT_TURN)
           continue;
         covered = true;

@@ -241,7 +241,8 @@ TEST(Snapping, ATiedVertexStaysWhereItsPartnerCannotFollow)
       tied.erase(tied.begin() + i);
   ASSERT_EQ(places.size(), tied.size());
   const Simplified_soup result = simplify_soup(prepared, to_ratio(0.3));
-  EXPECT_LE(result.report.left_alone, 1u) << "one partner is refused by the guard; without ties, ten stay alone";
+  EXPECT_LE(result.report.left_alone, 1u)
+      << "one partner is refused by the guard; without ties, ten stay alone";
   std::size_t left = 0;
   for (const Point_3& p : result.soup.points)
     left += p.x() == 3 && places.count(p.y()) != 0;
