@@ -143,18 +143,18 @@ void print_surfaces(const Inspection& mesh)
   std::cout << "pieces: " << with_commas(mesh.pieces.size()) << ", connected by vertex numbers\n"
             << "surfaces: " << with_commas(mesh.surfaces.size())
             << ", where coincident borders are sewn: " << kinds_of(mesh.surfaces) << '\n';
-  const auto named = [](const std::vector<Index>& pieces) {
+  const auto list_of = [](const std::vector<Index>& pieces) {
     std::vector<std::string> names;
     for (const Index piece : pieces)
       names.push_back(std::to_string(piece + 1));
     return counted(names.size(), "piece") + " (" + listed(names) + ")";
   };
   if (mesh.turned_faces > 0)
-    std::cout << "orientation: " << counted(mesh.turned_faces, "face") << " of " << named(mesh.turned_pieces)
+    std::cout << "orientation: " << counted(mesh.turned_faces, "face") << " of " << list_of(mesh.turned_pieces)
               << " against the rest of the surface; turned while reducing, and back in the output\n";
   if (mesh.misoriented_edges > 0)
     std::cout << "orientation: faces disagree along " << counted(mesh.misoriented_edges, "edge") << " of "
-              << named(mesh.misoriented_pieces) << ", and turning does not help: nothing moves there\n";
+              << list_of(mesh.misoriented_pieces) << ", and turning does not help: nothing moves there\n";
   if (mesh.pairs.empty()) {
     std::cout << "intersections: none (decided exactly)\n";
   } else {
