@@ -88,7 +88,7 @@ TEST(App_documentation, OptionsInReportsAreThoseOfTheHelp)
     }
     ++defaults;
   }
-  EXPECT_EQ(defaults, 17u);
+  EXPECT_EQ(defaults, 18u);
 }
 
 } // namespace

@@ -248,6 +248,7 @@ TEST(Hindrances, NameLayersInTheWay)
   // A sphere, and in it a tetrahedron whose corners come near to it.
   Triangle_soup sphere = nested_spheres(800, 1, 1e-2);
   sphere.uvs = {};
+  sphere.groups = {};
   CGAL::Bbox_3 box;
   for (const Point_3& p : sphere.points)
     box += p.bbox();

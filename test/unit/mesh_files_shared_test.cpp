@@ -7,12 +7,15 @@
 
 #include <selvedge/Error.h>
 #include <selvedge/mesh_files.h>
+#include <selvedge/normals.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 using namespace selvedge;
 
@@ -34,6 +37,23 @@ const std::map<std::string, Counts> meshes = {
     {"scans/stanford_bunny.obj", {69451, 35947, false}},
     {"scans/spot.obj", {23062, 11533, false}}};
 
+// The triangles, and the points of their vertices, numbered in the order in which triangles first use them.
+std::pair<std::vector<Index_triple>, std::vector<Point_3>> in_order_of_use(const Triangle_soup& soup)
+{
+  std::map<Index, Index> numbers;
+  std::pair<std::vector<Index_triple>, std::vector<Point_3>> result;
+  for (Index_triple triangle : soup.triangles) {
+    for (Index& v : triangle) {
+      const auto [found, is_new] = numbers.emplace(v, Index(numbers.size()));
+      if (is_new)
+        result.second.push_back(soup.points[v]);
+      v = found->second;
+    }
+    result.first.push_back(triangle);
+  }
+  return result;
+}
+
 TEST(SharedMeshes, HaveTheirCountsAndGoThroughEveryFormat)
 {
   for (const auto& [name, counts] : meshes) {
@@ -49,8 +69,12 @@ TEST(SharedMeshes, HaveTheirCountsAndGoThroughEveryFormat)
     for (const char* copy : {"m.obj", "m.off", "m.ply"}) {
       write_mesh(folder / copy, soup);
       const Triangle_soup found = read_mesh(folder / copy).soup;
-      EXPECT_EQ(found.triangles, soup.triangles) << copy;
-      EXPECT_TRUE(found.points == soup.points) << copy;
+      const auto [triangles, points] = in_order_of_use(found);
+      const auto [expected_triangles, expected_points] = in_order_of_use(soup);
+      EXPECT_EQ(triangles, expected_triangles) << copy;
+      EXPECT_TRUE(points == expected_points) << copy;
+      const bool is_split = copy == std::string("m.ply") && has_flat_normals(soup);
+      EXPECT_EQ(found.points == soup.points, !is_split) << copy;
     }
   }
 }
