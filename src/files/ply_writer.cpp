@@ -123,11 +123,17 @@ struct Ply_layout
       : vertex_columns(columns_of(soup.vertex_attributes)),
         face_columns(columns_of(soup.triangle_attributes)), normals(values_of_vertices(soup.normals, soup))
   {
-    if (soup.uvs.empty())
+    const auto has = [this](const char* name) {
+      return std::any_of(vertex_columns.begin(), vertex_columns.end(),
+                         [name](const Named_column& column) { return column.name == name; });
+    };
+    if (soup.uvs.empty()) {
+      // Attributes of these names would be read as texture coordinates if the faces had no list of them.
+      has_face_uvs =
+          (has("s") && has("t")) || (has("u") && has("v")) || (has("texture_u") && has("texture_v"));
       return;
-    const bool is_name_free = std::none_of(vertex_columns.begin(), vertex_columns.end(),
-                                           [](const auto& c) { return c.name == "s" || c.name == "t"; });
-    has_vertex_uvs = is_name_free && !soup.uvs.missing && soup.uvs.of_triangle == soup.triangles &&
+    }
+    has_vertex_uvs = !has("s") && !has("t") && !soup.uvs.missing && soup.uvs.of_triangle == soup.triangles &&
                      soup.uvs.values.size() == soup.points.size();
     has_face_uvs = !has_vertex_uvs;
   }
@@ -223,7 +229,7 @@ void write_ply(Byte_writer& out, const Triangle_soup& soup, const Write_options&
     for (const Index corner : corners)
       values.write(soup.triangles[corner / 3][corner % 3]);
     if (layout.has_face_uvs) {
-      const bool has_uvs = soup.uvs.of_triangle[triangle][0] != soup.uvs.missing;
+      const bool has_uvs = !soup.uvs.empty() && soup.uvs.of_triangle[triangle][0] != soup.uvs.missing;
       values.write(std::uint8_t(has_uvs ? 2 * corners.size() : 0));
       for (const Index corner : corners)
         if (has_uvs)
