@@ -150,9 +150,9 @@ void print_surfaces(const Inspection& mesh)
     return counted(names.size(), "piece") + " (" + listed(names) + ")";
   };
   if (mesh.turned_faces > 0)
-    std::cout << "orientation: " << counted(mesh.turned_faces, "face") << " of "
+    std::cout << "orientation: a reduction turns " << counted(mesh.turned_faces, "face") << " of "
               << list_of(mesh.turned_pieces)
-              << " against the rest of the surface; turned while reducing, and back in the output\n";
+              << " to agree with the others of their surface, and turns them back in the output\n";
   if (mesh.misoriented_edges > 0)
     std::cout << "orientation: faces disagree along " << counted(mesh.misoriented_edges, "edge") << " of "
               << list_of(mesh.misoriented_pieces) << ", and turning does not help: nothing moves there\n";

@@ -244,7 +244,7 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
            << with_commas(done.faces_input - done.faces_fixed);
   if (const std::size_t turned = prepared.turned_faces(); turned > 0)
     stream << "\norientation: " << counted(turned, "face")
-           << " against the rest of the surface; turned while reducing, and back in the output";
+           << " turned to agree with the others of their surface, and turned back in the output";
   if (const Sewing_notes& sewing = result.sewing; sewing.misoriented_edges > 0)
     stream << "\norientation: faces disagree along " << counted(sewing.misoriented_edges, "edge") << " of "
            << counted(sewing.misoriented_pieces, "piece")
