@@ -42,10 +42,6 @@ bool is_in_obj(const Triangle_soup& soup, const Attribute& attribute);
 std::vector<std::array<double, 3>> values_of_vertices(const Corner_values<3>& values,
                                                       const Triangle_soup& soup);
 
-/// Whether a PLY file of this soup has several vertices where one has several normals: if these are flat, so
-/// that the reader joins them again.
-bool is_split_by_normals(const Triangle_soup& soup);
-
 } // namespace selvedge::files
 
 #endif // SELVEDGE_SRC_FILES_FORMATS_H

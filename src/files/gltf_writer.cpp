@@ -168,17 +168,17 @@ private:
       return std::string(reinterpret_cast<const char*>(numbers.data()), sizeof numbers);
     };
     const auto normal_of = [&](std::size_t row) {
-      return bits_of(world_normal(
-          own, {component(column, row, 0), component(column, row, 1), component(column, row, 2)}));
+      return world_normal(own,
+                          {component(column, row, 0), component(column, row, 1), component(column, row, 2)});
     };
     if (v.normal == m_soup.normals.missing || column.component_type != type_float32 ||
-        normal_of(scene_vertex - own.first) == bits_of(normal))
+        have_same_bits(normal_of(scene_vertex - own.first), normal))
       return std::string(row_of(column, scene_vertex - own.first));
     const Column& positions = block(own).attributes.front();
     const auto [rows, is_new] = m_rows_of_normals.try_emplace(number);
     if (is_new)
       for (Index row = 0; row < block(own).size; ++row)
-        rows->second.emplace(normal_of(row).append(row_of(positions, row)), row);
+        rows->second.emplace(bits_of(normal_of(row)).append(row_of(positions, row)), row);
     auto row = rows->second.find(bits_of(normal).append(row_of(positions, scene_vertex - own.first)));
     if (row == rows->second.end())
       row = rows->second.lower_bound(bits_of(normal));

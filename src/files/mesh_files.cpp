@@ -4,6 +4,7 @@
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
 #include <selvedge/mesh_files.h>
+#include <selvedge/normals.h>
 #include <selvedge/rounding.h>
 
 #include "files/Input_descriptor.h"
@@ -156,6 +157,27 @@ Mesh_file connected(Mesh_file file)
   return file;
 }
 
+// `folder` holds the files that a glTF file refers to; null when these cannot be read.
+Mesh_file read_contents(std::string_view contents, Mesh_format format, const std::string& name,
+                        const std::filesystem::path* folder)
+{
+  refuse_what_is_no_mesh(contents, format, name);
+  switch (format) {
+  case Mesh_format::obj:
+    return connected(files::read_obj(contents, name));
+  case Mesh_format::off:
+    return connected(files::read_off(contents, name));
+  case Mesh_format::ply:
+    return with_shared_vertices(connected(files::read_ply(contents, name)));
+  case Mesh_format::glb:
+  case Mesh_format::gltf:
+    return with_shared_vertices(files::read_gltf(contents, format, name, folder));
+  case Mesh_format::stl:
+    break;
+  }
+  return files::read_stl(contents, name);
+}
+
 } // namespace
 
 bool is_gzip(const std::filesystem::path& path)
@@ -221,30 +243,13 @@ Mesh_file read_mesh(const std::filesystem::path& path)
 {
   const Mesh_format format = mesh_format(path);
   const std::string contents = read_file(path);
-  if (const std::filesystem::path folder = path.parent_path(); is_gltf(format)) {
-    refuse_what_is_no_mesh(contents, format, path.string());
-    return with_shared_vertices(files::read_gltf(contents, format, path.string(), &folder));
-  }
-  return read_mesh(contents, format, path.string());
+  const std::filesystem::path folder = path.parent_path();
+  return read_contents(contents, format, path.string(), &folder);
 }
 
 Mesh_file read_mesh(std::string_view contents, Mesh_format format, const std::string& name)
 {
-  refuse_what_is_no_mesh(contents, format, name);
-  switch (format) {
-  case Mesh_format::obj:
-    return connected(files::read_obj(contents, name));
-  case Mesh_format::off:
-    return connected(files::read_off(contents, name));
-  case Mesh_format::ply:
-    return with_shared_vertices(connected(files::read_ply(contents, name)));
-  case Mesh_format::glb:
-  case Mesh_format::gltf:
-    return with_shared_vertices(files::read_gltf(contents, format, name, nullptr));
-  case Mesh_format::stl:
-    break;
-  }
-  return files::read_stl(contents, name);
+  return read_contents(contents, format, name, nullptr);
 }
 
 void write_mesh(const std::filesystem::path& path, const Triangle_soup& soup, const Write_options& options)
@@ -279,8 +284,8 @@ std::vector<std::string> not_carried(const Triangle_soup& soup, Mesh_format form
   };
   say(!is_obj && !is_ply && !soup.uvs.empty(), "texture coordinates");
   if (is_ply)
-    say(!soup.normals.empty() && !files::is_split_by_normals(soup) &&
-            files::values_of_vertices(soup.normals, soup).empty(),
+    say(!soup.normals.empty() && files::values_of_vertices(soup.normals, soup).empty() &&
+            !has_flat_normals(soup), // the writer splits vertices by these
         "normals, for not every vertex has one and only one");
   else
     say(!is_obj && !soup.normals.empty(), "normals");

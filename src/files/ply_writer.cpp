@@ -133,8 +133,7 @@ struct Ply_layout
           (has("s") && has("t")) || (has("u") && has("v")) || (has("texture_u") && has("texture_v"));
       return;
     }
-    has_vertex_uvs = !has("s") && !has("t") && !soup.uvs.missing && soup.uvs.of_triangle == soup.triangles &&
-                     soup.uvs.values.size() == soup.points.size();
+    has_vertex_uvs = !has("s") && !has("t") && are_numbered_like_vertices(soup.uvs, soup);
     has_face_uvs = !has_vertex_uvs;
   }
 
@@ -150,7 +149,7 @@ std::vector<std::array<double, 3>> values_of_vertices(const Corner_values<3>& va
 {
   if (values.empty() || values.missing)
     return {};
-  if (values.of_triangle == soup.triangles && values.values.size() == soup.points.size())
+  if (are_numbered_like_vertices(values, soup))
     return values.values;
   constexpr Index none = std::numeric_limits<Index>::max();
   std::vector<Index> numbers(soup.points.size(), none);
@@ -168,16 +167,11 @@ std::vector<std::array<double, 3>> values_of_vertices(const Corner_values<3>& va
   return result;
 }
 
-bool is_split_by_normals(const Triangle_soup& soup)
-{
-  return values_of_vertices(soup.normals, soup).empty() && has_flat_normals(soup);
-}
-
 void write_ply(Byte_writer& out, const Triangle_soup& soup, const Write_options& options)
 {
-  if (is_split_by_normals(soup))
-    return write_ply(out, split_by_normals(soup), options);
   const Ply_layout layout(soup);
+  if (layout.normals.empty() && has_flat_normals(soup))
+    return write_ply(out, split_by_normals(soup), options);
   const bool as_float32 = are_float32(soup.points, 3), float32_normals = are_float32(layout.normals, 3),
              float32_uvs = are_float32(soup.uvs.values, 2);
   // Many readers know only signed indices, so these are written while they suffice.

@@ -243,21 +243,15 @@ private:
     return value;
   }
 
-  Index vertex(std::size_t word) const
-  {
-    const Index value = number<Index>(word);
-    if (value >= header.vertices)
-      fail("there is no vertex " + std::to_string(value) + "; they are numbered from 0 to " +
-           std::to_string(header.vertices) + " - 1");
-    return value;
-  }
+  Index vertex(std::size_t word) const { return number_below(header.vertices, word, "vertex "); }
+  Index triangle(std::size_t word) const { return number_below(header.triangles, word, "triangle "); }
 
-  Index triangle(std::size_t word) const
+  Index number_below(std::size_t count, std::size_t word, const char* what) const
   {
     const Index value = number<Index>(word);
-    if (value >= header.triangles)
-      fail("there is no triangle " + std::to_string(value) + "; they are numbered from 0 to " +
-           std::to_string(header.triangles) + " - 1");
+    if (value >= count)
+      fail("there is no " + (what + std::to_string(value)) + "; they are numbered from 0 to " +
+           std::to_string(count) + " - 1");
     return value;
   }
 

@@ -44,6 +44,22 @@ std::array<double, 3> inverse(const Matrix& m, const Point_3& point)
   return result;
 }
 
+bool is_translation(Matrix m)
+{
+  for (auto& row : m)
+    row[3] = 0;
+  return m == identity_matrix;
+}
+
+// Returns a vector divided by its length, and turned round when `sign` is -1; zero when it has no length.
+std::array<double, 3> unit(std::array<double, 3> vector, int sign)
+{
+  const double length = std::sqrt(product(vector, vector));
+  for (double& coordinate : vector)
+    coordinate = length > 0 ? coordinate / (sign * length) : 0;
+  return vector;
+}
+
 } // namespace
 
 std::size_t Gltf_scene::instance_of(Index scene_vertex) const
@@ -111,37 +127,26 @@ double fraction(Attribute::Type type, double number)
 
 std::array<double, 3> world_normal(const Gltf_scene::Instance& instance, const std::array<double, 3>& normal)
 {
-  Matrix linear = instance.to_world;
-  for (auto& row : linear)
-    row[3] = 0;
-  if (linear == identity_matrix)
+  const Matrix& m = instance.to_world;
+  if (is_translation(m))
     return normal;
   std::array<double, 3> result;
   for (std::size_t i = 0; i < 3; ++i)
-    result[i] = product(cofactors(linear, i), normal);
-  const double length = std::sqrt(product(result, result));
-  for (double& coordinate : result)
-    coordinate = length > 0 ? coordinate / (instance.is_mirrored ? -length : length) : 0;
-  return result;
+    result[i] = product(cofactors(m, i), normal);
+  return unit(result, instance.is_mirrored ? -1 : 1);
 }
 
 std::array<double, 3> local_normal(const Gltf_scene::Instance& instance, const std::array<double, 3>& normal)
 {
   const Matrix& m = instance.to_world;
-  Matrix linear = m;
-  for (auto& row : linear)
-    row[3] = 0;
-  if (linear == identity_matrix)
+  if (is_translation(m))
     return normal;
   // The inverse of the matrix of cofactors is the transposed matrix, up to a factor of the sign of its
   // determinant, which `world_normal` takes out again.
   std::array<double, 3> result;
   for (std::size_t i = 0; i < 3; ++i)
     result[i] = m[0][i] * normal[0] + m[1][i] * normal[1] + m[2][i] * normal[2];
-  const double length = std::sqrt(product(result, result));
-  for (double& coordinate : result)
-    coordinate = length > 0 ? coordinate / length : 0;
-  return result;
+  return unit(result, 1);
 }
 
 Point_3 world_position(const Matrix& to_world, const std::array<double, 3>& local)

@@ -3,10 +3,11 @@
 
 #include "Sewing.h"
 
+#include "Disjoint_sets.h"
+
 #include <selvedge/Cancellation_scope.h>
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 #include <unordered_set>
 #include <utility>
@@ -137,7 +138,6 @@ void Sewing::number_vertices()
   }
 }
 
-// Each surface is a tree of triangles; a triangle knows whether it runs against the root.
 std::vector<char> turned_triangles(const std::vector<Index_triple>& triangles, Index own_sides,
                                    Index position_count)
 {
@@ -155,30 +155,16 @@ std::vector<char> turned_triangles(const std::vector<Index_triple>& triangles, I
   }
   std::sort(disagreeing.begin(), disagreeing.end());
 
+  // Number `t` stands for triangle t as it runs, and `count + t` for it turned: each surface is two sets, one
+  // the other turned, and its first triangle names the set in which it runs as it does.
   const Index count = own_sides / 3;
-  std::vector<Index> parent(count);
-  std::vector<char> is_against(count, false); // the parent
-  std::iota(parent.begin(), parent.end(), Index(0));
-  const auto find = [&](Index triangle) { // returns the root, and makes it the parent
-    Index root = triangle;
-    bool against = false; // the root, from here
-    for (; parent[root] != root; root = parent[root])
-      against = against != bool(is_against[root]);
-    while (parent[triangle] != root && triangle != root) {
-      const Index next = parent[triangle];
-      const bool beyond = against != bool(is_against[triangle]);
-      parent[triangle] = root;
-      is_against[triangle] = std::exchange(against, beyond);
-      triangle = next;
-    }
-    return root;
-  };
+  internal::Disjoint_sets ways(2 * std::size_t(count));
+  const auto first_of = [&](Index t) { return std::min(ways.find(t), ways.find(count + t)); };
   const auto unite = [&](Index a, Index b, bool do_disagree) {
-    const Index root = find(a), other = find(b);
-    if (root == other)
+    if (first_of(a) == first_of(b))
       return;
-    parent[std::max(root, other)] = std::min(root, other);
-    is_against[std::max(root, other)] = (is_against[a] != is_against[b]) != do_disagree;
+    ways.unite(a, do_disagree ? count + b : b);
+    ways.unite(count + a, do_disagree ? b : count + b);
   };
   const std::vector<Index> mates = matching.take_mates();
   for (Index side = 0; side < own_sides; ++side)
@@ -187,15 +173,15 @@ std::vector<char> turned_triangles(const std::vector<Index_triple>& triangles, I
   for (const auto& [a, b] : disagreeing)
     unite(a / 3, b / 3, true);
 
-  std::vector<Index> size(count, 0), against(count, 0); // by root, which is the first triangle
+  const auto is_against = [&](Index t) { return ways.find(t) != first_of(t); }; // the first triangle
+  std::vector<Index> size(count, 0), against(count, 0);                         // by first triangle
   for (Index t = 0; t < count; ++t) {
-    const Index root = find(t);
-    ++size[root];
-    against[root] += is_against[t] != 0; // a root is not against itself
+    ++size[first_of(t)];
+    against[first_of(t)] += is_against(t);
   }
   std::vector<char> is_turned(count);
   for (Index t = 0; t < count; ++t)
-    is_turned[t] = bool(is_against[t]) != (2 * against[parent[t]] > size[parent[t]]);
+    is_turned[t] = is_against(t) != (2 * against[first_of(t)] > size[first_of(t)]);
   if (std::find(is_turned.begin(), is_turned.end(), char(true)) == is_turned.end())
     is_turned.clear();
   return is_turned;

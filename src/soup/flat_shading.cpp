@@ -9,7 +9,6 @@
 #include <selvedge/normals.h>
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <tuple>
@@ -22,12 +21,6 @@ namespace selvedge {
 namespace {
 
 constexpr Index s_no_number = std::numeric_limits<Index>::max();
-
-template <class Row>
-bool have_same_bits(const Row& a, const Row& b)
-{
-  return std::memcmp(&a, &b, sizeof(Row)) == 0;
-}
 
 // Returns the number of each vertex at all of its corners, `s_no_number` for unused ones; nothing when there
 // are no such numbers, or a vertex has several.
@@ -45,13 +38,6 @@ std::vector<Index> numbers_of_vertices(const Triangle_soup& soup,
       number = of_triangle[t][k];
     }
   return numbers;
-}
-
-// Whether texture coordinates are those of vertices, as they may be in PLY, and not of corners.
-bool have_vertices_uvs(const Triangle_soup& soup)
-{
-  return !soup.uvs.missing && soup.uvs.of_triangle == soup.triangles &&
-         soup.uvs.values.size() == soup.points.size();
 }
 
 // Everything that a vertex has but its normal, as bytes.
@@ -110,7 +96,7 @@ std::size_t share_flat_vertices(Triangle_soup& soup)
   constexpr std::size_t few = 100;
   const bool have_faces_own = soup.triangles.size() >= few && used >= 2 * soup.triangles.size();
   std::vector<Index> uvs;
-  if (soup.scene || have_vertices_uvs(soup))
+  if (soup.scene || are_numbered_like_vertices(soup.uvs, soup))
     uvs = numbers_of_vertices(soup, soup.uvs.of_triangle);
   std::unordered_map<std::string, Index> first_of;
   std::vector<Index> first(soup.points.size(), s_no_number);
@@ -198,7 +184,7 @@ Vertices_by_normal vertices_by_normal(const Triangle_soup& soup)
 Triangle_soup split_by_normals(const Triangle_soup& soup)
 {
   const Vertices_by_normal split = vertices_by_normal(soup);
-  const bool are_uvs_split = have_vertices_uvs(soup);
+  const bool are_uvs_split = are_numbered_like_vertices(soup.uvs, soup);
   Triangle_soup result = soup;
   result.points.clear();
   result.normals = {{}, split.triangles};

@@ -7,12 +7,28 @@
 #include <selvedge/Triangle_soup.h>
 
 #include <cstddef>
+#include <cstring>
 #include <vector>
 
 // PLY and glTF hold one normal for each vertex. So a file that shades flat has a vertex for every normal at a
 // corner of the mesh, and different vertices on the two sides of every edge.
 
 namespace selvedge {
+
+/// Whether two arrays of numbers are alike bit for bit; 0 and -0 are not.
+template <class Row>
+bool have_same_bits(const Row& a, const Row& b)
+{
+  return std::memcmp(&a, &b, sizeof(Row)) == 0;
+}
+
+/// Whether values have the numbers of the vertices, each vertex one.
+template <std::size_t dimension>
+bool are_numbered_like_vertices(const Corner_values<dimension>& values, const Triangle_soup& soup)
+{
+  return !values.missing && values.of_triangle == soup.triangles &&
+         values.values.size() == soup.points.size();
+}
 
 /// Makes triangles share the vertices that differ in nothing but their normals, if these are flat
 /// (`has_flat_normals`). Triangles then name the first of such vertices, and the others are unused; vertices

@@ -333,7 +333,7 @@ group(
     "src/soup/Sewing.cpp",
     ("orientation_test",),
     ("unite(side / 3, mates[side] / 3, false);", ";", "edges that agree may come to disagree"),
-    ("(2 * against[parent[t]] > size[parent[t]])", "false", "the first triangle of a surface is never turned"),
+    ("(2 * against[first_of(t)] > size[first_of(t)])", "false", "the first triangle of a surface is never turned"),
 )
 group(
     "src/soup/Working_mesh.cpp",
