@@ -17,12 +17,13 @@ struct Sewing_notes
   /// Sewn edges across which a vertex number, texture coordinate, normal, group, object or material changes.
   std::size_t seam_edges = 0;
 
-  std::size_t non_manifold_edges = 0; ///< edges of more than two triangles; not sewn, their ends do not move
+  std::size_t non_manifold_edges = 0; ///< edges of more than two triangles; not sewn
   std::size_t misoriented_edges = 0;  ///< edges along which both triangles run the same way; likewise
 
-  std::size_t misoriented_pieces = 0;  ///< pieces that have such an edge
+  std::size_t misoriented_pieces = 0; ///< pieces that have such an edge
 
-  /// Positions at which several vertices stay apart, to keep edges manifold. They do not move.
+  /// Positions at which several vertices stay apart, to keep edges manifold. They move together, or not at
+  /// all.
   std::size_t unsewn_positions = 0;
 };
 

@@ -47,8 +47,8 @@ enum class Face_index {
 struct Simplify_options
 {
   /// Faces to keep, as a share of those of the input that can be reduced, in [0, 1]. A face whose corners are
-  /// all locked from the start (in frozen or locked faces, or at coincident vertices) stays and does not
-  /// count, so that the rest does not have to make up for it.
+  /// all locked from the start (in frozen or locked faces, or at coincident vertices that cannot move
+  /// together) stays and does not count, so that the rest does not have to make up for it.
   std::optional<double> ratio;
 
   /// Faces to keep, of all.

@@ -21,6 +21,7 @@ enum class Violation_kind {
   no_edge, ///< nothing to collapse: one end is gone, both are at one position, or no edge joins them (or,
            ///< in a snap, one does)
   locked,  ///< what moves belongs to a frozen face (see prepare.h), or holds several sheets together
+           ///< and is no inner point of a line where they meet
   weld_distance, ///< a snap is longer than the limit, or there is no such limit
   partner,       ///< a snap is not from a border vertex to a partner on a border
   link,          ///< the link condition fails: the step would connect what is separate, or close a border

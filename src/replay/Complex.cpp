@@ -83,7 +83,7 @@ std::array<Index, 2> Complex::opposite_side(Index face, Index position) const
 std::vector<Complex::Edge> Complex::edges_at(Index position) const
 {
   std::vector<Edge> edges;
-  const auto edge_to = [&](Index neighbour) -> Edge& {
+  const auto entry_of = [&](Index neighbour) -> Edge& {
     for (Edge& edge : edges)
       if (edge.neighbour == neighbour)
         return edge;
@@ -92,34 +92,63 @@ std::vector<Complex::Edge> Complex::edges_at(Index position) const
   };
   for (const Index f : m_faces_at[position]) {
     const std::size_t k = slot(f, position), before = next(next(k));
-    Edge& out = edge_to(m_faces[f].positions[next(k)]);
+    Edge& out = entry_of(m_faces[f].positions[next(k)]);
     ++out.outgoing;
     out.is_seam = out.is_seam || m_faces[f].is_seam[k];
-    Edge& in = edge_to(m_faces[f].positions[before]);
+    Edge& in = entry_of(m_faces[f].positions[before]);
     ++in.incoming;
     in.is_seam = in.is_seam || m_faces[f].is_seam[before];
   }
   return edges;
 }
 
-bool Complex::is_one_fan(Index position) const
+const Complex::Edge& Complex::edge_to(const std::vector<Edge>& edges, Index neighbour)
 {
-  const std::vector<Index>& faces = m_faces_at[position];
+  return *std::find_if(edges.begin(), edges.end(),
+                       [&](const Edge& edge) { return edge.neighbour == neighbour; });
+}
+
+// The faces at a position, in sets that are connected across edges that are no borders.
+std::vector<std::vector<Index>> Complex::fans_at(Index position) const
+{
   const std::vector<Edge> edges = edges_at(position);
-  if (faces.empty())
+  std::vector<std::vector<Index>> fans;
+  for (std::vector<Index> waiting = m_faces_at[position]; !waiting.empty();) {
+    std::vector<Index> reached{waiting.front()};
+    waiting.erase(waiting.begin());
+    for (std::size_t i = 0; i < reached.size(); ++i)
+      for (const Index neighbour : opposite_side(reached[i], position)) {
+        if (edge_to(edges, neighbour).is_border())
+          continue;
+        const auto beyond = std::stable_partition(waiting.begin(), waiting.end(),
+                                                  [&](Index f) { return !has(f, neighbour); });
+        reached.insert(reached.end(), beyond, waiting.end());
+        waiting.erase(beyond, waiting.end());
+      }
+    fans.push_back(std::move(reached));
+  }
+  return fans;
+}
+
+bool Complex::is_inside_line(Index position, Index end) const
+{
+  const std::vector<Edge> edges = edges_at(position);
+  if (std::count_if(edges.begin(), edges.end(), [](const Edge& edge) { return edge.is_border(); }) != 2 ||
+      !edge_to(edges, end).is_border())
     return false;
-  std::vector<Index> waiting(faces.begin() + 1, faces.end()), reached{faces.front()};
-  for (std::size_t i = 0; i < reached.size(); ++i)
-    for (const Index neighbour : opposite_side(reached[i], position)) {
-      const auto is_this = [&](const Edge& edge) { return edge.neighbour == neighbour; };
-      if (std::find_if(edges.begin(), edges.end(), is_this)->is_border())
-        continue;
-      const auto beyond =
-          std::stable_partition(waiting.begin(), waiting.end(), [&](Index f) { return !has(f, neighbour); });
-      reached.insert(reached.end(), beyond, waiting.end());
-      waiting.erase(beyond, waiting.end());
-    }
-  return waiting.empty();
+  // Each fan is a path of faces: it has one face at each of the two border edges, and thus two ends there.
+  const auto faces_at_end = [&](const std::vector<Index>& fan, bool is_this_end) {
+    return std::count_if(fan.begin(), fan.end(), [&](Index f) {
+      const auto sides = opposite_side(f, position);
+      return std::any_of(sides.begin(), sides.end(), [&](Index neighbour) {
+        return edge_to(edges, neighbour).is_border() && (neighbour == end) == is_this_end;
+      });
+    });
+  };
+  const std::vector<std::vector<Index>> fans = fans_at(position);
+  return std::all_of(fans.begin(), fans.end(), [&](const std::vector<Index>& fan) {
+    return faces_at_end(fan, true) == 1 && faces_at_end(fan, false) == 1;
+  });
 }
 
 bool Complex::is_seam_between(Index a, Index b) const
@@ -209,7 +238,7 @@ std::vector<Index> Complex::collapse(Index removed, Index kept, const std::array
 }
 
 // Gives the moving faces the corner that a contracted face has at `kept`, in place of theirs at `removed`. It
-// is handed on from face to face across edges at `removed` that are no seams. Where both contracted faces
+// is handed on from face to face across edges at `removed` that are no lines. Where both contracted faces
 // would serve, the one that runs from `removed` to `kept` does.
 void Complex::carry_corners(const std::vector<Index>& contracted, std::vector<Index> moving, Index removed,
                             Index kept)
@@ -217,6 +246,7 @@ void Complex::carry_corners(const std::vector<Index>& contracted, std::vector<In
   std::vector<Index> sources = contracted;
   std::stable_partition(sources.begin(), sources.end(),
                         [&](Index f) { return m_faces[f].positions[next(slot(f, removed))] == kept; });
+  const std::vector<Edge> edges = edges_at(removed);
   std::vector<std::pair<Index, Index>> carried; // faces, and the corner that theirs at `removed` becomes
   for (const Index source : sources) {
     const Index corner = m_faces[source].corners[slot(source, kept)];
@@ -228,8 +258,9 @@ void Complex::carry_corners(const std::vector<Index>& contracted, std::vector<In
       const auto is_next = [&](Index g) {
         // Neighbours run along their common edge in opposite directions.
         const auto others = opposite_side(g, removed);
-        return (others[1] == sides[0] && !m_faces[f].is_seam[at]) ||
-               (others[0] == sides[1] && !m_faces[f].is_seam[next(next(at))]);
+        return (others[1] == sides[0] && !m_faces[f].is_seam[at] && !edge_to(edges, sides[0]).is_border()) ||
+               (others[0] == sides[1] && !m_faces[f].is_seam[next(next(at))] &&
+                !edge_to(edges, sides[1]).is_border());
       };
       const auto beyond =
           std::stable_partition(moving.begin(), moving.end(), [&](Index g) { return !is_next(g); });

@@ -65,8 +65,12 @@ public:
 
   std::vector<Edge> edges_at(Index position) const;
 
-  /// Whether the faces at a position are connected across edges that are no borders.
-  bool is_one_fan(Index position) const;
+  /// Whether the faces at a position form one fan, connected across edges that are no borders.
+  bool is_one_fan(Index position) const { return fans_at(position).size() == 1; }
+
+  /// Whether a position lies inside a line along which several sheets meet, and `end` is next to it there:
+  /// each of its fans leads from `end` to one and the same other position.
+  bool is_inside_line(Index position, Index end) const;
 
   /// Lets a face run the other way from now on, and back again in `result`. To be called before `find_seams`.
   void turn(Index face);
@@ -95,6 +99,8 @@ public:
   Triangle_soup result() const;
 
 private:
+  static const Edge& edge_to(const std::vector<Edge>& edges, Index neighbour);
+  std::vector<std::vector<Index>> fans_at(Index position) const;
   bool is_seam_between(Index corner_a, Index corner_b) const;
   Index vertex_of(Index corner) const { return m_soup.triangles[corner / 3][corner % 3]; }
   std::size_t slot(Index face, Index position) const;

@@ -215,7 +215,7 @@ private:
     m_heritage = m_start.lineage.united(m_changing);
     m_rivals = m_start.lineage.rivals(m_heritage);
     if (!place) {
-      judge_lock(removed);
+      judge_lock(removed, kept);
       judge_link(removed, kept);
       judge({removed, m_complex.place(kept)});
       judge_limits(removed, kept, m_complex.point(kept), true);
@@ -317,7 +317,8 @@ private:
     return true;
   }
 
-  void judge_lock(Index position)
+  // `goal` is where the position goes along a line, if it may hold several sheets together that all go there.
+  void judge_lock(Index position, std::optional<Index> goal = {})
   {
     if (m_start.is_locked[position])
       report(Violation_kind::locked,
@@ -325,7 +326,8 @@ private:
                  ? "one of the two vertices belongs to an offending triangle of the original"
                  : "the vertex that moves belongs to an offending triangle of the original",
              m_complex.faces_at(position));
-    else if (m_step->kind == Log_step::Kind::collapse && !m_complex.is_one_fan(position))
+    else if (m_step->kind == Log_step::Kind::collapse && !m_complex.is_one_fan(position) &&
+             !(goal && m_complex.is_inside_line(position, *goal)))
       report(Violation_kind::locked, "the vertex that moves holds several sheets together",
              m_complex.faces_at(position));
   }

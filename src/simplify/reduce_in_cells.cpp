@@ -283,6 +283,12 @@ Cell_collapses reduce_in_cells(const Cell_context& whole)
   std::vector<char> stays(prepared.soup.triangles.size() + prepared.obstacle.triangles.size(), false);
   for (const Offending_pair& pair : prepared.offending_pairs)
     stays[pair.first] = stays[pair.second] = true;
+  // So are vertices that move together, since a cell does not see whether all at a position are in it.
+  for (const auto& group : whole.working.constraints().joint_vertices)
+    for (const auto v : group)
+      for (const auto f : whole.working.mesh().faces_around_target(whole.working.mesh().halfedge(v)))
+        if (f != Working_mesh::Mesh::null_face())
+          stays[f] = true;
   // Partners leave their borders together, and may lie in two cells.
   if (!prepared.snapping.tied.empty()) {
     std::vector<char> is_tied(prepared.soup.points.size(), false); // by position

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -132,8 +133,12 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
   std::vector<char> is_locked(corner_of.size(), false);
   for (Index v = 0; v < is_locked.size(); ++v)
     is_locked[v] = vertices_at[position_of(v)] > 1;
+  std::vector<char> is_in_frozen_face(corner_of.size(), false);
   for (Corner corner = 0; corner < corner_count; ++corner)
-    is_locked[sewing.vertex(corner)] |= is_frozen[corner / 3];
+    is_in_frozen_face[sewing.vertex(corner)] |= is_frozen[corner / 3];
+  find_joint_vertices(is_locked, is_in_frozen_face, vertices_at, position_of);
+  for (Index v = 0; v < is_locked.size(); ++v)
+    is_locked[v] |= is_in_frozen_face[v];
   lock(is_locked);
   m_is_frozen.assign(is_frozen.begin(), is_frozen.begin() + std::ptrdiff_t(soup.triangles.size()));
   m_is_misoriented.assign(soup.points.size(), false);
@@ -229,6 +234,42 @@ void Working_mesh::lock(const std::vector<char>& is_locked)
   for (Index v = 0; v < is_locked.size(); ++v)
     if (is_locked[v])
       m_constraints.locked_vertices.push_back(Mesh::Vertex_index(v));
+}
+
+// Finds the positions where several sheets meet along a line that comes from one position and goes on to
+// another, and unlocks their vertices: one on the border of each sheet, which all move together. A vertex of
+// an obstacle is in a frozen face.
+template <class Function>
+void Working_mesh::find_joint_vertices(std::vector<char>& is_locked,
+                                       const std::vector<char>& is_in_frozen_face,
+                                       const std::vector<Index>& vertices_at, const Function& position_of)
+{
+  struct Place_on_line
+  {
+    Index first_end, second_end; // the positions between which it lies
+    std::vector<Mesh::Vertex_index> vertices;
+    bool is_inside = true;
+  };
+  std::map<Index, Place_on_line> places; // by position
+  for (Index v = 0; v < is_locked.size(); ++v) {
+    if (vertices_at[position_of(v)] < 2)
+      continue;
+    const Mesh::Halfedge_index border = m_mesh.halfedge(Mesh::Vertex_index(v)); // or an inner one, if none
+    const auto ends =
+        std::minmax({position_of(m_mesh.source(border)), position_of(m_mesh.target(m_mesh.next(border)))});
+    const auto [place, is_new] =
+        places.try_emplace(position_of(v), Place_on_line{ends.first, ends.second, {}});
+    place->second.vertices.push_back(Mesh::Vertex_index(v));
+    place->second.is_inside = place->second.is_inside && m_mesh.is_border(border) && !is_in_frozen_face[v] &&
+                              ends.first != ends.second && ends.first == place->second.first_end &&
+                              ends.second == place->second.second_end;
+  }
+  for (auto& [position, place] : places)
+    if (place.is_inside) {
+      for (const Mesh::Vertex_index v : place.vertices)
+        is_locked[v] = false;
+      m_constraints.joint_vertices.push_back(std::move(place.vertices));
+    }
 }
 
 // Makes vertices, edges in the order of the sides, and faces. Returns the halfedge of each side.
@@ -379,14 +420,26 @@ Working_mesh::Mesh::Halfedge_index Working_mesh::halfedge(const Side& side) cons
 
 void Working_mesh::before_collapse(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule)
 {
-  const auto [to_mover, to_goal] =
-      halfedges_to_ends(moving, m_mesh.is_border(moving) ? m_mesh.opposite(moving) : moving);
-  const Index removed = vertex_of(corner_at(to_mover)), kept = vertex_of(corner_at(to_goal));
   if (m_recorder)
     m_recorder({side(moving), std::nullopt});
+  const auto [removed, kept] = ends_in_soup(moving);
   if (m_listener)
     m_listener({removed, kept, std::nullopt});
   m_placed.erase(removed); // no corner has its number any more
+  carry(moving, rule);
+}
+
+// Returns the vertices of the soup at both ends of a motion, in one face beside it.
+std::pair<Index, Index> Working_mesh::ends_in_soup(Mesh::Halfedge_index moving) const
+{
+  const auto [to_mover, to_goal] =
+      halfedges_to_ends(moving, m_mesh.is_border(moving) ? m_mesh.opposite(moving) : moving);
+  return {vertex_of(corner_at(to_mover)), vertex_of(corner_at(to_goal))};
+}
+
+// Gives the corners that move the corners of the goal.
+void Working_mesh::carry(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule)
+{
   for_each_moved_wedge(moving, [&](Index from, Index to) {
     Wedge& merged = m_wedges[to];
     merged.quadric += m_wedges[from].quadric;
@@ -575,6 +628,29 @@ bool Working_mesh::keeps_pieces(Mesh::Halfedge_index moving, const Border_rule<M
     // must not be on another run.
     return is_open || !is_on_boundary(is_open_ahead ? m_mesh.source(h) : m_mesh.target(moving));
   }
+  return true;
+}
+
+// Sheets that have one vertex in common where they move must also have one ahead and one behind on their
+// line, and only those: where they come apart, the line of a piece ends.
+bool Working_mesh::keeps_joints(Mesh::Halfedge_index moving,
+                                const std::vector<Mesh::Halfedge_index>& others) const
+{
+  using Place = std::array<Index, 3>; // vertices of the soup on a line: at the mover, ahead and behind
+  std::vector<Place> places;
+  const auto add = [&](Mesh::Halfedge_index h) {
+    const auto [mover, ahead] = ends_in_soup(h);
+    const bool is_border = m_mesh.is_border(h);
+    const Mesh::Halfedge_index to_next =
+        m_mesh.opposite(is_border ? m_mesh.prev(h) : m_mesh.next(m_mesh.opposite(h)));
+    places.push_back({mover, ahead, vertex_of(corner_at(is_border ? to_next : m_mesh.prev(to_next)))});
+  };
+  add(moving);
+  std::for_each(others.begin(), others.end(), add);
+  for (const Place& a : places)
+    for (const Place& b : places)
+      if ((a[0] == b[0]) != (a[1] == b[1]) || (a[0] == b[0]) != (a[2] == b[2]))
+        return false;
   return true;
 }
 

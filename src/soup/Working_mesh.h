@@ -34,7 +34,8 @@ class Sewing;
 /// a soup of it again.
 ///
 /// Vertices at one position become one vertex when that keeps every edge manifold and oriented. Where it does
-/// not, they stay separate, as coincident vertices, which never move. Edges across which a vertex number, a
+/// not, they stay separate, as coincident vertices. These move together along a line where several sheets
+/// meet, one on each sheet, and nowhere else. Edges across which a vertex number, a
 /// texture coordinate, a normal, a group, an object or a material changes are lines: vertices on a line move
 /// only along it, and both sides move together, so that no gap can open.
 ///
@@ -167,10 +168,15 @@ public:
 
   // Called by the reduction, whose observer this is.
   void before_collapse(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule);
+  void before_joint_collapse(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule)
+  {
+    carry(moving, rule);
+  }
   void before_placement(Mesh::Halfedge_index moving, const Point_3& place, bool is_mover_first);
   internal::Optional<Point_3> rounded_place(Mesh::Halfedge_index edge, const Point_3& place) const;
   void on_refused(Mesh::Halfedge_index moving, const Refusals& refusals);
   bool keeps_pieces(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule) const;
+  bool keeps_joints(Mesh::Halfedge_index moving, const std::vector<Mesh::Halfedge_index>& others) const;
   bool keeps_uv_orientation(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule) const;
   bool keeps_uv_orientation_at(Mesh::Halfedge_index moving, const Point_3& place) const;
   Hindrance lock_reason(Mesh::Vertex_index v) const;
@@ -219,8 +225,13 @@ private:
   std::vector<Mesh::Halfedge_index> make_mesh(const Sewing& sewing, const Function& point_of);
   void lock(const std::vector<char>& is_locked);
   template <class Function>
+  void find_joint_vertices(std::vector<char>& is_locked, const std::vector<char>& is_in_frozen_face,
+                           const std::vector<Index>& vertices_at, const Function& position_of);
+  template <class Function>
   void for_each_changed_face(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule,
                              const Function& function) const;
+  std::pair<Index, Index> ends_in_soup(Mesh::Halfedge_index moving) const;
+  void carry(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule);
   void carry_places(Mesh::Halfedge_index moving);
   struct Mixture
   {

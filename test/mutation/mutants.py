@@ -530,3 +530,35 @@ group(
     ("attribute.rows.size(), rows * bytes,", "attribute.rows.size(), attribute.rows.size(),",
      "attributes of another length"),
 )
+
+# Sheets that meet along a line
+group(
+    headers + "Surface_mesh_simplification/internal/Joint_motions.h",
+    ("non_manifold_test",),
+    ("result.push_back(*along);", "", "the other sheets stay behind"),
+    sources=("src/simplify/simplify_soup.cpp",),
+)
+group(
+    "src/soup/Working_mesh.cpp",
+    ("non_manifold_test",),
+    ("if ((a[0] == b[0]) != (a[1] == b[1]) || (a[0] == b[0]) != (a[2] == b[2]))", "if (false)",
+     "a sheet may be joined by other vertices afterwards"),
+)
+group(
+    "src/replay/Complex.cpp",
+    ("non_manifold_test",),
+    ("!m_faces[f].is_seam[at] && !edge_to(edges, sides[0]).is_border())", "!m_faces[f].is_seam[at])",
+     "corners are handed on from sheet to sheet"),
+)
+group(
+    headers + "Surface_mesh_simplification/internal/Intersection_guard.h",
+    ("non_manifold_test",),
+    ("motion.is_joint() && m_vertices", "false && m_vertices", "coincident vertices never move"),
+    sources=("src/simplify/simplify_soup.cpp",),
+)
+group(
+    headers + "Surface_mesh_simplification/internal/Moving_star.h",
+    ("non_manifold_test",),
+    ("(!motion.others || std::all_of(", "(true || std::all_of(", "the faces of other sheets are not judged"),
+    sources=("src/simplify/simplify_soup.cpp",),
+)

@@ -253,29 +253,57 @@ void Judged_complex::find_seams(const Triangle_soup& own)
     }
 }
 
-bool Judged_complex::is_one_fan(Index position) const
+std::vector<std::vector<Index>> Judged_complex::fans_at(Index position) const
 {
   const std::vector<Edge> edges = edges_at(position);
-  std::vector<Index> reached, waiting = m_faces_at[position];
-  reached.push_back(waiting.back());
-  waiting.pop_back();
-  for (std::size_t i = 0; i < reached.size(); ++i)
-    for (const Index neighbour : others(reached[i], position)) {
-      const auto edge =
-          std::find_if(edges.begin(), edges.end(), [&](const Edge& e) { return e.neighbour == neighbour; });
-      if (edge->is_border())
-        continue;
-      const auto beyond =
-          std::partition(waiting.begin(), waiting.end(), [&](Index f) { return !has(f, neighbour); });
-      reached.insert(reached.end(), beyond, waiting.end());
-      waiting.erase(beyond, waiting.end());
-    }
-  return waiting.empty();
+  std::vector<std::vector<Index>> fans;
+  std::vector<Index> waiting = m_faces_at[position];
+  while (!waiting.empty()) {
+    std::vector<Index>& reached = fans.emplace_back();
+    reached.push_back(waiting.back());
+    waiting.pop_back();
+    for (std::size_t i = 0; i < reached.size(); ++i)
+      for (const Index neighbour : others(reached[i], position)) {
+        const auto edge =
+            std::find_if(edges.begin(), edges.end(), [&](const Edge& e) { return e.neighbour == neighbour; });
+        if (edge->is_border())
+          continue;
+        const auto beyond =
+            std::partition(waiting.begin(), waiting.end(), [&](Index f) { return !has(f, neighbour); });
+        reached.insert(reached.end(), beyond, waiting.end());
+        waiting.erase(beyond, waiting.end());
+      }
+  }
+  return fans;
+}
+
+// Whether the position lies on one line, whose next position is `end`, as an inner point of it: the sides
+// opposite to it make paths that all lead from `end` to one and the same other position.
+bool Judged_complex::is_inside_line(Index position, Index end) const
+{
+  std::vector<Index> ends;
+  for (const Edge& edge : edges_at(position))
+    if (edge.is_border())
+      ends.push_back(edge.neighbour);
+  if (ends.size() != 2 || (ends[0] != end && ends[1] != end))
+    return false;
+  for (const std::vector<Index>& fan : fans_at(position)) {
+    std::map<Index, int> sides_at; // the number of sides at each position of the path
+    for (const Index f : fan)
+      for (const Index neighbour : others(f, position))
+        ++sides_at[neighbour];
+    for (const auto& [neighbour, count] : sides_at)
+      if (count != (neighbour == ends[0] || neighbour == ends[1] ? 1 : 2))
+        return false;
+    if (sides_at.count(ends[0]) == 0 || sides_at.count(ends[1]) == 0)
+      return false;
+  }
+  return true;
 }
 
 std::optional<Broken_promise> Judged_complex::judge_link(Index removed, Index kept) const
 {
-  if (!is_one_fan(removed))
+  if (!is_one_fan(removed) && !is_inside_line(removed, kept))
     return Broken_promise{Promise::topology, "what moves holds several sheets together"};
   const std::vector<Edge> at_removed = edges_at(removed), at_kept = edges_at(kept);
   bool is_joined_at_border = false, is_removed_on_border = false, is_kept_on_border = false;

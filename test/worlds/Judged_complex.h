@@ -87,7 +87,9 @@ private:
   Box box_of(const Index_triple& positions) const;
   std::vector<Edge> edges_at(Index position) const;
   bool is_seam(Index p, Index q) const { return m_seams.count(std::minmax(p, q)) > 0; }
-  bool is_one_fan(Index position) const;
+  std::vector<std::vector<Index>> fans_at(Index position) const;
+  bool is_one_fan(Index position) const { return fans_at(position).size() == 1; }
+  bool is_inside_line(Index position, Index end) const;
   std::optional<Broken_promise> judge_link(Index removed, Index kept) const;
   std::optional<Broken_promise> judge_line(Index removed, Index kept) const;
   std::optional<Broken_promise> judge_motion(Index moved, const Place& target) const;

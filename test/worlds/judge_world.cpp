@@ -576,6 +576,14 @@ Verdict judge_stop(const World& world, const World_run& run)
     return broken("the report counts other faces that are fixed");
   if (report.faces_fixed != fixed_in_all)
     return std::nullopt;
+  std::map<std::pair<Index, Index>, std::size_t> faces_at; // by the positions of an edge
+  std::size_t most_at_edge = 2;
+  for (const Index_triple& t : soup.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto& positions = run.prepared.positions;
+      const auto edge = std::minmax(positions[t[k]], positions[t[(k + 1) % 3]]);
+      most_at_edge = std::max(most_at_edge, ++faces_at[edge]);
+    }
   std::size_t target = 0, to_go = 0;
   for (std::size_t share = 0; share < ratios.size(); ++share) {
     const std::size_t before = std::size_t(std::count(share_of.begin(), share_of.end(), share));
@@ -588,8 +596,8 @@ Verdict judge_stop(const World& world, const World_run& run)
                                   [&](Index t) { return share_of[t] == share; }));
     target += aim;
     to_go += now - std::min(now, aim);
-    // The last collapse may take two faces where one was to go.
-    if (now + 1 < std::min(aim, before))
+    // The last collapse may take all faces of an edge where one was to go.
+    if (now + most_at_edge < 1 + std::min(aim, before))
       return broken("a share has " + std::to_string(now) + " faces left, and was to keep " +
                     std::to_string(aim));
   }

@@ -38,7 +38,8 @@ namespace selvedge {
 /// - G2 *Motion*: nothing passes through anything during a collapse. When the merged vertex is placed at one
 ///   end of the edge, the other end moves there on a straight line. When it is placed elsewhere, the two ends
 ///   move there one after the other, in an order in which both motions are free.
-/// - A vertex that shares its position with another vertex does not move. Others may move to its position.
+/// - Coincident vertices do not move, unless all at a position move together (`Simplify_constraints` names
+///   such vertices to `simplify_mesh`). Others may move to their position.
 ///
 /// **Preconditions** The caller must ensure that the mesh outlives the filter; that between the construction
 /// of the filter and the end of the loop, only the loop changes the mesh. Checked in every build, with an

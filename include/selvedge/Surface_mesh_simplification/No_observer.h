@@ -8,6 +8,8 @@
 #include <selvedge/Surface_mesh_simplification/Refusals.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
 
+#include <vector>
+
 namespace selvedge {
 
 /// Observes nothing: the default observer of `simplify_mesh`, and the base class of all others. An observer
@@ -22,6 +24,13 @@ struct No_observer
   /// Called before each collapse onto an end of its edge.
   template <class Halfedge, class Rule>
   void before_collapse(const Halfedge& /*moving*/, const Rule&)
+  {
+  }
+
+  /// Called before each further collapse of vertices that move together
+  /// (`Simplify_constraints::joint_vertices`); for the first of them, `before_collapse` is called.
+  template <class Halfedge, class Rule>
+  void before_joint_collapse(const Halfedge& /*moving*/, const Rule&)
   {
   }
 
@@ -49,6 +58,14 @@ struct No_observer
   /// that the border rule allows.
   template <class Halfedge, class Rule>
   bool keeps_pieces(const Halfedge& /*moving*/, const Rule&) const
+  {
+    return true;
+  }
+
+  /// Returns whether pieces are joined after vertices have moved together as they were before: the sources of
+  /// `moving` and of all of `others` move, each to its target.
+  template <class Halfedge>
+  bool keeps_joints(const Halfedge& /*moving*/, const std::vector<Halfedge>& /*others*/) const
   {
     return true;
   }

@@ -30,6 +30,13 @@ struct Simplify_constraints
                         typename boost::graph_traits<TriangleMesh>::vertex_descriptor>>
       partners;
 
+  /// Groups of coincident vertices, one for each sheet at a line where several sheets meet, such as the
+  /// copies of a vertex at non-manifold edges. Each is on the border of its sheet. The vertices of a group
+  /// move along these borders together, in one motion that is judged as a whole, or not at all. A vertex is
+  /// in at most one group, and a group has all vertices at its position. Coincident vertices in no group do
+  /// not move.
+  std::vector<std::vector<typename boost::graph_traits<TriangleMesh>::vertex_descriptor>> joint_vertices;
+
   /// Factors of at least 0 for the cost of moving each vertex: one for every vertex, in the order of
   /// `vertices(mesh)`, or none at all. The number is not checked.
   std::vector<double> vertex_weights;

@@ -10,6 +10,8 @@
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/iterator.h>
 
+#include <vector>
+
 namespace selvedge {
 namespace internal {
 
@@ -25,7 +27,7 @@ struct Placement_choice
 };
 
 /// Describes one collapse of an edge: the profile of the edge, the place of the merged vertex, and which ends
-/// move to get there.
+/// move to get there. Where all vertices at a position move together, the collapses of the others go along.
 ///
 /// Whoever decides on a collapse makes this value once and hands it to the filters, the border rule and the
 /// listeners, so that none of them has to compare coordinates. It is valid as long as the profile is.
@@ -56,6 +58,22 @@ public:
   const Point& place() const { return m_place; }
   bool is_v0_moved() const { return m_is_v0_moved; }
   bool is_v1_moved() const { return m_is_v1_moved; }
+
+  /// Returns this collapse, onto an end of its edge, with the collapses that go along with it: those of all
+  /// other vertices at the position of its mover, onto vertices at the position of its goal. They are given
+  /// as halfedges from the vertices that move, and outlive what is returned. All are judged as one motion;
+  /// the others are done after this one, and nothing is asked in between.
+  Collapse with_others(const std::vector<Halfedge>& others) const
+  {
+    Collapse collapse = *this;
+    collapse.m_others = &others;
+    return collapse;
+  }
+  const std::vector<Halfedge>& others() const
+  {
+    static const std::vector<Halfedge> none;
+    return m_others ? *m_others : none;
+  }
 
   /// Returns whether the merged vertex is placed at neither end.
   bool are_both_moved() const { return m_is_v0_moved && m_is_v1_moved; }
@@ -108,6 +126,7 @@ private:
   const Profile* m_profile;
   Point m_place;
   bool m_is_v0_moved, m_is_v1_moved, m_is_onto_v0;
+  const std::vector<Halfedge>* m_others = nullptr;
 };
 
 } // namespace internal

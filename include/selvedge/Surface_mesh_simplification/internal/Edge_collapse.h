@@ -66,7 +66,7 @@ struct Has_choice<Placement, Cost, std::void_t<typename Placement::Cost_policy>>
 {
 };
 
-// Whether the visitor may name a motion that is tried next, after a collapse.
+// Whether the visitor may name motions that are done, or tried, next after a collapse.
 template <class Visitor, class = void>
 struct Has_follow_up : std::false_type
 {
@@ -193,10 +193,12 @@ private:
     const Optional<Collapse_of_edge> collapse = collapse_of(of_edge, record);
     const bool is_asked = collapse && (!m_is_geometry_tested || Dihedral_angle_filter<>().accepts(*collapse));
     if (is_asked && is_allowed(m_filter, *collapse)) {
-      perform(*collapse, edge_id);
-      if constexpr (Has_follow_up<Visitor>::value)
+      const Vertex kept = perform(*collapse, edge_id);
+      if constexpr (Has_follow_up<Visitor>::value) {
+        perform_joint_motions(kept);
         if (const auto moving = m_visitor.follow_up())
           try_along(*moving);
+      }
       return true;
     }
     on_refused(of_edge);
@@ -226,7 +228,22 @@ private:
       on_refused(of_edge);
   }
 
-  void perform(const Collapse_of_edge& collapse, Id edge_id)
+  // Does the motions that were allowed together with the collapse that has left `first`. Only then the costs
+  // around all that are left are those of a whole motion.
+  void perform_joint_motions(Vertex first)
+  {
+    m_joint.assign(1, first);
+    while (const auto moving = m_visitor.joint_motion()) {
+      const Profile of_edge = profile(m_halfedges[id(*moving)]);
+      m_joint.push_back(perform(Collapse_of_edge::along(of_edge, *moving), id(*moving)));
+    }
+    if (m_joint.size() > 1)
+      for (const Vertex kept : m_joint)
+        refresh_around(kept);
+  }
+
+  // Returns the vertex that is left.
+  Vertex perform(const Collapse_of_edge& collapse, Id edge_id)
   {
     const Profile& of_edge = collapse.profile();
     if constexpr (!std::is_base_of_v<No_visitor, Visitor>)
@@ -242,7 +259,9 @@ private:
       if (collapse.is_v1_moved())
         m_waiting.release_around(of_edge.v1());
     }
-    refresh_around(perform_collapse(m_mesh, m_points, m_is_constrained, collapse, m_visitor, m_cost));
+    const Vertex kept = perform_collapse(m_mesh, m_points, m_is_constrained, collapse, m_visitor, m_cost);
+    refresh_around(kept);
+    return kept;
   }
 
   // Called for each edge that a collapse is about to remove.
@@ -378,6 +397,7 @@ private:
   // True at both ends of an edge that was refused, until the edges at this vertex have been refreshed.
   typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<unsigned char>>::type
       m_has_stale_edges;
+  std::vector<Vertex> m_joint; // what is left of vertices that have moved together
   Size m_initial_edges = 0, m_edges = 0;
   Topology_test<TriangleMesh> m_topology;
 };

@@ -42,6 +42,7 @@ namespace internal {
 /// 2. *Within the star*: moving faces do not degenerate, and meet each other only in what they share.
 ///
 /// A collapse onto one end of its edge is one motion. Any other takes two: one end moves, and then the other.
+/// Coincident vertices move together, in one motion of the faces at all of them, or not at all.
 ///
 /// Conditions 1 and 2 are not asked of exempt pairs (`Descent`), but a collapse must not make more of them
 /// offend.
@@ -54,6 +55,7 @@ class Intersection_guard
   using View = Star_view<Star>;
   using Motion = typename Star::Motion;
   using Vertex = typename Vertices::Vertex;
+  using Halfedge = typename boost::graph_traits<TriangleMesh>::halfedge_descriptor;
   using Id = typename Faces::Id;
   using Triangle = std::array<typename Vertices::Point, 3>;
 
@@ -102,7 +104,9 @@ public:
   void before_collapse(const Collapse<Profile>& collapse)
   {
     m_is_announcement_due = false;
-    m_is_descent_asked = m_descent.is_needed() && is_descent_concerned(collapse);
+    const bool is_with_another = m_others_left > 0; // then all changes of descent have been made
+    m_others_left = is_with_another ? m_others_left - 1 : collapse.others().size();
+    m_is_descent_asked = !is_with_another && m_descent.is_needed() && is_descent_concerned(collapse);
     if (m_is_descent_asked)
       find_pairs_after(collapse);
     // Must be read before the collapse removes these faces.
@@ -157,7 +161,7 @@ private:
   {
     const auto& place = collapse.place();
     if (!collapse.are_both_moved())
-      return is_motion_clear({collapse.mover(), collapse.goal(), place, false});
+      return is_motion_clear({collapse.mover(), collapse.goal(), place, false, &collapse.others()});
     // One end moves to the place, and then the other moves there and merges with it; in either order.
     const auto are_both_clear = [&](Vertex first, Vertex second) {
       return is_motion_clear({first, std::nullopt, place, false}) &&
@@ -191,6 +195,8 @@ private:
       }
     };
     add_all_at(collapse.mover(), collapse.goal());
+    for (const Halfedge h : collapse.others())
+      add_all_at(source(h, m_mesh), target(h, m_mesh));
     if (collapse.are_both_moved())
       add_all_at(collapse.goal(), collapse.mover());
     return m_descent.consider(m_considered);
@@ -236,6 +242,7 @@ private:
             return false;
     }
     m_faces.find_near(box, m_vertices.number(collapse.mover()), m_near);
+    remove_at_others(collapse.others());
     if (collapse.are_both_moved())
       m_faces.remove_at(m_vertices.number(collapse.goal()), m_near);
     m_near.erase(
@@ -257,16 +264,28 @@ private:
     return triangle[0].bbox() + triangle[1].bbox() + triangle[2].bbox();
   }
 
-  bool is_coincident(Vertex v) const { return m_vertices.is_coincident(m_vertices.number(v)); }
+  // Whether other vertices at the position of the mover do not move with it.
+  bool is_held(const Motion& motion) const
+  {
+    const auto mover = m_vertices.number(motion.mover);
+    return m_vertices.is_coincident(mover) &&
+           !(motion.is_joint() && m_vertices.all_at(mover).size() == motion.others->size() + 1);
+  }
+
+  void remove_at_others(const std::vector<Halfedge>& others)
+  {
+    for (const Halfedge h : others)
+      m_faces.remove_at(m_vertices.number(source(h, m_mesh)), m_near);
+  }
 
   bool is_motion_clear(const Motion& motion)
   {
     ++m_statistics.motions_judged;
-    if (is_coincident(motion.mover) || !m_star.gather(motion) || !m_star.is_link_condition_met(motion)) {
+    if (is_held(motion) || !m_star.gather(motion) || !m_star.is_link_condition_met(motion)) {
       ++m_statistics.refused_by_link;
       return false;
     }
-    if (!is_star_clear()) {
+    if (!is_star_clear(motion)) {
       ++m_statistics.refused_by_star;
       return false;
     }
@@ -277,14 +296,18 @@ private:
     return true;
   }
 
-  bool is_star_clear()
+  bool is_star_clear(const Motion& motion)
   {
     if (m_is_descent_asked && m_descent.is_exempt_inside()) {
       // No proof about the star as a whole holds where its faces may meet each other.
       m_view.begin_without_view();
-      const auto& motion = m_star.exact();
-      return std::all_of(motion.moving.begin(), motion.moving.end(),
-                         [&](const auto& edge) { return is_face_kept(motion, edge, m_traits); });
+      const auto& star = m_star.exact();
+      return std::all_of(star.moving.begin(), star.moving.end(),
+                         [&](const auto& edge) { return is_face_kept(star, edge, m_traits); });
+    }
+    if (motion.is_joint()) { // the link is no cycle
+      m_view.begin_without_view();
+      return is_star_motion_clear(m_star.exact(), m_traits);
     }
     m_view.begin();
     if (m_view.is_star_clear()) {
@@ -334,6 +357,8 @@ private:
   {
     const auto mover = m_vertices.number(motion.mover);
     m_faces.find_near(m_star.box(), m_star.points(), mover, m_near);
+    if (motion.is_joint())
+      remove_at_others(*motion.others);
     if (motion.is_target_moved)
       m_faces.add_all_at(*motion.target, mover, m_near);
     for (const Id id : m_near)
@@ -390,6 +415,7 @@ private:
   bool m_is_run_announced = false;    // whether a loop that calls the visitor is running
   bool m_is_announcement_due = true;  // whether the mesh may have changed unannounced
   bool m_is_mover_first = false;
+  std::size_t m_others_left = 0; // collapses that go along with the last one, and have not been done
   Descent m_descent;
   bool m_is_descent_asked = false; // whether faces of the collapse in question have offending ancestors
   std::vector<Face> m_blockers;

@@ -20,8 +20,8 @@
 namespace selvedge {
 namespace internal {
 
-/// Gathers the star of one vertex that moves, in points that are numbered for this motion, and checks the
-/// link condition.
+/// Gathers the star of one vertex that moves, or of several at one position that move together, in points
+/// that are numbered for this motion, and checks the link condition.
 ///
 /// The numbers are short and local so that the questions that follow compare numbers, not coordinates: 0 is
 /// where the vertex is, 1 where it goes, then come its link and all other points that are asked about.
@@ -47,6 +47,11 @@ public:
     std::optional<Vertex> target; ///< the neighbour, if it merges with one
     Point place;
     bool is_target_moved; ///< whether the neighbour is judged as if it stood at `place` already
+    /// The other vertices at the position of the mover that move with it, each along its halfedge onto
+    /// another vertex at `place`.
+    const std::vector<Halfedge>* others = nullptr;
+
+    bool is_joint() const { return others && !others->empty(); }
   };
 
   using Link_edge = std::array<Local, 2>; ///< counter-clockwise
@@ -67,53 +72,46 @@ public:
     m_is_contracted.clear();
     m_is_closed = true;
     m_has_target = motion.target.has_value();
-    for (const Halfedge h : CGAL::halfedges_around_target(halfedge(motion.mover, m_mesh), m_mesh)) {
-      if (CGAL::is_border(h, m_mesh)) {
-        m_is_closed = false;
-        continue;
-      }
-      const Vertex a = target(next(h, m_mesh), m_mesh), b = source(h, m_mesh);
-      const Local first = local(m_vertices.number(a)), second = local(m_vertices.number(b));
-      const bool is_contracted = motion.target && (a == *motion.target || b == *motion.target);
-      if (!is_contracted && motion.target && (first == s_to || second == s_to))
-        return false;
-      m_link.push_back({first, second});
-      m_is_contracted.push_back(is_contracted);
-    }
+    const bool is_gathered = all_of_movers(
+        motion, [this](Vertex mover, const std::optional<Vertex>& goal) { return gather_at(mover, goal); });
     m_size = m_points.size();
-    return true;
+    return is_gathered;
   }
 
   /// Returns whether the link condition holds: every position with an edge to both ends is the third corner
   /// of a contracted face. Besides, no contracted face has two other border edges, and the collapse joins no
   /// two stretches of a border.
-  bool is_link_condition_met(const Motion& motion) const
+  bool is_link_condition_met(const Motion& motion)
   {
     if (!motion.target)
       return true;
     const Vertex mover = motion.mover, end = *motion.target;
-    std::array<Local, 2> contracted;
-    std::size_t contracted_count = 0;
+    m_contracted_apexes.clear();
     bool is_edge_border = false;
-    for (const Halfedge h : CGAL::halfedges_around_target(halfedge(mover, m_mesh), m_mesh)) {
-      if (source(h, m_mesh) != end)
-        continue;
-      for (const Halfedge side : {h, opposite(h, m_mesh)}) {
-        if (CGAL::is_border(side, m_mesh)) {
-          is_edge_border = true;
+    const auto find_apexes = [&](Vertex from, const std::optional<Vertex>& to) {
+      for (const Halfedge h : CGAL::halfedges_around_target(halfedge(from, m_mesh), m_mesh)) {
+        if (source(h, m_mesh) != *to)
           continue;
+        for (const Halfedge side : {h, opposite(h, m_mesh)}) {
+          if (CGAL::is_border(side, m_mesh)) {
+            is_edge_border = true;
+            continue;
+          }
+          const Halfedge next_edge = next(side, m_mesh);
+          if (CGAL::is_border(opposite(next_edge, m_mesh), m_mesh) &&
+              CGAL::is_border(opposite(next(next_edge, m_mesh), m_mesh), m_mesh))
+            return false;
+          m_contracted_apexes.push_back(m_vertices.mark(m_vertices.number(target(next_edge, m_mesh))));
         }
-        const Halfedge next_edge = next(side, m_mesh);
-        if (CGAL::is_border(opposite(next_edge, m_mesh), m_mesh) &&
-            CGAL::is_border(opposite(next(next_edge, m_mesh), m_mesh), m_mesh))
-          return false;
-        contracted[contracted_count++] = m_vertices.mark(m_vertices.number(target(next_edge, m_mesh)));
       }
-    }
+      return true;
+    };
+    if (!all_of_movers(motion, find_apexes))
+      return false;
     const auto is_allowed = [&](Number neighbour) {
-      const auto beyond = contracted.begin() + contracted_count;
       return !m_vertices.is_marked(neighbour) || // not in the link
-             std::find(contracted.begin(), beyond, m_vertices.mark(neighbour)) != beyond;
+             std::find(m_contracted_apexes.begin(), m_contracted_apexes.end(), m_vertices.mark(neighbour)) !=
+                 m_contracted_apexes.end();
     };
     bool is_end_on_border = false;
     const auto are_neighbours_allowed = [&](Vertex at) {
@@ -187,12 +185,42 @@ public:
   }
 
 private:
+  // Calls `is_fine(mover, goal)` for each vertex that moves, until a call returns false. Returns whether all
+  // calls returned true.
+  template <class Predicate>
+  bool all_of_movers(const Motion& motion, const Predicate& is_fine) const
+  {
+    return is_fine(motion.mover, motion.target) &&
+           (!motion.others || std::all_of(motion.others->begin(), motion.others->end(), [&](Halfedge h) {
+             return is_fine(source(h, m_mesh), std::optional<Vertex>(target(h, m_mesh)));
+           }));
+  }
+
+  bool gather_at(Vertex mover, const std::optional<Vertex>& goal)
+  {
+    for (const Halfedge h : CGAL::halfedges_around_target(halfedge(mover, m_mesh), m_mesh)) {
+      if (CGAL::is_border(h, m_mesh)) {
+        m_is_closed = false;
+        continue;
+      }
+      const Vertex a = target(next(h, m_mesh), m_mesh), b = source(h, m_mesh);
+      const Local first = local(m_vertices.number(a)), second = local(m_vertices.number(b));
+      const bool is_contracted = goal && (a == *goal || b == *goal);
+      if (!is_contracted && goal && (first == s_to || second == s_to))
+        return false;
+      m_link.push_back({first, second});
+      m_is_contracted.push_back(is_contracted);
+    }
+    return true;
+  }
+
   const TriangleMesh& m_mesh;
   VertexTable& m_vertices;
   std::vector<Point> m_points;
   std::size_t m_size = 0;
   std::vector<Link_edge> m_link;
   std::vector<char> m_is_contracted; // by edge
+  std::vector<Local> m_contracted_apexes;
   bool m_is_closed = false, m_has_target = false;
   Vertex_motion<Point> m_exact;
 };

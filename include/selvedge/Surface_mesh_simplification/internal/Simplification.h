@@ -21,6 +21,7 @@
 #include <selvedge/Surface_mesh_simplification/internal/Cgal_pass.h>
 #include <selvedge/Surface_mesh_simplification/internal/Face_targets.h>
 #include <selvedge/Surface_mesh_simplification/internal/Halfedge_filter.h>
+#include <selvedge/Surface_mesh_simplification/internal/Joint_motions.h>
 #include <selvedge/Surface_mesh_simplification/internal/Lazy_edge_profile.h>
 #include <selvedge/Surface_mesh_simplification/internal/Topology_test.h>
 #include <selvedge/Surface_mesh_simplification/internal/Tracked_points.h>
@@ -30,11 +31,14 @@
 
 #include <CGAL/Kernel_traits.h>
 
+#include <boost/unordered_set.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -63,16 +67,20 @@ class Simplification
   using Rule = Border_rule<TriangleMesh, VertexPointMap>;
   using Targets = Face_targets<TriangleMesh>;
   using Quadrics = Quadric_cost<TriangleMesh, Rule>;
-  using Partner_profile = Lazy_edge_profile<TriangleMesh, VertexPointMap, Geom_traits>;
+  using Lazy_profile = Lazy_edge_profile<TriangleMesh, VertexPointMap, Geom_traits>;
+  using Joint = Joint_motions<TriangleMesh, VertexPointMap>;
 
-  /// Adds the cost of the texture to that of the quadrics. An edge has no cost if none of its faces counts.
+  /// Adds the cost of the texture to that of the quadrics, and for vertices that move together the costs of
+  /// all. An edge has no cost if none of its faces counts.
   class Cost
   {
   public:
     using Update_tag = CGAL::Tag_true;
 
-    Cost(const Quadrics& quadrics, const Targets& targets, const Observer& observer, double uv_weight)
-        : m_quadrics(quadrics), m_targets(targets), m_observer(&observer), m_uv_weight(uv_weight)
+    Cost(TriangleMesh& mesh, const Quadrics& quadrics, const Targets& targets, const Joint& joint,
+         const Observer& observer, double uv_weight)
+        : m_mesh(&mesh), m_quadrics(quadrics), m_targets(targets), m_joint(&joint), m_observer(&observer),
+          m_uv_weight(uv_weight)
     {
     }
 
@@ -98,8 +106,14 @@ class Simplification
     {
       if (!m_targets.is_counted(moving))
         return {};
-      const Optional<double> cost = m_quadrics.cost_along(profile, moving);
-      return m_uv_weight > 0 ? *cost + m_uv_weight * m_observer->uv_cost(moving) : cost;
+      double cost = cost_alone(profile, moving);
+      if (m_joint->is_joint(source(moving, *m_mesh))) {
+        const Geom_traits traits;
+        if (const auto others = m_joint->others(moving))
+          for (const Halfedge h : *others)
+            cost += cost_alone(Lazy_profile(h, *m_mesh, profile.vertex_point_map(), traits), h);
+      }
+      return cost;
     }
 
     template <class Profile, class Point>
@@ -127,8 +141,17 @@ class Simplification
     }
 
   private:
+    template <class Profile>
+    double cost_alone(const Profile& profile, Halfedge moving) const
+    {
+      const double cost = *m_quadrics.cost_along(profile, moving);
+      return m_uv_weight > 0 ? cost + m_uv_weight * m_observer->uv_cost(moving) : cost;
+    }
+
+    TriangleMesh* m_mesh;
     Quadrics m_quadrics;
     Targets m_targets;
+    const Joint* m_joint;
     const Observer* m_observer;
     double m_uv_weight;
   };
@@ -188,10 +211,11 @@ public:
                  const VertexPointMap& points)
       : m_start(Clock::now()), m_mesh(mesh), m_points(points), m_options(options), m_observer(observer),
         m_diagonal(constraints.diagonal ? *constraints.diagonal : diagonal_of_box()),
-        m_rule(make_rule(constraints)), m_targets(make_targets(constraints)),
-        m_quadrics(mesh, options.cost, m_rule), m_partners(mesh, constraints.partners), m_line(m_rule),
-        m_pieces({&observer, m_rule}, m_line), m_border({&m_partners}, m_pieces),
-        m_target(m_targets, m_border), m_aspect_ratio(options.min_aspect_ratio, m_target),
+        m_joint(mesh, points, joint_vertices(constraints)), m_rule(make_rule(constraints)),
+        m_targets(make_targets(constraints)), m_quadrics(mesh, options.cost, m_rule),
+        m_partners(mesh, constraints.partners), m_line(m_rule), m_pieces({&observer, m_rule}, m_line),
+        m_border({&m_partners}, m_pieces), m_target(m_targets, m_border),
+        m_aspect_ratio(options.min_aspect_ratio, m_target),
         m_normal_change(options.max_normal_change, m_aspect_ratio),
         m_uv({options.check_uv_orientation ? &observer : nullptr, m_rule}, m_normal_change), m_tracked(mesh),
         m_error(max_error(), m_tracked, m_uv), m_offending_pairs(constraints.offending_pairs)
@@ -252,7 +276,7 @@ public:
 
     // The observer's weights of faces are relative to the area 1, those of the quadrics to that of the
     // diagonal.
-    const Cost costs(m_quadrics, m_targets, m_observer,
+    const Cost costs(m_mesh, m_quadrics, m_targets, m_joint, m_observer,
                      m_options.uv_weight * relative_face_weight(1 / (m_diagonal * m_diagonal)));
     if (m_options.placement == Placement::optimal)
       run_passes(costs, Optimal_places(costs, m_rule, {&m_observer}));
@@ -351,7 +375,9 @@ private:
       const Line_refusal refusal = m_rule.refusal(moving);
       const Hindrance reason = refusal != Line_refusal::none ? hindrance_of_lines(moving, refusal)
                                : !is_topology_kept           ? Hindrance::topology
-                                                             : hindrance_with_partner(profile, moving);
+                               : m_joint.is_joint(source(moving, m_mesh))
+                                   ? hindrance_of_joint(profile, moving)
+                                   : hindrance_with_partner(profile, moving);
       weakest = (std::max)(weakest, reason);
     }
     if constexpr (std::is_same_v<Places, Optimal_places>)
@@ -369,17 +395,38 @@ private:
     const auto motion = m_partners.partner_motion(moving);
     if (reason != Hindrance::by_loop || !motion)
       return reason;
-    const Partner_profile of_partner(*motion, m_mesh, m_points, m_traits);
+    const Lazy_profile of_partner(*motion, m_mesh, m_points, m_traits);
     if (const Line_refusal refusal = m_rule.refusal(*motion); refusal != Line_refusal::none)
       return hindrance_of_lines(*motion, refusal);
     return m_topology.is_kept(of_partner, No_constrained_edges())
-               ? hindrance(Collapse<Partner_profile>::along(of_partner, *motion))
+               ? hindrance(Collapse<Lazy_profile>::along(of_partner, *motion))
                : Hindrance::topology;
+  }
+
+  // Vertices that move together are held back by what holds one of them back, and then by contacts of all.
+  template <class Profile>
+  Hindrance hindrance_of_joint(const Profile& profile, const Halfedge& moving)
+  {
+    auto others = m_joint.others(moving);
+    if (!others || !m_observer.keeps_joints(moving, *others))
+      return Hindrance::non_manifold;
+    m_others = *std::move(others);
+    for (const Halfedge h : m_others) {
+      if (const Line_refusal refusal = m_rule.refusal(h); refusal != Line_refusal::none)
+        return hindrance_of_lines(h, refusal);
+      const Lazy_profile of_other(h, m_mesh, m_points, m_traits);
+      if (!m_topology.is_kept(of_other, No_constrained_edges()))
+        return Hindrance::topology;
+      const auto of_h = Collapse<Lazy_profile>::along(of_other, h);
+      if (const Hindrance reason = hindrance_but_contacts(of_h); reason != Hindrance::by_loop)
+        return reason;
+    }
+    return hindrance(Collapse<Profile>::along(profile, moving).with_others(m_others));
   }
 
   // Asks the filters in the order of their chain.
   template <class Profile>
-  Hindrance hindrance(const Collapse<Profile>& collapse)
+  Hindrance hindrance_but_contacts(const Collapse<Profile>& collapse) const
   {
     if (!m_pieces.accepts(collapse))
       return Hindrance::topology;
@@ -395,8 +442,14 @@ private:
       return Hindrance::uv;
     if (!m_error.accepts(collapse))
       return Hindrance::error;
-    if (!m_intersection)
-      return Hindrance::by_loop;
+    return Hindrance::by_loop;
+  }
+  template <class Profile>
+  Hindrance hindrance(const Collapse<Profile>& collapse)
+  {
+    const Hindrance reason = hindrance_but_contacts(collapse);
+    if (reason != Hindrance::by_loop || !m_intersection)
+      return reason;
     const auto refused_by_contact = [this] {
       const Intersection_statistics& statistics = m_intersection->statistics();
       return statistics.refused_by_star + statistics.refused_by_sweep + statistics.refused_by_descent;
@@ -534,6 +587,9 @@ private:
       simplification->after_collapse(kept);
     }
 
+    // The loop does this next, without asking: it belongs to the motion that it has begun.
+    std::optional<Halfedge> joint_motion() const { return simplification->next_joint_motion(); }
+
     // The loop tries this motion next, before the cheapest edge.
     std::optional<Halfedge> follow_up() const
     {
@@ -553,19 +609,49 @@ private:
     const auto motion = m_partners.partner_motion(collapse.moving());
     if (!motion)
       return true;
-    const Partner_profile profile(*motion, m_mesh, m_points, m_traits);
+    const Lazy_profile profile(*motion, m_mesh, m_points, m_traits);
     if (!m_topology.is_kept(profile, No_constrained_edges()))
       return false;
-    const auto of_partner = Collapse<Partner_profile>::along(profile, *motion);
+    const auto of_partner = Collapse<Lazy_profile>::along(profile, *motion);
     return m_intersection ? m_intersection->allows(of_partner) : m_error.allows(of_partner);
+  }
+
+  // Whether all rules but the exact test allow the collapses of the vertices that move together with the
+  // mover, which it finds. The exact test is asked about all at once.
+  template <class Profile>
+  bool allows_others(const Collapse<Profile>& collapse)
+  {
+    m_others.clear();
+    if (collapse.are_both_moved() || !m_joint.is_joint(collapse.mover()))
+      return true;
+    auto others = m_joint.others(collapse.moving());
+    if (!others || !m_observer.keeps_joints(collapse.moving(), *others))
+      return false;
+    m_others = *std::move(others);
+    for (const Halfedge h : m_others) {
+      const Lazy_profile profile(h, m_mesh, m_points, m_traits);
+      if (!m_topology.is_kept(profile, No_constrained_edges()) ||
+          !m_error.allows(Collapse<Lazy_profile>::along(profile, h)))
+        return false;
+    }
+    return true;
+  }
+
+  std::optional<Halfedge> next_joint_motion() const
+  {
+    if (m_others_to_go.empty())
+      return std::nullopt;
+    const auto& [mover, goal] = m_others_to_go.back();
+    return halfedge(mover, goal, m_mesh).first;
   }
 
   template <class Profile>
   bool allows(const Collapse<Profile>& collapse)
   {
     // The filters remember what they found of the last collapse that they accepted: so it is asked last.
-    if (allows_partner(collapse) &&
-        (m_intersection ? m_intersection->allows(collapse) : m_error.allows(collapse))) {
+    if (allows_partner(collapse) && allows_others(collapse) &&
+        (m_intersection ? m_intersection->allows(collapse.with_others(m_others))
+                        : m_error.allows(collapse))) {
       ++m_accepted;
       m_is_mover_first = m_intersection && m_intersection->is_mover_first();
       return true;
@@ -579,22 +665,31 @@ private:
   {
     if (collapse.are_both_moved()) {
       ++m_report.placed;
+      ++m_report.collapses;
       m_observer.before_placement(collapse.moving(), collapse.place(), m_is_mover_first);
+    } else if (!m_others_to_go.empty()) {
+      m_observer.before_joint_collapse(collapse.moving(), m_rule);
+      m_others_to_go.pop_back();
     } else {
       m_observer.before_collapse(collapse.moving(), m_rule);
+      ++m_report.collapses;
+      for (const Halfedge h : m_others)
+        m_others_to_go.emplace_back(source(h, m_mesh), target(h, m_mesh));
     }
+    m_joint.before_collapse(collapse.moving());
     m_targets.before_collapse(collapse.moving());
     m_partners.before_collapse(collapse.moving());
     m_tracked.before_collapse(collapse);
     m_rule.before_collapse(collapse);
     if (m_intersection)
-      m_intersection->visitor().before_collapse(collapse);
+      m_intersection->visitor().before_collapse(collapse.with_others(m_others));
+    m_others.clear();
   }
 
   template <class Vertex>
   void after_collapse(const Vertex& kept)
   {
-    ++m_report.collapses;
+    m_joint.after_collapse(kept);
     m_partners.after_collapse(kept);
     m_rule.after_collapse(kept);
     if (m_intersection)
@@ -602,10 +697,12 @@ private:
     pass_levels();
   }
 
-  // Reports the levels that have been reached. Each is a snapshot on which nothing that follows depends.
+  // Reports the levels that have been reached, unless a motion of several vertices is half done. Each is a
+  // snapshot on which nothing that follows depends.
   void pass_levels()
   {
-    while (m_next_level < m_levels.size() && m_targets.share(0).faces <= m_levels[m_next_level])
+    while (m_others_to_go.empty() && m_next_level < m_levels.size() &&
+           m_targets.share(0).faces <= m_levels[m_next_level])
       pass_level();
   }
   void pass_level()
@@ -625,6 +722,31 @@ private:
     m_refused_until_now = now;
   }
 
+  // The groups of vertices that may move together. CGAL's loop does one collapse at a time. A vertex with a
+  // partner could not follow both.
+  typename Joint::Groups joint_vertices(const Simplify_constraints<TriangleMesh>& constraints) const
+  {
+    if (m_options.loop != Collapse_loop::own || !m_options.check_intersections)
+      return {};
+    boost::unordered_set<Vertex> has_partner;
+    for (const auto& [a, b] : constraints.partners)
+      has_partner.insert({a, b});
+    typename Joint::Groups groups;
+    for (const auto& group : constraints.joint_vertices)
+      if (std::none_of(group.begin(), group.end(), [&](Vertex v) { return has_partner.count(v) > 0; }))
+        groups.push_back(group);
+    return groups;
+  }
+
+  std::vector<Vertex> locked_vertices(const Simplify_constraints<TriangleMesh>& constraints) const
+  {
+    std::vector<Vertex> locked = constraints.locked_vertices;
+    for (const auto& group : constraints.joint_vertices)
+      std::copy_if(group.begin(), group.end(), std::back_inserter(locked),
+                   [this](Vertex v) { return !m_joint.is_joint(v); });
+    return locked;
+  }
+
   Rule make_rule(const Simplify_constraints<TriangleMesh>& constraints) const
   {
     Border_rule_options options;
@@ -634,7 +756,7 @@ private:
     Rule rule(m_mesh, m_points, options);
     for (const auto e : constraints.line_edges)
       rule.mark(e);
-    for (const auto v : constraints.locked_vertices)
+    for (const auto v : locked_vertices(constraints))
       rule.lock(v);
     return rule;
   }
@@ -658,7 +780,7 @@ private:
     }
     for (const auto face : constraints.uncounted_faces)
       targets.leave_out(face);
-    targets.fix(constraints.locked_vertices);
+    targets.fix(locked_vertices(constraints));
     for (std::size_t i = 0; i < constraints.shares.size(); ++i)
       targets.set_target(i + 1, targets.share(i + 1).at_ratio(constraints.shares[i].ratio));
     const std::size_t by_ratio = m_options.ratio ? targets.share(0).at_ratio(*m_options.ratio) : 0;
@@ -745,6 +867,7 @@ private:
   Geom_traits m_traits;
   Topology_test<TriangleMesh> m_topology;
   double m_diagonal;
+  Joint m_joint;
   Rule m_rule;
   Targets m_targets;
   Quadrics m_quadrics;
@@ -762,7 +885,9 @@ private:
   std::optional<Intersection> m_intersection;
   Simplify_report m_report;
   std::size_t m_accepted = 0;
-  bool m_is_mover_first = false; // of the last collapse accepted
+  bool m_is_mover_first = false;  // of the last collapse accepted
+  std::vector<Halfedge> m_others; // the collapses that go along with the last one asked about, or accepted
+  std::vector<std::pair<Vertex, Vertex>> m_others_to_go; // of a motion that has begun, from and to
   double m_cost = 0;
   bool m_are_hindrances_counted = true;
   Refusals m_refused_until_now;

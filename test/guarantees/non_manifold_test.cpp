@@ -1,0 +1,146 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Sheets that meet along a line, as at the non-manifold edges of a T-junction: the line is reduced with them,
+// and they stay joined.
+
+#include "support/logged_reduction.h"
+#include "support/reduction.h"
+#include "support/soups.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace selvedge::test {
+namespace {
+
+constexpr Index s_size = 16;
+
+/// Three square sheets that meet in the z-axis, by the numbers of vertices, each with a texture of its own.
+Triangle_soup three_pages()
+{
+  Triangle_soup pages;
+  for (int i = 0; i < 3; ++i) {
+    const double x = std::cos(2.0 * i + 0.3), y = std::sin(2.0 * i + 0.3);
+    pages = joined(std::move(pages), mapped(sheet(s_size, s_size), [&](const Point_3& p) {
+                     return Point_3(p.x() * x, p.x() * y, p.y());
+                   }));
+  }
+  std::map<double, Index> axis;
+  for (std::size_t t = 0; t < pages.triangles.size(); ++t) {
+    const double page = double(t / (pages.triangles.size() / 3));
+    Index_triple uvs;
+    for (std::size_t k = 0; k < 3; ++k) {
+      Index& v = pages.triangles[t][k];
+      const Point_3& p = pages.points[v];
+      uvs[k] = Index(pages.uvs.values.size());
+      pages.uvs.values.push_back({2 * page + std::hypot(p.x(), p.y()) / s_size, p.z() / s_size});
+      if (p.x() == 0 && p.y() == 0)
+        v = axis.emplace(p.z(), v).first->second;
+    }
+    pages.uvs.of_triangle.push_back(uvs);
+  }
+  return pages;
+}
+
+bool is_on_axis(const Point_3& p)
+{
+  return p.x() == 0 && p.y() == 0;
+}
+
+/// The number of faces at each edge of the axis.
+std::map<std::pair<double, double>, int> edges_of_axis(const Triangle_soup& soup)
+{
+  std::map<std::pair<double, double>, int> edges;
+  for (const Index_triple& triangle : soup.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point_3 &a = soup.points[triangle[k]], &b = soup.points[triangle[(k + 1) % 3]];
+      if (is_on_axis(a) && is_on_axis(b))
+        ++edges[std::minmax(a.z(), b.z())];
+    }
+  return edges;
+}
+
+TEST(NonManifold, SheetsStayJoinedAlongALineThatIsReduced)
+{
+  const Triangle_soup pages = three_pages();
+  for (const bool is_optimal : {false, true}) {
+    Simplify_options options = to_ratio(0.1);
+    options.placement = is_optimal ? Placement::optimal : Placement::vertices;
+    const Reduction reduction = reduce(pages, options);
+    EXPECT_TRUE(reduction.verification.accepted());
+    EXPECT_TRUE(reduction.simplified.report.is_reached());
+    const auto edges = edges_of_axis(reduction.simplified.soup);
+    EXPECT_LT(edges.size(), s_size / 2);
+    for (const auto& [ends, faces] : edges)
+      EXPECT_EQ(faces, 3) << ends.first << " to " << ends.second;
+  }
+}
+
+// CGAL's loop does one collapse at a time.
+TEST(NonManifold, ControlVerticesThatDoNotMoveTogetherStay)
+{
+  Simplify_options options = to_ratio(0.1);
+  options.loop = Collapse_loop::cgal;
+  EXPECT_EQ(edges_of_axis(reduce(three_pages(), options).simplified.soup).size(), s_size);
+}
+
+// One line of the log moves all sheets, each with its own texture.
+TEST(NonManifold, ALineOfTheLogMovesAllSheets)
+{
+  const Logged_reduction reduction = reduce_and_log(three_pages(), to_ratio(0.1));
+  const Replay_verdict verdict = replay_text(reduction.original, reduction.log);
+  EXPECT_TRUE(verdict.is_accepted());
+  const Triangle_soup &replayed = verdict.soup, &result = reduction.simplified.soup;
+  ASSERT_EQ(replayed.triangles, result.triangles);
+  EXPECT_EQ(replayed.uvs.of_triangle, result.uvs.of_triangle);
+  EXPECT_EQ(replayed.uvs.values, result.uvs.values);
+}
+
+// A face in the way of one sheet keeps all of them where they are.
+TEST(NonManifold, WhatHoldsOneSheetHoldsAll)
+{
+  Triangle_soup pages = three_pages();
+  pages.uvs = {};
+  // A needle beside each inner edge of the first sheet's axis, so near that the motion of a face meets it.
+  const double x = std::cos(0.3), y = std::sin(0.3);
+  for (Index i = 0; i < s_size; ++i) {
+    const double z = i + 0.4;
+    pages = joined(std::move(pages), soup({{1e-3 * x - 1e-9 * y, 1e-3 * y + 1e-9 * x, z},
+                                           {2e-3 * x - 1e-9 * y, 2e-3 * y + 1e-9 * x, z},
+                                           {1e-3 * x - 2e-9 * y, 1e-3 * y + 2e-9 * x, z + 1e-3}},
+                                          {{0, 1, 2}}));
+  }
+  const Reduction reduction = reduce(pages, without_limits(to_ratio(0.0)));
+  EXPECT_TRUE(reduction.verification.accepted());
+  for (const auto& [ends, faces] : edges_of_axis(reduction.simplified.soup))
+    EXPECT_EQ(faces, 3) << ends.first << " to " << ends.second;
+}
+
+// At one end of the line, a sheet has a vertex of its own: the piece of the other two ends there.
+TEST(NonManifold, ASheetThatIsJoinedByOtherVerticesStaysSo)
+{
+  Triangle_soup pages = three_pages();
+  pages.uvs = {};
+  const Index own = Index(pages.points.size());
+  const double height = s_size / 2;
+  pages.points.push_back({0, 0, height});
+  for (std::size_t t = 0; t < pages.triangles.size() / 3; ++t)
+    for (Index& v : pages.triangles[t])
+      if (is_on_axis(pages.points[v]) && pages.points[v].z() == height)
+        v = own;
+  const Reduction reduction = reduce(pages, to_ratio(0.05));
+  EXPECT_TRUE(reduction.verification.accepted()) << "pieces keep their topology";
+  std::set<double> heights;
+  for (const auto& [ends, faces] : edges_of_axis(reduction.simplified.soup))
+    heights.insert({ends.first, ends.second});
+  EXPECT_TRUE(heights.count(height - 1) > 0 && heights.count(height) > 0 && heights.count(height + 1) > 0);
+}
+
+} // namespace
+} // namespace selvedge::test
