@@ -8,6 +8,8 @@
 #include <selvedge/Surface_mesh_simplification/Refusals.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
 
+#include <vector>
+
 namespace selvedge {
 
 /// Observes nothing: the default observer of `simplify_mesh`, and the base class of all others. An observer
@@ -80,6 +82,30 @@ struct No_observer
   Hindrance line_reason(const Edge&) const
   {
     return Hindrance::seam;
+  }
+
+  /// Returns the motions that must be done together with this one, all or none: those of the same vertex in
+  /// the other places where its mesh stands. Not called for motions of both ends.
+  template <class Halfedge>
+  std::vector<Halfedge> companions(const Halfedge& /*moving*/) const
+  {
+    return {};
+  }
+
+  /// Returns whether neither the faces around the source of this motion nor those of any of its companions
+  /// come near those of another one of them: the boxes of their stars are disjoint.
+  template <class Halfedge>
+  bool are_companions_apart(const Halfedge& /*moving*/, const std::vector<Halfedge>& /*companions*/) const
+  {
+    return true;
+  }
+
+  /// Returns the edge with which this one collapses, and only with it: one of its companions, the same for
+  /// all of them, or itself. Edges that are not their own leaders have no cost.
+  template <class Halfedge>
+  Halfedge leader(const Halfedge& edge) const
+  {
+    return edge;
   }
 
   /// Returns how much the motion adds to the displacement of the texture, as squared lengths with the weights

@@ -96,7 +96,7 @@ class Simplification
     template <class Profile>
     Optional<double> cost_along(const Profile& profile, Halfedge moving) const
     {
-      if (!m_targets.is_counted(moving))
+      if (!m_targets.is_counted(moving) || is_led(moving))
         return {};
       const Optional<double> cost = m_quadrics.cost_along(profile, moving);
       return m_uv_weight > 0 ? *cost + m_uv_weight * m_observer->uv_cost(moving) : cost;
@@ -116,6 +116,8 @@ class Simplification
     {
       return m_quadrics.least_place(profile, reach);
     }
+
+    bool is_led(Halfedge edge) const { return m_observer->leader(edge) != edge; }
 
     bool reaches_neighbours(Vertex kept) const { return m_quadrics.reaches_neighbours(kept); }
     bool reaches(Vertex kept, Edge edge) const { return m_quadrics.reaches(kept, edge); }
@@ -366,8 +368,19 @@ private:
   Hindrance hindrance_with_partner(const Profile& profile, const Halfedge& moving)
   {
     const Hindrance reason = hindrance(Collapse<Profile>::along(profile, moving));
+    if (reason != Hindrance::by_loop)
+      return reason;
+    const std::vector<Halfedge> companions = m_observer.companions(moving);
+    const bool can_go_elsewhere =
+        companions.empty() ||
+        (m_observer.leader(moving) == moving && m_observer.are_companions_apart(moving, companions) &&
+         all_of_companions(companions, [this](const auto& of_companion) {
+           return m_rule.allows(of_companion) && hindrance(of_companion) == Hindrance::by_loop;
+         }));
+    if (!can_go_elsewhere)
+      return Hindrance::companions;
     const auto motion = m_partners.partner_motion(moving);
-    if (reason != Hindrance::by_loop || !motion)
+    if (!motion)
       return reason;
     const Partner_profile of_partner(*motion, m_mesh, m_points, m_traits);
     if (const Line_refusal refusal = m_rule.refusal(*motion); refusal != Line_refusal::none)
@@ -534,6 +547,17 @@ private:
       simplification->after_collapse(kept);
     }
 
+    // The loop does these motions next, without asking: they have been asked for together.
+    std::vector<Halfedge> companions() const { return std::exchange(simplification->m_companions, {}); }
+
+    // The motion for which the last collapse was refused, if that was a companion: what changes there may let
+    // the leaders collapse.
+    std::optional<Halfedge> refused_companion() const
+    {
+      return std::exchange(simplification->m_refused_companion, std::nullopt);
+    }
+    Halfedge leader(const Halfedge& edge) const { return simplification->m_observer.leader(edge); }
+
     // The loop tries this motion next, before the cheapest edge.
     std::optional<Halfedge> follow_up() const
     {
@@ -557,21 +581,63 @@ private:
     if (!m_topology.is_kept(profile, No_constrained_edges()))
       return false;
     const auto of_partner = Collapse<Partner_profile>::along(profile, *motion);
-    return m_intersection ? m_intersection->allows(of_partner) : m_error.allows(of_partner);
+    return filters_allow(of_partner);
+  }
+
+  // Whether `is_allowed(collapse)` is true for all companions of a motion. Each is asked for in the mesh as
+  // it is before any of them: as their stars lie in boxes without a common point, none changes what is asked
+  // of another.
+  template <class Predicate>
+  bool all_of_companions(const std::vector<Halfedge>& companions, const Predicate& is_allowed)
+  {
+    return std::all_of(companions.begin(), companions.end(), [&](const Halfedge& moving) {
+      const Partner_profile profile(moving, m_mesh, m_points, m_traits);
+      m_refused_companion = moving;
+      return m_topology.is_kept(profile, No_constrained_edges()) &&
+             is_allowed(Collapse<Partner_profile>::along(profile, moving));
+    });
+  }
+
+  template <class Profile>
+  bool allows_companions(const Collapse<Profile>& collapse)
+  {
+    if (!collapse.are_both_moved())
+      m_companions = m_observer.companions(collapse.moving());
+    if (m_companions.empty())
+      return true;
+    const bool are_apart = m_observer.are_companions_apart(collapse.moving(), m_companions);
+    m_companions_too_near += !are_apart;
+    if (are_apart && all_of_companions(m_companions, [this](const auto& of_companion) {
+          return filters_allow(of_companion);
+        })) {
+      m_refused_companion.reset();
+      return true;
+    }
+    ++m_report.refused_elsewhere;
+    m_companions.clear();
+    return false;
+  }
+
+  template <class Profile>
+  bool filters_allow(const Collapse<Profile>& collapse)
+  {
+    return m_intersection ? m_intersection->allows(collapse) : m_error.allows(collapse);
   }
 
   template <class Profile>
   bool allows(const Collapse<Profile>& collapse)
   {
-    // The filters remember what they found of the last collapse that they accepted: so it is asked last.
-    if (allows_partner(collapse) &&
-        (m_intersection ? m_intersection->allows(collapse) : m_error.allows(collapse))) {
-      ++m_accepted;
-      m_is_mover_first = m_intersection && m_intersection->is_mover_first();
-      return true;
+    // The filters remember what they found of the last collapse of both ends that they accepted: so it is
+    // asked after its partner. A collapse with companions moves one end.
+    m_refused_companion.reset();
+    if (!allows_partner(collapse) || !filters_allow(collapse) || !allows_companions(collapse)) {
+      report_refusal(collapse.moving());
+      return false;
     }
-    report_refusal(collapse.moving());
-    return false;
+    m_is_mover_first = m_intersection && m_intersection->is_mover_first();
+    m_motions_left = 1 + m_companions.size();
+    m_accepted += m_motions_left;
+    return true;
   }
 
   template <class Profile>
@@ -599,7 +665,10 @@ private:
     m_rule.after_collapse(kept);
     if (m_intersection)
       m_intersection->visitor().after_collapse(kept);
-    pass_levels();
+    if (m_motions_left > 0)
+      --m_motions_left;
+    if (m_motions_left == 0) // all places of a shared mesh are alike again
+      pass_levels();
   }
 
   // Reports the levels that have been reached. Each is a snapshot on which nothing that follows depends.
@@ -711,6 +780,7 @@ private:
     result.uv = m_uv.refusals();
     result.intersection = m_intersection ? m_intersection->refusals() : 0;
     // What the last filter accepted and the loop did not collapse. A stop comes before the filters.
+    result.companions = m_companions_too_near;
     result.by_loop = m_accepted - m_report.collapses;
     return result;
   }
@@ -762,6 +832,10 @@ private:
   std::optional<Intersection> m_intersection;
   Simplify_report m_report;
   std::size_t m_accepted = 0;
+  std::vector<Halfedge> m_companions; // of the last collapse accepted, until the loop does them
+  std::optional<Halfedge> m_refused_companion;
+  std::size_t m_motions_left = 0; // it and they
+  std::size_t m_companions_too_near = 0;
   bool m_is_mover_first = false; // of the last collapse accepted
   double m_cost = 0;
   bool m_are_hindrances_counted = true;
