@@ -59,8 +59,8 @@ Shared_meshes shared_meshes(const Triangle_soup& soup, const std::vector<char>& 
     for (const Index v : {a, b, c}) {
       const Index row = soup.scene_vertices[v] - instance.first;
       copy.rows.push_back(row);
-      is_different |= world_position(instance.to_world, scene.blocks[instance.block].attributes.front(),
-                                     row) != soup.points[v];
+      const Gltf_scene::Column& positions = scene.blocks[instance.block].attributes.front();
+      is_different |= world_position(instance.to_world, positions, row) != soup.points[v];
     }
   }
   for (auto& [mesh, of_file] : copies) {

@@ -455,6 +455,48 @@ group(
     sources=("src/simplify/simplify_soup.cpp",),
 )
 
+# Meshes in several places
+
+group(
+    headers + "Surface_mesh_simplification/internal/Simplification.h",
+    ("instances_test",),
+    ("if (are_apart && all_of_companions(m_companions,", "if (are_apart || all_of_companions(m_companions,",
+     "other places are not asked"),
+    ("const bool are_apart = m_observer.are_companions_apart(collapse.moving(), m_companions);",
+     "const bool are_apart = true;", "places that come near each other change alike"),
+    ("if (m_motions_left == 0) // all", "if (true) // all", "a level while places differ"),
+    ("m_observer.are_companions_apart(moving, companions) &&", "true &&",
+     "places that are too near are no reason"),
+    sources=("src/simplify/simplify_soup.cpp",),
+)
+group(
+    headers + "Surface_mesh_simplification/internal/Edge_collapse.h",
+    ("instances_test", "worlds_test"),
+    ("put(m_has_stale_edges, source(*moving, m_mesh), true);", "", "what another place refused waits for ever"),
+    ("        if (is_stale(id(leader)))\n          refresh(leader);", "", "no leader is looked at again"),
+    sources=("src/simplify/simplify_soup.cpp",),
+)
+group(
+    "src/soup/Working_mesh.cpp",
+    ("instances_test", "worlds_test"),
+    ("places[copy.place].is_mirrored != ", "places[copy.place].is_mirrored && ", "mirrored places are not seen as such"),
+    ("          if (!is_alike || is_held)\n            lock_source(image);", "", "what is held in one place moves in others"),
+    ("if (!m_mesh.is_border(image) && !std::exchange(is_line[image], true))", "if (false)",
+     "lines of one place are none in others"),
+)
+group(
+    "src/soup/shared_meshes.cpp",
+    ("instances_test",),
+    ("positions, row) != soup.points[v];", "positions, row) != soup.points[v] && false;",
+     "places that a snap has changed are one"),
+)
+group(
+    "src/files/gltf_writer.cpp",
+    ("gltf_test:Gltf.*", "instances_test"),
+    ("        all += contents[i];", "", "copies are alike whatever they have become"),
+    ("std::all_of(instances.begin(), instances.end(), is_like_first)", "true", "instances that differ stay instances"),
+)
+
 # Pairs that offend already
 filter_of_pairs = ("descent_test", "descent_filter_test")
 group(
