@@ -243,8 +243,11 @@ private:
     return as_label(name, m_group_names);
   }
 
+  /// The names that elements have got, and the largest number added to each, or 1.
+  using Names = std::map<std::string, std::size_t>;
+
   // Returns a name that OBJ files can hold and that no other element has.
-  static std::string as_label(std::string name, std::set<std::string>& taken)
+  static std::string as_label(std::string name, Names& taken)
   {
     for (char& c : name)
       if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f || c == '\\')
@@ -253,9 +256,12 @@ private:
     name.erase(name.find_last_not_of(' ') + 1);
     if (name.empty())
       name = "_";
-    std::string unique = name;
-    for (std::size_t i = 2; !taken.insert(unique).second; ++i)
-      unique = name + "#" + std::to_string(i);
+    std::size_t& number = taken[name];
+    if (number++ == 0)
+      return name;
+    std::string unique = name + "#" + std::to_string(number);
+    while (!taken.emplace(unique, 1).second)
+      unique = name + "#" + std::to_string(++number);
     return unique;
   }
 
@@ -516,7 +522,7 @@ private:
     const auto has_none = [](const tinygltf::Primitive* primitive) { return primitive->material < 0; };
     if (std::all_of(m_sources.begin(), m_sources.end(), has_none))
       return;
-    std::set<std::string> taken;
+    Names taken;
     for (std::size_t i = 0; i < materials.size(); ++i) {
       const std::string name = materials[i].value("name", "");
       soup().materials.names.push_back(
@@ -663,7 +669,7 @@ private:
   std::shared_ptr<Gltf_scene> m_scene = std::make_shared<Gltf_scene>();
   std::vector<const tinygltf::Primitive*> m_sources; // the primitive of each part
   Cancellation_poll m_poll;
-  std::set<std::string> m_group_names;
+  Names m_group_names;
   std::map<std::tuple<Index, std::map<std::string, int>, std::vector<std::map<std::string, int>>>, Index>
       m_block_numbers;
   std::vector<char> m_is_free_accessor;
