@@ -246,7 +246,8 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
            << with_commas(done.faces_input - done.faces_fixed);
   if (result.shared_meshes > 0)
     stream << "\ninstances: " << counted(result.shared_meshes, "mesh", "meshes") << " in "
-           << with_commas(result.shared_places) << " places reduced once, alike in all";
+           << with_commas(result.shared_places) << " places reduced once, alike in all"
+           << (request.options.placement == Placement::optimal ? ", at vertices of the input" : "");
   if (result.apart_meshes > 0)
     stream << "\ninstances: " << counted(result.apart_meshes, "mesh", "meshes")
            << " not the same in all places (snapped, rounded, or degenerate in some), so each place was "

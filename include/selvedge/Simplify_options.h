@@ -41,7 +41,8 @@ enum class Face_index {
 
 /// What becomes of a mesh that stands in several places of a glTF scene, in nodes or as instances.
 enum class Instances {
-  shared, ///< it is reduced once: a collapse is done in all places, or, where one does not allow it, in none
+  shared, ///< it is reduced once: a collapse is done in all places, or, where one does not allow it, in none;
+          ///< the last one may pass a target by two faces in every place
   apart   ///< it is reduced in each place by itself
 };
 

@@ -366,7 +366,6 @@ void Working_mesh::share(std::vector<Shared_mesh> meshes)
           near.emplace_back(a->second, b->second);
   }
   lock_in_all_places();
-  mark_in_all_places();
 }
 
 // Whether the faces on both sides of an edge belong to one place of a mesh.
@@ -419,24 +418,6 @@ void Working_mesh::lock_in_all_places()
       }
 }
 
-void Working_mesh::mark_in_all_places()
-{
-  std::vector<char> is_line(m_mesh.number_of_edges(), false);
-  for (const Mesh::Edge_index e : m_constraints.line_edges)
-    is_line[e] = true;
-  const std::vector<Mesh::Edge_index> lines = m_constraints.line_edges;
-  for (const Mesh::Edge_index line : lines) {
-    const Side here = side(m_mesh.halfedge(line));
-    if (!is_shared(Mesh::Face_index(here.triangle)))
-      continue;
-    for (Index p = 0; p < m_shared[m_copies[here.triangle].mesh].places.size(); ++p) {
-      const Mesh::Edge_index image = m_mesh.edge(halfedge(in_place(here, p)));
-      if (!m_mesh.is_border(image) && !std::exchange(is_line[image], true))
-        m_constraints.line_edges.push_back(image);
-    }
-  }
-}
-
 std::vector<Working_mesh::Mesh::Halfedge_index> Working_mesh::companions(Mesh::Halfedge_index moving) const
 {
   std::vector<Mesh::Halfedge_index> result;
@@ -452,13 +433,12 @@ std::vector<Working_mesh::Mesh::Halfedge_index> Working_mesh::companions(Mesh::H
   return result;
 }
 
-Working_mesh::Mesh::Halfedge_index Working_mesh::leader(Mesh::Halfedge_index edge) const
+bool Working_mesh::is_led(Mesh::Halfedge_index edge) const
 {
   if (m_shared.empty())
-    return edge;
+    return false;
   const Side here = side(edge);
-  const bool is_led = is_shared(Mesh::Face_index(here.triangle)) && m_copies[here.triangle].place > 0;
-  return is_led ? halfedge(in_place(here, 0)) : edge;
+  return is_shared(Mesh::Face_index(here.triangle)) && m_copies[here.triangle].place > 0;
 }
 
 bool Working_mesh::are_companions_apart(Mesh::Halfedge_index moving,

@@ -98,9 +98,9 @@ public:
   const Simplify_constraints<Mesh>& constraints() const { return m_constraints; }
   const Sewing_notes& notes() const { return m_notes; }
 
-  /// Makes the places of shared meshes one for the reduction: what holds a vertex or makes an edge a line in
-  /// one place does so in all, and motions have companions. Where the faces of a mesh are not joined alike in
-  /// all places, because something is sewn to them in some, vertices are locked.
+  /// Makes the places of shared meshes one for the reduction: what holds a vertex in one place does so in
+  /// all, and motions have companions. Where the faces of a mesh are not joined alike in all places, because
+  /// something is sewn to them in some, vertices are locked.
   ///
   /// **Preconditions** Nothing has been collapsed.
   void share(std::vector<Shared_mesh> meshes);
@@ -189,7 +189,7 @@ public:
   std::vector<Mesh::Halfedge_index> companions(Mesh::Halfedge_index moving) const;
   bool are_companions_apart(Mesh::Halfedge_index moving,
                             const std::vector<Mesh::Halfedge_index>& companions) const;
-  Mesh::Halfedge_index leader(Mesh::Halfedge_index edge) const;
+  bool is_led(Mesh::Halfedge_index edge) const;
   Hindrance lock_reason(Mesh::Vertex_index v) const;
   Hindrance line_reason(Mesh::Edge_index e) const;
   double uv_cost(Mesh::Halfedge_index moving) const;
@@ -304,7 +304,6 @@ private:
   bool is_flipped(Index face) const;
   bool is_sewn_inside(Mesh::Halfedge_index h) const;
   void lock_in_all_places();
-  void mark_in_all_places();
 
   std::vector<Shared_mesh> m_shared;
   std::vector<std::vector<std::pair<Index, Index>>> m_near_places; // by mesh: their boxes meet

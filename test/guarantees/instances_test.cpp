@@ -138,6 +138,7 @@ TEST(Instances, PlacesThatComeTooNearDoNotMove)
   EXPECT_EQ(shared.simplified.report.collapses, 0u);
   EXPECT_GT(shared.simplified.report.refused.companions, 0u);
   EXPECT_GT(shared.simplified.report.hindrances[Hindrance::companions], 0u);
+  EXPECT_EQ(shared.simplified.report.hindrances[Hindrance::by_loop], 0u);
   EXPECT_GT(reduce_and_log(soup, as_far_as_possible(Instances::apart)).simplified.report.collapses, 0u);
 }
 
@@ -167,10 +168,23 @@ TEST(Instances, LevelsAreTheSameInAllPlaces)
   }
 }
 
+TEST(Instances, WhatIsLockedInOnePlaceIsFixedInAll)
+{
+  Simplify_intent intent;
+  intent.locked = {"turned"};
+  const auto fixed = [&](Instances instances) {
+    return simplify_soup(prepare(in_places(s_far_apart)), as_far_as_possible(instances), intent)
+        .report.faces_fixed;
+  };
+  EXPECT_EQ(fixed(Instances::apart), 2u * s_side * s_side);
+  EXPECT_EQ(fixed(Instances::shared), 3u * 2 * s_side * s_side);
+}
+
 TEST(Instances, PlacesThatDifferAreReducedApart)
 {
   Triangle_soup soup = in_places(s_far_apart);
-  soup.points[soup.triangles.front()[0]] = soup.points[soup.triangles.front()[1]]; // as a snap might
+  Point_3& point = soup.points[soup.triangles.front()[0]]; // moved as by a snap
+  point = Point_3(point.x() - 0.125, point.y(), point.z());
   const Simplified_soup result = simplify_soup(prepare(soup), as_far_as_possible(Instances::shared));
   EXPECT_EQ(result.apart_meshes, 1u);
   EXPECT_EQ(result.shared_meshes, 0u);

@@ -470,19 +470,11 @@ group(
     sources=("src/simplify/simplify_soup.cpp",),
 )
 group(
-    headers + "Surface_mesh_simplification/internal/Edge_collapse.h",
-    ("instances_test", "worlds_test"),
-    ("put(m_has_stale_edges, source(*moving, m_mesh), true);", "", "what another place refused waits for ever"),
-    ("        if (is_stale(id(leader)))\n          refresh(leader);", "", "no leader is looked at again"),
-    sources=("src/simplify/simplify_soup.cpp",),
-)
-group(
     "src/soup/Working_mesh.cpp",
     ("instances_test", "worlds_test"),
     ("places[copy.place].is_mirrored != ", "places[copy.place].is_mirrored && ", "mirrored places are not seen as such"),
-    ("          if (!is_alike || is_held)\n            lock_source(image);", "", "what is held in one place moves in others"),
-    ("if (!m_mesh.is_border(image) && !std::exchange(is_line[image], true))", "if (false)",
-     "lines of one place are none in others"),
+    ("if (!is_alike || is_held)", "if (!is_alike)", "what is locked in one place is not in others"),
+    ("is_alike = is_border || is_sewn_inside(h)", "is_alike = true", "what is sewn to something else moves"),
 )
 group(
     "src/soup/shared_meshes.cpp",

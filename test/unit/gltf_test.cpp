@@ -794,6 +794,28 @@ TEST(Gltf, InstancesStayInstancesWhereTheyAreShared)
   }
 }
 
+TEST(Gltf, InstancesThatDifferInOneTriangleAreTwoMeshes)
+{
+  const Temporary_folder folder;
+  Triangle_soup soup = read_glb(waves_in_places()).soup;
+  const Index in_each = Index(soup.triangles.size() / 3);
+  std::vector<Index> kept;
+  for (Index t = 0; t < soup.triangles.size(); ++t)
+    if (t != 0 && t != in_each + 1 && t != 2 * in_each) // as many are left in every place
+      kept.push_back(t);
+  keep_triangles(soup, kept);
+  write_mesh(folder / "a.glb", soup);
+  EXPECT_EQ(from_glb(contents(folder / "a.glb")).json["meshes"].size(), 2u);
+  const Triangle_soup again = read_mesh(folder / "a.glb").soup;
+  const auto points_of = [](const Triangle_soup& of) {
+    std::multiset<std::array<Point_3, 3>> points;
+    for (const Index_triple& t : of.triangles)
+      points.insert({of.points[t[0]], of.points[t[1]], of.points[t[2]]});
+    return points;
+  };
+  EXPECT_TRUE(points_of(again) == points_of(soup));
+}
+
 TEST(Gltf, StripsAndFansBecomeTriangles)
 {
   Document document = one_triangle();

@@ -85,7 +85,8 @@ struct No_observer
   }
 
   /// Returns the motions that must be done together with this one, all or none: those of the same vertex in
-  /// the other places where its mesh stands. Not called for motions of both ends.
+  /// the other places where its mesh stands. Not called for motions of both ends. Only Selvedge's own loop
+  /// does them.
   template <class Halfedge>
   std::vector<Halfedge> companions(const Halfedge& /*moving*/) const
   {
@@ -100,12 +101,11 @@ struct No_observer
     return true;
   }
 
-  /// Returns the edge with which this one collapses, and only with it: one of its companions, the same for
-  /// all of them, or itself. Edges that are not their own leaders have no cost.
+  /// Returns whether this edge collapses only as a companion of another one. It then has no cost.
   template <class Halfedge>
-  Halfedge leader(const Halfedge& edge) const
+  bool is_led(const Halfedge& /*edge*/) const
   {
-    return edge;
+    return false;
   }
 
   /// Returns how much the motion adds to the displacement of the texture, as squared lengths with the weights

@@ -77,8 +77,7 @@ struct Has_follow_up<Visitor, std::void_t<decltype(std::declval<const Visitor&>(
 {
 };
 
-// Whether the visitor may name motions that go with a collapse. It then also names the motion among them for
-// which the last collapse was refused, and the leader of each edge, which alone is in the queue.
+// Whether the visitor may name motions that go with a collapse.
 template <class Visitor, class = void>
 struct Has_companions : std::false_type
 {
@@ -277,7 +276,7 @@ private:
     const bool is_wide = Collapse_locality<Cost>::reaches_neighbours(m_cost, kept) ||
                          Collapse_locality<Placement>::reaches_neighbours(m_placement, kept);
     for (const Halfedge h : CGAL::halfedges_around_target(halfedge(kept, m_mesh), m_mesh)) {
-      refresh_leader(h);
+      refresh(h);
       const Vertex neighbour = source(h, m_mesh);
       if (!is_wide && !get(m_has_stale_edges, neighbour))
         continue;
@@ -286,7 +285,7 @@ private:
         const bool is_due = is_wide && (opposite(g, m_mesh) != next(opposite(h, m_mesh), m_mesh) ||
                                         CGAL::is_border(opposite(h, m_mesh), m_mesh));
         if (g != opposite(h, m_mesh) && (is_stale(id(g)) || (is_due && is_reached(kept, edge(g, m_mesh)))))
-          refresh_leader(g);
+          refresh(g);
       }
       put(m_has_stale_edges, neighbour, false);
     }
@@ -305,19 +304,6 @@ private:
   }
 
   bool is_stale(Id edge_id) const { return m_records[edge_id].rank > 0 || !m_queue.contains(edge_id); }
-
-  // An edge that is led has no cost. Its leader has been refreshed by its own collapses, unless it was
-  // refused.
-  void refresh_leader(Halfedge h)
-  {
-    if constexpr (Has_companions<Visitor>::value)
-      if (const Halfedge leader = m_visitor.leader(h); leader != h) {
-        if (is_stale(id(leader)))
-          refresh(leader);
-        return;
-      }
-    refresh(h);
-  }
 
   // Puts an edge into the queue with the cost of its first placement, or takes it out if that has no cost.
   void refresh(Halfedge h)
@@ -348,11 +334,6 @@ private:
         of_edge);
     put(m_has_stale_edges, of_edge.v0(), true);
     put(m_has_stale_edges, of_edge.v1(), true);
-    if constexpr (Has_companions<Visitor>::value)
-      if (const auto moving = m_visitor.refused_companion()) {
-        put(m_has_stale_edges, source(*moving, m_mesh), true);
-        put(m_has_stale_edges, target(*moving, m_mesh), true);
-      }
   }
 
   // Returns the cost of the placement that is next for the edge, or none when there is none any more.

@@ -96,7 +96,7 @@ class Simplification
     template <class Profile>
     Optional<double> cost_along(const Profile& profile, Halfedge moving) const
     {
-      if (!m_targets.is_counted(moving) || is_led(moving))
+      if (!m_targets.is_counted(moving) || m_observer->is_led(moving))
         return {};
       const Optional<double> cost = m_quadrics.cost_along(profile, moving);
       return m_uv_weight > 0 ? *cost + m_uv_weight * m_observer->uv_cost(moving) : cost;
@@ -116,8 +116,6 @@ class Simplification
     {
       return m_quadrics.least_place(profile, reach);
     }
-
-    bool is_led(Halfedge edge) const { return m_observer->leader(edge) != edge; }
 
     bool reaches_neighbours(Vertex kept) const { return m_quadrics.reaches_neighbours(kept); }
     bool reaches(Vertex kept, Edge edge) const { return m_quadrics.reaches(kept, edge); }
@@ -304,7 +302,8 @@ private:
                                                                       .filter(Filter{this})
                                                                       .visitor(Visitor(*this))));
         // The loop leaves no collapse undone that a change nearby or of a blocker has made possible. Should a
-        // rule look farther, another pass finds what it allows.
+        // rule look farther, as from one place of a shared mesh to another, another pass finds what it
+        // allows.
         count_hindrances(places);
         return m_report.hindrances[Hindrance::by_loop] > 0 && m_report.collapses > collapses_before;
       });
@@ -373,7 +372,7 @@ private:
     const std::vector<Halfedge> companions = m_observer.companions(moving);
     const bool can_go_elsewhere =
         companions.empty() ||
-        (m_observer.leader(moving) == moving && m_observer.are_companions_apart(moving, companions) &&
+        (!m_observer.is_led(moving) && m_observer.are_companions_apart(moving, companions) &&
          all_of_companions(companions, [this](const auto& of_companion) {
            return m_rule.allows(of_companion) && hindrance(of_companion) == Hindrance::by_loop;
          }));
@@ -550,14 +549,6 @@ private:
     // The loop does these motions next, without asking: they have been asked for together.
     std::vector<Halfedge> companions() const { return std::exchange(simplification->m_companions, {}); }
 
-    // The motion for which the last collapse was refused, if that was a companion: what changes there may let
-    // the leaders collapse.
-    std::optional<Halfedge> refused_companion() const
-    {
-      return std::exchange(simplification->m_refused_companion, std::nullopt);
-    }
-    Halfedge leader(const Halfedge& edge) const { return simplification->m_observer.leader(edge); }
-
     // The loop tries this motion next, before the cheapest edge.
     std::optional<Halfedge> follow_up() const
     {
@@ -592,7 +583,6 @@ private:
   {
     return std::all_of(companions.begin(), companions.end(), [&](const Halfedge& moving) {
       const Partner_profile profile(moving, m_mesh, m_points, m_traits);
-      m_refused_companion = moving;
       return m_topology.is_kept(profile, No_constrained_edges()) &&
              is_allowed(Collapse<Partner_profile>::along(profile, moving));
     });
@@ -609,10 +599,8 @@ private:
     m_companions_too_near += !are_apart;
     if (are_apart && all_of_companions(m_companions, [this](const auto& of_companion) {
           return filters_allow(of_companion);
-        })) {
-      m_refused_companion.reset();
+        }))
       return true;
-    }
     ++m_report.refused_elsewhere;
     m_companions.clear();
     return false;
@@ -629,7 +617,6 @@ private:
   {
     // The filters remember what they found of the last collapse of both ends that they accepted: so it is
     // asked after its partner. A collapse with companions moves one end.
-    m_refused_companion.reset();
     if (!allows_partner(collapse) || !filters_allow(collapse) || !allows_companions(collapse)) {
       report_refusal(collapse.moving());
       return false;
@@ -833,8 +820,7 @@ private:
   Simplify_report m_report;
   std::size_t m_accepted = 0;
   std::vector<Halfedge> m_companions; // of the last collapse accepted, until the loop does them
-  std::optional<Halfedge> m_refused_companion;
-  std::size_t m_motions_left = 0; // it and they
+  std::size_t m_motions_left = 0;     // it and they
   std::size_t m_companions_too_near = 0;
   bool m_is_mover_first = false; // of the last collapse accepted
   double m_cost = 0;
