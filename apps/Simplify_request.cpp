@@ -149,6 +149,7 @@ Json options_json(const Simplify_request& request)
           {"seam_turn", options.max_seam_turn},
           {"border_drift", options.max_border_drift},
           {"placement", options.placement == Placement::optimal ? "optimal" : "vertices"},
+          {"instances", options.instances == Instances::shared ? "shared" : "apart"},
           {"loop", options.loop == Collapse_loop::own ? "own" : "cgal"},
           {"index", options.index == Face_index::packed ? "packed" : "clusters"},
           {"cluster_size", options.faces_per_cluster},
@@ -270,6 +271,17 @@ void add_options(CLI::App& command, Simplify_request& request)
                   "Mesh that no face may touch or pass through, such as a body. It is not changed, counted "
                   "or written.")
       ->type_name("FILE")
+      ->group(parts);
+
+  command
+      .add_option(
+          "--instances", options.instances,
+          "Meshes that stand in several places of a glTF scene: reduce each once, with collapses that "
+          "all places allow, so that the output shares them as the input does; or in each place by "
+          "itself. Outputs of other formats have no places: then it is apart.")
+      ->transform(one_of<Instances>({{"shared", Instances::shared}, {"apart", Instances::apart}}))
+      ->type_name("shared|apart")
+      ->default_str("shared")
       ->group(parts);
 
   const char* const limits = "Limits of a collapse";

@@ -164,6 +164,10 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
                         {"placed", result.placed_vertices}};
   report["collapses"] = done.collapses;
   report["passes"] = done.passes;
+  report["instances"] = {{"meshes", result.shared_meshes},
+                         {"places", result.shared_places},
+                         {"apart", result.apart_meshes},
+                         {"refused_elsewhere", done.refused_elsewhere}};
   report["cells"] = {{"count", done.cells}, {"collapses", done.collapses_in_cells}};
   report["refused"] = to_json(done.refused);
   report["frozen"] = {{"faces", prepared.frozen_faces}, {"pairs", prepared.offending_pairs.size()}};

@@ -128,6 +128,8 @@ private:
   {
     m_bar.begin("sewing and indexing");
     Simplify_options options = m_request.options;
+    if (output_format() != Mesh_format::gltf && output_format() != Mesh_format::glb)
+      options.instances = Instances::apart;
     options.should_stop = [this](const Simplify_progress& progress) {
       m_bar.update(progress);
       m_is_kept = true;

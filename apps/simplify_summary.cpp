@@ -64,6 +64,8 @@ std::string remedy(Hindrance reason, const Simplify_request& request, Normals_tr
                                              : "";
   case Hindrance::error:
     return "--error " + with_digits(*options.max_error > 0 ? 5 * *options.max_error : 0.01);
+  case Hindrance::companions:
+    return "--instances apart";
   case Hindrance::by_loop:
     return "--loop own";
   default:
@@ -242,6 +244,14 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
     stream << "\nfixed: " << counted(done.faces_fixed, "face")
            << " with all corners frozen, locked or coincident; a ratio is of the other "
            << with_commas(done.faces_input - done.faces_fixed);
+  if (result.shared_meshes > 0)
+    stream << "\ninstances: " << counted(result.shared_meshes, "mesh", "meshes") << " in "
+           << with_commas(result.shared_places) << " places reduced once, alike in all"
+           << (request.options.placement == Placement::optimal ? ", at vertices of the input" : "");
+  if (result.apart_meshes > 0)
+    stream << "\ninstances: " << counted(result.apart_meshes, "mesh", "meshes")
+           << " not the same in all places (snapped, rounded, or degenerate in some), so each place was "
+              "reduced by itself";
   if (const std::size_t turned = prepared.turned_faces(); turned > 0)
     stream << "\norientation: " << counted(turned, "face")
            << " turned to agree with the others of their surface, and turned back in the output";

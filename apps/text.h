@@ -23,10 +23,10 @@ inline std::string with_commas(std::size_t number)
   return text;
 }
 
-/// Returns a number with its noun: "1 face", "2,000 faces".
-inline std::string counted(std::size_t number, const std::string& noun)
+/// Returns a number with its noun: "1 face", "2,000 faces". The plural is given where it is another one.
+inline std::string counted(std::size_t number, const std::string& noun, const std::string& plural = "")
 {
-  return with_commas(number) + ' ' + noun + (number == 1 ? "" : "s");
+  return with_commas(number) + ' ' + (number == 1 ? noun : plural.empty() ? noun + 's' : plural);
 }
 
 inline std::string with_digits(double value, const char* format = "%.3g")

@@ -39,6 +39,13 @@ enum class Face_index {
   clusters ///< `Clustered_AABB_tree`: the reference
 };
 
+/// What becomes of a mesh that stands in several places of a glTF scene, in nodes or as instances.
+enum class Instances {
+  shared, ///< it is reduced once: a collapse is done in all places, or, where one does not allow it, in none;
+          ///< the last one may pass a target by two faces in every place
+  apart   ///< it is reduced in each place by itself
+};
+
 /// The options of `simplify_soup` and `simplify_mesh`. Values outside the ranges given throw
 /// `Argument_error`.
 ///
@@ -121,6 +128,9 @@ struct Simplify_options
   /// Where a collapse puts the merged vertex. With `optimal`, the result is nearer to the input for the same
   /// number of faces; the attributes of vertices at new places are interpolated (`simplify_soup`).
   Placement placement = Placement::vertices;
+
+  /// What becomes of meshes that stand in several places of a glTF scene (`simplify_soup`).
+  Instances instances = Instances::shared;
 
   /// Called before each collapse of a soup, as `Reduction_log` takes it. It may be empty. With
   /// `simplify_mesh` it must be empty (`Argument_error`); use an observer there.

@@ -26,8 +26,9 @@ struct Simplify_report
   std::size_t collapses = 0;
   std::size_t placed = 0;     ///< how many of `collapses` put the merged vertex to a new place
   std::size_t left_alone = 0; ///< vertices tied to partners that have gone without them; see `Snapping_notes`
-  std::size_t passes = 0;     ///< of the loop: another begins while more collapses may be possible
-  bool is_stopped = false;    ///< by `Simplify_options::should_stop`
+  std::size_t refused_elsewhere = 0; ///< motions that only another place of their shared mesh did not allow
+  std::size_t passes = 0;            ///< of the loop: another begins while more collapses may be possible
+  bool is_stopped = false;           ///< by `Simplify_options::should_stop`
 
   /// With `Simplify_options::faces_per_cell`, these three are of the reduction after the cells.
   Refusals refused;

@@ -57,20 +57,24 @@ namespace selvedge {
 /// global matrix and the node's own; its entries are (P_0 L_0 + P_1 L_1) + P_2 L_2, and + P_3 in the last
 /// column; at a root, P is the identity. L is `matrix`, or, from `translation` t, `rotation` (x, y, z, w) and
 /// `scale` s, the matrix with the columns R_j s_j and t, where R has 1 − 2 (y y + z z), 2 (x y − z w), 2 (x z
-/// + y w) as its first row, and so on, not normalised. Every operation is rounded to double, in this order. A
-/// skinned mesh is taken in its bind pose, with the identity for G, because its node does not move it, as the
-/// format says. Morph targets and animations are carried along, but nothing is guaranteed for the shapes that
-/// they make. Triangles of nodes that mirror are turned over, so that outside is outside.
+/// + y w) as its first row, and so on, not normalised. Every operation is rounded to double, in this order.
+/// An instance of EXT_mesh_gpu_instancing stands where a child of its node would, with its row of
+/// TRANSLATION, ROTATION (normalised integers are fractions, in doubles) and SCALE. A skinned mesh is taken
+/// in its bind pose, with the identity for G, because its node does not move it, as the format says. Morph
+/// targets and animations are carried along, but nothing is guaranteed for the shapes that they make.
+/// Triangles of nodes that mirror are turned over, so that outside is outside.
 ///
 /// When a scene is written to glTF again, every vertex that is not at a new place keeps its rows of all
 /// accessors, morph targets included, bit for bit, and so its world position. Only NORMAL is what the soup
 /// says: the row of a vertex of the file that has this normal, where there is one, else the normal turned
 /// back into its node; without normals, the file gets neither NORMAL nor TANGENT. The rest of the document
 /// stays as it is: images byte for byte, addresses of files, numbers of accessors and buffer views.
-/// Exceptions: a mesh that several nodes share becomes one for each node in which it has been reduced
-/// otherwise, accessors of triangles are written without gaps, and in full unless the file has nothing but
-/// sparse values for them, buffers become one, and bytes that nothing can refer to go. Primitives of points
-/// or lines, and meshes outside the scene, stay as they are. Those without a triangle left are removed.
+/// Exceptions: a mesh that stands in several places (nodes or instances) becomes several, one for all places
+/// in which it has the same triangles of the same vertices, with the normals of the first of them; instances
+/// that have come to differ become nodes, without the extension's own attributes; accessors of triangles are
+/// written without gaps, and in full unless the file has nothing but sparse values for them, buffers become
+/// one, and bytes that nothing can refer to go. Primitives of points or lines, and meshes outside the scene,
+/// stay as they are. Those without a triangle left are removed.
 ///
 /// **Flat shading.** PLY and glTF hold one normal for each vertex, so that a file with a normal for each face
 /// has several vertices at every corner of its mesh. Where the normals are flat (normals.h), triangles name
@@ -86,8 +90,9 @@ namespace selvedge {
 ///
 /// **Complexity.** Time is linear in the size of the file, but quadratic in the number of corners of a
 /// polygon. Memory is linear, with two exceptions: a glTF scene may show a part in many of its nodes, and a
-/// polygon in a PLY file gives its attributes to each of its triangles. A file for which these take more than
-/// 64 times its size (unpacked) is refused.
+/// polygon in a PLY file gives its attributes to each of its triangles. A PLY file for which these take more
+/// than 64 times its size (unpacked) is refused, and a glTF file whose instances have more than 2^20 vertices
+/// and corners and more than 256 for each byte of its buffers.
 
 enum class Mesh_format { obj, off, ply, stl, glb, gltf };
 
@@ -156,7 +161,7 @@ struct Mesh_file
 ///   COLOR_0 is a colour. Other attributes are carried when all vertices have them in the same form. In
 ///   primitives without indices, vertices that agree in every attribute become one. Buffers are in the file,
 ///   data addresses, or files beside it. What EXT_meshopt_compression, KHR_draco_mesh_compression (2.2) and
-///   KHR_mesh_quantization pack is decoded and written plain. Refused: instances, other required extensions.
+///   KHR_mesh_quantization pack is decoded and written plain. Refused: other required extensions.
 ///
 /// In OBJ, OFF and PLY files of at least 100 triangles, or of quads, in which no two faces share a vertex,
 /// corners at one position with the same vertex attributes refer to the first of their vertices, as in STL;

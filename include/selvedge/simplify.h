@@ -62,6 +62,10 @@ struct Simplified_soup
 
   std::size_t placed_vertices = 0; ///< how many vertices of `soup` are at new places
 
+  std::size_t shared_meshes = 0; ///< that were reduced in all of their places alike, and
+  std::size_t shared_places = 0; ///< in how many places these stand
+  std::size_t apart_meshes = 0;  ///< that stand in several places, in which they were reduced one by one
+
   Sewing_notes sewing;
   Simplify_report report;
 
@@ -90,7 +94,12 @@ struct Simplified_soup
 ///    coincide at every vertex. Texture seams and borders between groups are kept in the same way.
 /// 4. *Texture*: no triangle of the texture turns over.
 /// 5. *Order*: the triangles left are in the order of the input, each with its first corner first.
-/// 6. *Scale*: a soup that is multiplied by a power of two, together with its obstacle and its weld distance,
+/// 6. *Instances*: a mesh of a glTF scene that stands in several places has the same triangles of the same
+///    vertices in all of them, and a file gets it once (`Instances::shared`; docs/guarantees.md). Such meshes
+///    are reduced apart, one by one, when rounding or a snap has moved a vertex of theirs in some place or
+///    has tied it, when `prepare` has left out a triangle in some places only, and with
+///    `Collapse_loop::cgal`. With `Placement::optimal`, their vertices do not go to new places.
+/// 7. *Scale*: a soup that is multiplied by a power of two, together with its obstacle and its weld distance,
 ///    takes the same steps, and its result is multiplied by the same power, as long as the multiplication
 ///    loses no digit.
 ///

@@ -40,15 +40,6 @@ const Json* extension_of(const Json& part, const char* name)
   return found == extensions.end() || !found->is_object() ? nullptr : &*found;
 }
 
-void remove_extension_of(Json& part, const char* name)
-{
-  if (!part.is_object() || !member(part, "extensions").is_object())
-    return;
-  part["extensions"].erase(name);
-  if (part["extensions"].empty())
-    part.erase("extensions");
-}
-
 /// Returns a number that must be there, whole and not negative.
 std::size_t number_in(const Gltf_document& document, const Json& object, const char* name)
 {
@@ -403,6 +394,15 @@ void decode_primitives(Gltf_document& document)
 #else
   static_cast<void>(document);
 #endif
+}
+
+void remove_extension_of(Json& part, const char* name)
+{
+  if (!part.is_object() || !member(part, "extensions").is_object())
+    return;
+  part["extensions"].erase(name);
+  if (part["extensions"].empty())
+    part.erase("extensions");
 }
 
 void remove_extension(Json& document, const std::string& name)

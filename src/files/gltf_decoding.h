@@ -33,6 +33,9 @@ void decode_views(Gltf_document& document);
 /// 64 KiB and more than 1024 times as much as what is decoded.
 void decode_primitives(Gltf_document& document);
 
+/// Removes an extension of this name from a node, a primitive or the like, if it has one.
+void remove_extension_of(Gltf_scene::Json& part, const char* name);
+
 /// Removes a name from the lists of extensions that the document uses and requires.
 void remove_extension(Gltf_scene::Json& document, const std::string& name);
 

@@ -4,6 +4,7 @@
 #include "files/gltf_document.h"
 
 #include "files/Binary_reader.h"
+#include "files/gltf_column_reader.h"
 #include "files/gltf_decoding.h"
 
 #include <selvedge/Error.h>
@@ -79,19 +80,17 @@ void parse(std::string_view json, Gltf_document& document)
     document.fail("this is not glTF of version 2; export it as glTF 2.0");
 }
 
-bool is_decoded(const std::string& extension)
+bool is_understood(const std::string& extension)
 {
   return extension == "EXT_meshopt_compression" || extension == "KHR_draco_mesh_compression" ||
-         extension == "KHR_mesh_quantization";
+         extension == "KHR_mesh_quantization" || extension == instancing_extension;
 }
 
 void refuse_extensions(const Gltf_document& document)
 {
   const std::map<std::string, std::string> refused = {
       {"KHR_meshopt_compression",
-       "its buffers are compressed with KHR_meshopt_compression; export it without compression"},
-      {"EXT_mesh_gpu_instancing",
-       "it places meshes with EXT_mesh_gpu_instancing; export it with one node for each"}};
+       "its buffers are compressed with KHR_meshopt_compression; export it without compression"}};
   for (const char* list : {"extensionsRequired", "extensionsUsed"})
     for (const Json& extension : member(document.json, list)) {
       if (!extension.is_string())
@@ -102,7 +101,8 @@ void refuse_extensions(const Gltf_document& document)
       if (const std::string library = missing_decoder(name); !library.empty())
         document.fail("it is compressed with " + name + ", and this program was built without " + library +
                       ", which decodes that; export it without compression");
-      if (list == std::string_view("extensionsRequired") && !is_decoded(name) && !is_apart_from_meshes(name))
+      if (list == std::string_view("extensionsRequired") && !is_understood(name) &&
+          !is_apart_from_meshes(name))
         document.fail("it requires the extension " + name + ", which is not known here; export it without");
     }
 }
@@ -302,7 +302,78 @@ void place_nodes(Gltf_document& document)
   }
 }
 
+/// Returns the nodes that stand for the instances of a node.
+std::vector<Json> instances_of(const Gltf_document& document, std::size_t n)
+{
+  const std::string place = "the instances of node " + std::to_string(n);
+  const tinygltf::Model& model = document.model;
+  const Gltf_column_reader reader(document, place);
+  std::vector<Json> result;
+  std::size_t count = 0;
+  for (const auto& [key, number] : instance_attributes(document.json["nodes"][n]).items()) {
+    const int accessor = number.is_number_integer() ? number.get<int>() : -1;
+    const bool is_there = accessor >= 0 && std::size_t(accessor) < model.accessors.size();
+    // The rows of an accessor without a buffer view take no space in the file.
+    if (!is_there || model.accessors[accessor].bufferView < 0)
+      document.fail(place +
+                    " name an accessor that is not there or has no buffer view; export the file again");
+    count = count == 0 ? model.accessors[accessor].count : count;
+    const Gltf_scene::Column column = reader.read(accessor, key, count);
+    const bool is_rotation = key == "ROTATION";
+    if (!is_rotation && key != "TRANSLATION" && key != "SCALE")
+      continue;
+    if (column.components != (is_rotation ? 4 : 3) ||
+        (column.component_type != type_float32 && !(is_rotation && column.is_normalized())))
+      document.fail(place + " have a " + key +
+                    " of another type than the extension allows; export the file again");
+    std::string member = key;
+    std::transform(member.begin(), member.end(), member.begin(), [](char c) { return char(c - 'A' + 'a'); });
+    result.resize(count, Json::object());
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t k = 0; k < column.components; ++k)
+        result[i][member].push_back(normalised(column, i, k));
+  }
+  if (count == 0)
+    document.fail(place + " have no transforms; export the file again");
+  result.resize(count, Json::object());
+  return result;
+}
+
+/// Reads EXT_mesh_gpu_instancing.
+void place_instances(Gltf_document& document)
+{
+  const tinygltf::Model& model = document.model;
+  for (std::size_t n = 0; n < model.nodes.size(); ++n) {
+    if (!document.to_world[n] || model.nodes[n].mesh == -1 ||
+        instance_attributes(document.json["nodes"][n]).empty())
+      continue;
+    if (model.nodes[n].skin != -1)
+      document.fail("node " + std::to_string(n) + " has a skin and instances; export it with one of the two");
+    for (Json& json : instances_of(document, n)) {
+      tinygltf::Node node;
+      node.translation = json.value("translation", std::vector<double>());
+      node.rotation = json.value("rotation", std::vector<double>());
+      node.scale = json.value("scale", std::vector<double>());
+      if (const Json& weights = member(document.json["nodes"][n], "weights"); !weights.empty())
+        json["weights"] = weights;
+      document.instances[n].push_back({std::move(json), product(*document.to_world[n], local_matrix(node))});
+    }
+  }
+}
+
 } // namespace
+
+const Json& instance_attributes(const Json& node)
+{
+  static const Json none = Json::object();
+  const Json* found = &node;
+  for (const char* const name : {"extensions", instancing_extension, "attributes"}) {
+    if (!found->is_object() || !found->contains(name))
+      return none;
+    found = &(*found)[name];
+  }
+  return found->is_object() ? *found : none;
+}
 
 bool is_apart_from_meshes(const std::string& extension)
 {
@@ -331,6 +402,7 @@ Gltf_document read_gltf_document(std::string_view contents, Mesh_format format, 
   decode_views(document);
   decode_primitives(document);
   place_nodes(document);
+  place_instances(document);
   return document;
 }
 

@@ -13,6 +13,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace selvedge::files {
 
@@ -25,7 +26,16 @@ struct Gltf_document
   Gltf_scene::Json json;
   tinygltf::Model model;
   std::vector<std::optional<Gltf_scene::Matrix>> to_world; ///< of every node that is in the scene
-  std::map<std::string, std::size_t> remarks;              ///< for `Read_notes`
+
+  /// A node that does what one row of EXT_mesh_gpu_instancing does, as a child of the node with the
+  /// extension.
+  struct Instance
+  {
+    Gltf_scene::Json node;
+    Gltf_scene::Matrix to_world;
+  };
+  std::map<std::size_t, std::vector<Instance>> instances; ///< of nodes that are in the scene
+  std::map<std::string, std::size_t> remarks;             ///< for `Read_notes`
 
   /// Throws an `Input_error` that names the file.
   [[noreturn]] void fail(const std::string& message) const;
@@ -38,6 +48,11 @@ Gltf_document read_gltf_document(std::string_view contents, Mesh_format format, 
 
 /// Returns a list in an object; an empty one when it is not there.
 const Gltf_scene::Json& member(const Gltf_scene::Json& object, const char* name);
+
+inline constexpr const char* instancing_extension = "EXT_mesh_gpu_instancing";
+
+/// Returns the numbers of the accessors of a node's instances, by name; an empty list when it has none.
+const Gltf_scene::Json& instance_attributes(const Gltf_scene::Json& node);
 
 /// Returns whether an extension of this name is of materials, textures, lights or metadata: it says nothing
 /// of meshes, and refers to no accessor or buffer view.

@@ -88,10 +88,65 @@ private:
            primitive.attributes.count("POSITION") != 0;
   }
 
+  /// Where a mesh stands in the scene: a node, or an instance of one.
+  struct Place
+  {
+    std::size_t node;
+    Matrix to_world;
+    Json* json; // says which mesh it is
+  };
+
+  std::vector<Place> places()
+  {
+    std::vector<Place> result;
+    m_scene->instanced_nodes.reserve(m_document.instances.size()); // places point into it
+    double rows = 0, bytes = 0;
+    for (const tinygltf::Buffer& buffer : model().buffers)
+      bytes += double(buffer.data.size());
+    for (std::size_t n = 0; n < model().nodes.size(); ++n) {
+      if (!m_document.to_world[n] || model().nodes[n].mesh == -1)
+        continue;
+      Json& node = json()["nodes"][n];
+      const auto found = m_document.instances.find(n);
+      if (found == m_document.instances.end()) {
+        result.push_back({n, *m_document.to_world[n], &node});
+        continue;
+      }
+      rows += double(found->second.size()) * rows_of(model().meshes[model().nodes[n].mesh]);
+      constexpr double always = 1 << 20, most_times = 256;
+      if (rows > always && rows > most_times * bytes)
+        fail("its instances have more than " + std::to_string(int(most_times)) +
+             " times as many vertices and corners as the file has bytes; split it");
+      std::vector<Json>& instances = m_scene->instanced_nodes.emplace_back().instances;
+      m_scene->instanced_nodes.back().node = Index(n);
+      for (const Gltf_document::Instance& instance : found->second) {
+        instances.push_back(instance.node);
+        instances.back()["mesh"] = node["mesh"];
+      }
+      for (std::size_t i = 0; i < instances.size(); ++i)
+        result.push_back({n, found->second[i].to_world, &instances[i]});
+      remark("instances of EXT_mesh_gpu_instancing", instances.size());
+    }
+    return result;
+  }
+
+  // Returns how many vertices and corners a mesh has.
+  double rows_of(const tinygltf::Mesh& mesh) const
+  {
+    double result = 0;
+    for (const tinygltf::Primitive& primitive : mesh.primitives) {
+      const auto position = primitive.attributes.find("POSITION");
+      for (const int accessor :
+           {primitive.indices, position == primitive.attributes.end() ? -1 : position->second})
+        if (accessor >= 0 && std::size_t(accessor) < model().accessors.size())
+          result += double(model().accessors[accessor].count);
+    }
+    return result;
+  }
+
   // Gives every node of the scene a mesh of its own, and lists its primitives.
   void find_parts()
   {
-    m_scene->first_copy = Index(model().meshes.size());
     m_is_free_accessor.assign(model().accessors.size(), false);
     std::vector<std::size_t> in_scene(model().meshes.size(), 0);
     std::vector<char> is_taken(model().meshes.size(), false); // nodes outside the scene keep their meshes
@@ -102,14 +157,14 @@ private:
       if (mesh < 0 || std::size_t(mesh) >= model().meshes.size())
         fail("node " + std::to_string(n) + " names mesh " + std::to_string(mesh) +
              ", which is not there; correct it");
-      if (m_document.to_world[n])
-        ++in_scene[mesh];
-      else
-        is_taken[mesh] = true;
+      is_taken[mesh] |= !m_document.to_world[n];
     }
+    const std::vector<Place> all = places();
+    for (const Place& place : all)
+      ++in_scene[model().nodes[place.node].mesh];
     for (std::size_t m = 0; m < in_scene.size(); ++m) {
       if (in_scene[m] > 1 || (in_scene[m] == 1 && is_taken[m]))
-        remark("meshes that several nodes share, each reduced where it stands");
+        remark("meshes that several nodes or instances share");
       if (in_scene[m] == 0) {
         remark("meshes that are not in the scene, kept as they are");
         keep_accessors(m, [](const tinygltf::Primitive&) { return true; });
@@ -119,19 +174,20 @@ private:
           keep_accessors(m, [](const tinygltf::Primitive&) { return true; });
       }
     }
-    for (std::size_t n = 0; n < model().nodes.size(); ++n)
-      if (m_document.to_world[n] && model().nodes[n].mesh != -1) {
-        const Index mesh = Index(model().nodes[n].mesh);
-        Index own = mesh;
-        if (is_taken[mesh]) {
-          own = Index(json()["meshes"].size());
-          Json copy = json()["meshes"][mesh];
-          json()["meshes"].push_back(std::move(copy));
-          json()["nodes"][n]["mesh"] = own;
-        }
-        is_taken[mesh] = true;
-        add_node(n, mesh, own);
+    for (const Place& place : all) {
+      const Index mesh = Index(model().nodes[place.node].mesh);
+      Index own = mesh;
+      if (is_taken[mesh]) {
+        own = Index(json()["meshes"].size());
+        Json copy = json()["meshes"][mesh];
+        json()["meshes"].push_back(std::move(copy));
+        (*place.json)["mesh"] = own;
       }
+      is_taken[mesh] = true;
+      add_place(place, mesh, own);
+    }
+    for (const Gltf_scene::Instanced_node& node : m_scene->instanced_nodes)
+      json()["nodes"][node.node]["mesh"] = node.instances.front()["mesh"];
   }
 
   template <class Which>
@@ -148,16 +204,16 @@ private:
       }
   }
 
-  void add_node(std::size_t n, Index mesh, Index own)
+  void add_place(const Place& place, Index mesh, Index own)
   {
-    const tinygltf::Node& node = model().nodes[n];
+    const tinygltf::Node& node = model().nodes[place.node];
     const std::vector<tinygltf::Primitive>& primitives = model().meshes[mesh].primitives;
     const bool is_skinned = node.skin != -1;
     if (is_skinned)
       remark("skinned meshes, taken in their bind pose");
     const std::size_t parts =
         std::count_if(primitives.begin(), primitives.end(), [&](const auto& p) { return is_reducible(p); });
-    const Matrix& to_world = is_skinned ? identity_matrix : *m_document.to_world[n];
+    const Matrix& to_world = is_skinned ? identity_matrix : place.to_world;
     std::map<Index, Index> instance_of_block;
     for (Index p = 0; p < primitives.size(); ++p) {
       const tinygltf::Primitive& primitive = primitives[p];
@@ -165,16 +221,16 @@ private:
         remark(s_no_triangles);
         continue;
       }
-      const std::string place = "mesh " + std::to_string(mesh) + ", primitive " + std::to_string(p);
-      const Index block = block_of(mesh, primitive, place);
+      const Index block =
+          block_of(mesh, primitive, "mesh " + std::to_string(mesh) + ", primitive " + std::to_string(p));
       const auto [it, is_new] = instance_of_block.emplace(block, Index(m_scene->instances.size()));
       if (is_new)
         m_scene->instances.push_back({block, 0, to_world, is_mirroring(to_world)});
-      m_scene->parts.push_back({own, p, it->second, 0, Json::object()});
+      m_scene->parts.push_back({own, mesh, p, it->second, 0, Json::object()});
       m_sources.push_back(&primitive);
       if (!primitive.targets.empty())
         remark("primitives with morph targets, whose shapes are carried and not guarded");
-      soup().groups.names.push_back(group_name(n, mesh, p, parts));
+      soup().groups.names.push_back(group_name(place.node, mesh, p, parts));
     }
   }
 
@@ -187,8 +243,11 @@ private:
     return as_label(name, m_group_names);
   }
 
+  /// The names that elements have got, and the largest number added to each, or 1.
+  using Names = std::map<std::string, std::size_t>;
+
   // Returns a name that OBJ files can hold and that no other element has.
-  static std::string as_label(std::string name, std::set<std::string>& taken)
+  static std::string as_label(std::string name, Names& taken)
   {
     for (char& c : name)
       if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f || c == '\\')
@@ -197,9 +256,12 @@ private:
     name.erase(name.find_last_not_of(' ') + 1);
     if (name.empty())
       name = "_";
-    std::string unique = name;
-    for (std::size_t i = 2; !taken.insert(unique).second; ++i)
-      unique = name + "#" + std::to_string(i);
+    std::size_t& number = taken[name];
+    if (number++ == 0)
+      return name;
+    std::string unique = name + "#" + std::to_string(number);
+    while (!taken.emplace(unique, 1).second)
+      unique = name + "#" + std::to_string(++number);
     return unique;
   }
 
@@ -252,16 +314,6 @@ private:
     return name.compare(0, 9, "TEXCOORD_") == 0 && !is_plain_uv;
   }
 
-  // Returns what a normalised integer stands for.
-  static double normalised(const Column& column, double number)
-  {
-    const double most = column.component_type == type_int8    ? 127
-                        : column.component_type == type_uint8 ? 255
-                        : column.component_type == type_int16 ? 32767
-                                                              : 65535;
-    return std::max(number / most, -1.0);
-  }
-
   // Reads a column, and makes 32-bit floats of quantised numbers: each the one nearest to what it stands for.
   Column read_plain_column(int accessor, const std::string& name, std::size_t count, const std::string& place)
   {
@@ -276,11 +328,8 @@ private:
     plain.rows.reserve(count * plain.row_size);
     for (std::size_t i = 0; i < count; ++i) {
       m_poll();
-      for (std::size_t k = 0; k < plain.components; ++k) {
-        const double number = component(quantised, i, k);
-        append_little_endian(plain.rows,
-                             float(quantised.is_normalized() ? normalised(quantised, number) : number));
-      }
+      for (std::size_t k = 0; k < plain.components; ++k)
+        append_little_endian(plain.rows, float(normalised(quantised, i, k)));
     }
     remark("attributes quantised by KHR_mesh_quantization, from now on 32-bit floats");
     return plain;
@@ -311,7 +360,7 @@ private:
   {
     for (const Json& extension : member(json(), "extensionsUsed")) {
       const std::string name = extension.is_string() ? extension.get<std::string>() : "";
-      if (!is_apart_from_meshes(name) && name != "KHR_mesh_quantization")
+      if (!is_apart_from_meshes(name) && name != "KHR_mesh_quantization" && name != instancing_extension)
         return false;
     }
     return true;
@@ -325,6 +374,9 @@ private:
       for (const Json& sampler : member(animation, "samplers"))
         for (const char* key : {"input", "output"})
           m_kept_accessors.insert(sampler.value(key, -1));
+    for (const Json& node : member(json(), "nodes"))
+      for (const Json& accessor : instance_attributes(node))
+        m_kept_accessors.insert(accessor.is_number_integer() ? accessor.get<int>() : -1);
     for (const Json& skin : member(json(), "skins"))
       m_kept_accessors.insert(skin.value("inverseBindMatrices", -1));
     const Gltf_column_reader columns(m_document, "the file");
@@ -470,7 +522,7 @@ private:
     const auto has_none = [](const tinygltf::Primitive* primitive) { return primitive->material < 0; };
     if (std::all_of(m_sources.begin(), m_sources.end(), has_none))
       return;
-    std::set<std::string> taken;
+    Names taken;
     for (std::size_t i = 0; i < materials.size(); ++i) {
       const std::string name = materials[i].value("name", "");
       soup().materials.names.push_back(
@@ -617,7 +669,7 @@ private:
   std::shared_ptr<Gltf_scene> m_scene = std::make_shared<Gltf_scene>();
   std::vector<const tinygltf::Primitive*> m_sources; // the primitive of each part
   Cancellation_poll m_poll;
-  std::set<std::string> m_group_names;
+  Names m_group_names;
   std::map<std::tuple<Index, std::map<std::string, int>, std::vector<std::map<std::string, int>>>, Index>
       m_block_numbers;
   std::vector<char> m_is_free_accessor;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "files/formats.h"
+#include "files/gltf_decoding.h"
 #include "soup/Gltf_scene.h"
 #include "soup/flat_shading.h"
 
@@ -13,7 +14,9 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -49,7 +52,7 @@ public:
   /// The scene may hold normals though the soup has none, if it was made for this soup.
   Gltf_writer(const Triangle_soup& soup, const Gltf_scene& scene, bool is_scene_made)
       : m_is_scene_made(is_scene_made), m_soup(soup), m_scene(scene), m_split(vertices_by_normal(soup)),
-        m_document(scene.document), m_first_copy(scene.first_copy), m_views(scene.views),
+        m_document(scene.document), m_instanced_nodes(scene.instanced_nodes), m_views(scene.views),
         m_free_accessors(scene.free_accessors.rbegin(), scene.free_accessors.rend()),
         m_free_views(scene.free_views.rbegin(), scene.free_views.rend())
   {
@@ -58,11 +61,12 @@ public:
 
   void write(Byte_writer& out, Mesh_format format)
   {
+    find_copies_alike();
     put_vertices();
     put_triangles();
     fill_free();
-    remove_empty();
-    merge_copies();
+    renumber_meshes();
+    put_instances();
     std::string bytes = put_buffer();
     if (format == Mesh_format::gltf) {
       m_document["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64(bytes);
@@ -116,6 +120,15 @@ private:
     }
   }
 
+  // Whether a vertex does not lie where the file has it.
+  bool has_moved(Index vertex) const
+  {
+    const Index scene_vertex = m_soup.scene_vertices[vertex];
+    const Gltf_scene::Instance& own = m_scene.instances[m_scene.instance_of(scene_vertex)];
+    return world_position(own.to_world, block(own).attributes.front(), scene_vertex - own.first) !=
+           m_soup.points[vertex];
+  }
+
   // Returns the bytes of a vertex's position in its node: those that the file has for it or, when it has
   // moved, those of another vertex under the same transform that lies where this one lies now, or else
   // others that stand for just this point.
@@ -127,7 +140,7 @@ private:
     const auto position = [&](const Gltf_scene::Instance& instance, Index row) {
       return std::string_view(block(instance).attributes.front().rows).substr(std::size_t(row) * 12, 12);
     };
-    if (world_position(own.to_world, block(own).attributes.front(), scene_vertex - own.first) == point)
+    if (!has_moved(vertex))
       return std::string(position(own, scene_vertex - own.first));
     if (!m_positions) {
       m_positions.emplace();
@@ -197,12 +210,67 @@ private:
            (column.name == "NORMAL" || column.name == "TANGENT");
   }
 
+  // Copies of a mesh that have the same triangles of the same vertices are alike.
+  void find_copies_alike()
+  {
+    m_same_as.resize(m_document["meshes"].size());
+    std::iota(m_same_as.begin(), m_same_as.end(), Index(0));
+    std::vector<std::string> contents(m_scene.parts.size());
+    std::map<Index, std::set<Index>> copies;
+    for (const Gltf_scene::Part& part : m_scene.parts)
+      copies[part.mesh_of_file].insert(part.mesh);
+    const auto is_shared = [&](const Gltf_scene::Part& part) { return copies[part.mesh_of_file].size() > 1; };
+    Cancellation_poll poll;
+    for (std::size_t t = 0; t < m_soup.triangles.size(); ++t) {
+      poll();
+      const Index group = m_soup.groups.of_triangle[t];
+      const Gltf_scene::Part& part = m_scene.parts[group];
+      if (!is_shared(part))
+        continue;
+      for (const Index v : in_node(m_soup.triangles[t], part)) {
+        append_little_endian(contents[group],
+                             m_soup.scene_vertices[v] - m_scene.instances[part.instance].first);
+        if (has_moved(v))
+          contents[group] += local_position_of(v);
+      }
+    }
+    std::map<std::pair<Index, std::string>, Index> first;
+    for (std::size_t i = 0; i < m_scene.parts.size();) {
+      const Gltf_scene::Part& part = m_scene.parts[i];
+      std::string all;
+      for (; i < m_scene.parts.size() && m_scene.parts[i].mesh == part.mesh; ++i) {
+        append_little_endian(all, m_scene.instances[m_scene.parts[i].instance].block);
+        append_little_endian(all, std::uint32_t(contents[i].size()));
+        all += contents[i];
+      }
+      if (is_shared(part))
+        m_same_as[part.mesh] =
+            first.emplace(std::make_pair(part.mesh_of_file, std::move(all)), part.mesh).first->second;
+    }
+  }
+
+  bool is_put(const Gltf_scene::Part& part) const { return m_same_as[part.mesh] == part.mesh; }
+
+  // Returns a triangle with its corners in the order that they have in the node.
+  Index_triple in_node(Index_triple triangle, const Gltf_scene::Part& part) const
+  {
+    if (m_scene.instances[part.instance].is_mirrored)
+      std::swap(triangle[1], triangle[2]);
+    return triangle;
+  }
+
   void put_vertices()
   {
+    std::vector<char> is_instance_put(m_scene.instances.size(), false);
+    for (const Gltf_scene::Part& part : m_scene.parts)
+      is_instance_put[part.instance] |= is_put(part);
     std::vector<std::vector<Vertices_by_normal::Vertex>> vertices(m_scene.instances.size());
     for (const Vertices_by_normal::Vertex& v : m_split.vertices) {
-      auto& of_instance = vertices[m_scene.instance_of(m_soup.scene_vertices[v.vertex])];
+      const std::size_t instance = m_scene.instance_of(m_soup.scene_vertices[v.vertex]);
+      auto& of_instance = vertices[instance];
       m_numbers.push_back(Index(of_instance.size()));
+      if (!is_instance_put[instance])
+        continue;
       of_instance.push_back(v);
     }
     m_attributes.resize(m_scene.instances.size());
@@ -257,14 +325,14 @@ private:
     for (std::size_t t = 0; t < m_soup.triangles.size(); ++t) {
       poll();
       const Index group = m_soup.groups.of_triangle[t];
-      auto [a, b, c] = m_split.triangles[t];
-      if (m_scene.instances[m_scene.parts[group].instance].is_mirrored)
-        std::swap(b, c);
-      for (const Index v : {a, b, c})
-        corners[group].push_back(m_numbers[v]);
+      if (is_put(m_scene.parts[group]))
+        for (const Index v : in_node(m_split.triangles[t], m_scene.parts[group]))
+          corners[group].push_back(m_numbers[v]);
     }
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Gltf_scene::Part& part = m_scene.parts[i];
+      if (!is_put(part))
+        continue;
       if (corners[i].empty()) {
         m_empty.push_back(&part);
         continue;
@@ -438,9 +506,11 @@ private:
     }
   }
 
-  void remove_empty()
+  // Removes primitives without triangles, the meshes that they leave empty, and copies that are alike.
+  void renumber_meshes()
   {
     Json& meshes = m_document["meshes"];
+    std::vector<char> is_gone(meshes.size(), false);
     // From the back, so that the numbers of those still to be removed stay.
     std::sort(m_empty.begin(), m_empty.end(), [](const Gltf_scene::Part* a, const Gltf_scene::Part* b) {
       return std::make_pair(a->mesh, a->primitive) > std::make_pair(b->mesh, b->primitive);
@@ -448,43 +518,57 @@ private:
     for (const Gltf_scene::Part* part : m_empty) {
       Json& primitives = meshes[part->mesh]["primitives"];
       primitives.erase(part->primitive);
-      if (!primitives.empty())
-        continue;
-      meshes.erase(part->mesh);
-      m_first_copy -= part->mesh < m_first_copy;
-      for (Json& node : m_document["nodes"]) {
-        const auto mesh = node.find("mesh");
-        if (mesh == node.end() || *mesh < part->mesh)
-          continue;
-        if (*mesh > part->mesh)
-          *mesh = mesh->get<Index>() - 1;
-        else
-          for (const char* key : {"mesh", "skin", "weights"})
-            node.erase(key);
-      }
+      is_gone[part->mesh] = primitives.empty();
     }
-  }
-
-  // Makes one mesh of the copies that have stayed alike.
-  void merge_copies()
-  {
-    Json& meshes = m_document["meshes"];
-    if (m_first_copy >= meshes.size())
-      return;
-    std::map<std::string, std::size_t> first;
     std::vector<std::size_t> numbers;
     Json kept = Json::array();
-    for (Json& mesh : meshes) {
-      const auto [it, is_new] = first.emplace(mesh.dump(), kept.size());
-      const bool is_kept = is_new || numbers.size() < m_first_copy;
-      numbers.push_back(is_kept ? kept.size() : it->second);
-      if (is_kept)
-        kept.push_back(std::move(mesh));
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+      numbers.push_back(kept.size());
+      if (!is_gone[m] && m_same_as[m] == m)
+        kept.push_back(std::move(meshes[m]));
     }
     meshes = std::move(kept);
+    const auto renumber = [&](Json& node) {
+      const auto mesh = node.find("mesh");
+      if (mesh == node.end())
+        return;
+      const Index same = m_same_as[mesh->get<std::size_t>()];
+      if (!is_gone[same])
+        *mesh = numbers[same];
+      else
+        for (const char* key : {"mesh", "skin", "weights"})
+          node.erase(key);
+    };
     for (Json& node : m_document["nodes"])
-      if (const auto mesh = node.find("mesh"); mesh != node.end())
-        *mesh = numbers[mesh->get<std::size_t>()];
+      renumber(node);
+    for (Gltf_scene::Instanced_node& node : m_instanced_nodes)
+      for (Json& instance : node.instances)
+        renumber(instance);
+  }
+
+  // Instances that do not share one mesh any more become nodes.
+  void put_instances()
+  {
+    Json& nodes = m_document["nodes"];
+    for (const auto& [number, instances] : m_instanced_nodes) {
+      const auto is_like_first = [&first = instances.front()](const Json& instance) {
+        return instance.value("mesh", -1) == first.value("mesh", -1);
+      };
+      if (nodes[number].contains("mesh") && std::all_of(instances.begin(), instances.end(), is_like_first))
+        continue;
+      for (const char* key : {"mesh", "weights"})
+        nodes[number].erase(key);
+      remove_extension_of(nodes[number], instancing_extension);
+      for (const Json& instance : instances)
+        if (instance.contains("mesh")) {
+          nodes[number]["children"].push_back(nodes.size());
+          nodes.push_back(instance);
+        }
+    }
+    if (!m_instanced_nodes.empty() && std::all_of(nodes.begin(), nodes.end(), [](const Json& node) {
+          return instance_attributes(node).empty();
+        }))
+      remove_extension(m_document, instancing_extension);
   }
 
   // Puts all buffer views into one buffer, each at a multiple of four bytes.
@@ -510,7 +594,8 @@ private:
   const Gltf_scene& m_scene;
   Vertices_by_normal m_split;
   Json m_document;
-  std::size_t m_first_copy;
+  std::vector<Gltf_scene::Instanced_node> m_instanced_nodes;
+  std::vector<Index> m_same_as; // by mesh: the first copy that is alike, or the mesh itself
   std::vector<std::string> m_views;
   std::vector<Index> m_free_accessors, m_free_views; // the first at the back
   std::vector<Index> m_numbers;                      // by vertex of `m_split`, in its instance

@@ -298,6 +298,9 @@ Cell_collapses reduce_in_cells(const Cell_context& whole)
       for (const Index v : prepared.soup.triangles[t])
         stays[t] |= is_tied[prepared.positions[v]];
   }
+  // The places of a shared mesh lie in several cells.
+  for (Index t = 0; t < prepared.soup.triangles.size(); ++t)
+    stays[t] |= whole.working.is_shared(Working_mesh::Mesh::Face_index(t));
   const auto reduce = [&](std::size_t i) { runs[i] = run_cell(whole, cells[i], stays, stop); };
   tbb::parallel_for(std::size_t(0), cells.size(), Cancellation_scope::inherited(reduce),
                     tbb::simple_partitioner());

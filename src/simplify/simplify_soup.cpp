@@ -85,6 +85,8 @@ private:
       for (const Offending_pair& pair : m_prepared.offending_pairs)
         constraints.offending_pairs.emplace_back(pair.first, pair.second);
     tie(constraints.partners);
+    if (m_options.instances == Instances::shared && m_options.loop == Collapse_loop::own)
+      share();
     if (!intent.weights.empty())
       m_working.weigh(vertex_weights(soup, intent.weights));
     if (m_options.placement == Placement::optimal)
@@ -101,6 +103,23 @@ private:
           m_options.on_collapse(collapse);
       });
     return constraints;
+  }
+
+  void share()
+  {
+    std::vector<char> is_tied(m_prepared.soup.points.size(), false); // by position
+    for (const auto& [a, b] : m_prepared.snapping.tied)
+      is_tied[a] = is_tied[b] = true;
+    std::vector<char> is_apart;
+    for (const Index_triple& triangle : m_prepared.soup.triangles)
+      is_apart.push_back(std::any_of(triangle.begin(), triangle.end(),
+                                     [&](Index v) { return is_tied[m_prepared.positions[v]] != 0; }));
+    Shared_meshes shared = shared_meshes(m_prepared.soup, is_apart);
+    m_shared_meshes = shared.meshes.size();
+    m_apart_meshes = shared.apart;
+    for (const Shared_mesh& mesh : shared.meshes)
+      m_shared_places += mesh.places.size();
+    m_working.share(std::move(shared.meshes));
   }
 
   void
@@ -176,6 +195,9 @@ private:
     result.corners = std::move(left.corners);
     result.placed_vertices = left.placed_vertices;
     result.collapses = m_collapses;
+    result.shared_meshes = m_shared_meshes;
+    result.shared_places = m_shared_places;
+    result.apart_meshes = m_apart_meshes;
     result.sewing = m_working.notes();
     result.report = report;
     // When the cells have reached the target, nothing was left for the run to be stopped in.
@@ -193,6 +215,7 @@ private:
   Stopwatch m_stopwatch;
   Working_mesh m_working;
   double m_seconds_sew;
+  std::size_t m_shared_meshes = 0, m_shared_places = 0, m_apart_meshes = 0;
   std::vector<Soup_collapse> m_collapses; // if they are needed to judge the result
   internal::Simplification<Working_mesh::Mesh, Working_mesh> m_simplification;
   bool m_is_stopped_in_cells = false;

@@ -57,14 +57,24 @@ struct Gltf_scene
     bool is_mirrored = false; ///< `to_world` turns the triangles over
   };
 
-  /// A primitive in a node: a group of the soup. No two nodes share a mesh.
+  /// A primitive in a node: a group of the soup. No two nodes share a mesh; those that do in the file have
+  /// copies of it.
   struct Part
   {
     Index mesh = 0;
+    Index mesh_of_file = 0; ///< of which `mesh` is a copy, or the mesh itself
     Index primitive = 0;
     Index instance = 0;
     int index_type = 0;               ///< component type of the indices, 0 when there are none
     Json index_json = Json::object(); ///< what the document says about their accessor, likewise
+  };
+
+  /// A node with EXT_mesh_gpu_instancing, and a node for each of its instances, which would be its child. The
+  /// document has the mesh of the first of them for the node itself.
+  struct Instanced_node
+  {
+    Index node = 0;
+    std::vector<Json> instances;
   };
 
   /// Returns the number of the instance that a vertex of the scene belongs to.
@@ -76,8 +86,8 @@ struct Gltf_scene
   std::vector<Index> free_accessors; ///< likewise
   std::vector<Block> blocks;
   std::vector<Instance> instances;
-  std::vector<Part> parts;
-  Index first_copy = Index(-1); ///< the first of the meshes that are copies of those that several nodes share
+  std::vector<Part> parts; ///< those of one mesh follow each other
+  std::vector<Instanced_node> instanced_nodes;
   std::vector<std::string> only_in_gltf; ///< names of what no other format holds
 };
 

@@ -355,8 +355,172 @@ Hindrance Working_mesh::lock_reason(Mesh::Vertex_index v) const
       reason = (std::min)(reason, frozen == by_wish ? Hindrance::locked : Hindrance::frozen);
     else if (reason == Hindrance::non_manifold && m_is_misoriented[vertex_of(corner_at(h))])
       reason = Hindrance::misoriented;
+    else if (!m_is_held_elsewhere.empty() && m_is_held_elsewhere[vertex_of(corner_at(h))])
+      return Hindrance::companions;
   }
   return reason;
+}
+
+// The same side, of the same triangle, in another place of its mesh. Where one of the two faces is turned
+// over, its halfedges run the other way.
+Working_mesh::Side Working_mesh::in_place(const Side& side, Index place) const
+{
+  const Copy& copy = m_copies[side.triangle];
+  const Index image = m_shared[copy.mesh].places[place].triangles[copy.row];
+  if (is_flipped(side.triangle) == is_flipped(image))
+    return {image, side.place, side.is_beyond};
+  return {image, static_cast<unsigned char>(2 - side.place), !side.is_beyond};
+}
+
+bool Working_mesh::is_flipped(Index face) const
+{
+  const Copy& copy = m_copies[face];
+  return m_shared[copy.mesh].places[copy.place].is_mirrored != (!m_is_turned.empty() && m_is_turned[face]);
+}
+
+void Working_mesh::share(std::vector<Shared_mesh> meshes)
+{
+  m_shared = std::move(meshes);
+  if (m_shared.empty())
+    return;
+  m_copies.assign(m_corners.size(), {s_no_mesh, 0, 0});
+  for (Index m = 0; m < m_shared.size(); ++m) {
+    std::vector<Shared_mesh::Place>& places = m_shared[m].places;
+    std::vector<std::pair<CGAL::Bbox_3, Index>> boxes;
+    for (Index p = 0; p < places.size(); ++p) {
+      CGAL::Bbox_3 box;
+      for (Index row = 0; row < places[p].triangles.size(); ++row) {
+        const Mesh::Face_index face(places[p].triangles[row]);
+        m_copies[face] = {m, p, row};
+        for (const Mesh::Vertex_index v : m_mesh.vertices_around_face(m_mesh.halfedge(face)))
+          box += m_mesh.point(v).bbox();
+      }
+      boxes.emplace_back(box, p);
+    }
+    // No vertex leaves the box of its place: all go to others of the same place.
+    std::sort(boxes.begin(), boxes.end(),
+              [](const auto& a, const auto& b) { return a.first.xmin() < b.first.xmin(); });
+    auto& near = m_near_places.emplace_back();
+    for (auto a = boxes.begin(); a != boxes.end(); ++a)
+      for (auto b = a + 1; b != boxes.end() && b->first.xmin() <= a->first.xmax(); ++b)
+        if (CGAL::do_overlap(a->first, b->first))
+          near.emplace_back(a->second, b->second);
+  }
+  lock_in_all_places();
+}
+
+// Whether the faces on both sides of an edge belong to one place of a mesh.
+bool Working_mesh::is_sewn_inside(Mesh::Halfedge_index h) const
+{
+  const Mesh::Face_index a = m_mesh.face(h), b = m_mesh.face(m_mesh.opposite(h));
+  return is_own(b) && m_copies[a].mesh == m_copies[b].mesh && m_copies[a].place == m_copies[b].place;
+}
+
+// Locks the vertices that would have to move with others at their positions as well as in other places.
+void Working_mesh::lock_joint_vertices_of_shared_meshes()
+{
+  auto& groups = m_constraints.joint_vertices;
+  const auto is_at_shared_face = [this](Mesh::Vertex_index v) {
+    const auto faces = m_mesh.faces_around_target(m_mesh.halfedge(v));
+    return std::any_of(faces.begin(), faces.end(), [this](Mesh::Face_index f) {
+      return f != Mesh::null_face() && is_own(f) && is_shared(f);
+    });
+  };
+  const auto beyond = std::stable_partition(groups.begin(), groups.end(), [&](const auto& group) {
+    return std::none_of(group.begin(), group.end(), is_at_shared_face);
+  });
+  for (auto group = beyond; group != groups.end(); ++group)
+    m_constraints.locked_vertices.insert(m_constraints.locked_vertices.end(), group->begin(), group->end());
+  groups.erase(beyond, groups.end());
+}
+
+void Working_mesh::lock_in_all_places()
+{
+  lock_joint_vertices_of_shared_meshes();
+  std::vector<char> is_locked(m_mesh.number_of_vertices(), false);
+  for (const Mesh::Vertex_index v : m_constraints.locked_vertices)
+    is_locked[v] = true;
+  m_is_held_elsewhere.assign(m_soup.points.size(), false);
+  const auto lock_source = [&](Mesh::Halfedge_index h) {
+    const Mesh::Vertex_index v = m_mesh.source(h);
+    if (std::exchange(is_locked[v], true))
+      return;
+    m_constraints.locked_vertices.push_back(v);
+    for (const Mesh::Halfedge_index in : m_mesh.halfedges_around_target(m_mesh.opposite(h)))
+      if (!m_mesh.is_border(in) && is_own(m_mesh.face(in)))
+        m_is_held_elsewhere[vertex_of(corner_at(in))] = true;
+  };
+  Cancellation_poll poll;
+  for (const Shared_mesh& shared : m_shared)
+    for (const Index face : shared.places.front().triangles)
+      for (unsigned char place = 0; place < 3; ++place) {
+        poll();
+        const Side here = {face, place, false};
+        const Mesh::Halfedge_index h = halfedge(here), beyond = m_mesh.opposite(h);
+        const bool is_border = m_mesh.is_border(beyond);
+        // Nothing that is sewn to other faces in some place can move alike in all.
+        bool is_alike = is_border || is_sewn_inside(h), is_held = is_locked[m_mesh.source(h)];
+        std::vector<Mesh::Halfedge_index> images = {h};
+        for (Index p = 1; p < shared.places.size(); ++p) {
+          const Mesh::Halfedge_index image = halfedge(in_place(here, p));
+          images.push_back(image);
+          is_held |= is_locked[m_mesh.source(image)];
+          if (is_alike)
+            is_alike = is_border ? m_mesh.is_border(m_mesh.edge(image))
+                                 : halfedge(in_place(side(beyond), p)) == m_mesh.opposite(image);
+        }
+        for (const Mesh::Halfedge_index image : images) {
+          if (!is_alike || is_held)
+            lock_source(image);
+          if (!is_alike)
+            lock_source(m_mesh.opposite(image));
+        }
+      }
+}
+
+std::vector<Working_mesh::Mesh::Halfedge_index> Working_mesh::companions(Mesh::Halfedge_index moving) const
+{
+  std::vector<Mesh::Halfedge_index> result;
+  if (m_shared.empty())
+    return result;
+  const Side here = side(moving);
+  if (!is_shared(Mesh::Face_index(here.triangle)))
+    return result;
+  const Copy& copy = m_copies[here.triangle];
+  for (Index p = 0; p < m_shared[copy.mesh].places.size(); ++p)
+    if (p != copy.place)
+      result.push_back(halfedge(in_place(here, p)));
+  return result;
+}
+
+bool Working_mesh::is_led(Mesh::Halfedge_index edge) const
+{
+  if (m_shared.empty())
+    return false;
+  const Side here = side(edge);
+  return is_shared(Mesh::Face_index(here.triangle)) && m_copies[here.triangle].place > 0;
+}
+
+bool Working_mesh::are_companions_apart(Mesh::Halfedge_index moving,
+                                        const std::vector<Mesh::Halfedge_index>& companions) const
+{
+  const Copy& copy = m_copies[side(moving).triangle];
+  const auto& near = m_near_places[copy.mesh];
+  if (near.empty())
+    return true;
+  std::vector<CGAL::Bbox_3> boxes(companions.size() + 1); // of stars, by place
+  const auto set_box = [&](Mesh::Halfedge_index h) {
+    CGAL::Bbox_3& box = boxes[m_copies[side(h).triangle].place];
+    for (const Mesh::Halfedge_index in : m_mesh.halfedges_around_target(m_mesh.opposite(h)))
+      box += m_mesh.point(m_mesh.source(in)).bbox();
+    box += m_mesh.point(m_mesh.source(h)).bbox();
+  };
+  set_box(moving);
+  for (const Mesh::Halfedge_index companion : companions)
+    set_box(companion);
+  return std::none_of(near.begin(), near.end(), [&](const auto& pair) {
+    return CGAL::do_overlap(boxes[pair.first], boxes[pair.second]);
+  });
 }
 
 // Looks at what differs now. Where nothing does any more, the line counts as a seam. Where only normals and
@@ -499,7 +663,7 @@ void Working_mesh::allow_new_places(bool is_float32)
 // unit, so that a mesh and its multiple have the same places even where digits are lost near 0.
 internal::Optional<Point_3> Working_mesh::rounded_place(Mesh::Halfedge_index edge, const Point_3& place) const
 {
-  if (!m_values || !m_is_scale_lossless)
+  if (!m_values || !m_is_scale_lossless || is_shared(Mesh::Face_index(side(edge).triangle)))
     return {};
   std::array<double, 3> rounded;
   for (int i = 0; i < 3; ++i) {

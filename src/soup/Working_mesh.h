@@ -6,6 +6,7 @@
 
 #include "Vertex_values.h"
 #include "selection.h"
+#include "shared_meshes.h"
 #include <selvedge/Parts.h>
 #include <selvedge/Sewing_notes.h>
 #include <selvedge/Simplify_options.h>
@@ -98,6 +99,18 @@ public:
   const Simplify_constraints<Mesh>& constraints() const { return m_constraints; }
   const Sewing_notes& notes() const { return m_notes; }
 
+  /// Makes the places of shared meshes one for the reduction: what holds a vertex in one place does so in
+  /// all, and motions have companions. Where the faces of a mesh are not joined alike in all places, because
+  /// something is sewn to them in some, vertices are locked.
+  ///
+  /// **Preconditions** Nothing has been collapsed.
+  void share(std::vector<Shared_mesh> meshes);
+
+  bool is_shared(Mesh::Face_index face) const
+  {
+    return std::size_t(face) < m_copies.size() && m_copies[face].mesh != s_no_mesh;
+  }
+
   /// Weighs the vertices by `weights` of the vertices of the soup. A vertex to which several are sewn gets
   /// the largest of their weights.
   void weigh(const std::vector<double>& weights);
@@ -179,6 +192,10 @@ public:
   bool keeps_joints(Mesh::Halfedge_index moving, const std::vector<Mesh::Halfedge_index>& others) const;
   bool keeps_uv_orientation(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule) const;
   bool keeps_uv_orientation_at(Mesh::Halfedge_index moving, const Point_3& place) const;
+  std::vector<Mesh::Halfedge_index> companions(Mesh::Halfedge_index moving) const;
+  bool are_companions_apart(Mesh::Halfedge_index moving,
+                            const std::vector<Mesh::Halfedge_index>& companions) const;
+  bool is_led(Mesh::Halfedge_index edge) const;
   Hindrance lock_reason(Mesh::Vertex_index v) const;
   Hindrance line_reason(Mesh::Edge_index e) const;
   double uv_cost(Mesh::Halfedge_index moving) const;
@@ -287,6 +304,23 @@ private:
   Uv_quadric::Vector m_origin{};
   Uv m_uv_origin{};
   double m_uv_unit = 0; // at the scale
+
+  // What a face is in a shared mesh.
+  struct Copy
+  {
+    Index mesh, place, row;
+  };
+  static constexpr Index s_no_mesh = Index(-1);
+  Side in_place(const Side& side, Index place) const;
+  bool is_flipped(Index face) const;
+  bool is_sewn_inside(Mesh::Halfedge_index h) const;
+  void lock_joint_vertices_of_shared_meshes();
+  void lock_in_all_places();
+
+  std::vector<Shared_mesh> m_shared;
+  std::vector<std::vector<std::pair<Index, Index>>> m_near_places; // by mesh: their boxes meet
+  std::vector<Copy> m_copies;                                      // by face, or empty
+  std::vector<char> m_is_held_elsewhere; // by vertex of the soup: only another place locks it
 
   std::vector<Part_kind> m_kinds;
   std::vector<std::vector<Refusals>> m_refused;

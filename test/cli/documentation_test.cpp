@@ -88,7 +88,7 @@ TEST(App_documentation, OptionsInReportsAreThoseOfTheHelp)
     }
     ++defaults;
   }
-  EXPECT_EQ(defaults, 18u);
+  EXPECT_EQ(defaults, 19u);
 }
 
 } // namespace

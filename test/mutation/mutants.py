@@ -455,6 +455,40 @@ group(
     sources=("src/simplify/simplify_soup.cpp",),
 )
 
+# Meshes in several places
+
+group(
+    headers + "Surface_mesh_simplification/internal/Simplification.h",
+    ("instances_test",),
+    ("if (are_apart && all_of_companions(m_companions,", "if (are_apart || all_of_companions(m_companions,",
+     "other places are not asked"),
+    ("const bool are_apart = m_observer.are_companions_apart(collapse.moving(), m_companions);",
+     "const bool are_apart = true;", "places that come near each other change alike"),
+    ("if (m_motions_left == 0) // all", "if (true) // all", "a level while places differ"),
+    ("m_observer.are_companions_apart(moving, companions) &&", "true &&",
+     "places that are too near are no reason"),
+    sources=("src/simplify/simplify_soup.cpp",),
+)
+group(
+    "src/soup/Working_mesh.cpp",
+    ("instances_test", "worlds_test"),
+    ("places[copy.place].is_mirrored != ", "places[copy.place].is_mirrored && ", "mirrored places are not seen as such"),
+    ("if (!is_alike || is_held)", "if (!is_alike)", "what is locked in one place is not in others"),
+    ("is_alike = is_border || is_sewn_inside(h)", "is_alike = true", "what is sewn to something else moves"),
+)
+group(
+    "src/soup/shared_meshes.cpp",
+    ("instances_test",),
+    ("positions, row) != soup.points[v];", "positions, row) != soup.points[v] && false;",
+     "places that a snap has changed are one"),
+)
+group(
+    "src/files/gltf_writer.cpp",
+    ("gltf_test:Gltf.*", "instances_test"),
+    ("        all += contents[i];", "", "copies are alike whatever they have become"),
+    ("std::all_of(instances.begin(), instances.end(), is_like_first)", "true", "instances that differ stay instances"),
+)
+
 # Pairs that offend already
 filter_of_pairs = ("descent_test", "descent_filter_test")
 group(

@@ -297,7 +297,7 @@ std::vector<std::string> rows_of(const Document& document, std::size_t number)
   const Json& accessor = document.json["accessors"][number];
   const std::map<std::string, std::size_t> components = {
       {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}};
-  const std::map<int, std::size_t> sizes = {{5121, 1}, {5123, 2}, {5125, 4}, {5126, 4}};
+  const std::map<int, std::size_t> sizes = {{5121, 1}, {5122, 2}, {5123, 2}, {5125, 4}, {5126, 4}};
   const std::size_t size = components.at(accessor["type"]) * sizes.at(accessor["componentType"]);
   std::vector<std::string> rows(accessor["count"].get<std::size_t>(), std::string(size, '\0'));
   if (accessor.contains("bufferView")) {
@@ -416,9 +416,11 @@ void write_bytes(const std::filesystem::path& path, const std::string& bytes)
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-Simplified_soup reduce(const Triangle_soup& soup, double ratio, Placement placement = Placement::vertices)
+Simplified_soup reduce(const Triangle_soup& soup, double ratio, Placement placement = Placement::vertices,
+                       Instances instances = Instances::apart)
 {
   Simplify_options options;
+  options.instances = instances;
   options.ratio = ratio;
   options.placement = placement;
   return simplify_soup(prepare(soup), options);
@@ -598,26 +600,28 @@ TEST(Gltf, ReducedKeepsTheBitsOfEverySurvivingVertex)
   const Temporary_folder folder;
   const Document before = everything();
   const Mesh_file file = read_glb(before);
-  const Simplified_soup reduced = reduce(file.soup, 0.4);
-  ASSERT_LT(reduced.soup.triangles.size(), file.soup.triangles.size() / 2);
-  EXPECT_FALSE(needs_float32(reduced.soup, Mesh_format::glb));
-  EXPECT_TRUE(needs_float32(reduced.soup, Mesh_format::stl));
-  write_mesh(folder / "a.glb", reduced.soup);
-  const Document after = from_glb(contents(folder / "a.glb"));
-  expect_everything_kept(after, before);
-  // What was judged is what stands in the file.
-  const Mesh_file again = read_mesh(folder / "a.glb");
-  ASSERT_EQ(again.soup.triangles.size(), reduced.soup.triangles.size());
-  std::multiset<std::array<Point_3, 3>> judged, written;
-  for (const Index_triple& t : reduced.soup.triangles)
-    judged.insert({reduced.soup.points[t[0]], reduced.soup.points[t[1]], reduced.soup.points[t[2]]});
-  for (const Index_triple& t : again.soup.triangles)
-    written.insert({again.soup.points[t[0]], again.soup.points[t[1]], again.soup.points[t[2]]});
-  EXPECT_TRUE(judged == written);
-  EXPECT_TRUE(not_carried(reduced.soup, Mesh_format::glb).empty());
-  write_mesh(folder / "all.glb", file.soup);
-  EXPECT_LT(after.bytes.size(), from_glb(contents(folder / "all.glb")).bytes.size())
-      << "vertices that are gone are still in the file";
+  for (const Instances instances : {Instances::shared, Instances::apart}) {
+    const Simplified_soup reduced = reduce(file.soup, 0.4, Placement::vertices, instances);
+    ASSERT_LT(reduced.soup.triangles.size(), file.soup.triangles.size() / 2);
+    EXPECT_FALSE(needs_float32(reduced.soup, Mesh_format::glb));
+    EXPECT_TRUE(needs_float32(reduced.soup, Mesh_format::stl));
+    write_mesh(folder / "a.glb", reduced.soup);
+    const Document after = from_glb(contents(folder / "a.glb"));
+    expect_everything_kept(after, before, instances == Instances::apart);
+    // What was judged is what stands in the file.
+    const Mesh_file again = read_mesh(folder / "a.glb");
+    ASSERT_EQ(again.soup.triangles.size(), reduced.soup.triangles.size());
+    std::multiset<std::array<Point_3, 3>> judged, written;
+    for (const Index_triple& t : reduced.soup.triangles)
+      judged.insert({reduced.soup.points[t[0]], reduced.soup.points[t[1]], reduced.soup.points[t[2]]});
+    for (const Index_triple& t : again.soup.triangles)
+      written.insert({again.soup.points[t[0]], again.soup.points[t[1]], again.soup.points[t[2]]});
+    EXPECT_TRUE(judged == written);
+    EXPECT_TRUE(not_carried(reduced.soup, Mesh_format::glb).empty());
+    write_mesh(folder / "all.glb", file.soup);
+    EXPECT_LT(after.bytes.size(), from_glb(contents(folder / "all.glb")).bytes.size())
+        << "vertices that are gone are still in the file";
+  }
 }
 
 TEST(Gltf, TextFormHoldsTheSame)
@@ -696,8 +700,8 @@ TEST(Gltf, GroupsMaterialsAndNotes)
     return std::any_of(notes.begin(), notes.end(),
                        [&](const std::string& note) { return note.find(word) != std::string::npos; });
   };
-  for (const char* word :
-       {"several nodes share", "bind pose", "morph targets", "points or lines", "files of their own"})
+  for (const char* word : {"several nodes or instances share", "bind pose", "morph targets",
+                           "points or lines", "files of their own"})
     EXPECT_TRUE(says(word)) << word;
 }
 
@@ -711,6 +715,105 @@ TEST(Gltf, LayersInDifferentNodesSeeEachOther)
   EXPECT_FALSE(offending_pairs(read_glb(document).soup).empty());
   document.json["nodes"][1]["translation"] = {0.1, 0.3, 0.1};
   EXPECT_TRUE(offending_pairs(read_glb(document).soup).empty());
+}
+
+/// The waves in three places: a node with two instances, and another node. Rotations are rounded to integers.
+Document waves_in_places()
+{
+  Document document = waves<float>(5126);
+  const auto translation = [](std::size_t i, std::size_t k) { return k == 0 ? 3.f * float(i) : 0.25f; };
+  Json attributes;
+  attributes["TRANSLATION"] = add_rows<float>(document, 2, 3, 5126, translation);
+  attributes["ROTATION"] = add_rows<std::int16_t>(
+      document, 2, 4, 5122,
+      [](std::size_t i, std::size_t k) { return k == 2   ? 19660 * i
+                                                : k == 3 ? 32767 - 6553 * i
+                                                         : 0; }, true);
+  attributes["SCALE"] = add_rows<float>(
+      document, 2, 3, 5126, [](std::size_t i, std::size_t k) { return k == 2 && i == 1 ? 0.25 : 1; });
+  attributes["_ID"] =
+      add_rows<float>(document, 2, 1, 5126, [](std::size_t i, std::size_t) { return float(i); });
+  Json& nodes = document.json["nodes"];
+  nodes[0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = attributes;
+  nodes.push_back({{"mesh", 0}, {"translation", {0.0, 0.0, 7.0}}});
+  document.json["scenes"][0]["nodes"].push_back(1);
+  document.json["extensionsUsed"] = document.json["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
+  return document;
+}
+
+TEST(Gltf, InstancesArePlacedLikeChildren)
+{
+  const Document instanced = waves_in_places();
+  Document nodes = instanced;
+  Json& list = nodes.json["nodes"];
+  list[0].erase("extensions");
+  list[0].erase("mesh");
+  list[0]["children"] = {2, 3};
+  for (const double i : {0., 1.})
+    list.push_back({{"mesh", 0},
+                    {"translation", {3 * i, 0.25, 0.25}},
+                    {"rotation", {0., 0., 19660 * i / 32767, (32767 - 6553 * i) / 32767}},
+                    {"scale", {1., 1., i == 0 ? 1. : 0.25}}});
+  nodes.json.erase("extensionsRequired");
+  const auto sorted = [](Triangle_soup soup) {
+    std::sort(soup.points.begin(), soup.points.end());
+    return soup.points;
+  };
+  const Triangle_soup soup = read_glb(instanced).soup;
+  EXPECT_EQ(sorted(soup), sorted(read_glb(nodes).soup));
+  EXPECT_EQ(soup.groups.names.size(), 3u);
+}
+
+TEST(Gltf, InstancesStayInstancesWhereTheyAreShared)
+{
+  const Temporary_folder folder;
+  const Document before = waves_in_places();
+  const Triangle_soup soup = read_glb(before).soup;
+  for (const Instances instances : {Instances::shared, Instances::apart}) {
+    const Simplified_soup reduced = reduce(soup, 0.2, Placement::vertices, instances);
+    write_mesh(folder / "a.glb", reduced.soup);
+    const Document after = from_glb(contents(folder / "a.glb"));
+    const Triangle_soup again = read_mesh(folder / "a.glb").soup;
+    EXPECT_EQ(again.triangles.size(), reduced.soup.triangles.size());
+    EXPECT_EQ(again.groups.names.size(), 3u);
+    if (instances == Instances::shared) {
+      EXPECT_EQ(reduced.shared_places, 3u);
+      EXPECT_EQ(after.json["nodes"], before.json["nodes"]);
+      EXPECT_EQ(after.json["extensionsRequired"], before.json["extensionsRequired"]);
+      EXPECT_EQ(after.json["meshes"].size(), 1u);
+      for (const auto& [name, accessor] :
+           before.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"].items())
+        EXPECT_EQ(rows_of(after, accessor), rows_of(before, accessor)) << name;
+      EXPECT_LT(4 * after.bytes.size(), before.bytes.size());
+    } else { // nodes stand for the instances
+      EXPECT_EQ(reduced.shared_places, 0u);
+      EXPECT_EQ(after.json["nodes"].size(), before.json["nodes"].size() + 2);
+      EXPECT_FALSE(after.json.contains("extensionsRequired"));
+      EXPECT_EQ(after.json["meshes"].size(), 3u);
+    }
+  }
+}
+
+TEST(Gltf, InstancesThatDifferInOneTriangleAreTwoMeshes)
+{
+  const Temporary_folder folder;
+  Triangle_soup soup = read_glb(waves_in_places()).soup;
+  const Index in_each = Index(soup.triangles.size() / 3);
+  std::vector<Index> kept;
+  for (Index t = 0; t < soup.triangles.size(); ++t)
+    if (t != 0 && t != in_each + 1 && t != 2 * in_each) // as many are left in every place
+      kept.push_back(t);
+  keep_triangles(soup, kept);
+  write_mesh(folder / "a.glb", soup);
+  EXPECT_EQ(from_glb(contents(folder / "a.glb")).json["meshes"].size(), 2u);
+  const Triangle_soup again = read_mesh(folder / "a.glb").soup;
+  const auto points_of = [](const Triangle_soup& of) {
+    std::multiset<std::array<Point_3, 3>> points;
+    for (const Index_triple& t : of.triangles)
+      points.insert({of.points[t[0]], of.points[t[1]], of.points[t[2]]});
+    return points;
+  };
+  EXPECT_TRUE(points_of(again) == points_of(soup));
 }
 
 TEST(Gltf, StripsAndFansBecomeTriangles)
@@ -924,12 +1027,11 @@ TEST(Gltf, OtherFormatsHoldWorldPositions)
 
 TEST(Gltf, RefusesWhatItCannotRead)
 {
-  for (const char* extension : {"KHR_meshopt_compression", "EXT_mesh_gpu_instancing"})
-    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
-      Document document = one_triangle();
-      document.json[list] = {extension};
-      expect_refused(document, extension);
-    }
+  for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+    Document document = one_triangle();
+    document.json[list] = {"KHR_meshopt_compression"};
+    expect_refused(document, "KHR_meshopt_compression");
+  }
   Document unknown = one_triangle();
   unknown.json["extensionsUsed"] = {"ACME_unknown"};
   EXPECT_NO_THROW(read_glb(unknown));
@@ -957,6 +1059,24 @@ TEST(Gltf, RefusesWhatIsBroken)
     json["nodes"][0].erase("mesh");
     json["animations"] = {{{"channels", Json::array()}, {"samplers", Json::array()}}};
   });
+  const auto with_instances = [&](const std::string& word, const std::function<void(Json&)>& change) {
+    refused(word, [&](Json& json) {
+      Json& instancing = json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"];
+      instancing["attributes"]["TRANSLATION"] = 0;
+      change(json);
+    });
+  };
+  with_instances("not there", [](Json& json) {
+    json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = 7;
+  });
+  with_instances("another type", [](Json& json) {
+    json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["ROTATION"] = 0;
+  });
+  with_instances("no buffer view", [](Json& json) {
+    json["accessors"].push_back({{"componentType", 5126}, {"count", 1000000000}, {"type", "VEC3"}});
+    json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = 1;
+  });
+  with_instances("skin", [](Json& json) { json["nodes"][0]["skin"] = 0; });
   refused("mesh 7", [](Json& json) { json["nodes"][0]["mesh"] = 7; });
   refused("node 9", [](Json& json) { json["scenes"][0]["nodes"] = {9}; });
   refused("twice", [](Json& json) { json["nodes"][0]["children"] = {0}; });

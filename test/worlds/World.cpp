@@ -95,6 +95,7 @@ void write_world(const World& world, const std::filesystem::path& folder)
                      {"uv_weight", options.uv_weight},
                      {"is_placement_optimal", options.placement == Placement::optimal},
                      {"is_loop_own", options.loop == Collapse_loop::own},
+                     {"instances", options.instances == Instances::shared},
                      {"is_index_packed", options.index == Face_index::packed},
                      {"faces_per_cluster", options.faces_per_cluster},
                      {"faces_per_cell", options.faces_per_cell},
@@ -148,6 +149,7 @@ World read_world(const std::filesystem::path& folder)
   options.max_seam_turn = json["seam_turn"];
   options.max_border_drift = json["border_drift"];
   options.check_intersections = json["check_intersections"];
+  options.instances = json.value("instances", false) ? Instances::shared : Instances::apart;
   options.check_uv_orientation = json["check_uv_orientation"];
   options.uv_weight = json["uv_weight"];
   options.placement = json.value("is_placement_optimal", false) ? Placement::optimal : Placement::vertices;
@@ -224,6 +226,8 @@ std::string command_line(const World& world)
     add("--placement", "optimal");
   if (options.loop != plain.loop)
     add("--loop", "cgal");
+  if (options.instances != plain.instances)
+    add("--instances", "apart");
   if (options.index != plain.index)
     add("--index", "clusters --cluster-size " + std::to_string(options.faces_per_cluster));
   if (!options.check_intersections)

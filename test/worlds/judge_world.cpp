@@ -6,6 +6,7 @@
 #include "Random.h"
 #include "random_world.h"
 
+#include "soup/Gltf_scene.h"
 #include "soup/selection.h"
 #include "support/soups.h"
 #include <selvedge/Error.h>
@@ -515,6 +516,34 @@ Verdict judge_pieces(const World_run& run)
   return std::nullopt;
 }
 
+// Shared meshes have the same triangles of the same rows in all places.
+Verdict judge_sharing(const World_run& run)
+{
+  const Triangle_soup& soup = run.result.soup;
+  if (run.result.shared_meshes == 0 || run.result.apart_meshes > 0)
+    return std::nullopt;
+  const Gltf_scene& scene = *soup.scene;
+  std::map<Index, std::vector<Index_triple>> rows; // by part
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    const Index group = soup.groups.of_triangle[t];
+    const Gltf_scene::Instance& instance = scene.instances[scene.parts[group].instance];
+    Index_triple triangle = soup.triangles[t];
+    for (Index& v : triangle)
+      v = soup.scene_vertices[v] - instance.first;
+    if (instance.is_mirrored)
+      std::swap(triangle[1], triangle[2]);
+    rows[group].push_back(triangle);
+  }
+  std::map<std::pair<Index, Index>, Index> first; // by mesh of the file and primitive
+  for (Index group = 0; group < scene.parts.size(); ++group) {
+    const Gltf_scene::Part& part = scene.parts[group];
+    const Index other = first.emplace(std::make_pair(part.mesh_of_file, part.primitive), group).first->second;
+    if (rows[other] != rows[group])
+      return Broken_promise{Promise::attributes, "a shared mesh is not the same in all places"};
+  }
+  return std::nullopt;
+}
+
 Verdict judge_stop(const World& world, const World_run& run)
 {
   const auto broken = [](const std::string& what) { return Broken_promise{Promise::stop, what}; };
@@ -596,8 +625,8 @@ Verdict judge_stop(const World& world, const World_run& run)
                                   [&](Index t) { return share_of[t] == share; }));
     target += aim;
     to_go += now - std::min(now, aim);
-    // The last collapse may take all faces of an edge where one was to go.
-    if (now + most_at_edge < 1 + std::min(aim, before))
+    // The last collapse may take all faces of an edge where one was to go, in each place of a shared mesh.
+    if (now + most_at_edge * std::max<std::size_t>(1, run.result.shared_places) < std::min(aim, before) + 1)
       return broken("a share has " + std::to_string(now) + " faces left, and was to keep " +
                     std::to_string(aim));
   }
@@ -711,6 +740,10 @@ Verdict judge_reduction(const World& world, const World_run& run, Judged_complex
     return broken;
   if (auto broken = judge_pieces(run))
     return broken;
+  if (auto broken = judge_sharing(run))
+    return broken;
+  if (run.result.shared_meshes > 0 && !run.collapses.empty())
+    ++counts.options["shared_meshes"];
   if (auto broken = judge_stop(world, run))
     return broken;
   if (!run.verification.accepted()) {

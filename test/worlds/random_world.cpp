@@ -5,6 +5,7 @@
 #include "random_scene.h"
 #include "support/Temporary_folder.h"
 
+#include <selvedge/mesh_files.h>
 #include <selvedge/rounding.h>
 
 #include <nlohmann/json.hpp>
@@ -12,10 +13,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace selvedge::test {
@@ -38,8 +41,60 @@ Triangle_soup through_file(const Triangle_soup& soup, const char* name)
   return read_mesh(folder / name).soup;
 }
 
-/// The soup as a glTF scene whose nodes are scaled, turned, mirrored, moved, and children of one another.
-Triangle_soup as_scene(Triangle_soup soup, Random& random)
+/// Puts every mesh of a scene to one or two further places, in nodes or as instances: near the first, on its
+/// other side, or away from it.
+void put_elsewhere(Json& json, Random& random, const std::filesystem::path& folder)
+{
+  json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"}; // before references are taken
+  Json& nodes = json["nodes"];
+  const std::size_t originals = nodes.size();
+  const auto moved = [&](Json place) {
+    const double step = random.one_of({1e-3, 0.25, 1., 2.});
+    place["translation"] = {step * random.between(-4, 4), step * random.between(-4, 4),
+                            step * random.between(-1, 1)};
+    place["scale"] = {random.one_of({1., 1., -1., 0.75}), 1, 1};
+    place["rotation"] = random.one_in(2) ? Json({0., 0., 0., 1.}) : Json({0., 0., 0.6, 0.8});
+    return place;
+  };
+  if (random.one_in(3)) { // as instances of the first node
+    std::string bytes;
+    Json& views = json["bufferViews"];
+    Json attributes;
+    constexpr std::size_t count = 3;
+    std::vector<Json> places;
+    for (std::size_t i = 0; i < count; ++i)
+      places.push_back(moved(Json::object()));
+    for (const auto& [name, member, components] :
+         {std::make_tuple("TRANSLATION", "translation", 3), std::make_tuple("ROTATION", "rotation", 4),
+          std::make_tuple("SCALE", "scale", 3)}) {
+      attributes[name] = json["accessors"].size();
+      json["accessors"].push_back({{"bufferView", views.size()},
+                                   {"componentType", 5126},
+                                   {"count", count},
+                                   {"type", components == 3 ? "VEC3" : "VEC4"}});
+      views.push_back({{"buffer", 1}, {"byteOffset", bytes.size()}, {"byteLength", count * 4 * components}});
+      for (const Json& place : places)
+        for (const Json& number : place[member]) {
+          const float x = number.get<float>();
+          bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
+        }
+    }
+    nodes[0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = attributes;
+    json["buffers"].push_back({{"byteLength", bytes.size()}, {"uri", "places.bin"}});
+    write_file(folder / "places.bin", bytes);
+  }
+  for (std::size_t n = 0; n < originals; ++n)
+    for (int i = random.between(1, 2); i > 0; --i) {
+      Json place = Json::object();
+      place["mesh"] = nodes[n]["mesh"];
+      nodes.push_back(moved(std::move(place)));
+      json["scenes"][0]["nodes"].push_back(nodes.size() - 1);
+    }
+}
+
+/// The soup as a glTF scene whose nodes are scaled, turned, mirrored, moved, and children of one another. It
+/// has each mesh several times if `others` are given, which say where.
+Triangle_soup as_scene(Triangle_soup soup, Random& random, Random* others)
 {
   round_to_float32(soup);
   soup.vertex_attributes.clear();
@@ -71,7 +126,10 @@ Triangle_soup as_scene(Triangle_soup soup, Random& random)
     Json& roots = json["scenes"][0]["nodes"];
     roots.erase(std::remove(roots.begin(), roots.end(), Json(nodes.size() - 1)), roots.end());
   }
-  return read_mesh(json.dump(), Mesh_format::gltf, "mesh.gltf").soup;
+  if (others)
+    put_elsewhere(json, *others, folder / "");
+  write_file(folder / "mesh.gltf", json.dump());
+  return read_mesh(folder / "mesh.gltf").soup;
 }
 
 // Of parts that have a triangle with an area to speak of: of others a reduction does not know.
@@ -224,7 +282,12 @@ World random_world(std::uint64_t seed)
   if (fits_float32(soup) && random.one_in(3)) {
     world.output_format = random.one_of({Mesh_format::stl, Mesh_format::glb, Mesh_format::gltf});
     if (random.one_in(3)) {
-      soup = as_scene(std::move(soup), random);
+      // Another sequence of numbers, so that worlds of earlier versions stay what they were.
+      Random others(seed + 2);
+      const bool is_shared = soup.triangles.size() < 150 && world.seed % 2 == 0;
+      soup = as_scene(std::move(soup), random, is_shared ? &others : nullptr);
+      if (is_shared)
+        world.scene += ", meshes in several places";
       world.input_format = Mesh_format::gltf;
       world.scene += ", a scene with transforms";
     } else if (random.one_in(6)) {
@@ -249,6 +312,7 @@ World random_world(std::uint64_t seed)
   // No random number, so that worlds of earlier versions stay what they were.
   world.are_clear_gaps_welded = world.weld_distance == 0 && world.seed % 4 == 1;
   world.are_faces_oriented = world.seed % 8 != 5;
+  world.options.instances = world.seed % 16 == 2 ? Instances::apart : Instances::shared;
   if (!world.soup.normals.empty())
     world.normals = random.one_of(
         {Normals_choice::automatic, Normals_choice::keep, Normals_choice::recompute, Normals_choice::drop});

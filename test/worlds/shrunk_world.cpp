@@ -75,6 +75,7 @@ private:
     const Simplify_options plain;
     set_option(&Simplify_options::faces_per_cell, plain.faces_per_cell);
     set_option(&Simplify_options::loop, plain.loop);
+    set_option(&Simplify_options::instances, Instances::apart);
     set_option(&Simplify_options::index, plain.index);
     set_option(&Simplify_options::faces_per_cluster, plain.faces_per_cluster);
     set_option(&Simplify_options::max_error, plain.max_error);

@@ -99,6 +99,30 @@ struct No_observer
     return Hindrance::seam;
   }
 
+  /// Returns the motions that must be done together with this one, all or none: those of the same vertex in
+  /// the other places where its mesh stands. Not called for motions of both ends. Only Selvedge's own loop
+  /// does them.
+  template <class Halfedge>
+  std::vector<Halfedge> companions(const Halfedge& /*moving*/) const
+  {
+    return {};
+  }
+
+  /// Returns whether neither the faces around the source of this motion nor those of any of its companions
+  /// come near those of another one of them: the boxes of their stars are disjoint.
+  template <class Halfedge>
+  bool are_companions_apart(const Halfedge& /*moving*/, const std::vector<Halfedge>& /*companions*/) const
+  {
+    return true;
+  }
+
+  /// Returns whether this edge collapses only as a companion of another one. It then has no cost.
+  template <class Halfedge>
+  bool is_led(const Halfedge& /*edge*/) const
+  {
+    return false;
+  }
+
   /// Returns how much the motion adds to the displacement of the texture, as squared lengths with the weights
   /// of `relative_face_weight`.
   template <class Halfedge>

@@ -66,13 +66,24 @@ struct Has_choice<Placement, Cost, std::void_t<typename Placement::Cost_policy>>
 {
 };
 
-// Whether the visitor may name motions that are done, or tried, next after a collapse.
+// Whether the visitor may name a motion that is tried next, after a collapse.
 template <class Visitor, class = void>
 struct Has_follow_up : std::false_type
 {
 };
 template <class Visitor>
 struct Has_follow_up<Visitor, std::void_t<decltype(std::declval<const Visitor&>().follow_up())>>
+    : std::true_type
+{
+};
+
+// Whether the visitor may name motions that go with a collapse.
+template <class Visitor, class = void>
+struct Has_companions : std::false_type
+{
+};
+template <class Visitor>
+struct Has_companions<Visitor, std::void_t<decltype(std::declval<const Visitor&>().companions())>>
     : std::true_type
 {
 };
@@ -193,12 +204,10 @@ private:
     const Optional<Collapse_of_edge> collapse = collapse_of(of_edge, record);
     const bool is_asked = collapse && (!m_is_geometry_tested || Dihedral_angle_filter<>().accepts(*collapse));
     if (is_asked && is_allowed(m_filter, *collapse)) {
-      const Vertex kept = perform(*collapse, edge_id);
-      if constexpr (Has_follow_up<Visitor>::value) {
-        perform_joint_motions(kept);
+      perform(*collapse, edge_id);
+      if constexpr (Has_follow_up<Visitor>::value)
         if (const auto moving = m_visitor.follow_up())
           try_along(*moving);
-      }
       return true;
     }
     on_refused(of_edge);
@@ -228,18 +237,20 @@ private:
       on_refused(of_edge);
   }
 
-  // Does the motions that were allowed together with the collapse that has left `first`. Only then the costs
+  // Does the collapses that were allowed together with the one that has left `first`. Only then the costs
   // around all that are left are those of a whole motion.
-  void perform_joint_motions(Vertex first)
+  void perform_companions(Vertex first)
   {
-    m_joint.assign(1, first);
-    while (const auto moving = m_visitor.joint_motion()) {
-      const Profile of_edge = profile(m_halfedges[id(*moving)]);
-      m_joint.push_back(perform(Collapse_of_edge::along(of_edge, *moving), id(*moving)));
+    const std::vector<Halfedge> companions = m_visitor.companions(); // which have no companions of their own
+    if (companions.empty())
+      return;
+    std::vector<Vertex> all{first};
+    for (const Halfedge moving : companions) {
+      const Profile of_companion = profile(m_halfedges[id(moving)]);
+      all.push_back(perform(Collapse_of_edge::along(of_companion, moving), id(moving)));
     }
-    if (m_joint.size() > 1)
-      for (const Vertex kept : m_joint)
-        refresh_around(kept);
+    for (const Vertex kept : all)
+      refresh_around(kept);
   }
 
   // Returns the vertex that is left.
@@ -261,6 +272,8 @@ private:
     }
     const Vertex kept = perform_collapse(m_mesh, m_points, m_is_constrained, collapse, m_visitor, m_cost);
     refresh_around(kept);
+    if constexpr (Has_companions<Visitor>::value)
+      perform_companions(kept);
     return kept;
   }
 
@@ -397,7 +410,6 @@ private:
   // True at both ends of an edge that was refused, until the edges at this vertex have been refreshed.
   typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<unsigned char>>::type
       m_has_stale_edges;
-  std::vector<Vertex> m_joint; // what is left of vertices that have moved together
   Size m_initial_edges = 0, m_edges = 0;
   Topology_test<TriangleMesh> m_topology;
 };

@@ -104,7 +104,7 @@ class Simplification
     template <class Profile>
     Optional<double> cost_along(const Profile& profile, Halfedge moving) const
     {
-      if (!m_targets.is_counted(moving))
+      if (!m_targets.is_counted(moving) || m_observer->is_led(moving))
         return {};
       double cost = cost_alone(profile, moving);
       if (m_joint->is_joint(source(moving, *m_mesh))) {
@@ -326,7 +326,8 @@ private:
                                                                       .filter(Filter{this})
                                                                       .visitor(Visitor(*this))));
         // The loop leaves no collapse undone that a change nearby or of a blocker has made possible. Should a
-        // rule look farther, another pass finds what it allows.
+        // rule look farther, as from one place of a shared mesh to another, another pass finds what it
+        // allows.
         count_hindrances(places);
         return m_report.hindrances[Hindrance::by_loop] > 0 && m_report.collapses > collapses_before;
       });
@@ -392,8 +393,19 @@ private:
   Hindrance hindrance_with_partner(const Profile& profile, const Halfedge& moving)
   {
     const Hindrance reason = hindrance(Collapse<Profile>::along(profile, moving));
+    if (reason != Hindrance::by_loop)
+      return reason;
+    const std::vector<Halfedge> companions = m_observer.companions(moving);
+    const bool can_go_elsewhere =
+        companions.empty() ||
+        (!m_observer.is_led(moving) && m_observer.are_companions_apart(moving, companions) &&
+         all_of_companions(companions, [this](const auto& of_companion) {
+           return m_rule.allows(of_companion) && hindrance(of_companion) == Hindrance::by_loop;
+         }));
+    if (!can_go_elsewhere)
+      return Hindrance::companions;
     const auto motion = m_partners.partner_motion(moving);
-    if (reason != Hindrance::by_loop || !motion)
+    if (!motion)
       return reason;
     const Lazy_profile of_partner(*motion, m_mesh, m_points, m_traits);
     if (const Line_refusal refusal = m_rule.refusal(*motion); refusal != Line_refusal::none)
@@ -587,8 +599,8 @@ private:
       simplification->after_collapse(kept);
     }
 
-    // The loop does this next, without asking: it belongs to the motion that it has begun.
-    std::optional<Halfedge> joint_motion() const { return simplification->next_joint_motion(); }
+    // The loop does these motions next, without asking: they have been asked for together.
+    std::vector<Halfedge> companions() const { return std::exchange(simplification->m_companions, {}); }
 
     // The loop tries this motion next, before the cheapest edge.
     std::optional<Halfedge> follow_up() const
@@ -613,7 +625,44 @@ private:
     if (!m_topology.is_kept(profile, No_constrained_edges()))
       return false;
     const auto of_partner = Collapse<Lazy_profile>::along(profile, *motion);
-    return m_intersection ? m_intersection->allows(of_partner) : m_error.allows(of_partner);
+    return filters_allow(of_partner);
+  }
+
+  // Whether `is_allowed(collapse)` is true for all companions of a motion. Each is asked for in the mesh as
+  // it is before any of them: as their stars lie in boxes without a common point, none changes what is asked
+  // of another.
+  template <class Predicate>
+  bool all_of_companions(const std::vector<Halfedge>& companions, const Predicate& is_allowed)
+  {
+    return std::all_of(companions.begin(), companions.end(), [&](const Halfedge& moving) {
+      const Lazy_profile profile(moving, m_mesh, m_points, m_traits);
+      return m_topology.is_kept(profile, No_constrained_edges()) &&
+             is_allowed(Collapse<Lazy_profile>::along(profile, moving));
+    });
+  }
+
+  template <class Profile>
+  bool allows_companions(const Collapse<Profile>& collapse)
+  {
+    if (!collapse.are_both_moved())
+      m_companions = m_observer.companions(collapse.moving());
+    if (m_companions.empty())
+      return true;
+    const bool are_apart = m_observer.are_companions_apart(collapse.moving(), m_companions);
+    m_companions_too_near += !are_apart;
+    if (are_apart && all_of_companions(m_companions, [this](const auto& of_companion) {
+          return filters_allow(of_companion);
+        }))
+      return true;
+    ++m_report.refused_elsewhere;
+    m_companions.clear();
+    return false;
+  }
+
+  template <class Profile>
+  bool filters_allow(const Collapse<Profile>& collapse)
+  {
+    return m_intersection ? m_intersection->allows(collapse) : m_error.allows(collapse);
   }
 
   // Whether all rules but the exact test allow the collapses of the vertices that move together with the
@@ -637,27 +686,20 @@ private:
     return true;
   }
 
-  std::optional<Halfedge> next_joint_motion() const
-  {
-    if (m_others_to_go.empty())
-      return std::nullopt;
-    const auto& [mover, goal] = m_others_to_go.back();
-    return halfedge(mover, goal, m_mesh).first;
-  }
-
   template <class Profile>
   bool allows(const Collapse<Profile>& collapse)
   {
-    // The filters remember what they found of the last collapse that they accepted: so it is asked last.
-    if (allows_partner(collapse) && allows_others(collapse) &&
-        (m_intersection ? m_intersection->allows(collapse.with_others(m_others))
-                        : m_error.allows(collapse))) {
-      ++m_accepted;
-      m_is_mover_first = m_intersection && m_intersection->is_mover_first();
-      return true;
+    // The filters remember what they found of the last collapse of both ends that they accepted: so it is
+    // asked after its partner. A collapse with companions moves one end.
+    if (!allows_partner(collapse) || !allows_others(collapse) ||
+        !filters_allow(collapse.with_others(m_others)) || !allows_companions(collapse)) {
+      report_refusal(collapse.moving());
+      return false;
     }
-    report_refusal(collapse.moving());
-    return false;
+    m_is_mover_first = m_intersection && m_intersection->is_mover_first();
+    m_motions_left = 1 + m_companions.size() + m_others.size();
+    m_accepted += 1 + m_companions.size();
+    return true;
   }
 
   template <class Profile>
@@ -667,14 +709,13 @@ private:
       ++m_report.placed;
       ++m_report.collapses;
       m_observer.before_placement(collapse.moving(), collapse.place(), m_is_mover_first);
-    } else if (!m_others_to_go.empty()) {
+    } else if (m_others_left > 0) {
       m_observer.before_joint_collapse(collapse.moving(), m_rule);
-      m_others_to_go.pop_back();
+      --m_others_left;
     } else {
       m_observer.before_collapse(collapse.moving(), m_rule);
       ++m_report.collapses;
-      for (const Halfedge h : m_others)
-        m_others_to_go.emplace_back(source(h, m_mesh), target(h, m_mesh));
+      m_others_left = m_others.size();
     }
     m_joint.before_collapse(collapse.moving());
     m_targets.before_collapse(collapse.moving());
@@ -683,7 +724,8 @@ private:
     m_rule.before_collapse(collapse);
     if (m_intersection)
       m_intersection->visitor().before_collapse(collapse.with_others(m_others));
-    m_others.clear();
+    if (!m_others.empty())
+      m_companions = std::exchange(m_others, {});
   }
 
   template <class Vertex>
@@ -694,15 +736,16 @@ private:
     m_rule.after_collapse(kept);
     if (m_intersection)
       m_intersection->visitor().after_collapse(kept);
-    pass_levels();
+    if (m_motions_left > 0)
+      --m_motions_left;
+    if (m_motions_left == 0) // no motion of several vertices is half done
+      pass_levels();
   }
 
-  // Reports the levels that have been reached, unless a motion of several vertices is half done. Each is a
-  // snapshot on which nothing that follows depends.
+  // Reports the levels that have been reached. Each is a snapshot on which nothing that follows depends.
   void pass_levels()
   {
-    while (m_others_to_go.empty() && m_next_level < m_levels.size() &&
-           m_targets.share(0).faces <= m_levels[m_next_level])
+    while (m_next_level < m_levels.size() && m_targets.share(0).faces <= m_levels[m_next_level])
       pass_level();
   }
   void pass_level()
@@ -833,6 +876,7 @@ private:
     result.uv = m_uv.refusals();
     result.intersection = m_intersection ? m_intersection->refusals() : 0;
     // What the last filter accepted and the loop did not collapse. A stop comes before the filters.
+    result.companions = m_companions_too_near;
     result.by_loop = m_accepted - m_report.collapses;
     return result;
   }
@@ -885,9 +929,12 @@ private:
   std::optional<Intersection> m_intersection;
   Simplify_report m_report;
   std::size_t m_accepted = 0;
+  std::vector<Halfedge> m_companions; // of the last collapse accepted, until the loop does them
+  std::size_t m_motions_left = 0;     // it and they
+  std::size_t m_companions_too_near = 0;
+  std::vector<Halfedge> m_others; // of vertices that move together, those besides the one last asked about
+  std::size_t m_others_left = 0;  // of the motion that has begun
   bool m_is_mover_first = false;  // of the last collapse accepted
-  std::vector<Halfedge> m_others; // the collapses that go along with the last one asked about, or accepted
-  std::vector<std::pair<Vertex, Vertex>> m_others_to_go; // of a motion that has begun, from and to
   double m_cost = 0;
   bool m_are_hindrances_counted = true;
   Refusals m_refused_until_now;
