@@ -474,7 +474,6 @@ group(
     ("instances_test", "worlds_test"),
     ("places[copy.place].is_mirrored != ", "places[copy.place].is_mirrored && ", "mirrored places are not seen as such"),
     ("if (!is_alike || is_held)", "if (!is_alike)", "what is locked in one place is not in others"),
-    ("is_alike = is_border || is_sewn_inside(h)", "is_alike = true", "what is sewn to something else moves"),
 )
 group(
     "src/soup/shared_meshes.cpp",
