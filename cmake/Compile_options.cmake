@@ -23,3 +23,6 @@ function(selvedge_unite_by_folder target)
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
 endfunction()
+
+# For code that goes into a shared library. Without interposition, functions are inlined as in a program.
+set(SELVEDGE_POSITION_INDEPENDENT $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-fPIC$<SEMICOLON>-fno-semantic-interposition>)

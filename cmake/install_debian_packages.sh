@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # Installs what Selvedge is built from, on Debian 12 or later; does nothing where all of it is there already.
-# With the argument "fuzz" also clang and its run-time libraries, of which libFuzzer is one, with "manual" Doxygen. The argument
+# With the argument "fuzz" also clang and its run-time libraries, of which libFuzzer is one, with "manual" Doxygen, with "python"
+# what the Python package and its tests need. The argument
 # "benchmark" asks for the peers that the benchmark programs measure, which are among the packages of every build.
 set -euo pipefail
 
@@ -25,6 +26,8 @@ packages=(
 )
 if [[ "${1:-}" == fuzz ]]; then
   packages+=(clang libclang-rt-dev)
+elif [[ "${1:-}" == python ]]; then
+  packages+=(python3-dev pybind11-dev python3-numpy)
 elif [[ "${1:-}" == manual ]]; then
   packages+=(doxygen)
 fi

@@ -70,6 +70,7 @@ private:
                                                               const Simplify_intent& intent)
   {
     auto& constraints = m_working.constraints();
+    m_working.lock_by_wish(intent.locked_vertices, m_prepared.positions);
     const auto add_share = [&](const std::string& name, double ratio) {
       const std::vector<char> is_named = triangles_named(soup, name);
       constraints.shares.push_back({{}, ratio});

@@ -7,6 +7,7 @@
 #include "Sewing.h"
 
 #include <selvedge/Cancellation_scope.h>
+#include <selvedge/Error.h>
 #include <selvedge/rounding.h>
 
 #include <CGAL/Kernel/global_functions.h>
@@ -17,6 +18,7 @@
 #include <map>
 #include <set>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace selvedge {
@@ -272,6 +274,28 @@ void Working_mesh::find_joint_vertices(std::vector<char>& is_locked,
     }
 }
 
+void Working_mesh::lock_by_wish(const std::vector<Index>& vertices, const std::vector<Index>& positions)
+{
+  if (vertices.empty())
+    return;
+  std::vector<char> is_wished(positions.size(), false); // by position
+  for (const Index vertex : vertices) {
+    if (vertex >= m_soup.points.size())
+      throw Argument_error("vertex " + std::to_string(vertex) + " cannot be locked: the mesh has " +
+                           std::to_string(m_soup.points.size()) + " vertices, counted from 0");
+    is_wished[positions[vertex]] = true;
+  }
+  m_is_wished.assign(m_mesh.number_of_vertices(), false);
+  for (const Mesh::Face_index face : m_mesh.faces())
+    if (is_own(face))
+      for (const Mesh::Halfedge_index h : m_mesh.halfedges_around_face(m_mesh.halfedge(face)))
+        m_is_wished[m_mesh.target(h)] |= is_wished[positions[vertex_of(corner_at(h))]];
+  std::vector<char> is_new = m_is_wished;
+  for (const Mesh::Vertex_index v : m_constraints.locked_vertices)
+    is_new[v] = false;
+  lock(is_new);
+}
+
 // Makes vertices, edges in the order of the sides, and faces. Returns the halfedge of each side.
 // `Surface_mesh::add_face` would make the same, but has to search for what is known here.
 template <class Function>
@@ -347,7 +371,7 @@ Working_mesh::Differences Working_mesh::differences(Mesh::Edge_index e) const
 // A locked vertex keeps its position and its frozen faces, so that its reason is the same at any time.
 Hindrance Working_mesh::lock_reason(Mesh::Vertex_index v) const
 {
-  Hindrance reason = Hindrance::non_manifold;
+  Hindrance reason = !m_is_wished.empty() && m_is_wished[v] ? Hindrance::locked : Hindrance::non_manifold;
   for (const Mesh::Halfedge_index h : m_mesh.halfedges_around_target(m_mesh.halfedge(v))) {
     if (m_mesh.is_border(h) || !is_own(m_mesh.face(h)))
       continue;

@@ -111,6 +111,11 @@ public:
     return std::size_t(face) < m_copies.size() && m_copies[face].mesh != s_no_mesh;
   }
 
+  /// Locks vertices of the soup because the user wants it so, and all others at their positions, which
+  /// `positions` numbers as the constructor's does. Throws `Argument_error` for a vertex that the soup does not
+  /// have.
+  void lock_by_wish(const std::vector<Index>& vertices, const std::vector<Index>& positions);
+
   /// Weighs the vertices by `weights` of the vertices of the soup. A vertex to which several are sewn gets
   /// the largest of their weights.
   void weigh(const std::vector<double>& weights);
@@ -272,6 +277,7 @@ private:
   std::vector<Index_triple> m_corners; // by face; those of the obstacle have none
   std::vector<char> m_is_frozen;       // by face, as given
   std::vector<char> m_is_turned;       // by face, or empty
+  std::vector<char> m_is_wished;       // by vertex: locked because the user wants it so; or empty
   std::vector<Index> m_misoriented_sides;
   std::vector<char> m_is_misoriented;  // by vertex of the soup: at such a side
   std::vector<unsigned char> m_places; // by halfedge that is no border: the place of its target in its face

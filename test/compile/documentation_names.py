@@ -12,7 +12,7 @@ import pathlib
 import re
 import sys
 
-FOLDERS = ("apps", "cmake", "docs", "examples", "include", "src", "test")
+FOLDERS = ("apps", "bindings", "cmake", "docs", "examples", "include", "src", "test")
 FILE = re.compile(r"[\w./-]*\w\.(?:h|cpp|py|sh|md)")
 TEST = re.compile(r"(?:\w+/)?[A-Z]\w+\.[A-Z][\w*]*|[A-Z]\w+\.\*")
 # In code marks, these are examples of names and not names of files.

@@ -31,6 +31,7 @@ LEVELS = [
                    "include/selvedge/part_report.h", "src/simplify/"]),
     ("inspection", ["include/selvedge/inspect.h", "src/inspect/"]),
     ("app", ["apps/"]),
+    ("bindings", ["bindings/"]),
 ]
 JUDGE = ["src/verify/", "src/replay/", "include/selvedge/verify.h", "include/selvedge/compare.h", "include/selvedge/replay.h"]
 FILTER = ["include/selvedge/geometry/", "include/selvedge/spatial/", "include/selvedge/Surface_mesh_simplification/"]
@@ -47,7 +48,7 @@ def level(file):
 def includes(tree, file):
     """Yields the files of the tree that a file includes."""
     for name in re.findall(r'^#include [<"]([^>"]+)[>"]', (tree / file).read_text(encoding="utf-8"), re.MULTILINE):
-        for folder in ("include", os.path.dirname(file), "src", "apps"):
+        for folder in ("include", os.path.dirname(file), "src", "apps", "."):
             candidate = os.path.normpath(os.path.join(folder, name))
             if (tree / candidate).is_file():
                 yield candidate
@@ -76,7 +77,7 @@ def is_needed(tree, file, included):
 
 def main():
     tree = pathlib.Path(sys.argv[1])
-    files = sorted(str(f.relative_to(tree)) for folder in ("include", "src", "apps")
+    files = sorted(str(f.relative_to(tree)) for folder in ("include", "src", "apps", "bindings")
                    for ending in ("h", "cpp") for f in (tree / folder).rglob("*." + ending))
     errors = [f"{file}: belongs to no level; add it to LEVELS" for file in files if level(file) is None]
     for file in files:

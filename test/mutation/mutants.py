@@ -200,6 +200,7 @@ group(
     ("if (m_is_place_allowed && !m_is_place_allowed(result))", "if (false)", "places leave their cell"),
     ("before == CGAL::COLLINEAR || uv_orientation(face, m_places[h], uv) == before;", "true;",
      "triangles of the texture turn over"),
+    ("  lock(is_new);\n", "", "vertices that the user locks move"),
 )
 
 group(

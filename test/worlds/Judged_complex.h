@@ -33,6 +33,7 @@ public:
 
   /// Nothing at the corners of this face moves from now on.
   void freeze(Index face);
+  void freeze_position(Index position) { m_is_frozen[position] = true; }
 
   /// These pairs, which offend, and all that descend from them need not be apart, but a collapse must not
   /// make more of them offend. No snap moves their faces, or something to them.

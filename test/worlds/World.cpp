@@ -103,6 +103,7 @@ void write_world(const World& world, const std::filesystem::path& folder)
                      {"stabiliser", options.cost.stabiliser},
                      {"memory", options.cost.memory},
                      {"locked", world.intent.locked},
+                     {"locked_vertices", world.intent.locked_vertices},
                      {"kept", world.intent.kept},
                      {"ratios", ratios},
                      {"weights", world.intent.weights},
@@ -161,6 +162,8 @@ World read_world(const std::filesystem::path& folder)
   options.cost.stabiliser = json["stabiliser"];
   options.cost.memory = json["memory"];
   world.intent.locked = json["locked"].get<std::vector<std::string>>();
+  if (json.contains("locked_vertices")) // worlds written before there were such have none
+    world.intent.locked_vertices = json["locked_vertices"].get<std::vector<Index>>();
   world.intent.kept = json["kept"].get<std::vector<std::string>>();
   for (const Json& part : json["ratios"])
     world.intent.ratios.push_back({part["name"], part["ratio"]});
@@ -241,6 +244,8 @@ std::string command_line(const World& world)
   }
   if (!options.check_uv_orientation)
     beyond += "; the texture may turn over";
+  if (!world.intent.locked_vertices.empty())
+    beyond += "; locked vertices";
   if (world.questions)
     beyond += "; stopped at question " + std::to_string(*world.questions + 1);
   return command + (beyond.empty() ? "" : " #" + beyond.substr(1));

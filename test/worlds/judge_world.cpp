@@ -588,6 +588,8 @@ Verdict judge_stop(const World& world, const World_run& run)
     if (is_locked[t] || run.prepared.is_frozen[t])
       for (const Index v : soup.triangles[t])
         is_held[run.prepared.positions[v]] = true;
+  for (const Index v : world.intent.locked_vertices)
+    is_held[run.prepared.positions[v]] = true;
   const auto is_fixed = [&](std::size_t t) {
     return std::all_of(soup.triangles[t].begin(), soup.triangles[t].end(),
                        [&](Index v) { return is_held[run.prepared.positions[v]]; });
@@ -724,6 +726,8 @@ Verdict judge_reduction(const World& world, const World_run& run, Judged_complex
   for (Index t = 0; t < is_held.size(); ++t)
     if (is_held[t])
       complex.freeze(t);
+  for (const Index v : world.intent.locked_vertices)
+    complex.freeze_position(complex.position(v));
   const auto turn_faces = [&] {
     for (Index t = 0; t < run.prepared.is_turned.size(); ++t)
       if (run.prepared.is_turned[t])

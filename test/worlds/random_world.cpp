@@ -243,6 +243,9 @@ void choose_parts(World& world, Random& random)
       for (int i = random.between(1, 2); i > 0; --i)
         intent.ratios.push_back({random.one_of(names), random.one_in(3) ? 0 : random.share()});
   }
+  if (!world.soup.points.empty() && random.one_in(8))
+    for (int i = random.between(1, 6); i > 0; --i)
+      intent.locked_vertices.push_back(Index(random.between(0, int(world.soup.points.size()) - 1)));
   for (const Attribute& attribute : world.soup.vertex_attributes)
     if (attribute.name == "w" && random.one_in(2))
       intent.weights = attribute.name;

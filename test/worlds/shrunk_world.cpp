@@ -107,6 +107,7 @@ private:
                                     std::nullopt);
     clear<std::vector<double>>([](World& w) -> std::vector<double>& { return w.lods; });
     clear<std::vector<std::string>>([](World& w) -> std::vector<std::string>& { return w.intent.locked; });
+    clear<std::vector<Index>>([](World& w) -> std::vector<Index>& { return w.intent.locked_vertices; });
     clear<std::vector<std::string>>([](World& w) -> std::vector<std::string>& { return w.intent.kept; });
     clear<std::vector<Simplify_intent::Part_ratio>>(
         [](World& w) -> std::vector<Simplify_intent::Part_ratio>& { return w.intent.ratios; });

@@ -293,6 +293,15 @@ TEST(JudgeOfWorlds, SeesAMotionOfWhatIsLocked)
   EXPECT_EQ(verdict(world, run), "frozen");
 }
 
+TEST(JudgeOfWorlds, SeesAMotionOfALockedVertex)
+{
+  World world = plain_world();
+  const World_run run = test::run(world);
+  ASSERT_FALSE(run.collapses.empty());
+  world.intent.locked_vertices = {Index(run.collapses.front().removed)};
+  EXPECT_EQ(verdict(world, run), "frozen");
+}
+
 TEST(JudgeOfWorlds, SeesACollapseOfATetrahedron)
 {
   // One of its faces would come to lie on another.

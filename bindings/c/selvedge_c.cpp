@@ -1,0 +1,295 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "selvedge_c.h"
+
+#include "bindings/run/Reduction.h"
+#include "meshopt_call.h"
+#include "soup_of.h"
+
+#include <selvedge/Error.h>
+#include <selvedge/generate.h>
+#include <selvedge/mesh_files.h>
+
+#include <functional>
+#include <memory>
+#include <new>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+using namespace selvedge;
+
+struct selvedge_mesh
+{
+  Triangle_soup soup;
+};
+
+struct selvedge_options
+{
+  bindings::Reduction_request request;
+};
+
+struct selvedge_result
+{
+  bindings::Reduction reduction;
+  selvedge_mesh mesh;
+  std::vector<Index> vertices;
+  std::optional<std::string> report;
+};
+
+namespace {
+
+static_assert(std::is_same_v<Index, unsigned int>);
+static_assert(sizeof(Point_3) == 3 * sizeof(double), "points are read as three doubles each");
+
+thread_local std::optional<std::string> last_error;
+
+/// Returns what `function` returns; when it throws, remembers why and returns `failed`.
+template <class Result, class Function>
+Result guarded(Result failed, Function function) noexcept
+{
+  try {
+    last_error.reset();
+    try {
+      return function();
+    } catch (const std::bad_alloc&) {
+      last_error = "out of memory";
+    } catch (const Error& error) {
+      last_error = error.what();
+    } catch (const std::exception& error) {
+      last_error = std::string("this should not happen: ") + error.what();
+    } catch (...) {
+      last_error = "this should not happen";
+    }
+  } catch (...) { // no memory for the message
+  }
+  return failed;
+}
+
+template <class Object>
+Object& required(Object* object, const char* name)
+{
+  if (!object)
+    throw Argument_error(std::string(name) + " is a null pointer");
+  return *object;
+}
+
+} // namespace
+
+const char* selvedge_version(void)
+{
+  return SELVEDGE_VERSION;
+}
+
+const char* selvedge_last_error(void)
+{
+  return last_error ? last_error->c_str() : nullptr;
+}
+
+size_t selvedge_simplify(unsigned int* destination, const unsigned int* indices, size_t index_count,
+                         const float* vertex_positions, size_t vertex_count, size_t vertex_positions_stride,
+                         size_t target_index_count, float target_error, unsigned int options,
+                         float* result_error)
+{
+  return selvedge_simplifyWithAttributes(destination, indices, index_count, vertex_positions, vertex_count,
+                                         vertex_positions_stride, nullptr, 0, nullptr, 0, nullptr,
+                                         target_index_count, target_error, options, result_error);
+}
+
+size_t selvedge_simplifyWithAttributes(unsigned int* destination, const unsigned int* indices,
+                                       size_t index_count, const float* vertex_positions, size_t vertex_count,
+                                       size_t vertex_positions_stride, const float* vertex_attributes,
+                                       size_t vertex_attributes_stride, const float* attribute_weights,
+                                       size_t attribute_count, const unsigned char* vertex_lock,
+                                       size_t target_index_count, float target_error, unsigned int options,
+                                       float* result_error)
+{
+  return guarded(size_t(0), [&] {
+    return bindings::simplify({destination, indices, index_count, vertex_positions, vertex_count,
+                               vertex_positions_stride, vertex_attributes, vertex_attributes_stride,
+                               attribute_weights, attribute_count, vertex_lock, target_index_count,
+                               target_error, options, result_error});
+  });
+}
+
+selvedge_mesh* selvedge_mesh_new(const double* positions, size_t vertex_count, const unsigned int* indices,
+                                 size_t index_count)
+{
+  return guarded(static_cast<selvedge_mesh*>(nullptr), [&] {
+    auto mesh = std::make_unique<selvedge_mesh>();
+    bindings::check_arrays(positions, vertex_count, indices, index_count);
+    mesh->soup = bindings::soup_of(
+        vertex_count, indices, index_count,
+        [&](std::size_t v) { return Point_3(positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]); },
+        [](std::size_t v) { return v; });
+    return mesh.release();
+  });
+}
+
+selvedge_mesh* selvedge_mesh_read(const char* path)
+{
+  return guarded(static_cast<selvedge_mesh*>(nullptr),
+                 [&] { return new selvedge_mesh{read_mesh(&required(path, "path")).soup}; });
+}
+
+selvedge_mesh* selvedge_mesh_generate(const char* name, size_t triangles, int layers)
+{
+  return guarded(static_cast<selvedge_mesh*>(nullptr), [&] {
+    Generate_options options;
+    options.faces = triangles;
+    options.layers = layers;
+    return new selvedge_mesh{generate(&required(name, "name"), options)};
+  });
+}
+
+int selvedge_mesh_write(const selvedge_mesh* mesh, const char* path)
+{
+  return guarded(-1, [&] {
+    write_mesh(&required(path, "path"), required(mesh, "mesh").soup);
+    return 0;
+  });
+}
+
+void selvedge_mesh_free(selvedge_mesh* mesh)
+{
+  delete mesh;
+}
+
+size_t selvedge_mesh_vertex_count(const selvedge_mesh* mesh)
+{
+  return mesh ? mesh->soup.points.size() : 0;
+}
+
+size_t selvedge_mesh_index_count(const selvedge_mesh* mesh)
+{
+  return mesh ? 3 * mesh->soup.triangles.size() : 0;
+}
+
+const double* selvedge_mesh_positions(const selvedge_mesh* mesh)
+{
+  return mesh ? reinterpret_cast<const double*>(mesh->soup.points.data()) : nullptr;
+}
+
+const unsigned int* selvedge_mesh_indices(const selvedge_mesh* mesh)
+{
+  return mesh ? reinterpret_cast<const unsigned int*>(mesh->soup.triangles.data()) : nullptr;
+}
+
+selvedge_options* selvedge_options_new(void)
+{
+  return guarded(static_cast<selvedge_options*>(nullptr), [] { return new selvedge_options(); });
+}
+
+void selvedge_options_free(selvedge_options* options)
+{
+  delete options;
+}
+
+int selvedge_options_set(selvedge_options* options, const char* name, const char* value)
+{
+  return guarded(-1, [&] {
+    bindings::Reduction_request& request = required(options, "options").request;
+    request.set(&required(name, "name"), &required(value, "value"));
+    return 0;
+  });
+}
+
+int selvedge_options_set_obstacle(selvedge_options* options, const selvedge_mesh* obstacle)
+{
+  return guarded(-1, [&] {
+    required(options, "options").request.obstacle = obstacle ? obstacle->soup : Triangle_soup();
+    return 0;
+  });
+}
+
+int selvedge_options_set_progress(selvedge_options* options, selvedge_progress progress, void* user)
+{
+  return guarded(-1, [&] {
+    std::function<bool(const Simplify_progress&)> hook;
+    if (progress)
+      hook = [=](const Simplify_progress& now) {
+        return progress(user, now.faces_input, now.faces_target, now.faces) != 0;
+      };
+    required(options, "options").request.options.should_stop = std::move(hook);
+    return 0;
+  });
+}
+
+selvedge_result* selvedge_reduce(const selvedge_mesh* mesh, const selvedge_options* options)
+{
+  return guarded(static_cast<selvedge_result*>(nullptr), [&] {
+    auto result = std::unique_ptr<selvedge_result>(new selvedge_result{
+        bindings::Reduction(required(mesh, "mesh").soup, required(options, "options").request), {}, {}, {}});
+    result->vertices = result->reduction.vertices();
+    result->mesh.soup = result->reduction.soup();
+    return result.release();
+  });
+}
+
+void selvedge_result_free(selvedge_result* result)
+{
+  delete result;
+}
+
+int selvedge_result_is_accepted(const selvedge_result* result)
+{
+  return guarded(-1, [&] { return int(required(result, "result").reduction.is_accepted()); });
+}
+
+int selvedge_result_is_reached(const selvedge_result* result)
+{
+  return guarded(-1, [&] { return int(required(result, "result").reduction.is_reached()); });
+}
+
+const selvedge_mesh* selvedge_result_mesh(const selvedge_result* result)
+{
+  return result ? &result->mesh : nullptr;
+}
+
+const unsigned int* selvedge_result_vertices(const selvedge_result* result)
+{
+  return result ? result->vertices.data() : nullptr;
+}
+
+const char* selvedge_result_log(const selvedge_result* result)
+{
+  return result ? result->reduction.log().c_str() : nullptr;
+}
+
+const char* selvedge_result_report(selvedge_result* result)
+{
+  return guarded(static_cast<const char*>(nullptr), [&] {
+    std::optional<std::string>& report = required(result, "result").report;
+    if (!report)
+      report = result->reduction.report();
+    return report->c_str();
+  });
+}
+
+int selvedge_verify(const selvedge_mesh* mesh, const selvedge_mesh* original, size_t* pairs,
+                    size_t* new_pairs)
+{
+  return guarded(-1, [&] {
+    const Triangle_soup& soup = required(mesh, "mesh").soup;
+    const Verification verification = original ? verify(soup, original->soup) : verify(soup);
+    if (pairs)
+      *pairs = verification.pairs.size();
+    if (new_pairs)
+      *new_pairs = verification.new_pairs.size();
+    return int(verification.accepted());
+  });
+}
+
+int selvedge_replay(const selvedge_mesh* original, const char* log)
+{
+  return guarded(-1, [&] {
+    const Replay_verdict verdict =
+        bindings::replay(required(original, "original").soup, &required(log, "log"), {});
+    if (!verdict.violations.empty())
+      last_error = verdict.violations.front().message;
+    return int(verdict.is_accepted());
+  });
+}

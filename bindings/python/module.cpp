@@ -1,0 +1,273 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The compiled part of the Python package: arrays in, arrays out. What a user calls is in
+// selvedge/__init__.py.
+
+#include "bindings/run/Reduction.h"
+
+#include <selvedge/Cancellation_scope.h>
+#include <selvedge/Error.h>
+#include <selvedge/generate.h>
+
+#include <pybind11/functional.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace py = pybind11;
+using namespace selvedge;
+
+namespace {
+
+using Points = py::array_t<double, py::array::c_style>;
+using Triangles = py::array_t<Index, py::array::c_style>;
+using Mesh_arrays = std::pair<Points, Triangles>;
+using Options = std::vector<std::pair<std::string, std::string>>;
+using Progress = std::function<bool(std::size_t, std::size_t, std::size_t)>;
+
+static_assert(sizeof(Point_3) == 3 * sizeof(double), "points are shown as rows of three doubles");
+
+/// Work without the GIL. From time to time the calling thread looks for signals, and for what a callback of
+/// Python has thrown; either ends the work.
+class Work
+{
+public:
+  /// Returns what `function` returns. An exception of Python passes through, KeyboardInterrupt among them.
+  template <class Function>
+  auto run(const Function& function)
+  {
+    try {
+      auto result = [&] {
+        const py::gil_scoped_release release;
+        const Cancellation_scope scope([this] { return is_ended(); });
+        return function();
+      }();
+      if (m_error) // too late to end anything
+        throw Interrupted("interrupted");
+      return result;
+    } catch (const Interrupted&) {
+      if (m_error)
+        throw std::move(*m_error);
+      throw;
+    }
+  }
+
+  /// Calls back with the GIL; true when the work is to end with what it has reached. At most 20 times a
+  /// second.
+  bool report(const Progress& progress, const Simplify_progress& now)
+  {
+    const auto time = Clock::now();
+    if (!progress || (m_last_report && time - *m_last_report < s_pause))
+      return false;
+    m_last_report = time;
+    const py::gil_scoped_acquire acquire;
+    try {
+      return progress(now.faces_input, now.faces_target, now.faces);
+    } catch (py::error_already_set& error) {
+      end(std::move(error));
+      return false;
+    }
+  }
+
+private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::milliseconds s_pause{50};
+
+  bool is_ended()
+  {
+    if (m_is_ended || std::this_thread::get_id() != m_thread) // signals are for the main thread
+      return m_is_ended;
+    if (const auto time = Clock::now(); time - m_last_look >= s_pause) {
+      m_last_look = time;
+      const py::gil_scoped_acquire acquire;
+      if (PyErr_CheckSignals() != 0)
+        end(py::error_already_set());
+    }
+    return m_is_ended;
+  }
+
+  void end(py::error_already_set error)
+  {
+    m_error = std::make_unique<py::error_already_set>(std::move(error));
+    m_is_ended = true;
+  }
+
+  const std::thread::id m_thread = std::this_thread::get_id();
+  Clock::time_point m_last_look = Clock::now();
+  std::optional<Clock::time_point> m_last_report;
+  std::unique_ptr<py::error_already_set> m_error;
+  std::atomic<bool> m_is_ended = false;
+};
+
+template <class Array>
+auto rows(const Array& array, const char* name)
+{
+  if (array.ndim() != 2 || array.shape(1) != 3)
+    throw Argument_error(std::string(name) + " is not an array of shape (n, 3)");
+  return array.template unchecked<2>();
+}
+
+Triangle_soup soup_of(const Points& points, const Triangles& triangles)
+{
+  Triangle_soup soup;
+  const auto of_points = rows(points, "points");
+  soup.points.reserve(std::size_t(of_points.shape(0)));
+  for (py::ssize_t i = 0; i < of_points.shape(0); ++i)
+    soup.points.emplace_back(of_points(i, 0), of_points(i, 1), of_points(i, 2));
+  const auto of_triangles = rows(triangles, "triangles");
+  soup.triangles.reserve(std::size_t(of_triangles.shape(0)));
+  for (py::ssize_t i = 0; i < of_triangles.shape(0); ++i)
+    soup.triangles.push_back({of_triangles(i, 0), of_triangles(i, 1), of_triangles(i, 2)});
+  return soup;
+}
+
+/// An array of `columns` columns that owns `values` without copying them.
+template <class Number, class Value>
+py::array_t<Number> array_of(std::vector<Value> values, py::ssize_t columns = 1)
+{
+  auto* const owned = new std::vector<Value>(std::move(values));
+  const py::capsule owner(owned, [](void* pointer) { delete static_cast<std::vector<Value>*>(pointer); });
+  std::vector<py::ssize_t> shape{py::ssize_t(owned->size())};
+  if (columns > 1)
+    shape.push_back(columns);
+  return py::array_t<Number>(shape, reinterpret_cast<const Number*>(owned->data()), owner);
+}
+
+py::tuple arrays_of(Triangle_soup soup)
+{
+  return py::make_tuple(array_of<double>(std::move(soup.points), 3),
+                        array_of<Index>(std::move(soup.triangles), 3));
+}
+
+Triangle_labels labels_of(const std::vector<Index>& of_triangle, const std::vector<std::string>& names)
+{
+  for (const Index name : of_triangle)
+    if (name >= names.size())
+      throw Argument_error("groups: a triangle has no name");
+  return {of_triangle, names};
+}
+
+class Result
+{
+public:
+  explicit Result(bindings::Reduction reduction) : m_reduction(std::move(reduction)) {}
+
+  py::tuple mesh() const
+  {
+    return py::make_tuple(array_of<double>(std::vector<Point_3>(m_reduction.soup().points), 3),
+                          array_of<Index>(std::vector<Index_triple>(m_reduction.soup().triangles), 3));
+  }
+  py::array_t<Index> vertices() const { return array_of<Index>(m_reduction.vertices()); }
+  py::array_t<Index> triangles() const { return array_of<Index>(m_reduction.triangles()); }
+  py::array_t<Index> collapses() const
+  {
+    std::vector<Index_triple::value_type> pairs;
+    for (const Soup_collapse& collapse : m_reduction.collapses())
+      pairs.insert(pairs.end(), {Index(collapse.removed), Index(collapse.kept)});
+    return array_of<Index>(std::move(pairs)).reshape({-1, 2});
+  }
+  const bindings::Reduction& reduction() const { return m_reduction; }
+
+private:
+  bindings::Reduction m_reduction;
+};
+
+Result reduce(const Points& points, const Triangles& triangles, const Options& options,
+              const std::vector<Index>& groups, const std::vector<std::string>& group_names,
+              const std::vector<Index>& locked, const std::optional<std::vector<double>>& weights,
+              const std::optional<Mesh_arrays>& obstacle, const Progress& progress)
+{
+  Triangle_soup soup = soup_of(points, triangles);
+  bindings::Reduction_request request;
+  for (const auto& [name, value] : options)
+    request.set(name, value);
+  if (!groups.empty())
+    soup.groups = labels_of(groups, group_names);
+  if (weights) {
+    Attribute attribute;
+    attribute.name = request.intent.weights = "weights";
+    const auto* const bytes = reinterpret_cast<const unsigned char*>(weights->data());
+    attribute.rows.assign(bytes, bytes + weights->size() * sizeof(double));
+    soup.vertex_attributes.push_back(std::move(attribute));
+  }
+  request.intent.locked_vertices = locked;
+  if (obstacle)
+    request.obstacle = soup_of(obstacle->first, obstacle->second);
+  Work work;
+  request.options.should_stop = [&](const Simplify_progress& now) { return work.report(progress, now); };
+  return Result(work.run([&] { return bindings::Reduction(std::move(soup), request); }));
+}
+
+py::tuple judge(const Points& points, const Triangles& triangles, const std::optional<Mesh_arrays>& original)
+{
+  const Triangle_soup soup = soup_of(points, triangles);
+  const Triangle_soup before = original ? soup_of(original->first, original->second) : Triangle_soup();
+  const Verification verification =
+      Work().run([&] { return original ? verify(soup, before) : verify(soup); });
+  const auto pairs = [](const std::vector<Offending_pair>& list) {
+    std::vector<Index> numbers;
+    for (const Offending_pair& pair : list)
+      numbers.insert(numbers.end(), {pair.first, pair.second});
+    return array_of<Index>(std::move(numbers)).reshape({-1, 2});
+  };
+  return py::make_tuple(verification.accepted(), pairs(verification.pairs), pairs(verification.new_pairs),
+                        bindings::report_of(verification, original.has_value()));
+}
+
+py::tuple repeat(const Points& points, const Triangles& triangles, const std::string& log, bool is_all_wanted)
+{
+  const Triangle_soup soup = soup_of(points, triangles);
+  Replay_options options;
+  options.is_all_wanted = is_all_wanted;
+  Replay_verdict verdict = Work().run([&] { return bindings::replay(soup, log, options); });
+  const std::string report = bindings::report_of(verdict);
+  return py::make_tuple(verdict.is_accepted(), arrays_of(std::move(verdict.soup)), report);
+}
+
+py::tuple make(const std::string& name, std::size_t faces, int layers, double thickness, double gap,
+               double fold_depth, int folds, unsigned seed)
+{
+  const Generate_options options{faces, layers, thickness, gap, fold_depth, folds, seed};
+  Triangle_soup soup = Work().run([&] { return generate(name, options); });
+  const py::array_t<Index> groups = array_of<Index>(std::move(soup.groups.of_triangle));
+  const std::vector<std::string> names = std::move(soup.groups.names);
+  return py::make_tuple(arrays_of(std::move(soup)), groups, names);
+}
+
+} // namespace
+
+PYBIND11_MODULE(_selvedge, module)
+{
+  const auto error = py::register_exception<Error>(module, "Error", PyExc_RuntimeError);
+  py::register_exception<Input_error>(module, "InputError", error);
+  py::register_exception<Argument_error>(module, "ArgumentError",
+                                         py::make_tuple(error, py::handle(PyExc_ValueError)));
+  module.attr("version") = SELVEDGE_VERSION;
+  module.def("option_names", &bindings::option_names);
+  module.def("nearest", &bindings::nearest);
+  py::class_<Result>(module, "Result")
+      .def("mesh", &Result::mesh)
+      .def("vertices", &Result::vertices)
+      .def("triangles", &Result::triangles)
+      .def("collapses", &Result::collapses)
+      .def("log", [](const Result& result) { return result.reduction().log(); })
+      .def("report",
+           [](const Result& result) { return Work().run([&] { return result.reduction().report(); }); })
+      .def("is_accepted", [](const Result& result) { return result.reduction().is_accepted(); })
+      .def("is_reached", [](const Result& result) { return result.reduction().is_reached(); })
+      .def("is_stopped", [](const Result& result) { return result.reduction().is_stopped(); });
+  module.def("reduce", &reduce);
+  module.def("judge", &judge);
+  module.def("replay", &repeat);
+  module.def("generate", &make);
+}

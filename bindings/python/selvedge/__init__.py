@@ -1,0 +1,188 @@
+# Copyright (c) 2026 the Selvedge authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reduces triangle meshes so that no layer ever pierces another, decided exactly.
+
+Meshes are NumPy arrays: points of shape (n, 3), and triangles of shape (m, 3) with vertex numbers from 0. Points are
+taken as doubles (a 32-bit float is also a double, so that nothing is rounded). Arrays of float64 and uint32 in C order
+are read in place; others are converted. docs/python.md has examples.
+"""
+
+import json as _json
+
+import numpy as _np
+
+from . import _selvedge
+from ._selvedge import ArgumentError, Error, InputError
+
+__version__ = _selvedge.version
+__all__ = ["ArgumentError", "Error", "InputError", "Mesh", "Result", "Verdict", "generate", "option_names", "replay",
+           "simplify", "verify"]
+
+
+class Mesh:
+    """Points and triangles; unpacks as `points, triangles = mesh`."""
+
+    def __init__(self, points, triangles):
+        self.points = points
+        self.triangles = triangles
+
+    def __iter__(self):
+        return iter((self.points, self.triangles))
+
+
+class Result(Mesh):
+    """A reduced mesh.
+
+    `vertices[i]` is the vertex of the input that vertex i is (with placement="optimal", one of those that were merged
+    there), `birth[i]` the triangle of the input that triangle i was. `accepted` says whether the exact judge accepts
+    the mesh, `reached` whether the target was reached, `stopped` whether the progress function ended the reduction.
+    `log` and `collapses` (rows: removed, kept) are empty unless log=True was given.
+    """
+
+    def __init__(self, run, index_type):
+        points, triangles = run.mesh()
+        super().__init__(points, _as(triangles, index_type))
+        self._run = run
+        self.vertices = run.vertices()
+        self.birth = run.triangles()
+        self.accepted = run.is_accepted()
+        self.reached = run.is_reached()
+        self.stopped = run.is_stopped()
+        self.log = run.log()
+        self.collapses = run.collapses()
+
+    @property
+    def report(self):
+        """The report of the run, as `selvedge simplify --report` writes it, without what is about files (docs/report.md)."""
+        return _json.loads(self._run.report())
+
+
+class Verdict:
+    """What a judge says. True where the mesh, or every step of the log, is accepted."""
+
+    def __init__(self, accepted, report, **others):
+        self.accepted = accepted
+        self.report = _json.loads(report)
+        self.__dict__.update(others)
+
+    def __bool__(self):
+        return self.accepted
+
+
+def option_names():
+    """Returns the names of the options of `simplify`, which are those in the reports of the program."""
+    return _selvedge.option_names()
+
+
+def simplify(points, triangles, *, obstacle=None, groups=None, weights=None, lock_vertices=None, log=False,
+             progress=None, **options):
+    """Reduces a mesh, and has the result judged. Returns a `Result`.
+
+    options: those of `selvedge simplify` by their names in its reports (`option_names`), such as ratio=0.3, faces=2000,
+    error=0.001 (None: no limit), placement="optimal", lock=["collar"], part_ratios={"collar": 0.5}, threads=1.
+    obstacle: (points, triangles) that no face may touch or pass through.
+    groups: one name for each triangle; `lock`, `keep` and `part_ratios` refer to them.
+    weights: one number for each vertex, at least 0: how costly it is to remove, relative to the largest.
+    lock_vertices: numbers of vertices that do not move.
+    progress: called as progress(faces_input, faces_target, faces) now and then; when it returns true, the reduction ends
+    with what it has reached. What it throws ends the call, and so does Ctrl-C.
+
+    Triangles of the result have the type of those given, if that is an integer type of 32 or 64 bits. Throws TypeError for
+    an unknown option, ArgumentError (a ValueError) and InputError (a mesh that is not acceptable). The work is done without
+    the GIL.
+    """
+    names = _selvedge.option_names()
+    for name in options:
+        if name not in names:
+            raise TypeError(f"simplify() has no option '{name}'; the nearest is '{_selvedge.nearest(name, names)}'")
+    triangle_array = _np.asarray(triangles)
+    numbers, labels = _groups(groups, len(triangle_array))
+    given = [pair for name, value in options.items() for pair in _texts(name, value)] + [("log", _text(bool(log)))]
+    run = _selvedge.reduce(_points(points), _triangles(triangle_array), given, numbers, labels,
+                           [] if lock_vertices is None else [int(v) for v in lock_vertices],
+                           None if weights is None else _weights(weights, len(points)),
+                           None if obstacle is None else (_points(obstacle[0]), _triangles(obstacle[1])),
+                           None if progress is None else lambda *counts: bool(progress(*counts)))
+    return Result(run, triangle_array.dtype)
+
+
+def verify(points, triangles, original=None):
+    """Judges a mesh exactly: by itself, or as a result of reducing `original`, which is (points, triangles).
+
+    Returns a `Verdict` with `pairs` and `new_pairs`, arrays of shape (k, 2): triangles that intersect or coincide (a
+    degenerate one is a pair with itself), and those of them that the original does not have.
+    """
+    before = None if original is None else (_points(original[0]), _triangles(original[1]))
+    accepted, pairs, new_pairs, report = _selvedge.judge(_points(points), _triangles(triangles), before)
+    return Verdict(accepted, report, pairs=pairs, new_pairs=new_pairs)
+
+
+def replay(points, triangles, log, *, all=False):
+    """Repeats a log on the mesh that it was made of, and judges every step; with `all`, beyond the first bad one.
+
+    Returns a `Verdict` with `mesh`, to which the steps lead. Throws InputError when the log cannot be read.
+    """
+    accepted, mesh, report = _selvedge.replay(_points(points), _triangles(triangles), log, all)
+    return Verdict(accepted, report, mesh=Mesh(*mesh))
+
+
+def generate(name, *, faces=100_000, layers=3, thickness=5e-4, gap=1e-3, fold_depth=0.02, folds=14, seed=1):
+    """Makes a scene of `selvedge generate`, free of intersections by construction. Returns a `Mesh` with `groups`, one
+    name for each triangle. Lengths are in metres. Throws ArgumentError when a number is out of range."""
+    arrays, groups, names = _selvedge.generate(name, faces, layers, thickness, gap, fold_depth, folds, seed)
+    mesh = Mesh(*arrays)
+    mesh.groups = [names[group] for group in groups]
+    return mesh
+
+
+def _points(points):
+    return _np.ascontiguousarray(points, dtype=_np.float64)
+
+
+def _triangles(triangles):
+    triangles = _np.asarray(triangles)
+    if triangles.size and triangles.dtype.kind not in "iu":
+        raise ArgumentError("triangles are not whole numbers")
+    if triangles.size and (triangles.min() < 0 or triangles.max() >= 2**32):
+        raise ArgumentError("a triangle has a vertex number that is negative or too large")
+    return _np.ascontiguousarray(triangles, dtype=_np.uint32)
+
+
+def _as(triangles, index_type):
+    if index_type == _np.int32:
+        return triangles.view(_np.int32)
+    return triangles.astype(index_type) if index_type in (_np.int64, _np.uint64) else triangles
+
+
+def _weights(weights, count):
+    weights = [float(weight) for weight in weights]
+    if len(weights) != count:
+        raise ArgumentError(f"there are {count} points, but {len(weights)} weights")
+    return weights
+
+
+def _groups(groups, count):
+    if groups is None:
+        return [], []
+    if len(groups) != count:
+        raise ArgumentError(f"there are {count} triangles, but {len(groups)} names of groups")
+    numbers = {}
+    return [numbers.setdefault(str(group), len(numbers)) for group in groups], list(numbers)
+
+
+def _text(value):
+    if isinstance(value, (bool, _np.bool_)):
+        return "true" if value else "false"
+    if isinstance(value, (float, _np.floating)):
+        return repr(float(value))
+    return str(value)
+
+
+def _texts(name, value):
+    if value is None:
+        return [(name, "none")] if name == "error" else []
+    if isinstance(value, dict):
+        return [(name, f"{part}={_text(ratio)}") for part, ratio in value.items()]
+    if isinstance(value, (list, tuple)):
+        return [(name, _text(part)) for part in value]
+    return [(name, _text(value))]

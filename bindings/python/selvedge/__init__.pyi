@@ -1,0 +1,89 @@
+from typing import Any, Callable, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+__version__: str
+
+class Error(RuntimeError): ...
+class InputError(Error): ...
+class ArgumentError(Error, ValueError): ...
+
+class Mesh:
+    points: np.ndarray
+    triangles: np.ndarray
+    groups: List[str]
+    def __init__(self, points: np.ndarray, triangles: np.ndarray) -> None: ...
+    def __iter__(self) -> Iterator[np.ndarray]: ...
+
+class Result(Mesh):
+    vertices: np.ndarray
+    birth: np.ndarray
+    accepted: bool
+    reached: bool
+    stopped: bool
+    log: str
+    collapses: np.ndarray
+    @property
+    def report(self) -> Dict[str, Any]: ...
+
+class Verdict:
+    accepted: bool
+    report: Dict[str, Any]
+    pairs: np.ndarray
+    new_pairs: np.ndarray
+    mesh: Mesh
+    def __bool__(self) -> bool: ...
+
+def option_names() -> List[str]: ...
+def simplify(
+    points: ArrayLike,
+    triangles: ArrayLike,
+    *,
+    obstacle: Optional[Tuple[ArrayLike, ArrayLike]] = None,
+    groups: Optional[Sequence[Any]] = None,
+    weights: Optional[Sequence[float]] = None,
+    lock_vertices: Optional[Sequence[int]] = None,
+    log: bool = False,
+    progress: Optional[Callable[[int, int, int], Any]] = None,
+    ratio: float = ...,
+    faces: int = ...,
+    error: Optional[float] = ...,
+    normal_change: float = ...,
+    aspect_ratio: float = ...,
+    border_turn: float = ...,
+    seam_turn: float = ...,
+    border_drift: float = ...,
+    placement: str = ...,
+    loop: str = ...,
+    index: str = ...,
+    cluster_size: int = ...,
+    intersection_check: bool = ...,
+    stabiliser: float = ...,
+    memory: float = ...,
+    border_weight: float = ...,
+    uv_weight: float = ...,
+    part_ratios: Mapping[str, float] = ...,
+    lock: Union[str, Sequence[str]] = ...,
+    keep: Union[str, Sequence[str]] = ...,
+    weld: Union[float, str] = ...,
+    sewn: bool = ...,
+    normals: str = ...,
+    orient: str = ...,
+    threads: int = ...,
+    cells: bool = ...,
+    defects: str = ...,
+) -> Result: ...
+def verify(points: ArrayLike, triangles: ArrayLike, original: Optional[Tuple[ArrayLike, ArrayLike]] = None) -> Verdict: ...
+def replay(points: ArrayLike, triangles: ArrayLike, log: str, *, all: bool = False) -> Verdict: ...
+def generate(
+    name: str,
+    *,
+    faces: int = 100_000,
+    layers: int = 3,
+    thickness: float = 5e-4,
+    gap: float = 1e-3,
+    fold_depth: float = 0.02,
+    folds: int = 14,
+    seed: int = 1,
+) -> Mesh: ...

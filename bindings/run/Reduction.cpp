@@ -1,0 +1,132 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "Reduction.h"
+
+#include "apps/report_json.h"
+
+#include <selvedge/Reduction_log.h>
+#include <selvedge/collapse_log.h>
+#include <selvedge/merge.h>
+
+#include <oneapi/tbb/global_control.h>
+
+#include <chrono>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+namespace selvedge::bindings {
+namespace {
+
+using app::Json;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start)
+{
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+} // namespace
+
+Reduction::Reduction(Triangle_soup input, const Reduction_request& request)
+    : m_input_triangles(input.triangles), m_options(request.json()), m_is_sewn(request.is_sewn)
+{
+  request.check();
+  std::optional<tbb::global_control> limit;
+  if (request.threads)
+    limit.emplace(tbb::global_control::max_allowed_parallelism, *request.threads);
+  const Log_numbering numbering(input, false);
+  Log_header header;
+  header.vertices = input.points.size();
+  header.triangles = input.triangles.size();
+  header.is_rounded_to_float32 = request.prepare.round_to_float32;
+  m_prepared = prepare(std::move(input), request.prepare, request.obstacle);
+
+  Simplify_options options = request.options;
+  std::ostringstream stream;
+  std::optional<Reduction_log> log;
+  if (request.is_log_wanted) {
+    log.emplace(stream, header, numbering, m_prepared, options);
+    options.on_collapse = [&](const Soup_collapse& collapse) {
+      log->add_collapse(collapse);
+      m_collapses.push_back(collapse);
+    };
+  }
+  m_result = simplify_soup(m_prepared, options, request.intent);
+  if (log) {
+    log->finish(m_result);
+    m_log = stream.str();
+  }
+  const Clock::time_point start = Clock::now();
+  m_verification = verify(m_result, m_prepared);
+  m_seconds_verify = seconds_since(start);
+  if (m_is_sewn)
+    m_merged = merged_at_positions(m_result.soup);
+}
+
+std::vector<Index> Reduction::vertices() const
+{
+  std::vector<Index> vertices(soup().points.size());
+  for (std::size_t t = 0; t < soup().triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index corner = m_result.corners[t][k];
+      vertices[soup().triangles[t][k]] = m_prepared.soup.triangles[corner / 3][corner % 3];
+    }
+  return vertices;
+}
+
+std::vector<Index> Reduction::triangles() const
+{
+  // What was prepared are the triangles of the input in their order, but for those that were left out.
+  std::vector<Index> numbers;
+  numbers.reserve(m_prepared.soup.triangles.size());
+  for (Index t = 0; numbers.size() < m_prepared.soup.triangles.size(); ++t)
+    if (m_input_triangles[t] == m_prepared.soup.triangles[numbers.size()])
+      numbers.push_back(t);
+  std::vector<Index> result;
+  result.reserve(m_result.triangles.size());
+  for (const Index t : m_result.triangles)
+    result.push_back(numbers[t]);
+  return result;
+}
+
+std::string Reduction::report() const
+{
+  Json report = app::new_report("simplify");
+  report["options"] = Json::parse(m_options);
+  app::add_reduction(report, m_prepared, m_result);
+  app::add_verification(report, m_verification, true);
+  app::add_parts(report, m_prepared, m_result);
+  report["seconds"] = {{"weld", m_prepared.seconds_positions + m_result.seconds_sew},
+                       {"check", m_prepared.seconds_check},
+                       {"snap", m_prepared.seconds_snap},
+                       {"index", m_result.report.seconds_index},
+                       {"cells", m_result.report.seconds_cells},
+                       {"reduce", m_result.report.seconds_reduce},
+                       {"verify", m_seconds_verify}};
+  return app::to_text(report);
+}
+
+Replay_verdict replay(const Triangle_soup& original, const std::string& log, Replay_options options)
+{
+  std::istringstream stream(log);
+  Log_reader reader(stream, "the log");
+  return selvedge::replay(original, false, reader, options);
+}
+
+std::string report_of(const Verification& verification, bool has_original)
+{
+  Json report = app::new_report("verify");
+  app::add_verification(report, verification, has_original);
+  return app::to_text(report);
+}
+
+std::string report_of(const Replay_verdict& verdict)
+{
+  Json report = app::new_report("replay");
+  app::add_replay(report, verdict);
+  return app::to_text(report);
+}
+
+} // namespace selvedge::bindings

@@ -1,0 +1,275 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "Reduction_request.h"
+
+#include <selvedge/Error.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <system_error>
+#include <utility>
+
+namespace selvedge::bindings {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Request = Reduction_request;
+
+// As in the program.
+constexpr double default_error = 0.01;
+constexpr std::size_t faces_per_cell = 50'000;
+
+[[noreturn]] void refuse(const std::string& value, const std::string& expected)
+{
+  throw Argument_error("'" + value + "' is not " + expected);
+}
+
+double number(const std::string& value, double largest = std::numeric_limits<double>::max())
+{
+  double result = 0;
+  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), result);
+  if (error != std::errc() || end != value.data() + value.size() || !(result >= 0 && result <= largest))
+    refuse(value, largest == std::numeric_limits<double>::max()
+                      ? "a number of at least 0"
+                      : "a number from 0 to " + std::to_string(int(largest)));
+  return result;
+}
+
+std::size_t count(const std::string& value, std::size_t least = 0)
+{
+  std::size_t result = 0;
+  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), result);
+  if (error != std::errc() || end != value.data() + value.size() || result < least)
+    refuse(value, "a whole number of at least " + std::to_string(least));
+  return result;
+}
+
+template <class Value>
+using Words = std::vector<std::pair<const char*, Value>>;
+
+template <class Value>
+Value value_of(const Words<Value>& words, const std::string& text)
+{
+  std::string known;
+  for (const auto& [word, value] : words) {
+    if (text == word)
+      return value;
+    known += (known.empty() ? "" : ", ") + std::string(word);
+  }
+  refuse(text, "one of " + known);
+}
+
+template <class Value>
+const char* word_of(const Words<Value>& words, Value value)
+{
+  return std::find_if(words.begin(), words.end(), [&](const auto& word) { return word.second == value; })
+      ->first;
+}
+
+const Words<bool> truth{{"true", true}, {"false", false}};
+const Words<bool> orient{{"auto", true}, {"keep", false}};
+const Words<Placement> placements{{"vertices", Placement::vertices}, {"optimal", Placement::optimal}};
+const Words<Collapse_loop> loops{{"own", Collapse_loop::own}, {"cgal", Collapse_loop::cgal}};
+const Words<Face_index> indices{{"packed", Face_index::packed}, {"clusters", Face_index::clusters}};
+const Words<Normals_choice> normals{{"auto", Normals_choice::automatic},
+                                    {"keep", Normals_choice::keep},
+                                    {"recompute", Normals_choice::recompute},
+                                    {"drop", Normals_choice::drop}};
+const Words<Defects> defects{
+    {"descend", Defects::descend}, {"freeze", Defects::freeze}, {"refuse", Defects::refuse}};
+
+template <class Value>
+Json optional_json(const std::optional<Value>& value)
+{
+  return value ? Json(*value) : Json(nullptr);
+}
+
+struct Option
+{
+  const char* name;
+  void (*set)(Request&, const std::string&);
+  Json (*json)(const Request&);
+};
+
+template <double Simplify_options::*member, int largest = 0>
+Option number_option(const char* name)
+{
+  return {name,
+          [](Request& request, const std::string& value) {
+            request.options.*member = largest > 0 ? number(value, largest) : number(value);
+          },
+          [](const Request& request) { return Json(request.options.*member); }};
+}
+
+template <double Quadric_cost_options::*member, int largest = 0>
+Option cost_option(const char* name)
+{
+  return {name,
+          [](Request& request, const std::string& value) {
+            request.options.cost.*member = largest > 0 ? number(value, largest) : number(value);
+          },
+          [](const Request& request) { return Json(request.options.cost.*member); }};
+}
+
+void set_error(Request& request, const std::string& value)
+{
+  request.is_error_given = value != "none";
+  request.options.max_error = request.is_error_given ? std::optional<double>(number(value)) : std::nullopt;
+}
+
+void add_part_ratio(Request& request, const std::string& value)
+{
+  const std::size_t equals = value.rfind('=');
+  if (equals == std::string::npos)
+    refuse(value, "a part and its ratio, as in collar=0.5");
+  request.intent.ratios.push_back({value.substr(0, equals), number(value.substr(equals + 1), 1)});
+}
+
+Json part_ratios_json(const Request& request)
+{
+  Json list = Json::array();
+  for (const Simplify_intent::Part_ratio& part : request.intent.ratios)
+    list.push_back({{"part", part.name}, {"ratio", part.ratio}});
+  return list;
+}
+
+void set_weld(Request& request, const std::string& value)
+{
+  request.prepare.weld_clear_gaps = value == "auto";
+  request.prepare.weld_distance = request.prepare.weld_clear_gaps ? 0 : number(value);
+}
+
+const std::vector<Option>& table()
+{
+  static const std::vector<Option> options{
+      {"ratio", [](Request& r, const std::string& value) { r.options.ratio = number(value, 1); },
+       [](const Request& r) { return optional_json(r.options.ratio); }},
+      {"faces", [](Request& r, const std::string& value) { r.options.faces = count(value); },
+       [](const Request& r) { return optional_json(r.options.faces); }},
+      {"error", set_error, [](const Request& r) { return optional_json(r.options.max_error); }},
+      number_option<&Simplify_options::max_normal_change, 180>("normal_change"),
+      number_option<&Simplify_options::min_aspect_ratio, 1>("aspect_ratio"),
+      number_option<&Simplify_options::max_border_turn, 180>("border_turn"),
+      number_option<&Simplify_options::max_seam_turn, 180>("seam_turn"),
+      number_option<&Simplify_options::max_border_drift>("border_drift"),
+      {"placement",
+       [](Request& r, const std::string& value) { r.options.placement = value_of(placements, value); },
+       [](const Request& r) { return Json(word_of(placements, r.options.placement)); }},
+      {"loop", [](Request& r, const std::string& value) { r.options.loop = value_of(loops, value); },
+       [](const Request& r) { return Json(word_of(loops, r.options.loop)); }},
+      {"index", [](Request& r, const std::string& value) { r.options.index = value_of(indices, value); },
+       [](const Request& r) { return Json(word_of(indices, r.options.index)); }},
+      {"cluster_size",
+       [](Request& r, const std::string& value) { r.options.faces_per_cluster = count(value, 1); },
+       [](const Request& r) { return Json(r.options.faces_per_cluster); }},
+      {"intersection_check",
+       [](Request& r, const std::string& value) { r.options.check_intersections = value_of(truth, value); },
+       [](const Request& r) { return Json(r.options.check_intersections); }},
+      cost_option<&Quadric_cost_options::stabiliser>("stabiliser"),
+      cost_option<&Quadric_cost_options::memory, 1>("memory"),
+      cost_option<&Quadric_cost_options::border_weight>("border_weight"),
+      number_option<&Simplify_options::uv_weight>("uv_weight"),
+      {"part_ratios", add_part_ratio, part_ratios_json},
+      {"lock", [](Request& r, const std::string& value) { r.intent.locked.push_back(value); },
+       [](const Request& r) { return Json(r.intent.locked); }},
+      {"keep", [](Request& r, const std::string& value) { r.intent.kept.push_back(value); },
+       [](const Request& r) { return Json(r.intent.kept); }},
+      {"weights", [](Request& r, const std::string& value) { r.intent.weights = value; },
+       [](const Request& r) { return r.intent.weights.empty() ? Json(nullptr) : Json(r.intent.weights); }},
+      {"weld", set_weld,
+       [](const Request& r) {
+         return r.prepare.weld_clear_gaps ? Json("auto") : Json(r.prepare.weld_distance);
+       }},
+      {"sewn", [](Request& r, const std::string& value) { r.is_sewn = value_of(truth, value); },
+       [](const Request& r) { return Json(r.is_sewn); }},
+      {"normals", [](Request& r, const std::string& value) { r.prepare.normals = value_of(normals, value); },
+       [](const Request& r) { return Json(word_of(normals, r.prepare.normals)); }},
+      {"orient", [](Request& r, const std::string& value) { r.prepare.orient = value_of(orient, value); },
+       [](const Request& r) { return Json(word_of(orient, r.prepare.orient)); }},
+      {"threads", [](Request& r, const std::string& value) { r.threads = count(value, 1); },
+       [](const Request& r) { return optional_json(r.threads); }},
+      {"cells",
+       [](Request& r, const std::string& value) {
+         r.options.faces_per_cell = value_of(truth, value) ? faces_per_cell : 0;
+       },
+       [](const Request& r) { return Json(r.options.faces_per_cell > 0); }},
+      {"defects", [](Request& r, const std::string& value) { r.prepare.defects = value_of(defects, value); },
+       [](const Request& r) { return Json(word_of(defects, r.prepare.defects)); }}};
+  return options;
+}
+
+// The distance of Levenshtein.
+std::size_t letters_to_change(const std::string& a, const std::string& b)
+{
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t(0));
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j)
+      diagonal =
+          std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])}));
+  }
+  return row.back();
+}
+
+} // namespace
+
+Reduction_request::Reduction_request()
+{
+  options.max_error = default_error;
+  prepare.normals = Normals_choice::automatic;
+}
+
+void Reduction_request::set(const std::string& name, const std::string& value)
+{
+  const auto option =
+      std::find_if(table().begin(), table().end(), [&](const Option& row) { return name == row.name; });
+  if (option == table().end() && name != "log")
+    throw Argument_error("there is no option '" + name + "'; the nearest is '" +
+                         nearest(name, option_names()) + "'");
+  try {
+    if (option == table().end())
+      is_log_wanted = value_of(truth, value);
+    else
+      option->set(*this, value);
+  } catch (const Argument_error& error) {
+    throw Argument_error(name + ": " + error.what());
+  }
+}
+
+void Reduction_request::check() const
+{
+  if (!options.ratio && !options.faces && !is_error_given && intent.ratios.empty())
+    throw Argument_error("say how far to reduce the mesh: give ratio, faces, error or part_ratios");
+}
+
+std::string Reduction_request::json() const
+{
+  Json object;
+  for (const Option& option : table())
+    object[option.name] = option.json(*this);
+  return object.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::vector<std::string> option_names()
+{
+  std::vector<std::string> names;
+  for (const Option& option : table())
+    names.push_back(option.name);
+  return names;
+}
+
+std::string nearest(const std::string& name, const std::vector<std::string>& names)
+{
+  return *std::min_element(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
+    return letters_to_change(name, a) < letters_to_change(name, b);
+  });
+}
+
+} // namespace selvedge::bindings

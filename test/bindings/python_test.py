@@ -1,0 +1,164 @@
+# Copyright (c) 2026 the Selvedge authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Python package keeps its promises, judged by the library. Run by ctest, with PYTHONPATH set to the build."""
+
+import os
+import re
+import signal
+import threading
+import unittest
+
+import numpy as np
+
+import selvedge
+from selvedge import fast_simplification, igl, pyfqmr, trimesh
+
+
+def layers(faces=2000, count=3):
+    return selvedge.generate("sheets", faces=faces, layers=count, gap=1e-3)
+
+
+class Simplify(unittest.TestCase):
+    def test_keeps_layers_apart_and_says_which_vertices_are_left(self):
+        mesh = layers()
+        for index_type in (np.int32, np.int64, np.uint32):
+            result = selvedge.simplify(mesh.points, mesh.triangles.astype(index_type), ratio=0.3)
+            self.assertEqual(result.triangles.dtype, index_type)
+            self.assertTrue(result.accepted and result.reached)
+            self.assertTrue(selvedge.verify(*result, original=tuple(mesh)))
+            np.testing.assert_array_equal(result.points, mesh.points[result.vertices])
+            self.assertEqual(len(result.birth), len(result.triangles))
+        control = selvedge.simplify(*mesh, ratio=0.1, intersection_check=False)
+        self.assertFalse(control.accepted)
+        self.assertGreater(len(selvedge.verify(*control).pairs), 0)
+
+    def test_takes_floats_and_arrays_in_any_order(self):
+        mesh = layers()
+        floats = mesh.points.astype(np.float32)
+        expected = selvedge.simplify(floats, mesh.triangles, ratio=0.5)
+        again = selvedge.simplify(np.asfortranarray(floats), mesh.triangles.tolist(), ratio=0.5)
+        np.testing.assert_array_equal(expected.triangles, again.triangles)
+        self.assertTrue(np.isin(expected.points, floats.astype(np.float64)).all())
+
+    def test_options_are_those_of_the_program(self):
+        mesh = layers(500)
+        report = selvedge.simplify(*mesh, ratio=0.5, error=None, lock=[], normal_change=30).report
+        self.assertEqual(set(report["options"]), set(selvedge.option_names()))
+        self.assertEqual((report["options"]["normal_change"], report["options"]["error"]), (30, None))
+        self.assertEqual(report["verified"]["new_pairs"], 0)
+        with open(os.path.join(os.path.dirname(selvedge.__file__), "__init__.pyi"), encoding="utf-8") as stub:
+            typed = set(re.findall(r"^    (\w+): ", stub.read(), re.MULTILINE))
+        self.assertLessEqual(set(selvedge.option_names()), typed)
+        with self.assertRaisesRegex(TypeError, "'placement'"):
+            selvedge.simplify(*mesh, placemnt="optimal")
+        with self.assertRaisesRegex(ValueError, "ratio"):
+            selvedge.simplify(*mesh, ratio=2)
+        with self.assertRaises(ValueError):
+            selvedge.simplify(mesh.points, mesh.triangles + 100000, ratio=0.5)
+        with self.assertRaises(ValueError):
+            selvedge.simplify(mesh.points, -mesh.triangles.astype(np.int64), ratio=0.5)
+        with self.assertRaises(selvedge.InputError):
+            selvedge.simplify(np.zeros((3, 3)), [[0, 1, 2]], ratio=0.5)
+
+    def test_parts_weights_locks_and_obstacle(self):
+        mesh = layers(2000, 2)
+        half = len(mesh.triangles) // 2
+        groups = ["low"] * half + ["high"] * (len(mesh.triangles) - half)
+        kept = selvedge.simplify(*mesh, groups=groups, keep="low", ratio=0.2)
+        self.assertEqual((kept.birth < half).sum(), half)
+        locked = np.arange(0, len(mesh.points), 5)
+        self.assertTrue(np.isin(locked, selvedge.simplify(*mesh, lock_vertices=locked, ratio=0.2).vertices).all())
+        self.assertFalse(np.isin(locked, selvedge.simplify(*mesh, ratio=0.2).vertices).all())
+        weights = np.ones(len(mesh.points))
+        weights[:len(weights) // 2] = 1000
+        heavy = selvedge.simplify(*mesh, weights=weights, ratio=0.2)
+        self.assertGreater((heavy.birth < half).sum(), (heavy.birth >= half).sum())
+
+        def pairs_with_body(**options):
+            result = selvedge.simplify(mesh.points, mesh.triangles[:half], ratio=0.1, **options)
+            both = np.concatenate([result.triangles, mesh.triangles[half:] + len(result.points)])
+            return len(selvedge.verify(np.concatenate([result.points, mesh.points]), both).pairs)
+
+        self.assertEqual(pairs_with_body(obstacle=(mesh.points, mesh.triangles[half:])), 0)
+        self.assertGreater(pairs_with_body(), 0)
+
+    def test_log_is_replayed_and_a_wrong_one_is_not(self):
+        mesh = layers()
+        result = selvedge.simplify(*mesh, ratio=0.3, log=True)
+        verdict = selvedge.replay(*mesh, result.log)
+        self.assertTrue(verdict)
+        np.testing.assert_array_equal(verdict.mesh.triangles, result.triangles)
+        bad = selvedge.simplify(*mesh, ratio=0.1, log=True, intersection_check=False)
+        self.assertFalse(selvedge.replay(*mesh, bad.log))
+        with self.assertRaises(selvedge.InputError):
+            selvedge.replay(*mesh, "no log")
+
+    def test_progress_stops_throws_and_other_threads_run(self):
+        mesh = layers(20000)
+        stopped = selvedge.simplify(*mesh, ratio=0.1, progress=lambda *counts: True)
+        self.assertTrue(stopped.stopped and stopped.accepted)
+        self.assertGreater(len(stopped.triangles), len(mesh.triangles) // 2)
+
+        def throw(*counts):
+            raise KeyError("mine")
+
+        with self.assertRaisesRegex(KeyError, "mine"):
+            selvedge.simplify(*mesh, ratio=0.1, progress=throw)
+
+    def test_ctrl_c_ends_the_call(self):
+        mesh = layers(200000)
+        timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))  # which needs the GIL to be free
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            selvedge.simplify(*mesh, ratio=0.01)
+        timer.join()
+
+
+class Compatible(unittest.TestCase):
+    def test_fast_simplification(self):
+        mesh = layers(2000, 1)
+        points, triangles, collapses = fast_simplification.simplify(*mesh, 0.5, return_collapses=True)
+        self.assertLessEqual(len(triangles), len(mesh.triangles) // 2)
+        self.assertTrue(selvedge.verify(points, triangles, tuple(mesh)))
+        again, same, mapping = fast_simplification.replay_simplification(*mesh, collapses)
+        np.testing.assert_array_equal(points, again)
+        np.testing.assert_array_equal(triangles, same)
+        self.assertEqual((mapping.min(), mapping.max()), (0, len(points) - 1))
+        for wrong in ({}, {"target_reduction": 2}, {"target_reduction": 0.5, "target_count": 9}):
+            with self.assertRaises(ValueError):
+                fast_simplification.simplify(*mesh, **wrong)
+
+    def test_pyfqmr(self):
+        mesh = layers(2000, 1)
+        simplifier = pyfqmr.Simplify()
+        simplifier.setMesh(*mesh)
+        simplifier.simplify_mesh(target_count=1000, aggressiveness=7, preserve_border=True, verbose=False)
+        vertices, faces, normals = simplifier.getMesh()
+        self.assertLessEqual(len(faces), 1000)
+        self.assertEqual(normals.shape, faces.shape)
+        border = fast_simplification.border_vertices(mesh.triangles)
+        self.assertEqual(len(border), len(fast_simplification.border_vertices(faces)))
+
+    def test_igl_and_trimesh(self):
+        mesh = layers()
+        U, G, J, I = igl.decimate(*mesh, 600)
+        self.assertLessEqual(len(G), 600)
+        self.assertEqual((len(J), len(I)), (len(G), len(U)))
+        np.testing.assert_array_equal(U, mesh.points[I])
+        self.assertTrue(selvedge.verify(U, G, tuple(mesh)))
+        vertices, faces = trimesh.simplify_quadric_decimation(tuple(mesh), percent=0.75)
+        self.assertLessEqual(len(faces), len(mesh.triangles) // 4 + 1)
+        self.assertTrue(selvedge.verify(vertices, faces))
+
+
+class Documentation(unittest.TestCase):
+    def test_examples_run(self):
+        with open(os.environ["SELVEDGE_PYTHON_PAGE"], encoding="utf-8") as page:
+            blocks = re.findall(r"^```python\n(.*?)^```", page.read(), re.MULTILINE | re.DOTALL)
+        self.assertGreaterEqual(len(blocks), 2)
+        for block in blocks:
+            exec(block, {})
+
+
+if __name__ == "__main__":
+    unittest.main()
