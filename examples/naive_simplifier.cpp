@@ -51,6 +51,8 @@ int main(int argc, char** argv)
     std::vector<bool> is_touched(points.size(), false);
     for (const auto& [length, from, to] : edges) {
       const int u = int(from), v = int(to);
+      if (is_touched[u])
+        continue;
       std::multiset<int> ring; // of an inner vertex: each neighbour twice
       for (const int f : faces_at[u])
         for (const int corner : faces[f])
@@ -64,7 +66,7 @@ int main(int argc, char** argv)
       common.erase(v);
       const bool is_inner = std::all_of(ring.begin(), ring.end(), [&](int w) { return ring.count(w) == 2; });
       const bool is_free = std::none_of(ring.begin(), ring.end(), [&](int w) { return is_touched[w]; });
-      if (is_touched[u] || !is_free || !is_inner || common.size() != 2 || left <= target)
+      if (!is_free || !is_inner || common.size() != 2 || left <= target)
         continue;
       //! [log]
       std::cout << "c " << u << ' ' << v << '\n';
