@@ -76,6 +76,7 @@ const Words<bool> truth{{"true", true}, {"false", false}};
 const Words<bool> orient{{"auto", true}, {"keep", false}};
 const Words<Placement> placements{{"vertices", Placement::vertices}, {"optimal", Placement::optimal}};
 const Words<Collapse_loop> loops{{"own", Collapse_loop::own}, {"cgal", Collapse_loop::cgal}};
+const Words<Instances> instances{{"shared", Instances::shared}, {"apart", Instances::apart}};
 const Words<Face_index> indices{{"packed", Face_index::packed}, {"clusters", Face_index::clusters}};
 const Words<Normals_choice> normals{{"auto", Normals_choice::automatic},
                                     {"keep", Normals_choice::keep},
@@ -192,6 +193,9 @@ const std::vector<Option>& table()
        [](const Request& r) { return Json(word_of(normals, r.prepare.normals)); }},
       {"orient", [](Request& r, const std::string& value) { r.prepare.orient = value_of(orient, value); },
        [](const Request& r) { return Json(word_of(orient, r.prepare.orient)); }},
+      {"instances",
+       [](Request& r, const std::string& value) { r.options.instances = value_of(instances, value); },
+       [](const Request& r) { return Json(word_of(instances, r.options.instances)); }},
       {"threads", [](Request& r, const std::string& value) { r.threads = count(value, 1); },
        [](const Request& r) { return optional_json(r.threads); }},
       {"cells",

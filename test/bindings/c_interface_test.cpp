@@ -333,8 +333,8 @@ TEST(Bindings, EveryOptionTakesAValueAndRefusesAnother)
   for (const std::string& name : bindings::option_names()) {
     bindings::Reduction_request request;
     std::size_t taken = 0;
-    for (const char* value :
-         {"0.25", "3", "optimal", "cgal", "clusters", "true", "false", "collar=0.5", "keep", "freeze"}) {
+    for (const char* value : {"0.25", "3", "optimal", "cgal", "clusters", "true", "false", "collar=0.5",
+                              "keep", "freeze", "apart"}) {
       try {
         const std::string before = request.json();
         request.set(name, value);

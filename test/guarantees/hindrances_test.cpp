@@ -131,7 +131,7 @@ TEST(Hindrances, NameFacesThatDisagreeInOrientation)
   for (std::size_t t = 0; t < turned.triangles.size(); t += 4)
     std::swap(turned.triangles[t][1], turned.triangles[t][2]);
   const Hindrances hindrances = hindrances_of(turned, to_nothing());
-  EXPECT_EQ(hindrances.most(), Hindrance::misoriented);
+  EXPECT_GT(hindrances[Hindrance::misoriented], 0u);
   EXPECT_EQ(hindrances_of(crooked(8), to_nothing())[Hindrance::misoriented], 0u);
 }
 

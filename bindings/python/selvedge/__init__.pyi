@@ -70,6 +70,7 @@ def simplify(
     sewn: bool = ...,
     normals: str = ...,
     orient: str = ...,
+    instances: str = ...,
     threads: int = ...,
     cells: bool = ...,
     defects: str = ...,
