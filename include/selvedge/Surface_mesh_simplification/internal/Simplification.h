@@ -651,7 +651,7 @@ private:
     const bool are_apart = m_observer.are_companions_apart(collapse.moving(), m_companions);
     m_companions_too_near += !are_apart;
     if (are_apart && all_of_companions(m_companions, [this](const auto& of_companion) {
-          return filters_allow(of_companion);
+          return this->filters_allow(of_companion);
         }))
       return true;
     ++m_report.refused_elsewhere;
