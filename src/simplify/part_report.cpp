@@ -215,6 +215,7 @@ std::vector<Part_report> part_reports(const Simplified_soup& result, const Prepa
   const double unit = diagonal(original.soup, original.scale);
   const std::vector<Part_kind> kinds = part_kinds(original.soup);
   std::vector<Part_report> reports;
+  std::map<std::vector<Index>, std::size_t> report_of; // what is a part of two kinds is measured once
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     const Part_kind& kind = kinds[k];
     std::vector<std::vector<Index>> triangles_before(kind.count), triangles_after(kind.count);
@@ -234,25 +235,39 @@ std::vector<Part_report> part_reports(const Simplified_soup& result, const Prepa
     parts.erase(std::remove_if(parts.begin(), parts.end(),
                                [&](Index part) { return triangles_before[part].empty(); }),
                 parts.end());
-    const std::vector<Triangle_soup> before = submesh(original.soup, triangles_before, parts, original.scale);
-    const std::vector<Triangle_soup> after = submesh(result.soup, triangles_after, parts, original.scale);
-    const std::size_t first = reports.size();
-    reports.resize(first + parts.size());
-    const auto report = [&](std::size_t i) {
-      const Index part = parts[i];
-      Distance distance = selvedge::distance(before[i], after[i]);
-      distance.root_mean_square /= unit;
-      distance.maximum /= unit;
-      reports[first + i] = {kind.name,
-                            kind.names.empty() ? "" : kind.names[part],
-                            triangles_before[part].front(),
-                            triangles_before[part].size(),
-                            triangles_after[part].size(),
-                            result.refused_by_part[k][part],
-                            distance,
-                            deviation_of(displacements, original, triangles_before[part])};
+    std::vector<Index> unmeasured;
+    std::vector<std::size_t> their_reports;
+    for (const Index part : parts) {
+      Part_report report{kind.name,
+                         kind.names.empty() ? "" : kind.names[part],
+                         triangles_before[part].front(),
+                         triangles_before[part].size(),
+                         triangles_after[part].size(),
+                         result.refused_by_part[k][part],
+                         {},
+                         {}};
+      const auto [known, is_new] = report_of.emplace(triangles_before[part], reports.size());
+      if (is_new) {
+        unmeasured.push_back(part);
+        their_reports.push_back(reports.size());
+      } else {
+        report.distance = reports[known->second].distance;
+        report.uv_deviation = reports[known->second].uv_deviation;
+      }
+      reports.push_back(std::move(report));
+    }
+    const std::vector<Triangle_soup> before =
+        submesh(original.soup, triangles_before, unmeasured, original.scale);
+    const std::vector<Triangle_soup> after =
+        submesh(result.soup, triangles_after, unmeasured, original.scale);
+    const auto measure = [&](std::size_t i) {
+      Part_report& report = reports[their_reports[i]];
+      report.distance = distance(before[i], after[i]);
+      report.distance.root_mean_square /= unit;
+      report.distance.maximum /= unit;
+      report.uv_deviation = deviation_of(displacements, original, triangles_before[unmeasured[i]]);
     };
-    tbb::parallel_for(std::size_t(0), parts.size(), Cancellation_scope::inherited(report));
+    tbb::parallel_for(std::size_t(0), unmeasured.size(), Cancellation_scope::inherited(measure));
   }
   return reports;
 }

@@ -52,6 +52,14 @@ private:
   }
 };
 
+// Returns two numbers whose product is 2^exponent. To multiply by the first and then by the second gives the
+// bits that std::ldexp gives, since the second is 1 unless the first is large and its product exact.
+std::array<double, 2> factors(int exponent)
+{
+  constexpr int largest = s_beyond - 1;
+  return {std::ldexp(1, std::min(exponent, largest)), std::ldexp(1, std::max(exponent - largest, 0))};
+}
+
 std::string power_of_two(int exponent)
 {
   return "2^" + std::to_string(exponent);
@@ -67,8 +75,10 @@ Scale::Scale(const Triangle_soup& soup, const Triangle_soup& obstacle)
     return; // all coordinates are 0
   // Division by 2^k is exact for every k in this range, and 0 is one of them, since coordinates are doubles.
   const int lowest = std::min(own.lowest, beside.lowest), beyond = std::max(own.beyond, beside.beyond);
-  m_exponent = std::clamp(own.beyond, beyond - s_beyond, lowest - s_lowest);
-  if (std::abs(own.beyond - m_exponent) > tolerance)
+  const int exponent = std::clamp(own.beyond, beyond - s_beyond, lowest - s_lowest);
+  m_power = factors(exponent);
+  m_inverse = factors(-exponent);
+  if (std::abs(own.beyond - exponent) > tolerance)
     throw Input_error("the coordinates differ too much in size to be scaled without loss: the largest of the "
                       "mesh is below " +
                       power_of_two(own.beyond) + ", the largest of mesh and obstacle is below " +
@@ -85,7 +95,7 @@ Point_3 Scale::operator()(const Point_3& point) const
 
 double Scale::operator()(double length) const
 {
-  return std::ldexp(length, -m_exponent);
+  return length * m_inverse[0] * m_inverse[1];
 }
 
 Point_3 Scale::undone(const Point_3& point) const
@@ -95,7 +105,7 @@ Point_3 Scale::undone(const Point_3& point) const
 
 double Scale::undone(double length) const
 {
-  return std::ldexp(length, m_exponent);
+  return length * m_power[0] * m_power[1];
 }
 
 } // namespace selvedge

@@ -22,7 +22,8 @@ public:
   {
     for (std::size_t v = 0; v < m_soup.points.size(); ++v)
       for (int axis = 0; axis < 3; ++axis)
-        require(std::isfinite(m_soup.points[v][axis]), "vertex", v, "has a coordinate that is not finite");
+        if (!std::isfinite(m_soup.points[v][axis]))
+          refuse("vertex", v, "has a coordinate that is not finite");
     check_corners(m_soup.triangles, m_soup.points.size(), "points");
     check_values(m_soup.uvs, "uvs");
     check_values(m_soup.normals, "normals");
@@ -37,11 +38,10 @@ public:
   }
 
 private:
-  void require(bool is_met, const char* element, std::size_t number, const std::string& problem) const
+  [[noreturn]] void refuse(const char* element, std::size_t number, const std::string& problem) const
   {
-    if (!is_met)
-      throw Argument_error(m_what + ": " + element + ' ' + std::to_string(number) + " (counted from 0) " +
-                           problem);
+    throw Argument_error(m_what + ": " + element + ' ' + std::to_string(number) + " (counted from 0) " +
+                         problem);
   }
 
   void check_size(std::size_t size, std::size_t due, const std::string& name) const
@@ -56,9 +56,10 @@ private:
   {
     for (std::size_t t = 0; t < corners.size(); ++t)
       for (const Index value : corners[t])
-        require(value < values, "triangle", t,
-                "refers to number " + std::to_string(value) + " of the " + std::to_string(values) + ' ' +
-                    name);
+        if (value >= values)
+          refuse("triangle", t,
+                 "refers to number " + std::to_string(value) + " of the " + std::to_string(values) + ' ' +
+                     name);
   }
 
   template <std::size_t dimension>
@@ -76,7 +77,8 @@ private:
       return;
     check_size(labels.of_triangle.size(), m_soup.triangles.size(), name + ".of_triangle");
     for (std::size_t t = 0; t < labels.of_triangle.size(); ++t)
-      require(labels.of_triangle[t] < labels.names.size(), "triangle", t, "has no name among the " + name);
+      if (labels.of_triangle[t] >= labels.names.size())
+        refuse("triangle", t, "has no name among the " + name);
   }
 
   void check_attributes(const std::vector<Attribute>& attributes, std::size_t rows) const

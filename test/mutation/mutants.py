@@ -559,7 +559,7 @@ group(
 group(
     "src/soup/check_soup.cpp",
     ("prepare_test",),
-    ("require(value < values,", "require(value <= values,", "a number beyond the last value"),
+    ("if (value >= values)", "if (value > values)", "a number beyond the last value"),
     ("    check_corners(values.of_triangle, values.values.size(), name);", "", "values that do not exist"),
     ("attribute.rows.size(), rows * bytes,", "attribute.rows.size(), attribute.rows.size(),",
      "attributes of another length"),

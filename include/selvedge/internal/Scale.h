@@ -6,6 +6,8 @@
 
 #include <selvedge/Triangle_soup.h>
 
+#include <array>
+
 namespace selvedge {
 
 /// The power of two by which all coordinates are divided while a mesh is reduced. It brings every mesh to one
@@ -44,7 +46,8 @@ public:
   double undone(double length) const;
 
 private:
-  int m_exponent = 0;
+  // The power, as two factors, and its inverse: one factor alone could be too large for a number.
+  std::array<double, 2> m_power{1, 1}, m_inverse{1, 1};
 };
 
 } // namespace selvedge
