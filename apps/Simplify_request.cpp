@@ -296,7 +296,8 @@ void add_options(CLI::App& command, Simplify_request& request)
       .add_option("--aspect-ratio", options.min_aspect_ratio,
                   "Smallest aspect ratio of a face that becomes thinner, from 0 (a line) to 1 (equilateral). "
                   "0.2 keeps "
-                  "faces round enough for a simulation.")
+                  "faces round enough for a simulation. Faces between two borders or seams, such as those "
+                  "along the edge of thick cloth, may be thinner.")
       ->check(in_range(0, 1))
       ->type_name("A")
       ->capture_default_str()

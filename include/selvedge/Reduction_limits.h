@@ -38,7 +38,7 @@ inline constexpr std::array<Limit_description, 6> limit_descriptions{
     {{&Reduction_limits::normal_change, "normal_change", "°",
       "by how much a collapse turns the normal of a triangle", "the normal of a triangle turns by more than"},
      {&Reduction_limits::aspect_ratio, "aspect_ratio", "", "how thin a collapse makes a triangle",
-      "a triangle gets thinner than it was, and its aspect ratio is less than"},
+      "a triangle that is not between two lines gets thinner than it was, and its aspect ratio is less than"},
      {&Reduction_limits::border_turn, "border_turn", "°",
       "how sharp a corner of a border a collapse cuts off", "the border turns there by more than"},
      {&Reduction_limits::seam_turn, "seam_turn", "°", "how sharp a corner of a seam a collapse cuts off",

@@ -73,7 +73,9 @@ struct Simplify_options
   double max_normal_change = 45;
 
   /// The least aspect ratio (`aspect_ratio()`: 1 for the equilateral triangle) that a collapse may leave
-  /// among the faces that it changes, in [0, 1]. A smaller one is accepted when it was smaller still before.
+  /// among the faces that it changes, in [0, 1]. A smaller one is accepted when it was smaller still before,
+  /// and for faces of a strip between two lines (borders or seams): all three corners are on lines, and at
+  /// most one edge is a line. Along the edge of thick cloth, faces can only be as wide as the cloth is thick.
   ///
   /// The default looks best, because folds keep their long, thin triangles. For cloth that is to be
   /// simulated, 0.2 keeps triangles rounder, which is the value of Derichs, Misiak and Fuhrmann; at 10 % of

@@ -156,6 +156,24 @@ std::optional<Violation_kind> Limits::judge_line(const Complex& complex, Index m
   return std::nullopt;
 }
 
+// Whether a face lies in a strip between two lines: its corners are on lines when its corner `mover` has
+// merged with `other`, and at most one of its edges is a line. The limit of the aspect ratio leaves it out.
+bool Limits::is_of_strip(const Complex& complex, Index face, Index mover, Index other) const
+{
+  const auto [p, q] = complex.opposite_side(face, mover);
+  const auto is_on_line = [&](Index position) {
+    const auto edges = complex.edges_at(position);
+    return std::any_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.is_line(); });
+  };
+  const auto is_line = [&](Index from, Index to) {
+    const auto edges = complex.edges_at(from);
+    return std::any_of(edges.begin(), edges.end(),
+                       [&](const auto& edge) { return edge.neighbour == to && edge.is_line(); });
+  };
+  return is_on_line(p) && is_on_line(q) && (is_on_line(mover) || is_on_line(other)) &&
+         int(is_line(mover, p)) + int(is_line(p, q)) + int(is_line(q, mover)) <= 1;
+}
+
 std::optional<Violation_kind> Limits::judge_shapes(const Complex& complex, Index removed, Index kept,
                                                    const Coordinates& place, bool is_kept_still) const
 {
@@ -169,7 +187,10 @@ std::optional<Violation_kind> Limits::judge_shapes(const Complex& complex, Index
       const Coordinates m = scaled(complex.point(mover)), a = scaled(complex.point(p)),
                         b = scaled(complex.point(q)), goal = scaled(place);
       least_before = std::min(least_before, aspect_ratio(m, a, b));
-      least_after = std::min(least_after, aspect_ratio(goal, a, b));
+      if (const double ratio = aspect_ratio(goal, a, b); m_limits.aspect_ratio && ratio < least_after &&
+                                                         ratio < *m_limits.aspect_ratio &&
+                                                         !is_of_strip(complex, f, mover, other))
+        least_after = ratio;
       const Coordinates before = cross(difference(a, m), difference(b, m));
       const Coordinates after = cross(difference(a, goal), difference(b, goal));
       if (m_limits.normal_change && length(before) > 0)

@@ -50,6 +50,8 @@ private:
   std::optional<Violation_kind> judge_shapes(const Complex& complex, Index removed, Index kept,
                                              const Coordinates& place, bool is_kept_still) const;
 
+  bool is_of_strip(const Complex& complex, Index face, Index mover, Index other) const;
+
   Reduction_limits m_limits;
   Coordinates scaled(const Coordinates& point) const;
 

@@ -168,6 +168,7 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
       m_constraints.line_edges.push_back(m_mesh.edge(halfedges[side]));
   }
   m_notes.seam_edges = m_constraints.line_edges.size();
+  find_no_strip_vertices(position_of);
 
   if (!obstacle.triangles.empty()) { // the limits are shares of the diagonal of the soup alone
     CGAL::Bbox_3 box;
@@ -219,6 +220,9 @@ Working_mesh::Working_mesh(const Working_mesh& whole, const Border_rule<Mesh>& r
   std::vector<char> is_locked(vertices.size(), false);
   for (Index v = 0; v < vertices.size(); ++v)
     is_locked[v] = rule.is_locked(vertices[v]);
+  for (Index v = 0; v < vertices.size(); ++v)
+    if (rule.bounds_no_strip(vertices[v]))
+      m_constraints.no_strip_vertices.emplace_back(v);
   for (const Index side : cut)
     is_locked[sewing.vertex(side)] = is_locked[sewing.vertex(Sewing::next(side))] = true;
   lock(is_locked);
@@ -271,6 +275,30 @@ void Working_mesh::find_joint_vertices(std::vector<char>& is_locked,
       for (const Mesh::Vertex_index v : place.vertices)
         is_locked[v] = false;
       m_constraints.joint_vertices.push_back(std::move(place.vertices));
+    }
+}
+
+// Finds the ends of lines that a reader of the log may not see: those where the mesh is cut for the sake of
+// non-manifold places, and those of normals, which may be made anew.
+template <class Function>
+void Working_mesh::find_no_strip_vertices(const Function& position_of)
+{
+  const auto add = [this](Mesh::Halfedge_index h) {
+    m_constraints.no_strip_vertices.push_back(m_mesh.source(h));
+    m_constraints.no_strip_vertices.push_back(m_mesh.target(h));
+  };
+  for (const Mesh::Edge_index e : m_constraints.line_edges)
+    if (const Differences differ = differences(e); !differ.in_vertex && !differ.in_uv && !differ.in_label)
+      add(m_mesh.halfedge(e));
+  std::vector<std::pair<std::pair<Index, Index>, Mesh::Halfedge_index>> borders; // by the ends' positions
+  for (const Mesh::Halfedge_index h : m_mesh.halfedges())
+    if (m_mesh.is_border(h))
+      borders.push_back({std::minmax({position_of(m_mesh.source(h)), position_of(m_mesh.target(h))}), h});
+  std::sort(borders.begin(), borders.end());
+  for (std::size_t i = 1; i < borders.size(); ++i)
+    if (borders[i - 1].first == borders[i].first) {
+      add(borders[i - 1].second);
+      add(borders[i].second);
     }
 }
 

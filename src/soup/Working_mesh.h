@@ -112,8 +112,8 @@ public:
   }
 
   /// Locks vertices of the soup because the user wants it so, and all others at their positions, which
-  /// `positions` numbers as the constructor's does. Throws `Argument_error` for a vertex that the soup does not
-  /// have.
+  /// `positions` numbers as the constructor's does. Throws `Argument_error` for a vertex that the soup does
+  /// not have.
   void lock_by_wish(const std::vector<Index>& vertices, const std::vector<Index>& positions);
 
   /// Weighs the vertices by `weights` of the vertices of the soup. A vertex to which several are sewn gets
@@ -249,6 +249,8 @@ private:
   template <class Function>
   void find_joint_vertices(std::vector<char>& is_locked, const std::vector<char>& is_in_frozen_face,
                            const std::vector<Index>& vertices_at, const Function& position_of);
+  template <class Function>
+  void find_no_strip_vertices(const Function& position_of);
   template <class Function>
   void for_each_changed_face(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule,
                              const Function& function) const;

@@ -258,6 +258,12 @@ TEST(Replay, RefusesWhatTheDeclaredLimitsForbid)
             Violation_kind::normal_change);
   EXPECT_EQ(kind_of_first(bump, head_of(bump, "limit aspect_ratio 0.9\n") + flatten),
             Violation_kind::aspect_ratio);
+
+  // Inside a strip between two lines, faces may be thin; at its end, where two of their edges are lines, not.
+  const Triangle_soup between_lines = sheet(4, 1);
+  const std::string limit = head_of(between_lines, "limit aspect_ratio 0.8\n");
+  EXPECT_TRUE(replay_text(between_lines, limit + "c 1 2\nc 2 3\nresult 2 6 -\n").is_accepted());
+  EXPECT_EQ(kind_of_first(between_lines, limit + "c 3 2\nresult 1 7 -\n"), Violation_kind::aspect_ratio);
 }
 
 Triangle_soup shifted(const Triangle_soup& soup, double x, double y, double z = 0)

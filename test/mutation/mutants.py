@@ -130,7 +130,7 @@ loop = headers + "Surface_mesh_simplification/internal/"
 group(
     loop + "Intersection_guard.h",
     ("guard_test",),
-    ("if (is_coincident(motion.mover) || !m_star.gather(motion)", "if (!m_star.gather(motion)", "coincident vertices move"),
+    ("if (is_held(motion) || !m_star.gather(motion)", "if (!m_star.gather(motion)", "coincident vertices move"),
     ("return !face_at_place;", "return true;", "a place where another vertex is"),
     ("return verdict != Star_verdict::refused;", "return true;", "what the star says is not heard"),
     ("return !m_is_mover_first || are_both_clear(collapse.mover(), collapse.goal());", "return true;",
@@ -143,7 +143,7 @@ group(
     ("if (!m_vertices.is_coincident(number)) {", "if (true) {", "neighbours of coincident vertices not looked at"),
     ("m_is_closed && m_size + m_has_target == m_link.size() + 2;", "m_is_closed;", "links that wind twice are cycles"),
     ("for (std::size_t i = 0; i < m_size; ++i)", "for (std::size_t i = 0; i < 2; ++i)", "only the way is asked of the index"),
-    ("if (!is_contracted && motion.target && (first == s_to || second == s_to))", "if (false)",
+    ("if (!is_contracted && goal && (first == s_to || second == s_to))", "if (false)",
      "a face beside the edge has a corner at the target",
      "the star is judged with this corner at the target's place, where the face has no area, and refused as well"),
 )
@@ -318,7 +318,7 @@ group(
     ("differ(m_soup.normals, a, b),", "false,", "normals make no lines"),
     ("is_locked[v] = rule.is_locked(vertices[v]);", "", "what is locked in the whole moves in a cell"),
     ("is_locked[v] = vertices_at[position_of(v)] > 1;", "is_locked[v] = vertices_at[position_of(v)] > 2;", "pairs of twins move"),
-    ("is_locked[sewing.vertex(corner)] |= is_frozen[corner / 3];", "", "faces that offend move"),
+    ("is_locked[v] |= is_in_frozen_face[v];", "", "faces that offend move"),
     ("if (rule.is_line(m_mesh.edge(h)))\n        return false;", "", "corners are carried across lines"),
     ("m_places[m_mesh.next(h)] = m_places[m_mesh.opposite(m_mesh.prev(h))];", ";", "corners do not follow the edges that merge"),
 )
@@ -405,7 +405,7 @@ group(
 group(
     "src/replay/replay.cpp",
     ("replay_all_test", "replay_test", "replay_mutation_test"),
-    ("!m_complex.is_one_fan(position))", "false)", "what holds sheets together moves"),
+    ("!m_complex.is_one_fan(position) &&", "false &&", "what holds sheets together moves"),
     ("if (edge.is_border() && other->is_border())", "if (false)", "a triangle with two border edges goes"),
     ("if (apexes.count(edge.neighbour) == 0)", "if (false)", "no link condition"),
     ("is_on_border(at_removed) && is_on_border(at_kept) && !edge_to", "false && !edge_to", "two borders meet"),
@@ -431,6 +431,8 @@ group(
     ("least_after <= least_before * (1 - limit_tolerance))", "false)", "triangles get thin"),
     ("if (behind.is_border() != ahead->is_border())", "if (false)", "from a border on to a seam",
      "a vertex that moves is in one fan, which has two border edges or none"),
+    ("int(is_line(q, mover)) <= 1;", "int(is_line(q, mover)) <= 2;", "thin faces at the end of a strip"),
+    ("return is_on_line(p) && is_on_line(q) &&", "return is_on_line(p) &&", "thin faces at a line"),
 )
 group(
     "src/replay/Complex.cpp",
@@ -465,7 +467,7 @@ group(
      "other places are not asked"),
     ("const bool are_apart = m_observer.are_companions_apart(collapse.moving(), m_companions);",
      "const bool are_apart = true;", "places that come near each other change alike"),
-    ("if (m_motions_left == 0) // all", "if (true) // all", "a level while places differ"),
+    ("if (m_motions_left == 0) // no motion", "if (true) // no motion", "a level while places differ"),
     ("m_observer.are_companions_apart(moving, companions) &&", "true &&",
      "places that are too near are no reason"),
     sources=("src/simplify/simplify_soup.cpp",),
@@ -500,7 +502,7 @@ group(
     ("m_is_descent_asked && m_descent.is_exempt(id)", "false", "no pair is exempt"),
     ("if (m_is_descent_asked && m_descent.is_exempt_inside()) {", "if (false) {",
      "a star that meets itself is judged as a whole"),
-    ("[&](const auto& edge) { return is_face_kept(motion, edge, m_traits); }", "[](const auto&) { return true; }",
+    ("[&](const auto& edge) { return is_face_kept(star, edge, m_traits); }", "[](const auto&) { return true; }",
      "faces of a star that meets itself may degenerate"),
     ("    if (collapse.are_both_moved())\n      add_all_at(collapse.goal(), collapse.mover());", "",
      "only one end of two that move hands on ancestors"),
@@ -563,6 +565,13 @@ group(
     ("    check_corners(values.of_triangle, values.values.size(), name);", "", "values that do not exist"),
     ("attribute.rows.size(), rows * bytes,", "attribute.rows.size(), attribute.rows.size(),",
      "attributes of another length"),
+)
+
+group(
+    headers + "Surface_mesh_simplification/internal/Simplification.h",
+    ("hindrances_test",),
+    ("std::count_if(std::begin(sides), std::end(sides), is_line) <= 1;", "false;", "thin cloth keeps its edge dense"),
+    sources=("src/simplify/simplify_soup.cpp",),
 )
 
 # Sheets that meet along a line

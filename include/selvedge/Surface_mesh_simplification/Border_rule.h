@@ -113,6 +113,14 @@ public:
   /// Returns whether a vertex may go anywhere: it is not locked and on no line.
   bool is_free(Vertex v) const { return get(m_state->freedoms, v) == Freedom::free; }
 
+  /// Says that the lines at a vertex, which is on one, do not bound strips.
+  void bound_no_strip(Vertex v) { m_state->raise(v, Freedom::along_other_line); }
+
+  /// Returns whether a vertex is on lines that may bound strips, and not locked. What `bound_no_strip` and
+  /// `lock` say of a vertex holds for those with which it merges.
+  bool may_bound_strip(Vertex v) const { return get(m_state->freedoms, v) == Freedom::along_line; }
+  bool bounds_no_strip(Vertex v) const { return get(m_state->freedoms, v) == Freedom::along_other_line; }
+
   /// Returns whether the edge is a border or marked. `get` makes the rule a property map that says the same.
   bool is_line(Edge e) const
   {
@@ -209,7 +217,7 @@ public:
   }
 
 private:
-  enum class Freedom : unsigned char { free, along_line, none };
+  enum class Freedom : unsigned char { free, along_line, along_other_line, none };
 
   // What a line edge at the merged vertex must be after the collapse. Where two edges become one, this holds
   // whichever of them CGAL keeps.

@@ -42,7 +42,7 @@ public:
   {
     using Point = typename Collapse::Point;
     return collapse.all_of_changed_faces(
-        [this](const Point& before, const Point& after, const Point& a, const Point& b) {
+        [this](const auto&, const Point& before, const Point& after, const Point& a, const Point& b) {
           const auto normal_before = CGAL::cross_product(a - before, b - before);
           const auto normal_after = CGAL::cross_product(a - after, b - after);
           const double length_before = std::sqrt(CGAL::to_double(normal_before.squared_length()));

@@ -24,6 +24,10 @@ struct Simplify_constraints
   /// Edges inside the mesh that are kept like borders: seams.
   std::vector<typename boost::graph_traits<TriangleMesh>::edge_descriptor> line_edges;
 
+  /// Vertices on lines that bound no strips: a face between them and another line must keep its shape
+  /// (`Simplify_options::min_aspect_ratio`).
+  std::vector<typename boost::graph_traits<TriangleMesh>::vertex_descriptor> no_strip_vertices;
+
   /// Pairs of border vertices on the two sides of a gap that is not to grow; a vertex in at most one of them.
   /// When one of a pair leaves its border, the other does so next, along its own.
   std::vector<std::pair<typename boost::graph_traits<TriangleMesh>::vertex_descriptor,

@@ -85,9 +85,9 @@ public:
   Vertex mover() const { return m_is_onto_v0 ? m_profile->v1() : m_profile->v0(); }
   Vertex goal() const { return m_is_onto_v0 ? m_profile->v0() : m_profile->v1(); }
 
-  /// Calls `is_fine(before, after, a, b)` for every face (v, a, b), counter-clockwise, that the collapse
-  /// changes but does not remove, until a call returns false. `before` is the position of v, `after` that of
-  /// the merged vertex. Returns whether all calls returned true.
+  /// Calls `is_fine(h, before, after, a, b)` for every face (v, a, b), counter-clockwise, that the collapse
+  /// changes but does not remove, until a call returns false. `h` is its halfedge to v, `before` the position
+  /// of v, `after` that of the merged vertex. Returns whether all calls returned true.
   ///
   /// It walks halfedges and allocates nothing, unlike `Profile::triangles()`.
   template <class Predicate>
@@ -100,7 +100,7 @@ public:
         if (CGAL::is_border(h, mesh))
           continue;
         const Vertex a = target(next(h, mesh), mesh), b = source(h, mesh);
-        if (a != other && b != other && !is_fine(before, m_place, get(points, a), get(points, b)))
+        if (a != other && b != other && !is_fine(h, before, m_place, get(points, a), get(points, b)))
           return false;
       }
       return true;

@@ -187,11 +187,30 @@ class Simplification
     bool operator()(const Halfedge& moving) const { return partners->allows(moving); }
   };
 
+  /// Whether a face lies in a strip between two lines, such as the edge of thick cloth: its corners are on
+  /// lines after the collapse, and at most one of its edges is a line. However long it is, the strip is no
+  /// wider.
+  struct Is_of_strip
+  {
+    const TriangleMesh* mesh;
+    Rule rule;
+
+    template <class Profile>
+    bool operator()(const Collapse<Profile>& collapse, const Halfedge& h) const
+    {
+      const Halfedge sides[] = {h, next(h, *mesh), prev(h, *mesh)};
+      const auto is_line = [this](const Halfedge& side) { return rule.is_line(edge(side, *mesh)); };
+      return rule.may_bound_strip(source(h, *mesh)) && rule.may_bound_strip(target(sides[1], *mesh)) &&
+             (rule.may_bound_strip(collapse.mover()) || rule.may_bound_strip(collapse.goal())) &&
+             std::count_if(std::begin(sides), std::end(sides), is_line) <= 1;
+    }
+  };
+
   using Line = Border_filter<Rule>;
   using Pieces = Halfedge_filter<Are_pieces_kept, Line>;
   using Border = Halfedge_filter<Are_partners_kept, Pieces>;
   using Target = Halfedge_filter<Targets, Border>;
-  using Aspect_ratio = Aspect_ratio_filter<Target>;
+  using Aspect_ratio = Aspect_ratio_filter<Target, Is_of_strip>;
   using Normal_change = Normal_change_filter<Aspect_ratio>;
   using Uv = Halfedge_filter<Is_uv_orientation_kept, Normal_change>;
   using Error = Error_filter<Tracked_points<TriangleMesh>, Uv>;
@@ -215,7 +234,7 @@ public:
         m_targets(make_targets(constraints)), m_quadrics(mesh, options.cost, m_rule),
         m_partners(mesh, constraints.partners), m_line(m_rule), m_pieces({&observer, m_rule}, m_line),
         m_border({&m_partners}, m_pieces), m_target(m_targets, m_border),
-        m_aspect_ratio(options.min_aspect_ratio, m_target),
+        m_aspect_ratio(options.min_aspect_ratio, m_target, {&mesh, m_rule}),
         m_normal_change(options.max_normal_change, m_aspect_ratio),
         m_uv({options.check_uv_orientation ? &observer : nullptr, m_rule}, m_normal_change), m_tracked(mesh),
         m_error(max_error(), m_tracked, m_uv), m_offending_pairs(constraints.offending_pairs)
@@ -799,6 +818,8 @@ private:
     Rule rule(m_mesh, m_points, options);
     for (const auto e : constraints.line_edges)
       rule.mark(e);
+    for (const auto v : constraints.no_strip_vertices)
+      rule.bound_no_strip(v);
     for (const auto v : locked_vertices(constraints))
       rule.lock(v);
     return rule;
