@@ -109,6 +109,8 @@ public:
     m_data.skip(count * size_of(type));
   }
 
+  bool end_row() const { return true; }
+
   [[noreturn]] void fail(const std::string& message) const { throw Input_error(*m_name + ": " + message); }
 
 private:
@@ -126,7 +128,7 @@ private:
 class Text_values
 {
 public:
-  explicit Text_values(const Text_reader& text) : m_text(text) {}
+  Text_values(const Text_reader& text, bool is_row_a_line) : m_text(text), m_is_row_a_line(is_row_a_line) {}
 
   static std::size_t least_bytes(Type) { return 2; }
   std::size_t remaining() const { return m_text.remaining() + 1; } // the last value needs no blank after it
@@ -169,10 +171,20 @@ public:
     }
   }
 
+  /// Returns false when the line of the row has more values than the header announces, and passes them.
+  bool end_row()
+  {
+    if (!m_is_row_a_line || m_text.at_line_end())
+      return true;
+    m_text.skip_line();
+    return false;
+  }
+
   [[noreturn]] void fail(const std::string& message) const { m_text.fail(message); }
 
 private:
   Text_reader m_text;
+  bool m_is_row_a_line;
 };
 
 class Ply_reader
@@ -187,13 +199,33 @@ public:
   {
     read_header();
     if (m_format == "ascii")
-      read_body(Text_values(m_text));
+      read_body(Text_values(m_text, is_row_a_line()));
     else
       read_body(Binary_values(m_text.rest(), m_format == "binary_big_endian", m_name));
     return m_builder.take(m_name);
   }
 
 private:
+  /// Returns whether the body has a line for each row, as most programs write it. Some write values there
+  /// that their header does not announce.
+  bool is_row_a_line() const
+  {
+    std::uint64_t rows = 0;
+    for (const Element& element : m_elements)
+      rows += element.count;
+    std::uint64_t lines = 0;
+    for (Text_reader text = m_text; lines <= rows && text.to_next_statement(); text.skip_line())
+      ++lines;
+    return lines == rows;
+  }
+
+  template <class Values>
+  void end_row(Values& values)
+  {
+    if (!values.end_row())
+      m_builder.ignore("ends of rows, with values that the header does not announce");
+  }
+
   void read_header()
   {
     if (m_text.line() != "ply")
@@ -465,6 +497,7 @@ private:
         check_uv(values, uv, "vertex " + std::to_string(i));
         m_uvs.push_back(uv);
       }
+      end_row(values);
     }
   }
 
@@ -555,6 +588,7 @@ private:
         else
           read_property(values, property, targets[p]);
       }
+      end_row(values);
       number_uvs(values, uvs, corners.size(), i, uv_corners);
       repeat_last_rows(values, m_builder.add_face(corners, uv_corners));
     }

@@ -311,6 +311,21 @@ TEST(Ply, StripsAreTriangles)
   EXPECT_EQ(file.soup.triangles, (Triangles{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {3, 4, 2}}));
 }
 
+// What follows the announced values on a line is passed where every row has a line of its own, and only
+// there.
+TEST(Ply, RowsMayBeLongerThanTheHeaderSays)
+{
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 2\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n";
+  const Mesh_file longer = read_mesh(header + "0 1 0 7\n3 0 1 2 9 1 1\n3 0 2 1\n", Mesh_format::ply, "text");
+  EXPECT_EQ(longer.soup.triangles, (Triangles{{0, 1, 2}, {0, 2, 1}}));
+  EXPECT_EQ(longer.notes.ignored.size(), 1u);
+  const Mesh_file on_one_line = read_mesh(header + "0 1 0 3 0 1 2\n3 0 2 1\n", Mesh_format::ply, "text");
+  EXPECT_EQ(on_one_line.soup.triangles, longer.soup.triangles);
+  EXPECT_TRUE(on_one_line.notes.ignored.empty());
+}
+
 TEST(Off, LinesOfFacesMayBeBroken)
 {
   const Mesh_file file =
