@@ -500,7 +500,7 @@ group(
     ("m_is_descent_asked && m_descent.is_exempt(id)", "false", "no pair is exempt"),
     ("if (m_is_descent_asked && m_descent.is_exempt_inside()) {", "if (false) {",
      "a star that meets itself is judged as a whole"),
-    ("[&](const auto& edge) { return is_face_kept(motion, edge, m_traits); }", "[](const auto&) { return true; }",
+    ("[&](const auto& edge) { return is_face_kept(star, edge, m_traits); }", "[](const auto&) { return true; }",
      "faces of a star that meets itself may degenerate"),
     ("    if (collapse.are_both_moved())\n      add_all_at(collapse.goal(), collapse.mover());", "",
      "only one end of two that move hands on ancestors"),
