@@ -212,8 +212,8 @@ TEST(Descent, NeverIsOfMorePairsThanThereWere)
   EXPECT_EQ(pairs_without_descent(before, twice, before, pairs, {}, {0, 1}).size(), 1u);
 }
 
-// What the filter says of the collapse of vertex 16 onto another.
-bool is_accepted(const Triangle_soup& soup, bool is_exempt, unsigned target = 17)
+// What the filter says of the collapse of one vertex onto another.
+bool is_accepted(const Triangle_soup& soup, bool is_exempt, unsigned target = 17, unsigned mover = 16)
 {
   using Mesh = CGAL::Surface_mesh<Point_3>;
   using Vertex = Mesh::Vertex_index;
@@ -233,8 +233,8 @@ bool is_accepted(const Triangle_soup& soup, bool is_exempt, unsigned target = 17
   filter.visitor().OnStarted(mesh);
   const Points points = mesh.points();
   const Kernel kernel;
-  const internal::Lazy_edge_profile<Mesh, Points, Kernel> profile(mesh.halfedge(Vertex(16), Vertex(target)),
-                                                                  mesh, points, kernel);
+  const internal::Lazy_edge_profile<Mesh, Points, Kernel> profile(
+      mesh.halfedge(Vertex(mover), Vertex(target)), mesh, points, kernel);
   return filter.accepts(internal::Collapse<internal::Lazy_edge_profile<Mesh, Points, Kernel>>(
       profile, mesh.point(Vertex(target))));
 }
@@ -261,6 +261,24 @@ TEST(Descent, MovesNoDegenerateFaceInTheFilter)
                           [](const Offending_pair& pair) { return pair.offence == Offence::degenerate; }));
   EXPECT_FALSE(is_accepted(bent, true, 15));
   EXPECT_TRUE(is_accepted(bent, true)) << "it may be contracted";
+}
+
+// The collapse contracts a degenerate face, and a face that another one crosses, so that there is room for a
+// pair. Two of the faces that move would cross: nothing exempts them.
+TEST(Descent, ExemptsNothingForADegenerateFace)
+{
+  const Triangle_soup star =
+      soup({{3, 2.5, 0}, {3, 2, 0}, {3, 3, 0}, {2, 3, 0}, {2.8, 2.4, 1}, {2.8, 2.4, -1}, {2, 1, 0}},
+           {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 6}, {0, 6, 1}});
+  const Triangle_soup both =
+      joined(star, soup({{2.7, 1.9, -0.1}, {2.71, 1.9, -0.1}, {2.7, 1.9, 0.1}}, {{0, 1, 2}}));
+  ASSERT_EQ(offending_pairs(both).size(), 2u);
+  EXPECT_FALSE(is_accepted(both, true, 1, 0));
+  Triangle_soup farther = both;
+  for (const Index v : {4, 5})
+    farther.points[v] = Point_3(2, 2, both.points[v].z());
+  ASSERT_EQ(offending_pairs(farther).size(), 2u);
+  EXPECT_TRUE(is_accepted(farther, true, 1, 0)) << "they are out of each other's way";
 }
 
 TEST(Replay, ADegenerateFaceMayBeContractedAndNotMoved)
