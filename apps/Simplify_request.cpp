@@ -427,8 +427,7 @@ void add_options(CLI::App& command, Simplify_request& request)
           "--defects", request.defects,
           "What becomes of pairs of faces that intersect in the input: reduce their faces like others, "
           "so that only what descends from these pairs may intersect, and never more of it than in the "
-          "input; leave their faces as they are; or refuse the input. Degenerate faces are left as "
-          "they are in any case but the last.")
+          "input; leave their faces as they are; or refuse the input.")
       ->transform(one_of<Defects>(
           {{"descend", Defects::descend}, {"freeze", Defects::freeze}, {"refuse", Defects::refuse}}))
       ->type_name("descend|freeze|refuse")

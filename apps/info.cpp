@@ -169,6 +169,8 @@ void print_surfaces(const Inspection& mesh)
     if (mesh.pairs.size() > counts[int(Offence::degenerate)])
       std::cout << "  their faces are reduced like others: only what descends from these pairs may intersect "
                    "then (--defects descend); --defects freeze leaves them as they are\n";
+    if (counts[int(Offence::degenerate)] > 0)
+      std::cout << "  a degenerate face stays as it is until a collapse along one of its sides removes it\n";
   }
   if (mesh.surfaces.size() < 2) {
     std::cout << "layers: one surface; the distance between its own folds is not measured\n";
@@ -235,7 +237,6 @@ void print_freedom(const Inspection& mesh)
       std::cout << ", " << with_commas(number) << ' ' << what;
   };
   print(count.ends, "at ends and junctions of these, which stay");
-  print(count.frozen, "frozen in degenerate faces");
   print(count.non_manifold, "frozen at non-manifold places");
   print(count.misoriented, "frozen where faces disagree in orientation");
   std::cout << "\nfixed: " << counted(mesh.fixed_faces, "face") << " ("
@@ -280,10 +281,7 @@ Json to_json(const Contents& contents)
 
 void add_inspection(Json& report, const Inspection& mesh)
 {
-  report["faces"] = {{"count", mesh.faces},
-                     {"left_out", mesh.left_out_faces},
-                     {"frozen", mesh.frozen_faces},
-                     {"fixed", mesh.fixed_faces}};
+  report["faces"] = {{"count", mesh.faces}, {"left_out", mesh.left_out_faces}, {"fixed", mesh.fixed_faces}};
   report["vertices"] = {{"unused", mesh.unused_vertices}, {"coincident", mesh.coincident_vertices}};
   report["diagonal"] = mesh.diagonal;
   report["pieces"] = {{"count", mesh.pieces.size()}};
@@ -343,7 +341,6 @@ void add_inspection(Json& report, const Inspection& mesh)
   report["movable"] = {{"free", mesh.movable.free},
                        {"on_lines", mesh.movable.on_lines},
                        {"ends", mesh.movable.ends},
-                       {"frozen", mesh.movable.frozen},
                        {"non_manifold", mesh.movable.non_manifold},
                        {"misoriented", mesh.movable.misoriented}};
 }

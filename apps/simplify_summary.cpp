@@ -89,7 +89,7 @@ std::string why_it_stays(Hindrance reason)
 {
   switch (reason) {
   case Hindrance::frozen:
-    return "degenerate faces of the input stay as they are, and `selvedge verify` lists them";
+    return "what only rounding has brought to one place stays as it is";
   case Hindrance::non_manifold:
     return "what meets at edges of three faces or more stays as it is";
   case Hindrance::misoriented:

@@ -50,8 +50,8 @@ namespace selvedge {
 /// - *normals*: whether an edge across which the normals of the input differ is a line, like one across which
 ///   texture coordinates or materials do. They are ignored when the writer makes the normals anew.
 /// - *defects*: what becomes of the offending pairs of the input. Their triangles stay as they are, or the
-/// pairs
-///   and all that descend from them are exempt (`pairs_without_descent` of verify.h says which do).
+///   pairs and all that descend from them are exempt (`pairs_without_descent` of verify.h says which do). A
+///   degenerate triangle is then removed or stays as it is.
 /// - *obstacle*: a mesh that the writer kept clear of and did not change, described as in *input*. The line
 ///   only records that there was one. The log does not hold its triangles, so they cannot be judged.
 /// - *limit*: a limit that the writer kept to, and by which it wants to be judged. NAME is a key of

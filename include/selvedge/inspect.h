@@ -96,8 +96,7 @@ struct Inspection
 
   /// All offending pairs, exactly.
   std::vector<Offending_pair> pairs;
-  std::size_t frozen_faces = 0; ///< degenerate faces: their vertices do not move
-  std::size_t fixed_faces = 0;  ///< faces whose corners all cannot move; a ratio is of the others
+  std::size_t fixed_faces = 0; ///< faces whose corners all cannot move; a ratio is of the others
 
   /// How many vertices of the sewn mesh may move how, at the beginning.
   struct Vertices
@@ -105,7 +104,6 @@ struct Inspection
     std::size_t free = 0;         ///< along any edge
     std::size_t on_lines = 0;     ///< along a border or seam
     std::size_t ends = 0;         ///< not at all: ends and junctions of borders and seams
-    std::size_t frozen = 0;       ///< not at all: in frozen faces
     std::size_t non_manifold = 0; ///< not at all: their faces cannot be joined to one fan
     std::size_t misoriented = 0;  ///< not at all: at edges whose faces face opposite ways
   };

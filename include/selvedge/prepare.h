@@ -34,7 +34,7 @@ struct Prepare_options
   bool round_to_float32 = false;
 
   /// What becomes of offending pairs. Pairs that offend only after rounding are never refused; with
-  /// `Defects::refuse` they are frozen. Degenerate faces are frozen in any case.
+  /// `Defects::refuse` they are frozen.
   Defects defects = Defects::descend;
 
   /// What a reduction does with the normals of corners.
@@ -139,9 +139,9 @@ struct Prepared_soup
   /// What becomes of these pairs: `descend` or `freeze`.
   Defects defects = Defects::freeze;
 
-  /// For every triangle, whether it is frozen: its vertices do not move. Frozen are degenerate triangles,
-  /// triangles with a corner where only rounding has made positions equal, and all triangles of the obstacle;
-  /// unless pairs may descend, also the triangles of all offending pairs, so that these stay as they are.
+  /// For every triangle, whether it is frozen: its vertices do not move. Frozen are triangles with a corner
+  /// where only rounding has made positions equal, and all triangles of the obstacle; unless pairs may
+  /// descend, also the triangles of all offending pairs, so that these stay as they are.
   std::vector<char> is_frozen;
   std::size_t frozen_faces = 0; ///< of `soup`
 

@@ -72,13 +72,14 @@ std::vector<Offending_pair> new_pairs(const Triangle_soup& result,
                                       const std::vector<Offending_pair>& pairs_of_original);
 
 /// Returns those offending pairs of a result that descend from no offending pair of its original, in their
-/// order, and all pairs beyond the number that the original has: the last of them.
+/// order, and all pairs of two triangles beyond the number that the original has: the last of them.
 ///
 /// `collapses` lead from the original to the result. At first, every triangle of an offending pair descends
 /// from itself alone. A collapse makes all triangles at the moving vertices that it leaves descend from all
 /// that such triangles, left or removed, descended from. A pair descends from a pair of the original when one
-/// of its triangles descends from one triangle of that pair, and the other from the other one. Nothing else
-/// is used: the triangles of the result must be where the collapses lead, or they descend from nothing.
+/// of its triangles descends from one triangle of that pair, and the other from the other one. A degenerate
+/// triangle descends only from itself, as long as no collapse changes it. Nothing else is used: the triangles
+/// of the result must be where the collapses lead, or they descend from nothing.
 ///
 /// `triangles_of_original` has, for every triangle of the result, that of the original which it was, with the
 /// same corners first.

@@ -99,7 +99,6 @@ public:
     m_result.left_out_faces = m_prepared.left_out_faces;
     m_result.normals = m_prepared.normals;
     m_result.pairs = m_prepared.offending_pairs;
-    m_result.frozen_faces = m_prepared.frozen_faces;
     measure();
     find_pieces_and_surfaces();
     count_vertices();
@@ -167,10 +166,8 @@ private:
         ++count.free;
       else if (!m_rule.is_locked(v))
         ++(is_end(v) ? count.ends : count.on_lines);
-      else if (const Hindrance reason = m_working.lock_reason(v); reason == Hindrance::frozen)
-        ++count.frozen;
       else
-        ++(reason == Hindrance::misoriented ? count.misoriented : count.non_manifold);
+        ++(m_working.lock_reason(v) == Hindrance::misoriented ? count.misoriented : count.non_manifold);
     }
     for (const auto face : mesh.faces()) {
       const auto corners = mesh.vertices_around_face(mesh.halfedge(face));

@@ -13,15 +13,16 @@
 namespace selvedge {
 namespace reference {
 
-/// The pairs of faces that offend at present; f == g for a face without an area.
+/// The pairs of faces that offend at present, and as pairs of f and f the faces without an area.
 class Offences
 {
 public:
   void add(Index f, Index g)
   {
-    m_count += m_partners[f].insert(g).second;
+    m_count += m_partners[f].insert(g).second && f != g;
     m_partners[g].insert(f);
   }
+  /// Returns the number of pairs of two faces.
   std::size_t count() const { return m_count; }
   bool has(Index f, Index g) const
   {
@@ -34,7 +35,7 @@ public:
     const auto found = m_partners.find(f);
     if (found == m_partners.end())
       return;
-    m_count -= found->second.size();
+    m_count -= found->second.size() - found->second.count(f);
     for (const Index g : found->second)
       if (g != f) {
         const auto other = m_partners.find(g);

@@ -49,9 +49,9 @@ Start start_of(const Triangle_soup& original, const Log_header& header)
   const std::vector<Index> first = first_at_position(start.soup.points);
   std::vector<char> is_frozen(start.soup.triangles.size(), false);
   for (const Offending_pair& pair : offending_pairs(start.soup)) {
-    if (!header.may_pairs_descend || pair.offence == Offence::degenerate)
+    if (!header.may_pairs_descend)
       is_frozen[pair.first] = is_frozen[pair.second] = true;
-    if (header.may_pairs_descend)
+    else if (pair.first != pair.second) // a degenerate face exempts nothing
       start.lineage.add_pair(pair.first, pair.second);
     start.offences.add(pair.first, pair.second);
     ++start.offending_pairs;

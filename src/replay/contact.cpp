@@ -435,6 +435,14 @@ bool is_degenerate(const std::array<Place, 3>& triangle)
   return axis_across(triangle[0], triangle[1], triangle[2]) == 3;
 }
 
+bool is_between(const Place& p, const Place& x, const Place& q)
+{
+  for (std::size_t i = 0; i < 3; ++i)
+    if (p.at[i] != q.at[i])
+      return std::min(p.at[i], q.at[i]) < x.at[i] && x.at[i] < std::max(p.at[i], q.at[i]);
+  return false;
+}
+
 bool do_meet(const std::array<Place, 3>& a, const std::array<Place, 3>& b, Contact_statistics& statistics)
 {
   ++statistics.pairs;

@@ -75,6 +75,9 @@ private:
 /// Whether a triangle has no area.
 bool is_degenerate(const std::array<Place, 3>& triangle);
 
+/// Whether x lies between two other places, strictly. All three are on one line.
+bool is_between(const Place& p, const Place& x, const Place& q);
+
 /// Whether two triangles at rest meet beyond the positions that they share, or share all three.
 bool do_meet(const std::array<Place, 3>& a, const std::array<Place, 3>& b, Contact_statistics& statistics);
 

@@ -421,8 +421,16 @@ private:
     for (const Index f : m_complex.faces_at(motion.mover)) {
       const auto [p, q] = m_complex.opposite_side(f, motion.mover);
       const Place a = m_complex.place(p), b = m_complex.place(q);
+      const bool is_contracted = p == motion.target.id || q == motion.target.id;
+      if (is_contracted && is_degenerate({m, a, b})) {
+        // It stays within the segment that it is, and meets no more than before, unless it turns over.
+        if (is_between(m, p == motion.target.id ? b : a, motion.target))
+          return report(Violation_kind::degenerate,
+                        "a triangle without an area turns over: its corner passes over another", {f});
+        continue;
+      }
       sides.push_back({f, {{a, b, b}, 2}});
-      if (p == motion.target.id || q == motion.target.id)
+      if (is_contracted)
         continue;
       Box around = box;
       around.low = m.at;
@@ -435,7 +443,7 @@ private:
     for (const Moving& face : moving)
       box.add(face.box);
     for (const Moving& face : moving)
-      if (!m_offences.has(face.face, face.face) && face.sweep.degenerates())
+      if (face.sweep.degenerates())
         return report(Violation_kind::degenerate, "a triangle has no area at some time on the way",
                       {face.face}, {}, scene(m, motion.target, face.after, nullptr));
 

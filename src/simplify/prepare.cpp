@@ -196,7 +196,7 @@ private:
     std::vector<char>& is_frozen = m_prepared.is_frozen;
     is_frozen.assign(soup().triangles.size(), false);
     for (const Offending_pair& pair : m_prepared.offending_pairs)
-      if (m_prepared.defects == Defects::freeze || pair.offence == Offence::degenerate)
+      if (m_prepared.defects == Defects::freeze)
         is_frozen[pair.first] = is_frozen[pair.second] = true;
     if (!m_positions_rounded.empty()) {
       std::vector<char> is_merged(soup().points.size(), false); // by position after rounding: it was several

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <iterator>
 #include <memory>
+#include <set>
 #include <utility>
 
 // Finds the offending pairs of a result that descend from no pair of its original, from the list of collapses
@@ -37,12 +38,17 @@ public:
       for (const Index position : m_corners[t])
         m_triangles_at[position].push_back(t);
     }
-    for (const Offending_pair& pair : pairs)
+    for (const Offending_pair& pair : pairs) {
+      if (pair.offence == Offence::degenerate) {
+        m_degenerate.insert(pair.first);
+        continue;
+      }
       for (const auto& [f, g] : {std::pair(pair.first, pair.second), std::pair(pair.second, pair.first)}) {
         if (!m_ancestors[f])
           m_ancestors[f] = std::make_shared<Ancestors>(1, f);
         m_partners[f].push_back(g);
       }
+    }
   }
 
   void collapse(const Soup_collapse& collapse)
@@ -56,6 +62,8 @@ public:
       if (m_points[position] != end)
         changed.insert(changed.end(), m_triangles_at[position].begin(), m_triangles_at[position].end());
     share_ancestors(changed);
+    for (const Index t : changed)
+      m_degenerate.erase(t); // no face without an area descends from it
     m_points[kept] = end;
 
     for (const Index t : std::exchange(m_triangles_at[removed], {})) {
@@ -74,20 +82,25 @@ public:
     }
   }
 
-  const Ancestors* ancestors(Index triangle) const { return m_ancestors[triangle].get(); }
+  /// Whether the triangle had no area in the original, and has not changed.
+  bool is_degenerate(Index triangle) const { return m_degenerate.count(triangle) > 0; }
 
   const Point_3& corner(Index triangle, std::size_t k) const { return m_points[m_corners[triangle][k]]; }
 
-  /// Whether two of these offended together in the original.
-  bool are_partners(const Ancestors& of_first, const Ancestors& of_second) const
+  /// Whether ancestors of the two triangles offended together in the original.
+  bool are_partners(Index first, Index second) const
   {
-    return std::any_of(of_first.begin(), of_first.end(), [&](Index f) {
-      return std::any_of(m_partners[f].begin(), m_partners[f].end(),
-                         [&](Index g) { return std::binary_search(of_second.begin(), of_second.end(), g); });
-    });
+    const Ancestors *const of_first = ancestors(first), *const of_second = ancestors(second);
+    return of_first && of_second && std::any_of(of_first->begin(), of_first->end(), [&](Index f) {
+             return std::any_of(m_partners[f].begin(), m_partners[f].end(), [&](Index g) {
+               return std::binary_search(of_second->begin(), of_second->end(), g);
+             });
+           });
   }
 
 private:
+  const Ancestors* ancestors(Index triangle) const { return m_ancestors[triangle].get(); }
+
   void share_ancestors(const std::vector<Index>& triangles)
   {
     Ancestors all;
@@ -109,7 +122,13 @@ private:
   std::vector<Index_triple> m_corners;            // positions, by triangle
   std::vector<std::shared_ptr<const Ancestors>> m_ancestors;
   std::vector<std::vector<Index>> m_partners; // by triangle of the original
+  std::set<Index> m_degenerate;
 };
+
+bool is_of_two(const Offending_pair& pair)
+{
+  return pair.offence != Offence::degenerate;
+}
 
 } // namespace
 
@@ -129,20 +148,25 @@ std::vector<Offending_pair> pairs_without_descent(const Triangle_soup& result,
     descent.collapse(collapse);
   }
   // A triangle that is not where the collapses lead descends from nothing.
-  const auto ancestors_of = [&](Index i) -> const Ancestors* {
-    const Index t = triangles_of_original[i];
+  const auto is_led_to = [&](Index i) {
     for (std::size_t k = 0; k < 3; ++k)
-      if (result.points[result.triangles[i][k]] != descent.corner(t, k))
-        return nullptr;
-    return descent.ancestors(t);
+      if (result.points[result.triangles[i][k]] != descent.corner(triangles_of_original[i], k))
+        return false;
+    return true;
   };
+  std::size_t left = std::count_if(pairs_of_original.begin(), pairs_of_original.end(), is_of_two);
   std::vector<Offending_pair> pairs;
-  for (std::size_t i = 0; i < pairs_of_result.size(); ++i) {
+  for (const Offending_pair& pair : pairs_of_result) {
     poll();
-    const Offending_pair& pair = pairs_of_result[i];
-    const Ancestors *const first = ancestors_of(pair.first), *const second = ancestors_of(pair.second);
-    const bool is_surplus = i >= pairs_of_original.size();
-    if (is_surplus || !first || !second || !descent.are_partners(*first, *second))
+    const Index first = triangles_of_original[pair.first], second = triangles_of_original[pair.second];
+    bool is_old = is_led_to(pair.first) && is_led_to(pair.second);
+    if (is_of_two(pair)) {
+      is_old = is_old && left > 0 && descent.are_partners(first, second);
+      left -= left > 0;
+    } else {
+      is_old = is_old && descent.is_degenerate(first);
+    }
+    if (!is_old)
       pairs.push_back(pair);
   }
   return pairs;

@@ -118,11 +118,60 @@ TEST(Descent, SpreadsNoDefect)
   }
 }
 
-TEST(Descent, LeavesDegenerateFacesAsTheyAre)
+TEST(Descent, OfDegenerateFacesIsThatOfOneThatHasNotChanged)
+{
+  const Triangle_soup before = joined(collinear_triangle(), sheet(1, 1, 5));
+  Triangle_soup after = before;
+  after.points[0] = Point_3(-1, 0, 0);
+  const auto pairs = offending_pairs(before);
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_TRUE(pairs_without_descent(before, pairs, before, pairs, {}, {0, 1, 2}).empty());
+  EXPECT_EQ(pairs_without_descent(after, pairs, before, pairs, {}, {0, 1, 2}).size(), 1u) << "it has moved";
+  const std::vector<Offending_pair> claimed{{1, 1, Offence::degenerate}};
+  EXPECT_EQ(pairs_without_descent(before, claimed, before, pairs, {}, {0, 1, 2}).size(), 1u)
+      << "it is another";
+}
+
+Triangle_soup sheet_with_needles()
+{
+  Triangle_soup soup = mapped(
+      sheet(8, 8), [](const Point_3& p) { return Point_3(p.x(), p.y(), 0.125 * (int(p.x() * p.y()) % 3)); });
+  const std::size_t faces = soup.triangles.size();
+  for (std::size_t t = 0; t < faces; t += 4)
+    add_needle(soup, t, 2); // a diagonal
+  return soup;
+}
+
+TEST(Descent, LetsDegenerateFacesGo)
+{
+  const Triangle_soup soup = sheet_with_needles();
+  const auto pairs = offending_pairs(soup);
+  ASSERT_EQ(std::count_if(pairs.begin(), pairs.end(),
+                          [](const Offending_pair& pair) { return pair.first == pair.second; }),
+            32);
+  std::vector<Simplify_options> all(4, without_limits(to_ratio(0.05)));
+  all[1].placement = Placement::optimal;
+  all[2].loop = Collapse_loop::cgal;
+  all[3].faces_per_cell = 50;
+  for (const Simplify_options& options : all) {
+    SCOPED_TRACE(&options - all.data());
+    const Logged_reduction reduction = reduce_and_log(soup, options, with(Defects::descend));
+    const Verification verification = verify(reduction.simplified, prepare(soup, with(Defects::descend)));
+    EXPECT_TRUE(verification.accepted());
+    EXPECT_EQ(verification.pairs.size(), 0u);
+    EXPECT_TRUE(reduction.simplified.report.is_reached());
+    EXPECT_TRUE(replay_text(soup, reduction.log).is_accepted());
+  }
+  const Reduction frozen = reduce(soup, all[0], with(Defects::freeze));
+  EXPECT_FALSE(frozen.simplified.report.is_reached());
+  EXPECT_EQ(frozen.verification.pairs.size(), pairs.size());
+}
+
+TEST(Descent, LeavesADegenerateFaceThatIsAPieceOfItsOwn)
 {
   const Triangle_soup soup = joined(sheet(4, 4, 50), collinear_triangle());
   const Reduction reduction = reduce(soup, without_limits(to_ratio(0)), with(Defects::descend));
-  EXPECT_EQ(reduction.prepared.frozen_faces, 1u);
+  EXPECT_EQ(reduction.prepared.frozen_faces, 0u);
   EXPECT_EQ(reduction.simplified.triangles.back(), soup.triangles.size() - 1);
   EXPECT_EQ(reduction.verification.pairs.size(), 1u);
 }
@@ -163,8 +212,8 @@ TEST(Descent, NeverIsOfMorePairsThanThereWere)
   EXPECT_EQ(pairs_without_descent(before, twice, before, pairs, {}, {0, 1}).size(), 1u);
 }
 
-// What the filter says of the collapse of vertex 16 onto 17.
-bool is_accepted(const Triangle_soup& soup, bool is_exempt)
+// What the filter says of the collapse of one vertex onto another.
+bool is_accepted(const Triangle_soup& soup, bool is_exempt, unsigned target = 17, unsigned mover = 16)
 {
   using Mesh = CGAL::Surface_mesh<Point_3>;
   using Vertex = Mesh::Vertex_index;
@@ -184,10 +233,10 @@ bool is_accepted(const Triangle_soup& soup, bool is_exempt)
   filter.visitor().OnStarted(mesh);
   const Points points = mesh.points();
   const Kernel kernel;
-  const internal::Lazy_edge_profile<Mesh, Points, Kernel> profile(mesh.halfedge(Vertex(16), Vertex(17)), mesh,
-                                                                  points, kernel);
-  return filter.accepts(
-      internal::Collapse<internal::Lazy_edge_profile<Mesh, Points, Kernel>>(profile, mesh.point(Vertex(17))));
+  const internal::Lazy_edge_profile<Mesh, Points, Kernel> profile(
+      mesh.halfedge(Vertex(mover), Vertex(target)), mesh, points, kernel);
+  return filter.accepts(internal::Collapse<internal::Lazy_edge_profile<Mesh, Points, Kernel>>(
+      profile, mesh.point(Vertex(target))));
 }
 
 TEST(Descent, PassesFromFacesThatAreRemoved)
@@ -210,7 +259,38 @@ TEST(Descent, MovesNoDegenerateFaceInTheFilter)
   const auto pairs = offending_pairs(bent);
   ASSERT_TRUE(std::any_of(pairs.begin(), pairs.end(),
                           [](const Offending_pair& pair) { return pair.offence == Offence::degenerate; }));
-  EXPECT_FALSE(is_accepted(bent, true));
+  EXPECT_FALSE(is_accepted(bent, true, 15));
+  EXPECT_TRUE(is_accepted(bent, true)) << "it may be contracted";
+}
+
+// The collapse contracts a degenerate face, and a face that another one crosses, so that there is room for a
+// pair. Two of the faces that move would cross: nothing exempts them.
+TEST(Descent, ExemptsNothingForADegenerateFace)
+{
+  const Triangle_soup star =
+      soup({{3, 2.5, 0}, {3, 2, 0}, {3, 3, 0}, {2, 3, 0}, {2.8, 2.4, 1}, {2.8, 2.4, -1}, {2, 1, 0}},
+           {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 6}, {0, 6, 1}});
+  const Triangle_soup both =
+      joined(star, soup({{2.7, 1.9, -0.1}, {2.71, 1.9, -0.1}, {2.7, 1.9, 0.1}}, {{0, 1, 2}}));
+  ASSERT_EQ(offending_pairs(both).size(), 2u);
+  EXPECT_FALSE(is_accepted(both, true, 1, 0));
+  Triangle_soup farther = both;
+  for (const Index v : {4, 5})
+    farther.points[v] = Point_3(2, 2, both.points[v].z());
+  ASSERT_EQ(offending_pairs(farther).size(), 2u);
+  EXPECT_TRUE(is_accepted(farther, true, 1, 0)) << "they are out of each other's way";
+}
+
+TEST(Replay, ADegenerateFaceMayBeContractedAndNotMoved)
+{
+  Triangle_soup bent = sheet(6, 6);
+  bent.points[16] = Point_3(3, 2.5, 0); // between vertices 17 and 24
+  EXPECT_TRUE(replay_text(bent, head_of(bent) + "c 16 17\nresult 1 70 -\n").is_accepted());
+  for (const char* const moving : {"c 16 15\n", "c 16 17 3 2.25 0\n"}) {
+    const auto verdict = replay_text(bent, head_of(bent) + moving + "result 1 70 -\n");
+    ASSERT_EQ(verdict.violations.size(), 1u);
+    EXPECT_EQ(verdict.violations[0].kind, Violation_kind::degenerate);
+  }
 }
 
 TEST(Replay, PairsMayDescendFromFacesThatAreRemoved)

@@ -400,7 +400,7 @@ group(
 group(
     "src/replay/Start.cpp",
     ("descent_test",),
-    ("if (!header.may_pairs_descend || pair.offence", "if (pair.offence", "pairs may descend in any log"),
+    ("if (!header.may_pairs_descend)", "if (false)", "pairs may descend in any log"),
 )
 group(
     "src/replay/replay.cpp",
@@ -507,17 +507,20 @@ group(
     ("    if (collapse.are_both_moved())\n      add_all_at(collapse.goal(), collapse.mover());", "",
      "only one end of two that move hands on ancestors"),
     ("m_faces.remove_at(m_vertices.number(collapse.goal()), m_near);", ";", "faces that change are also counted as they were"),
-    ("is_free_of_degenerate() && are_motions_clear", "are_motions_clear", "degenerate faces move"),
+    ("may_degenerate_faces_go(collapse) && are_motions_clear", "are_motions_clear", "degenerate faces move"),
+    ("if (m_has_degenerate) {", "if (false) {", "a degenerate face that is contracted is judged as a face with an area"),
 )
 group(
     headers + "Surface_mesh_simplification/internal/Descent.h",
     filter_of_pairs,
     ("      m_set_of_face[face] = set;", "      m_set_of_face[face] = s_none;", "faces that change lose their ancestors"),
+    ("      if (f == g)\n        continue;", "", "what a degenerate face leaves behind is exempt from itself"),
+    ("other == face ? 0u : m_considered_at", "other == face ? 2u : m_considered_at", "a degenerate face makes room for a pair"),
     ("    for (const Id a : m_union)\n      for", "    for (const Id a : m_sets[m_set_of_face[faces.front()]].ancestors)\n      for",
      "exemption is asked of one face as it was before the collapse"),
     ("    for (const Id face : m_considered)\n      remove_pairs(face);", "", "pairs that have gone still count"),
     ("    for (const Pair& pair : pairs)\n      add_pair(pair);\n    if", "    if", "pairs that have come do not count"),
-    ("m_considered_at[other] == m_now && other != face ? 1u : 2u", "2u", "pairs within the star count twice"),
+    ("m_considered_at[other] == m_now ? 1u : 2u", "2u", "pairs within the star count twice"),
     ("m_is_exempt_inside = is_any_marked(m_union);", "m_is_exempt_inside = false;", "no pair within the star is exempt"),
     ("    if (m_considered_at[face] == m_now)\n      return m_is_exempt_inside;\n", "",
      "faces at the other end that moves are asked for what they were before"),
@@ -535,10 +538,12 @@ group(
     ("descent_test",),
     ("changed.insert(changed.end(), m_triangles_at[position].begin(), m_triangles_at[position].end());",
      "changed.push_back(m_triangles_at[position].front());", "one triangle alone hands on ancestors"),
-    ("is_surplus || !first", "!first", "pairs may become more"),
-    ("!descent.are_partners(*first, *second)", "false", "whatever has ancestors may offend with all others"),
-    ("if (result.points[result.triangles[i][k]] != descent.corner(t, k))", "if (false)",
+    (" && left > 0 &&", " &&", "pairs may become more"),
+    ("is_old && left > 0 && descent.are_partners(first, second)", "is_old && left > 0",
+     "whatever is where the collapses lead may offend"),
+    ("if (result.points[result.triangles[i][k]] != descent.corner(triangles_of_original[i], k))", "if (false)",
      "a triangle need not be where the collapses lead"),
+    ("is_old = is_old && descent.is_degenerate(first);", "", "a face with an area may become degenerate"),
 )
 group(
     "src/replay/replay.cpp",
@@ -548,6 +553,10 @@ group(
      "one triangle alone hands on ancestors"),
     (": m_start.lineage.descends_from_one(other, m_rivals);", ": true;", "whatever has ancestors may offend with all others"),
     ("if (!m_verdict.header.obstacle && m_off", "if (m_off", "pairs are counted without those with the obstacle"),
+    ("if (is_contracted && is_degenerate({m, a, b})) {", "if (false) {",
+     "a degenerate face that is contracted is judged as a face with an area"),
+    ("if (face.sweep.degenerates())", "if (!m_offences.has(face.face, face.face) && face.sweep.degenerates())",
+     "degenerate faces move"),
 )
 
 # The order of edges, and the soups of callers

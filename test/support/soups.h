@@ -190,6 +190,19 @@ inline Triangle_soup collinear_triangle()
   return soup({{0, 0, 0}, {2, 0, 0}, {4, 0, 0}}, {{0, 1, 2}});
 }
 
+/// Divides a triangle at the middle of a side, and fills the T-junction there with a needle: a triangle that
+/// has the side, its middle, and no area where the middle is exact.
+inline void add_needle(Triangle_soup& soup, std::size_t triangle, std::size_t side)
+{
+  const Index_triple corners = soup.triangles[triangle];
+  const Index a = corners[side], b = corners[(side + 1) % 3], c = corners[(side + 2) % 3];
+  const Index middle = Index(soup.points.size());
+  soup.points.push_back(CGAL::midpoint(soup.points[a], soup.points[b]));
+  soup.triangles[triangle] = {a, middle, c};
+  soup.triangles.push_back({middle, b, c});
+  soup.triangles.push_back({a, b, middle});
+}
+
 } // namespace selvedge::test
 
 #endif // SELVEDGE_TEST_SUPPORT_SOUPS_H

@@ -7,6 +7,7 @@
 #include <boost/container/static_vector.hpp>
 
 #include <algorithm>
+#include <vector>
 
 namespace selvedge::test {
 
@@ -235,6 +236,30 @@ bool Hull::meets_beyond_shared(const Standing_edge& edge) const
   if (is_first_shared || is_second_shared)
     return meets_segment_beyond(edge[is_first_shared ? 0 : 1], edge[is_first_shared ? 1 : 0]);
   return meets(Segment(edge[0].at, edge[1].at));
+}
+
+bool do_segments_meet_beyond_shared(const Standing_face& f, const Standing_face& g)
+{
+  const auto comes_before = [](const Place& p, const Place& q) { return p.at < q.at; };
+  const auto ends = [&](const auto& places) {
+    const auto [first, last] = std::minmax_element(places.begin(), places.end(), comes_before);
+    return std::array{first->at, last->at};
+  };
+  std::vector<Place> shared;
+  for (const Place& p : f)
+    for (const Place& q : g)
+      if (p.position == q.position)
+        shared.push_back(p);
+  const auto [a, b] = ends(f);
+  const auto [c, d] = ends(g);
+  if (shared.size() == 3)
+    return true;
+  if (!CGAL::do_intersect(Kernel::Segment_3(a, b), Kernel::Segment_3(c, d)))
+    return false;
+  if (shared.empty())
+    return true;
+  return CGAL::collinear(a, b, c) && CGAL::collinear(a, b, d) &&
+         ends(shared) != std::array{std::max(a, c), std::min(b, d)};
 }
 
 bool degenerates_on_the_way(const Point_3& m, const Point_3& t, const Point_3& a, const Point_3& b)

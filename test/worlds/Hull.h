@@ -63,6 +63,9 @@ private:
   std::size_t m_triangle_count = 0;
 };
 
+/// Whether two faces of three collinear corners each, which are segments, meet beyond what they share.
+bool do_segments_meet_beyond_shared(const Standing_face& f, const Standing_face& g);
+
 /// Whether a triangle has no area at some time while its corner goes from m to t, and ab stands still; at
 /// time 0 it has.
 bool degenerates_on_the_way(const Point_3& m, const Point_3& t, const Point_3& a, const Point_3& b);

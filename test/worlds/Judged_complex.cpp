@@ -78,14 +78,16 @@ void Judged_complex::freeze(Index face)
 
 void Judged_complex::exempt(const std::set<std::pair<Index, Index>>& pairs)
 {
-  m_pairs_at_start = pairs;
   m_ancestors.resize(m_faces.size());
-  for (const auto& [f, g] : pairs)
+  for (const auto& [f, g] : pairs) {
+    if (f != g)
+      m_pairs_at_start.insert({f, g});
     for (const Index face : {f, g}) {
       m_ancestors[face].insert(face);
       for (const Index p : m_faces[face].positions)
         m_offending.insert(p);
     }
+  }
 }
 
 // Gives all faces at the movers the ancestors of all: what a collapse asks is asked of pairs as they are
@@ -123,21 +125,17 @@ bool Judged_complex::is_exempt(Index changing, Index other) const
   return false;
 }
 
-// How many pairs offend now that have a changing face. Degenerate faces never change.
+// How many pairs of two faces offend now that have a changing face.
 std::size_t Judged_complex::pairs_changing() const
 {
   std::size_t count = 0;
   for (const Index f : m_changing) {
     if (!m_faces[f].is_alive)
       continue;
-    const auto [a, b, c] = places(f);
-    if (CGAL::collinear(a.at, b.at, c.at))
-      continue;
-    const Hull face(a, b, c);
     for (Index g = 0; g < m_faces.size(); ++g)
       if (m_faces[g].is_alive && g != f && !(g < f && m_changing.count(g) > 0) &&
           do_overlap(m_faces[f].box, m_faces[g].box))
-        count += face.meets_beyond_shared(places(g));
+        count += do_meet_beyond_shared(f, g);
   }
   return count;
 }
@@ -159,6 +157,30 @@ Standing_face Judged_complex::places(Index face) const
   return {place(p[0]), place(p[1]), place(p[2])};
 }
 
+bool Judged_complex::do_meet_beyond_shared(Index f, Index g) const
+{
+  if (!has_area(f))
+    std::swap(f, g);
+  if (!has_area(f))
+    return do_segments_meet_beyond_shared(places(f), places(g));
+  const auto [a, b, c] = places(f);
+  return Hull(a, b, c).meets_beyond_shared(places(g));
+}
+
+bool Judged_complex::has_area(Index face) const
+{
+  const auto [a, b, c] = places(face);
+  return !CGAL::collinear(a.at, b.at, c.at);
+}
+
+std::size_t Judged_complex::needles() const
+{
+  std::size_t count = 0;
+  for (Index f = 0; f < m_faces.size(); ++f)
+    count += m_faces[f].is_alive && !has_area(f);
+  return count;
+}
+
 bool Judged_complex::has(Index face, Index position) const
 {
   const Index_triple& p = m_faces[face].positions;
@@ -177,21 +199,13 @@ std::array<Index, 2> Judged_complex::others(Index face, Index position) const
 std::set<std::pair<Index, Index>> Judged_complex::offending_pairs() const
 {
   std::set<std::pair<Index, Index>> pairs;
-  std::vector<char> is_proper;
   for (Index f = 0; f < m_faces.size(); ++f) {
-    const auto [a, b, c] = places(f);
-    is_proper.push_back(!CGAL::collinear(a.at, b.at, c.at));
-    if (!is_proper[f])
+    if (!has_area(f))
       pairs.insert({f, f});
-  }
-  for (Index f = 0; f < m_faces.size(); ++f)
-    for (Index g = 0; g < f; ++g) {
-      if (!do_overlap(m_faces[f].box, m_faces[g].box) || !(is_proper[f] || is_proper[g]))
-        continue;
-      const auto [a, b, c] = places(is_proper[f] ? f : g);
-      if (Hull(a, b, c).meets_beyond_shared(places(is_proper[f] ? g : f)))
+    for (Index g = 0; g < f; ++g)
+      if (do_overlap(m_faces[f].box, m_faces[g].box) && do_meet_beyond_shared(f, g))
         pairs.insert({g, f});
-    }
+  }
   return pairs;
 }
 
@@ -358,6 +372,15 @@ std::optional<Broken_promise> Judged_complex::judge_motion(Index moved, const Pl
   for (const Index f : m_faces_at[moved])
     if (!has(f, t.position))
       moving.push_back(f);
+  for (const Index f : m_faces_at[moved]) {
+    if (has_area(f))
+      continue;
+    if (!has(f, t.position))
+      return Broken_promise{Promise::embedded, "face " + std::to_string(f) + " has no area, and changes"};
+    const auto [a, b] = others(f, moved);
+    if (CGAL::are_strictly_ordered_along_line(m.at, m_points[a == t.position ? b : a], t.at))
+      return Broken_promise{Promise::motion, "face " + std::to_string(f) + " has no area, and turns over"};
+  }
   for (const Index f : moving) {
     const auto [a, b] = others(f, moved);
     if (degenerates_on_the_way(m.at, t.at, m_points[a], m_points[b]))
@@ -400,7 +423,8 @@ std::optional<Broken_promise> Judged_complex::judge_motion(Index moved, const Pl
     // other.
     for (const Index g : m_faces_at[moved]) {
       const auto [c, d] = others(g, moved);
-      if (f != g && !is_exempt(f, g) && sweep.meets_beyond_shared(Standing_edge{place(c), place(d)}))
+      if (f != g && !is_exempt(f, g) && has_area(g) &&
+          sweep.meets_beyond_shared(Standing_edge{place(c), place(d)}))
         return Broken_promise{Promise::motion, faces_named(f, g) + " of one star meet on the way"};
     }
   }

@@ -28,7 +28,6 @@ public:
   Judged_complex(const Triangle_soup& own, const Triangle_soup& obstacle);
 
   /// Pairs of faces that meet beyond what they share, and faces without an area as pairs with themselves.
-  /// Pairs in which both have none are left out.
   std::set<std::pair<Index, Index>> offending_pairs() const;
 
   /// Nothing at the corners of this face moves from now on.
@@ -45,6 +44,7 @@ public:
   const Index_triple& positions_of(Index face) const { return m_faces[face].positions; }
   const Point_3& point(Index position) const { return m_points[position]; }
   std::size_t own_faces_alive() const { return m_own_alive; }
+  std::size_t needles() const; ///< faces that have no area
 
   /// Lets a face run the other way from now on.
   void turn(Index face);
@@ -83,6 +83,8 @@ private:
 
   Place place(Index position) const { return {position, m_points[position]}; }
   Standing_face places(Index face) const;
+  bool has_area(Index face) const;
+  bool do_meet_beyond_shared(Index f, Index g) const;
   bool has(Index face, Index position) const;
   std::array<Index, 2> others(Index face, Index position) const;
   Box box_of(const Index_triple& positions) const;

@@ -213,10 +213,8 @@ Verdict judge_preparation(const World& world, const World_run& run, const Expect
   const std::size_t own = expected.soup.triangles.size();
   const auto pairs = complex.offending_pairs();
   std::set<std::pair<Index, Index>> found;
-  const auto is_degenerate = [&](Index f) { return pairs.count({f, f}) > 0; };
   for (const Offending_pair& pair : unsnapped.offending_pairs)
-    if (pair.first == pair.second || !is_degenerate(pair.first) || !is_degenerate(pair.second))
-      found.insert({pair.first, pair.second});
+    found.insert({pair.first, pair.second});
   if (found != pairs)
     return broken(std::to_string(found.size()) + " offending pairs found, and there are " +
                   std::to_string(pairs.size()));
@@ -226,7 +224,7 @@ Verdict judge_preparation(const World& world, const World_run& run, const Expect
   std::vector<char> is_frozen(own + expected.obstacle.triangles.size(), false);
   const bool may_descend = world.defects == Defects::descend;
   for (const auto& [f, g] : pairs)
-    if (f == g || !may_descend)
+    if (!may_descend)
       is_frozen[f] = is_frozen[g] = true;
   if (may_descend)
     complex.exempt(pairs);

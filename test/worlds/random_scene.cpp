@@ -499,6 +499,12 @@ void spoil(Triangle_soup& soup, Random& random)
   soup.triangles = std::move(triangles);
 }
 
+void add_needles(Triangle_soup& soup, Random& random)
+{
+  for (int i = random.between(1, 8); i > 0; --i)
+    add_needle(soup, random.below(soup.triangles.size()), random.below(3));
+}
+
 // Where it lies
 // ----------------------------------------------------------------------------------------------------------
 

@@ -26,6 +26,9 @@ Scene random_scene(Random& random);
 /// triangles without an area and vertices without a triangle.
 void spoil(Triangle_soup& soup, Random& random);
 
+/// Divides some triangles at a side, and fills the T-junctions with triangles without an area.
+void add_needles(Triangle_soup& soup, Random& random);
+
 /// Puts points elsewhere: scaled, far from the origin, on the other side, sheared, at distances of units in
 /// the last place, between 32-bit floats, with zeros of either sign. Returns what was done.
 std::string displace(Triangle_soup& soup, Random& random);

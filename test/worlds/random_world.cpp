@@ -276,6 +276,11 @@ World random_world(std::uint64_t seed)
   }
   if (soup.triangles.empty())
     soup.triangles.push_back({0, Index(1 % soup.points.size()), Index(2 % soup.points.size())});
+  if (world.seed % 8 == 3) {
+    Random others(seed + 3); // so that other worlds stay what they were in earlier versions
+    add_needles(soup, others);
+    world.scene += ", with needles";
+  }
   if (const std::string done = displace(soup, random); !done.empty())
     world.scene += ", " + done;
   decorate(soup, random);

@@ -139,7 +139,8 @@ public:
 
   /// Exempts pairs of faces that offend, and all pairs that descend from them; a degenerate face is a pair
   /// with itself. Faces at the moving vertices pass on what they descend from to the faces that a collapse
-  /// leaves. A face that is degenerate never changes. By default, no pair is exempt.
+  /// leaves. A face that is degenerate never changes, but a collapse onto an end of its edge may contract it.
+  /// By default, no pair is exempt.
   ///
   /// **Preconditions** The pairs are all that keep the mesh from being embedded, each once. No question has
   /// been asked yet.

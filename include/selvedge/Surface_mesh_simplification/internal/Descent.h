@@ -42,9 +42,11 @@ public:
     for (const auto& [f, g] : pairs) {
       add_ancestor(f);
       add_ancestor(g);
+      add_pair({f, g});
+      if (f == g)
+        continue; // it exempts nothing: no face that changes is degenerate
       m_partners[ancestor(f)].push_back(ancestor(g));
       m_partners[ancestor(g)].push_back(ancestor(f));
-      add_pair({f, g});
     }
     m_marked_at.assign(m_partners.size(), 0);
   }
@@ -94,22 +96,17 @@ public:
     return set.is_exempt;
   }
 
-  /// Returns whether a considered face is degenerate.
-  bool has_degenerate() const
-  {
-    return std::any_of(m_considered.begin(), m_considered.end(), [&](Id face) {
-      return has_pair({face, face});
-    });
-  }
+  /// Returns whether a face is degenerate.
+  bool is_degenerate(Id face) const { return has_pair({face, face}); }
 
-  /// Returns how many pairs with a considered face offend now.
+  /// Returns how many pairs of two faces, with a considered one, offend now.
   std::size_t pairs_now() const
   {
     std::size_t twice = 0;
     for (const Id face : m_considered)
       if (const auto found = m_pairs.find(face); found != m_pairs.end())
         for (const Id other : found->second)
-          twice += m_considered_at[other] == m_now && other != face ? 1u : 2u;
+          twice += other == face ? 0u : m_considered_at[other] == m_now ? 1u : 2u;
     return twice / 2;
   }
 
@@ -123,19 +120,22 @@ public:
       add_pair(pair);
     if (m_union.empty())
       return;
+    for (const Id face : m_considered)
+      leave_set(face);
+    // A degenerate face that offended with no other leaves nothing behind.
+    m_union.erase(std::remove_if(m_union.begin(), m_union.end(), [&](Id a) { return m_partners[a].empty(); }),
+                  m_union.end());
+    if (changed.empty() || m_union.empty())
+      return;
     const Id set = m_free_sets.empty() ? Id(m_sets.size()) : m_free_sets.back();
     if (m_free_sets.empty())
       m_sets.emplace_back();
     else
       m_free_sets.pop_back();
-    for (const Id face : m_considered)
-      leave_set(face);
     for (const Id face : changed)
       m_set_of_face[face] = set;
     m_sets[set].ancestors = m_union;
     m_sets[set].faces = changed.size();
-    if (changed.empty())
-      m_free_sets.push_back(set);
   }
 
 private:

@@ -45,7 +45,7 @@ namespace internal {
 /// Coincident vertices move together, in one motion of the faces at all of them, or not at all.
 ///
 /// Conditions 1 and 2 are not asked of exempt pairs (`Descent`), but a collapse must not make more of them
-/// offend.
+/// offend. A degenerate face does not move: it stays as it is until it is contracted onto an end of an edge.
 template <class TriangleMesh, class VertexPointMap, class GeomTraits, class FaceIndex>
 class Intersection_guard
 {
@@ -88,7 +88,7 @@ public:
     refuse_missing_visitor();
     m_is_descent_asked = m_descent.is_needed() && is_descent_concerned(collapse);
     m_is_announcement_due =
-        is_free_of_degenerate() && are_motions_clear(collapse) && is_number_of_pairs_kept(collapse);
+        may_degenerate_faces_go(collapse) && are_motions_clear(collapse) && is_number_of_pairs_kept(collapse);
     return m_is_announcement_due;
   }
 
@@ -202,11 +202,39 @@ private:
     return m_descent.consider(m_considered);
   }
 
-  bool is_free_of_degenerate()
+  // Whether all degenerate faces at what moves are contracted, each within the segment that it is: the mover
+  // does not pass over the third corner.
+  template <class Profile>
+  bool may_degenerate_faces_go(const Collapse<Profile>& collapse)
   {
-    const bool is_free = !m_is_descent_asked || !m_descent.has_degenerate();
-    m_statistics.refused_by_star += !is_free;
-    return is_free;
+    m_has_degenerate = false;
+    if (!m_is_descent_asked)
+      return true;
+    for (const Id id : m_considered) {
+      if (!m_descent.is_degenerate(id))
+        continue;
+      m_has_degenerate = true;
+      if (collapse.are_both_moved() ||
+          std::find(m_changed_ids.begin(), m_changed_ids.end(), id) != m_changed_ids.end() ||
+          is_third_corner_passed(id, collapse)) {
+        ++m_statistics.refused_by_star;
+        return false;
+      }
+    }
+    return true;
+  }
+
+  template <class Profile>
+  bool is_third_corner_passed(Id contracted, const Collapse<Profile>& collapse) const
+  {
+    const auto &from = m_vertices.point(m_vertices.number(collapse.mover())), &to = collapse.place();
+    const auto is_equal = m_traits.equal_3_object();
+    const auto& corners = m_faces.corners(contracted);
+    return std::any_of(corners.begin(), corners.end(), [&](auto corner) {
+      const auto& p = m_vertices.point(corner);
+      return !is_equal(p, from) && !is_equal(p, to) &&
+             m_traits.collinear_are_ordered_along_line_3_object()(from, p, to);
+    });
   }
 
   template <class Profile>
@@ -304,6 +332,18 @@ private:
       const auto& star = m_star.exact();
       return std::all_of(star.moving.begin(), star.moving.end(),
                          [&](const auto& edge) { return is_face_kept(star, edge, m_traits); });
+    }
+    if (m_has_degenerate) {
+      // What is contracted within a segment meets nothing on the way, and has no side in any view.
+      m_view.begin_without_view();
+      Vertex_motion<typename Vertices::Point> star = m_star.exact();
+      star.contracted.erase(std::remove_if(star.contracted.begin(), star.contracted.end(),
+                                           [&](const auto& edge) {
+                                             return m_traits.collinear_3_object()(star.from, edge[0],
+                                                                                  edge[1]);
+                                           }),
+                            star.contracted.end());
+      return is_star_motion_clear(star, m_traits);
     }
     if (motion.is_joint()) { // the link is no cycle
       m_view.begin_without_view();
@@ -418,6 +458,7 @@ private:
   std::size_t m_others_left = 0; // collapses that go along with the last one, and have not been done
   Descent m_descent;
   bool m_is_descent_asked = false; // whether faces of the collapse in question have offending ancestors
+  bool m_has_degenerate = false;   // whether a face of it is degenerate, and so contracted
   std::vector<Face> m_blockers;
   Intersection_statistics m_statistics;
 
