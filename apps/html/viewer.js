@@ -57,12 +57,13 @@ function read(value, block) {
 
 // ── Colours ───────────────────────────────────────────────────────────────────────────────────────────────
 
+const HUES = [[92, 136, 184], [238, 155, 82], [111, 176, 138], [222, 108, 106], [226, 196, 98], [158, 133, 190], [122, 190, 196],
+  [240, 165, 178], [160, 130, 108], [166, 186, 96], [146, 154, 170]];
+
+// After the last of these hues they return, paler.
 function colour_of_number(i) {
-  const hue = (i * 0.61803398875 + 0.58) % 1 * 6, saturation = 0.42 + 0.16 * (i % 3), light = 0.8 - 0.09 * (i % 4);
-  return [5, 3, 1].map(k => {
-    const x = (k + hue) % 6;
-    return Math.round(255 * light * (1 - saturation * Math.max(0, Math.min(x, 4 - x, 1))));
-  });
+  const pale = Math.floor(i / HUES.length) % 3 * 0.25;
+  return HUES[i % HUES.length].map(x => Math.round(x + (245 - x) * pale));
 }
 const css = colour => `rgb(${colour})`;
 const PLAIN = [201, 205, 212], GONE = [228, 230, 234], FREE = [201, 205, 212];
@@ -127,16 +128,16 @@ const fragment_shader = `
       base = mod(square.x + square.y, 2.0) < 0.5 ? vec3(0.93) : base * vec3(0.62);
     }
     vec3 normal = normalize(cross(dFdx(seen), dFdy(seen)));
-    if (!gl_FrontFacing) base = mix(base, vec3(0.45, 0.47, 0.52), 0.45);
-    float light = 0.5 + 0.38 * max(dot(normal, normalize(vec3(-0.35, 0.55, 0.75))), 0.0)
-                + 0.2 * max(dot(normal, normalize(vec3(0.6, -0.1, 0.6))), 0.0);
+    if (!gl_FrontFacing) base = mix(base, vec3(0.5, 0.52, 0.57), 0.4);
+    float light = 0.56 + 0.36 * max(dot(normal, normalize(vec3(-0.45, 0.6, 0.66))), 0.0)
+                + 0.2 * max(dot(normal, normalize(vec3(0.7, -0.1, 0.6))), 0.0);
     base *= light;
     if (has_edges) {
       vec3 width = fwidth(inside);
-      vec3 far = smoothstep(width * 0.4, width * 1.3, inside);
+      vec3 far = smoothstep(width * 0.2, width * 1.1, inside);
       float line = 1.0 - min(min(far.x, far.y), far.z);
       float size = max(max(width.x, width.y), width.z); // of a pixel in the triangle
-      base = mix(base, vec3(0.1, 0.12, 0.17), 0.6 * line * (1.0 - smoothstep(0.12, 0.45, size)));
+      base *= 1.0 - 0.52 * line * (1.0 - smoothstep(0.1, 0.4, size));
     }
     gl_FragColor = vec4(base, opacity);
   }`;
@@ -152,8 +153,8 @@ class Model {
     this.into = new Uint32Array(this.nodes);
     this.texels = texels;
     const geometry = new BufferGeometry();
-    geometry.addAttribute('position', corners);
-    geometry.addAttribute('texel', texels);
+    geometry.setAttribute('position', corners);
+    geometry.setAttribute('texel', texels);
     this.node_texture = list_texture(this.nodes, FloatType);
     this.colour_texture = list_texture(this.faces, UnsignedByteType);
     this.uniforms = {
