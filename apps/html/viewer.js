@@ -137,7 +137,7 @@ const fragment_shader = `
       vec3 far = smoothstep(width * 0.2, width * 1.1, inside);
       float line = 1.0 - min(min(far.x, far.y), far.z);
       float size = max(max(width.x, width.y), width.z); // of a pixel in the triangle
-      base *= 1.0 - 0.52 * line * (1.0 - smoothstep(0.1, 0.4, size));
+      base *= 1.0 - 0.52 * line * (1.0 - smoothstep(0.04, 0.36, size));
     }
     gl_FragColor = vec4(base, opacity);
   }`;
@@ -415,7 +415,7 @@ class Viewer {
     const verified = report.verified;
     const is_good = report.exit_code !== 1 && (report.command !== 'verify' || report.exit_code === 0);
     $('#verdict').textContent = verified.embedded ? 'No two faces touch or cross'
-      : verified.new_pairs === 0 ? `No new contact; ${number(verified.pairs)} pairs offend that did before`
+      : verified.new_pairs === 0 ? `No new contact: the ${number(verified.pairs)} pairs that offend come from the input`
       : `${number(verified.new_pairs)} pairs of faces touch or cross${verified.pairs_of_original === undefined ? '' : ' that did not before'}`;
     $('#verdict').classList.toggle('bad', !is_good || verified.new_pairs > 0);
     const exact = 'Every verdict is of the exact coordinates; the pictures have them rounded to 1/65,535 of the box around the meshes.';
@@ -498,10 +498,10 @@ class Viewer {
       facts.push(['Target', of_level.target.reached ? 'reached' : of_level.target.outcome === 'stopped' ? 'stopped' : 'not reached']);
     const distance = of_level.distance;
     if (distance)
-      facts.push(['Farthest off', `${figure(100 * Math.max(distance.original_to_result.max, distance.result_to_original.max))} % of the size`],
-        ['On average (RMS)', `${figure(100 * distance.original_to_result.rms)} % of the size`]);
+      facts.push(['Farthest off', `${figure(100 * Math.max(distance.original_to_result.max, distance.result_to_original.max))} % of size`],
+        ['On average (RMS)', `${figure(100 * distance.original_to_result.rms)} % of size`]);
     if (report.frozen)
-      facts.push(['Offending pairs, input', number(report.frozen.pairs)]);
+      facts.push(['Pairs that offend in the input', number(report.frozen.pairs)]);
     facts.push(['Pieces', number((of_level.pieces || report.pieces).count)]);
     if (report.seconds && report.seconds.reduce)
       facts.push(['Reduced in', `${figure(report.seconds.reduce)} s`]);
@@ -665,7 +665,7 @@ class Viewer {
       element('span', {className: 'name', textContent: name}), element('span', {className: 'count', textContent: number(count)})));
     $('#legend').replaceChildren(element('ul', {}, ...rows));
     const explained = {
-      distance: 'How far each vertex of the original is from the surface of the result. A vertex of the result shows the largest distance of those that have merged into it.',
+      distance: 'How far each vertex of the original is from the surface of the result, in the unit of the file. A vertex of the result shows the largest distance of those that have merged into it.',
       reason: 'What would have to give way first for the face to go.',
       checker: 'The texture as squares. Between the first and the last step, it is approximate.'
     }[mode];
@@ -681,13 +681,14 @@ class Viewer {
     this.request();
   }
 
-  // Turns to a place without turning round, and comes near.
+  // Comes near to a place without turning, and cuts away what is before it.
   fly({at, size}) {
     const place = values => new Vector3(...values.map((x, axis) => (x - 0.5) * this.data.extents[axis]));
     const extent = Math.max(...size.map((x, axis) => x * this.data.extents[axis]));
     const target = this.marked = place(at);
     const direction = this.camera.position.clone().sub(this.controls.target).normalize();
-    const position = target.clone().addScaledVector(direction, Math.max(8 * extent, 0.25 * this.radius));
+    const room = Math.max(extent, 0.02 * this.radius);
+    const position = target.clone().addScaledVector(direction, 10 * room);
     const from = {position: this.camera.position.clone(), target: this.controls.target.clone()}, start = performance.now();
     const flight = this.flight = now => {
       if (this.flight !== flight)
@@ -696,6 +697,8 @@ class Viewer {
       this.camera.position.lerpVectors(from.position, position, eased);
       this.controls.target.lerpVectors(from.target, target, eased);
       this.controls.update();
+      const depth = this.camera.position.distanceTo(target) - room;
+      $('#cut').value = this.cut = (1 + (depth - this.camera.position.length()) / this.radius) / 2;
       this.request();
       if (share < 1)
         requestAnimationFrame(flight);

@@ -135,8 +135,8 @@ class Pages:
         (self.folder / "probed.html").write_text(text)
         out = subprocess.run(
             [self.chromium, "--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
-             "--enable-unsafe-swiftshader", "--window-size=1000,600", f"--user-data-dir={self.folder / 'profile'}",
-             "--virtual-time-budget=60000", "--dump-dom", (self.folder / "probed.html").as_uri()],
+             "--enable-unsafe-swiftshader", "--window-size=800,400", f"--user-data-dir={self.folder / 'profile'}",
+             "--virtual-time-budget=20000", "--dump-dom", (self.folder / "probed.html").as_uri()],
             capture_output=True, text=True, timeout=300)
         match = re.search(r'<pre id="found">([^<]*)', out.stdout)
         assert match, out.stdout[-500:] + out.stderr[-2000:]
