@@ -301,17 +301,13 @@ void Html_report::add_result(const std::string& name, const Verification& verifi
 
 Json Html_report::place_json(const std::vector<Point_3>& corners, const std::string& text) const
 {
-  // From 0 to 1 along each axis of the box.
-  Json middle = Json::array(), size = Json::array();
-  for (int axis = 0; axis < 3; ++axis) {
-    std::vector<double> shares;
-    for (const Point_3& point : corners)
-      shares.push_back(quantised(point[axis], axis) / 65535.0);
-    const auto [least, most] = std::minmax_element(shares.begin(), shares.end());
-    middle.push_back((*least + *most) / 2);
-    size.push_back(*most - *least);
+  Json place = {{"text", text}};
+  for (const Point_3& point : corners) {
+    Json& corner = place["corners"].emplace_back(Json::array());
+    for (int axis = 0; axis < 3; ++axis)
+      corner.push_back(quantised(point[axis], axis));
   }
-  return {{"at", middle}, {"size", size}, {"text", text}};
+  return place;
 }
 
 void Html_report::add_pairs(const std::string& heading, const std::vector<Offending_pair>& pairs,

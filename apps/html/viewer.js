@@ -501,7 +501,7 @@ class Viewer {
       facts.push(['Farthest off', `${figure(100 * Math.max(distance.original_to_result.max, distance.result_to_original.max))} % of size`],
         ['On average (RMS)', `${figure(100 * distance.original_to_result.rms)} % of size`]);
     if (report.frozen)
-      facts.push(['Pairs that offend in the input', number(report.frozen.pairs)]);
+      facts.push(['Offending pairs before', number(report.frozen.pairs)]);
     facts.push(['Pieces', number((of_level.pieces || report.pieces).count)]);
     if (report.seconds && report.seconds.reduce)
       facts.push(['Reduced in', `${figure(report.seconds.reduce)} s`]);
@@ -681,13 +681,18 @@ class Viewer {
     this.request();
   }
 
-  // Comes near to a place without turning, and cuts away what is before it.
-  fly({at, size}) {
-    const place = values => new Vector3(...values.map((x, axis) => (x - 0.5) * this.data.extents[axis]));
-    const extent = Math.max(...size.map((x, axis) => x * this.data.extents[axis]));
-    const target = this.marked = place(at);
+  // Comes near to a place, and cuts away what is before it. Turns only to look straight at a triangle.
+  fly(place) {
+    const corners = place.corners.map(corner => new Vector3(...corner.map((steps, axis) => this.box.place(steps, axis))));
+    const least = corners.reduce((a, b) => a.clone().min(b)), most = corners.reduce((a, b) => a.clone().max(b));
+    const target = this.marked = least.clone().add(most).multiplyScalar(0.5);
     const direction = this.camera.position.clone().sub(this.controls.target).normalize();
-    const room = Math.max(extent, 0.02 * this.radius);
+    if (corners.length > 1) {
+      const [a, b, c] = corners, normal = b.clone().sub(a).cross(c.clone().sub(a));
+      if (normal.length() > 0)
+        direction.copy(normal.normalize().multiplyScalar(normal.dot(direction) < 0 ? -1 : 1));
+    }
+    const room = Math.max(most.distanceTo(least), 0.02 * this.radius);
     const position = target.clone().addScaledVector(direction, 10 * room);
     const from = {position: this.camera.position.clone(), target: this.controls.target.clone()}, start = performance.now();
     const flight = this.flight = now => {
