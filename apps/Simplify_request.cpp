@@ -3,6 +3,7 @@
 
 #include "Simplify_request.h"
 
+#include "html_report.h"
 #include "output_files.h"
 #include "standard_streams.h"
 #include "subcommands.h"
@@ -90,16 +91,18 @@ void check(const Simplify_request& request)
   if (!request.log.empty() && !request.lods.empty())
     throw Argument_error(
         "--log: a log holds one reduction, but --lods asks for several; leave out one of the two");
+  require_html(request.html);
   std::vector<Named_file> written;
   for (const std::string& output : outputs(request)) {
     format_of(output, request.format);
     written.push_back({"--output", output});
   }
-  written.insert(written.end(), {{"--report", request.report}, {"--log", request.log}});
+  written.insert(written.end(), {{"--report", request.report}, {"--log", request.log}, {"--html", request.html}});
   check_streams({{"IN", request.input}, {"--obstacle", request.obstacle}}, written, request.format);
   // A mesh may replace its input, but nothing else may.
   require_distinct(written, {{"--obstacle", request.obstacle}});
-  require_distinct({{"--report", request.report}, {"--log", request.log}}, {{"IN", request.input}});
+  require_distinct({{"--report", request.report}, {"--log", request.log}, {"--html", request.html}},
+                   {{"IN", request.input}});
   for (const Named_file& file : written)
     if (!file.path.empty())
       require_writable(file.path);
@@ -130,7 +133,7 @@ std::vector<std::string> outputs(const Simplify_request& request)
 bool has_standard_output(const Simplify_request& request)
 {
   return is_standard_output(request.output) || is_standard_output(request.report) ||
-         is_standard_output(request.log);
+         is_standard_output(request.log) || is_standard_output(request.html);
 }
 
 Json options_json(const Simplify_request& request)
@@ -453,6 +456,7 @@ void add_options(CLI::App& command, Simplify_request& request)
   command.add_option("--log", request.log, "Write a log of every collapse, for `selvedge replay`.")
       ->type_name("FILE")
       ->group(conduct);
+  add_html_option(command, request.html)->group(conduct);
   command.add_flag("--quiet", request.is_quiet, "Print no summary and no progress bar.")->group(conduct);
   command.add_flag("--ascii", request.is_ascii, "Write PLY and STL as text.")->group(conduct);
   add_polygons_option(command, request.are_polygons_split)->group(conduct);

@@ -4,6 +4,7 @@
 #include "Outcome.h"
 #include "Progress_bar.h"
 #include "Simplify_request.h"
+#include "html_report.h"
 #include "interruption.h"
 #include "output_files.h"
 #include "report_json.h"
@@ -142,8 +143,14 @@ private:
     std::optional<Reduction_log> log;
     if (!m_request.log.empty()) {
       log.emplace(m_log, m_log_header, *m_numbering, prepared, options);
-      options.on_collapse = [&log](const Soup_collapse& collapse) { log->add_collapse(collapse); };
     }
+    if (log || !m_request.html.empty())
+      options.on_collapse = [&](const Soup_collapse& collapse) {
+        if (log)
+          log->add_collapse(collapse);
+        if (!m_request.html.empty())
+          m_collapses.push_back(collapse);
+      };
     std::vector<Simplified_soup> results;
     if (m_request.lods.empty())
       results.push_back(simplify_soup(prepared, options, m_request.intent));
@@ -227,7 +234,7 @@ private:
       for (const Level& level : levels)
         print_summary(stream, m_request, prepared, level, m_outcome);
     }
-    if (m_request.report.empty())
+    if (m_request.report.empty() && m_request.html.empty())
       return;
     double seconds_parts = 0;
     const auto add_level = [&](Json& json, const Level& level) {
@@ -256,7 +263,40 @@ private:
       m_report["seconds"][phase] = m_seconds[phase];
     m_report["memory"] = {{"peak_bytes", peak_memory_bytes()}};
     m_report["exit_code"] = int(m_outcome.exit_code());
-    write_file(output_path(m_request.report), to_text(m_report));
+    if (!m_request.report.empty()) {
+      write_file(output_path(m_request.report), to_text(m_report));
+      m_files_written.push_back(m_request.report);
+    }
+    if (!m_request.html.empty())
+      write_file(output_path(m_request.html), page(prepared, levels));
+  }
+
+  std::string page(const Prepared_soup& prepared, const std::vector<Level>& levels) const
+  {
+    Html_report html(prepared.soup, prepared.obstacle, prepared.positions);
+    std::vector<std::string> still = m_request.intent.locked;
+    still.insert(still.end(), m_request.intent.kept.begin(), m_request.intent.kept.end());
+    html.add_input(prepared, still);
+    // Levels are states of one reduction, or each has its own: then the collapses of one follow those of
+    // another. The levels after one that was stopped are the same as that.
+    const bool is_one = m_request.intent.ratios.empty() && !m_request.is_in_cells;
+    auto begin = m_collapses.begin();
+    std::size_t number = 0;
+    bool is_stopped = false;
+    for (const Level& level : levels) {
+      const std::size_t steps = level.result.report.collapses;
+      if (&level == &levels.front()) {
+        const auto end = is_one || levels.size() == 1 ? m_collapses.end() : begin + std::ptrdiff_t(steps);
+        number = html.add_collapses({begin, end});
+        begin = end;
+      } else if (!is_one && !is_stopped) {
+        number = html.add_collapses({begin, begin + std::ptrdiff_t(steps)});
+        begin += std::ptrdiff_t(steps);
+      }
+      is_stopped = level.result.report.is_stopped;
+      html.add_level(level.output, level.result, level.verification, number, steps);
+    }
+    return html.page(m_report);
   }
 
   std::string files_written() const
@@ -280,6 +320,7 @@ private:
   std::optional<Log_numbering> m_numbering; // these three are used only when a log is written
   Log_header m_log_header;
   std::ostringstream m_log;
+  std::vector<Soup_collapse> m_collapses; // if a page shows them
   std::map<std::string, double> m_seconds;
   std::size_t m_polygons = 0; // of the input, faces of more than three corners that may be written
   bool m_is_stop_told = false;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "blind_spots.h"
+#include "html_report.h"
 #include "output_files.h"
 #include "report_json.h"
 #include "report_output.h"
@@ -29,6 +30,7 @@ struct Verify_request
   std::string mesh;
   std::string original;
   std::string report;
+  std::string html;
   std::optional<Mesh_format> format;
   double weld_distance = 0;
   bool is_json = false;
@@ -190,19 +192,21 @@ void print(const Verify_request& request, const Mesh_file& mesh, const Verificat
 Exit_code run(const Verify_request& request)
 {
   const bool has_original = !request.original.empty();
+  require_html(request.html);
+  const std::vector<Named_file> written{{"--report", request.report}, {"--html", request.html}};
   check_streams({{"MESH", request.mesh}, {"--against", request.original}}, {}, request.format);
-  if (!request.report.empty()) {
-    require_distinct({{"--report", request.report}},
-                     {{"MESH", request.mesh}, {"--against", request.original}});
-    require_writable(request.report);
-  }
+  require_distinct(written, {{"MESH", request.mesh}, {"--against", request.original}});
+  for (const Named_file& file : written)
+    if (!file.path.empty())
+      require_writable(file.path);
   const Mesh_file mesh = Mesh_input(request.mesh, request.format).read();
   Json report = new_report("verify");
   report["input"] = input_json(request.mesh, mesh);
   std::optional<Verification> verification;
   std::optional<Comparison> comparison;
+  Mesh_file original;
   if (has_original) {
-    const Mesh_file original = Mesh_input(request.original, request.format).read();
+    original = Mesh_input(request.original, request.format).read();
     report["original"] = input_json(request.original, original);
     Verify_options options;
     options.weld_distance = request.weld_distance;
@@ -223,6 +227,11 @@ Exit_code run(const Verify_request& request)
   report["memory"] = {{"peak_bytes", peak_memory_bytes()}};
   report["exit_code"] = int(code);
   put_report(request, report, [&] { print(request, mesh, *verification, comparison); });
+  if (!request.html.empty()) {
+    Html_report html(has_original ? original.soup : mesh.soup, has_original ? mesh.soup : original.soup);
+    html.add_result(request.mesh, *verification);
+    write_file(output_path(request.html), html.page(report));
+  }
   return code;
 }
 
@@ -245,6 +254,7 @@ Action add_verify(CLI::App& command)
       ->type_name("EPS");
   add_format_option(command, request->format);
   add_report_options(command, *request);
+  add_html_option(command, request->html);
   Thread_limit::add_option(command, request->threads);
   command.footer(
       "Examples:\n"

@@ -4,7 +4,7 @@
 #
 # Installs what Selvedge is built from, on Debian 12 or later; does nothing where all of it is there already.
 # With the argument "fuzz" also clang and its run-time libraries, of which libFuzzer is one, with "manual" Doxygen, with "python"
-# what the Python package and its tests need. The argument
+# what the Python package and its tests need, with "html" Chromium, in which the pages of --html are tested. The argument
 # "benchmark" asks for the peers that the benchmark programs measure, which are among the packages of every build.
 set -euo pipefail
 
@@ -19,6 +19,7 @@ packages=(
   libdraco-dev          # compressed glTF files; may be left out
   libtinygltf-dev       # glTF documents
   nlohmann-json3-dev    # glTF documents, reports of the app
+  esbuild libjs-three   # the page of --html; may be left out
   libgtest-dev          # tests
   python3               # tests: whether includes go one way
   libopenmesh-dev       # tests: a mesh of floats, through CGAL's adaptor
@@ -28,6 +29,8 @@ if [[ "${1:-}" == fuzz ]]; then
   packages+=(clang libclang-rt-dev)
 elif [[ "${1:-}" == python ]]; then
   packages+=(python3-dev pybind11-dev python3-numpy)
+elif [[ "${1:-}" == html ]]; then
+  packages+=(chromium)
 elif [[ "${1:-}" == manual ]]; then
   packages+=(doxygen)
 fi

@@ -276,6 +276,9 @@ struct Distance
 /// **Complexity.** O(log n) for each vertex in practice; 70 bytes per triangle of `to`.
 Distance distance(const Triangle_soup& from, const Triangle_soup& to);
 
+/// Returns these distances one by one, for every vertex of `from`; 0 for vertices that no triangle uses.
+std::vector<double> vertex_distances(const Triangle_soup& from, const Triangle_soup& to);
+
 /// Distances in both directions, as shares of the diagonal.
 ///
 /// **Reference.** Derichs, Misiak and Fuhrmann, *Intersection-free mesh decimation for high resolution cloth

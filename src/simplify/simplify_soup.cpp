@@ -195,6 +195,8 @@ private:
       keep_flat_normals(result.soup, result.triangles, m_prepared.soup, m_prepared.flat_normals);
     result.corners = std::move(left.corners);
     result.placed_vertices = left.placed_vertices;
+    if (report.hindrances.total() > 0)
+      result.held_by = std::move(left.held_by);
     result.collapses = m_collapses;
     result.shared_meshes = m_shared_meshes;
     result.shared_places = m_shared_places;

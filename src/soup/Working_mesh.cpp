@@ -413,6 +413,23 @@ Hindrance Working_mesh::lock_reason(Mesh::Vertex_index v) const
   return reason;
 }
 
+void Working_mesh::on_hindered(Mesh::Edge_index e, Hindrance reason)
+{
+  m_hindrances.resize(m_corners.size());
+  for (const Mesh::Halfedge_index h : {m_mesh.halfedge(e), m_mesh.opposite(m_mesh.halfedge(e))})
+    if (!m_mesh.is_border(h) && is_own(m_mesh.face(h)))
+      m_hindrances[m_mesh.face(h)][m_places[h]] = reason;
+}
+
+// A face can go by any of its edges. If all its corners are locked, its edges were not asked for.
+Hindrance Working_mesh::hindrance_of(Mesh::Face_index face) const
+{
+  std::optional<Hindrance> weakest;
+  for (const std::optional<Hindrance>& reason : m_hindrances[face])
+    weakest = (std::max)(weakest, reason);
+  return weakest ? *weakest : lock_reason(m_mesh.target(m_mesh.halfedge(face)));
+}
+
 // The same side, of the same triangle, in another place of its mesh. Where one of the two faces is turned
 // over, its halfedges run the other way.
 Working_mesh::Side Working_mesh::in_place(const Side& side, Index place) const
@@ -1054,6 +1071,8 @@ Working_mesh::Result Working_mesh::result() const
     result.corners.push_back(m_corners[face]);
     if (!m_is_turned.empty() && m_is_turned[face])
       turn(result.corners.back());
+    if (!m_hindrances.empty())
+      result.held_by.push_back(hindrance_of(face));
   }
   Cancellation_scope::check();
   result.soup = selected(m_soup, result.triangles, result.corners);

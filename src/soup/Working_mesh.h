@@ -203,6 +203,7 @@ public:
   bool is_led(Mesh::Halfedge_index edge) const;
   Hindrance lock_reason(Mesh::Vertex_index v) const;
   Hindrance line_reason(Mesh::Edge_index e) const;
+  void on_hindered(Mesh::Edge_index e, Hindrance reason);
   double uv_cost(Mesh::Halfedge_index moving) const;
   double uv_cost_at(Mesh::Halfedge_index edge, const Point_3& place) const;
 
@@ -213,6 +214,7 @@ public:
     std::vector<Index> triangles;      ///< of the input, in its order
     std::vector<Index_triple> corners; ///< of the input, now of each triangle: 3 × triangle + place in it
     std::size_t placed_vertices = 0;   ///< vertices of `soup` at new places, with values of their own
+    std::vector<Hindrance> held_by;    ///< as in `Simplified_soup`
   };
   Result result() const;
 
@@ -266,6 +268,8 @@ private:
   Vertex_values::Share share(Corner corner, double weight) const;
   template <class Function>
   void for_each_moved_wedge(Mesh::Halfedge_index moving, const Function& function) const;
+
+  Hindrance hindrance_of(Mesh::Face_index face) const;
 
   Index& wedge_at(Mesh::Halfedge_index h) { return m_wedge_numbers[m_mesh.face(h)][m_places[h]]; }
   Index wedge_at(Mesh::Halfedge_index h) const { return m_wedge_numbers[m_mesh.face(h)][m_places[h]]; }
@@ -329,6 +333,9 @@ private:
   std::vector<std::vector<std::pair<Index, Index>>> m_near_places; // by mesh: their boxes meet
   std::vector<Copy> m_copies;                                      // by face, or empty
   std::vector<char> m_is_held_elsewhere; // by vertex of the soup: only another place locks it
+
+  // What holds back the three edges of each face; empty until the reduction says so.
+  std::vector<std::array<std::optional<Hindrance>, 3>> m_hindrances;
 
   std::vector<Part_kind> m_kinds;
   std::vector<std::vector<Refusals>> m_refused;

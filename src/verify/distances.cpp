@@ -59,6 +59,31 @@ void for_each_nearest(const std::vector<Index>& vertices, const Surface& from, c
   tbb::parallel_for(std::size_t(0), (queries.size() + chunk - 1) / chunk, Cancellation_scope::inherited(ask));
 }
 
+/// The vertices of one mesh, in an order in which neighbours follow each other, and their squared distances
+/// from the surface of another. These are in units of 2^(2 × exponent).
+struct Squared_distances
+{
+  std::vector<Index> vertices;
+  std::vector<double> values;
+  int exponent;
+};
+
+Squared_distances squared_distances_of_vertices(const Triangle_soup& from, const Triangle_soup& to)
+{
+  const int exponent = common_exponent(from, to);
+  const Point_3 origin = to.points[to.triangles[0][0]];
+  const Surface source(from, exponent, origin), surface(to, exponent, origin);
+  const std::vector<Index> vertices = used_vertices(from);
+  Squared_distances result{std::vector<Index>(vertices.size()), std::vector<double>(vertices.size()),
+                           exponent};
+  for_each_nearest(vertices, source, Surface_tree(surface),
+                   [&](std::size_t i, Index vertex, const Surface_tree::Nearest& nearest) {
+                     result.vertices[i] = vertex;
+                     result.values[i] = CGAL::squared_distance(source.points[vertex], nearest.point);
+                   });
+  return result;
+}
+
 /// A part of a triangle: its corners, and for each the nearest triangle of the other mesh.
 struct Part
 {
@@ -130,6 +155,22 @@ std::pair<int, Point_3> cut_of(const Part& part, const Surface& to)
 
 } // namespace
 
+std::vector<double> vertex_distances(const Triangle_soup& from, const Triangle_soup& to)
+{
+  std::vector<double> distances(from.points.size(), 0);
+  if (from.triangles.empty())
+    return distances;
+  if (to.triangles.empty()) {
+    for (const Index vertex : used_vertices(from))
+      distances[vertex] = infinity;
+    return distances;
+  }
+  const auto [order, squared, exponent] = squared_distances_of_vertices(from, to);
+  for (std::size_t i = 0; i < order.size(); ++i)
+    distances[order[i]] = std::ldexp(std::sqrt(squared[i]), exponent);
+  return distances;
+}
+
 Distance distance(const Triangle_soup& from, const Triangle_soup& to)
 {
   if (from.triangles.empty())
@@ -137,23 +178,13 @@ Distance distance(const Triangle_soup& from, const Triangle_soup& to)
   if (to.triangles.empty())
     return {infinity, infinity};
 
-  const int exponent = common_exponent(from, to);
-  const Point_3 origin = to.points[to.triangles[0][0]];
-  const Surface source(from, exponent, origin), surface(to, exponent, origin);
-  const std::vector<Index> vertices = used_vertices(from);
-  std::vector<double> squared_distances(vertices.size());
-  std::vector<Index> order(vertices.size());
-  for_each_nearest(vertices, source, Surface_tree(surface),
-                   [&](std::size_t i, Index vertex, const Surface_tree::Nearest& nearest) {
-                     order[i] = vertex;
-                     squared_distances[i] = CGAL::squared_distance(source.points[vertex], nearest.point);
-                   });
+  const auto [vertices, squared_distances, exponent] = squared_distances_of_vertices(from, to);
   // Summed in a fixed order, whatever the threads do.
   const double sum = std::accumulate(squared_distances.begin(), squared_distances.end(), 0.0);
   const auto maximum = std::max_element(squared_distances.begin(), squared_distances.end());
   const double mean = sum / static_cast<double>(vertices.size());
   return {std::ldexp(std::sqrt(mean), exponent), std::ldexp(std::sqrt(*maximum), exponent),
-          order[std::size_t(maximum - squared_distances.begin())]};
+          vertices[std::size_t(maximum - squared_distances.begin())]};
 }
 
 Bounds maximum_distance(const Triangle_soup& from, const Triangle_soup& to)

@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <set>
 #include <utility>
+#include <vector>
 
 namespace selvedge::test {
 namespace {
@@ -95,6 +96,28 @@ TEST(Hindrances, OfAStripAreNotTheShapeOfItsFaces)
   EXPECT_LE(result.soup.triangles.size(), 12u);
   const Simplified_soup wider = simplify_soup(prepare(sheet(60, 2)), options);
   EXPECT_GT(wider.report.refused.aspect_ratio, 0u);
+}
+
+TEST(Hindrances, OfAFaceIsTheWeakestOfItsEdges)
+{
+  const auto held_by = [](const Triangle_soup& soup, const Simplify_options& options,
+                          const Simplify_intent& intent = {}) {
+    return simplify_soup(prepare(soup), options, intent).held_by;
+  };
+  // Of both faces, two edges are borders, and the third goes from border to border.
+  EXPECT_EQ(held_by(sheet(8, 8), to_ratio(0)), std::vector<Hindrance>(2, Hindrance::border_turn));
+  EXPECT_TRUE(held_by(sheet(8, 8), to_ratio(0.5)).empty());
+
+  Triangle_soup named = crooked(9);
+  named.groups = {std::vector<Index>(named.triangles.size(), 0), {"cloth", "logo"}};
+  for (Index t = 0; t < 20; ++t)
+    named.groups.of_triangle[t] = 1;
+  const Simplified_soup kept = simplify_soup(prepare(named), to_nothing(), {{}, {}, {"logo"}, {}, {}});
+  ASSERT_EQ(kept.held_by.size(), kept.soup.triangles.size());
+  for (Index t = 0; t < kept.held_by.size(); ++t)
+    if (kept.soup.groups.of_triangle[t] == 1)
+      EXPECT_LE(kept.held_by[t], Hindrance::locked);
+  EXPECT_GT(*std::max_element(kept.held_by.begin(), kept.held_by.end()), Hindrance::locked);
 }
 
 TEST(Hindrances, TellFrozenFromLocked)

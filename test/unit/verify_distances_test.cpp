@@ -109,6 +109,17 @@ TEST(Distance, LooksAtUsedVerticesOnly)
   EXPECT_EQ(distance(from, to).root_mean_square, 50); // one vertex of four
 }
 
+TEST(Distance, IsTheLargestOfThoseOfTheVertices)
+{
+  std::mt19937 random(7);
+  const Triangle_soup from = random_soup(random, 20), to = random_soup(random, 20);
+  const std::vector<double> distances = vertex_distances(from, to);
+  const Distance all = distance(from, to);
+  ASSERT_EQ(distances.size(), from.points.size());
+  EXPECT_EQ(*std::max_element(distances.begin(), distances.end()), all.maximum);
+  EXPECT_EQ(distances[all.farthest], all.maximum);
+}
+
 TEST(Distance, IsZeroFromNothingAndInfiniteToNothing)
 {
   EXPECT_EQ(distance({}, {}).maximum, 0);

@@ -99,6 +99,12 @@ struct No_observer
     return Hindrance::seam;
   }
 
+  /// Called for each edge that counts in `Simplify_report::hindrances`, with the reason for which it does.
+  template <class Edge>
+  void on_hindered(const Edge&, Hindrance)
+  {
+  }
+
   /// Returns the motions that must be done together with this one, all or none: those of the same vertex in
   /// the other places where its mesh stands. Not called for motions of both ends. Only Selvedge's own loop
   /// does them.

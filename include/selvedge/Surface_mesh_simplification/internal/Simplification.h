@@ -382,7 +382,9 @@ private:
       const Lazy_edge_profile<TriangleMesh, VertexPointMap, Geom_traits> profile(h, m_mesh, m_points, traits);
       if (should_stop(0, profile, 0, 0))
         return;
-      ++hindrances[hindrance(profile, places, topology.is_kept(profile, No_constrained_edges()))];
+      const Hindrance reason = hindrance(profile, places, topology.is_kept(profile, No_constrained_edges()));
+      ++hindrances[reason];
+      m_observer.on_hindered(e, reason);
     }
     m_report.hindrances = hindrances;
   }
