@@ -9,7 +9,7 @@
 // state, and nothing is kept between them.
 
 import {
-  BufferAttribute, BufferGeometry, DataTexture, DoubleSide, FloatType, Mesh, NearestFilter, PerspectiveCamera,
+  BufferAttribute, BufferGeometry, DataTexture, DoubleSide, FloatType, LineBasicMaterial, LineSegments, Mesh, NearestFilter, PerspectiveCamera,
   RGBAFormat, Scene, ShaderMaterial, UnsignedByteType, Vector3, WebGLRenderer
 } from 'three/build/three.module.js';
 import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
@@ -392,6 +392,8 @@ class Viewer {
           shown.uniforms.cut.value = cut;
           this.renderer.render(shown.scene, this.camera);
         }
+      if (this.outline)
+        this.renderer.render(this.outline, this.camera);
     });
     document.querySelectorAll('.ring').forEach((ring, side) => {
       ring.hidden = !this.marked || side >= this.models.length;
@@ -687,6 +689,10 @@ class Viewer {
     const least = corners.reduce((a, b) => a.clone().min(b)), most = corners.reduce((a, b) => a.clone().max(b));
     const target = this.marked = least.clone().add(most).multiplyScalar(0.5);
     const direction = this.camera.position.clone().sub(this.controls.target).normalize();
+    // A pair lies between layers as a rule: its outline is drawn over everything.
+    const sides = corners.length > 1 ? corners.flatMap((corner, i) => [corner, corners[i % 3 < 2 ? i + 1 : i - 2]]) : [];
+    this.outline = new Scene();
+    this.outline.add(new LineSegments(new BufferGeometry().setFromPoints(sides), new LineBasicMaterial({color: 0xd6218b, depthTest: false})));
     if (corners.length > 1) {
       const [a, b, c] = corners, normal = b.clone().sub(a).cross(c.clone().sub(a));
       if (normal.length() > 0)

@@ -310,6 +310,12 @@ group(
 )
 group(
     "src/soup/Working_mesh.cpp",
+    ("hindrances_test",),
+    ("weakest = (std::max)(weakest, reason);", "weakest = reason;", "a face has the reason of its last edge"),
+)
+
+group(
+    "src/soup/Working_mesh.cpp",
     ("working_mesh_part_test", "cells_test", "attributes_test", "seams_test", "random_soups_test", "worlds_test"),
     ("side < sewing.mate(side) && rule.is_line(mesh.edge(originals[side])))", "side < sewing.mate(side) && false)",
      "cells know no lines"),
