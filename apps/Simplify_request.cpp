@@ -5,6 +5,7 @@
 
 #include "html_report.h"
 #include "output_files.h"
+#include "part_pairs.h"
 #include "standard_streams.h"
 #include "subcommands.h"
 #include "threads.h"
@@ -88,6 +89,9 @@ void check(const Simplify_request& request)
   if (request.is_in_cells && !request.intent.ratios.empty())
     throw Argument_error(
         "--cells: parts cannot have ratios of their own; leave out --cells or --ratio PART=R");
+  if (request.is_in_cells && !request.may_intersect.empty())
+    throw Argument_error(
+        "--cells: no parts may intersect each other there; leave out --cells or --may-intersect");
   if (!request.log.empty() && !request.lods.empty())
     throw Argument_error(
         "--log: a log holds one reduction, but --lods asks for several; leave out one of the two");
@@ -165,6 +169,7 @@ Json options_json(const Simplify_request& request)
           {"lods", request.lods},
           {"lock", request.intent.locked},
           {"keep", request.intent.kept},
+          {"may_intersect", request.may_intersect},
           {"weights", request.intent.weights.empty() ? Json(nullptr) : Json(request.intent.weights)},
           {"obstacle", request.obstacle.empty() ? Json(nullptr) : Json(request.obstacle)},
           {"weld", request.weld == "auto" ? Json(request.weld) : Json(request.weld_distance)},
@@ -263,6 +268,11 @@ void add_options(CLI::App& command, Simplify_request& request)
       .add_option("--keep", request.intent.kept,
                   "Parts whose faces must not change. The target is for the other faces.")
       ->type_name("PART")
+      ->group(parts);
+  add_part_pairs_option(
+      command, request.may_intersect,
+      "Two parts that are not joined, and that may come to pierce each other, as skin under an opaque layer "
+      "may: they are not kept apart, from each other alone. May be given several times.")
       ->group(parts);
   command
       .add_option("--weights", request.intent.weights,

@@ -30,6 +30,7 @@ struct Simplify_request
   std::string error;               // "E", "none", or empty for the default
   std::vector<double> lods;
   std::string obstacle;
+  std::vector<std::string> may_intersect; // "PART:PART"
   Simplify_options options;
   Simplify_intent intent;
   bool is_unguarded = false;

@@ -121,10 +121,13 @@ std::string summary_of_terms(const Replay_verdict& verdict)
 {
   const bool has_limits =
       verdict.limits_source != Limits_source::none && describe(verdict.limits) != describe({});
+  std::string permitted;
+  for (const auto& [a, b] : verdict.header.may_intersect)
+    permitted += ", '" + a + "' and '" + b + "' MAY INTERSECT";
   return std::string(has_limits ? "limits of the " : "no limits") +
          (has_limits ? name(verdict.limits_source) : "") +
          (verdict.is_input_stated ? ", input bound" : ", input NOT BOUND") +
-         (verdict.is_result_stated ? ", result bound" : ", result NOT BOUND");
+         (verdict.is_result_stated ? ", result bound" : ", result NOT BOUND") + permitted;
 }
 
 void print(const Replay_request& request, const Replay_verdict& verdict)

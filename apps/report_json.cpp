@@ -228,6 +228,13 @@ void add_verification(Json& report, const Verification& verification, bool has_o
                         {"pairs", verification.pairs.size()},
                         {"new_pairs", verification.new_pairs.size()},
                         {"first_new_pairs", first_of(verification.new_pairs)}};
+  Json permitted = Json::array();
+  for (const Verification::Permitted& parts : verification.permitted) {
+    permitted.push_back({{"first", parts.first}, {"second", parts.second}, {"pairs", parts.pairs}});
+    if (has_original)
+      permitted.back()["pairs_of_original"] = parts.pairs_of_original;
+  }
+  report["verified"]["permitted"] = std::move(permitted);
   if (has_original)
     report["verified"]["pairs_of_original"] = verification.pairs_of_original;
   report["pieces"] = {{"count", verification.pieces.size()}, {"kinds", kinds_of(verification.pieces)}};
@@ -345,12 +352,16 @@ void add_replay(Json& report, const Replay_verdict& verdict)
   Json open = Json::array();
   for (const Not_judged& part : not_judged(verdict))
     open.push_back({{"key", part.key}, {"sentence", part.sentence}});
+  Json may_intersect = Json::array();
+  for (const auto& [a, b] : verdict.header.may_intersect)
+    may_intersect.push_back(Json::array({a, b}));
   report["terms"] = {{"limits_of", name(verdict.limits_source)},
                      {"limits", to_json(verdict.limits)},
                      {"declared", to_json(verdict.header.limits)},
                      {"input_bound", verdict.is_input_stated},
                      {"result_bound", verdict.is_result_stated},
                      {"rounding", verdict.header.is_rounded_to_float32 ? "float32" : "none"},
+                     {"may_intersect", std::move(may_intersect)},
                      {"not_judged", std::move(open)}};
   report["steps"] = {{"taken", verdict.steps}, {"snaps", verdict.snaps}, {"collapses", verdict.collapses}};
   report["faces"] = {{"output", verdict.soup.triangles.size()}};

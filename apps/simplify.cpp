@@ -7,6 +7,7 @@
 #include "html_report.h"
 #include "interruption.h"
 #include "output_files.h"
+#include "part_pairs.h"
 #include "report_json.h"
 #include "simplify_summary.h"
 #include "standard_streams.h"
@@ -118,6 +119,7 @@ private:
         m_request.weld.empty() && (!m_request.is_quiet || !m_request.report.empty());
     options.normals = m_request.normals;
     options.orient = m_request.are_faces_oriented;
+    options.may_intersect = part_pairs(m_request.may_intersect, file.soup);
     try {
       return prepare(std::move(file.soup), options, obstacle);
     } catch (const Input_error& error) {

@@ -270,14 +270,21 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
     stream << "\npolygons: " << with_commas(polygons.output) << " of " << counted(polygons.input, "face")
            << " of more than three corners written as they were";
   stream << "\njudged: ";
+  std::size_t permitted = 0;
+  for (const Verification::Permitted& parts : verification.permitted)
+    permitted += parts.pairs;
   if (verification.embedded())
-    stream << "embedded (no triangles touch or cross)";
+    stream << (permitted == 0 ? "embedded (no triangles touch or cross)"
+                              : "embedded, but for parts that may intersect");
   else
     stream << counted(verification.pairs.size(), "offending pair")
            << " (triangles that touch or cross, or are degenerate), "
            << origin_of_pairs(verification, prepared.defects);
-  stream << ", topology " << (verification.same_topology() ? "kept" : "CHANGED")
-         << "\ndistance from the original's vertices: " << percent(distance.root_mean_square)
+  stream << ", topology " << (verification.same_topology() ? "kept" : "CHANGED");
+  for (const Verification::Permitted& parts : verification.permitted)
+    stream << "\nmay intersect: " << counted(parts.pairs_of_original, "pair") << " between '" << parts.first
+           << "' and '" << parts.second << "' before, " << with_commas(parts.pairs) << " now";
+  stream << "\ndistance from the original's vertices: " << percent(distance.root_mean_square)
          << " of the diagonal (RMS), at most " << percent(distance.maximum) << '\n';
   if (distance.maximum > far_off)
     stream << "worst deviation " << percent(distance.maximum) << " of the size, "

@@ -4,6 +4,7 @@
 #include "blind_spots.h"
 #include "html_report.h"
 #include "output_files.h"
+#include "part_pairs.h"
 #include "report_json.h"
 #include "report_output.h"
 #include "standard_streams.h"
@@ -12,6 +13,7 @@
 #include "threads.h"
 
 #include <selvedge/Error.h>
+#include <selvedge/Parts.h>
 #include <selvedge/compare.h>
 #include <selvedge/mesh_files.h>
 #include <selvedge/verify.h>
@@ -21,6 +23,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace selvedge::app {
 namespace {
@@ -33,6 +36,7 @@ struct Verify_request
   std::string html;
   std::optional<Mesh_format> format;
   double weld_distance = 0;
+  std::vector<std::string> may_intersect;
   bool is_json = false;
   std::optional<std::size_t> threads;
 };
@@ -150,8 +154,13 @@ void print(const Verify_request& request, const Mesh_file& mesh, const Verificat
   for (const std::string& note : describe(mesh.notes))
     std::cout << "  " << note << '\n';
 
+  for (const Verification::Permitted& parts : verification.permitted)
+    std::cout << "may intersect: " << counted(parts.pairs, "pair") << " between '" << parts.first << "' and '"
+              << parts.second << "', which no other figure counts\n";
   if (verification.embedded()) {
-    std::cout << "embedded: no triangles touch or cross, and none is degenerate\n";
+    std::cout << (verification.permitted.empty() ? "embedded: no triangles"
+                                                 : "embedded, but for these parts: no other triangles")
+              << " touch or cross, and none is degenerate\n";
   } else {
     std::cout << "NOT embedded: " << counted(verification.pairs.size(), "offending pair");
     if (has_original)
@@ -189,6 +198,23 @@ void print(const Verify_request& request, const Mesh_file& mesh, const Verificat
   std::cout << std::flush;
 }
 
+/// Leaves out the layers that changed places because they may intersect each other.
+void leave_out_permitted(std::vector<Layer_swap>& swaps, const Triangle_soup& result,
+                         const Verify_options& options)
+{
+  for (const auto& parts : options.may_intersect) {
+    const std::vector<char> is_of_first = triangles_named(result, parts.first),
+                            is_of_second = triangles_named(result, parts.second);
+    swaps.erase(std::remove_if(swaps.begin(), swaps.end(),
+                               [&](const Layer_swap& swap) {
+                                 const auto& [a, b] = swap.of_result;
+                                 return (is_of_first[a] && is_of_second[b]) ||
+                                        (is_of_first[b] && is_of_second[a]);
+                               }),
+                swaps.end());
+  }
+}
+
 Exit_code run(const Verify_request& request)
 {
   const bool has_original = !request.original.empty();
@@ -205,16 +231,18 @@ Exit_code run(const Verify_request& request)
   std::optional<Verification> verification;
   std::optional<Comparison> comparison;
   Mesh_file original;
+  Verify_options options;
+  options.may_intersect = part_pairs(request.may_intersect, mesh.soup);
   if (has_original) {
     original = Mesh_input(request.original, request.format).read();
     report["original"] = input_json(request.original, original);
-    Verify_options options;
     options.weld_distance = request.weld_distance;
     verification = verify(mesh.soup, original.soup, options);
     report["original"]["rounded"] = verification->is_original_rounded;
     comparison = compare(mesh.soup, original.soup);
+    leave_out_permitted(comparison->layers.swaps, mesh.soup, options);
   } else {
-    verification = verify(mesh.soup);
+    verification = verify(mesh.soup, options);
   }
   const bool is_good =
       has_original ? verification->accepted() && comparison->layers.swaps.empty() : verification->embedded();
@@ -252,6 +280,9 @@ Action add_verify(CLI::App& command)
           "value that `simplify` was given, if MESH does not separate pieces (STL, --sewn).")
       ->check(in_range(0))
       ->type_name("EPS");
+  add_part_pairs_option(command, request->may_intersect,
+                        "Accept that these parts intersect each other, as `simplify` was told. May be given "
+                        "several times.");
   add_format_option(command, request->format);
   add_report_options(command, *request);
   add_html_option(command, request->html);

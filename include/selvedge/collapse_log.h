@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace selvedge {
@@ -30,6 +31,7 @@ namespace selvedge {
 ///     rounding none|float32                  once at most; none where it is missing
 ///     normals kept|ignored                   once at most; kept where it is missing
 ///     defects freeze|descend                 once at most; freeze where it is missing
+///     may_intersect PART PART                any number of them
 ///     obstacle VERTICES TRIANGLES SHA256     once at most
 ///     limit NAME NUMBER                      any number of them, each name once
 ///     s MOVED KEPT                           any number of them
@@ -52,6 +54,10 @@ namespace selvedge {
 /// - *defects*: what becomes of the offending pairs of the input. Their triangles stay as they are, or the
 ///   pairs and all that descend from them are exempt (`pairs_without_descent` of verify.h says which do). A
 ///   degenerate triangle is then removed or stays as it is.
+/// - *may_intersect*: two parts of the input that the writer was asked to let intersect, each by the name of
+///   a group, object or material or by one of its words. Of names, blanks, control bytes, `%` and bytes from
+///   127 on are written as `%` and two hexadecimal digits. No triangle of one part has, at the start, a
+///   corner where a triangle of the other has one. Pairs between the two are not judged.
 /// - *obstacle*: a mesh that the writer kept clear of and did not change, described as in *input*. The line
 ///   only records that there was one. The log does not hold its triangles, so they cannot be judged.
 /// - *limit*: a limit that the writer kept to, and by which it wants to be judged. NAME is a key of
@@ -115,6 +121,9 @@ struct Log_header
   bool is_rounded_to_float32 = false;
   bool are_normals_ignored = false;
   bool may_pairs_descend = false; ///< the policy for offending pairs is `descend`
+
+  /// The names of parts that may intersect each other.
+  std::vector<std::pair<std::string, std::string>> may_intersect;
 
   /// A mesh beside the input that the writer kept clear of.
   struct Obstacle

@@ -13,6 +13,8 @@
 #include <selvedge/verify.h>
 
 #include <cstddef>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace selvedge {
@@ -100,6 +102,15 @@ struct Prepare_options
   /// connected there, too, and turns what is left of them back in its result. Otherwise no vertex moves where
   /// two faces disagree.
   bool orient = true;
+
+  /// Pairs of parts, by the names of groups, objects or materials (`triangles_named`), that may come to
+  /// intersect each other, at most 32. The pairs of triangles between them that intersect already are no
+  /// offending pairs: they are neither refused nor frozen, and anything may become of them. Snaps are judged
+  /// against all parts all the same.
+  ///
+  /// The two parts must not be joined, before or after snapping: no triangle of one has a corner where a
+  /// triangle of the other has one. Otherwise `Argument_error` is thrown, and also when a name is unknown.
+  std::vector<std::pair<std::string, std::string>> may_intersect;
 };
 
 /// A soup that has been rounded, judged and snapped. `simplify_soup` reduces it, and the result is judged
@@ -133,7 +144,12 @@ struct Prepared_soup
   /// The offending pairs of `soup` and `obstacle` together, found exactly.
   std::vector<Offending_pair> offending_pairs;
 
-  /// How many of them only rounding has made.
+  /// `Prepare_options::may_intersect`, and how many pairs between the two parts of each intersect.
+  /// `offending_pairs` has none of them. One that several of them name counts for the first.
+  std::vector<std::pair<std::string, std::string>> may_intersect;
+  std::vector<std::size_t> permitted_pairs;
+
+  /// How many of the offending pairs only rounding has made.
   std::size_t pairs_by_rounding = 0;
 
   /// What becomes of these pairs: `descend` or `freeze`.

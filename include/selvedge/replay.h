@@ -132,8 +132,8 @@ struct Replay_verdict
 /// Something that a verdict says nothing about.
 struct Not_judged
 {
-  /// The key of a limit, or "lines", "limits_of_snaps", "normals", "obstacle", "pairs", "input", "result" or
-  /// "attributes".
+  /// The key of a limit, or "lines", "limits_of_snaps", "normals", "may_intersect", "obstacle", "pairs",
+  /// "input", "result" or "attributes".
   std::string key;
 
   std::string sentence; ///< what it is, and why it was not judged, for a person
@@ -148,7 +148,7 @@ std::vector<Not_judged> not_judged(const Replay_verdict& verdict);
 /// 1. *Embedded*: after every step, any two faces meet exactly in what they share, except for the offending
 ///    pairs of the original; these have stayed as they were. Where the log says that pairs may descend,
 ///    except for pairs that descend from those (`pairs_without_descent` of verify.h), which no step made
-///    more.
+///    more. Pairs between two parts that the log lets intersect are not judged, here and in 2.
 /// 2. *Motion*: during no step did two faces meet beyond what they share.
 /// 3. *Topology*: every collapse met the link condition over positions, so that pieces stay the manifolds
 ///    that they were.
@@ -178,7 +178,7 @@ std::vector<Not_judged> not_judged(const Replay_verdict& verdict);
 /// **Preconditions** The soup is what `read_mesh` returns for the file that the log names; `is_stl` tells
 /// whether that is an STL file. Checked (`Input_error`): the SHA-256, where both are known, and the counts in
 /// the log's `input` line; that the log has the format of collapse_log.h; that the vertices of each w-line
-/// are at one position.
+/// are at one position; that parts that may intersect are there, and not joined.
 ///
 /// **Exactness** Contacts are decided exactly: by signs of CGAL's exact predicates, else in rational numbers.
 /// Limits are compared in floating point, with a tolerance of 1e-9 for programs that round otherwise; no

@@ -90,7 +90,7 @@ struct Simplified_soup
 /// **Guarantees** All of `simplify_mesh` (Surface_mesh_simplification/simplify_mesh.h), and:
 /// 1. *Embedded*: the offending pairs of the result are among those of the input or, with `Defects::descend`,
 ///    descend from those and are no more than them (docs/guarantees.md). There are none when the input has
-///    none.
+///    none. Pairs between parts that may intersect (`Prepare_options::may_intersect`) do not count.
 /// 2. *Attributes*: every corner of the result has the vertex number, texture coordinate and group that some
 ///    corner of the input has at the same position on the same side; coordinates are the same bits. With
 ///    `Placement::optimal` this holds for all vertices but `placed_vertices`. Those have new positions, and
@@ -112,8 +112,8 @@ struct Simplified_soup
 ///    takes the same steps, and its result is multiplied by the same power, as long as the multiplication
 ///    loses no digit.
 ///
-/// Throws `Argument_error` when an option is out of range, or when a part has a ratio of its own in a
-/// reduction in cells (`Simplify_options::faces_per_cell`).
+/// Throws `Argument_error` when an option is out of range, or when a part has a ratio of its own, or may
+/// intersect another, in a reduction in cells (`Simplify_options::faces_per_cell`).
 Simplified_soup simplify_soup(const Prepared_soup& prepared, const Simplify_options& options,
                               const Simplify_intent& intent = {});
 

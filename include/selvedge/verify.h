@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 // The judge. It judges any mesh by itself, or a result against its original. With the policies whose output
@@ -220,6 +221,12 @@ struct Verify_options
   /// those of the original: then `Verification::new_pairs` are `pairs_without_descent`. It needs
   /// `triangles_of_original`. Null when all pairs had to stay as they were.
   const std::vector<Soup_collapse>* collapses = nullptr;
+
+  /// Pairs of parts, by the names of groups, objects or materials (`triangles_named`), that may intersect
+  /// each other. Pairs of triangles between them are left out of all lists and counted apart. A pair of the
+  /// result is left out by the names of its triangles, and by those of `triangles_of_original` too where
+  /// these are given. A name that no triangle has leaves out nothing.
+  std::vector<std::pair<std::string, std::string>> may_intersect;
 };
 
 /// Matches the pieces of a result with those of its original, in these steps:
@@ -310,6 +317,15 @@ struct Verification
   std::optional<Distances> distances;
   /// Whether the original was rounded to 32-bit floats, as the result is, before all of this.
   bool is_original_rounded = false;
+  /// For each of `Verify_options::may_intersect`, how many pairs were left out. A pair that several of them
+  /// name counts for the first.
+  struct Permitted
+  {
+    std::string first, second; ///< the names of the two parts
+    std::size_t pairs = 0;
+    std::size_t pairs_of_original = 0;
+  };
+  std::vector<Permitted> permitted;
 
   bool embedded() const { return pairs.empty(); }
   /// Returns whether both have the same number of pieces of every kind, by vertex numbers.
@@ -319,8 +335,15 @@ struct Verification
   bool accepted() const { return new_pairs.empty() && matching.is_complete(); }
 };
 
-/// Judges a mesh by itself: finds its offending pairs and its pieces.
-Verification verify(const Triangle_soup& mesh);
+/// Takes the pairs between two parts out of a list of offending pairs. Returns how many there were. `first`
+/// and `second` say of every triangle whether it belongs to the part; triangles with further numbers, such as
+/// those of an obstacle, belong to neither.
+std::size_t take_out_pairs_between(const std::vector<char>& first, const std::vector<char>& second,
+                                   std::vector<Offending_pair>& pairs);
+
+/// Judges a mesh by itself: finds its offending pairs and its pieces. Of the options it takes
+/// `may_intersect`.
+Verification verify(const Triangle_soup& mesh, const Verify_options& options = {});
 
 /// Judges a result against its original.
 ///

@@ -6,6 +6,7 @@
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <istream>
@@ -27,6 +28,23 @@ std::string text_of(Number number)
 std::string text_of_digest(const std::string& digest)
 {
   return digest.empty() ? "-" : digest;
+}
+
+bool is_plain(char c)
+{
+  return c > ' ' && c < 127 && c != '%';
+}
+
+std::string text_of_name(const std::string& name)
+{
+  constexpr const char* digits = "0123456789abcdef";
+  std::string text;
+  for (const char c : name)
+    if (is_plain(c))
+      text += c;
+    else
+      text += {'%', digits[static_cast<unsigned char>(c) / 16], digits[static_cast<unsigned char>(c) % 16]};
+  return text;
 }
 
 } // namespace
@@ -56,6 +74,8 @@ Log_writer::Log_writer(std::ostream& stream, const Log_header& header) : m_strea
     m_stream << "normals ignored\n";
   if (header.may_pairs_descend)
     m_stream << "defects descend\n";
+  for (const auto& [a, b] : header.may_intersect)
+    m_stream << "may_intersect " << text_of_name(a) << ' ' << text_of_name(b) << '\n';
   if (header.obstacle)
     write_mesh("obstacle", *header.obstacle);
   for (const Limit_description& limit : limit_descriptions)
@@ -114,6 +134,9 @@ public:
       } else if (m_words[0] == "defects" && !are_defects_known) {
         header.may_pairs_descend = is_second_word("freeze", "descend");
         are_defects_known = true;
+      } else if (m_words[0] == "may_intersect") {
+        expect_words(3, 3, "may_intersect PART PART");
+        header.may_intersect.emplace_back(part_name(1), part_name(2));
       } else if (m_words[0] == "obstacle" && !header.obstacle) {
         Log_header::Obstacle obstacle;
         read_mesh(obstacle, "obstacle VERTICES TRIANGLES SHA256");
@@ -266,6 +289,26 @@ private:
     if (text.size() != 64 || text.find_first_not_of("0123456789abcdef") != std::string::npos)
       fail("a SHA-256 is written in 64 hexadecimal digits, or '-' when unknown");
     return text;
+  }
+
+  std::string part_name(std::size_t word) const
+  {
+    const std::string_view text = m_words[word];
+    std::string name;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      unsigned char byte = static_cast<unsigned char>(text[i]);
+      if (text[i] == '%') {
+        const char* const end = text.data() + std::min(i + 3, text.size());
+        const auto [stop, error] = std::from_chars(text.data() + i + 1, end, byte, 16);
+        if (error != std::errc() || stop != text.data() + i + 3)
+          fail("after a '%' in a name come two hexadecimal digits");
+        i += 2;
+      } else if (!is_plain(text[i])) {
+        fail("a name has a byte that is to be written as '%' and two hexadecimal digits");
+      }
+      name += char(byte);
+    }
+    return name;
   }
 
   template <class Mesh>

@@ -6,9 +6,12 @@
 #include "Complex.h"
 
 #include "soup/selection.h"
+#include "verify/triangles_of_part.h"
+#include <selvedge/Error.h>
 #include <selvedge/rounding.h>
 #include <selvedge/verify.h>
 
+#include <string>
 #include <utility>
 
 namespace selvedge {
@@ -30,6 +33,35 @@ void leave_out_needless(Start& start)
   start.numbers = std::move(numbers);
 }
 
+// Finds the triangles of parts that may intersect. No position has faces of both.
+void find_parts(Start& start, const Log_header& header)
+{
+  const std::vector<Index> first = first_at_position(start.soup.points);
+  for (const auto& [a, b] : header.may_intersect) {
+    std::vector<char> part_of(start.soup.triangles.size(), 0);
+    for (const auto& [name, number] : {std::make_pair(&a, char(1)), std::make_pair(&b, char(2))}) {
+      const std::vector<char> is_of_part = internal::triangles_of_part(start.soup, *name);
+      bool is_there = false;
+      for (Index t = 0; t < part_of.size(); ++t)
+        if (is_of_part[t]) {
+          part_of[t] = char(part_of[t] | number);
+          is_there = true;
+        }
+      if (!is_there)
+        throw Input_error("the log lets the part '" + *name +
+                          "' intersect another, but the mesh has no such part");
+    }
+    std::vector<char> parts_at(first.size(), 0);
+    for (Index t = 0; t < part_of.size(); ++t)
+      for (const Index v : start.soup.triangles[t])
+        if ((parts_at[first[v]] = char(parts_at[first[v]] | part_of[t])) == 3)
+          throw Input_error("the log lets the parts '" + a + "' and '" + b +
+                            "' intersect, but they share the vertex " + std::to_string(v + 1) +
+                            "; only parts that are not joined may intersect");
+    start.parts.push_back(std::move(part_of));
+  }
+}
+
 } // namespace
 
 Start start_of(const Triangle_soup& original, const Log_header& header)
@@ -46,9 +78,12 @@ Start start_of(const Triangle_soup& original, const Log_header& header)
     round_to_float32(start.soup);
     leave_out_needless(start);
   }
+  find_parts(start, header);
   const std::vector<Index> first = first_at_position(start.soup.points);
   std::vector<char> is_frozen(start.soup.triangles.size(), false);
   for (const Offending_pair& pair : offending_pairs(start.soup)) {
+    if (start.is_permitted(pair.first, pair.second))
+      continue;
     if (!header.may_pairs_descend)
       is_frozen[pair.first] = is_frozen[pair.second] = true;
     else if (pair.first != pair.second) // a degenerate face exempts nothing

@@ -26,9 +26,22 @@ struct Start
   Offences offences;
   Lineage lineage;
   std::size_t offending_pairs = 0;
+
+  /// For each pair of parts that may intersect, in which of the two each triangle is: 1, 2, or 0 for
+  /// neither.
+  std::vector<std::vector<char>> parts;
+  /// Whether a pair of triangles may intersect because their parts may.
+  bool is_permitted(Index f, Index g) const
+  {
+    for (const std::vector<char>& part_of : parts)
+      if (part_of[f] + part_of[g] == 3)
+        return true;
+    return false;
+  }
 };
 
-/// Takes the original as the header of a log says.
+/// Takes the original as the header of a log says. Throws `Input_error` when parts that may intersect are not
+/// there, or have a position in common.
 Start start_of(const Triangle_soup& original, const Log_header& header);
 
 } // namespace reference

@@ -24,6 +24,10 @@ std::vector<Not_judged> not_judged(const Replay_verdict& verdict)
     result.push_back({"normals",
                       "whether edges across which normals differ move only along themselves: the log "
                       "says that normals are made anew"});
+  for (const auto& [a, b] : verdict.header.may_intersect)
+    result.push_back({"may_intersect", "whether the parts '" + a + "' and '" + b +
+                                           "' keep clear of each other: the log says that they may "
+                                           "intersect"});
   if (verdict.header.obstacle)
     result.push_back({"obstacle",
                       "whether the steps keep clear of the obstacle that the log names: the log does "

@@ -389,10 +389,11 @@ private:
   // ---- Contacts
 
   // Whether a pair of a moving face and another need not be apart after this step: it offends already, which
-  // is no fault of this step, or it descends from an offending pair of the original.
+  // is no fault of this step, or it descends from an offending pair of the original, or the parts of the two
+  // may intersect.
   bool is_exempt(Index moving, Index other) const
   {
-    if (m_offences.has(moving, other))
+    if (m_start.is_permitted(moving, other) || m_offences.has(moving, other))
       return true;
     if (m_heritage.empty())
       return false;
@@ -601,7 +602,8 @@ private:
       if (is_degenerate(m_complex.triangle(f)))
         m_offences.add(f, f);
       m_tree.visit(m_boxes[f], [&](Index g) {
-        if (g != f && do_meet(m_complex.triangle(f), m_complex.triangle(g), m_statistics))
+        if (g != f && !m_start.is_permitted(f, g) &&
+            do_meet(m_complex.triangle(f), m_complex.triangle(g), m_statistics))
           m_offences.add(f, g);
       });
     }

@@ -39,6 +39,7 @@ Log_header completed(Log_header header, const Prepared_soup& prepared, const Sim
   header.are_normals_ignored =
       prepared.normals != Normals_treatment::none && prepared.normals != Normals_treatment::kept;
   header.may_pairs_descend = prepared.defects == Defects::descend && !prepared.offending_pairs.empty();
+  header.may_intersect = prepared.may_intersect;
   if (prepared.snapping.distance > 0)
     header.limits.weld_distance = prepared.snapping.distance;
   const Triangle_soup& obstacle = prepared.obstacle;

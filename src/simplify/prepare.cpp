@@ -13,6 +13,7 @@
 #include "weld/snapping.h"
 
 #include <selvedge/Error.h>
+#include <selvedge/Parts.h>
 
 #include <algorithm>
 #include <limits>
@@ -70,6 +71,8 @@ public:
       : m_options(options)
   {
     m_prepared.soup = std::move(input);
+    m_prepared.may_intersect = options.may_intersect;
+    m_prepared.permitted_pairs.resize(options.may_intersect.size());
     m_prepared.obstacle.points = obstacle.points;
     m_prepared.obstacle.triangles = obstacle.triangles;
   }
@@ -85,6 +88,7 @@ public:
       throw Input_error(
           "every triangle of the mesh has two corners at one position; there is nothing to reduce");
     m_prepared.scale = Scale(soup(), obstacle());
+    require_apart("");
     m_prepared.seconds_positions += m_stopwatch.restart();
 
     const std::size_t own_triangles = soup().triangles.size();
@@ -96,6 +100,8 @@ public:
     snap();
     m_prepared.seconds_snap = m_stopwatch.restart();
     remove_obstacle(soup(), obstacle());
+    if (!m_prepared.snapping.snaps.empty())
+      require_apart(" once borders have snapped together");
     if (m_options.orient)
       orient();
     return std::move(m_prepared);
@@ -112,6 +118,45 @@ private:
     std::vector<Point_3> points = m_prepared.soup.points;
     points.insert(points.end(), m_prepared.obstacle.points.begin(), m_prepared.obstacle.points.end());
     return number_positions(points);
+  }
+
+  // Takes out the pairs between parts that may intersect, and returns how many there were for each. The
+  // obstacle belongs to no part.
+  std::vector<std::size_t> permit(std::vector<Offending_pair>& pairs)
+  {
+    std::vector<std::size_t> counts;
+    for (const auto& [a, b] : m_options.may_intersect)
+      counts.push_back(take_out_pairs_between(triangles_named(soup(), a), triangles_named(soup(), b), pairs));
+    return counts;
+  }
+
+  void refuse_if_any_offend()
+  {
+    std::vector<Offending_pair> pairs = offending_pairs(geometry_with_obstacle(soup(), obstacle()));
+    permit(pairs);
+    refuse_if_any(pairs, soup().triangles.size());
+  }
+
+  // Parts that may intersect have no position in common, not even one that only rounding has made one. So no
+  // star of a vertex ever has triangles of both.
+  void require_apart(const char* when)
+  {
+    if (m_options.may_intersect.empty())
+      return;
+    const std::vector<Index> positions = number_positions(soup().points);
+    for (const auto& [a, b] : m_options.may_intersect) {
+      const std::vector<char> is_of_a = triangles_named(soup(), a), is_of_b = triangles_named(soup(), b);
+      std::vector<char> has_a(positions.size(), false);
+      for (Index t = 0; t < soup().triangles.size(); ++t)
+        for (const Index v : soup().triangles[t])
+          has_a[positions[v]] |= is_of_a[t];
+      for (Index t = 0; t < soup().triangles.size(); ++t)
+        for (const Index v : soup().triangles[t])
+          if (is_of_b[t] && has_a[positions[v]])
+            throw Argument_error("the parts '" + a + "' and '" + b + "' share the vertex " +
+                                 std::to_string(v + 1) + when +
+                                 "; only parts that are not joined may intersect");
+    }
   }
 
   std::size_t leave_out(const std::vector<Index>& positions)
@@ -144,7 +189,7 @@ private:
     auto& others = obstacle().triangles;
     if (is_strict() && (std::any_of(own.begin(), own.end(), is_degenerate(m_prepared.positions)) ||
                         std::any_of(others.begin(), others.end(), is_degenerate(of_obstacle))))
-      refuse_if_any(offending_pairs(geometry_with_obstacle(soup(), obstacle())), own.size());
+      refuse_if_any_offend();
     others.erase(std::remove_if(others.begin(), others.end(), is_degenerate(of_obstacle)), others.end());
     m_prepared.left_out_faces = leave_out(m_prepared.positions);
   }
@@ -156,7 +201,7 @@ private:
     unrounded.points = soup().points;
     if (is_strict()) { // judges before rounding, since triangles may have other numbers afterwards
       m_prepared.seconds_positions += m_stopwatch.restart();
-      refuse_if_any(offending_pairs(geometry_with_obstacle(soup(), obstacle())), soup().triangles.size());
+      refuse_if_any_offend();
       m_prepared.seconds_check += m_stopwatch.restart();
     }
     m_prepared.rounding = round_to_float32(soup());
@@ -174,7 +219,9 @@ private:
 
   void judge(std::size_t own_triangles)
   {
-    m_prepared.offending_pairs = offending_pairs(soup());
+    m_all_pairs = offending_pairs(soup());
+    m_prepared.offending_pairs = m_all_pairs;
+    m_prepared.permitted_pairs = permit(m_prepared.offending_pairs);
     if (m_prepared.rounding.coordinates == 0) {
       if (is_strict())
         refuse_if_any(m_prepared.offending_pairs, own_triangles);
@@ -217,7 +264,7 @@ private:
     if (!transforms.empty()) // no node of the scene transforms the vertices of the obstacle
       transforms.resize(soup().points.size(), std::numeric_limits<Index>::max());
     std::vector<char> stays = m_prepared.is_frozen;
-    for (const Offending_pair& pair : m_prepared.offending_pairs)
+    for (const Offending_pair& pair : m_all_pairs)
       stays[pair.first] = stays[pair.second] = true;
     const std::vector<Point_3> points_before = soup().points;
     const std::size_t obstacle_triangles = obstacle().triangles.size();
@@ -246,6 +293,7 @@ private:
   Prepare_options m_options;
   Prepared_soup m_prepared;
   std::vector<Index> m_positions_rounded;              // by vertex; empty when nothing was rounded
+  std::vector<Offending_pair> m_all_pairs;             // those between parts that may intersect, too
   std::vector<Offending_pair> m_pairs_before_rounding; // with triangle numbers after it
   Stopwatch m_stopwatch;
 };

@@ -85,6 +85,15 @@ private:
     if (m_prepared.defects == Defects::descend)
       for (const Offending_pair& pair : m_prepared.offending_pairs)
         constraints.offending_pairs.emplace_back(pair.first, pair.second);
+    for (const auto& [a, b] : m_prepared.may_intersect) {
+      auto& [of_a, of_b] = constraints.may_intersect.emplace_back();
+      for (const auto& [name, faces] : {std::make_pair(&a, &of_a), std::make_pair(&b, &of_b)}) {
+        const std::vector<char> is_named = triangles_named(soup, *name);
+        for (Index t = 0; t < is_named.size(); ++t)
+          if (is_named[t])
+            faces->emplace_back(t);
+      }
+    }
     tie(constraints.partners);
     if (m_options.instances == Instances::shared && m_options.loop == Collapse_loop::own)
       share();
@@ -234,6 +243,8 @@ Simplified_soup simplify_soup(const Prepared_soup& prepared, const Simplify_opti
 {
   if (options.faces_per_cell > 0 && !intent.ratios.empty())
     throw Argument_error("in cells no part can have a ratio of its own; leave out one of the two options");
+  if (options.faces_per_cell > 0 && !prepared.may_intersect.empty())
+    throw Argument_error("in cells no parts may intersect each other; leave out one of the two options");
   return Soup_reduction(prepared, options, intent).run();
 }
 
@@ -279,7 +290,12 @@ Verification verify(const Simplified_soup& result, const Prepared_soup& original
   options.triangles_of_original = result.triangles;
   if (original.defects == Defects::descend)
     options.collapses = &result.collapses;
-  return verify(result.soup, original.soup, original.offending_pairs, options, original.obstacle);
+  options.may_intersect = original.may_intersect;
+  Verification verification =
+      verify(result.soup, original.soup, original.offending_pairs, options, original.obstacle);
+  for (std::size_t k = 0; k < verification.permitted.size(); ++k)
+    verification.permitted[k].pairs_of_original = original.permitted_pairs[k];
+  return verification;
 }
 
 } // namespace selvedge

@@ -6,20 +6,84 @@
 
 #include "rounded.h"
 #include "soup/obstacle.h"
+#include "triangles_of_part.h"
 
 #include <oneapi/tbb/parallel_invoke.h>
+
+#include <algorithm>
 
 // The judge, which decides whether a result may be written. It puts together what `offending_pairs`,
 // `pieces`, `match_pieces` and `distances` say of a result and its original, and knows nothing of the
 // reduction.
 
 namespace selvedge {
+namespace {
 
-Verification verify(const Triangle_soup& mesh)
+using Permitted = Verification::Permitted;
+
+std::vector<Permitted> begin_permitted(const Verify_options& options)
+{
+  std::vector<Permitted> permitted;
+  for (const auto& [a, b] : options.may_intersect)
+    permitted.push_back({a, b});
+  return permitted;
+}
+
+// Takes out what may intersect by the names of the original.
+void permit_of_original(const Triangle_soup& original, std::vector<Offending_pair>& pairs,
+                        std::vector<Permitted>& permitted)
+{
+  for (Permitted& parts : permitted)
+    parts.pairs_of_original =
+        take_out_pairs_between(internal::triangles_of_part(original, parts.first),
+                               internal::triangles_of_part(original, parts.second), pairs);
+}
+
+// Takes out what may intersect by the names of the result and, where it is known what its triangles were, of
+// the original.
+void permit_of_result(const Triangle_soup& result, const Triangle_soup* original,
+                      const Verify_options& options, std::vector<Offending_pair>& pairs,
+                      std::vector<Permitted>& permitted)
+{
+  const auto triangles_of = [&](const std::string& name) {
+    std::vector<char> is_of_part = internal::triangles_of_part(result, name);
+    if (original && !options.triangles_of_original.empty()) {
+      const std::vector<char> was_of_part = internal::triangles_of_part(*original, name);
+      for (std::size_t t = 0; t < is_of_part.size(); ++t)
+        is_of_part[t] = is_of_part[t] && was_of_part[options.triangles_of_original[t]];
+    }
+    return is_of_part;
+  };
+  for (Permitted& parts : permitted)
+    parts.pairs = take_out_pairs_between(triangles_of(parts.first), triangles_of(parts.second), pairs);
+}
+
+} // namespace
+
+std::size_t take_out_pairs_between(const std::vector<char>& first, const std::vector<char>& second,
+                                   std::vector<Offending_pair>& pairs)
+{
+  const auto is_in = [](const std::vector<char>& part, Index triangle) {
+    return triangle < part.size() && part[triangle] != 0;
+  };
+  const auto kept = std::remove_if(pairs.begin(), pairs.end(), [&](const Offending_pair& pair) {
+    return pair.first != pair.second && ((is_in(first, pair.first) && is_in(second, pair.second)) ||
+                                         (is_in(second, pair.first) && is_in(first, pair.second)));
+  });
+  const std::size_t count = std::size_t(pairs.end() - kept);
+  pairs.erase(kept, pairs.end());
+  return count;
+}
+
+Verification verify(const Triangle_soup& mesh, const Verify_options& options)
 {
   Verification verification;
-  tbb::parallel_invoke(Cancellation_scope::inherited(
-                           [&] { verification.pairs = verification.new_pairs = offending_pairs(mesh); }),
+  verification.permitted = begin_permitted(options);
+  tbb::parallel_invoke(Cancellation_scope::inherited([&] {
+                         verification.pairs = offending_pairs(mesh);
+                         permit_of_result(mesh, nullptr, options, verification.pairs, verification.permitted);
+                         verification.new_pairs = verification.pairs;
+                       }),
                        Cancellation_scope::inherited([&] { verification.pieces = pieces(mesh); }));
   return verification;
 }
@@ -35,12 +99,17 @@ Verification verify(const Triangle_soup& result, const Triangle_soup& original, 
 }
 
 Verification verify(const Triangle_soup& result, const Triangle_soup& original,
-                    const std::vector<Offending_pair>& pairs_of_original, const Verify_options& options,
+                    const std::vector<Offending_pair>& all_pairs_of_original, const Verify_options& options,
                     const Triangle_soup& obstacle)
 {
-  const auto find_new_pairs = [&](Verification& verification, const Triangle_soup& after,
-                                  const Triangle_soup& before) {
+  Verification verification;
+  verification.permitted = begin_permitted(options);
+  std::vector<Offending_pair> pairs_of_original = all_pairs_of_original;
+  permit_of_original(original, pairs_of_original, verification.permitted);
+  verification.pairs_of_original = pairs_of_original.size();
+  const auto find_new_pairs = [&](const Triangle_soup& after, const Triangle_soup& before) {
     verification.pairs = offending_pairs(after);
+    permit_of_result(result, &original, options, verification.pairs, verification.permitted);
     if (!options.collapses) {
       verification.new_pairs = new_pairs(after, verification.pairs, before, pairs_of_original);
       return;
@@ -51,13 +120,11 @@ Verification verify(const Triangle_soup& result, const Triangle_soup& original,
     verification.new_pairs = pairs_without_descent(after, verification.pairs, before, pairs_of_original,
                                                    *options.collapses, triangles);
   };
-  Verification verification;
-  verification.pairs_of_original = pairs_of_original.size();
   tbb::parallel_invoke(Cancellation_scope::inherited([&] {
                          if (obstacle.triangles.empty())
-                           find_new_pairs(verification, result, original);
+                           find_new_pairs(result, original);
                          else
-                           find_new_pairs(verification, geometry_with_obstacle(result, obstacle),
+                           find_new_pairs(geometry_with_obstacle(result, obstacle),
                                           geometry_with_obstacle(original, obstacle));
                        }),
                        Cancellation_scope::inherited([&] { verification.pieces = pieces(result); }),

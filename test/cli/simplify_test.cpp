@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "App_run.h"
+#include "support/soups.h"
 
 #include <selvedge/mesh_files.h>
 #include <selvedge/verify.h>
@@ -274,6 +275,54 @@ TEST(App_simplify, OffendingInputDescendsOrIsFrozenOrRefused)
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_NE(result.out.find("1 offending pair\n"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find(", all descended from the 1 of the input"), std::string::npos) << result.out;
+}
+
+TEST(App_simplify, LetsPartsIntersectWhenAsked)
+{
+  const Workspace folder;
+  const std::string in = folder / "in.obj", out = folder / "out.obj", log = folder / "log";
+  Triangle_soup crossed = joined(sheet(12, 12), mapped(sheet(12, 12), [](const Point_3& p) {
+                                   return Point_3(p.x() + 0.3, p.y() + 0.3, 0.2 * (p.x() - 6));
+                                 }));
+  crossed.objects.names = {"skin:bare", "cloth"};
+  crossed.objects.of_triangle.assign(288, 0);
+  crossed.objects.of_triangle.resize(576, 1);
+  write_mesh(in, crossed);
+  const std::vector<std::string> strictly{"simplify",
+                                          in,
+                                          "-o",
+                                          out,
+                                          "--ratio",
+                                          "0.1",
+                                          "--strict",
+                                          "--log",
+                                          log,
+                                          "--report",
+                                          folder / "report.json"};
+  const auto with = [](std::vector<std::string> words, const std::string& parts) {
+    words.insert(words.end(), {"--may-intersect", parts});
+    return words;
+  };
+  EXPECT_EQ(run_app(strictly).code, 3) << "the control";
+  const App_result result = run_app(with(strictly, "skin:bare:cloth"));
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find(" pairs between 'skin:bare' and 'cloth' before, "), std::string::npos)
+      << result.out;
+  const auto report = nlohmann::json::parse(contents_of(folder / "report.json"));
+  EXPECT_GT(report["verified"]["permitted"][0]["pairs_of_original"], 0);
+  EXPECT_EQ(report["verified"]["pairs"], 0);
+  const App_result replayed = run_app({"replay", in, log});
+  EXPECT_EQ(replayed.code, 0);
+  EXPECT_NE(replayed.out.find("'skin:bare' and 'cloth' MAY INTERSECT"), std::string::npos) << replayed.out;
+  EXPECT_EQ(run_app({"verify", out}).code, 1);
+  EXPECT_EQ(run_app({"verify", out, "--may-intersect", "cloth:skin:bare"}).code, 0);
+  EXPECT_EQ(run_app({"verify", out, "--against", in, "--may-intersect", "cloth:skin:bare"}).code, 0);
+
+  for (const char* const parts : {"cloth", "cloth:silk", "cloth:cloth", ":"})
+    EXPECT_EQ(run_app(with(strictly, parts)).code, 2) << parts;
+  std::vector<std::string> in_cells = with(strictly, "skin:bare:cloth");
+  in_cells.push_back("--cells");
+  EXPECT_EQ(run_app(in_cells).code, 2);
 }
 
 TEST(App_simplify, KeepsWhatStoodThereWhenWritingFails)

@@ -620,3 +620,26 @@ group(
     ("(!motion.others || std::all_of(", "(true || std::all_of(", "the faces of other sheets are not judged"),
     sources=("src/simplify/simplify_soup.cpp",),
 )
+
+may_intersect = ("may_intersect_test",)
+
+group(
+    headers + "Surface_mesh_simplification/internal/Intersection_guard.h",
+    may_intersect,
+    ("!m_permitted.has_at(j, face.id) && ", "", "faces of parts that may intersect are kept apart in mixed stars"),
+    ("motion.target && std::count(face", "false && std::count(face", "parts that may intersect are joined"),
+    sources=("src/simplify/simplify_soup.cpp",),
+)
+group(
+    headers + "Surface_mesh_simplification/internal/Permitted_pairs.h",
+    may_intersect,
+    ("m_of_all &= m_rivals[j]", "m_of_all = m_rivals[j]", "a face is skipped because the last of the star may meet it"),
+    ("return (mask & firsts) << 1 | (mask >> 1 & firsts);", "return mask | mask << 1 | mask >> 1;",
+     "a part may intersect itself"),
+    sources=("src/simplify/simplify_soup.cpp",),
+)
+group(
+    "src/replay/Start.cpp",
+    may_intersect,
+    ("part_of[t])) == 3)", "part_of[t])) == 4)", "the replay accepts parts that are joined"),
+)

@@ -114,8 +114,16 @@ std::optional<Broken_promise> Judged_complex::end_collapse()
   return std::nullopt;
 }
 
+bool Judged_complex::is_permitted(Index f, Index g) const
+{
+  return f < m_part_of_face.size() && g < m_part_of_face.size() && m_part_of_face[f] > 0 &&
+         m_part_of_face[g] > 0 && m_part_of_face[f] != m_part_of_face[g];
+}
+
 bool Judged_complex::is_exempt(Index changing, Index other) const
 {
+  if (is_permitted(changing, other))
+    return true;
   if (m_ancestors.empty())
     return false;
   for (const Index f : m_ancestors[changing])
@@ -133,7 +141,7 @@ std::size_t Judged_complex::pairs_changing() const
     if (!m_faces[f].is_alive)
       continue;
     for (Index g = 0; g < m_faces.size(); ++g)
-      if (m_faces[g].is_alive && g != f && !(g < f && m_changing.count(g) > 0) &&
+      if (m_faces[g].is_alive && g != f && !(g < f && m_changing.count(g) > 0) && !is_permitted(f, g) &&
           do_overlap(m_faces[f].box, m_faces[g].box))
         count += do_meet_beyond_shared(f, g);
   }
@@ -203,7 +211,7 @@ std::set<std::pair<Index, Index>> Judged_complex::offending_pairs() const
     if (!has_area(f))
       pairs.insert({f, f});
     for (Index g = 0; g < f; ++g)
-      if (do_overlap(m_faces[f].box, m_faces[g].box) && do_meet_beyond_shared(f, g))
+      if (do_overlap(m_faces[f].box, m_faces[g].box) && !is_permitted(f, g) && do_meet_beyond_shared(f, g))
         pairs.insert({g, f});
   }
   return pairs;

@@ -38,6 +38,10 @@ public:
   /// make more of them offend. No snap moves their faces, or something to them.
   void exempt(const std::set<std::pair<Index, Index>>& pairs);
 
+  /// Parts that may intersect: faces of part 1 need not be apart from those of part 2. Call it before any
+  /// question.
+  void permit(std::vector<char> part_of_face) { m_part_of_face = std::move(part_of_face); }
+
   /// Of a vertex; those of the obstacle follow those of the soup.
   Index position(Index vertex) const { return m_position_of_vertex[vertex]; }
   bool is_alive(Index face) const { return m_faces[face].is_alive; }
@@ -98,6 +102,7 @@ private:
   std::optional<Broken_promise> judge_motion(Index moved, const Place& target) const;
   void begin_collapse(const std::vector<Index>& movers);
   std::optional<Broken_promise> end_collapse();
+  bool is_permitted(Index f, Index g) const;
   bool is_exempt(Index changing, Index other) const;
   std::size_t pairs_changing() const;
   void place_at(Index position, const Point_3& at);
@@ -112,6 +117,7 @@ private:
   std::set<Index> m_offending;              // positions
   std::vector<std::set<Index>> m_ancestors; // by face
   std::set<std::pair<Index, Index>> m_pairs_at_start;
+  std::vector<char> m_part_of_face; // of own faces; empty when no parts may intersect
 
   // Of the present collapse.
   std::set<Index> m_changing;

@@ -57,6 +57,7 @@ Prepare_options World::prepare_options() const
   prepare.weld_clear_gaps = are_clear_gaps_welded;
   prepare.normals = normals;
   prepare.orient = are_faces_oriented;
+  prepare.may_intersect = may_intersect;
   return prepare;
 }
 
@@ -82,6 +83,7 @@ void write_world(const World& world, const std::filesystem::path& folder)
                      {"weld_auto", world.are_clear_gaps_welded},
                      {"normals", name_of(world.normals)},
                      {"orient", world.are_faces_oriented},
+                     {"may_intersect", world.may_intersect},
                      {"ratio", optional_json(options.ratio)},
                      {"faces", optional_json(options.faces)},
                      {"error", optional_json(options.max_error)},
@@ -140,6 +142,7 @@ World read_world(const std::filesystem::path& folder)
     if (normals == name_of(choice))
       world.normals = choice;
   world.are_faces_oriented = json.value("orient", false);
+  world.may_intersect = json.value("may_intersect", world.may_intersect);
   Simplify_options& options = world.options;
   read_optional(json["ratio"], options.ratio);
   read_optional(json["faces"], options.faces);
@@ -207,6 +210,8 @@ std::string command_line(const World& world)
     add("--lock", quoted(name));
   for (const std::string& name : world.intent.kept)
     add("--keep", quoted(name));
+  for (const auto& [first, second] : world.may_intersect)
+    add("--may-intersect", quoted(first + ':' + second));
   if (!world.intent.weights.empty())
     add("--weights", quoted(world.intent.weights));
   add_if_other("--normal-change", options.max_normal_change, plain.max_normal_change);

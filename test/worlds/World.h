@@ -13,6 +13,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace selvedge::test {
@@ -34,7 +35,8 @@ struct World
   bool are_clear_gaps_welded = false; ///< then the distance is 0
   Normals_choice normals = Normals_choice::automatic;
   bool are_faces_oriented = true;
-  Simplify_options options; ///< without who is to be told or asked
+  std::vector<std::pair<std::string, std::string>> may_intersect; ///< names of objects
+  Simplify_options options;                                       ///< without who is to be told or asked
   Simplify_intent intent;
   std::vector<double> lods;
 

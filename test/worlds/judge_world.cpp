@@ -97,6 +97,16 @@ Point_3 rounded(const Point_3& p)
   return {x, y, z};
 }
 
+// In which of the two objects that may intersect a triangle is: 1, 2, or 0 for neither.
+char part_of_triangle(const World& world, Index triangle)
+{
+  if (world.may_intersect.empty())
+    return 0;
+  const auto& [first, second] = world.may_intersect.front();
+  const std::string& object = world.soup.objects.names[world.soup.objects.of_triangle[triangle]];
+  return object == first ? 1 : object == second ? 2 : 0;
+}
+
 // Before the reduction
 // ----------------------------------------------------------------------------------------------------------
 
@@ -108,16 +118,17 @@ struct Expected_start
     const bool is_rounded = world.prepare_options().round_to_float32;
     soup.points = world.soup.points;
     const std::vector<Index> first = first_at_position(soup.points);
-    std::vector<Index_triple> kept;
-    std::copy_if(world.soup.triangles.begin(), world.soup.triangles.end(), std::back_inserter(kept),
-                 [&](const Index_triple& t) { return has_three_positions(t, first); });
     std::vector<Point_3> before = soup.points;
     if (is_rounded)
       for (Point_3& p : soup.points)
         p = rounded(p);
     const std::vector<Index> first_after = first_at_position(soup.points);
-    std::copy_if(kept.begin(), kept.end(), std::back_inserter(soup.triangles),
-                 [&](const Index_triple& t) { return has_three_positions(t, first_after); });
+    for (Index t = 0; t < world.soup.triangles.size(); ++t)
+      if (const Index_triple& triangle = world.soup.triangles[t];
+          has_three_positions(triangle, first) && has_three_positions(triangle, first_after)) {
+        soup.triangles.push_back(triangle);
+        part_of.push_back(part_of_triangle(world, t));
+      }
     obstacle.points = world.obstacle.points;
     const std::vector<Index> first_of_obstacle = first_at_position(obstacle.points);
     std::copy_if(world.obstacle.triangles.begin(), world.obstacle.triangles.end(),
@@ -145,6 +156,7 @@ struct Expected_start
 
   Triangle_soup soup, obstacle; // points and triangles alone
   std::vector<char> is_merged;  // by own vertex
+  std::vector<char> part_of;    // by own triangle
 };
 
 /// Whether no power of two brings the largest coordinate of the soup between 2^-140 and 2^140 without taking
@@ -187,7 +199,12 @@ Verdict judge_refusal(const World& world, const std::string& message)
     for (const Index_triple& t : world.obstacle.triangles)
       if (!has_three_positions(t, first_of_obstacle))
         return std::nullopt;
-    if (!Judged_complex(world.soup, world.obstacle).offending_pairs().empty())
+    Judged_complex complex(world.soup, world.obstacle);
+    std::vector<char> part_of;
+    for (Index t = 0; t < world.soup.triangles.size(); ++t)
+      part_of.push_back(part_of_triangle(world, t));
+    complex.permit(part_of);
+    if (!complex.offending_pairs().empty())
       return std::nullopt;
   }
   const Expected_start expected(world);
@@ -782,6 +799,7 @@ Verdict judge(const World& world, const World_run& run, Judgement_counts& counts
     return judge_refusal(world, *run.refusal);
   const Expected_start expected(world);
   Judged_complex complex(expected.soup, expected.obstacle);
+  complex.permit(expected.part_of);
   if (auto broken = judge_preparation(world, run, expected, complex))
     return broken;
   if (auto broken = judge_snaps(world, run, complex, counts))

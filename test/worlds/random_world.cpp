@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <set>
 #include <string>
 #include <tuple>
@@ -251,6 +252,60 @@ void choose_parts(World& world, Random& random)
       intent.weights = attribute.name;
 }
 
+/// Makes objects of some of what hangs together by positions, and lets the first two of them intersect. It
+/// does nothing where not enough is apart. Other random numbers, so that worlds of earlier versions stay what
+/// they were but for that.
+void let_objects_intersect(World& world)
+{
+  Triangle_soup& soup = world.soup;
+  if (!soup.objects.empty())
+    return;
+  const auto position = [&](Index v) { // rounding may join
+    const Point_3& p = soup.points[v];
+    return std::array{float(p.x()) + 0.f, float(p.y()) + 0.f, float(p.z()) + 0.f};
+  };
+  std::map<std::array<float, 3>, Index> numbers;
+  std::vector<Index> first;
+  for (Index v = 0; v < soup.points.size(); ++v)
+    first.push_back(numbers.emplace(position(v), v).first->second);
+  const auto root = [&](Index v) {
+    for (v = first[v]; first[v] != v;)
+      v = first[v];
+    return v;
+  };
+  for (const auto& [a, b, c] : soup.triangles)
+    for (const Index v : {b, c})
+      if (const Index from = root(a), to = root(v); from != to)
+        first[std::max(from, to)] = std::min(from, to);
+  // Only what has a triangle with three positions is certain to be there after the preparation.
+  std::vector<Index> pieces, proper; // by their roots; the first such triangle of each
+  for (Index t = 0; t < soup.triangles.size(); ++t) {
+    const auto& [a, b, c] = soup.triangles[t];
+    if (position(a) != position(b) && position(b) != position(c) && position(c) != position(a) &&
+        std::find(pieces.begin(), pieces.end(), root(a)) == pieces.end()) {
+      pieces.push_back(root(a));
+      proper.push_back(t);
+    }
+  }
+  if (pieces.size() < 2)
+    return;
+  Random random(world.seed + 3);
+  std::map<Index, Index> object_of;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    object_of[pieces[i]] = i < 2 ? Index(i + 1) : Index(random.below(3));
+  // Half of the time, what comes later of the first piece is of neither object: then stars have faces of both
+  // kinds.
+  const Index beyond = random.one_in(2) ? proper[0] + Index(random.below(30)) : Index(soup.triangles.size());
+  soup.objects.names = {"rest", "skin", "cloth"};
+  for (Index t = 0; t < soup.triangles.size(); ++t) {
+    const Index piece = root(soup.triangles[t][0]);
+    const auto object = object_of.find(piece);
+    const bool is_of_neither = object == object_of.end() || (piece == pieces[0] && t > beyond);
+    soup.objects.of_triangle.push_back(is_of_neither ? 0 : object->second);
+  }
+  world.may_intersect = {{"skin", "cloth"}};
+}
+
 void choose_options(World& world, Random& random)
 {
   choose_limits(world.options, random);
@@ -335,6 +390,10 @@ World random_world(std::uint64_t seed)
   if (has_polygons)
     world.soup.polygons = fans(world.soup);
   world.defects = random.one_in(25) ? Defects::refuse : random.one_in(4) ? Defects::freeze : Defects::descend;
+  // Cells refuse the option, and snaps may join the two parts.
+  if (world.seed % 3 != 0 && world.input_format == Mesh_format::obj && world.options.faces_per_cell == 0 &&
+      world.weld_distance == 0 && !world.are_clear_gaps_welded)
+    let_objects_intersect(world);
   return world;
 }
 
@@ -347,6 +406,8 @@ World with_other_options(const World& world, std::uint64_t number)
   other.questions.reset();
   Random random(world.seed * 0x9e3779b97f4a7c15 + number * 0xd1b54a32d192ed03);
   choose_options(other, random);
+  if (!world.may_intersect.empty())
+    other.options.faces_per_cell = 0;
   return other;
 }
 

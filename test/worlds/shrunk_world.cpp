@@ -111,6 +111,8 @@ private:
     clear<std::vector<std::string>>([](World& w) -> std::vector<std::string>& { return w.intent.kept; });
     clear<std::vector<Simplify_intent::Part_ratio>>(
         [](World& w) -> std::vector<Simplify_intent::Part_ratio>& { return w.intent.ratios; });
+    clear<std::vector<std::pair<std::string, std::string>>>(
+        [](World& w) -> std::vector<std::pair<std::string, std::string>>& { return w.may_intersect; });
     clear<std::string>([](World& w) -> std::string& { return w.intent.weights; });
 
     if (m_world.soup.scene || m_world.input_format != Mesh_format::obj)

@@ -81,7 +81,7 @@ def simplify(points, triangles, *, obstacle=None, groups=None, weights=None, loc
     options: those of `selvedge simplify` by their names in its reports (`option_names`), such as ratio=0.3, faces=2000,
     error=0.001 (None: no limit), placement="optimal", lock=["collar"], part_ratios={"collar": 0.5}, threads=1.
     obstacle: (points, triangles) that no face may touch or pass through.
-    groups: one name for each triangle; `lock`, `keep` and `part_ratios` refer to them.
+    groups: one name for each triangle; `lock`, `keep`, `part_ratios` and `may_intersect` ("A:B") refer to them.
     weights: one number for each vertex, at least 0: how costly it is to remove, relative to the largest.
     lock_vertices: numbers of vertices that do not move.
     progress: called as progress(faces_input, faces_target, faces) now and then; when it returns true, the reduction ends

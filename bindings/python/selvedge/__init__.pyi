@@ -66,6 +66,7 @@ def simplify(
     part_ratios: Mapping[str, float] = ...,
     lock: Union[str, Sequence[str]] = ...,
     keep: Union[str, Sequence[str]] = ...,
+    may_intersect: Union[str, Sequence[str]] = ...,
     weld: Union[float, str] = ...,
     sewn: bool = ...,
     normals: str = ...,

@@ -59,7 +59,8 @@ namespace selvedge {
 ///
 /// **Meshes that are not embedded** at the start: nothing is promised, unless `exempt` names all offending
 /// pairs. Then these pairs and their descendants are exempt from G1 and G2, all others are not, and there are
-/// never more offending pairs than at the start (docs/guarantees.md).
+/// never more offending pairs than at the start (docs/guarantees.md). Nothing is promised of the pairs that
+/// `let_intersect` names either.
 ///
 /// **Exactness** The predicates of `GeomTraits` decide. They must be exact, as those of
 /// `Exact_predicates_inexact_constructions_kernel` are; kernels for which they are not do not compile, nor
@@ -147,6 +148,19 @@ public:
   void exempt(const std::vector<std::pair<Face, Face>>& offending_pairs) const
   {
     m_guard->exempt(offending_pairs);
+  }
+
+  /// Lets faces of two parts intersect each other, at the start and afterwards: no face of the first is
+  /// compared with one of the second. All other pairs stay guarded. The parts of a pair are never joined: no
+  /// vertex merges with another where faces of both would meet.
+  ///
+  /// Throws `Argument_error` when there are more than 32 pairs of parts, when a face belongs to both parts of
+  /// a pair, and when faces of both have a common position.
+  ///
+  /// **Preconditions** No question has been asked yet.
+  void let_intersect(const std::vector<std::pair<std::vector<Face>, std::vector<Face>>>& parts) const
+  {
+    m_guard->let_intersect(parts);
   }
 
   Visitor visitor() const { return Visitor(m_guard); }

@@ -63,6 +63,10 @@ struct Simplify_constraints
   /// of which all such faces have locked vertices needs none.
   std::vector<std::pair<Face, Face>> offending_pairs;
 
+  /// Pairs of parts, by their faces, that may come to intersect each other, see
+  /// `Intersection_filter::let_intersect`. `offending_pairs` has none of the pairs between them.
+  std::vector<std::pair<std::vector<Face>, std::vector<Face>>> may_intersect;
+
   /// The length of which the lengths in the options are fractions; by default, the diagonal of the mesh. A
   /// mesh that is a part of another needs the diagonal of the whole.
   std::optional<double> diagonal;

@@ -10,6 +10,7 @@
 #include <selvedge/Surface_mesh_simplification/internal/Descent.h>
 #include <selvedge/Surface_mesh_simplification/internal/Face_table.h>
 #include <selvedge/Surface_mesh_simplification/internal/Moving_star.h>
+#include <selvedge/Surface_mesh_simplification/internal/Permitted_pairs.h>
 #include <selvedge/Surface_mesh_simplification/internal/Star_view.h>
 #include <selvedge/Surface_mesh_simplification/internal/Vertex_table.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
@@ -46,6 +47,9 @@ namespace internal {
 ///
 /// Conditions 1 and 2 are not asked of exempt pairs (`Descent`), but a collapse must not make more of them
 /// offend. A degenerate face does not move: it stays as it is until it is contracted onto an end of an edge.
+///
+/// Condition 1 is not asked of permitted pairs (`Permitted_pairs`) either; no star has faces of two
+/// parts that may intersect.
 template <class TriangleMesh, class VertexPointMap, class GeomTraits, class FaceIndex>
 class Intersection_guard
 {
@@ -77,6 +81,14 @@ public:
     for (const auto& [f, g] : offending)
       pairs.push_back({m_faces.id(f), m_faces.id(g)});
     m_descent.begin(pairs, m_faces.size());
+  }
+
+  /// Permits pairs between two parts. Call it before the first question.
+  void let_intersect(const std::vector<std::pair<std::vector<Face>, std::vector<Face>>>& parts)
+  {
+    m_permitted.begin(parts, m_faces);
+    if (m_permitted.is_any())
+      m_star.keep_faces();
   }
 
   Intersection_guard(const Intersection_guard&) = delete; // its parts refer to each other
@@ -257,7 +269,7 @@ private:
   {
     m_pairs_after.clear();
     const auto is_within_limit = [&](std::size_t i, const Triangle& other, Id id) {
-      if (do_faces_offend(m_changed[i], other, m_traits))
+      if (!m_permitted.has(m_changed_ids[i], id) && do_faces_offend(m_changed[i], other, m_traits))
         m_pairs_after.push_back({m_changed_ids[i], id});
       return m_pairs_after.size() <= limit;
     };
@@ -365,6 +377,8 @@ private:
       m_view.enclose_star();
     gather_faces_near(motion);
     m_stationary.clear();
+    if (m_permitted.is_any())
+      m_permitted.begin_star(m_star, m_faces);
     // A vertex that does not merge with a neighbour must not come to the position of any other vertex.
     std::optional<Id> face_at_place;
     for (const Id id : m_near) {
@@ -375,6 +389,14 @@ private:
         for (const auto corner : face.corners)
           if (m_star[corner] == motion.place)
             face_at_place = id;
+      if (m_permitted.is_any() && m_permitted.has_some(id)) {
+        if (motion.target && std::count(face.corners.begin(), face.corners.end(), Star::s_to) > 0) {
+          m_blockers.push_back(m_faces.descriptor(id)); // the merged star would have faces of both parts
+          return false;
+        }
+        if (m_permitted.has_all(id))
+          continue;
+      }
       if (m_is_descent_asked && m_descent.is_exempt(id))
         continue;
       if (!m_view.has_view() || !is_clear_of_star_in_view(face))
@@ -383,7 +405,7 @@ private:
     m_sweeps.clear();
     for (const Stationary_face& face : m_stationary)
       for (std::size_t j = 0; j < m_star.link().size(); ++j)
-        if (!m_star.is_contracted(j) && !is_sweep_clear(j, face)) {
+        if (!m_star.is_contracted(j) && !m_permitted.has_at(j, face.id) && !is_sweep_clear(j, face)) {
           m_blockers.push_back(m_faces.descriptor(face.id));
           return false;
         }
@@ -457,6 +479,7 @@ private:
   bool m_is_mover_first = false;
   std::size_t m_others_left = 0; // collapses that go along with the last one, and have not been done
   Descent m_descent;
+  Permitted_pairs<Id> m_permitted;
   bool m_is_descent_asked = false; // whether faces of the collapse in question have offending ancestors
   bool m_has_degenerate = false;   // whether a face of it is degenerate, and so contracted
   std::vector<Face> m_blockers;

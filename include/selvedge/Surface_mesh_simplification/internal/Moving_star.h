@@ -32,6 +32,7 @@ class Moving_star
 {
   using Graph_traits = boost::graph_traits<TriangleMesh>;
   using Halfedge = typename Graph_traits::halfedge_descriptor;
+  using Face = typename Graph_traits::face_descriptor;
   using Number = typename VertexTable::Number;
 
 public:
@@ -58,6 +59,9 @@ public:
 
   Moving_star(const TriangleMesh& mesh, VertexTable& vertices) : m_mesh(mesh), m_vertices(vertices) {}
 
+  /// Lets every star know the faces at its link from now on.
+  void keep_faces() { m_are_faces_kept = true; }
+
   /// Numbers the points of the star. Returns false when a face that is not contracted has a corner where the
   /// mover goes; then nothing else may be asked.
   bool gather(const Motion& motion)
@@ -70,6 +74,7 @@ public:
       m_vertices.mark(m_vertices.number(*motion.target), s_to);
     m_link.clear();
     m_is_contracted.clear();
+    m_link_faces.clear();
     m_is_closed = true;
     m_has_target = motion.target.has_value();
     const bool is_gathered = all_of_movers(
@@ -157,6 +162,9 @@ public:
   /// Returns whether the face at the j-th edge of the link is contracted: it has `s_to` as a corner.
   bool is_contracted(std::size_t j) const { return m_is_contracted[j]; }
 
+  /// The face at each edge of the link, after `keep_faces`.
+  const std::vector<Face>& link_faces() const { return m_link_faces; }
+
   bool is_closed() const { return m_is_closed; }
 
   /// Returns whether the link is one cycle of distinct positions.
@@ -210,6 +218,8 @@ private:
         return false;
       m_link.push_back({first, second});
       m_is_contracted.push_back(is_contracted);
+      if (m_are_faces_kept)
+        m_link_faces.push_back(face(h, m_mesh));
     }
     return true;
   }
@@ -220,6 +230,8 @@ private:
   std::size_t m_size = 0;
   std::vector<Link_edge> m_link;
   std::vector<char> m_is_contracted; // by edge
+  std::vector<Face> m_link_faces;    // likewise, if they are kept
+  bool m_are_faces_kept = false;
   std::vector<Local> m_contracted_apexes;
   bool m_is_closed = false, m_has_target = false;
   Vertex_motion<Point> m_exact;

@@ -237,7 +237,8 @@ public:
         m_aspect_ratio(options.min_aspect_ratio, m_target, {&mesh, m_rule}),
         m_normal_change(options.max_normal_change, m_aspect_ratio),
         m_uv({options.check_uv_orientation ? &observer : nullptr, m_rule}, m_normal_change), m_tracked(mesh),
-        m_error(max_error(), m_tracked, m_uv), m_offending_pairs(constraints.offending_pairs)
+        m_error(max_error(), m_tracked, m_uv), m_offending_pairs(constraints.offending_pairs),
+        m_may_intersect(constraints.may_intersect)
   {
     refuse_out_of_range();
     if (!(options.uv_weight >= 0 && std::isfinite(options.uv_weight)))
@@ -544,6 +545,7 @@ private:
     if (m_options.check_intersections) {
       m_intersection.emplace(m_mesh, m_error, empty_index(), m_points);
       m_intersection->exempt(m_offending_pairs);
+      m_intersection->let_intersect(m_may_intersect);
     }
     Cancellation_scope::check();
     m_report.seconds_index = seconds_since(start);
@@ -949,6 +951,7 @@ private:
   Tracked_points<TriangleMesh> m_tracked;
   Error m_error;
   std::vector<std::pair<typename Intersection::Face, typename Intersection::Face>> m_offending_pairs;
+  decltype(Simplify_constraints<TriangleMesh>::may_intersect) m_may_intersect;
   std::optional<Intersection> m_intersection;
   Simplify_report m_report;
   std::size_t m_accepted = 0;
