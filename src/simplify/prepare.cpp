@@ -148,6 +148,10 @@ private:
       const std::vector<char> is_of_a = triangles_named(soup(), a), is_of_b = triangles_named(soup(), b);
       std::vector<char> has_a(positions.size(), false);
       for (Index t = 0; t < soup().triangles.size(); ++t)
+        if (is_of_a[t] && is_of_b[t])
+          throw Argument_error("triangle " + std::to_string(t + 1) + " belongs to both '" + a + "' and '" +
+                               b + "'; no part may intersect itself");
+      for (Index t = 0; t < soup().triangles.size(); ++t)
         for (const Index v : soup().triangles[t])
           has_a[positions[v]] |= is_of_a[t];
       for (Index t = 0; t < soup().triangles.size(); ++t)

@@ -63,12 +63,15 @@ void permit_of_result(const Triangle_soup& result, const Triangle_soup* original
 std::size_t take_out_pairs_between(const std::vector<char>& first, const std::vector<char>& second,
                                    std::vector<Offending_pair>& pairs)
 {
-  const auto is_in = [](const std::vector<char>& part, Index triangle) {
-    return triangle < part.size() && part[triangle] != 0;
+  // A triangle of both parts is of neither: no part may intersect itself.
+  const auto is_in = [](const std::vector<char>& part, const std::vector<char>& other, Index triangle) {
+    return triangle < part.size() && part[triangle] != 0 && other[triangle] == 0;
+  };
+  const auto are_between = [&](Index a, Index b) {
+    return is_in(first, second, a) && is_in(second, first, b);
   };
   const auto kept = std::remove_if(pairs.begin(), pairs.end(), [&](const Offending_pair& pair) {
-    return pair.first != pair.second && ((is_in(first, pair.first) && is_in(second, pair.second)) ||
-                                         (is_in(second, pair.first) && is_in(first, pair.second)));
+    return are_between(pair.first, pair.second) || are_between(pair.second, pair.first);
   });
   const std::size_t count = std::size_t(pairs.end() - kept);
   pairs.erase(kept, pairs.end());

@@ -124,6 +124,16 @@ TEST(May_intersect, PairsOfTheInputAreNeitherRefusedNorFrozen)
   EXPECT_THROW(prepare(soup, options), Input_error);
 }
 
+TEST(May_intersect, NoPartIntersectsItself)
+{
+  Triangle_soup soup = dressed(300, true);
+  soup.objects.of_triangle.assign(soup.triangles.size(), s_skin);
+  EXPECT_THROW(prepare(soup, with_permission({{"bare", "skin"}})), Argument_error);
+  Verify_options options;
+  options.may_intersect = {{"bare", "skin"}, {"skin", "skin"}};
+  EXPECT_FALSE(verify(soup, options).pairs.empty());
+}
+
 TEST(May_intersect, IsNotForPartsThatAreJoined)
 {
   Triangle_soup soup = sheet(6, 1);
