@@ -27,7 +27,7 @@ namespace {
 constexpr Index s_skin = 0, s_cloth = 1, s_belt = 2;
 
 /// Wavy sheets close above each other, skin, cloth and belt; where `is_crossed`, the belt intersects both.
-Triangle_soup dressed(std::size_t faces, bool is_crossed = false)
+Triangle_soup layered(std::size_t faces, bool is_crossed = false)
 {
   const Triangle_soup sheet = sheets(faces / 3, 1, 1e-3);
   Triangle_soup plain;
@@ -71,7 +71,7 @@ TEST(May_intersect, TheTwoPartsAloneDo)
   all[2].loop = Collapse_loop::cgal;
   all[3].index = Face_index::clusters;
   for (const bool is_crossed : {false, true}) {
-    const Triangle_soup soup = dressed(900, is_crossed);
+    const Triangle_soup soup = layered(900, is_crossed);
     const std::size_t skin_before = pairs_between(soup, s_skin, s_belt),
                       cloth_before = pairs_between(soup, s_cloth, s_belt);
     EXPECT_EQ(cloth_before > 0, is_crossed);
@@ -103,14 +103,14 @@ TEST(May_intersect, TheTwoPartsAloneDo)
       EXPECT_FALSE(replay_text(soup, without_line(free.log, "may_intersect")).is_accepted());
     }
   }
-  const Triangle_soup soup = dressed(900);
+  const Triangle_soup soup = layered(900);
   EXPECT_GT(pairs_between(reduce(soup, without_check(all[0])).simplified.soup, s_cloth, s_belt), 0u)
       << "the control: nothing else keeps the others apart";
 }
 
 TEST(May_intersect, PairsOfTheInputAreNeitherRefusedNorFrozen)
 {
-  const Triangle_soup soup = dressed(1200, true);
+  const Triangle_soup soup = layered(1200, true);
   Prepare_options options = with_permission({{"belt", "cloth"}, {"skin", "belt"}});
   for (const Defects defects : {Defects::descend, Defects::freeze, Defects::refuse}) {
     options.defects = defects;
@@ -126,7 +126,7 @@ TEST(May_intersect, PairsOfTheInputAreNeitherRefusedNorFrozen)
 
 TEST(May_intersect, NoPartIntersectsItself)
 {
-  Triangle_soup soup = dressed(300, true);
+  Triangle_soup soup = layered(300, true);
   soup.objects.of_triangle.assign(soup.triangles.size(), s_skin);
   EXPECT_THROW(prepare(soup, with_permission({{"bare", "skin"}})), Argument_error);
   Verify_options options;
@@ -163,22 +163,22 @@ TEST(May_intersect, IsNotForPartsThatAreJoined)
   EXPECT_THROW(prepare(gaping, options), Argument_error);
 }
 
-using Mesh = CGAL::Surface_mesh<Point_3>;
-using Faces = std::vector<Mesh::Face_index>;
-using Parts = std::vector<std::pair<Faces, Faces>>;
+using Strip_mesh = CGAL::Surface_mesh<Point_3>;
+using Strip_faces = std::vector<Strip_mesh::Face_index>;
+using Strip_parts = std::vector<std::pair<Strip_faces, Strip_faces>>;
 
 /// What the filter says of the collapse of vertex 1 onto 2 in a strip of three squares, which begins a soup.
-bool is_accepted(const Triangle_soup& soup, const Parts& parts)
+bool is_collapse_accepted(const Triangle_soup& soup, const Strip_parts& parts)
 {
-  using Vertex = Mesh::Vertex_index;
-  using Points = Mesh::Property_map<Vertex, Point_3>;
-  using Profile = internal::Lazy_edge_profile<Mesh, Points, Kernel>;
-  Mesh mesh;
+  using Vertex = Strip_mesh::Vertex_index;
+  using Points = Strip_mesh::Property_map<Vertex, Point_3>;
+  using Profile = internal::Lazy_edge_profile<Strip_mesh, Points, Kernel>;
+  Strip_mesh mesh;
   for (const Point_3& p : soup.points)
     mesh.add_vertex(p);
   for (const auto& [a, b, c] : soup.triangles)
     mesh.add_face(Vertex(a), Vertex(b), Vertex(c));
-  const Intersection_filter<Mesh> filter(mesh);
+  const Intersection_filter<Strip_mesh> filter(mesh);
   filter.let_intersect(parts);
   filter.visitor().OnStarted(mesh);
   const Points points = mesh.points();
@@ -187,44 +187,46 @@ bool is_accepted(const Triangle_soup& soup, const Parts& parts)
   return filter.accepts(internal::Collapse<Profile>(profile, mesh.point(Vertex(2))));
 }
 
-const Faces s_first{Mesh::Face_index(0), Mesh::Face_index(1)},
-    s_middle{Mesh::Face_index(2), Mesh::Face_index(3)}, s_last{Mesh::Face_index(4), Mesh::Face_index(5)},
-    s_both{Mesh::Face_index(0), Mesh::Face_index(1), Mesh::Face_index(2), Mesh::Face_index(3)},
-    s_other{Mesh::Face_index(6)};
+const Strip_faces s_first{Strip_mesh::Face_index(0), Strip_mesh::Face_index(1)},
+    s_middle{Strip_mesh::Face_index(2), Strip_mesh::Face_index(3)},
+    s_last{Strip_mesh::Face_index(4), Strip_mesh::Face_index(5)},
+    s_both{Strip_mesh::Face_index(0), Strip_mesh::Face_index(1), Strip_mesh::Face_index(2),
+           Strip_mesh::Face_index(3)},
+    s_other{Strip_mesh::Face_index(6)};
 
 TEST(May_intersect, FilterNeverJoinsTheTwoParts)
 {
   const Triangle_soup strip = sheet(3, 1);
-  EXPECT_TRUE(is_accepted(strip, {}));
-  EXPECT_TRUE(is_accepted(strip, {{s_first, {}}}));
-  EXPECT_FALSE(is_accepted(strip, {{s_first, s_last}}));
-  EXPECT_FALSE(is_accepted(strip, {{s_last, s_first}}));
-  EXPECT_THROW(is_accepted(strip, {{s_first, s_middle}}), Argument_error);
-  EXPECT_THROW(is_accepted(strip, {{s_first, s_first}}), Argument_error);
-  EXPECT_THROW(is_accepted(strip, Parts(33)), Argument_error);
+  EXPECT_TRUE(is_collapse_accepted(strip, {}));
+  EXPECT_TRUE(is_collapse_accepted(strip, {{s_first, {}}}));
+  EXPECT_FALSE(is_collapse_accepted(strip, {{s_first, s_last}}));
+  EXPECT_FALSE(is_collapse_accepted(strip, {{s_last, s_first}}));
+  EXPECT_THROW(is_collapse_accepted(strip, {{s_first, s_middle}}), Argument_error);
+  EXPECT_THROW(is_collapse_accepted(strip, {{s_first, s_first}}), Argument_error);
+  EXPECT_THROW(is_collapse_accepted(strip, Strip_parts(33)), Argument_error);
 }
 
-// Faces of the first and of the middle square move.
+// Strip_faces of the first and of the middle square move.
 TEST(May_intersect, FilterAsksEveryFaceOfAStarForItself)
 {
   const Triangle_soup needle_in_first =
       joined(sheet(3, 1), soup({{0.5, 0.2, -1}, {0.6, 0.2, -1}, {0.55, 0.2, 1}}, {{0, 1, 2}}));
-  EXPECT_FALSE(is_accepted(needle_in_first, {}));
-  EXPECT_TRUE(is_accepted(needle_in_first, {{s_first, s_other}}));
-  EXPECT_TRUE(is_accepted(needle_in_first, {{s_last, {}}, {s_other, s_first}}));
-  EXPECT_FALSE(is_accepted(needle_in_first, {{s_middle, s_other}}));
+  EXPECT_FALSE(is_collapse_accepted(needle_in_first, {}));
+  EXPECT_TRUE(is_collapse_accepted(needle_in_first, {{s_first, s_other}}));
+  EXPECT_TRUE(is_collapse_accepted(needle_in_first, {{s_last, {}}, {s_other, s_first}}));
+  EXPECT_FALSE(is_collapse_accepted(needle_in_first, {{s_middle, s_other}}));
 
   // Under the edge of the two, which the collapse flattens.
   Triangle_soup bump =
       joined(sheet(3, 1), soup({{0.9, 0.5, 0.2}, {1.5, 0.5, 0.2}, {1, 0.55, 0.2}}, {{0, 1, 2}}));
   bump.points[1] = Point_3(1, 0, 1);
-  EXPECT_FALSE(is_accepted(bump, {{s_first, s_other}}));
-  EXPECT_FALSE(is_accepted(bump, {{s_middle, s_other}}));
-  EXPECT_TRUE(is_accepted(bump, {{s_both, s_other}}));
-  EXPECT_TRUE(is_accepted(bump, {{s_first, s_other}, {s_middle, s_other}}));
-  Faces one = s_both;
+  EXPECT_FALSE(is_collapse_accepted(bump, {{s_first, s_other}}));
+  EXPECT_FALSE(is_collapse_accepted(bump, {{s_middle, s_other}}));
+  EXPECT_TRUE(is_collapse_accepted(bump, {{s_both, s_other}}));
+  EXPECT_TRUE(is_collapse_accepted(bump, {{s_first, s_other}, {s_middle, s_other}}));
+  Strip_faces one = s_both;
   one.push_back(s_other[0]);
-  EXPECT_FALSE(is_accepted(bump, {{one, {}}})) << "a part may not intersect itself";
+  EXPECT_FALSE(is_collapse_accepted(bump, {{one, {}}})) << "a part may not intersect itself";
 }
 
 TEST(Log, NamesOfPartsKeepTheirBytes)
