@@ -334,7 +334,7 @@ TEST(Bindings, EveryOptionTakesAValueAndRefusesAnother)
     bindings::Reduction_request request;
     std::size_t taken = 0;
     for (const char* value : {"0.25", "3", "optimal", "cgal", "clusters", "true", "false", "collar=0.5",
-                              "keep", "freeze", "apart"}) {
+                              "keep", "freeze", "apart", "skin:coat"}) {
       try {
         const std::string before = request.json();
         request.set(name, value);

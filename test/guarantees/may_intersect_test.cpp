@@ -71,7 +71,7 @@ TEST(May_intersect, TheTwoPartsAloneDo)
   all[2].loop = Collapse_loop::cgal;
   all[3].index = Face_index::clusters;
   for (const bool is_crossed : {false, true}) {
-    const Triangle_soup soup = layered(900, is_crossed);
+    const Triangle_soup soup = layered(2400, is_crossed);
     const std::size_t skin_before = pairs_between(soup, s_skin, s_belt),
                       cloth_before = pairs_between(soup, s_cloth, s_belt);
     EXPECT_EQ(cloth_before > 0, is_crossed);
@@ -103,7 +103,7 @@ TEST(May_intersect, TheTwoPartsAloneDo)
       EXPECT_FALSE(replay_text(soup, without_line(free.log, "may_intersect")).is_accepted());
     }
   }
-  const Triangle_soup soup = layered(900);
+  const Triangle_soup soup = layered(2400);
   EXPECT_GT(pairs_between(reduce(soup, without_check(all[0])).simplified.soup, s_cloth, s_belt), 0u)
       << "the control: nothing else keeps the others apart";
 }
