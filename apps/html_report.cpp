@@ -8,6 +8,7 @@
 
 #include <selvedge/Error.h>
 #include <selvedge/Parts.h>
+#include <selvedge/internal/base64.h>
 
 #include <zlib.h>
 
@@ -25,22 +26,6 @@ constexpr Index none = Index(-1);
 
 // Flags of a face.
 constexpr std::uint32_t is_frozen = 1, is_locked = 2, is_offending = 4;
-
-std::string base64(const std::string& bytes)
-{
-  static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = (std::min)(bytes.size() - i, std::size_t(3));
-    std::uint32_t bits = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      bits = bits << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += k <= count ? digits[bits >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
 
 std::string deflated(const std::string& bytes)
 {
@@ -78,9 +63,10 @@ double finite(double number)
 CLI::Option* add_html_option(CLI::App& command, std::string& file)
 {
   return command
-      .add_option("--html", file,
-                  "Write a page that shows the mesh before and after, for a browser: one file, which needs no "
-                  "network.")
+      .add_option(
+          "--html", file,
+          "Write a page that shows the mesh before and after, for a browser: one file, which needs no "
+          "network.")
       ->type_name("FILE");
 }
 
@@ -105,7 +91,7 @@ Html_report::Html_report(const Triangle_soup& before, const Triangle_soup& besid
   const double largest = std::max({half_span(0), half_span(1), half_span(2)});
   for (int axis = 0; axis < 3; ++axis)
     extents.push_back(largest > 0 ? half_span(axis) / largest : 0);
-  m_scene = {{"extents", extents}, {"meshes", Json::array()},    {"levels", Json::array()},
+  m_scene = {{"extents", extents},         {"meshes", Json::array()}, {"levels", Json::array()},
              {"collapses", Json::array()}, {"places", Json::array()}, {"obstacle", nullptr}};
   for (const Hindrances::Description& description : Hindrances::descriptions())
     m_scene["reasons"].push_back(description.name);
@@ -255,7 +241,8 @@ void Html_report::add_level(const std::string& name, const Simplified_soup& resu
 {
   const bool is_first = m_scene["levels"].empty();
   const std::vector<double> distances = vertex_distances(m_before, result.soup);
-  const double largest = distances.empty() ? 0 : finite(*std::max_element(distances.begin(), distances.end()));
+  const double largest =
+      distances.empty() ? 0 : finite(*std::max_element(distances.begin(), distances.end()));
   Numbers held_by;
   for (const Hindrance reason : result.held_by)
     held_by.push_back(std::uint32_t(reason));
@@ -353,13 +340,11 @@ void Html_report::add_deviations(const std::string& heading, const Triangle_soup
       continue;
     taken.push_back(at);
     list.push_back(place_json({soup.points[v]}, "vertex " + std::to_string(v + 1) + ": " +
-                                                     with_digits(distances[v]) + " away"));
+                                                    with_digits(distances[v]) + " away"));
   }
   if (!list.empty())
-    m_scene["places"].push_back({{"heading", heading},
-                                 {"count", list.size()},
-                                 {"is_after", is_after},
-                                 {"list", std::move(list)}});
+    m_scene["places"].push_back(
+        {{"heading", heading}, {"count", list.size()}, {"is_after", is_after}, {"list", std::move(list)}});
 }
 
 std::string Html_report::page(const Json& report) const
@@ -370,7 +355,7 @@ std::string Html_report::page(const Json& report) const
   };
   put("[[report]]", without_tags(to_text(report)));
   put("[[scene]]", without_tags(to_text(m_scene)));
-  put("[[block]]", base64(deflated(m_block)));
+  put("[[block]]", internal::base64(deflated(m_block)));
   return text;
 }
 

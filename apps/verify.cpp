@@ -207,9 +207,8 @@ void leave_out_permitted(std::vector<Layer_swap>& swaps, const Triangle_soup& re
                             is_of_second = triangles_named(result, parts.second);
     swaps.erase(std::remove_if(swaps.begin(), swaps.end(),
                                [&](const Layer_swap& swap) {
-                                 const auto& [a, b] = swap.of_result;
-                                 return (is_of_first[a] && is_of_second[b]) ||
-                                        (is_of_first[b] && is_of_second[a]);
+                                 return are_between(is_of_first, is_of_second, swap.of_result[0],
+                                                    swap.of_result[1]);
                                }),
                 swaps.end());
   }

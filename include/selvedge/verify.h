@@ -335,9 +335,14 @@ struct Verification
   bool accepted() const { return new_pairs.empty() && matching.is_complete(); }
 };
 
-/// Takes the pairs between two parts out of a list of offending pairs. Returns how many there were. `first`
-/// and `second` say of every triangle whether it belongs to the part; triangles with further numbers, such as
-/// those of an obstacle, belong to neither.
+/// Returns whether of two triangles one belongs to the first of two parts and the other to the second. A
+/// triangle of both parts counts for neither: no part may intersect itself. `first` and `second` say of every
+/// triangle whether it belongs to the part; triangles with further numbers, such as those of an obstacle,
+/// belong to neither.
+bool are_between(const std::vector<char>& first, const std::vector<char>& second, Index a, Index b);
+
+/// Takes the pairs between two parts out of a list of offending pairs. Returns how many there were. The parts
+/// are those of `are_between`.
 std::size_t take_out_pairs_between(const std::vector<char>& first, const std::vector<char>& second,
                                    std::vector<Offending_pair>& pairs);
 

@@ -8,6 +8,7 @@
 
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
+#include <selvedge/internal/base64.h>
 
 #include <algorithm>
 #include <functional>
@@ -27,23 +28,6 @@ using Json = Gltf_scene::Json;
 using Column = Gltf_scene::Column;
 
 constexpr int s_vertices = 34962, s_indices = 34963, s_any = 0; // targets of buffer views; 0 stands for none
-
-std::string base64(const std::string& bytes)
-{
-  static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string result;
-  result.reserve((bytes.size() + 2) / 3 * 4);
-  Cancellation_poll poll;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    poll();
-    std::uint32_t bits = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      bits = bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      result += i + k > bytes.size() ? '=' : digits[bits >> (18 - 6 * k) & 63];
-  }
-  return result;
-}
 
 /// Writes a reduced soup back into the glTF document of its scene.
 class Gltf_writer
@@ -69,7 +53,7 @@ public:
     put_instances();
     std::string bytes = put_buffer();
     if (format == Mesh_format::gltf) {
-      m_document["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64(bytes);
+      m_document["buffers"][0]["uri"] = "data:application/octet-stream;base64," + internal::base64(bytes);
       out << m_document.dump(1, '\t') << '\n';
     } else {
       std::string json = m_document.dump();

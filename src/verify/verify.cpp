@@ -60,18 +60,20 @@ void permit_of_result(const Triangle_soup& result, const Triangle_soup* original
 
 } // namespace
 
-std::size_t take_out_pairs_between(const std::vector<char>& first, const std::vector<char>& second,
-                                   std::vector<Offending_pair>& pairs)
+bool are_between(const std::vector<char>& first, const std::vector<char>& second, Index a, Index b)
 {
-  // A triangle of both parts is of neither: no part may intersect itself.
   const auto is_in = [](const std::vector<char>& part, const std::vector<char>& other, Index triangle) {
     return triangle < part.size() && part[triangle] != 0 && other[triangle] == 0;
   };
-  const auto are_between = [&](Index a, Index b) {
-    return is_in(first, second, a) && is_in(second, first, b);
-  };
+  return (is_in(first, second, a) && is_in(second, first, b)) ||
+         (is_in(first, second, b) && is_in(second, first, a));
+}
+
+std::size_t take_out_pairs_between(const std::vector<char>& first, const std::vector<char>& second,
+                                   std::vector<Offending_pair>& pairs)
+{
   const auto kept = std::remove_if(pairs.begin(), pairs.end(), [&](const Offending_pair& pair) {
-    return are_between(pair.first, pair.second) || are_between(pair.second, pair.first);
+    return are_between(first, second, pair.first, pair.second);
   });
   const std::size_t count = std::size_t(pairs.end() - kept);
   pairs.erase(kept, pairs.end());

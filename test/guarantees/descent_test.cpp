@@ -3,16 +3,13 @@
 
 // Meshes that intersect already: what intersects in the result descends from what did, and is never more.
 
+#include "support/filter_verdict.h"
 #include "support/logged_reduction.h"
 #include "support/meshes.h"
 #include "support/reduction.h"
 #include "support/soups.h"
 
 #include <selvedge/Error.h>
-#include <selvedge/Surface_mesh_simplification/Intersection_filter.h>
-#include <selvedge/Surface_mesh_simplification/internal/Lazy_edge_profile.h>
-
-#include <CGAL/Surface_mesh.h>
 
 #include <gtest/gtest.h>
 
@@ -213,30 +210,16 @@ TEST(Descent, NeverIsOfMorePairsThanThereWere)
 }
 
 // What the filter says of the collapse of one vertex onto another.
-bool is_accepted(const Triangle_soup& soup, bool is_exempt, unsigned target = 17, unsigned mover = 16)
+bool is_accepted(const Triangle_soup& soup, bool is_exempt, Index target = 17, Index mover = 16)
 {
-  using Mesh = CGAL::Surface_mesh<Point_3>;
-  using Vertex = Mesh::Vertex_index;
-  using Points = Mesh::Property_map<Vertex, Point_3>;
-  Mesh mesh;
-  for (const Point_3& p : soup.points)
-    mesh.add_vertex(p);
-  for (const auto& [a, b, c] : soup.triangles)
-    mesh.add_face(Vertex(a), Vertex(b), Vertex(c));
-  const Intersection_filter<Mesh> filter(mesh);
-  if (is_exempt) {
-    std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
+  return is_collapse_accepted(soup, mover, target, [&](const Intersection_filter<Filtered_mesh>& filter) {
+    if (!is_exempt)
+      return;
+    std::vector<std::pair<Filtered_mesh::Face_index, Filtered_mesh::Face_index>> pairs;
     for (const Offending_pair& pair : offending_pairs(soup))
       pairs.emplace_back(pair.first, pair.second);
     filter.exempt(pairs);
-  }
-  filter.visitor().OnStarted(mesh);
-  const Points points = mesh.points();
-  const Kernel kernel;
-  const internal::Lazy_edge_profile<Mesh, Points, Kernel> profile(
-      mesh.halfedge(Vertex(mover), Vertex(target)), mesh, points, kernel);
-  return filter.accepts(internal::Collapse<internal::Lazy_edge_profile<Mesh, Points, Kernel>>(
-      profile, mesh.point(Vertex(target))));
+  });
 }
 
 TEST(Descent, PassesFromFacesThatAreRemoved)

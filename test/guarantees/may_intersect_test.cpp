@@ -3,16 +3,13 @@
 
 // Two parts that may intersect do; every other pair of parts is kept apart as always.
 
+#include "support/filter_verdict.h"
 #include "support/logged_reduction.h"
 #include "support/meshes.h"
 #include "support/reduction.h"
 #include "support/soups.h"
 
 #include <selvedge/Error.h>
-#include <selvedge/Surface_mesh_simplification/Intersection_filter.h>
-#include <selvedge/Surface_mesh_simplification/internal/Lazy_edge_profile.h>
-
-#include <CGAL/Surface_mesh.h>
 
 #include <gtest/gtest.h>
 
@@ -132,6 +129,8 @@ TEST(May_intersect, NoPartIntersectsItself)
   Verify_options options;
   options.may_intersect = {{"bare", "skin"}, {"skin", "skin"}};
   EXPECT_FALSE(verify(soup, options).pairs.empty());
+  EXPECT_TRUE(are_between({1, 0}, {0, 1}, 1, 0));
+  EXPECT_FALSE(are_between({1, 1}, {1, 1}, 1, 0)) << "by which layers may change places as well";
 }
 
 TEST(May_intersect, IsNotForPartsThatAreJoined)
@@ -163,47 +162,33 @@ TEST(May_intersect, IsNotForPartsThatAreJoined)
   EXPECT_THROW(prepare(gaping, options), Argument_error);
 }
 
-using Strip_mesh = CGAL::Surface_mesh<Point_3>;
-using Strip_faces = std::vector<Strip_mesh::Face_index>;
+using Strip_faces = std::vector<Filtered_mesh::Face_index>;
 using Strip_parts = std::vector<std::pair<Strip_faces, Strip_faces>>;
 
 /// What the filter says of the collapse of vertex 1 onto 2 in a strip of three squares, which begins a soup.
-bool is_collapse_accepted(const Triangle_soup& soup, const Strip_parts& parts)
+bool is_strip_collapse_accepted(const Triangle_soup& soup, const Strip_parts& parts)
 {
-  using Vertex = Strip_mesh::Vertex_index;
-  using Points = Strip_mesh::Property_map<Vertex, Point_3>;
-  using Profile = internal::Lazy_edge_profile<Strip_mesh, Points, Kernel>;
-  Strip_mesh mesh;
-  for (const Point_3& p : soup.points)
-    mesh.add_vertex(p);
-  for (const auto& [a, b, c] : soup.triangles)
-    mesh.add_face(Vertex(a), Vertex(b), Vertex(c));
-  const Intersection_filter<Strip_mesh> filter(mesh);
-  filter.let_intersect(parts);
-  filter.visitor().OnStarted(mesh);
-  const Points points = mesh.points();
-  const Kernel kernel;
-  const Profile profile(mesh.halfedge(Vertex(1), Vertex(2)), mesh, points, kernel);
-  return filter.accepts(internal::Collapse<Profile>(profile, mesh.point(Vertex(2))));
+  return is_collapse_accepted(
+      soup, 1, 2, [&](const Intersection_filter<Filtered_mesh>& filter) { filter.let_intersect(parts); });
 }
 
-const Strip_faces s_first{Strip_mesh::Face_index(0), Strip_mesh::Face_index(1)},
-    s_middle{Strip_mesh::Face_index(2), Strip_mesh::Face_index(3)},
-    s_last{Strip_mesh::Face_index(4), Strip_mesh::Face_index(5)},
-    s_both{Strip_mesh::Face_index(0), Strip_mesh::Face_index(1), Strip_mesh::Face_index(2),
-           Strip_mesh::Face_index(3)},
-    s_other{Strip_mesh::Face_index(6)};
+const Strip_faces s_first{Filtered_mesh::Face_index(0), Filtered_mesh::Face_index(1)},
+    s_middle{Filtered_mesh::Face_index(2), Filtered_mesh::Face_index(3)},
+    s_last{Filtered_mesh::Face_index(4), Filtered_mesh::Face_index(5)},
+    s_both{Filtered_mesh::Face_index(0), Filtered_mesh::Face_index(1), Filtered_mesh::Face_index(2),
+           Filtered_mesh::Face_index(3)},
+    s_other{Filtered_mesh::Face_index(6)};
 
 TEST(May_intersect, FilterNeverJoinsTheTwoParts)
 {
   const Triangle_soup strip = sheet(3, 1);
-  EXPECT_TRUE(is_collapse_accepted(strip, {}));
-  EXPECT_TRUE(is_collapse_accepted(strip, {{s_first, {}}}));
-  EXPECT_FALSE(is_collapse_accepted(strip, {{s_first, s_last}}));
-  EXPECT_FALSE(is_collapse_accepted(strip, {{s_last, s_first}}));
-  EXPECT_THROW(is_collapse_accepted(strip, {{s_first, s_middle}}), Argument_error);
-  EXPECT_THROW(is_collapse_accepted(strip, {{s_first, s_first}}), Argument_error);
-  EXPECT_THROW(is_collapse_accepted(strip, Strip_parts(33)), Argument_error);
+  EXPECT_TRUE(is_strip_collapse_accepted(strip, {}));
+  EXPECT_TRUE(is_strip_collapse_accepted(strip, {{s_first, {}}}));
+  EXPECT_FALSE(is_strip_collapse_accepted(strip, {{s_first, s_last}}));
+  EXPECT_FALSE(is_strip_collapse_accepted(strip, {{s_last, s_first}}));
+  EXPECT_THROW(is_strip_collapse_accepted(strip, {{s_first, s_middle}}), Argument_error);
+  EXPECT_THROW(is_strip_collapse_accepted(strip, {{s_first, s_first}}), Argument_error);
+  EXPECT_THROW(is_strip_collapse_accepted(strip, Strip_parts(33)), Argument_error);
 }
 
 // Strip_faces of the first and of the middle square move.
@@ -211,22 +196,22 @@ TEST(May_intersect, FilterAsksEveryFaceOfAStarForItself)
 {
   const Triangle_soup needle_in_first =
       joined(sheet(3, 1), soup({{0.5, 0.2, -1}, {0.6, 0.2, -1}, {0.55, 0.2, 1}}, {{0, 1, 2}}));
-  EXPECT_FALSE(is_collapse_accepted(needle_in_first, {}));
-  EXPECT_TRUE(is_collapse_accepted(needle_in_first, {{s_first, s_other}}));
-  EXPECT_TRUE(is_collapse_accepted(needle_in_first, {{s_last, {}}, {s_other, s_first}}));
-  EXPECT_FALSE(is_collapse_accepted(needle_in_first, {{s_middle, s_other}}));
+  EXPECT_FALSE(is_strip_collapse_accepted(needle_in_first, {}));
+  EXPECT_TRUE(is_strip_collapse_accepted(needle_in_first, {{s_first, s_other}}));
+  EXPECT_TRUE(is_strip_collapse_accepted(needle_in_first, {{s_last, {}}, {s_other, s_first}}));
+  EXPECT_FALSE(is_strip_collapse_accepted(needle_in_first, {{s_middle, s_other}}));
 
   // Under the edge of the two, which the collapse flattens.
   Triangle_soup bump =
       joined(sheet(3, 1), soup({{0.9, 0.5, 0.2}, {1.5, 0.5, 0.2}, {1, 0.55, 0.2}}, {{0, 1, 2}}));
   bump.points[1] = Point_3(1, 0, 1);
-  EXPECT_FALSE(is_collapse_accepted(bump, {{s_first, s_other}}));
-  EXPECT_FALSE(is_collapse_accepted(bump, {{s_middle, s_other}}));
-  EXPECT_TRUE(is_collapse_accepted(bump, {{s_both, s_other}}));
-  EXPECT_TRUE(is_collapse_accepted(bump, {{s_first, s_other}, {s_middle, s_other}}));
+  EXPECT_FALSE(is_strip_collapse_accepted(bump, {{s_first, s_other}}));
+  EXPECT_FALSE(is_strip_collapse_accepted(bump, {{s_middle, s_other}}));
+  EXPECT_TRUE(is_strip_collapse_accepted(bump, {{s_both, s_other}}));
+  EXPECT_TRUE(is_strip_collapse_accepted(bump, {{s_first, s_other}, {s_middle, s_other}}));
   Strip_faces one = s_both;
   one.push_back(s_other[0]);
-  EXPECT_FALSE(is_collapse_accepted(bump, {{one, {}}})) << "a part may not intersect itself";
+  EXPECT_FALSE(is_strip_collapse_accepted(bump, {{one, {}}})) << "a part may not intersect itself";
 }
 
 TEST(Log, NamesOfPartsKeepTheirBytes)
