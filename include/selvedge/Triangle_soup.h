@@ -73,6 +73,13 @@ struct Cut_polygon
   Index start;   ///< its first corner: 3 × triangle + place in it, counting triangles from `first_triangle`
 };
 
+/// Other places of the vertices of a mesh: a frame of a simulation, a skeleton's posture, a morph target.
+struct Pose
+{
+  std::string name;            ///< for messages and for the names of files, such as "frame_0012"
+  std::vector<Point_3> points; ///< one per vertex of the mesh
+};
+
 /// What a glTF file holds beyond its triangles. Opaque.
 struct Gltf_scene;
 
@@ -93,6 +100,9 @@ struct Triangle_soup
 
   /// Three indices into `points`, counter-clockwise seen from outside.
   std::vector<Index_triple> triangles;
+
+  /// Further poses of the mesh; `points` is its first one. See poses.h.
+  std::vector<Pose> poses;
 
   /// Texture coordinates, usually in [0,1]², and normals.
   Corner_values<2> uvs;
