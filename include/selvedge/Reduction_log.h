@@ -19,7 +19,7 @@ class Reduction_log
 public:
   /// Writes the header, the snaps, and the groups of coincident vertices. `header` describes the input file,
   /// its rounding, and the file of the obstacle, if there is one. The limits are added from `options`; the
-  /// weld distance, and an obstacle that has no file, are added from `prepared`.
+  /// weld distance, and an obstacle and poses that `header` does not describe, are added from `prepared`.
   ///
   /// **Preconditions** `stream`, `numbering` and `prepared` outlive the log.
   Reduction_log(std::ostream& stream, Log_header header, const Log_numbering& numbering,

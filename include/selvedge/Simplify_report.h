@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace selvedge {
 
@@ -34,6 +35,10 @@ struct Simplify_report
   Refusals refused;
   Intersection_statistics intersections;
   Index_statistics index;
+  /// For each further pose: collapses that the exact test refused there, after all poses asked before it
+  /// had allowed them. They are among `refused.intersection`.
+  std::vector<std::size_t> refused_in_poses;
+
   std::size_t cells = 0;
   std::size_t collapses_in_cells = 0; ///< how many of `collapses` were found in cells
   double seconds_cells = 0;           ///< part of `seconds_reduce`, until all cells were done and joined

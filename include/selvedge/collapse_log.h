@@ -33,6 +33,7 @@ namespace selvedge {
 ///     defects freeze|descend                 once at most; freeze where it is missing
 ///     may_intersect PART PART                any number of them
 ///     obstacle VERTICES TRIANGLES SHA256     once at most
+///     pose NAME SHA256                       any number of them
 ///     limit NAME NUMBER                      any number of them, each name once
 ///     s MOVED KEPT                           any number of them
 ///     w VERTEX VERTEX ...                    any number of them
@@ -60,6 +61,10 @@ namespace selvedge {
 ///   corner where a triangle of the other has one. Pairs between the two are not judged.
 /// - *obstacle*: a mesh that the writer kept clear of and did not change, described as in *input*. The line
 ///   only records that there was one. The log does not hold its triangles, so they cannot be judged.
+/// - *pose*: a further pose of the input, in which the steps are legal, too: every vertex has another place
+///   there, and moves along its own segment. NAME is written as in *may_intersect*. The SHA-256 is of the
+///   places of all vertices in their order, before rounding: for each its coordinates as 64-bit IEEE floats,
+///   the least significant byte first, −0 as 0. Snaps and new places (X Y Z) do not go together with poses.
 /// - *limit*: a limit that the writer kept to, and by which it wants to be judged. NAME is a key of
 ///   `limit_descriptions` (`normal_change`, `aspect_ratio`, `border_turn`, `seam_turn`, `border_drift`,
 ///   `weld_distance`). NUMBER is at least 0; `Reduction_limits` has the units. The diagonal is that of the
@@ -90,6 +95,9 @@ namespace selvedge {
 /// the count in *input*.
 ///
 /// **Complexity** Logs are read and written line by line: memory does not grow with their length.
+
+/// Returns what a log says of a pose.
+std::string digest_of(const Pose& pose);
 
 /// Converts between the vertices of a soup that was read from a file, and their numbers in a log. The two
 /// differ for STL alone.
@@ -133,6 +141,14 @@ struct Log_header
     std::string sha256; ///< of the file; empty when unknown
   };
   std::optional<Obstacle> obstacle;
+
+  /// A further pose in which the steps are legal.
+  struct Posed
+  {
+    std::string name;
+    std::string sha256; ///< of the places of its vertices; empty when unknown
+  };
+  std::vector<Posed> poses;
 
   Reduction_limits limits;
 };

@@ -131,10 +131,10 @@ struct Prepared_soup
   /// In the members below, vertices and triangles of the obstacle are numbered after those of `soup`.
   Triangle_soup obstacle;
 
-  /// For every vertex, the first vertex that is coincident with it. Vertices count as coincident when they
-  /// are so both before and after rounding: neither when only rounding has made them equal, nor when rounding
-  /// has moved a vertex of the soup away from one of the obstacle. A vertex that has snapped is coincident
-  /// with its partner.
+  /// For every vertex, the first vertex that is coincident with it in every pose. Vertices count as
+  /// coincident when they are so both before and after rounding: neither when only rounding has made them
+  /// equal, nor when rounding has moved a vertex of the soup away from one of the obstacle. A vertex that has
+  /// snapped is coincident with its partner.
   std::vector<Index> positions;
 
   /// The power of two by which a reduction divides the points. The points of `soup` and `obstacle` are not
@@ -148,6 +148,14 @@ struct Prepared_soup
   /// `offending_pairs` has none of them. One that several of them name counts for the first.
   std::vector<std::pair<std::string, std::string>> may_intersect;
   std::vector<std::size_t> permitted_pairs;
+
+  /// For each further pose of `soup`, the offending pairs in it, together with the obstacle in its pose.
+  std::vector<std::vector<Offending_pair>> offending_pairs_in_poses;
+
+  /// For every vertex, whether it is coincident with another in some poses and not in all: then it does not
+  /// move. Empty when there is one pose. `first_held` says of the first which it is, and in which pose.
+  std::vector<char> is_held;
+  std::string first_held;
 
   /// How many of the offending pairs only rounding has made.
   std::size_t pairs_by_rounding = 0;

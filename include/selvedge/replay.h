@@ -78,6 +78,12 @@ struct Replay_options
   /// unknown. When the log names one, too, `replay` throws `Input_error` unless both are the same.
   std::string sha256_of_original;
 
+  /// The further pose of the original in which the steps are judged, by its number in
+  /// `Triangle_soup::poses`; the first one, `Triangle_soup::points`, when there is none. `replay` throws
+  /// `Input_error` when the log states another digest for the pose of this number, or has none of it. The
+  /// unit of the drift is the diagonal of the first pose; the digest of the result is not compared.
+  std::optional<std::size_t> pose;
+
   bool is_all_wanted = false; ///< whether to go on after a bad step as if it were good
 
   /// Called from time to time with the number of steps done; when it returns true, the replay ends there. It
@@ -103,6 +109,7 @@ struct Replay_verdict
   std::vector<Violation> violations;
 
   Log_header header;
+  bool is_in_first_pose = true;
   std::size_t steps = 0;     ///< steps taken
   std::size_t snaps = 0;     ///< how many of them are snaps
   std::size_t collapses = 0; ///< how many of them are collapses
@@ -132,8 +139,8 @@ struct Replay_verdict
 /// Something that a verdict says nothing about.
 struct Not_judged
 {
-  /// The key of a limit, or "lines", "limits_of_snaps", "normals", "may_intersect", "obstacle", "pairs",
-  /// "input", "result" or "attributes".
+  /// The key of a limit, or "lines", "limits_of_snaps", "normals", "may_intersect", "poses",
+  /// "obstacle", "pairs", "input", "result" or "attributes".
   std::string key;
 
   std::string sentence; ///< what it is, and why it was not judged, for a person
@@ -159,6 +166,9 @@ std::vector<Not_judged> not_judged(const Replay_verdict& verdict);
 /// 5. *Limits*: every collapse kept every limit that has a value in `limits`.
 /// 6. *Result*: `soup` is what the log states as its result. `is_result_stated` tells whether the log states
 ///    it to the last triangle, or in counts alone.
+///
+/// A mesh in several poses is judged in one of them at a time: call it again for each
+/// (`Replay_options::pose`). Guarantees 1 to 3 and 5 then hold in that pose.
 ///
 /// When the verdict is not "accepted", the first violation is that of the first bad step. With
 /// `is_all_wanted` a bad step is taken all the same, if it can be. A later step then counts as bad when it is

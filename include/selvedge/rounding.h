@@ -24,15 +24,15 @@ bool is_float32(double value);
 /// Returns the 32-bit float nearest to `value`, ties to even; infinite where it is too large for one.
 double nearest_float32(double value);
 
-/// Returns whether every coordinate of a soup is the value of a 32-bit float.
+/// Returns whether every coordinate of a soup, in all poses, is the value of a 32-bit float.
 bool has_float32_points(const Triangle_soup& soup);
 
-/// Returns whether every coordinate of a soup has no more binary digits than a 32-bit float has, at whatever
-/// exponent. It holds for a soup exactly when it does for its multiple by a power of two.
+/// Returns whether every coordinate of a soup in its first pose has no more binary digits than a 32-bit float
+/// has, at whatever exponent. It holds for a soup exactly when it does for its multiple by a power of two.
 bool has_float32_digits(const Triangle_soup& soup);
 
-/// Rounds every coordinate to the nearest 32-bit float, ties to even, so that no coordinate changes when the
-/// soup is written to a format that stores 32-bit floats (`stores_float32`).
+/// Rounds every coordinate, in all poses, to the nearest 32-bit float, ties to even, so that no coordinate
+/// changes when the soup is written to a format that stores 32-bit floats (`stores_float32`).
 ///
 /// **Guarantees**
 /// 1. Afterwards `is_float32` holds for every coordinate. A coordinate for which it held before is unchanged.

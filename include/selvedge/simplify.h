@@ -61,8 +61,8 @@ struct Simplified_soup
   std::vector<Index> triangles;
   std::vector<Index_triple> corners;
 
-  /// For every triangle of `soup`, the weakest of the reasons that hold back its edges, as `Hindrances` defines
-  /// them. Empty when `report.hindrances` counts none.
+  /// For every triangle of `soup`, the weakest of the reasons that hold back its edges, as `Hindrances`
+  /// defines them. Empty when `report.hindrances` counts none.
   std::vector<Hindrance> held_by;
 
   /// The collapses that led to it, in order, when offending pairs of the original were allowed to descend

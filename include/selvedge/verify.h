@@ -7,6 +7,7 @@
 #include <selvedge/Soup_collapse.h>
 #include <selvedge/Triangle_soup.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -222,6 +223,9 @@ struct Verify_options
   /// `triangles_of_original`. Null when all pairs had to stay as they were.
   const std::vector<Soup_collapse>* collapses = nullptr;
 
+  /// The offending pairs of the original in each of its further poses, when the caller knows them.
+  const std::vector<std::vector<Offending_pair>>* pairs_in_poses_of_original = nullptr;
+
   /// Pairs of parts, by the names of groups, objects or materials (`triangles_named`), that may intersect
   /// each other. Pairs of triangles between them are left out of all lists and counted apart. A pair of the
   /// result is left out by the names of its triangles, and by those of `triangles_of_original` too where
@@ -327,12 +331,31 @@ struct Verification
   };
   std::vector<Permitted> permitted;
 
-  bool embedded() const { return pairs.empty(); }
+  /// The verdict on a further pose: as `pairs`, `pairs_of_original` and `new_pairs` are on the first.
+  struct In_pose
+  {
+    std::string name;
+    std::vector<Offending_pair> pairs;
+    std::size_t pairs_of_original = 0;
+    std::vector<Offending_pair> new_pairs;
+  };
+  std::vector<In_pose> poses; ///< in the order of `Triangle_soup::poses`
+
+  bool embedded() const
+  {
+    return pairs.empty() &&
+           std::all_of(poses.begin(), poses.end(), [](const In_pose& pose) { return pose.pairs.empty(); });
+  }
   /// Returns whether both have the same number of pieces of every kind, by vertex numbers.
   bool same_topology() const { return topology_differences.empty(); }
 
   /// Returns whether nothing is wrong that was not wrong before.
-  bool accepted() const { return new_pairs.empty() && matching.is_complete(); }
+  bool accepted() const
+  {
+    return new_pairs.empty() && matching.is_complete() &&
+           std::all_of(poses.begin(), poses.end(),
+                       [](const In_pose& pose) { return pose.new_pairs.empty(); });
+  }
 };
 
 /// Returns whether of two triangles one belongs to the first of two parts and the other to the second. A
@@ -350,7 +373,9 @@ std::size_t take_out_pairs_between(const std::vector<char>& first, const std::ve
 /// `may_intersect`.
 Verification verify(const Triangle_soup& mesh, const Verify_options& options = {});
 
-/// Judges a result against its original.
+/// Judges a result against its original. A result in several poses is judged in each: its further poses are
+/// those of the original, in the same order, or `Argument_error` is thrown. Pieces, topology and distances
+/// are those of the first pose.
 ///
 /// When all coordinates of the result are 32-bit floats and those of the original are not, the original is
 /// rounded first. So offending pairs that the original has already are recognised after the result was

@@ -5,10 +5,14 @@
 
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
+#include <selvedge/Sha256.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <istream>
 #include <ostream>
 #include <utility>
@@ -49,6 +53,23 @@ std::string text_of_name(const std::string& name)
 
 } // namespace
 
+std::string digest_of(const Pose& pose)
+{
+  Sha256 sha256;
+  for (const Point_3& point : pose.points) {
+    std::array<char, 24> bytes;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double coordinate = point[int(axis)] + 0.0; // −0 becomes 0
+      std::uint64_t bits;
+      std::memcpy(&bits, &coordinate, sizeof bits);
+      for (std::size_t byte = 0; byte < 8; ++byte)
+        bytes[8 * axis + byte] = char(bits >> (8 * byte) & 0xff);
+    }
+    sha256.add({bytes.data(), bytes.size()});
+  }
+  return sha256.digest();
+}
+
 Log_numbering::Log_numbering(const Triangle_soup& original, bool is_stl)
     : m_vertex_count(original.points.size())
 {
@@ -78,6 +99,8 @@ Log_writer::Log_writer(std::ostream& stream, const Log_header& header) : m_strea
     m_stream << "may_intersect " << text_of_name(a) << ' ' << text_of_name(b) << '\n';
   if (header.obstacle)
     write_mesh("obstacle", *header.obstacle);
+  for (const Log_header::Posed& pose : header.poses)
+    m_stream << "pose " << text_of_name(pose.name) << ' ' << text_of_digest(pose.sha256) << '\n';
   for (const Limit_description& limit : limit_descriptions)
     if (const std::optional<double>& value = header.limits.*limit.value)
       m_stream << "limit " << limit.key << ' ' << text_of(*value) << '\n';
@@ -141,6 +164,9 @@ public:
         Log_header::Obstacle obstacle;
         read_mesh(obstacle, "obstacle VERTICES TRIANGLES SHA256");
         header.obstacle = obstacle;
+      } else if (m_words[0] == "pose") {
+        expect_words(3, 3, "pose NAME SHA256");
+        header.poses.push_back({part_name(1), digest(2)});
       } else if (m_words[0] == "limit") {
         read_limit();
       } else {

@@ -64,10 +64,18 @@ void find_parts(Start& start, const Log_header& header)
 
 } // namespace
 
-Start start_of(const Triangle_soup& original, const Log_header& header)
+Start start_of(const Triangle_soup& original, const Log_header& header, std::optional<std::size_t> pose)
 {
   Start start;
   start.soup = original;
+  start.soup.poses.clear();
+  if (pose) {
+    Triangle_soup first = start.soup;
+    if (header.is_rounded_to_float32)
+      round_to_float32(first);
+    start.points_of_first_pose = std::move(first.points);
+    start.soup.points = original.poses[*pose].points;
+  }
   if (header.are_normals_ignored)
     start.soup.normals = {};
   for (Index t = 0; t < original.triangles.size(); ++t)

@@ -11,6 +11,7 @@
 #include <selvedge/collapse_log.h>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace selvedge {
@@ -21,8 +22,9 @@ namespace reference {
 struct Start
 {
   Triangle_soup soup;
-  std::vector<Index> numbers;  // of its triangles in the original
-  std::vector<char> is_locked; // by position
+  std::vector<Point_3> points_of_first_pose; // if `soup` is in a further one
+  std::vector<Index> numbers;                // of its triangles in the original
+  std::vector<char> is_locked;               // by position
   Offences offences;
   Lineage lineage;
   std::size_t offending_pairs = 0;
@@ -40,9 +42,9 @@ struct Start
   }
 };
 
-/// Takes the original as the header of a log says. Throws `Input_error` when parts that may intersect are not
-/// there, or have a position in common.
-Start start_of(const Triangle_soup& original, const Log_header& header);
+/// Takes the original as the header of a log says, in the pose of a number, or in the first. Throws
+/// `Input_error` when parts that may intersect are not there, or have a position in common.
+Start start_of(const Triangle_soup& original, const Log_header& header, std::optional<std::size_t> pose);
 
 } // namespace reference
 } // namespace selvedge

@@ -98,6 +98,11 @@ void Limits::set_size(const Coordinates& low, const Coordinates& high)
     for (const double coordinate : corner)
       largest = std::max(largest, std::abs(coordinate));
   std::frexp(largest, &m_exponent);
+  set_diagonal(low, high);
+}
+
+void Limits::set_diagonal(const Coordinates& low, const Coordinates& high)
+{
   m_diagonal = length(difference(scaled(high), scaled(low)));
 }
 

@@ -37,6 +37,9 @@ public:
   /// neither overflow nor vanish.
   void set_size(const Coordinates& low, const Coordinates& high);
 
+  /// Makes the diagonal of another box the unit of the drift.
+  void set_diagonal(const Coordinates& low, const Coordinates& high);
+
   /// Returns the first limit that is broken when `removed` and `kept` merge at `place`.
   std::optional<Violation_kind> judge(const Complex& complex, Index removed, Index kept,
                                       const Coordinates& place, bool is_kept_still) const;

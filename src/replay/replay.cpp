@@ -81,11 +81,12 @@ class Replay
 public:
   Replay(const Triangle_soup& original, bool is_stl, Log_reader& log, const Replay_options& options)
       : m_numbering(original, is_stl), m_log(log), m_options(options),
-        m_start(start_of(original, log.header())), m_complex(m_start.soup),
+        m_start(start_of(original, log.header(), options.pose)), m_complex(m_start.soup),
         m_limits(judged_limits(log.header(), options))
   {
     const Log_header& header = log.header();
     m_verdict.header = header;
+    m_verdict.is_in_first_pose = !options.pose;
     m_verdict.is_input_stated = !header.sha256.empty() && header.sha256 == options.sha256_of_original;
     m_verdict.offending_pairs = m_start.offending_pairs;
     m_verdict.limits = judged_limits(header, options);
@@ -270,6 +271,15 @@ private:
     for (Index f = 0; f < m_complex.size(); ++f)
       box.add(m_boxes[f]);
     m_limits.set_size(box.low, box.high);
+    if (m_options.pose) {
+      Box of_first;
+      for (const Index_triple& triangle : m_start.soup.triangles)
+        for (const Index v : triangle) {
+          const Point_3& point = m_start.points_of_first_pose[v];
+          of_first.add(Coordinates{point.x(), point.y(), point.z()});
+        }
+      m_limits.set_diagonal(of_first.low, of_first.high);
+    }
   }
 
   // ---- Locks, snaps and links
@@ -614,7 +624,7 @@ private:
   void judge_result()
   {
     const Log_result& stated = m_log.result();
-    const bool has_digest = !stated.sha256.empty();
+    const bool has_digest = !stated.sha256.empty() && !m_options.pose; // whose positions are others
     m_verdict.is_result_stated = has_digest && stated.sha256 == digest();
     std::string message;
     if (stated.collapses != m_verdict.collapses)
@@ -680,6 +690,25 @@ private:
 } // namespace
 } // namespace reference
 
+namespace {
+
+void require_pose(const Triangle_soup& original, const Log_header& header, std::size_t pose)
+{
+  if (pose >= original.poses.size())
+    throw Argument_error("there is no pose " + std::to_string(pose) + "; the mesh has " +
+                         std::to_string(original.poses.size()) + " further poses");
+  const std::string& name = original.poses[pose].name;
+  if (pose >= header.poses.size())
+    throw Input_error("the log says nothing of the pose '" + name + "': it has " +
+                      std::to_string(header.poses.size()) + " further poses; leave out the others");
+  const Log_header::Posed& stated = header.poses[pose];
+  if (!stated.sha256.empty() && stated.sha256 != digest_of(original.poses[pose]))
+    throw Input_error("the pose '" + name + "' is not the pose '" + stated.name +
+                      "' that the log has in its place; give the same poses in the same order");
+}
+
+} // namespace
+
 Replay_verdict replay(const Triangle_soup& original, bool is_stl, Log_reader& log,
                       const Replay_options& options)
 {
@@ -694,6 +723,8 @@ Replay_verdict replay(const Triangle_soup& original, bool is_stl, Log_reader& lo
                       std::to_string(header.triangles) + " triangles; this one has " +
                       std::to_string(vertices) + " and " + std::to_string(original.triangles.size()) +
                       "; give the original that the log was made from");
+  if (options.pose)
+    require_pose(original, header, *options.pose);
   const auto start = reference::Clock::now();
   reference::Replay run(original, is_stl, log, options);
   const double seconds_prepare = reference::seconds_since(start);

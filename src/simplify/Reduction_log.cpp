@@ -38,11 +38,18 @@ Log_header completed(Log_header header, const Prepared_soup& prepared, const Sim
   header.limits = limits_of(options);
   header.are_normals_ignored =
       prepared.normals != Normals_treatment::none && prepared.normals != Normals_treatment::kept;
-  header.may_pairs_descend = prepared.defects == Defects::descend && !prepared.offending_pairs.empty();
+  const auto& in_poses = prepared.offending_pairs_in_poses;
+  header.may_pairs_descend =
+      prepared.defects == Defects::descend &&
+      (!prepared.offending_pairs.empty() ||
+       std::any_of(in_poses.begin(), in_poses.end(), [](const auto& pairs) { return !pairs.empty(); }));
   header.may_intersect = prepared.may_intersect;
   if (prepared.snapping.distance > 0)
     header.limits.weld_distance = prepared.snapping.distance;
   const Triangle_soup& obstacle = prepared.obstacle;
+  if (header.poses.empty())
+    for (const Pose& pose : prepared.soup.poses)
+      header.poses.push_back({pose.name, {}});
   if (!header.obstacle && !obstacle.triangles.empty())
     header.obstacle = {obstacle.points.size(), obstacle.triangles.size(), {}};
   return header;
@@ -62,9 +69,10 @@ Reduction_log::Reduction_log(std::ostream& stream, Log_header header, const Log_
     step.kept = numbering.number(to);
     m_writer.write(step);
   }
+  // In several poses, other vertices are coincident in each.
   const std::vector<Index> smallest = smallest_numbers(prepared.soup.points, numbering);
   std::map<Index, std::vector<Index>> groups;
-  for (Index v = 0; v < smallest.size(); ++v)
+  for (Index v = 0; v < smallest.size() && prepared.soup.poses.empty(); ++v)
     if (smallest[v] != numbering.number(v))
       groups[smallest[v]].push_back(numbering.number(v));
   for (auto& [first, others] : groups) {

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -36,7 +37,8 @@ std::string name_of(Index triangle, std::size_t own_triangles)
                                   : std::to_string(triangle - own_triangles + 1) + " of the obstacle";
 }
 
-void refuse_if_any(const std::vector<Offending_pair>& pairs, std::size_t own_triangles)
+void refuse_if_any(const std::vector<Offending_pair>& pairs, std::size_t own_triangles,
+                   const std::string& where = "")
 {
   if (pairs.empty())
     return;
@@ -48,9 +50,22 @@ void refuse_if_any(const std::vector<Offending_pair>& pairs, std::size_t own_tri
           : "triangles " + first + " and " + name_of(pair.second, own_triangles) +
                 (pair.offence == Offence::duplicate ? " have the same three corners" : " intersect");
   throw Input_error(
-      "the mesh is not embedded: " + what +
+      "the mesh is not embedded" + where + ": " + what +
       (pairs.size() == 1 ? "" : ", and " + std::to_string(pairs.size() - 1) + " more such pairs") +
       "; repair it, or do not ask to refuse such a mesh");
+}
+
+// Returns the first of the vertices that have the same position in two numberings, for every vertex.
+std::vector<Index> refined(const std::vector<Index>& a, const std::vector<Index>& b)
+{
+  std::vector<Index> order(a.size()), result(a.size());
+  std::iota(order.begin(), order.end(), Index(0));
+  const auto key = [&](Index v) { return std::make_pair(a[v], b[v]); };
+  std::sort(order.begin(), order.end(),
+            [&](Index v, Index w) { return std::make_pair(key(v), v) < std::make_pair(key(w), w); });
+  for (std::size_t i = 0; i < order.size(); ++i)
+    result[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? result[order[i - 1]] : order[i];
+  return result;
 }
 
 // Gives different positions to vertices that rounding has separated: where a vertex of the soup has moved and
@@ -74,6 +89,7 @@ public:
     m_prepared.may_intersect = options.may_intersect;
     m_prepared.permitted_pairs.resize(options.may_intersect.size());
     m_prepared.obstacle.points = obstacle.points;
+    m_prepared.obstacle.poses = obstacle.poses;
     m_prepared.obstacle.triangles = obstacle.triangles;
   }
 
@@ -87,6 +103,7 @@ public:
     if (soup().triangles.empty())
       throw Input_error(
           "every triangle of the mesh has two corners at one position; there is nothing to reduce");
+    find_held_vertices();
     m_prepared.scale = Scale(soup(), obstacle());
     require_apart("");
     m_prepared.seconds_positions += m_stopwatch.restart();
@@ -108,16 +125,65 @@ public:
   }
 
 private:
+  static constexpr Index s_none = std::numeric_limits<Index>::max();
+
   Triangle_soup& soup() { return m_prepared.soup; }
+  const Triangle_soup& soup() const { return m_prepared.soup; }
   Triangle_soup& obstacle() { return m_prepared.obstacle; }
+  const Triangle_soup& obstacle() const { return m_prepared.obstacle; }
   bool is_strict() const { return m_options.defects == Defects::refuse; }
 
-  // The positions of the obstacle follow those of the soup.
+  // The positions of the obstacle follow those of the soup. Vertices have one position when they are
+  // coincident in all poses.
   std::vector<Index> number_positions_of_both() const
   {
-    std::vector<Point_3> points = m_prepared.soup.points;
-    points.insert(points.end(), m_prepared.obstacle.points.begin(), m_prepared.obstacle.points.end());
+    std::vector<Index> positions = number_positions_of_both(soup().points, obstacle().points);
+    for (std::size_t pose = 0; pose < soup().poses.size(); ++pose)
+      positions = refined(positions, number_positions_in(pose));
+    return positions;
+  }
+  std::vector<Index> number_positions_in(std::size_t pose) const
+  {
+    return number_positions_of_both(soup().poses[pose].points, points_in_pose(obstacle(), pose));
+  }
+  static std::vector<Index> number_positions_of_both(std::vector<Point_3> points,
+                                                     const std::vector<Point_3>& beside)
+  {
+    points.insert(points.end(), beside.begin(), beside.end());
     return number_positions(points);
+  }
+
+  // Finds the vertices that are coincident with others in some poses and not in all.
+  void find_held_vertices()
+  {
+    if (soup().poses.empty())
+      return;
+    const std::vector<Index> in_all = number_positions_of_both();
+    m_prepared.is_held.assign(in_all.size(), false);
+    const auto hold = [&](const std::vector<Index>& here, const std::string& where) {
+      std::vector<Index> first(here.size(), s_none); // by position here, of those in all poses
+      std::vector<char> is_several(here.size(), false);
+      for (const Index_triple& triangle : soup().triangles) {
+        if (has_two_corners_at_one_position(triangle, here))
+          throw Input_error("triangle " + std::to_string(&triangle - soup().triangles.data() + 1) +
+                            " has two corners at one position " + where +
+                            " and not in all poses; leave out this pose, or part the corners");
+        for (const Index v : triangle) {
+          Index& of_position = first[here[v]];
+          is_several[here[v]] |= of_position != s_none && of_position != in_all[v];
+          of_position = in_all[v];
+        }
+      }
+      for (const Index_triple& triangle : soup().triangles)
+        for (const Index v : triangle) {
+          if (is_several[here[v]] && !m_prepared.is_held[v] && m_prepared.first_held.empty())
+            m_prepared.first_held = "vertex " + std::to_string(v + 1) + " " + where;
+          m_prepared.is_held[v] |= is_several[here[v]];
+        }
+    };
+    hold(number_positions_of_both(soup().points, obstacle().points), "in the first pose");
+    for (std::size_t pose = 0; pose < soup().poses.size(); ++pose)
+      hold(number_positions_in(pose), "in the pose '" + soup().poses[pose].name + "'");
   }
 
   // Takes out the pairs between parts that may intersect, and returns how many there were for each. The
@@ -135,6 +201,11 @@ private:
     std::vector<Offending_pair> pairs = offending_pairs(geometry_with_obstacle(soup(), obstacle()));
     permit(pairs);
     refuse_if_any(pairs, soup().triangles.size());
+    for (std::size_t pose = 0; pose < soup().poses.size(); ++pose) {
+      pairs = offending_pairs(geometry_in_pose(soup(), obstacle(), pose));
+      permit(pairs);
+      refuse_if_any(pairs, soup().triangles.size(), " in the pose '" + soup().poses[pose].name + "'");
+    }
   }
 
   // Parts that may intersect have no position in common, not even one that only rounding has made one. So no
@@ -208,8 +279,14 @@ private:
       refuse_if_any_offend();
       m_prepared.seconds_check += m_stopwatch.restart();
     }
+    std::vector<std::vector<Index>> before; // by pose
+    for (std::size_t pose = 0; pose < soup().poses.size(); ++pose)
+      before.push_back(number_positions_in(pose));
+    if (!before.empty())
+      before.push_back(number_positions_of_both(soup().points, obstacle().points));
     m_prepared.rounding = round_to_float32(soup());
     m_positions_rounded = number_positions_of_both();
+    note_merged_in_poses(before);
     m_prepared.left_out_by_rounding = leave_out(m_positions_rounded);
     take_apart(m_prepared.positions, m_positions_rounded);
     m_prepared.seconds_positions += m_stopwatch.restart();
@@ -221,11 +298,35 @@ private:
     }
   }
 
+  // Notes the vertices that rounding has brought to one position with others, in some pose. `before` numbers
+  // the positions in each pose before rounding, the first pose last.
+  void note_merged_in_poses(const std::vector<std::vector<Index>>& before)
+  {
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      const std::vector<Index> after = i + 1 < before.size()
+                                           ? number_positions_in(i)
+                                           : number_positions_of_both(soup().points, obstacle().points);
+      std::vector<char> is_merged(after.size(), false); // by position
+      for (Index v = 0; v < after.size(); ++v)
+        is_merged[after[v]] |= before[i][v] != before[i][after[v]];
+      m_is_merged_in_a_pose.resize(after.size());
+      for (Index v = 0; v < after.size(); ++v)
+        m_is_merged_in_a_pose[v] |= is_merged[after[v]];
+    }
+  }
+
   void judge(std::size_t own_triangles)
   {
     m_all_pairs = offending_pairs(soup());
     m_prepared.offending_pairs = m_all_pairs;
     m_prepared.permitted_pairs = permit(m_prepared.offending_pairs);
+    for (std::size_t pose = 0; pose < soup().poses.size(); ++pose) {
+      std::vector<Offending_pair>& pairs = m_prepared.offending_pairs_in_poses.emplace_back(
+          offending_pairs(geometry_in_pose(soup(), {}, pose)));
+      permit(pairs);
+      if (is_strict())
+        refuse_if_any(pairs, own_triangles, " in the pose '" + soup().poses[pose].name + "'");
+    }
     if (m_prepared.rounding.coordinates == 0) {
       if (is_strict())
         refuse_if_any(m_prepared.offending_pairs, own_triangles);
@@ -246,9 +347,15 @@ private:
   {
     std::vector<char>& is_frozen = m_prepared.is_frozen;
     is_frozen.assign(soup().triangles.size(), false);
-    for (const Offending_pair& pair : m_prepared.offending_pairs)
-      if (m_prepared.defects == Defects::freeze)
+    const auto freeze_faces_of = [&](const std::vector<Offending_pair>& pairs) {
+      for (const Offending_pair& pair : pairs)
         is_frozen[pair.first] = is_frozen[pair.second] = true;
+    };
+    if (m_prepared.defects == Defects::freeze) {
+      freeze_faces_of(m_prepared.offending_pairs);
+      std::for_each(m_prepared.offending_pairs_in_poses.begin(), m_prepared.offending_pairs_in_poses.end(),
+                    freeze_faces_of);
+    }
     if (!m_positions_rounded.empty()) {
       std::vector<char> is_merged(soup().points.size(), false); // by position after rounding: it was several
       for (Index v = 0; v < m_positions_rounded.size(); ++v)
@@ -256,7 +363,8 @@ private:
             m_prepared.positions[v] != m_prepared.positions[m_positions_rounded[v]];
       for (Index t = 0; t < own_triangles; ++t)
         for (const Index v : soup().triangles[t])
-          is_frozen[t] |= is_merged[m_positions_rounded[v]];
+          is_frozen[t] |= is_merged[m_positions_rounded[v]] ||
+                          (!m_is_merged_in_a_pose.empty() && m_is_merged_in_a_pose[v]);
     }
     m_prepared.frozen_faces = std::count(is_frozen.begin(), is_frozen.begin() + own_triangles, true);
     std::fill(is_frozen.begin() + own_triangles, is_frozen.end(), true);
@@ -297,6 +405,7 @@ private:
   Prepare_options m_options;
   Prepared_soup m_prepared;
   std::vector<Index> m_positions_rounded;              // by vertex; empty when nothing was rounded
+  std::vector<char> m_is_merged_in_a_pose;             // by vertex; empty when there is one pose
   std::vector<Offending_pair> m_all_pairs;             // those between parts that may intersect, too
   std::vector<Offending_pair> m_pairs_before_rounding; // with triangle numbers after it
   Stopwatch m_stopwatch;
@@ -323,6 +432,14 @@ Prepared_soup prepare(Triangle_soup input, const Prepare_options& options, const
     throw Argument_error("the weld distance is either given or found, not both");
   check_soup(input, "the mesh");
   check_soup(obstacle, "the obstacle");
+  if (!input.poses.empty() && (options.weld_clear_gaps || options.weld_distance != 0))
+    throw Argument_error(
+        "gaps are not welded in several poses; weld the mesh in its own pose first, or leave "
+        "out one of the two options");
+  if (!obstacle.poses.empty() && obstacle.poses.size() != input.poses.size())
+    throw Argument_error("the obstacle has " + std::to_string(obstacle.poses.size()) +
+                         " further poses and the mesh " + std::to_string(input.poses.size()) +
+                         "; give it as many, or none if it stands still");
   return Preparation(std::move(input), options, obstacle).run();
 }
 

@@ -94,8 +94,11 @@ private:
             faces->emplace_back(t);
       }
     }
-    tie(constraints.partners);
-    if (m_options.instances == Instances::shared && m_options.loop == Collapse_loop::own)
+    const std::vector<Index> of_soup = m_working.vertices_of_soup(m_prepared.obstacle);
+    tie(constraints.partners, of_soup);
+    pose(constraints, of_soup);
+    if (m_options.instances == Instances::shared && m_options.loop == Collapse_loop::own &&
+        soup.poses.empty())
       share();
     if (!intent.weights.empty())
       m_working.weigh(vertex_weights(soup, intent.weights));
@@ -104,7 +107,9 @@ private:
     if (m_options.uv_weight > 0)
       m_working.measure_uvs(uv_unit(soup, m_prepared.scale));
     m_working.count_refusals(part_kinds(soup));
-    if (constraints.offending_pairs.empty())
+    if (constraints.offending_pairs.empty() &&
+        std::all_of(constraints.poses.begin(), constraints.poses.end(),
+                    [](const auto& pose) { return pose.offending_pairs.empty(); }))
       m_working.on_collapse(m_options.on_collapse);
     else
       m_working.on_collapse([this](const Soup_collapse& collapse) {
@@ -133,19 +138,41 @@ private:
   }
 
   void
-  tie(std::vector<std::pair<Working_mesh::Mesh::Vertex_index, Working_mesh::Mesh::Vertex_index>>& partners)
+  tie(std::vector<std::pair<Working_mesh::Mesh::Vertex_index, Working_mesh::Mesh::Vertex_index>>& partners,
+      const std::vector<Index>& of_soup)
   {
     const auto& tied = m_prepared.snapping.tied;
     if (tied.empty())
       return;
-    const Triangle_soup& soup = m_prepared.soup;
-    std::vector<Working_mesh::Mesh::Vertex_index> vertices(soup.points.size()); // by position
-    for (Index t = 0; t < soup.triangles.size(); ++t)
-      for (unsigned char k = 0; k < 3; ++k)
-        vertices[m_prepared.positions[soup.triangles[t][k]]] =
-            m_working.mesh().source(m_working.halfedge({t, k, false}));
+    std::vector<Working_mesh::Mesh::Vertex_index> vertices(m_prepared.positions.size()); // by position
+    for (const auto v : m_working.mesh().vertices())
+      vertices[m_prepared.positions[of_soup[v]]] = v;
     for (const auto& pair : tied)
       partners.emplace_back(vertices[pair.first], vertices[pair.second]);
+  }
+
+  // Puts the mesh into the further poses of the soup.
+  void pose(Simplify_constraints<Working_mesh::Mesh>& constraints, const std::vector<Index>& of_soup)
+  {
+    const Triangle_soup& soup = m_prepared.soup;
+    auto& mesh = m_working.mesh();
+    const std::size_t own_vertices = soup.points.size();
+    for (std::size_t i = 0; i < soup.poses.size(); ++i) {
+      auto& pose = constraints.poses.emplace_back();
+      pose.points = get(CGAL::dynamic_vertex_property_t<Point_3>(), mesh);
+      const std::vector<Point_3>& beside = points_in_pose(m_prepared.obstacle, i);
+      for (const auto v : mesh.vertices())
+        put(pose.points, v,
+            m_prepared.scale(of_soup[v] < own_vertices ? soup.poses[i].points[of_soup[v]]
+                                                       : beside[of_soup[v] - own_vertices]));
+      if (m_prepared.defects == Defects::descend)
+        for (const Offending_pair& pair : m_prepared.offending_pairs_in_poses[i])
+          pose.offending_pairs.emplace_back(pair.first, pair.second);
+    }
+    if (!m_prepared.is_held.empty())
+      for (const auto v : mesh.vertices())
+        if (m_prepared.is_held[of_soup[v]])
+          constraints.locked_vertices.push_back(v);
   }
 
   // Finds collapses in cells, and does them to the whole mesh, which then knows as much of them as of its own
@@ -243,6 +270,8 @@ Simplified_soup simplify_soup(const Prepared_soup& prepared, const Simplify_opti
 {
   if (options.faces_per_cell > 0 && !intent.ratios.empty())
     throw Argument_error("in cells no part can have a ratio of its own; leave out one of the two options");
+  if (options.faces_per_cell > 0 && !prepared.soup.poses.empty())
+    throw Argument_error("a mesh in several poses is not reduced in cells; leave out one of the two options");
   if (options.faces_per_cell > 0 && !prepared.may_intersect.empty())
     throw Argument_error("in cells no parts may intersect each other; leave out one of the two options");
   return Soup_reduction(prepared, options, intent).run();
@@ -291,6 +320,7 @@ Verification verify(const Simplified_soup& result, const Prepared_soup& original
   if (original.defects == Defects::descend)
     options.collapses = &result.collapses;
   options.may_intersect = original.may_intersect;
+  options.pairs_in_poses_of_original = &original.offending_pairs_in_poses;
   Verification verification =
       verify(result.soup, original.soup, original.offending_pairs, options, original.obstacle);
   for (std::size_t k = 0; k < verification.permitted.size(); ++k)

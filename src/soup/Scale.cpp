@@ -30,12 +30,19 @@ struct Digits
   explicit Digits(const Triangle_soup& soup)
   {
     for (const Index_triple& triangle : soup.triangles)
-      for (const Index v : triangle)
-        for (int axis = 0; axis < 3; ++axis)
-          add(soup.points[v][axis]);
+      for (const Index v : triangle) {
+        add(soup.points[v]);
+        for (const Pose& pose : soup.poses)
+          add(pose.points[v]);
+      }
   }
 
 private:
+  void add(const Point_3& point)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+      add(point[axis]);
+  }
   void add(double x)
   {
     if (x == 0)

@@ -820,6 +820,20 @@ void Working_mesh::count_refusals(std::vector<Part_kind> kinds)
     m_refused.emplace_back(kind.count);
 }
 
+std::vector<Index> Working_mesh::vertices_of_soup(const Triangle_soup& obstacle) const
+{
+  std::vector<Index> result(m_mesh.number_of_vertices());
+  for (const Mesh::Halfedge_index h : m_mesh.halfedges()) {
+    if (m_mesh.is_border(h))
+      continue;
+    const Mesh::Face_index face = m_mesh.face(h);
+    result[m_mesh.target(h)] =
+        is_own(face) ? vertex_of(corner_at(h))
+                     : Index(m_soup.points.size()) + obstacle.triangles[face - m_corners.size()][m_places[h]];
+  }
+  return result;
+}
+
 void Working_mesh::weigh(const std::vector<double>& weights)
 {
   m_constraints.vertex_weights.assign(m_mesh.number_of_vertices(), 0);

@@ -146,6 +146,12 @@ public:
     m_is_place_allowed = std::move(is_allowed);
   }
 
+  /// Returns for every vertex of the mesh one of the vertices from which it was made: its number in the soup
+  /// or, after those, in the obstacle that the constructor was given.
+  ///
+  /// **Preconditions** Nothing has been collapsed.
+  std::vector<Index> vertices_of_soup(const Triangle_soup& obstacle) const;
+
   /// Identifies a halfedge such that it is found again in another mesh of the same triangles, when the same
   /// collapses have been done to both.
   struct Side

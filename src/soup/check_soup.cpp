@@ -24,6 +24,13 @@ public:
       for (int axis = 0; axis < 3; ++axis)
         if (!std::isfinite(m_soup.points[v][axis]))
           refuse("vertex", v, "has a coordinate that is not finite");
+    for (const Pose& pose : m_soup.poses) {
+      check_size(pose.points.size(), m_soup.points.size(), "points of the pose '" + pose.name + "'");
+      for (std::size_t v = 0; v < pose.points.size(); ++v)
+        for (int axis = 0; axis < 3; ++axis)
+          if (!std::isfinite(pose.points[v][axis]))
+            refuse("vertex", v, "has a coordinate that is not finite in the pose '" + pose.name + "'");
+    }
     check_corners(m_soup.triangles, m_soup.points.size(), "points");
     check_values(m_soup.uvs, "uvs");
     check_values(m_soup.normals, "normals");

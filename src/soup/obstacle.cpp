@@ -11,12 +11,19 @@ void append_obstacle(Triangle_soup& soup, const Triangle_soup& obstacle)
   soup.points.insert(soup.points.end(), obstacle.points.begin(), obstacle.points.end());
   for (const auto& [a, b, c] : obstacle.triangles)
     soup.triangles.push_back({a + offset, b + offset, c + offset});
+  for (std::size_t pose = 0; pose < soup.poses.size(); ++pose) {
+    std::vector<Point_3>& points = soup.poses[pose].points;
+    const std::vector<Point_3>& beside = points_in_pose(obstacle, pose);
+    points.insert(points.end(), beside.begin(), beside.end());
+  }
 }
 
 void remove_obstacle(Triangle_soup& soup, const Triangle_soup& obstacle)
 {
   soup.points.erase(soup.points.end() - obstacle.points.size(), soup.points.end());
   soup.triangles.resize(soup.triangles.size() - obstacle.triangles.size());
+  for (Pose& pose : soup.poses)
+    pose.points.resize(soup.points.size());
 }
 
 Triangle_soup geometry_with_obstacle(const Triangle_soup& soup, const Triangle_soup& obstacle)
@@ -25,6 +32,22 @@ Triangle_soup geometry_with_obstacle(const Triangle_soup& soup, const Triangle_s
   both.points = soup.points;
   both.triangles = soup.triangles;
   append_obstacle(both, obstacle);
+  return both;
+}
+
+const std::vector<Point_3>& points_in_pose(const Triangle_soup& soup, std::size_t pose)
+{
+  return soup.poses.empty() ? soup.points : soup.poses[pose].points;
+}
+
+Triangle_soup geometry_in_pose(const Triangle_soup& soup, const Triangle_soup& obstacle, std::size_t pose)
+{
+  Triangle_soup both, beside;
+  both.points = points_in_pose(soup, pose);
+  both.triangles = soup.triangles;
+  beside.points = points_in_pose(obstacle, pose);
+  beside.triangles = obstacle.triangles;
+  append_obstacle(both, beside);
   return both;
 }
 

@@ -22,9 +22,13 @@ bool is_float32(double value)
 
 bool has_float32_points(const Triangle_soup& soup)
 {
-  return std::all_of(soup.points.begin(), soup.points.end(), [](const Point_3& point) {
-    return is_float32(point.x()) && is_float32(point.y()) && is_float32(point.z());
-  });
+  const auto has_alone = [](const std::vector<Point_3>& points) {
+    return std::all_of(points.begin(), points.end(), [](const Point_3& point) {
+      return is_float32(point.x()) && is_float32(point.y()) && is_float32(point.z());
+    });
+  };
+  return has_alone(soup.points) && std::all_of(soup.poses.begin(), soup.poses.end(),
+                                               [&](const Pose& pose) { return has_alone(pose.points); });
 }
 
 bool has_float32_digits(const Triangle_soup& soup)
@@ -38,16 +42,23 @@ bool has_float32_digits(const Triangle_soup& soup)
   });
 }
 
-Rounding_notes round_to_float32(Triangle_soup& soup)
+namespace {
+
+void refuse_too_large(const std::vector<Point_3>& points, const std::string& where)
 {
-  for (const Point_3& point : soup.points)
+  for (const Point_3& point : points)
     for (int axis = 0; axis < 3; ++axis)
       if (!std::isfinite(nearest_float32(point[axis])))
-        throw Input_error("vertex " + std::to_string(&point - soup.points.data()) +
-                          " (counted from 0) has a coordinate too large for a 32-bit float; scale the mesh "
-                          "down or write a format that stores doubles");
+        throw Input_error("vertex " + std::to_string(&point - points.data()) + " (counted from 0) has " +
+                          where +
+                          "a coordinate too large for a 32-bit float; scale the mesh down or write a format "
+                          "that stores doubles");
+}
+
+Rounding_notes round(std::vector<Point_3>& points)
+{
   Rounding_notes notes;
-  for (Point_3& point : soup.points) {
+  for (Point_3& point : points) {
     std::size_t moved = 0;
     for (int axis = 0; axis < 3; ++axis)
       moved += is_float32(point[axis]) ? 0 : 1;
@@ -56,6 +67,22 @@ Rounding_notes round_to_float32(Triangle_soup& soup)
     point = Point_3(nearest_float32(point.x()), nearest_float32(point.y()), nearest_float32(point.z()));
     notes.coordinates += moved;
     ++notes.vertices;
+  }
+  return notes;
+}
+
+} // namespace
+
+Rounding_notes round_to_float32(Triangle_soup& soup)
+{
+  refuse_too_large(soup.points, "");
+  for (const Pose& pose : soup.poses)
+    refuse_too_large(pose.points, "in the pose '" + pose.name + "' ");
+  Rounding_notes notes = round(soup.points);
+  for (Pose& pose : soup.poses) {
+    const Rounding_notes in_pose = round(pose.points);
+    notes.coordinates += in_pose.coordinates;
+    notes.vertices += in_pose.vertices;
   }
   return notes;
 }

@@ -43,6 +43,7 @@ inline Triangle_soup rounded(const Triangle_soup& soup)
 {
   Triangle_soup result;
   result.points = soup.points;
+  result.poses = soup.poses;
   result.triangles = soup.triangles;
   result.groups = soup.groups;
   result.objects = soup.objects;
@@ -53,8 +54,11 @@ inline Triangle_soup rounded(const Triangle_soup& soup)
   for (const Index vertex : used_vertices(soup))
     is_used[vertex] = true;
   for (std::size_t vertex = 0; vertex < is_used.size(); ++vertex)
-    if (!is_used[vertex])
+    if (!is_used[vertex]) {
       result.points[vertex] = Point_3(0, 0, 0);
+      for (Pose& pose : result.poses)
+        pose.points[vertex] = Point_3(0, 0, 0);
+    }
   round_to_float32(result);
   return result;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <selvedge/Cancellation_scope.h>
+#include <selvedge/Error.h>
 #include <selvedge/verify.h>
 
 #include "rounded.h"
@@ -11,6 +12,7 @@
 #include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <string>
 
 // The judge, which decides whether a result may be written. It puts together what `offending_pairs`,
 // `pieces`, `match_pieces` and `distances` say of a result and its original, and knows nothing of the
@@ -112,29 +114,53 @@ Verification verify(const Triangle_soup& result, const Triangle_soup& original,
   std::vector<Offending_pair> pairs_of_original = all_pairs_of_original;
   permit_of_original(original, pairs_of_original, verification.permitted);
   verification.pairs_of_original = pairs_of_original.size();
-  const auto find_new_pairs = [&](const Triangle_soup& after, const Triangle_soup& before) {
-    verification.pairs = offending_pairs(after);
-    permit_of_result(result, &original, options, verification.pairs, verification.permitted);
+  const auto find_pairs = [&](const Triangle_soup& after, const Triangle_soup& before,
+                              const std::vector<Offending_pair>& known, std::vector<Permitted>& permitted,
+                              std::vector<Offending_pair>& pairs, std::vector<Offending_pair>& of_result) {
+    pairs = offending_pairs(after);
+    permit_of_result(result, &original, options, pairs, permitted);
     if (!options.collapses) {
-      verification.new_pairs = new_pairs(after, verification.pairs, before, pairs_of_original);
+      of_result = new_pairs(after, pairs, before, known);
       return;
     }
     std::vector<Index> triangles = options.triangles_of_original;
     for (std::size_t t = original.triangles.size(); t < before.triangles.size(); ++t)
       triangles.push_back(Index(t)); // of the obstacle
-    verification.new_pairs = pairs_without_descent(after, verification.pairs, before, pairs_of_original,
-                                                   *options.collapses, triangles);
+    of_result = pairs_without_descent(after, pairs, before, known, *options.collapses, triangles);
   };
-  tbb::parallel_invoke(Cancellation_scope::inherited([&] {
-                         if (obstacle.triangles.empty())
-                           find_new_pairs(result, original);
-                         else
-                           find_new_pairs(geometry_with_obstacle(result, obstacle),
-                                          geometry_with_obstacle(original, obstacle));
-                       }),
-                       Cancellation_scope::inherited([&] { verification.pieces = pieces(result); }),
-                       Cancellation_scope::inherited(
-                           [&] { verification.matching = match_pieces(result, original, options); }));
+  if (result.poses.size() != original.poses.size())
+    throw Argument_error("the result has " + std::to_string(result.poses.size()) +
+                         " further poses and its original " + std::to_string(original.poses.size()));
+  const auto judge_poses = [&] {
+    for (std::size_t pose = 0; pose < result.poses.size(); ++pose) {
+      const Triangle_soup before = geometry_in_pose(original, obstacle, pose);
+      std::vector<Offending_pair> known = options.pairs_in_poses_of_original
+                                              ? (*options.pairs_in_poses_of_original)[pose]
+                                              : offending_pairs(before);
+      std::vector<Permitted> permitted = begin_permitted(options);
+      permit_of_original(original, known, permitted);
+      Verification::In_pose& in_pose = verification.poses.emplace_back();
+      in_pose.name = result.poses[pose].name;
+      in_pose.pairs_of_original = known.size();
+      find_pairs(geometry_in_pose(result, obstacle, pose), before, known, permitted, in_pose.pairs,
+                 in_pose.new_pairs);
+    }
+  };
+  tbb::parallel_invoke(
+      Cancellation_scope::inherited([&] {
+        const auto find_in_first = [&](const Triangle_soup& after, const Triangle_soup& before) {
+          find_pairs(after, before, pairs_of_original, verification.permitted, verification.pairs,
+                     verification.new_pairs);
+        };
+        if (obstacle.triangles.empty())
+          find_in_first(result, original);
+        else
+          find_in_first(geometry_with_obstacle(result, obstacle), geometry_with_obstacle(original, obstacle));
+        judge_poses();
+      }),
+      Cancellation_scope::inherited([&] { verification.pieces = pieces(result); }),
+      Cancellation_scope::inherited(
+          [&] { verification.matching = match_pieces(result, original, options); }));
   verification.topology_differences =
       topology_differences(verification.pieces, verification.matching.pieces_of_original);
   verification.distances = distances(result, original);

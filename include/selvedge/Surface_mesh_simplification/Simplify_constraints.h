@@ -67,6 +67,22 @@ struct Simplify_constraints
   /// `Intersection_filter::let_intersect`. `offending_pairs` has none of the pairs between them.
   std::vector<std::pair<std::vector<Face>, std::vector<Face>>> may_intersect;
 
+  /// A further pose of the mesh: a place of its own for every vertex.
+  using Pose_points = typename boost::property_map<
+      TriangleMesh,
+      CGAL::dynamic_vertex_property_t<typename boost::property_traits<
+          typename boost::property_map<TriangleMesh, CGAL::vertex_point_t>::type>::value_type>>::type;
+  struct Pose
+  {
+    Pose_points points;                                 ///< made with `get(tag, mesh)`; moves with the mesh
+    std::vector<std::pair<Face, Face>> offending_pairs; ///< as below, those in this pose
+  };
+
+  /// All guarantees and limits hold in each of these poses as they do in the mesh's own, and the cost of a
+  /// collapse is the mean over all. No vertex moves that is coincident with another in some pose, and none
+  /// goes to a new place (`Placement::optimal` is refused).
+  std::vector<Pose> poses;
+
   /// The length of which the lengths in the options are fractions; by default, the diagonal of the mesh. A
   /// mesh that is a part of another needs the diagonal of the whole.
   std::optional<double> diagonal;

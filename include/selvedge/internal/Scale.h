@@ -20,7 +20,7 @@ namespace selvedge {
 ///    numbers. So every exact predicate has the same answer before and after: it consists of comparisons of
 ///    coordinates and of signs of polynomials all of whose terms have one degree d. Division by 2^k keeps
 ///    every comparison, and divides such a polynomial by 2^(kd), which is positive.
-/// 3. *Size*: the largest coordinate of the mesh's own triangles comes as near to the range from 1/2 to 1 as
+/// 3. *Size*: the largest coordinate of the mesh's own triangles, in all poses, comes as near to the range from 1/2 to 1 as
 ///    guarantee 2 allows. Only an obstacle, or coordinates of the mesh that are 300 orders of magnitude
 ///    apart, can keep it outside.
 class Scale

@@ -20,6 +20,7 @@
 #include <selvedge/Surface_mesh_simplification/internal/Border_partners.h>
 #include <selvedge/Surface_mesh_simplification/internal/Cgal_pass.h>
 #include <selvedge/Surface_mesh_simplification/internal/Face_targets.h>
+#include <selvedge/Surface_mesh_simplification/internal/Further_poses.h>
 #include <selvedge/Surface_mesh_simplification/internal/Halfedge_filter.h>
 #include <selvedge/Surface_mesh_simplification/internal/Joint_motions.h>
 #include <selvedge/Surface_mesh_simplification/internal/Lazy_edge_profile.h>
@@ -70,23 +71,45 @@ class Simplification
   using Lazy_profile = Lazy_edge_profile<TriangleMesh, VertexPointMap, Geom_traits>;
   using Joint = Joint_motions<TriangleMesh, VertexPointMap>;
 
-  /// Adds the cost of the texture to that of the quadrics, and for vertices that move together the costs of
-  /// all. An edge has no cost if none of its faces counts.
+  /// Whether a face lies in a strip between two lines, such as the edge of thick cloth: its corners are on
+  /// lines after the collapse, and at most one of its edges is a line. However long it is, the strip is no
+  /// wider.
+  struct Is_of_strip
+  {
+    const TriangleMesh* mesh;
+    Rule rule;
+
+    template <class Profile>
+    bool operator()(const Collapse<Profile>& collapse, const Halfedge& h) const
+    {
+      const Halfedge sides[] = {h, next(h, *mesh), prev(h, *mesh)};
+      const auto is_line = [this](const Halfedge& side) { return rule.is_line(edge(side, *mesh)); };
+      return rule.may_bound_strip(source(h, *mesh)) && rule.may_bound_strip(target(sides[1], *mesh)) &&
+             (rule.may_bound_strip(collapse.mover()) || rule.may_bound_strip(collapse.goal())) &&
+             std::count_if(std::begin(sides), std::end(sides), is_line) <= 1;
+    }
+  };
+
+  using Poses = Further_poses<TriangleMesh, Is_of_strip>;
+
+  /// Adds the cost of the texture to that of the quadrics, takes the mean over all poses, and for vertices
+  /// that move together the costs of all. An edge has no cost if none of its faces counts.
   class Cost
   {
   public:
     using Update_tag = CGAL::Tag_true;
 
     Cost(TriangleMesh& mesh, const Quadrics& quadrics, const Targets& targets, const Joint& joint,
-         const Observer& observer, double uv_weight)
-        : m_mesh(&mesh), m_quadrics(quadrics), m_targets(targets), m_joint(&joint), m_observer(&observer),
-          m_uv_weight(uv_weight)
+         const Poses& poses, const Observer& observer, double uv_weight)
+        : m_mesh(&mesh), m_quadrics(quadrics), m_targets(targets), m_joint(&joint), m_poses(&poses),
+          m_observer(&observer), m_uv_weight(uv_weight)
     {
     }
 
     void initialize(const TriangleMesh& mesh, const VertexPointMap& points, const Geom_traits& traits) const
     {
       m_quadrics.initialize(mesh, points, traits);
+      m_poses->initialise_costs();
     }
 
     template <class Profile, class Point>
@@ -138,13 +161,16 @@ class Simplification
     void update_after_collapse(const Profile& profile, const Vertex& kept) const
     {
       m_quadrics.update_after_collapse(profile, kept);
+      m_poses->update_costs(profile.v0(), profile.v1(), kept);
     }
 
   private:
     template <class Profile>
     double cost_alone(const Profile& profile, Halfedge moving) const
     {
-      const double cost = *m_quadrics.cost_along(profile, moving);
+      double cost = *m_quadrics.cost_along(profile, moving);
+      if (!m_poses->empty())
+        cost = m_poses->mean_cost(cost, Collapse<Profile>::along(profile, moving));
       return m_uv_weight > 0 ? cost + m_uv_weight * m_observer->uv_cost(moving) : cost;
     }
 
@@ -152,6 +178,7 @@ class Simplification
     Quadrics m_quadrics;
     Targets m_targets;
     const Joint* m_joint;
+    const Poses* m_poses;
     const Observer* m_observer;
     double m_uv_weight;
   };
@@ -187,25 +214,6 @@ class Simplification
     bool operator()(const Halfedge& moving) const { return partners->allows(moving); }
   };
 
-  /// Whether a face lies in a strip between two lines, such as the edge of thick cloth: its corners are on
-  /// lines after the collapse, and at most one of its edges is a line. However long it is, the strip is no
-  /// wider.
-  struct Is_of_strip
-  {
-    const TriangleMesh* mesh;
-    Rule rule;
-
-    template <class Profile>
-    bool operator()(const Collapse<Profile>& collapse, const Halfedge& h) const
-    {
-      const Halfedge sides[] = {h, next(h, *mesh), prev(h, *mesh)};
-      const auto is_line = [this](const Halfedge& side) { return rule.is_line(edge(side, *mesh)); };
-      return rule.may_bound_strip(source(h, *mesh)) && rule.may_bound_strip(target(sides[1], *mesh)) &&
-             (rule.may_bound_strip(collapse.mover()) || rule.may_bound_strip(collapse.goal())) &&
-             std::count_if(std::begin(sides), std::end(sides), is_line) <= 1;
-    }
-  };
-
   using Line = Border_filter<Rule>;
   using Pieces = Halfedge_filter<Are_pieces_kept, Line>;
   using Border = Halfedge_filter<Are_partners_kept, Pieces>;
@@ -230,17 +238,22 @@ public:
                  const VertexPointMap& points)
       : m_start(Clock::now()), m_mesh(mesh), m_points(points), m_options(options), m_observer(observer),
         m_diagonal(constraints.diagonal ? *constraints.diagonal : diagonal_of_box()),
-        m_joint(mesh, points, joint_vertices(constraints)), m_rule(make_rule(constraints)),
+        m_joint(mesh, points, joint_vertices(constraints)), m_rule(make_rule(constraints, points)),
         m_targets(make_targets(constraints)), m_quadrics(mesh, options.cost, m_rule),
         m_partners(mesh, constraints.partners), m_line(m_rule), m_pieces({&observer, m_rule}, m_line),
         m_border({&m_partners}, m_pieces), m_target(m_targets, m_border),
         m_aspect_ratio(options.min_aspect_ratio, m_target, {&mesh, m_rule}),
         m_normal_change(options.max_normal_change, m_aspect_ratio),
         m_uv({options.check_uv_orientation ? &observer : nullptr, m_rule}, m_normal_change), m_tracked(mesh),
-        m_error(max_error(), m_tracked, m_uv), m_offending_pairs(constraints.offending_pairs),
-        m_may_intersect(constraints.may_intersect)
+        m_error(max_error(), m_tracked, m_uv),
+        m_poses(mesh, options, constraints, m_diagonal, max_error(), {&mesh, m_rule},
+                [&](const auto& of_pose) { return make_rule(constraints, of_pose); }),
+        m_offending_pairs(constraints.offending_pairs), m_may_intersect(constraints.may_intersect)
   {
     refuse_out_of_range();
+    if (!m_poses.empty() && options.placement == Placement::optimal)
+      throw Argument_error("a new place of a vertex is a place in one pose; with several poses, vertices go "
+                           "to others");
     if (!(options.uv_weight >= 0 && std::isfinite(options.uv_weight)))
       throw Argument_error("the weight of the texture is at least 0, and finite");
     m_quadrics.weigh(mesh, constraints.vertex_weights);
@@ -296,7 +309,7 @@ public:
 
     // The observer's weights of faces are relative to the area 1, those of the quadrics to that of the
     // diagonal.
-    const Cost costs(m_mesh, m_quadrics, m_targets, m_joint, m_observer,
+    const Cost costs(m_mesh, m_quadrics, m_targets, m_joint, m_poses, m_observer,
                      m_options.uv_weight * relative_face_weight(1 / (m_diagonal * m_diagonal)));
     if (m_options.placement == Placement::optimal)
       run_passes(costs, Optimal_places(costs, m_rule, {&m_observer}));
@@ -374,6 +387,7 @@ private:
     const Geom_traits traits;
     if (m_intersection)
       m_intersection->visitor().OnStarted(m_mesh); // who asks the filter outside of a loop has to say so
+    m_poses.on_started();
     auto should_stop = is_interrupted();
     Topology_test<TriangleMesh> topology;
     for (const Edge e : edges(m_mesh)) {
@@ -482,7 +496,12 @@ private:
   Hindrance hindrance(const Collapse<Profile>& collapse)
   {
     const Hindrance reason = hindrance_but_contacts(collapse);
-    if (reason != Hindrance::by_loop || !m_intersection)
+    if (reason != Hindrance::by_loop)
+      return reason;
+    if (const auto in_pose =
+            m_poses.hindrance(collapse, line_reason(edge(collapse.moving(), m_mesh)) == Hindrance::border))
+      return *in_pose;
+    if (!m_intersection)
       return reason;
     const auto refused_by_contact = [this] {
       const Intersection_statistics& statistics = m_intersection->statistics();
@@ -546,6 +565,7 @@ private:
       m_intersection.emplace(m_mesh, m_error, empty_index(), m_points);
       m_intersection->exempt(m_offending_pairs);
       m_intersection->let_intersect(m_may_intersect);
+      m_poses.build_index([this] { return empty_index(); }, m_may_intersect);
     }
     Cancellation_scope::check();
     m_report.seconds_index = seconds_since(start);
@@ -571,7 +591,7 @@ private:
     const std::vector<typename Intersection::Face>& blockers() const
     {
       static const std::vector<typename Intersection::Face> none;
-      return simplification->m_intersection ? simplification->m_intersection->blockers() : none;
+      return simplification->m_blockers ? *simplification->m_blockers : none;
     }
   };
 
@@ -605,6 +625,7 @@ private:
     {
       if (simplification->m_intersection)
         simplification->m_intersection->visitor().OnStarted(mesh);
+      simplification->m_poses.on_started();
     }
     template <class Profile>
     void before_collapse(const Collapse<Profile>& collapse)
@@ -682,10 +703,28 @@ private:
     return false;
   }
 
+  // The cheap limits of all poses come before the exact test in any of them.
   template <class Profile>
   bool filters_allow(const Collapse<Profile>& collapse)
   {
-    return m_intersection ? m_intersection->allows(collapse) : m_error.allows(collapse);
+    m_blockers = nullptr;
+    if (!m_intersection)
+      return m_error.allows(collapse) && m_poses.allows_shape(collapse);
+    if (m_poses.empty()) {
+      m_blockers = &m_intersection->blockers();
+      return m_intersection->allows(collapse);
+    }
+    if (!m_error.allows(collapse) || !m_poses.allows_shape(collapse))
+      return false;
+    if (!m_intersection->accepts(collapse)) {
+      ++m_refused_in_first_pose;
+      m_blockers = &m_intersection->blockers();
+      return false;
+    }
+    if (m_poses.is_clear(collapse))
+      return true;
+    m_blockers = &m_poses.blockers();
+    return false;
   }
 
   // Whether all rules but the exact test allow the collapses of the vertices that move together with the
@@ -745,6 +784,7 @@ private:
     m_partners.before_collapse(collapse.moving());
     m_tracked.before_collapse(collapse);
     m_rule.before_collapse(collapse);
+    m_poses.before_collapse(collapse);
     if (m_intersection)
       m_intersection->visitor().before_collapse(collapse.with_others(m_others));
     if (!m_others.empty())
@@ -757,6 +797,7 @@ private:
     m_joint.after_collapse(kept);
     m_partners.after_collapse(kept);
     m_rule.after_collapse(kept);
+    m_poses.after_collapse(kept);
     if (m_intersection)
       m_intersection->visitor().after_collapse(kept);
     if (m_motions_left > 0)
@@ -789,10 +830,10 @@ private:
   }
 
   // The groups of vertices that may move together. CGAL's loop does one collapse at a time. A vertex with a
-  // partner could not follow both.
+  // partner could not follow both. In several poses, no group is known to stay one in each.
   typename Joint::Groups joint_vertices(const Simplify_constraints<TriangleMesh>& constraints) const
   {
-    if (m_options.loop != Collapse_loop::own || !m_options.check_intersections)
+    if (m_options.loop != Collapse_loop::own || !m_options.check_intersections || !constraints.poses.empty())
       return {};
     boost::unordered_set<Vertex> has_partner;
     for (const auto& [a, b] : constraints.partners)
@@ -813,13 +854,15 @@ private:
     return locked;
   }
 
-  Rule make_rule(const Simplify_constraints<TriangleMesh>& constraints) const
+  template <class Points>
+  Border_rule<TriangleMesh, Points> make_rule(const Simplify_constraints<TriangleMesh>& constraints,
+                                              const Points& points) const
   {
     Border_rule_options options;
     options.max_border_turn = m_options.max_border_turn;
     options.max_seam_turn = m_options.max_seam_turn;
     options.max_drift = m_options.max_border_drift * m_diagonal;
-    Rule rule(m_mesh, m_points, options);
+    Border_rule<TriangleMesh, Points> rule(m_mesh, points, options);
     for (const auto e : constraints.line_edges)
       rule.mark(e);
     for (const auto v : constraints.no_strip_vertices)
@@ -899,7 +942,8 @@ private:
     result.aspect_ratio = m_aspect_ratio.refusals();
     result.normal_change = m_normal_change.refusals();
     result.uv = m_uv.refusals();
-    result.intersection = m_intersection ? m_intersection->refusals() : 0;
+    result.intersection = (m_intersection ? m_intersection->refusals() : 0) + m_refused_in_first_pose;
+    m_poses.add_refusals(result);
     // What the last filter accepted and the loop did not collapse. A stop comes before the filters.
     result.companions = m_companions_too_near;
     result.by_loop = m_accepted - m_report.collapses;
@@ -915,6 +959,8 @@ private:
     report.faces_to_go = m_targets.total_excess();
     report.refused = refusals();
     report.left_alone = m_partners.alone();
+    for (std::size_t i = 0; i < m_poses.size(); ++i)
+      report.refused_in_poses.push_back(m_poses.refused_in(i));
     report.seconds_reduce = seconds_since(m_start);
     if (m_intersection) {
       report.intersections = m_intersection->statistics();
@@ -950,6 +996,7 @@ private:
   Uv m_uv;
   Tracked_points<TriangleMesh> m_tracked;
   Error m_error;
+  Poses m_poses;
   std::vector<std::pair<typename Intersection::Face, typename Intersection::Face>> m_offending_pairs;
   decltype(Simplify_constraints<TriangleMesh>::may_intersect) m_may_intersect;
   std::optional<Intersection> m_intersection;
@@ -961,6 +1008,8 @@ private:
   std::vector<Halfedge> m_others; // of vertices that move together, those besides the one last asked about
   std::size_t m_others_left = 0;  // of the motion that has begun
   bool m_is_mover_first = false;  // of the last collapse accepted
+  const std::vector<typename Intersection::Face>* m_blockers = nullptr; // of the last collapse refused
+  std::size_t m_refused_in_first_pose = 0;
   double m_cost = 0;
   bool m_are_hindrances_counted = true;
   Refusals m_refused_until_now;
