@@ -6,6 +6,7 @@
 #include "html_report.h"
 #include "output_files.h"
 #include "part_pairs.h"
+#include "poses_option.h"
 #include "standard_streams.h"
 #include "subcommands.h"
 #include "threads.h"
@@ -23,7 +24,7 @@ namespace {
 // Large enough that few vertices lie on cell walls, small enough that a cell stays in a processor's cache.
 constexpr std::size_t faces_per_cell = 50'000;
 
-constexpr std::string_view level_mark = "{lod}";
+constexpr std::string_view level_mark = "{lod}", pose_mark = "{pose}";
 
 // As far off as a shape may be by default. Beyond it, ears become slabs, and a hat becomes a tent.
 constexpr double default_error = 0.01;
@@ -75,6 +76,39 @@ void read_ratios(Simplify_request& request)
       request.options.ratio = ratio_in(text);
 }
 
+void check_poses(const Simplify_request& request)
+{
+  const auto refuse_with = [](const char* option, const char* why) {
+    throw Argument_error(std::string("--pose: ") + why + "; leave out " + option + " or --pose");
+  };
+  if (request.poses.empty()) {
+    if (!request.obstacle_poses.empty() || !request.poses_output.empty())
+      throw Argument_error(std::string(request.poses_output.empty() ? "--obstacle-pose" : "--poses-out") +
+                           ": the mesh has no further poses; give them by --pose");
+    return;
+  }
+  if (request.is_in_cells)
+    refuse_with("--cells", "a mesh in several poses is not reduced in cells");
+  if (!request.weld.empty())
+    refuse_with("--weld", "gaps are closed in one pose only");
+  if (request.is_sewn)
+    refuse_with("--sewn", "vertices that meet in one pose may be apart in others");
+  if (request.options.placement == Placement::optimal)
+    refuse_with("--placement optimal", "a new place is a place in one pose only");
+  if (!request.obstacle_poses.empty() && request.obstacle.empty())
+    throw Argument_error("--obstacle-pose: there is no obstacle; give --obstacle FILE");
+  const auto require_mark = [&](std::string_view mark, const char* what) {
+    if (!request.poses_output.empty() && request.poses_output.find(mark) == std::string::npos)
+      throw Argument_error("--poses-out: the name must contain " + std::string(mark) + ", which stands for " +
+                           what + ": --poses-out 'small_{pose}.obj'");
+  };
+  require_mark(pose_mark, "the name of the pose");
+  if (!request.lods.empty())
+    require_mark(level_mark, "the number of the level");
+  if (!request.poses_output.empty())
+    format_of(request.poses_output, std::nullopt);
+}
+
 /// Refuses what can be refused before any work is done.
 void check(const Simplify_request& request)
 {
@@ -95,13 +129,15 @@ void check(const Simplify_request& request)
   if (!request.log.empty() && !request.lods.empty())
     throw Argument_error(
         "--log: a log holds one reduction, but --lods asks for several; leave out one of the two");
+  check_poses(request);
   require_html(request.html);
   std::vector<Named_file> written;
   for (const std::string& output : outputs(request)) {
     format_of(output, request.format);
     written.push_back({"--output", output});
   }
-  written.insert(written.end(), {{"--report", request.report}, {"--log", request.log}, {"--html", request.html}});
+  written.insert(written.end(),
+                 {{"--report", request.report}, {"--log", request.log}, {"--html", request.html}});
   check_streams({{"IN", request.input}, {"--obstacle", request.obstacle}}, written, request.format);
   // A mesh may replace its input, but nothing else may.
   require_distinct(written, {{"--obstacle", request.obstacle}});
@@ -132,6 +168,16 @@ std::vector<std::string> outputs(const Simplify_request& request)
   for (std::size_t level = 1; level <= request.lods.size(); ++level)
     names.push_back(std::string(request.output).replace(place, level_mark.size(), std::to_string(level)));
   return names;
+}
+
+std::string pose_output(const Simplify_request& request, std::size_t level, const std::string& pose)
+{
+  std::string name = request.poses_output;
+  for (const auto& [mark, text] :
+       {std::make_pair(level_mark, std::to_string(level)), std::make_pair(pose_mark, pose)})
+    if (const std::size_t place = name.find(mark); place != std::string::npos)
+      name.replace(place, mark.size(), text);
+  return name;
 }
 
 bool has_standard_output(const Simplify_request& request)
@@ -172,6 +218,9 @@ Json options_json(const Simplify_request& request)
           {"may_intersect", request.may_intersect},
           {"weights", request.intent.weights.empty() ? Json(nullptr) : Json(request.intent.weights)},
           {"obstacle", request.obstacle.empty() ? Json(nullptr) : Json(request.obstacle)},
+          {"poses", request.poses},
+          {"obstacle_poses", request.obstacle_poses},
+          {"poses_out", request.poses_output.empty() ? Json(nullptr) : Json(request.poses_output)},
           {"weld", request.weld == "auto" ? Json(request.weld) : Json(request.weld_distance)},
           {"sewn", request.is_sewn},
           {"normals", name_of(request.normals)},
@@ -296,6 +345,24 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->type_name("shared|apart")
       ->default_str("shared")
       ->group(parts);
+
+  const char* const poses =
+      "Poses (the same vertices and faces at other places, such as frames of an animation)";
+  add_poses_option(command, "--pose,--poses", request.poses,
+                   "Further poses of IN: a mesh file, or a pattern in quotes for several, in natural order. "
+                   "Everything that holds in IN holds in each of them: no layers touch or pass through each "
+                   "other, limits are kept, and the cost is the mean of all. May be given several times.")
+      ->group(poses);
+  add_poses_option(command, "--obstacle-pose,--obstacle-poses", request.obstacle_poses,
+                   "Poses of the obstacle, as many as of IN and in the same order. Without them it stands "
+                   "still.")
+      ->group(poses);
+  command
+      .add_option("--poses-out", request.poses_output,
+                  "Files for the poses of the result: {pose} stands for the name of each, the name of its "
+                  "file without ending.")
+      ->type_name("PATTERN")
+      ->group(poses);
 
   const char* const limits = "Limits of a collapse";
   command
@@ -480,7 +547,9 @@ void add_options(CLI::App& command, Simplify_request& request)
       "  selvedge simplify jacket.obj -o small.obj --ratio 0.2 --ratio collar=0.8 --keep logo --obstacle "
       "body.obj\n"
       "  selvedge simplify jacket.obj -o small.obj --ratio 0.1 --require-target || echo missed\n"
-      "  selvedge simplify draped.obj -o small.obj --ratio 0.3 --weld auto      # close narrow gaps\n\n"
+      "  selvedge simplify draped.obj -o small.obj --ratio 0.3 --weld auto      # close narrow gaps\n"
+      "  selvedge simplify rest.obj -o small.obj --ratio 0.2 --poses 'frame_*.obj' --poses-out "
+      "'small_{pose}.obj'\n\n"
       "The result is always judged before it is written. A target that cannot be reached is no error: the\n"
       "result is written, and summary and report say what prevented more. Ctrl-C during the reduction stops "
       "it,\n"

@@ -30,7 +30,9 @@ struct Simplify_request
   std::string error;               // "E", "none", or empty for the default
   std::vector<double> lods;
   std::string obstacle;
-  std::vector<std::string> may_intersect; // "PART:PART"
+  std::vector<std::string> poses, obstacle_poses; // files, or patterns of such
+  std::string poses_output;                       // with {pose}
+  std::vector<std::string> may_intersect;         // "PART:PART"
   Simplify_options options;
   Simplify_intent intent;
   bool is_unguarded = false;
@@ -61,6 +63,10 @@ void complete(Simplify_request& request);
 /// Returns the output file of each level: the name with the level's number, from 1, in place of {lod}.
 /// Without levels it is the name as given.
 std::vector<std::string> outputs(const Simplify_request& request);
+
+/// Returns the output file of a pose: `Simplify_request::poses_output`, or the name that it has for a level
+/// (from 1), with the name of the pose in place of {pose}.
+std::string pose_output(const Simplify_request& request, std::size_t level, const std::string& pose);
 
 /// Returns whether the request asks for a mesh, report or log on this program's standard output.
 bool has_standard_output(const Simplify_request& request);

@@ -4,6 +4,7 @@
 #include "Progress_bar.h"
 #include "interruption.h"
 #include "output_files.h"
+#include "poses_option.h"
 #include "report_json.h"
 #include "report_output.h"
 #include "standard_streams.h"
@@ -17,13 +18,17 @@
 #include <selvedge/mesh_files.h>
 #include <selvedge/replay.h>
 
+#include <algorithm>
 #include <atomic>
 #include <fstream>
 #include <iostream>
 #include <map>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace selvedge::app {
 namespace {
@@ -32,6 +37,7 @@ struct Replay_request
 {
   std::string original;
   std::string log;
+  std::vector<std::string> poses;
   std::string output;
   std::string scene;
   std::string limits;
@@ -164,6 +170,25 @@ void print(const Replay_request& request, const Replay_verdict& verdict)
   std::cout << std::flush;
 }
 
+void print(const std::string& pose, const Replay_verdict& verdict)
+{
+  std::cout << "pose '" << pose << "': "
+            << (verdict.is_accepted()        ? "ACCEPTED"
+                : verdict.violations.empty() ? "interrupted"
+                                             : "REFUSED; the first violation:")
+            << '\n';
+  if (!verdict.violations.empty())
+    print_at_length(verdict.violations.front());
+  std::cout << std::flush;
+}
+
+std::unique_ptr<std::istream> in_memory(std::istream& stream)
+{
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return std::make_unique<std::istringstream>(text.str());
+}
+
 Exit_code run(const Replay_request& request)
 {
   const std::vector<Named_file> written{
@@ -181,12 +206,14 @@ Exit_code run(const Replay_request& request)
       require_writable(file.path);
   Replay_options options;
   options.limits = imposed_limits(request.limits);
-  const std::unique_ptr<std::istream> stream = open_text(request.log);
-  Log_reader log(*stream, input_name(request.log));
+  std::unique_ptr<std::istream> stream = open_text(request.log);
+  if (!request.poses.empty()) // is read again for each
+    stream = in_memory(*stream);
   Mesh_input input(request.original, request.format);
   Mesh_file original = input.read();
   if (request.are_polygons_split)
     original.soup.polygons.clear();
+  read_poses(request.poses, request.original, original.soup);
 
   // A signal during the steps keeps the verdict until then. At any other time it ends the run without one.
   std::atomic<bool> is_kept = false;
@@ -195,27 +222,53 @@ Exit_code run(const Replay_request& request)
   options.sha256_of_original = input.sha256();
   options.is_all_wanted = request.is_all_wanted;
   options.should_stop = [&](std::size_t) { return is_kept = is_interrupted(); };
-  const Replay_verdict verdict = [&] {
+  const auto replay_once = [&] {
     try {
+      if (options.pose) {
+        stream->clear();
+        stream->seekg(0);
+      }
+      Log_reader log(*stream, input_name(request.log));
       return replay(original.soup, original.format == Mesh_format::stl, log, options);
     } catch (const Input_error& error) {
       throw Input_error(input_name(request.original) + " with " + input_name(request.log) + ": " +
                         error.what());
     }
-  }();
-  const Exit_code code = !verdict.violations.empty() ? exit_not_verified
-                         : verdict.is_stopped        ? exit_interrupted
-                                                     : exit_done;
+  };
+  const Replay_verdict verdict = replay_once();
+  std::vector<Replay_verdict> in_poses;
+  for (std::size_t pose = 0; pose < original.soup.poses.size() && !verdict.is_stopped; ++pose) {
+    options.pose = pose;
+    in_poses.push_back(replay_once());
+    in_poses.back().soup = {};
+  }
+  const auto is_any = [&](const auto& is_so) {
+    return is_so(verdict) || std::any_of(in_poses.begin(), in_poses.end(), is_so);
+  };
+  const Exit_code code = is_any([](const Replay_verdict& v) { return !v.violations.empty(); })
+                             ? exit_not_verified
+                         : is_any([](const Replay_verdict& v) { return v.is_stopped; }) ? exit_interrupted
+                                                                                        : exit_done;
   Json report = new_report("replay");
   report["input"] = input_json(request.original, original);
   report["log"] = {{"path", request.log}};
   add_replay(report, verdict);
+  Json poses = Json::array();
+  for (std::size_t i = 0; i < in_poses.size(); ++i) {
+    Json& pose = poses.emplace_back(Json{{"name", original.soup.poses[i].name}});
+    add_replay(pose, in_poses[i]);
+  }
+  report["poses"] = std::move(poses);
   report["memory"] = {{"peak_bytes", peak_memory_bytes()}};
   report["exit_code"] = int(code);
   {
     const Text_to_standard_error elsewhere(is_standard_output(request.output) ||
                                            is_standard_output(request.scene));
-    put_report(request, report, [&] { print(request, verdict); });
+    put_report(request, report, [&] {
+      print(request, verdict);
+      for (std::size_t i = 0; i < in_poses.size(); ++i)
+        print(original.soup.poses[i].name, in_poses[i]);
+    });
   }
   if (!request.scene.empty() && !verdict.violations.empty())
     write_file(output_path(request.scene), verdict.violations.front().scene);
@@ -231,6 +284,10 @@ Action add_replay(CLI::App& command)
   const auto request = std::make_shared<Replay_request>();
   command.add_option("ORIGINAL", request->original, "Mesh that was reduced.")->required()->type_name("");
   command.add_option("LOG", request->log, "Log of the collapses that reduced it.")->required()->type_name("");
+  add_poses_option(
+      command, "--pose,--poses", request->poses,
+      "The further poses of the log, in its order, in each of which every step is judged, too: a "
+      "mesh file, or a pattern in quotes. May be given several times.");
   command.add_option("-o,--output", request->output, "File for the mesh to which the steps lead.")
       ->type_name("FILE");
   CLI::Option* const limits =

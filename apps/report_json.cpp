@@ -237,6 +237,14 @@ void add_verification(Json& report, const Verification& verification, bool has_o
   report["verified"]["permitted"] = std::move(permitted);
   if (has_original)
     report["verified"]["pairs_of_original"] = verification.pairs_of_original;
+  Json poses = Json::array();
+  for (const Verification::In_pose& pose : verification.poses) {
+    poses.push_back(
+        {{"name", pose.name}, {"pairs", pose.pairs.size()}, {"new_pairs", pose.new_pairs.size()}});
+    if (has_original)
+      poses.back()["pairs_of_original"] = pose.pairs_of_original;
+  }
+  report["verified"]["poses"] = std::move(poses);
   report["pieces"] = {{"count", verification.pieces.size()}, {"kinds", kinds_of(verification.pieces)}};
   if (!has_original)
     return;

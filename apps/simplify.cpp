@@ -8,6 +8,7 @@
 #include "interruption.h"
 #include "output_files.h"
 #include "part_pairs.h"
+#include "poses_option.h"
 #include "report_json.h"
 #include "simplify_summary.h"
 #include "standard_streams.h"
@@ -22,6 +23,7 @@
 #include <selvedge/collapse_log.h>
 #include <selvedge/merge.h>
 #include <selvedge/mesh_files.h>
+#include <selvedge/poses.h>
 #include <selvedge/references.h>
 
 #include <algorithm>
@@ -79,6 +81,13 @@ public:
 private:
   Mesh_format output_format() const { return format_of(m_request.output, m_request.format); }
 
+  // One rounding for all files: the mesh and its poses are judged as they are written.
+  bool is_rounded(const Triangle_soup& soup) const
+  {
+    return needs_float32(soup, output_format()) ||
+           (!m_request.poses_output.empty() && stores_float32(mesh_format(m_request.poses_output)));
+  }
+
   Prepared_soup read_and_prepare()
   {
     m_bar.begin("reading");
@@ -87,6 +96,7 @@ private:
     Mesh_file file = input.read();
     m_seconds["read"] = seconds_since(start);
     m_report["input"] = input_json(m_request.input, file);
+    read_poses(m_request.poses, m_request.input, file.soup);
     if (m_request.are_polygons_split)
       file.soup.polygons.clear();
     m_polygons = file.soup.polygons.size();
@@ -95,12 +105,15 @@ private:
       m_log_header.vertices = m_numbering->size();
       m_log_header.triangles = file.soup.triangles.size();
       m_log_header.sha256 = input.sha256();
-      m_log_header.is_rounded_to_float32 = needs_float32(file.soup, output_format());
+      m_log_header.is_rounded_to_float32 = is_rounded(file.soup);
+      for (const Pose& pose : file.soup.poses)
+        m_log_header.poses.push_back({pose.name, digest_of(pose)});
     }
     Triangle_soup obstacle;
     if (!m_request.obstacle.empty()) {
       Mesh_input obstacle_input(m_request.obstacle, m_request.format);
       obstacle = obstacle_input.read().soup;
+      read_poses(m_request.obstacle_poses, m_request.obstacle, obstacle);
       m_log_header.obstacle = {obstacle.points.size(), obstacle.triangles.size(), obstacle_input.sha256()};
     }
 
@@ -111,7 +124,7 @@ private:
 
     m_bar.begin("judging the input");
     Prepare_options options;
-    options.round_to_float32 = needs_float32(file.soup, output_format());
+    options.round_to_float32 = is_rounded(file.soup);
     options.defects = defects_of(m_request);
     options.weld_distance = m_request.weld_distance;
     options.weld_clear_gaps = m_request.weld == "auto";
@@ -212,6 +225,7 @@ private:
       for (const Level& level : levels) {
         write_output(level.output, written(level.result), output_format(), m_request.is_ascii);
         m_files_written.push_back(level.output);
+        write_poses(level.result.soup, std::size_t(&level - levels.data()) + 1);
       }
     }
     // The log is written even when the result was refused, because it shows why.
@@ -224,6 +238,15 @@ private:
     for (const Level& level : levels)
       if (const std::string what = complaint(m_request, level, m_outcome); !what.empty())
         complain(what);
+  }
+
+  void write_poses(const Triangle_soup& soup, std::size_t level)
+  {
+    for (std::size_t i = 0; i < soup.poses.size() && !m_request.poses_output.empty(); ++i) {
+      const std::string name = pose_output(m_request, level, soup.poses[i].name);
+      write_output(name, in_pose(soup, i), mesh_format(name), m_request.is_ascii);
+      m_files_written.push_back(name);
+    }
   }
 
   void report(const Prepared_soup& prepared, const std::vector<Level>& levels)

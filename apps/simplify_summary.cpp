@@ -183,6 +183,27 @@ void print_border_gaps(std::ostream& stream, const Simplify_request& request, co
            << (request.weld == "auto" ? ", which is the length chosen\n" : "; --weld auto joins them\n");
 }
 
+// Says what the judge found in the further poses.
+void print_poses(std::ostream& stream, const Verification& verification, Defects defects)
+{
+  std::size_t pairs = 0, unexplained = 0, of_original = 0, affected = 0;
+  for (const Verification::In_pose& pose : verification.poses) {
+    pairs += pose.pairs.size();
+    unexplained += pose.new_pairs.size();
+    of_original += pose.pairs_of_original;
+    affected += !pose.pairs.empty();
+  }
+  stream << "\nposes: " << counted(verification.poses.size(), "further pose") << " judged, ";
+  if (pairs == 0)
+    stream << "embedded in each";
+  else
+    stream << counted(pairs, "offending pair") << " in " << with_commas(affected) << " of them, "
+           << (unexplained > 0 ? with_commas(unexplained) + " of them NEW"
+               : defects == Defects::descend
+                   ? "all descended from the " + with_commas(of_original) + " of the input"
+                   : "none new");
+}
+
 } // namespace
 
 void print_input(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
@@ -207,6 +228,10 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
               "shading\n";
   if (prepared.normals == Normals_treatment::smooth)
     stream << "  normals made anew, with the hard edges of the input\n";
+  if (const auto held = std::count(prepared.is_held.begin(), prepared.is_held.end(), char(true)); held > 0)
+    stream << "  coincident in some poses and not in others, so that they do not move: "
+           << counted(std::size_t(held), "vertex", "vertices") << ", the first is " << prepared.first_held
+           << '\n';
   print_border_gaps(stream, request, prepared.border_gaps, diagonal);
   if (prepared.snapping.distance > 0)
     print_snapping(stream, prepared.snapping);
@@ -273,7 +298,7 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
   std::size_t permitted = 0;
   for (const Verification::Permitted& parts : verification.permitted)
     permitted += parts.pairs;
-  if (verification.embedded())
+  if (verification.pairs.empty())
     stream << (permitted == 0 ? "embedded (no triangles touch or cross)"
                               : "embedded, but for parts that may intersect");
   else
@@ -281,6 +306,8 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
            << " (triangles that touch or cross, or are degenerate), "
            << origin_of_pairs(verification, prepared.defects);
   stream << ", topology " << (verification.same_topology() ? "kept" : "CHANGED");
+  if (!verification.poses.empty())
+    print_poses(stream, verification, prepared.defects);
   for (const Verification::Permitted& parts : verification.permitted)
     stream << "\nmay intersect: " << counted(parts.pairs_of_original, "pair") << " between '" << parts.first
            << "' and '" << parts.second << "' before, " << with_commas(parts.pairs) << " now";

@@ -5,6 +5,7 @@
 #include "html_report.h"
 #include "output_files.h"
 #include "part_pairs.h"
+#include "poses_option.h"
 #include "report_json.h"
 #include "report_output.h"
 #include "standard_streams.h"
@@ -32,6 +33,7 @@ struct Verify_request
 {
   std::string mesh;
   std::string original;
+  std::vector<std::string> poses, poses_of_original;
   std::string report;
   std::string html;
   std::optional<Mesh_format> format;
@@ -157,7 +159,7 @@ void print(const Verify_request& request, const Mesh_file& mesh, const Verificat
   for (const Verification::Permitted& parts : verification.permitted)
     std::cout << "may intersect: " << counted(parts.pairs, "pair") << " between '" << parts.first << "' and '"
               << parts.second << "', which no other figure counts\n";
-  if (verification.embedded()) {
+  if (verification.pairs.empty()) {
     std::cout << (verification.permitted.empty() ? "embedded: no triangles"
                                                  : "embedded, but for these parts: no other triangles")
               << " touch or cross, and none is degenerate\n";
@@ -177,6 +179,18 @@ void print(const Verify_request& request, const Mesh_file& mesh, const Verificat
           << "  the original has " << counted(verification.pairs_of_original, "offending pair")
           << ", from which some of these may descend (--defects descend); `selvedge replay` judges that, "
              "with a log\n";
+  }
+  for (const Verification::In_pose& pose : verification.poses) {
+    std::cout << "pose '" << pose.name << "': ";
+    if (pose.pairs.empty()) {
+      std::cout << "embedded\n";
+      continue;
+    }
+    std::cout << counted(pose.pairs.size(), "offending pair");
+    if (has_original)
+      std::cout << ", " << with_commas(pose.new_pairs.size()) << " of them not in the original";
+    std::cout << ", the first: "
+              << describe(pose.new_pairs.empty() ? pose.pairs.front() : pose.new_pairs.front()) << '\n';
   }
   if (has_original) {
     if (verification.is_original_rounded)
@@ -224,7 +238,8 @@ Exit_code run(const Verify_request& request)
   for (const Named_file& file : written)
     if (!file.path.empty())
       require_writable(file.path);
-  const Mesh_file mesh = Mesh_input(request.mesh, request.format).read();
+  Mesh_file mesh = Mesh_input(request.mesh, request.format).read();
+  read_poses(request.poses, request.mesh, mesh.soup);
   Json report = new_report("verify");
   report["input"] = input_json(request.mesh, mesh);
   std::optional<Verification> verification;
@@ -234,6 +249,7 @@ Exit_code run(const Verify_request& request)
   options.may_intersect = part_pairs(request.may_intersect, mesh.soup);
   if (has_original) {
     original = Mesh_input(request.original, request.format).read();
+    read_poses(request.poses_of_original, request.original, original.soup);
     report["original"] = input_json(request.original, original);
     options.weld_distance = request.weld_distance;
     verification = verify(mesh.soup, original.soup, options);
@@ -272,6 +288,11 @@ Action add_verify(CLI::App& command)
       ->type_name("");
   command.add_option("--against", request->original, "Original mesh, of which MESH is a reduction.")
       ->type_name("FILE");
+  add_poses_option(command, "--pose,--poses", request->poses,
+                   "Further poses of MESH, each judged like it: a mesh file, or a pattern in quotes. May be "
+                   "given several times.");
+  add_poses_option(command, "--against-pose,--against-poses", request->poses_of_original,
+                   "The same poses of the original, in the same order.");
   command
       .add_option(
           "--weld", request->weld_distance,

@@ -369,7 +369,7 @@ bool are_between(const std::vector<char>& first, const std::vector<char>& second
 std::size_t take_out_pairs_between(const std::vector<char>& first, const std::vector<char>& second,
                                    std::vector<Offending_pair>& pairs);
 
-/// Judges a mesh by itself: finds its offending pairs and its pieces. Of the options it takes
+/// Judges a mesh by itself: finds its offending pairs, in every pose, and its pieces. Of the options it takes
 /// `may_intersect`.
 Verification verify(const Triangle_soup& mesh, const Verify_options& options = {});
 

@@ -29,8 +29,9 @@ std::vector<Not_judged> not_judged(const Replay_verdict& verdict)
                                            "' keep clear of each other: the log says that they may "
                                            "intersect"});
   if (verdict.is_in_first_pose && !verdict.header.poses.empty())
-    result.push_back({"poses", "the " + std::to_string(verdict.header.poses.size()) +
-                                   " further poses that the log names: they are judged one by one"});
+    result.push_back({"poses", "the further poses that the log names (" +
+                                   std::to_string(verdict.header.poses.size()) +
+                                   "): each has a verdict of its own"});
   if (verdict.header.obstacle)
     result.push_back({"obstacle",
                       "whether the steps keep clear of the obstacle that the log names: the log does "

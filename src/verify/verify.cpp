@@ -90,6 +90,13 @@ Verification verify(const Triangle_soup& mesh, const Verify_options& options)
                          verification.pairs = offending_pairs(mesh);
                          permit_of_result(mesh, nullptr, options, verification.pairs, verification.permitted);
                          verification.new_pairs = verification.pairs;
+                         for (std::size_t pose = 0; pose < mesh.poses.size(); ++pose) {
+                           std::vector<Permitted> permitted = begin_permitted(options);
+                           std::vector<Offending_pair> pairs =
+                               offending_pairs(geometry_in_pose(mesh, {}, pose));
+                           permit_of_result(mesh, nullptr, options, pairs, permitted);
+                           verification.poses.push_back({mesh.poses[pose].name, pairs, 0, pairs});
+                         }
                        }),
                        Cancellation_scope::inherited([&] { verification.pieces = pieces(mesh); }));
   return verification;

@@ -1,0 +1,41 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_POSES_H
+#define SELVEDGE_POSES_H
+
+#include <selvedge/Triangle_soup.h>
+#include <selvedge/mesh_files.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace selvedge {
+
+/// \file
+/// Poses of a mesh as files: each holds the same vertices and faces in the same order, at other places.
+
+/// Reads a pose of a mesh from a mesh file of any format. Its name is that of the file without ending.
+///
+/// The file has as many vertices as the mesh has, and its faces name the same vertices, in the same order.
+/// STL files have no vertices: there each corner has the place of its vertex, so that vertices which the mesh
+/// has at one place must be at one place in every pose. Everything but places is ignored. How a face of more
+/// than three corners is cut into triangles depends on its shape; the cuts are those of the mesh.
+///
+/// Throws `Input_error` when the file cannot be read, or is no pose of the mesh; the message names the file
+/// and the first difference. Vertices and faces are counted from 1 in it. Linear.
+Pose read_pose(const std::filesystem::path& path, const Triangle_soup& mesh);
+
+/// Returns the files that a name stands for: the file of this name where there is one; otherwise, of a
+/// pattern with `*`, `?` or `[...]` (POSIX glob), all files that match but `mesh`, in natural order: frame_2
+/// before frame_10. Throws `Input_error` when there is none.
+std::vector<std::filesystem::path> files_named(const std::string& name, const std::filesystem::path& mesh);
+
+/// Returns a mesh as it is in one of its further poses, which it then has none of. It has no glTF scene any
+/// more, since a scene holds the places of its own pose.
+Triangle_soup in_pose(const Triangle_soup& mesh, std::size_t pose);
+
+} // namespace selvedge
+
+#endif // SELVEDGE_POSES_H
