@@ -80,7 +80,7 @@ public:
   explicit Inspector(const Prepared_soup& prepared)
       : m_prepared(prepared), m_soup(prepared.soup),
         m_working(prepared.soup, prepared.positions, prepared.is_frozen, {}, prepared.scale,
-                  prepared.is_turned),
+                  prepared.is_turned, prepared.fronts),
         m_rule(m_working.mesh())
   {
     for (const auto e : m_working.constraints().line_edges)

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <numeric>
 #include <string>
+#include <unordered_map>
 #include <utility>
 
 namespace selvedge {
@@ -31,7 +32,7 @@ public:
                  const Simplify_intent& intent)
       : m_options(options), m_prepared(prepared),
         m_working(prepared.soup, prepared.positions, frozen(prepared, intent), prepared.obstacle,
-                  prepared.scale, prepared.is_turned),
+                  prepared.scale, prepared.is_turned, prepared.fronts),
         m_seconds_sew(m_stopwatch.seconds()),
         m_simplification(m_working.mesh(), m_options, constraints(prepared.soup, intent), m_working)
   {
@@ -63,7 +64,26 @@ private:
             is_named.begin(), is_named.end(), is_frozen.begin(), is_frozen.begin(),
             [](char named, char frozen) { return frozen || !named ? frozen : Working_mesh::by_wish; });
       }
+    if (prepared.doubles() == 0 || intent.ratios.empty())
+      return is_frozen;
+    // A face counts for one target. Where its doubles belong to parts with other targets, it stays.
+    std::vector<std::size_t> share_of(prepared.soup.triangles.size(), 0);
+    for (std::size_t i = 0; i < intent.ratios.size(); ++i) {
+      const std::vector<char> is_named = triangles_named(prepared.soup, intent.ratios[i].name);
+      for (Index t = 0; t < is_named.size(); ++t)
+        if (is_named[t])
+          share_of[t] = i + 1;
+    }
+    for (Index t = 0; t < prepared.fronts.size(); ++t)
+      if (const Index front = prepared.fronts[t]; share_of[t] != share_of[front] && is_frozen[front] == 0)
+        is_frozen[front] = true;
     return is_frozen;
+  }
+
+  // Whether the working mesh has a face of the number of a triangle. (The obstacle follows the soup.)
+  bool is_face(Index triangle) const
+  {
+    return triangle >= m_prepared.fronts.size() || m_prepared.fronts[triangle] == triangle;
   }
 
   const Simplify_constraints<Working_mesh::Mesh>& constraints(const Triangle_soup& soup,
@@ -75,7 +95,7 @@ private:
       const std::vector<char> is_named = triangles_named(soup, name);
       constraints.shares.push_back({{}, ratio});
       for (Index t = 0; t < is_named.size(); ++t)
-        if (is_named[t])
+        if (is_named[t] && is_face(t))
           constraints.shares.back().faces.emplace_back(t);
     };
     for (const Simplify_intent::Part_ratio& part : intent.ratios)
@@ -84,13 +104,14 @@ private:
       add_share(name, 1);
     if (m_prepared.defects == Defects::descend)
       for (const Offending_pair& pair : m_prepared.offending_pairs)
-        constraints.offending_pairs.emplace_back(pair.first, pair.second);
+        if (is_face(pair.first) && is_face(pair.second))
+          constraints.offending_pairs.emplace_back(pair.first, pair.second);
     for (const auto& [a, b] : m_prepared.may_intersect) {
       auto& [of_a, of_b] = constraints.may_intersect.emplace_back();
       for (const auto& [name, faces] : {std::make_pair(&a, &of_a), std::make_pair(&b, &of_b)}) {
         const std::vector<char> is_named = triangles_named(soup, *name);
         for (Index t = 0; t < is_named.size(); ++t)
-          if (is_named[t])
+          if (is_named[t] && is_face(t))
             faces->emplace_back(t);
       }
     }
@@ -104,7 +125,7 @@ private:
     if (m_options.uv_weight > 0)
       m_working.measure_uvs(uv_unit(soup, m_prepared.scale));
     m_working.count_refusals(part_kinds(soup));
-    if (constraints.offending_pairs.empty())
+    if (m_prepared.defects != Defects::descend || m_prepared.offending_pairs.empty())
       m_working.on_collapse(m_options.on_collapse);
     else
       m_working.on_collapse([this](const Soup_collapse& collapse) {
@@ -113,6 +134,29 @@ private:
           m_options.on_collapse(collapse);
       });
     return constraints;
+  }
+
+  bool has_same_doubles_everywhere(const Shared_mesh& mesh) const
+  {
+    std::vector<std::vector<Index>> rows_of_fronts; // by place, for each row
+    for (const Shared_mesh::Place& place : mesh.places) {
+      std::unordered_map<Index, Index> row_of;
+      for (Index row = 0; row < place.triangles.size(); ++row)
+        row_of[place.triangles[row]] = row;
+      std::vector<Index>& rows = rows_of_fronts.emplace_back();
+      for (const Index t : place.triangles) {
+        const auto front = row_of.find(m_prepared.fronts[t]);
+        if (front == row_of.end())
+          return false;
+        rows.push_back(front->second);
+      }
+      // Nor has another mesh a double of a triangle of this one.
+      for (Index t = 0; t < m_prepared.fronts.size(); ++t)
+        if (row_of.count(m_prepared.fronts[t]) > 0 && row_of.count(t) == 0)
+          return false;
+    }
+    return std::all_of(rows_of_fronts.begin(), rows_of_fronts.end(),
+                       [&](const std::vector<Index>& rows) { return rows == rows_of_fronts.front(); });
   }
 
   void share()
@@ -125,6 +169,15 @@ private:
       is_apart.push_back(std::any_of(triangle.begin(), triangle.end(),
                                      [&](Index v) { return is_tied[m_prepared.positions[v]] != 0; }));
     Shared_meshes shared = shared_meshes(m_prepared.soup, is_apart);
+    if (m_prepared.doubles() > 0) {
+      // Where a mesh has doubles in one place, and not in all, it is reduced apart, too.
+      for (const Shared_mesh& mesh : shared.meshes)
+        if (!has_same_doubles_everywhere(mesh))
+          for (const Shared_mesh::Place& place : mesh.places)
+            for (const Index t : place.triangles)
+              is_apart[t] = true;
+      shared = shared_meshes(m_prepared.soup, is_apart);
+    }
     m_shared_meshes = shared.meshes.size();
     m_apart_meshes = shared.apart;
     for (const Shared_mesh& mesh : shared.meshes)
@@ -141,7 +194,7 @@ private:
     const Triangle_soup& soup = m_prepared.soup;
     std::vector<Working_mesh::Mesh::Vertex_index> vertices(soup.points.size()); // by position
     for (Index t = 0; t < soup.triangles.size(); ++t)
-      for (unsigned char k = 0; k < 3; ++k)
+      for (unsigned char k = 0; k < 3 && is_face(t); ++k)
         vertices[m_prepared.positions[soup.triangles[t][k]]] =
             m_working.mesh().source(m_working.halfedge({t, k, false}));
     for (const auto& pair : tied)
@@ -160,8 +213,9 @@ private:
         m_working.mesh().number_of_vertices() - m_working.constraints().locked_vertices.size();
     if (movable == 0)
       return;
-    const double share =
-        caution * double(m_simplification.targets().total_excess()) / (2.0 * double(movable));
+    const double faces_per_collapse = 2.0 * double(total.faces) / double(m_working.face_count());
+    const double share = caution * double(m_simplification.targets().total_excess()) /
+                         (faces_per_collapse * double(movable));
     const Cell_collapses found = reduce_in_cells({m_prepared,
                                                   m_working,
                                                   m_simplification.rule(),

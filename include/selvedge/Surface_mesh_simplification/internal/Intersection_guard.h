@@ -74,13 +74,17 @@ public:
     require_exact_predicates<GeomTraits>();
   }
 
-  /// Exempts all pairs that descend from these, which offend at the start. Call it before the first question.
-  void exempt(const std::vector<std::pair<Face, Face>>& offending)
+  /// Exempts all pairs that descend from these, which offend at the start. A face of several triangles makes
+  /// as many pairs. Call it before the first question.
+  void exempt(const std::vector<std::pair<Face, Face>>& offending,
+              const std::vector<std::pair<Face, unsigned>>& multiplicities)
   {
     std::vector<Descent::Pair> pairs;
     for (const auto& [f, g] : offending)
       pairs.push_back({m_faces.id(f), m_faces.id(g)});
     m_descent.begin(pairs, m_faces.size());
+    for (const auto& [face, times] : multiplicities)
+      m_descent.count_times(m_faces.id(face), times);
   }
 
   /// Permits pairs between two parts. Call it before the first question.
@@ -268,10 +272,13 @@ private:
                         std::size_t limit = (std::numeric_limits<std::size_t>::max)())
   {
     m_pairs_after.clear();
+    std::size_t count = 0;
     const auto is_within_limit = [&](std::size_t i, const Triangle& other, Id id) {
-      if (!m_permitted.has(m_changed_ids[i], id) && do_faces_offend(m_changed[i], other, m_traits))
+      if (!m_permitted.has(m_changed_ids[i], id) && do_faces_offend(m_changed[i], other, m_traits)) {
         m_pairs_after.push_back({m_changed_ids[i], id});
-      return m_pairs_after.size() <= limit;
+        count += m_descent.times(m_changed_ids[i], id);
+      }
+      return count <= limit;
     };
     CGAL::Bbox_3 box;
     for (std::size_t i = 0; i < m_changed.size(); ++i) {

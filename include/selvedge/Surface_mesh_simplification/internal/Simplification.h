@@ -238,7 +238,7 @@ public:
         m_normal_change(options.max_normal_change, m_aspect_ratio),
         m_uv({options.check_uv_orientation ? &observer : nullptr, m_rule}, m_normal_change), m_tracked(mesh),
         m_error(max_error(), m_tracked, m_uv), m_offending_pairs(constraints.offending_pairs),
-        m_may_intersect(constraints.may_intersect)
+        m_multiplicities(constraints.multiplicities), m_may_intersect(constraints.may_intersect)
   {
     refuse_out_of_range();
     if (!(options.uv_weight >= 0 && std::isfinite(options.uv_weight)))
@@ -544,7 +544,7 @@ private:
     Cancellation_scope::check();
     if (m_options.check_intersections) {
       m_intersection.emplace(m_mesh, m_error, empty_index(), m_points);
-      m_intersection->exempt(m_offending_pairs);
+      m_intersection->exempt(m_offending_pairs, m_multiplicities);
       m_intersection->let_intersect(m_may_intersect);
     }
     Cancellation_scope::check();
@@ -841,6 +841,8 @@ private:
   Targets make_targets(const Simplify_constraints<TriangleMesh>& constraints) const
   {
     Targets targets(m_mesh);
+    for (const auto& [face, times] : constraints.multiplicities)
+      targets.count_times(face, times);
     for (const auto& share : constraints.shares) {
       const std::size_t number = targets.add_share();
       for (const auto face : share.faces)
@@ -951,6 +953,7 @@ private:
   Tracked_points<TriangleMesh> m_tracked;
   Error m_error;
   std::vector<std::pair<typename Intersection::Face, typename Intersection::Face>> m_offending_pairs;
+  decltype(Simplify_constraints<TriangleMesh>::multiplicities) m_multiplicities;
   decltype(Simplify_constraints<TriangleMesh>::may_intersect) m_may_intersect;
   std::optional<Intersection> m_intersection;
   Simplify_report m_report;
