@@ -398,6 +398,16 @@ Working_mesh::make_mesh(const Sewing& sewing, const std::vector<Index>& faces, c
 
 namespace {
 
+// Returns, for each element, the number of the first that is equal.
+template <class Element>
+std::vector<std::ptrdiff_t> first_equal(const std::vector<Element>& elements)
+{
+  std::vector<std::ptrdiff_t> first;
+  for (const Element& element : elements)
+    first.push_back(std::find(elements.begin(), elements.end(), element) - elements.begin());
+  return first;
+}
+
 // Compares values and not their numbers, since a file may write a value twice.
 template <class Values>
 bool differ(const Values& corners, Index a, Index b)
@@ -962,8 +972,9 @@ bool Working_mesh::keeps_pieces(Mesh::Halfedge_index moving, const Border_rule<M
 }
 
 // The triangles beside an edge must have vertices in common at the goal just where they have them at the
-// mover and, on a line, at the vertex behind it. So each vertex of a piece goes to one at which as many of
-// the piece's faces and lines are one.
+// mover and, on a line, at the vertex behind it. Those of a contracted face must be one, with all three
+// vertices in common, just where those of its neighbours are and, on a line, those beside the edge behind. So
+// as many vertices, edges and faces of pieces go as without doubles, and what replaces them has as many faces.
 bool Working_mesh::keeps_pieces_of_doubles(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule) const
 {
   const auto common_vertices = [this](Mesh::Halfedge_index h, bool is_at_target) {
@@ -976,19 +987,34 @@ bool Working_mesh::keeps_pieces_of_doubles(Mesh::Halfedge_index moving, const Bo
         for (Index i = 0; i < ply_count(face); ++i)
           vertices.push_back(vertex_of(corner_at(corner, i)));
     }
-    std::vector<std::ptrdiff_t> first; // by ply, the first with the same vertex
-    for (const Index vertex : vertices)
-      first.push_back(std::find(vertices.begin(), vertices.end(), vertex) - vertices.begin());
-    return first;
+    return first_equal(vertices);
+  };
+  const auto common_faces = [this](Mesh::Halfedge_index side) {
+    std::vector<Index_triple> triangles; // of vertices, in ascending order
+    const Mesh::Face_index face = m_mesh.face(side);
+    if (m_mesh.is_border(side) || !is_own(face))
+      return first_equal(triangles);
+    for (Index i = 0; i < ply_count(face); ++i) {
+      const auto& [a, b, c] = corners(face, i);
+      triangles.push_back({vertex_of(a), vertex_of(b), vertex_of(c)});
+      std::sort(triangles.back().begin(), triangles.back().end());
+    }
+    return first_equal(triangles);
   };
   const auto at_mover = common_vertices(moving, false);
   if (at_mover != common_vertices(moving, true))
     return false;
+  for (const Mesh::Halfedge_index side : {moving, m_mesh.opposite(moving)})
+    for (const Mesh::Halfedge_index h : {m_mesh.next(side), m_mesh.prev(side)})
+      if (!m_mesh.is_border(m_mesh.edge(h)) && !rule.is_line(m_mesh.edge(h)) && !m_mesh.is_border(side) &&
+          common_faces(h) != common_faces(m_mesh.opposite(h)))
+        return false;
   if (!rule.is_line(m_mesh.edge(moving)))
     return true;
   for (const Mesh::Halfedge_index h : m_mesh.halfedges_around_target(m_mesh.opposite(moving)))
     if (h != m_mesh.opposite(moving) && rule.is_line(m_mesh.edge(h)) &&
-        at_mover != common_vertices(h, false))
+        (at_mover != common_vertices(h, false) || common_faces(moving) != common_faces(h) ||
+         common_faces(m_mesh.opposite(moving)) != common_faces(m_mesh.opposite(h))))
       return false;
   return true;
 }

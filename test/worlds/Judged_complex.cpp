@@ -111,6 +111,11 @@ std::optional<Broken_promise> Judged_complex::end_collapse()
 {
   if (pairs_changing() > m_pairs_before)
     return Broken_promise{Promise::embedded, "more pairs offend than before"};
+  for (const Index f : m_changing)
+    for (Index g = 0; g < m_faces.size(); ++g)
+      if (g != f && m_faces[f].is_alive && m_faces[g].is_alive && has(g, m_faces[f].positions[0]) &&
+          has(g, m_faces[f].positions[1]) && has(g, m_faces[f].positions[2]))
+        return Broken_promise{Promise::embedded, faces_named(f, g) + " come to have the same corners"};
   return std::nullopt;
 }
 

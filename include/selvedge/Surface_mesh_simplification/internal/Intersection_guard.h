@@ -22,7 +22,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -266,10 +265,11 @@ private:
   }
 
   // Finds the exempt pairs with a changed face that offend after the collapse, in an order that does not
-  // depend on the index. When there are more than `limit`, it stops there and returns false.
+  // depend on the index. When a limit is given, and there are more or two faces come to have the same
+  // corners, it stops there and returns false.
   template <class Profile>
   bool find_pairs_after(const Collapse<Profile>& collapse,
-                        std::size_t limit = (std::numeric_limits<std::size_t>::max)())
+                        std::optional<std::size_t> limit = {})
   {
     m_pairs_after.clear();
     std::size_t count = 0;
@@ -277,8 +277,10 @@ private:
       if (!m_permitted.has(m_changed_ids[i], id) && do_faces_offend(m_changed[i], other, m_traits)) {
         m_pairs_after.push_back({m_changed_ids[i], id});
         count += m_descent.times(m_changed_ids[i], id);
+        if (limit && have_same_corners(m_changed[i], other))
+          return false;
       }
-      return count <= limit;
+      return !limit || count <= *limit;
     };
     CGAL::Bbox_3 box;
     for (std::size_t i = 0; i < m_changed.size(); ++i) {
@@ -304,6 +306,11 @@ private:
           return false;
     }
     return true;
+  }
+
+  static bool have_same_corners(const Triangle& f, const Triangle& g)
+  {
+    return std::is_permutation(f.begin(), f.end(), g.begin());
   }
 
   static CGAL::Bbox_3 box_of(const Triangle& triangle)
