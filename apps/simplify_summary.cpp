@@ -192,6 +192,8 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
   stream << input_name(request.input) << ": " << counted(prepared.soup.triangles.size(), "face");
   if (!prepared.offending_pairs.empty())
     stream << ", " << counted(prepared.offending_pairs.size(), "offending pair");
+  if (const std::size_t doubles = prepared.doubles(); doubles > 0)
+    stream << ", " << counted(doubles, "face") << " with the same corners as an earlier one";
   if (prepared.frozen_faces > 0)
     stream << ", " << counted(prepared.frozen_faces, "face") << " frozen";
   if (const std::size_t left_out = prepared.left_out_faces + prepared.left_out_by_rounding; left_out > 0)

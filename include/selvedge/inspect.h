@@ -118,6 +118,7 @@ struct Inspection
     std::size_t by_texture = 0;
     std::size_t by_normals = 0;
     std::size_t by_labels = 0; ///< groups, objects or materials
+    std::size_t by_doubles = 0; ///< the number of faces with the same corners, or how they run
   };
   Seams seams;
 
