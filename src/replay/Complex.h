@@ -33,7 +33,7 @@ public:
   struct Ply
   {
     Index face;
-    Index_triple corners; // at its positions in their order; those of the first ply are in `Face`
+    Index_triple corners;        // at its positions in their order; those of the first ply are in `Face`
     std::array<Index, 3> places; // where these positions are in the triangle of the soup
   };
 

@@ -18,7 +18,6 @@
 #include <algorithm>
 #include <numeric>
 #include <string>
-#include <unordered_map>
 #include <utility>
 
 namespace selvedge {
@@ -136,27 +135,36 @@ private:
     return constraints;
   }
 
-  bool has_same_doubles_everywhere(const Shared_mesh& mesh) const
+  // Where a mesh has doubles in one place, and not in all, or shares them with something else, it is reduced
+  // apart, too.
+  void set_apart_by_doubles(const std::vector<Shared_mesh>& meshes, std::vector<char>& is_apart) const
   {
-    std::vector<std::vector<Index>> rows_of_fronts; // by place, for each row
-    for (const Shared_mesh::Place& place : mesh.places) {
-      std::unordered_map<Index, Index> row_of;
-      for (Index row = 0; row < place.triangles.size(); ++row)
-        row_of[place.triangles[row]] = row;
-      std::vector<Index>& rows = rows_of_fronts.emplace_back();
-      for (const Index t : place.triangles) {
-        const auto front = row_of.find(m_prepared.fronts[t]);
-        if (front == row_of.end())
-          return false;
-        rows.push_back(front->second);
-      }
-      // Nor has another mesh a double of a triangle of this one.
-      for (Index t = 0; t < m_prepared.fronts.size(); ++t)
-        if (row_of.count(m_prepared.fronts[t]) > 0 && row_of.count(t) == 0)
-          return false;
+    constexpr Index s_no_mesh = Index(-1);
+    struct Row
+    {
+      Index mesh = s_no_mesh, place = 0, row = 0;
+    };
+    std::vector<Row> rows(m_prepared.fronts.size()); // by triangle
+    for (Index m = 0; m < meshes.size(); ++m)
+      for (Index p = 0; p < meshes[m].places.size(); ++p)
+        for (Index row = 0; row < meshes[m].places[p].triangles.size(); ++row)
+          rows[meshes[m].places[p].triangles[row]] = {m, p, row};
+    const auto is_alike_in_first_place = [&](const Row& here, const Row& front) {
+      return here.mesh == s_no_mesh ||
+             rows[m_prepared.fronts[meshes[here.mesh].places.front().triangles[here.row]]].row == front.row;
+    };
+    std::vector<char> is_mesh_apart(meshes.size(), false);
+    for (Index t = 0; t < rows.size(); ++t) {
+      const Row &here = rows[t], &front = rows[m_prepared.fronts[t]];
+      if (here.mesh == front.mesh && here.place == front.place && is_alike_in_first_place(here, front))
+        continue;
+      for (const Index mesh : {here.mesh, front.mesh})
+        if (mesh != s_no_mesh)
+          is_mesh_apart[mesh] = true;
     }
-    return std::all_of(rows_of_fronts.begin(), rows_of_fronts.end(),
-                       [&](const std::vector<Index>& rows) { return rows == rows_of_fronts.front(); });
+    for (Index t = 0; t < rows.size(); ++t)
+      if (rows[t].mesh != s_no_mesh && is_mesh_apart[rows[t].mesh])
+        is_apart[t] = true;
   }
 
   void share()
@@ -170,12 +178,7 @@ private:
                                      [&](Index v) { return is_tied[m_prepared.positions[v]] != 0; }));
     Shared_meshes shared = shared_meshes(m_prepared.soup, is_apart);
     if (m_prepared.doubles() > 0) {
-      // Where a mesh has doubles in one place, and not in all, it is reduced apart, too.
-      for (const Shared_mesh& mesh : shared.meshes)
-        if (!has_same_doubles_everywhere(mesh))
-          for (const Shared_mesh::Place& place : mesh.places)
-            for (const Index t : place.triangles)
-              is_apart[t] = true;
+      set_apart_by_doubles(shared.meshes, is_apart);
       shared = shared_meshes(m_prepared.soup, is_apart);
     }
     m_shared_meshes = shared.meshes.size();
@@ -214,8 +217,8 @@ private:
     if (movable == 0)
       return;
     const double faces_per_collapse = 2.0 * double(total.faces) / double(m_working.face_count());
-    const double share = caution * double(m_simplification.targets().total_excess()) /
-                         (faces_per_collapse * double(movable));
+    const double share =
+        caution * double(m_simplification.targets().total_excess()) / (faces_per_collapse * double(movable));
     const Cell_collapses found = reduce_in_cells({m_prepared,
                                                   m_working,
                                                   m_simplification.rule(),
@@ -224,7 +227,8 @@ private:
                                                   {total.faces, total.target, total.faces},
                                                   share});
     m_cells = found.cells;
-    const std::size_t faces_left = total.faces - std::min(total.faces, 2 * found.collapses.size());
+    const std::size_t faces_left =
+        total.faces - std::min(total.faces, std::size_t(faces_per_collapse * double(found.collapses.size())));
     const Simplify_progress progress{total.faces, total.target, faces_left};
     m_is_stopped_in_cells = found.is_stopped;
     for (const auto& [moving, place, is_mover_first] : found.collapses) {

@@ -348,8 +348,8 @@ void Working_mesh::lock_by_wish(const std::vector<Index>& vertices, const std::v
 }
 
 // Makes vertices, edges in the order of the sides, and faces, of the numbers `faces`, which ascend. Returns
-// the halfedge of each side. `Surface_mesh::add_face` would make the same, but has to search for what is known
-// here.
+// the halfedge of each side. `Surface_mesh::add_face` would make the same, but has to search for what is
+// known here.
 template <class Function>
 std::vector<Working_mesh::Mesh::Halfedge_index>
 Working_mesh::make_mesh(const Sewing& sewing, const std::vector<Index>& faces, const Function& point_of)
@@ -974,7 +974,8 @@ bool Working_mesh::keeps_pieces(Mesh::Halfedge_index moving, const Border_rule<M
 // The triangles beside an edge must have vertices in common at the goal just where they have them at the
 // mover and, on a line, at the vertex behind it. Those of a contracted face must be one, with all three
 // vertices in common, just where those of its neighbours are and, on a line, those beside the edge behind. So
-// as many vertices, edges and faces of pieces go as without doubles, and what replaces them has as many faces.
+// as many vertices, edges and faces of pieces go as without doubles, and what replaces them has as many
+// faces.
 bool Working_mesh::keeps_pieces_of_doubles(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule) const
 {
   const auto common_vertices = [this](Mesh::Halfedge_index h, bool is_at_target) {

@@ -116,10 +116,7 @@ public:
   void share(std::vector<Shared_mesh> meshes);
 
   /// The number of faces, without those of the obstacle; doubles are none.
-  std::size_t face_count() const
-  {
-    return m_mesh.number_of_faces() - m_constraints.uncounted_faces.size();
-  }
+  std::size_t face_count() const { return m_mesh.number_of_faces() - m_constraints.uncounted_faces.size(); }
 
   bool is_shared(Mesh::Face_index face) const
   {

@@ -133,7 +133,7 @@ private:
   std::vector<Index_triple> m_corners;            // positions, by triangle
   std::vector<Index> m_fronts;                    // by triangle, the first with its corners in the original
   std::vector<std::shared_ptr<const Ancestors>> m_ancestors; // by front
-  std::vector<std::vector<Index>> m_partners; // by triangle of the original
+  std::vector<std::vector<Index>> m_partners;                // by triangle of the original
   std::set<Index> m_degenerate;
 };
 

@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Doubles: triangles with the same three positions as others, as of double-sided cloth. They are reduced as one
-// with their fronts, and keep what is their own.
+// Doubles: triangles with the same three positions as others, as of double-sided cloth. They are reduced as
+// one with their fronts, and keep what is their own.
 
 #include "support/logged_reduction.h"
 #include "support/meshes.h"
@@ -24,13 +24,10 @@
 namespace selvedge::test {
 namespace {
 
-enum class Vertices
-{
-  same,
-  own
-};
+enum class Vertices { same, own };
 
-/// Adds the other side of the first triangles of a soup: turned over, and with texture coordinates of its own.
+/// Adds the other side of the first triangles of a soup: turned over, and with texture coordinates of its
+/// own.
 Triangle_soup double_sided(Triangle_soup soup, Vertices vertices, std::size_t doubles)
 {
   const Index points = vertices == Vertices::own ? Index(soup.points.size()) : 0;
@@ -162,10 +159,9 @@ TEST(Doubles, AreAcceptedByTheReplayWithEveryMeans)
 TEST(Doubles, ExemptNothingButEachOther)
 {
   // When the hub goes to the third vertex of the rim, two faces and their doubles come to overlap.
-  const Triangle_soup before =
-      double_sided(soup({{0, 0, 0}, {4, 0, 0}, {1, 1, 0}, {0, 4, 0}, {-1, -1, 0}},
-                        {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}}),
-                   Vertices::same);
+  const Triangle_soup before = double_sided(soup({{0, 0, 0}, {4, 0, 0}, {1, 1, 0}, {0, 4, 0}, {-1, -1, 0}},
+                                                 {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}}),
+                                            Vertices::same);
   const Triangle_soup after = soup({{0, 0, 0}, {4, 0, 0}, {1, 1, 0}, {0, 4, 0}, {-1, -1, 0}},
                                    {{3, 1, 2}, {3, 4, 1}, {3, 2, 1}, {3, 1, 4}});
   std::map<Offence, std::vector<Offending_pair>> pairs;
@@ -185,10 +181,9 @@ TEST(Doubles, CountAsOftenAsTheyOffend)
 {
   // Two sheets through each other, one of them double-sided: each pair is two.
   const Triangle_soup lower = double_sided(wavy_sheet(), Vertices::own);
-  const Triangle_soup soup =
-      joined(lower, mapped(wavy_sheet(), [](const Point_3& p) {
-               return Point_3(p.x() + 0.4, p.y() + 0.3, p.z() + 0.05);
-             }));
+  const Triangle_soup soup = joined(lower, mapped(wavy_sheet(), [](const Point_3& p) {
+                                      return Point_3(p.x() + 0.4, p.y() + 0.3, p.z() + 0.05);
+                                    }));
   const Logged_reduction reduction = reduce_and_log(soup, without_limits(to_ratio(0.2)));
   const Verification verification = verify(reduction.simplified, prepare(soup));
   EXPECT_TRUE(verification.accepted() && verification.same_topology());

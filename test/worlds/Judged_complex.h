@@ -120,10 +120,10 @@ private:
   std::vector<Index> m_position_of_vertex;
   std::vector<Face> m_faces;
   std::vector<std::vector<Index>> m_faces_at;
-  std::vector<char> m_is_frozen;            // by position
-  std::set<Index> m_offending;              // positions
-  std::vector<std::set<Index>> m_ancestors; // by face
-  std::vector<Index> m_fronts;              // by face; empty before `find_seams`
+  std::vector<char> m_is_frozen;                 // by position
+  std::set<Index> m_offending;                   // positions
+  std::vector<std::set<Index>> m_ancestors;      // by face
+  std::vector<Index> m_fronts;                   // by face; empty before `find_seams`
   std::map<Index, std::vector<Index>> m_doubles; // by front: it, and those that go with it
   std::vector<Index_triple> m_slots; // by face: at which corner of its front each of its own is, in the soup
   std::set<std::pair<Index, Index>> m_pairs_at_start;

@@ -23,7 +23,8 @@ namespace selvedge {
 /// Counts faces against targets: how many there are and how many are to be left, in each *share* of a mesh.
 ///
 /// Every face belongs to one share, at first to share 0. The target of a share is 0 until it is set. A share
-/// that has reached its target loses no further face. Faces can also be left uncounted, or count several times.
+/// that has reached its target loses no further face. Faces can also be left uncounted, or count several
+/// times.
 ///
 /// It serves as a predicate for `Halfedge_filter`, as a stop, and as a listener of collapses. Copies share
 /// one state.

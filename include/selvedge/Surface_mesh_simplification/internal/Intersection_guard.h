@@ -268,8 +268,7 @@ private:
   // depend on the index. When a limit is given, and there are more or two faces come to have the same
   // corners, it stops there and returns false.
   template <class Profile>
-  bool find_pairs_after(const Collapse<Profile>& collapse,
-                        std::optional<std::size_t> limit = {})
+  bool find_pairs_after(const Collapse<Profile>& collapse, std::optional<std::size_t> limit = {})
   {
     m_pairs_after.clear();
     std::size_t count = 0;
