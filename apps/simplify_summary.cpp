@@ -252,7 +252,7 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
            << (request.options.placement == Placement::optimal ? ", at vertices of the input" : "");
   if (result.apart_meshes > 0)
     stream << "\ninstances: " << counted(result.apart_meshes, "mesh", "meshes")
-           << " not the same in all places (snapped, rounded, or degenerate in some), so each place was "
+           << " not the same in all places (snapped, rounded, degenerate or doubled in some), so each place was "
               "reduced by itself";
   if (const std::size_t turned = prepared.turned_faces(); turned > 0)
     stream << "\norientation: " << counted(turned, "face")
