@@ -169,6 +169,8 @@ void print_surfaces(const Inspection& mesh)
     if (mesh.pairs.size() > counts[int(Offence::degenerate)])
       std::cout << "  their faces are reduced like others: only what descends from these pairs may intersect "
                    "then (--defects descend); --defects freeze leaves them as they are\n";
+    if (counts[int(Offence::duplicate)] > 0)
+      std::cout << "  faces with the same corners, such as the two sides of a leaf, are reduced as one\n";
     if (counts[int(Offence::degenerate)] > 0)
       std::cout << "  a degenerate face stays as it is until a collapse along one of its sides removes it\n";
   }
@@ -199,7 +201,8 @@ void print_seams(const Inspection& mesh)
     const char* separator = " ";
     for (const auto& [count, what] :
          {std::pair(seams.by_vertices, "vertex numbers"), std::pair(seams.by_texture, "texture coordinates"),
-          std::pair(seams.by_normals, "normals"), std::pair(seams.by_labels, "groups, objects or materials")})
+          std::pair(seams.by_normals, "normals"), std::pair(seams.by_labels, "groups, objects or materials"),
+          std::pair(seams.by_doubles, "numbers of faces with the same corners")})
       if (count > 0)
         std::cout << std::exchange(separator, ", ") << what << " (" << with_commas(count) << ')';
   }
@@ -335,7 +338,8 @@ void add_inspection(Json& report, const Inspection& mesh)
                      {"degenerate", offences[int(Offence::degenerate)]}};
   report["seams"] = {{"normals", name_of(mesh.normals)},      {"edges", mesh.seams.edges},
                      {"by_vertices", mesh.seams.by_vertices}, {"by_texture", mesh.seams.by_texture},
-                     {"by_normals", mesh.seams.by_normals},   {"by_labels", mesh.seams.by_labels}};
+                     {"by_normals", mesh.seams.by_normals},   {"by_labels", mesh.seams.by_labels},
+                     {"by_doubles", mesh.seams.by_doubles}};
   report["borders"] = {{"edges", mesh.border_edges}};
   report["border_gaps"] = border_gaps_json(mesh.border_gaps);
   report["movable"] = {{"free", mesh.movable.free},

@@ -170,7 +170,9 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
                          {"refused_elsewhere", done.refused_elsewhere}};
   report["cells"] = {{"count", done.cells}, {"collapses", done.collapses_in_cells}};
   report["refused"] = to_json(done.refused);
-  report["frozen"] = {{"faces", prepared.frozen_faces}, {"pairs", prepared.offending_pairs.size()}};
+  report["frozen"] = {{"faces", prepared.frozen_faces},
+                      {"pairs", prepared.offending_pairs.size()},
+                      {"doubles", prepared.doubles()}};
   const Index_statistics& index = done.index;
   const Intersection_statistics& guard = done.intersections;
   report["index"] = {{"clusters", index.clusters},

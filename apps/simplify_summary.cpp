@@ -213,6 +213,8 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
   stream << input_name(request.input) << ": " << counted(prepared.soup.triangles.size(), "face");
   if (!prepared.offending_pairs.empty())
     stream << ", " << counted(prepared.offending_pairs.size(), "offending pair");
+  if (const std::size_t doubles = prepared.doubles(); doubles > 0)
+    stream << ", " << counted(doubles, "face") << " with the same corners as an earlier one";
   if (prepared.frozen_faces > 0)
     stream << ", " << counted(prepared.frozen_faces, "face") << " frozen";
   if (const std::size_t left_out = prepared.left_out_faces + prepared.left_out_by_rounding; left_out > 0)
@@ -275,7 +277,7 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
            << (request.options.placement == Placement::optimal ? ", at vertices of the input" : "");
   if (result.apart_meshes > 0)
     stream << "\ninstances: " << counted(result.apart_meshes, "mesh", "meshes")
-           << " not the same in all places (snapped, rounded, or degenerate in some), so each place was "
+           << " not the same in all places (snapped, rounded, degenerate or doubled in some), so each place was "
               "reduced by itself";
   if (const std::size_t turned = prepared.turned_faces(); turned > 0)
     stream << "\norientation: " << counted(turned, "face")

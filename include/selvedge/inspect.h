@@ -117,7 +117,8 @@ struct Inspection
     std::size_t by_vertices = 0; ///< vertex numbers: a seam between pieces, or one that the format needs
     std::size_t by_texture = 0;
     std::size_t by_normals = 0;
-    std::size_t by_labels = 0; ///< groups, objects or materials
+    std::size_t by_labels = 0;  ///< groups, objects or materials
+    std::size_t by_doubles = 0; ///< the number of faces with the same corners, or how they run
   };
   Seams seams;
 

@@ -173,6 +173,13 @@ struct Prepared_soup
   std::size_t left_out_faces = 0;       ///< before rounding
   std::size_t left_out_by_rounding = 0; ///< only after rounding
 
+  /// For every triangle of `soup`, its *front*: the first triangle with the same three positions, of which it
+  /// is a *double*, or itself. Empty when none is a double. A reduction lets doubles go with their fronts, so
+  /// that both sides of a double-sided mesh are reduced alike. There are none unless pairs may descend, and
+  /// frozen or degenerate triangles are not among them.
+  std::vector<Index> fronts;
+  std::size_t doubles() const;
+
   /// For every triangle of `soup`, whether a reduction turns it; empty when none is turned. Which it turns is
   /// decided after snapping.
   std::vector<char> is_turned;

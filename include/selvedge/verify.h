@@ -99,7 +99,7 @@ std::vector<Offending_pair> pairs_without_descent(const Triangle_soup& result,
 ///
 /// A triangle that names a vertex twice has no inside; it belongs to no piece, and is not counted. Positions
 /// play no part: two sides of a seam that have vertices of their own are two borders, even when they
-/// coincide.
+/// coincide. Triangles with the same three vertices are one face for all counts but `faces`.
 struct Piece
 {
   Index first_triangle;

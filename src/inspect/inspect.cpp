@@ -80,7 +80,7 @@ public:
   explicit Inspector(const Prepared_soup& prepared)
       : m_prepared(prepared), m_soup(prepared.soup),
         m_working(prepared.soup, prepared.positions, prepared.is_frozen, {}, prepared.scale,
-                  prepared.is_turned),
+                  prepared.is_turned, prepared.fronts),
         m_rule(m_working.mesh())
   {
     for (const auto e : m_working.constraints().line_edges)
@@ -169,7 +169,8 @@ private:
       else
         ++(m_working.lock_reason(v) == Hindrance::misoriented ? count.misoriented : count.non_manifold);
     }
-    for (const auto face : mesh.faces()) {
+    for (Index t = 0; t < m_soup.triangles.size(); ++t) {
+      const Working_mesh::Mesh::Face_index face(m_prepared.fronts.empty() ? t : m_prepared.fronts[t]);
       const auto corners = mesh.vertices_around_face(mesh.halfedge(face));
       m_result.fixed_faces +=
           std::all_of(corners.begin(), corners.end(), [this](auto v) { return m_rule.is_locked(v); });
@@ -195,6 +196,7 @@ private:
       seams.by_texture += differences.in_uv;
       seams.by_normals += differences.in_normal;
       seams.by_labels += differences.in_label;
+      seams.by_doubles += differences.in_doubles;
     }
   }
 

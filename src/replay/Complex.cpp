@@ -180,6 +180,68 @@ Index_triple Complex::in_order_of_soup(Index face, Index_triple of_face) const
   return of_face;
 }
 
+void Complex::set_aside(const std::vector<Index>& fronts)
+{
+  m_fronts = fronts;
+  for (Index f = 0; f < m_faces.size(); ++f)
+    if (front(f) != f)
+      m_plies[front(f)];
+  for (Index f = 0; f < m_faces.size(); ++f) {
+    const auto found = m_plies.find(front(f));
+    if (found == m_plies.end())
+      continue;
+    Ply ply{f, {}, {}};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index corner = m_faces[f].corners[slot(f, m_faces[front(f)].positions[k])];
+      ply.corners[k] = corner;
+      ply.places[k] = corner % 3;
+    }
+    found->second.push_back(ply);
+    if (front(f) == f)
+      continue;
+    m_faces[f].is_alive = false;
+    for (const Index p : m_faces[f].positions) {
+      std::vector<Index>& faces = m_faces_at[p];
+      faces.erase(std::find(faces.begin(), faces.end(), f));
+    }
+  }
+  for (auto& [face, plies] : m_plies) {
+    std::stable_partition(plies.begin(), plies.end(),
+                          [](const Ply& ply) { return ply.places[1] == next(ply.places[0]); });
+    m_faces[face].corners = plies.front().corners;
+  }
+}
+
+Index_triple Complex::positions_left(Index face) const
+{
+  const Index_triple& positions = m_faces[front(face)].positions;
+  for (const Ply& ply : plies(front(face)))
+    if (ply.face == face) {
+      Index_triple result;
+      for (std::size_t k = 0; k < 3; ++k)
+        result[ply.places[k]] = positions[k];
+      return result;
+    }
+  return in_order_of_soup(face, positions);
+}
+
+// Whether the faces for which f and g stand differ along their common edge from p to q, one by one.
+bool Complex::is_seam_between_plies(Index f, Index g, Index p, Index q) const
+{
+  const std::vector<Ply>&of_f = plies(f), &of_g = plies(g);
+  if (of_f.size() != of_g.size())
+    return true;
+  const auto runs_along = [](const Ply& ply) { return ply.places[1] == next(ply.places[0]); };
+  for (std::size_t i = 0; i < of_f.size(); ++i) {
+    if (runs_along(of_f[i]) != runs_along(of_g[i]))
+      return true;
+    for (const Index end : {p, q})
+      if (i > 0 && is_seam_between(of_f[i].corners[slot(f, end)], of_g[i].corners[slot(g, end)]))
+        return true;
+  }
+  return false;
+}
+
 void Complex::find_seams()
 {
   m_has_seams = true;
@@ -199,7 +261,8 @@ void Complex::find_seams()
       if (count == 1 && m_faces[other].positions[next(slot(other, to))] == from)
         m_faces[f].is_seam[k] =
             is_seam_between(m_faces[f].corners[k], m_faces[other].corners[slot(other, from)]) ||
-            is_seam_between(m_faces[f].corners[next(k)], m_faces[other].corners[slot(other, to)]);
+            is_seam_between(m_faces[f].corners[next(k)], m_faces[other].corners[slot(other, to)]) ||
+            is_seam_between_plies(f, other, from, to);
     }
 }
 
@@ -227,7 +290,7 @@ std::vector<Index> Complex::collapse(Index removed, Index kept, const std::array
       faces.erase(std::find(faces.begin(), faces.end(), f));
     }
     m_faces[f].is_alive = false;
-    --m_alive;
+    m_alive -= std::max(std::size_t(1), plies(f).size());
   }
   for (const Index f : moving) {
     m_faces[f].positions[slot(f, removed)] = kept;
@@ -247,9 +310,8 @@ void Complex::carry_corners(const std::vector<Index>& contracted, std::vector<In
   std::stable_partition(sources.begin(), sources.end(),
                         [&](Index f) { return m_faces[f].positions[next(slot(f, removed))] == kept; });
   const std::vector<Edge> edges = edges_at(removed);
-  std::vector<std::pair<Index, Index>> carried; // faces, and the corner that theirs at `removed` becomes
+  std::vector<std::pair<Index, Index>> carried; // faces, and those of which they get the corner at `kept`
   for (const Index source : sources) {
-    const Index corner = m_faces[source].corners[slot(source, kept)];
     std::vector<Index> reached{source};
     for (std::size_t i = 0; i < reached.size(); ++i) {
       const Index f = reached[i];
@@ -265,14 +327,18 @@ void Complex::carry_corners(const std::vector<Index>& contracted, std::vector<In
       const auto beyond =
           std::stable_partition(moving.begin(), moving.end(), [&](Index g) { return !is_next(g); });
       for (auto it = beyond; it != moving.end(); ++it) {
-        carried.emplace_back(*it, corner);
+        carried.emplace_back(*it, source);
         reached.push_back(*it);
       }
       moving.erase(beyond, moving.end());
     }
   }
-  for (const auto& [f, corner] : carried)
-    m_faces[f].corners[slot(f, removed)] = corner;
+  for (const auto& [f, source] : carried) {
+    const std::size_t to = slot(f, removed), from = slot(source, kept);
+    m_faces[f].corners[to] = m_faces[source].corners[from];
+    for (std::size_t i = 1; i < plies(f).size(); ++i)
+      m_plies[f][i].corners[to] = m_plies[source][i].corners[from];
+  }
 }
 
 // The two other edges of a contracted face become one, which is a seam if one of them was.
@@ -352,11 +418,17 @@ Triangle_soup Complex::result() const
   forget_moved_polygons(moved, m_soup.points);
   std::vector<Index> triangles;
   std::vector<Index_triple> corners;
-  for (Index f = 0; f < m_faces.size(); ++f)
-    if (m_faces[f].is_alive) {
-      triangles.push_back(f);
-      corners.push_back(in_order_of_soup(f, m_faces[f].corners));
-    }
+  for (Index f = 0; f < m_faces.size(); ++f) {
+    if (!is_left(f))
+      continue;
+    triangles.push_back(f);
+    corners.push_back(in_order_of_soup(f, m_faces[f].corners));
+    const std::vector<Ply>& all = plies(front(f));
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (all[i].face == f)
+        for (std::size_t k = 0; k < 3; ++k)
+          corners.back()[all[i].places[k]] = i == 0 ? m_faces[front(f)].corners[k] : all[i].corners[k];
+  }
   return selected(moved, triangles, corners);
 }
 

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <map>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -26,6 +27,14 @@ public:
     Index_triple corners;          // of the soup, 3 × triangle + place in it
     std::array<bool, 3> is_seam{}; // side k runs from corner k to the next
     bool is_alive = true, is_turned = false;
+  };
+
+  /// One of the faces that a face stands for, itself or one that has been set aside.
+  struct Ply
+  {
+    Index face;
+    Index_triple corners;        // at its positions in their order; those of the first ply are in `Face`
+    std::array<Index, 3> places; // where these positions are in the triangle of the soup
   };
 
   /// The edge from a position to a neighbour, as the faces at the position show it.
@@ -56,6 +65,16 @@ public:
 
   std::size_t face_count() const { return m_alive; }
   std::size_t size() const { return m_faces.size(); }
+
+  /// Sets faces aside that go with others from now on, the front of each. They are not alive any more, but
+  /// count as faces as long as their fronts do. To be called after turns, and before `find_seams`.
+  void set_aside(const std::vector<Index>& fronts);
+
+  /// Returns whether a face, or that with which it goes, is left.
+  bool is_left(Index face) const { return m_faces[front(face)].is_alive; }
+
+  /// Returns the positions of a face that is left, in the order that they have in the soup.
+  Index_triple positions_left(Index face) const;
   const Face& face(Index f) const { return m_faces[f]; }
   const std::vector<Index>& faces_at(Index position) const { return m_faces_at[position]; }
   bool has(Index face, Index position) const;
@@ -99,6 +118,14 @@ public:
   Triangle_soup result() const;
 
 private:
+  Index front(Index face) const { return m_fronts.empty() ? face : m_fronts[face]; }
+  const std::vector<Ply>& plies(Index face) const // none where a face stands for itself alone
+  {
+    static const std::vector<Ply> none;
+    const auto found = m_plies.find(face);
+    return found == m_plies.end() ? none : found->second;
+  }
+  bool is_seam_between_plies(Index f, Index g, Index p, Index q) const;
   static const Edge& edge_to(const std::vector<Edge>& edges, Index neighbour);
   std::vector<std::vector<Index>> fans_at(Index position) const;
   bool is_seam_between(Index corner_a, Index corner_b) const;
@@ -114,6 +141,8 @@ private:
   std::vector<Index> m_snapped_to;         // by position; itself where it has not snapped
   std::vector<Coordinates> m_points;       // by position
   std::vector<Face> m_faces;
+  std::vector<Index> m_fronts;                         // by face, or empty
+  std::unordered_map<Index, std::vector<Ply>> m_plies; // by front: those that run as it does come first
   std::vector<std::vector<Index>> m_faces_at;
   std::size_t m_alive = 0;
   bool m_has_seams = false;

@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <set>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
 namespace selvedge {
 namespace reference {
@@ -19,9 +21,12 @@ class Offences
 public:
   void add(Index f, Index g)
   {
-    m_count += m_partners[f].insert(g).second && f != g;
+    if (m_partners[f].insert(g).second && f != g)
+      m_count += times(f) * times(g);
     m_partners[g].insert(f);
   }
+  /// Lets every face count as often as `times` says. Call it before the first pair is added.
+  void count_times(std::vector<Index> times) { m_times = std::move(times); }
   /// Returns the number of pairs of two faces.
   std::size_t count() const { return m_count; }
   bool has(Index f, Index g) const
@@ -35,9 +40,9 @@ public:
     const auto found = m_partners.find(f);
     if (found == m_partners.end())
       return;
-    m_count -= found->second.size() - found->second.count(f);
     for (const Index g : found->second)
       if (g != f) {
+        m_count -= times(f) * times(g);
         const auto other = m_partners.find(g);
         other->second.erase(f);
         if (other->second.empty())
@@ -47,6 +52,9 @@ public:
   }
 
 private:
+  std::size_t times(Index f) const { return m_times.empty() ? 1 : m_times[f]; }
+
+  std::vector<Index> m_times; // by face, or empty
   std::unordered_map<Index, std::set<Index>> m_partners;
   std::size_t m_count = 0;
 };

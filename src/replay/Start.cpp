@@ -11,6 +11,8 @@
 #include <selvedge/rounding.h>
 #include <selvedge/verify.h>
 
+#include <algorithm>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -62,6 +64,28 @@ void find_parts(Start& start, const Log_header& header)
   }
 }
 
+// Finds the triangles that have the same three positions as an earlier one.
+void find_fronts(Start& start, const Log_header& header, const std::vector<Index>& first_at,
+                 const std::vector<char>& is_frozen)
+{
+  std::map<std::vector<Index>, Index> front_of; // by positions in ascending order, and by parts
+  std::vector<Index> times(start.soup.triangles.size(), 1);
+  for (Index t = 0; t < start.soup.triangles.size(); ++t) {
+    start.fronts.push_back(t);
+    const auto& [a, b, c] = start.soup.triangles[t];
+    if (!header.may_pairs_descend || is_frozen[t] ||
+        CGAL::collinear(start.soup.points[a], start.soup.points[b], start.soup.points[c]))
+      continue;
+    std::vector<Index> key{first_at[a], first_at[b], first_at[c]};
+    std::sort(key.begin(), key.end());
+    for (const std::vector<char>& part_of : start.parts)
+      key.push_back(Index(part_of[t]));
+    start.fronts[t] = front_of.emplace(std::move(key), t).first->second;
+    times[start.fronts[t]] += start.fronts[t] != t;
+  }
+  start.offences.count_times(std::move(times));
+}
+
 } // namespace
 
 Start start_of(const Triangle_soup& original, const Log_header& header, std::optional<std::size_t> pose)
@@ -89,25 +113,31 @@ Start start_of(const Triangle_soup& original, const Log_header& header, std::opt
   find_parts(start, header);
   const std::vector<Index> first = first_at_position(start.soup.points);
   std::vector<char> is_frozen(start.soup.triangles.size(), false);
-  for (const Offending_pair& pair : offending_pairs(start.soup)) {
-    if (start.is_permitted(pair.first, pair.second))
-      continue;
-    if (!header.may_pairs_descend)
-      is_frozen[pair.first] = is_frozen[pair.second] = true;
-    else if (pair.first != pair.second) // a degenerate face exempts nothing
-      start.lineage.add_pair(pair.first, pair.second);
-    start.offences.add(pair.first, pair.second);
-    ++start.offending_pairs;
-  }
   // Where rounding alone has made several positions one, the faces there are frozen.
   std::vector<char> is_merged(first.size(), false);
   for (Index v = 0; v < first.size(); ++v)
     if (before[v] != before[first[v]])
       is_merged[first[v]] = true;
-  start.is_locked.assign(first.size(), false);
-  for (Index t = 0; t < start.soup.triangles.size(); ++t) {
+  for (Index t = 0; t < start.soup.triangles.size(); ++t)
     for (const Index v : start.soup.triangles[t])
       is_frozen[t] = is_frozen[t] || is_merged[first[v]];
+  const std::vector<Offending_pair> pairs = offending_pairs(start.soup);
+  find_fronts(start, header, first, is_frozen);
+  for (const Offending_pair& pair : pairs) {
+    if (start.is_permitted(pair.first, pair.second))
+      continue;
+    ++start.offending_pairs;
+    if (!header.may_pairs_descend)
+      is_frozen[pair.first] = is_frozen[pair.second] = true;
+    const Index f = start.fronts[pair.first], g = start.fronts[pair.second];
+    if (f == g && pair.first != pair.second)
+      continue; // a double offends with its front wherever they go
+    if (header.may_pairs_descend && f != g && f == pair.first && g == pair.second)
+      start.lineage.add_pair(f, g); // a degenerate face exempts nothing
+    start.offences.add(f, g);
+  }
+  start.is_locked.assign(first.size(), false);
+  for (Index t = 0; t < start.soup.triangles.size(); ++t) {
     for (const Index v : start.soup.triangles[t])
       start.is_locked[first[v]] = start.is_locked[first[v]] || is_frozen[t];
   }

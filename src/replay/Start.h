@@ -29,6 +29,10 @@ struct Start
   Lineage lineage;
   std::size_t offending_pairs = 0;
 
+  /// For every triangle, the first with the same three positions, where pairs may descend and neither is
+  /// frozen or without an area. `offences` and `lineage` are of first ones alone.
+  std::vector<Index> fronts;
+
   /// For each pair of parts that may intersect, in which of the two each triangle is: 1, 2, or 0 for
   /// neither.
   std::vector<std::vector<char>> parts;

@@ -266,7 +266,6 @@ private:
     if (m_complex.has_seams())
       return;
     measure_snaps();
-    m_complex.find_seams();
     Box box;
     for (Index f = 0; f < m_complex.size(); ++f)
       box.add(m_boxes[f]);
@@ -280,6 +279,14 @@ private:
         }
       m_limits.set_diagonal(of_first.low, of_first.high);
     }
+    m_complex.set_aside(m_start.fronts);
+    for (Index f = 0; f < m_complex.size(); ++f)
+      if (!m_complex.face(f).is_alive) {
+        m_offences.remove(f);
+        m_boxes[f] = Box();
+      }
+    build_tree();
+    m_complex.find_seams();
   }
 
   // ---- Locks, snaps and links
@@ -654,9 +661,9 @@ private:
     Sha256 sha256;
     for (Index f = 0; f < m_complex.size(); ++f) {
       poll();
-      if (!m_complex.face(f).is_alive)
+      if (!m_complex.is_left(f))
         continue;
-      const Index_triple p = m_complex.in_order_of_soup(f, m_complex.face(f).positions);
+      const Index_triple p = m_complex.positions_left(f);
       sha256.add(std::to_string(smallest[p[0]]) + ' ' + std::to_string(smallest[p[1]]) + ' ' +
                  std::to_string(smallest[p[2]]) + '\n');
     }

@@ -113,6 +113,7 @@ public:
     judge(own_triangles);
     m_prepared.defects = m_options.defects == Defects::descend ? Defects::descend : Defects::freeze;
     freeze(own_triangles);
+    find_doubles(own_triangles);
     m_prepared.seconds_check += m_stopwatch.restart();
     snap();
     m_prepared.seconds_snap = m_stopwatch.restart();
@@ -370,6 +371,48 @@ private:
     std::fill(is_frozen.begin() + own_triangles, is_frozen.end(), true);
   }
 
+  void find_doubles(std::size_t own_triangles)
+  {
+    if (m_prepared.defects != Defects::descend)
+      return;
+    std::vector<char> stays = m_prepared.is_frozen;
+    const auto leave_degenerate = [&](const std::vector<Offending_pair>& pairs) {
+      for (const Offending_pair& pair : pairs)
+        if (pair.offence == Offence::degenerate)
+          stays[pair.first] = true;
+    };
+    leave_degenerate(m_prepared.offending_pairs);
+    std::for_each(m_prepared.offending_pairs_in_poses.begin(), m_prepared.offending_pairs_in_poses.end(),
+                  leave_degenerate);
+    std::vector<std::vector<char>> parts; // of which one of a pair may be guarded where the other is not
+    for (const auto& [a, b] : m_options.may_intersect)
+      for (const std::string* name : {&a, &b})
+        parts.push_back(triangles_named(soup(), *name));
+    const auto positions_of = [&](Index t) {
+      Index_triple triangle = soup().triangles[t];
+      for (Index& v : triangle)
+        v = m_prepared.positions[v];
+      std::sort(triangle.begin(), triangle.end());
+      return triangle;
+    };
+    const auto belong_to_same_parts = [&](Index a, Index b) {
+      return std::all_of(parts.begin(), parts.end(),
+                         [&](const std::vector<char>& part) { return part[a] == part[b]; });
+    };
+    std::vector<Index>& fronts = m_prepared.fronts;
+    for (const Offending_pair& pair : m_prepared.offending_pairs) {
+      if (pair.offence != Offence::duplicate || pair.second >= own_triangles || stays[pair.first] ||
+          stays[pair.second] || positions_of(pair.first) != positions_of(pair.second) || // in all poses
+          !belong_to_same_parts(pair.first, pair.second))
+        continue;
+      if (fronts.empty()) {
+        fronts.resize(own_triangles);
+        std::iota(fronts.begin(), fronts.end(), Index(0));
+      }
+      fronts[pair.second] = std::min(fronts[pair.second], pair.first);
+    }
+  }
+
   void snap()
   {
     std::vector<Index> transforms = transforms_of_vertices(soup());
@@ -394,12 +437,21 @@ private:
   // Nothing is sewn to the obstacle, so its triangles need not be asked.
   void orient()
   {
-    std::vector<Index_triple> triangles = soup().triangles; // of positions
-    for (Index_triple& triangle : triangles)
-      for (Index& v : triangle)
+    std::vector<Index_triple> triangles; // of positions; doubles are none
+    std::vector<Index> numbers;
+    for (Index t = 0; t < soup().triangles.size(); ++t) {
+      if (!m_prepared.fronts.empty() && m_prepared.fronts[t] != t)
+        continue;
+      numbers.push_back(t);
+      triangles.push_back(soup().triangles[t]);
+      for (Index& v : triangles.back())
         v = m_prepared.positions[v];
-    m_prepared.is_turned =
+    }
+    const std::vector<char> is_turned =
         turned_triangles(triangles, Index(3 * triangles.size()), Index(m_prepared.positions.size()));
+    m_prepared.is_turned.assign(is_turned.empty() ? 0 : soup().triangles.size(), false);
+    for (std::size_t i = 0; i < is_turned.size(); ++i)
+      m_prepared.is_turned[numbers[i]] = is_turned[i];
   }
 
   Prepare_options m_options;
@@ -416,6 +468,14 @@ private:
 std::size_t Prepared_soup::turned_faces() const
 {
   return std::size_t(std::count(is_turned.begin(), is_turned.end(), char(true)));
+}
+
+std::size_t Prepared_soup::doubles() const
+{
+  std::size_t count = 0;
+  for (Index t = 0; t < fronts.size(); ++t)
+    count += fronts[t] != t;
+  return count;
 }
 
 const char* name_of(Defects defects)

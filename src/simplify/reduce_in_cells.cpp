@@ -101,6 +101,10 @@ public:
         vertices.push_back(v);
     std::vector<Index> triangles(m_soup.triangles.size() + m_obstacle.triangles.size());
     std::iota(triangles.begin(), triangles.end(), Index(0));
+    const std::vector<Index>& fronts = whole.prepared.fronts;
+    triangles.erase(std::remove_if(triangles.begin(), triangles.end(),
+                                   [&](Index t) { return t < fronts.size() && fronts[t] != t; }),
+                    triangles.end());
     divide({}, vertices.begin(), vertices.end(), std::move(triangles));
   }
 
@@ -278,11 +282,14 @@ Cell_collapses reduce_in_cells(const Cell_context& whole)
     return result;
   std::vector<Cell_run> runs(cells.size());
   // No cell sees all faces with which a face offends, and all their descendants. So no vertex of an offending
-  // face moves in a cell: only the reduction of the whole makes descendants.
+  // face moves in a cell: only the reduction of the whole makes descendants. A double offends with its front
+  // alone, wherever the two go, or else its front offends as well.
   const Prepared_soup& prepared = whole.prepared;
   std::vector<char> stays(prepared.soup.triangles.size() + prepared.obstacle.triangles.size(), false);
+  const auto is_double = [&](Index t) { return t < prepared.fronts.size() && prepared.fronts[t] != t; };
   for (const Offending_pair& pair : prepared.offending_pairs)
-    stays[pair.first] = stays[pair.second] = true;
+    if (!is_double(pair.first) && !is_double(pair.second))
+      stays[pair.first] = stays[pair.second] = true;
   // So are vertices that move together, since a cell does not see whether all at a position are in it.
   for (const auto& group : whole.working.constraints().joint_vertices)
     for (const auto v : group)
@@ -294,13 +301,13 @@ Cell_collapses reduce_in_cells(const Cell_context& whole)
     std::vector<char> is_tied(prepared.soup.points.size(), false); // by position
     for (const auto& [a, b] : prepared.snapping.tied)
       is_tied[a] = is_tied[b] = true;
-    for (std::size_t t = 0; t < prepared.soup.triangles.size(); ++t)
+    for (Index t = 0; t < prepared.soup.triangles.size(); ++t)
       for (const Index v : prepared.soup.triangles[t])
         stays[t] |= is_tied[prepared.positions[v]];
   }
   // The places of a shared mesh lie in several cells.
   for (Index t = 0; t < prepared.soup.triangles.size(); ++t)
-    stays[t] |= whole.working.is_shared(Working_mesh::Mesh::Face_index(t));
+    stays[t] |= !is_double(t) && whole.working.is_shared(Working_mesh::Mesh::Face_index(t));
   const auto reduce = [&](std::size_t i) { runs[i] = run_cell(whole, cells[i], stays, stop); };
   tbb::parallel_for(std::size_t(0), cells.size(), Cancellation_scope::inherited(reduce),
                     tbb::simple_partitioner());

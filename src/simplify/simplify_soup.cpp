@@ -31,7 +31,7 @@ public:
                  const Simplify_intent& intent)
       : m_options(options), m_prepared(prepared),
         m_working(prepared.soup, prepared.positions, frozen(prepared, intent), prepared.obstacle,
-                  prepared.scale, prepared.is_turned),
+                  prepared.scale, prepared.is_turned, prepared.fronts),
         m_seconds_sew(m_stopwatch.seconds()),
         m_simplification(m_working.mesh(), m_options, constraints(prepared.soup, intent), m_working)
   {
@@ -63,7 +63,26 @@ private:
             is_named.begin(), is_named.end(), is_frozen.begin(), is_frozen.begin(),
             [](char named, char frozen) { return frozen || !named ? frozen : Working_mesh::by_wish; });
       }
+    if (prepared.doubles() == 0 || intent.ratios.empty())
+      return is_frozen;
+    // A face counts for one target. Where its doubles belong to parts with other targets, it stays.
+    std::vector<std::size_t> share_of(prepared.soup.triangles.size(), 0);
+    for (std::size_t i = 0; i < intent.ratios.size(); ++i) {
+      const std::vector<char> is_named = triangles_named(prepared.soup, intent.ratios[i].name);
+      for (Index t = 0; t < is_named.size(); ++t)
+        if (is_named[t])
+          share_of[t] = i + 1;
+    }
+    for (Index t = 0; t < prepared.fronts.size(); ++t)
+      if (const Index front = prepared.fronts[t]; share_of[t] != share_of[front] && is_frozen[front] == 0)
+        is_frozen[front] = true;
     return is_frozen;
+  }
+
+  // Whether the working mesh has a face of the number of a triangle. (The obstacle follows the soup.)
+  bool is_face(Index triangle) const
+  {
+    return triangle >= m_prepared.fronts.size() || m_prepared.fronts[triangle] == triangle;
   }
 
   const Simplify_constraints<Working_mesh::Mesh>& constraints(const Triangle_soup& soup,
@@ -75,7 +94,7 @@ private:
       const std::vector<char> is_named = triangles_named(soup, name);
       constraints.shares.push_back({{}, ratio});
       for (Index t = 0; t < is_named.size(); ++t)
-        if (is_named[t])
+        if (is_named[t] && is_face(t))
           constraints.shares.back().faces.emplace_back(t);
     };
     for (const Simplify_intent::Part_ratio& part : intent.ratios)
@@ -84,13 +103,14 @@ private:
       add_share(name, 1);
     if (m_prepared.defects == Defects::descend)
       for (const Offending_pair& pair : m_prepared.offending_pairs)
-        constraints.offending_pairs.emplace_back(pair.first, pair.second);
+        if (is_face(pair.first) && is_face(pair.second))
+          constraints.offending_pairs.emplace_back(pair.first, pair.second);
     for (const auto& [a, b] : m_prepared.may_intersect) {
       auto& [of_a, of_b] = constraints.may_intersect.emplace_back();
       for (const auto& [name, faces] : {std::make_pair(&a, &of_a), std::make_pair(&b, &of_b)}) {
         const std::vector<char> is_named = triangles_named(soup, *name);
         for (Index t = 0; t < is_named.size(); ++t)
-          if (is_named[t])
+          if (is_named[t] && is_face(t))
             faces->emplace_back(t);
       }
     }
@@ -107,9 +127,11 @@ private:
     if (m_options.uv_weight > 0)
       m_working.measure_uvs(uv_unit(soup, m_prepared.scale));
     m_working.count_refusals(part_kinds(soup));
-    if (constraints.offending_pairs.empty() &&
-        std::all_of(constraints.poses.begin(), constraints.poses.end(),
-                    [](const auto& pose) { return pose.offending_pairs.empty(); }))
+    const auto has_none = [](const std::vector<Offending_pair>& pairs) { return pairs.empty(); };
+    if (m_prepared.defects != Defects::descend ||
+        (has_none(m_prepared.offending_pairs) &&
+         std::all_of(m_prepared.offending_pairs_in_poses.begin(), m_prepared.offending_pairs_in_poses.end(),
+                     has_none)))
       m_working.on_collapse(m_options.on_collapse);
     else
       m_working.on_collapse([this](const Soup_collapse& collapse) {
@@ -118,6 +140,38 @@ private:
           m_options.on_collapse(collapse);
       });
     return constraints;
+  }
+
+  // Where a mesh has doubles in one place, and not in all, or shares them with something else, it is reduced
+  // apart, too.
+  void set_apart_by_doubles(const std::vector<Shared_mesh>& meshes, std::vector<char>& is_apart) const
+  {
+    constexpr Index s_no_mesh = Index(-1);
+    struct Row
+    {
+      Index mesh = s_no_mesh, place = 0, row = 0;
+    };
+    std::vector<Row> rows(m_prepared.fronts.size()); // by triangle
+    for (Index m = 0; m < meshes.size(); ++m)
+      for (Index p = 0; p < meshes[m].places.size(); ++p)
+        for (Index row = 0; row < meshes[m].places[p].triangles.size(); ++row)
+          rows[meshes[m].places[p].triangles[row]] = {m, p, row};
+    const auto is_alike_in_first_place = [&](const Row& here, const Row& front) {
+      return here.mesh == s_no_mesh ||
+             rows[m_prepared.fronts[meshes[here.mesh].places.front().triangles[here.row]]].row == front.row;
+    };
+    std::vector<char> is_mesh_apart(meshes.size(), false);
+    for (Index t = 0; t < rows.size(); ++t) {
+      const Row &here = rows[t], &front = rows[m_prepared.fronts[t]];
+      if (here.mesh == front.mesh && here.place == front.place && is_alike_in_first_place(here, front))
+        continue;
+      for (const Index mesh : {here.mesh, front.mesh})
+        if (mesh != s_no_mesh)
+          is_mesh_apart[mesh] = true;
+    }
+    for (Index t = 0; t < rows.size(); ++t)
+      if (rows[t].mesh != s_no_mesh && is_mesh_apart[rows[t].mesh])
+        is_apart[t] = true;
   }
 
   void share()
@@ -130,6 +184,10 @@ private:
       is_apart.push_back(std::any_of(triangle.begin(), triangle.end(),
                                      [&](Index v) { return is_tied[m_prepared.positions[v]] != 0; }));
     Shared_meshes shared = shared_meshes(m_prepared.soup, is_apart);
+    if (m_prepared.doubles() > 0) {
+      set_apart_by_doubles(shared.meshes, is_apart);
+      shared = shared_meshes(m_prepared.soup, is_apart);
+    }
     m_shared_meshes = shared.meshes.size();
     m_apart_meshes = shared.apart;
     for (const Shared_mesh& mesh : shared.meshes)
@@ -167,7 +225,8 @@ private:
                                                        : beside[of_soup[v] - own_vertices]));
       if (m_prepared.defects == Defects::descend)
         for (const Offending_pair& pair : m_prepared.offending_pairs_in_poses[i])
-          pose.offending_pairs.emplace_back(pair.first, pair.second);
+          if (is_face(pair.first) && is_face(pair.second))
+            pose.offending_pairs.emplace_back(pair.first, pair.second);
     }
     if (!m_prepared.is_held.empty())
       for (const auto v : mesh.vertices())
@@ -187,8 +246,9 @@ private:
         m_working.mesh().number_of_vertices() - m_working.constraints().locked_vertices.size();
     if (movable == 0)
       return;
+    const double faces_per_collapse = 2.0 * double(total.faces) / double(m_working.face_count());
     const double share =
-        caution * double(m_simplification.targets().total_excess()) / (2.0 * double(movable));
+        caution * double(m_simplification.targets().total_excess()) / (faces_per_collapse * double(movable));
     const Cell_collapses found = reduce_in_cells({m_prepared,
                                                   m_working,
                                                   m_simplification.rule(),
@@ -197,7 +257,8 @@ private:
                                                   {total.faces, total.target, total.faces},
                                                   share});
     m_cells = found.cells;
-    const std::size_t faces_left = total.faces - std::min(total.faces, 2 * found.collapses.size());
+    const std::size_t faces_left =
+        total.faces - std::min(total.faces, std::size_t(faces_per_collapse * double(found.collapses.size())));
     const Simplify_progress progress{total.faces, total.target, faces_left};
     m_is_stopped_in_cells = found.is_stopped;
     for (const auto& [moving, place, is_mover_first] : found.collapses) {

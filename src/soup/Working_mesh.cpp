@@ -16,6 +16,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -74,44 +75,53 @@ Nearest_point nearest_point(const std::array<internal::Vector_of_doubles, 3>& co
 
 Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& positions,
                            const std::vector<char>& is_frozen, const Triangle_soup& obstacle,
-                           const Scale& scale, const std::vector<char>& is_turned)
+                           const Scale& scale, const std::vector<char>& is_turned,
+                           const std::vector<Index>& fronts)
     : m_soup(soup), m_scale(scale), m_is_turned(is_turned)
 {
   const Index own_vertices = Index(soup.points.size());
-  const Index own_corners = Index(3 * soup.triangles.size());
-  const Index corner_count = own_corners + Index(3 * obstacle.triangles.size());
   std::vector<Index_triple> triangles; // of positions
+  std::vector<Index> faces;            // their numbers in the mesh
   std::vector<char> is_used(soup.points.size(), false);
-  triangles.reserve(corner_count / 3);
+  triangles.reserve(soup.triangles.size() + obstacle.triangles.size());
   m_corners.reserve(soup.triangles.size());
-  for (const Index_triple& v : soup.triangles) {
-    const Corner first = Corner(3 * triangles.size());
-    m_corners.push_back({first, first + 1, first + 2});
+  for (Index t = 0; t < soup.triangles.size(); ++t) {
+    const Index_triple& v = soup.triangles[t];
+    m_corners.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    for (const Index i : v)
+      is_used[i] = true;
+    if (!fronts.empty() && fronts[t] != t)
+      continue;
+    faces.push_back(t);
     triangles.push_back({positions[v[0]], positions[v[1]], positions[v[2]]});
-    if (!is_turned.empty() && is_turned[triangles.size() - 1]) {
+    if (!is_turned.empty() && is_turned[t]) {
       turn(m_corners.back());
       turn(triangles.back());
     }
-    for (const Index i : v)
-      is_used[i] = true;
   }
+  const Index own_corners = Index(3 * triangles.size()); // of faces
+  m_is_frozen.assign(is_frozen.begin(), is_frozen.begin() + std::ptrdiff_t(soup.triangles.size()));
+  find_plies(fronts, positions);
   for (Index v = 0; v < is_used.size(); ++v) {
     m_notes.unused_vertices += !is_used[v];
     m_notes.coincident_vertices += is_used[v] && positions[v] != v && is_used[positions[v]];
   }
   for (const auto& [a, b, c] : obstacle.triangles) {
-    m_constraints.uncounted_faces.push_back(Mesh::Face_index(Index(triangles.size())));
+    faces.push_back(Index(soup.triangles.size() + triangles.size()) - own_corners / 3);
+    m_constraints.uncounted_faces.emplace_back(faces.back());
     triangles.push_back(
         {positions[own_vertices + a], positions[own_vertices + b], positions[own_vertices + c]});
   }
 
-  const auto own_corner = [this](Corner corner) { return m_corners[corner / 3][corner % 3]; };
+  const Index corner_count = Index(3 * triangles.size());
+
+  const auto own_corner = [&](Index corner) { return m_corners[faces[corner / 3]][corner % 3]; };
   const Sewing sewing(triangles, own_corners, Index(positions.size()), m_notes);
   Cancellation_scope::check();
   std::vector<Corner> corner_of(sewing.vertex_count()); // the first corner of each vertex
   for (Corner corner = corner_count; corner-- > 0;)
     corner_of[sewing.vertex(corner)] = corner;
-  const std::vector<Mesh::Halfedge_index> halfedges = make_mesh(sewing, [&](Index vertex) {
+  const std::vector<Mesh::Halfedge_index> halfedges = make_mesh(sewing, faces, [&](Index vertex) {
     const Corner corner = corner_of[vertex];
     if (corner < own_corners)
       return scale(soup.points[vertex_of(own_corner(corner))]);
@@ -135,19 +145,21 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
   std::vector<char> is_locked(corner_of.size(), false);
   for (Index v = 0; v < is_locked.size(); ++v)
     is_locked[v] = vertices_at[position_of(v)] > 1;
-  std::vector<char> is_in_frozen_face(corner_of.size(), false);
-  for (Corner corner = 0; corner < corner_count; ++corner)
-    is_in_frozen_face[sewing.vertex(corner)] |= is_frozen[corner / 3];
-  find_joint_vertices(is_locked, is_in_frozen_face, vertices_at, position_of);
+  std::vector<char> is_in_frozen_face(corner_of.size(), false), moves_alone(corner_of.size(), false);
+  for (Corner corner = 0; corner < corner_count; ++corner) {
+    const Mesh::Face_index face(faces[corner / 3]);
+    is_in_frozen_face[sewing.vertex(corner)] |= is_own(face) ? m_is_frozen[face] : is_frozen[face];
+    moves_alone[sewing.vertex(corner)] |= is_in_frozen_face[sewing.vertex(corner)] || has_doubles(face);
+  }
+  find_joint_vertices(is_locked, moves_alone, vertices_at, position_of);
   for (Index v = 0; v < is_locked.size(); ++v)
     is_locked[v] |= is_in_frozen_face[v];
   lock(is_locked);
-  m_is_frozen.assign(is_frozen.begin(), is_frozen.begin() + std::ptrdiff_t(soup.triangles.size()));
   m_is_misoriented.assign(soup.points.size(), false);
   for (const Index side : sewing.misoriented_sides()) {
     if (side >= own_corners)
       continue;
-    m_misoriented_sides.push_back(side);
+    m_misoriented_sides.push_back(3 * faces[side / 3] + side % 3);
     for (const Corner end : {side, Sewing::next(side)})
       m_is_misoriented[vertex_of(own_corner(end))] = true;
   }
@@ -161,10 +173,8 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
 
   Cancellation_scope::check();
   for (Index side = 0; side < own_corners; ++side) {
-    const Index mate = sewing.mate(side), end = Sewing::next(side);
-    if (mate != s_none && side < mate &&
-        (differences(own_corner(side), own_corner(Sewing::next(mate))).any() ||
-         differences(own_corner(end), own_corner(mate)).any()))
+    const Index mate = sewing.mate(side);
+    if (mate != s_none && side < mate && differences(m_mesh.edge(halfedges[side])).any())
       m_constraints.line_edges.push_back(m_mesh.edge(halfedges[side]));
   }
   m_notes.seam_edges = m_constraints.line_edges.size();
@@ -210,12 +220,25 @@ Working_mesh::Working_mesh(const Working_mesh& whole, const Border_rule<Mesh>& r
     }
   }
 
+  if (!whole.m_first_ply.empty()) {
+    m_first_ply.assign(1, 0);
+    for (Index i = 0; i < m_corners.size(); ++i) {
+      const Mesh::Face_index face(faces[i]);
+      if (whole.has_doubles(face))
+        for (Index k = 0; k < whole.ply_count(face); ++k)
+          m_plies.push_back(whole.ply(face, k));
+      m_first_ply.push_back(Index(m_plies.size()));
+    }
+  }
+
   const Sewing sewing(std::move(mates));
+  std::vector<Index> numbers(faces.size());
+  std::iota(numbers.begin(), numbers.end(), Index(0));
   std::vector<Mesh::Vertex_index> vertices(sewing.vertex_count()); // of the whole
   for (Index side = 0; side < originals.size(); ++side)
     vertices[sewing.vertex(side)] = mesh.source(originals[side]);
   const std::vector<Mesh::Halfedge_index> halfedges =
-      make_mesh(sewing, [&](Index vertex) { return mesh.point(vertices[vertex]); });
+      make_mesh(sewing, numbers, [&](Index vertex) { return mesh.point(vertices[vertex]); });
 
   std::vector<char> is_locked(vertices.size(), false);
   for (Index v = 0; v < vertices.size(); ++v)
@@ -324,11 +347,12 @@ void Working_mesh::lock_by_wish(const std::vector<Index>& vertices, const std::v
   lock(is_new);
 }
 
-// Makes vertices, edges in the order of the sides, and faces. Returns the halfedge of each side.
-// `Surface_mesh::add_face` would make the same, but has to search for what is known here.
+// Makes vertices, edges in the order of the sides, and faces, of the numbers `faces`, which ascend. Returns
+// the halfedge of each side. `Surface_mesh::add_face` would make the same, but has to search for what is
+// known here.
 template <class Function>
-std::vector<Working_mesh::Mesh::Halfedge_index> Working_mesh::make_mesh(const Sewing& sewing,
-                                                                        const Function& point_of)
+std::vector<Working_mesh::Mesh::Halfedge_index>
+Working_mesh::make_mesh(const Sewing& sewing, const std::vector<Index>& faces, const Function& point_of)
 {
   using Halfedge = Mesh::Halfedge_index;
   const Index side_count = sewing.side_count();
@@ -344,10 +368,15 @@ std::vector<Working_mesh::Mesh::Halfedge_index> Working_mesh::make_mesh(const Se
     m_mesh.set_halfedge(vertex(end), halfedges[side]);
   }
   std::vector<Halfedge> border_from(m_mesh.number_of_vertices());
+  std::vector<Mesh::Face_index> unused; // a mesh gives removed numbers to the faces that it makes next
   for (Index side = 0; side < side_count; ++side) {
-    if (side % 3 == 0)
-      m_mesh.set_halfedge(m_mesh.add_face(), halfedges[Sewing::previous(side)]);
-    m_mesh.set_face(halfedges[side], Mesh::Face_index(side / 3));
+    if (side % 3 == 0) {
+      Mesh::Face_index face = m_mesh.add_face();
+      for (; face < Mesh::Face_index(faces[side / 3]); face = m_mesh.add_face())
+        unused.push_back(face);
+      m_mesh.set_halfedge(face, halfedges[Sewing::previous(side)]);
+    }
+    m_mesh.set_face(halfedges[side], Mesh::Face_index(faces[side / 3]));
     m_mesh.set_next(halfedges[side], halfedges[Sewing::next(side)]);
     if (sewing.mate(side) == s_none)
       border_from[vertex(Sewing::next(side))] = m_mesh.opposite(halfedges[side]);
@@ -359,6 +388,8 @@ std::vector<Working_mesh::Mesh::Halfedge_index> Working_mesh::make_mesh(const Se
     m_mesh.set_halfedge(vertex(side), border); // by this, CGAL sees at once that the vertex is on a border
     m_mesh.set_next(border, border_from[vertex(side)]);
   }
+  for (const Mesh::Face_index face : unused)
+    m_mesh.remove_face(face);
   m_places.resize(m_mesh.number_of_halfedges());
   for (Index side = 0; side < side_count; ++side)
     m_places[halfedges[side]] = Sewing::next(side) % 3;
@@ -366,6 +397,16 @@ std::vector<Working_mesh::Mesh::Halfedge_index> Working_mesh::make_mesh(const Se
 }
 
 namespace {
+
+// Returns, for each element, the number of the first that is equal.
+template <class Element>
+std::vector<std::ptrdiff_t> first_equal(const std::vector<Element>& elements)
+{
+  std::vector<std::ptrdiff_t> first;
+  for (const Element& element : elements)
+    first.push_back(std::find(elements.begin(), elements.end(), element) - elements.begin());
+  return first;
+}
 
 // Compares values and not their numbers, since a file may write a value twice.
 template <class Values>
@@ -387,13 +428,70 @@ Working_mesh::Differences Working_mesh::differences(Corner a, Corner b) const
               differ_in_label(m_soup.materials)};
 }
 
+Working_mesh::Differences& Working_mesh::Differences::operator|=(const Differences& other)
+{
+  in_vertex |= other.in_vertex;
+  in_uv |= other.in_uv;
+  in_normal |= other.in_normal;
+  in_label |= other.in_label;
+  in_doubles |= other.in_doubles;
+  return *this;
+}
+
 Working_mesh::Differences Working_mesh::differences(Mesh::Edge_index e) const
 {
   const Mesh::Halfedge_index h = m_mesh.halfedge(e), other = m_mesh.opposite(h);
-  const Differences a = differences(corner_at(h), corner_at(m_mesh.prev(other)));
-  const Differences b = differences(corner_at(m_mesh.prev(h)), corner_at(other));
-  return {a.in_vertex || b.in_vertex, a.in_uv || b.in_uv, a.in_normal || b.in_normal,
-          a.in_label || b.in_label};
+  const Mesh::Face_index face = m_mesh.face(h), beyond = m_mesh.face(other);
+  const Index plies = ply_count(face), plies_beyond = ply_count(beyond);
+  Differences result;
+  result.in_doubles = plies != plies_beyond;
+  for (Index i = 0; i < (std::min)(plies, plies_beyond); ++i) {
+    result |= differences(corner_at(h, i), corner_at(m_mesh.prev(other), i));
+    result |= differences(corner_at(m_mesh.prev(h), i), corner_at(other, i));
+    if (plies > 1 && plies_beyond > 1)
+      result.in_doubles |= ply(face, i).is_against_face() != ply(beyond, i).is_against_face();
+  }
+  return result;
+}
+
+// Finds the triangles for which each front stands. Those that run as the face does come first, so that
+// their order is the same in all faces of one surface, in whatever order the soup has them.
+void Working_mesh::find_plies(const std::vector<Index>& fronts, const std::vector<Index>& positions)
+{
+  if (fronts.empty())
+    return;
+  const auto position_of = [&](Corner corner) { return positions[vertex_of(corner)]; };
+  m_first_ply.assign(fronts.size() + 1, 0);
+  for (Index t = 0; t < fronts.size(); ++t)
+    if (fronts[t] != t) {
+      m_first_ply[fronts[t] + 1] += m_first_ply[fronts[t] + 1] == 0 ? 2 : 1;
+      if (m_is_frozen[fronts[t]] == 0)
+        m_is_frozen[fronts[t]] = m_is_frozen[t];
+    }
+  std::partial_sum(m_first_ply.begin(), m_first_ply.end(), m_first_ply.begin());
+  m_plies.resize(m_first_ply.back());
+  std::vector<Index> next = m_first_ply;
+  for (Index t = 0; t < fronts.size(); ++t) {
+    const Mesh::Face_index face(fronts[t]);
+    if (!has_doubles(face))
+      continue;
+    Ply& ply = m_plies[next[face]++];
+    ply.triangle = t;
+    for (unsigned char k = 0; k < 3; ++k)
+      for (unsigned char place = 0; place < 3; ++place)
+        if (position_of(3 * t + place) == position_of(m_corners[face][k])) {
+          ply.places[k] = place;
+          ply.corners[k] = 3 * t + place;
+        }
+  }
+  for (Index t = 0; t < fronts.size(); ++t)
+    if (const Mesh::Face_index face(t); has_doubles(face)) {
+      const auto first = m_plies.begin() + m_first_ply[t];
+      std::stable_partition(first, m_plies.begin() + m_first_ply[t + 1],
+                            [](const Ply& ply) { return !ply.is_against_face(); });
+      m_corners[t] = first->corners;
+      m_constraints.multiplicities.emplace_back(face, ply_count(face));
+    }
 }
 
 // A locked vertex keeps its position and its frozen faces, so that its reason is the same at any time.
@@ -461,6 +559,8 @@ void Working_mesh::share(std::vector<Shared_mesh> meshes)
       for (Index row = 0; row < places[p].triangles.size(); ++row) {
         const Mesh::Face_index face(places[p].triangles[row]);
         m_copies[face] = {m, p, row};
+        if (!has_face(face))
+          continue;
         for (const Mesh::Vertex_index v : m_mesh.vertices_around_face(m_mesh.halfedge(face)))
           box += m_mesh.point(v).bbox();
       }
@@ -522,7 +622,7 @@ void Working_mesh::lock_in_all_places()
   Cancellation_poll poll;
   for (const Shared_mesh& shared : m_shared)
     for (const Index face : shared.places.front().triangles)
-      for (unsigned char place = 0; place < 3; ++place) {
+      for (unsigned char place = 0; place < 3 && has_face(Mesh::Face_index(face)); ++place) {
         poll();
         const Side here = {face, place, false};
         const Mesh::Halfedge_index h = halfedge(here), beyond = m_mesh.opposite(h);
@@ -599,7 +699,7 @@ Hindrance Working_mesh::line_reason(Mesh::Edge_index e) const
   const Differences differ = differences(e);
   if (differ.in_normal && !differ.in_label && !differ.in_uv)
     return Hindrance::normals;
-  if (differ.in_vertex || !differ.any())
+  if (differ.in_vertex || differ.in_doubles || !differ.any())
     return Hindrance::seam;
   return differ.in_label ? Hindrance::group : Hindrance::texture;
 }
@@ -642,7 +742,7 @@ Working_mesh::Side Working_mesh::side(Mesh::Halfedge_index h) const
 Working_mesh::Mesh::Halfedge_index Working_mesh::halfedge(const Side& side) const
 {
   const Mesh::Face_index face(side.triangle);
-  if (!m_mesh.has_valid_index(face) || m_mesh.is_removed(face))
+  if (!has_face(face))
     throw std::logic_error("a side of a face that is gone");
   Mesh::Halfedge_index h = m_mesh.halfedge(face);
   for (int i = 0; i < 3; ++i, h = m_mesh.next(h))
@@ -679,7 +779,10 @@ void Working_mesh::carry(Mesh::Halfedge_index moving, const Border_rule<Mesh>& r
     merged.own_cost = merged.quadric(relative(m_mesh.point(m_mesh.target(moving))), merged.uv);
   });
   for_each_changed_face(moving, rule, [this](Mesh::Halfedge_index h, Mesh::Halfedge_index from) {
-    m_corners[m_mesh.face(h)][m_places[h]] = corner_at(from);
+    const Mesh::Face_index face = m_mesh.face(h);
+    m_corners[face][m_places[h]] = corner_at(from);
+    for (Index i = 1; i < ply_count(face); ++i)
+      m_plies[m_first_ply[face] + i].corners[m_places[h]] = corner_at(from, i);
     if (!m_wedges.empty())
       wedge_at(h) = wedge_at(from);
   });
@@ -732,7 +835,8 @@ void Working_mesh::allow_new_places(bool is_float32)
 // unit, so that a mesh and its multiple have the same places even where digits are lost near 0.
 internal::Optional<Point_3> Working_mesh::rounded_place(Mesh::Halfedge_index edge, const Point_3& place) const
 {
-  if (!m_values || !m_is_scale_lossless || is_shared(Mesh::Face_index(side(edge).triangle)))
+  const Mesh::Face_index face(side(edge).triangle);
+  if (!m_values || !m_is_scale_lossless || is_shared(face) || has_doubles(face))
     return {};
   std::array<double, 3> rounded;
   for (int i = 0; i < 3; ++i) {
@@ -841,7 +945,8 @@ void Working_mesh::weigh(const std::vector<double>& weights)
     if (m_mesh.is_border(h) || !is_own(m_mesh.face(h)))
       continue;
     double& weight = m_constraints.vertex_weights[m_mesh.target(h)];
-    weight = (std::max)(weight, weights[vertex_of(corner_at(h))]);
+    for (Index i = 0; i < ply_count(m_mesh.face(h)); ++i)
+      weight = (std::max)(weight, weights[vertex_of(corner_at(h, i))]);
   }
 }
 
@@ -862,6 +967,8 @@ bool Working_mesh::keeps_pieces(Mesh::Halfedge_index moving, const Border_rule<M
     });
   };
   const Mesh::Halfedge_index back = m_mesh.opposite(moving);
+  if (has_doubles(m_mesh.face(moving)) || has_doubles(m_mesh.face(back)))
+    return keeps_pieces_of_doubles(moving, rule);
   if (!rule.is_line(m_mesh.edge(moving)))
     return true;
   const bool is_open_ahead = is_open_at_end(moving), is_open = is_open_at_end(back);
@@ -875,6 +982,55 @@ bool Working_mesh::keeps_pieces(Mesh::Halfedge_index moving, const Border_rule<M
     // must not be on another run.
     return is_open || !is_on_boundary(is_open_ahead ? m_mesh.source(h) : m_mesh.target(moving));
   }
+  return true;
+}
+
+// The triangles beside an edge must have vertices in common at the goal just where they have them at the
+// mover and, on a line, at the vertex behind it. Those of a contracted face must be one, with all three
+// vertices in common, just where those of its neighbours are and, on a line, those beside the edge behind. So
+// as many vertices, edges and faces of pieces go as without doubles, and what replaces them has as many
+// faces.
+bool Working_mesh::keeps_pieces_of_doubles(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule) const
+{
+  const auto common_vertices = [this](Mesh::Halfedge_index h, bool is_at_target) {
+    const Mesh::Halfedge_index other = m_mesh.opposite(h);
+    std::vector<Index> vertices;
+    for (const Mesh::Halfedge_index corner :
+         {is_at_target ? h : m_mesh.prev(h), is_at_target ? m_mesh.prev(other) : other}) {
+      vertices.push_back(s_none);
+      if (const Mesh::Face_index face = m_mesh.face(corner); !m_mesh.is_border(corner) && is_own(face))
+        for (Index i = 0; i < ply_count(face); ++i)
+          vertices.push_back(vertex_of(corner_at(corner, i)));
+    }
+    return first_equal(vertices);
+  };
+  const auto common_faces = [this](Mesh::Halfedge_index side) {
+    std::vector<Index_triple> triangles; // of vertices, in ascending order
+    const Mesh::Face_index face = m_mesh.face(side);
+    if (m_mesh.is_border(side) || !is_own(face))
+      return first_equal(triangles);
+    for (Index i = 0; i < ply_count(face); ++i) {
+      const auto& [a, b, c] = corners(face, i);
+      triangles.push_back({vertex_of(a), vertex_of(b), vertex_of(c)});
+      std::sort(triangles.back().begin(), triangles.back().end());
+    }
+    return first_equal(triangles);
+  };
+  const auto at_mover = common_vertices(moving, false);
+  if (at_mover != common_vertices(moving, true))
+    return false;
+  for (const Mesh::Halfedge_index side : {moving, m_mesh.opposite(moving)})
+    for (const Mesh::Halfedge_index h : {m_mesh.next(side), m_mesh.prev(side)})
+      if (!m_mesh.is_border(m_mesh.edge(h)) && !rule.is_line(m_mesh.edge(h)) && !m_mesh.is_border(side) &&
+          common_faces(h) != common_faces(m_mesh.opposite(h)))
+        return false;
+  if (!rule.is_line(m_mesh.edge(moving)))
+    return true;
+  for (const Mesh::Halfedge_index h : m_mesh.halfedges_around_target(m_mesh.opposite(moving)))
+    if (h != m_mesh.opposite(moving) && rule.is_line(m_mesh.edge(h)) &&
+        (at_mover != common_vertices(h, false) || common_faces(moving) != common_faces(h) ||
+         common_faces(m_mesh.opposite(moving)) != common_faces(m_mesh.opposite(h))))
+      return false;
   return true;
 }
 
@@ -909,12 +1065,13 @@ Working_mesh::Uv Working_mesh::uv_at(Corner corner) const
   return uv_of(corner);
 }
 
-// Returns the orientation that a face would have in the texture with other coordinates at one corner.
-CGAL::Orientation Working_mesh::uv_orientation(Mesh::Face_index face, unsigned char place, const Uv& uv) const
+// Returns the orientation that a triangle would have in the texture with other coordinates at one corner.
+CGAL::Orientation Working_mesh::uv_orientation(const Index_triple& corners, unsigned char place,
+                                               const Uv& uv) const
 {
   std::array<Kernel::Point_2, 3> points;
   for (unsigned char k = 0; k < 3; ++k) {
-    const Uv here = k == place ? uv : uv_at(m_corners[face][k]);
+    const Uv here = k == place ? uv : uv_at(corners[k]);
     points[k] = {here[0], here[1]};
   }
   return CGAL::orientation(points[0], points[1], points[2]);
@@ -926,7 +1083,8 @@ bool Working_mesh::keeps_uv_orientation(Mesh::Halfedge_index moving, const Borde
     return true;
   bool is_kept = true;
   for_each_changed_face(moving, rule, [&](Mesh::Halfedge_index h, Mesh::Halfedge_index from) {
-    is_kept = is_kept && keeps_uv_orientation_of(h, uv_at(corner_at(from)));
+    for (Index i = 0; is_kept && i < ply_count(m_mesh.face(h)); ++i)
+      is_kept = keeps_uv_orientation_of(h, i, uv_at(corner_at(from, i)));
   });
   return is_kept;
 }
@@ -941,18 +1099,18 @@ bool Working_mesh::keeps_uv_orientation_at(Mesh::Halfedge_index moving, const Po
   for (const Mesh::Halfedge_index end : {moving, back})
     for (const Mesh::Halfedge_index h : m_mesh.halfedges_around_target(end))
       if (m_mesh.face(h) != m_mesh.face(moving) && m_mesh.face(h) != m_mesh.face(back) &&
-          !keeps_uv_orientation_of(h, uv))
+          !keeps_uv_orientation_of(h, 0, uv))
         return false;
   return true;
 }
 
-// Whether a face keeps its orientation in the texture when its corner at the target of h gets other
-// coordinates.
-bool Working_mesh::keeps_uv_orientation_of(Mesh::Halfedge_index h, const Uv& uv) const
+// Whether a triangle of a face keeps its orientation in the texture when its corner at the target of h gets
+// other coordinates.
+bool Working_mesh::keeps_uv_orientation_of(Mesh::Halfedge_index h, Index ply, const Uv& uv) const
 {
-  const Mesh::Face_index face = m_mesh.face(h);
-  const CGAL::Orientation before = uv_orientation(face, m_places[h], uv_at(corner_at(h)));
-  return before == CGAL::COLLINEAR || uv_orientation(face, m_places[h], uv) == before;
+  const Index_triple& all = corners(m_mesh.face(h), ply);
+  const CGAL::Orientation before = uv_orientation(all, m_places[h], uv_at(all[m_places[h]]));
+  return before == CGAL::COLLINEAR || uv_orientation(all, m_places[h], uv) == before;
 }
 
 Uv_quadric::Vector Working_mesh::relative(const Point_3& point) const
@@ -1078,13 +1236,30 @@ double Working_mesh::uv_cost_at(Mesh::Halfedge_index edge, const Point_3& place)
 Working_mesh::Result Working_mesh::result() const
 {
   Result result;
+  struct Left
+  {
+    Index triangle;
+    Mesh::Face_index face;
+    Index ply;
+  };
+  std::vector<Left> left;
   for (const Mesh::Face_index face : m_mesh.faces()) {
     if (!is_own(face))
       break; // the faces of the obstacle come last
-    result.triangles.push_back(face);
-    result.corners.push_back(m_corners[face]);
-    if (!m_is_turned.empty() && m_is_turned[face])
-      turn(result.corners.back());
+    for (Index i = 0; i < ply_count(face); ++i)
+      left.push_back({has_doubles(face) ? ply(face, i).triangle : Index(face), face, i});
+  }
+  if (!m_plies.empty())
+    std::sort(left.begin(), left.end(), [](const Left& a, const Left& b) { return a.triangle < b.triangle; });
+  for (const auto& [triangle, face, i] : left) {
+    Index_triple of_triangle = corners(face, i);
+    if (has_doubles(face))
+      for (std::size_t k = 0; k < 3; ++k)
+        of_triangle[ply(face, i).places[k]] = corners(face, i)[k];
+    else if (!m_is_turned.empty() && m_is_turned[face])
+      turn(of_triangle);
+    result.triangles.push_back(triangle);
+    result.corners.push_back(of_triangle);
     if (!m_hindrances.empty())
       result.held_by.push_back(hindrance_of(face));
   }

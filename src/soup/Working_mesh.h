@@ -49,6 +49,11 @@ class Sewing;
 /// has at the point nearest to this place, by barycentric coordinates (`Vertex_values` says of what). Only
 /// vertices on no line are placed so; all their corners have the same values.
 ///
+/// Several triangles with the same three positions, as of a double-sided mesh, are one face: the first of
+/// them, their front, stands for all. The others are its doubles. They have corners of their own, which a
+/// collapse moves alike, and are in the result when the face is. An edge is a line also where the doubles of
+/// its two faces are not as many, run other ways, or differ as faces may.
+///
 /// An obstacle may lie beside the soup: triangles that are in the mesh, do not change, and are not in the
 /// result. Nothing of the soup is sewn to it. Where the soup lies along an obstacle, it has the same border
 /// as without it; where both have a vertex at one position, the two are coincident vertices. Limits that are
@@ -67,13 +72,17 @@ public:
   /// soup. Nothing else of the obstacle is used, and all its triangles are frozen. The points of the mesh are
   /// those of both, divided by the scale; the result has the original ones. Triangle t of the soup is turned
   /// in the mesh when `is_turned[t]`, and back again in the result; none is when the array is empty.
+  /// `fronts[t]` is the front of triangle t, or t itself, as in `Prepared_soup`; no triangle is a double when
+  /// the array is empty. The mesh has no face of the number of a double.
   ///
-  /// **Preconditions** No triangle has two corners at one position. The soup outlives the mesh.
+  /// **Preconditions** No triangle has two corners at one position. No double is turned. The soup outlives
+  /// the mesh.
   ///
   /// **Complexity** O(n log n).
   Working_mesh(const Triangle_soup& soup, const std::vector<Index>& positions,
                const std::vector<char>& is_frozen, const Triangle_soup& obstacle = {},
-               const Scale& scale = Scale(), const std::vector<char>& is_turned = {});
+               const Scale& scale = Scale(), const std::vector<char>& is_turned = {},
+               const std::vector<Index>& fronts = {});
 
   /// Makes a mesh of some faces of another, so that this part can be reduced separately. Face i of the part
   /// is face `faces[i]` of the whole.
@@ -105,6 +114,9 @@ public:
   ///
   /// **Preconditions** Nothing has been collapsed.
   void share(std::vector<Shared_mesh> meshes);
+
+  /// The number of faces, without those of the obstacle; doubles are none.
+  std::size_t face_count() const { return m_mesh.number_of_faces() - m_constraints.uncounted_faces.size(); }
 
   bool is_shared(Mesh::Face_index face) const
   {
@@ -181,8 +193,10 @@ public:
   struct Differences
   {
     bool in_vertex = false, in_uv = false, in_normal = false, in_label = false;
+    bool in_doubles = false; ///< in their number or directions
 
-    bool any() const { return in_vertex || in_uv || in_normal || in_label; }
+    bool any() const { return in_vertex || in_uv || in_normal || in_label || in_doubles; }
+    Differences& operator|=(const Differences& other);
   };
   Differences differences(Mesh::Edge_index e) const;
 
@@ -234,13 +248,43 @@ private:
     return m_soup.uvs.values[m_soup.uvs.of_triangle[corner / 3][corner % 3]];
   }
   Uv uv_at(Corner corner) const; // as it is now
-  CGAL::Orientation uv_orientation(Mesh::Face_index face, unsigned char place, const Uv& uv) const;
-  bool keeps_uv_orientation_of(Mesh::Halfedge_index h, const Uv& uv) const;
+  CGAL::Orientation uv_orientation(const Index_triple& corners, unsigned char place, const Uv& uv) const;
+  bool keeps_uv_orientation_of(Mesh::Halfedge_index h, Index ply, const Uv& uv) const;
   bool is_own(Mesh::Face_index face) const { return std::size_t(face) < m_corners.size(); }
   Differences differences(Corner a, Corner b) const;
 
   /// The corner that the face beside a halfedge has at the target of the halfedge.
   Corner corner_at(Mesh::Halfedge_index h) const { return m_corners[m_mesh.face(h)][m_places[h]]; }
+
+  /// One of the triangles for which a face with doubles stands.
+  struct Ply
+  {
+    Index triangle;
+    Index_triple corners; ///< at the places of the face; of the first ply, they are in `m_corners`
+    std::array<unsigned char, 3> places; ///< of these corners in the triangle
+
+    bool is_against_face() const { return places[1] != (places[0] + 1) % 3; }
+  };
+  Index ply_count(Mesh::Face_index face) const
+  {
+    return has_doubles(face) ? m_first_ply[face + 1] - m_first_ply[face] : 1;
+  }
+  bool has_face(Mesh::Face_index face) const
+  {
+    return m_mesh.has_valid_index(face) && !m_mesh.is_removed(face);
+  }
+  bool has_doubles(Mesh::Face_index face) const
+  {
+    return !m_first_ply.empty() && is_own(face) && m_first_ply[face] < m_first_ply[face + 1];
+  }
+  const Ply& ply(Mesh::Face_index face, Index i) const { return m_plies[m_first_ply[face] + i]; }
+  const Index_triple& corners(Mesh::Face_index face, Index i) const
+  {
+    return i == 0 ? m_corners[face] : ply(face, i).corners;
+  }
+  Corner corner_at(Mesh::Halfedge_index h, Index i) const { return corners(m_mesh.face(h), i)[m_places[h]]; }
+  void find_plies(const std::vector<Index>& fronts, const std::vector<Index>& positions);
+  bool keeps_pieces_of_doubles(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule) const;
 
   /// Returns the halfedges to the source and to the target of a motion, in the face beside `side`, which is
   /// `moving` or its opposite.
@@ -252,7 +296,8 @@ private:
   }
 
   template <class Function>
-  std::vector<Mesh::Halfedge_index> make_mesh(const Sewing& sewing, const Function& point_of);
+  std::vector<Mesh::Halfedge_index> make_mesh(const Sewing& sewing, const std::vector<Index>& faces,
+                                              const Function& point_of);
   void lock(const std::vector<char>& is_locked);
   template <class Function>
   void find_joint_vertices(std::vector<char>& is_locked, const std::vector<char>& is_in_frozen_face,
@@ -287,7 +332,9 @@ private:
   Scale m_scale;
   Mesh m_mesh;
   std::vector<Index_triple> m_corners; // by face; those of the obstacle have none
-  std::vector<char> m_is_frozen;       // by face, as given
+  std::vector<Ply> m_plies;            // by face, if it has doubles
+  std::vector<Index> m_first_ply;      // by face, and one more; or empty
+  std::vector<char> m_is_frozen;       // by face: as given, of one of its plies
   std::vector<char> m_is_turned;       // by face, or empty
   std::vector<char> m_is_wished;       // by vertex: locked because the user wants it so; or empty
   std::vector<Index> m_misoriented_sides;

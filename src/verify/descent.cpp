@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <set>
 #include <utility>
@@ -27,9 +28,10 @@ class Descent_of_triangles
 public:
   Descent_of_triangles(const Triangle_soup& original, const std::vector<Offending_pair>& pairs)
       : m_position_of_vertex(internal::position_numbers(original.points)), m_points(original.points.size()),
-        m_triangles_at(original.points.size()), m_ancestors(original.triangles.size()),
-        m_partners(original.triangles.size())
+        m_triangles_at(original.points.size()), m_fronts(original.triangles.size()),
+        m_ancestors(original.triangles.size()), m_partners(original.triangles.size())
   {
+    std::map<Index_triple, Index> first_with; // corners, in ascending order
     for (Index v = 0; v < original.points.size(); ++v)
       m_points[m_position_of_vertex[v]] = original.points[v];
     for (Index t = 0; t < original.triangles.size(); ++t) {
@@ -37,13 +39,19 @@ public:
       m_corners.push_back({m_position_of_vertex[a], m_position_of_vertex[b], m_position_of_vertex[c]});
       for (const Index position : m_corners[t])
         m_triangles_at[position].push_back(t);
+      Index_triple corners = m_corners[t];
+      std::sort(corners.begin(), corners.end());
+      m_fronts[t] = first_with.emplace(corners, t).first->second;
     }
     for (const Offending_pair& pair : pairs) {
       if (pair.offence == Offence::degenerate) {
         m_degenerate.insert(pair.first);
         continue;
       }
-      for (const auto& [f, g] : {std::pair(pair.first, pair.second), std::pair(pair.second, pair.first)}) {
+      const Index first = m_fronts[pair.first], second = m_fronts[pair.second];
+      if (first == second)
+        continue; // they exempt nothing but each other
+      for (const auto& [f, g] : {std::pair(first, second), std::pair(second, first)}) {
         if (!m_ancestors[f])
           m_ancestors[f] = std::make_shared<Ancestors>(1, f);
         m_partners[f].push_back(g);
@@ -87,6 +95,9 @@ public:
 
   const Point_3& corner(Index triangle, std::size_t k) const { return m_points[m_corners[triangle][k]]; }
 
+  /// Whether two triangles had the same corners in the original. They still have.
+  bool are_doubles(Index first, Index second) const { return m_fronts[first] == m_fronts[second]; }
+
   /// Whether ancestors of the two triangles offended together in the original.
   bool are_partners(Index first, Index second) const
   {
@@ -99,7 +110,7 @@ public:
   }
 
 private:
-  const Ancestors* ancestors(Index triangle) const { return m_ancestors[triangle].get(); }
+  const Ancestors* ancestors(Index triangle) const { return m_ancestors[m_fronts[triangle]].get(); }
 
   void share_ancestors(const std::vector<Index>& triangles)
   {
@@ -120,8 +131,9 @@ private:
   std::vector<Point_3> m_points;                  // by position, now
   std::vector<std::vector<Index>> m_triangles_at; // by position
   std::vector<Index_triple> m_corners;            // positions, by triangle
-  std::vector<std::shared_ptr<const Ancestors>> m_ancestors;
-  std::vector<std::vector<Index>> m_partners; // by triangle of the original
+  std::vector<Index> m_fronts;                    // by triangle, the first with its corners in the original
+  std::vector<std::shared_ptr<const Ancestors>> m_ancestors; // by front
+  std::vector<std::vector<Index>> m_partners;                // by triangle of the original
   std::set<Index> m_degenerate;
 };
 
@@ -161,7 +173,9 @@ std::vector<Offending_pair> pairs_without_descent(const Triangle_soup& result,
     const Index first = triangles_of_original[pair.first], second = triangles_of_original[pair.second];
     bool is_old = is_led_to(pair.first) && is_led_to(pair.second);
     if (is_of_two(pair)) {
-      is_old = is_old && left > 0 && descent.are_partners(first, second);
+      is_old = is_old && left > 0 &&
+               (descent.are_doubles(first, second) ? pair.offence == Offence::duplicate
+                                                   : descent.are_partners(first, second));
       left -= left > 0;
     } else {
       is_old = is_old && descent.is_degenerate(first);

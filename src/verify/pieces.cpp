@@ -10,6 +10,7 @@
 #include <selvedge/Cancellation_scope.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <utility>
 
@@ -20,8 +21,31 @@ namespace selvedge {
 
 using namespace internal;
 
+namespace {
+
+// Takes the corners of triangles that have the same three vertices as an earlier one together, so that they
+// are no faces: a complex has one face between three vertices.
+std::vector<Index_triple> without_repetitions(std::vector<Index_triple> triangles)
+{
+  std::vector<std::array<Index, 4>> keys; // the vertices in ascending order, and the triangle
+  for (Index t = 0; t < triangles.size(); ++t)
+    if (is_face(triangles[t])) {
+      Index_triple v = triangles[t];
+      std::sort(v.begin(), v.end());
+      keys.push_back({v[0], v[1], v[2], t});
+    }
+  std::sort(keys.begin(), keys.end());
+  for (std::size_t i = 1; i < keys.size(); ++i)
+    if (std::equal(keys[i].begin(), keys[i].begin() + 3, keys[i - 1].begin()))
+      triangles[keys[i][3]] = {keys[i][0], keys[i][0], keys[i][0]};
+  return triangles;
+}
+
+} // namespace
+
 Numbered_pieces internal::numbered_pieces(const std::vector<Index_triple>& triangles, std::size_t vertices)
 {
+  const std::vector<Index_triple> faces = without_repetitions(triangles);
   Disjoint_sets connected(vertices);
   for (const Index_triple& triangle : triangles)
     if (is_face(triangle)) {
@@ -45,7 +69,7 @@ Numbered_pieces internal::numbered_pieces(const std::vector<Index_triple>& trian
       result.of_triangle[i] = number;
       Piece& piece = pieces[number];
       ++piece.faces;
-      ++piece.euler_characteristic;
+      piece.euler_characteristic += is_face(faces[i]);
       for (const Index vertex : triangles[i])
         if (!used[vertex]) {
           used[vertex] = true;
@@ -57,7 +81,7 @@ Numbered_pieces internal::numbered_pieces(const std::vector<Index_triple>& trian
   // The fans of faces around the vertices, as sets of corners.
   Disjoint_sets fans(3 * triangles.size());
   std::vector<Side> borders;
-  const std::vector<Side> sides = sorted_sides(triangles, vertices);
+  const std::vector<Side> sides = sorted_sides(faces, vertices);
   Cancellation_poll poll;
   for (auto first = sides.begin(), last = first; first != sides.end(); first = last) {
     poll();

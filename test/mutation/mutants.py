@@ -643,3 +643,26 @@ group(
     may_intersect,
     ("part_of[t])) == 3)", "part_of[t])) == 4)", "the replay accepts parts that are joined"),
 )
+
+# Doubles
+doubles = ("doubles_test",)
+
+group(
+    "src/soup/Working_mesh.cpp",
+    doubles,
+    ("result.in_doubles = plies != plies_beyond;", "", "the end of a doubled region is no line"),
+    ("m_plies[m_first_ply[face] + i].corners[m_places[h]] = corner_at(from, i);", ";", "doubles stay behind their fronts"),
+    ("[](const Ply& ply) { return !ply.is_against_face(); });", "[](const Ply&) { return true; });",
+     "doubles are compared in the order of the file"),
+)
+group(
+    "src/verify/descent.cpp",
+    doubles,
+    ("if (first == second)\n        continue;", "", "a double exempts its front from everything near"),
+)
+group(
+    headers + "Surface_mesh_simplification/internal/Face_targets.h",
+    doubles,
+    ("put(m_state->further_times, face, times - 1);", "", "a face goes as one, whatever it stands for"),
+    sources=("src/simplify/simplify_soup.cpp",),
+)

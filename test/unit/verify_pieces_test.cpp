@@ -92,7 +92,11 @@ TEST(Pieces, KeepLoopsApartThatOnlyTouch)
 TEST(Pieces, MayBeNonManifold)
 {
   EXPECT_EQ(only_piece(book()), Key(3, 5, 6, 1, 1, 1));
-  EXPECT_EQ(only_piece(opposite_duplicate()), Key(2, 3, 0, 0, 0, 2));
+}
+
+TEST(Pieces, HaveOneFaceBetweenThreeVertices)
+{
+  EXPECT_EQ(only_piece(opposite_duplicate()), Key(2, 3, 3, 0, 1, 1));
 }
 
 TEST(Pieces, LeaveOutTrianglesThatNameAVertexTwice)

@@ -111,6 +111,11 @@ std::optional<Broken_promise> Judged_complex::end_collapse()
 {
   if (pairs_changing() > m_pairs_before)
     return Broken_promise{Promise::embedded, "more pairs offend than before"};
+  for (const Index f : m_changing)
+    for (Index g = 0; g < m_faces.size(); ++g)
+      if (g != f && m_faces[f].is_alive && m_faces[g].is_alive && has(g, m_faces[f].positions[0]) &&
+          has(g, m_faces[f].positions[1]) && has(g, m_faces[f].positions[2]))
+        return Broken_promise{Promise::embedded, faces_named(f, g) + " come to have the same corners"};
   return std::nullopt;
 }
 
@@ -142,8 +147,8 @@ std::size_t Judged_complex::pairs_changing() const
       continue;
     for (Index g = 0; g < m_faces.size(); ++g)
       if (m_faces[g].is_alive && g != f && !(g < f && m_changing.count(g) > 0) && !is_permitted(f, g) &&
-          do_overlap(m_faces[f].box, m_faces[g].box))
-        count += do_meet_beyond_shared(f, g);
+          do_overlap(m_faces[f].box, m_faces[g].box) && do_meet_beyond_shared(f, g))
+        count += plies(f).size() * plies(g).size();
   }
   return count;
 }
@@ -239,8 +244,63 @@ void Judged_complex::turn(Index face)
   std::swap(m_faces[face].positions[1], m_faces[face].positions[2]);
 }
 
+Index_triple Judged_complex::positions_of(Index face) const
+{
+  const Index_triple& of_front = m_faces[front(face)].positions;
+  if (front(face) == face)
+    return of_front;
+  const Index_triple& slots = m_slots[face];
+  return {of_front[slots[0]], of_front[slots[1]], of_front[slots[2]]};
+}
+
+void Judged_complex::set_doubles_aside(const Triangle_soup& own)
+{
+  std::map<std::vector<Index>, Index> first;
+  m_slots.resize(m_faces.size());
+  for (Index f = 0; f < m_faces.size(); ++f) {
+    m_fronts.push_back(f);
+    if (!m_faces[f].is_own || m_ancestors.empty() || !has_area(f))
+      continue;
+    std::vector<Index> key(m_faces[f].positions.begin(), m_faces[f].positions.end());
+    std::sort(key.begin(), key.end());
+    key.push_back(f < m_part_of_face.size() ? Index(m_part_of_face[f]) : 0);
+    const Index front = m_fronts[f] = first.emplace(key, f).first->second;
+    if (front == f)
+      continue;
+    m_faces[f].is_alive = false;
+    for (const Index p : m_faces[f].positions)
+      m_faces_at[p].erase(std::find(m_faces_at[p].begin(), m_faces_at[p].end(), f));
+    for (std::size_t k = 0; k < 3; ++k)
+      for (Index slot = 0; slot < 3; ++slot)
+        if (m_position_of_vertex[own.triangles[f][k]] == m_position_of_vertex[own.triangles[front][slot]])
+          m_slots[f][k] = slot;
+    if (m_doubles[front].empty())
+      m_doubles[front].push_back(front);
+    m_doubles[front].push_back(f);
+  }
+  // Those come first that run as the front does now, which may have been turned.
+  for (auto& [front, all] : m_doubles) {
+    const Index ahead = others(front, m_faces[front].positions[0])[0];
+    std::stable_partition(all.begin(), all.end(), [&, front = front](Index f) {
+      const Index_triple& v = own.triangles[f];
+      for (std::size_t k = 0; k < 3; ++k)
+        if (m_position_of_vertex[v[k]] == m_faces[front].positions[0])
+          return m_position_of_vertex[v[(k + 1) % 3]] == ahead;
+      return false;
+    });
+  }
+}
+
+// All faces for which one stands, itself among them.
+std::vector<Index> Judged_complex::plies(Index front) const
+{
+  const auto found = m_doubles.find(front);
+  return found == m_doubles.end() ? std::vector<Index>{front} : found->second;
+}
+
 void Judged_complex::find_seams(const Triangle_soup& own)
 {
+  set_doubles_aside(own);
   const auto differ = [](const auto& values, Index corner_a, Index corner_b) {
     return !values.empty() && values.values[values.of_triangle[corner_a / 3][corner_a % 3]] !=
                                   values.values[values.of_triangle[corner_b / 3][corner_b % 3]];
@@ -262,13 +322,17 @@ void Judged_complex::find_seams(const Triangle_soup& own)
       for (const Index f : m_faces_at[p])
         if (m_faces[f].is_own && has(f, edge.neighbour))
           pair.push_back(f);
-      bool is_line = differ_in_label(own.groups, pair[0], pair[1]) ||
-                     differ_in_label(own.objects, pair[0], pair[1]) ||
-                     differ_in_label(own.materials, pair[0], pair[1]);
-      for (const Index end : {p, edge.neighbour}) {
-        const Index a = corner_at(pair[0], end), b = corner_at(pair[1], end);
-        is_line = is_line || own.triangles[a / 3][a % 3] != own.triangles[b / 3][b % 3] ||
-                  differ(own.uvs, a, b) || differ(own.normals, a, b);
+      const std::vector<Index> here = plies(pair[0]), beyond = plies(pair[1]);
+      bool is_line = here.size() != beyond.size();
+      for (std::size_t i = 0; i < here.size() && !is_line; ++i) {
+        const Index f = here[i], g = beyond[i];
+        is_line = differ_in_label(own.groups, f, g) || differ_in_label(own.objects, f, g) ||
+                  differ_in_label(own.materials, f, g);
+        for (const Index end : {p, edge.neighbour}) {
+          const Index a = corner_at(f, end), b = corner_at(g, end);
+          is_line = is_line || own.triangles[a / 3][a % 3] != own.triangles[b / 3][b % 3] ||
+                    differ(own.uvs, a, b) || differ(own.normals, a, b);
+        }
       }
       if (is_line)
         m_seams.insert({p, edge.neighbour});
@@ -538,7 +602,7 @@ void Judged_complex::move(Index moved, Index kept)
     Face& face = m_faces[f];
     if (has(f, kept)) {
       face.is_alive = false;
-      m_own_alive -= face.is_own;
+      m_own_alive -= face.is_own ? plies(f).size() : 0;
       for (const Index p : face.positions)
         if (p != moved)
           m_faces_at[p].erase(std::find(m_faces_at[p].begin(), m_faces_at[p].end(), f));
@@ -574,6 +638,10 @@ std::vector<Index> Judged_complex::regions() const
     }
   for (Index f = 0; f < region.size(); ++f)
     region[f] = root(f);
+  const std::vector<Index> of_front = region;
+  for (const auto& [front, all] : m_doubles) // one for each ply
+    for (std::size_t i = 0; i < all.size(); ++i)
+      region[all[i]] = plies(of_front[front])[i];
   return region;
 }
 

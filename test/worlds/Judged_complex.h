@@ -10,6 +10,7 @@
 #include <selvedge/Triangle_soup.h>
 
 #include <array>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -44,8 +45,10 @@ public:
 
   /// Of a vertex; those of the obstacle follow those of the soup.
   Index position(Index vertex) const { return m_position_of_vertex[vertex]; }
-  bool is_alive(Index face) const { return m_faces[face].is_alive; }
-  const Index_triple& positions_of(Index face) const { return m_faces[face].positions; }
+  bool is_alive(Index face) const { return m_faces[front(face)].is_alive; }
+
+  /// In the order of the soup. Asked about a double, it takes its front to run as in the soup.
+  Index_triple positions_of(Index face) const;
   const Point_3& point(Index position) const { return m_points[position]; }
   std::size_t own_faces_alive() const { return m_own_alive; }
   std::size_t needles() const; ///< faces that have no area
@@ -53,7 +56,8 @@ public:
   /// Lets a face run the other way from now on.
   void turn(Index face);
 
-  /// Lines of the soup: edges across which a number, label or value changes. To be called after snaps.
+  /// Lines of the soup: edges across which a number, label or value changes. To be called after snaps. Where
+  /// pairs may descend, faces with the same three positions go with the first of them from now on.
   void find_seams(const Triangle_soup& own);
 
   /// Everything at one position goes to another. What is wrong with that is told, and then it is not done.
@@ -93,6 +97,9 @@ private:
   std::array<Index, 2> others(Index face, Index position) const;
   Box box_of(const Index_triple& positions) const;
   std::vector<Edge> edges_at(Index position) const;
+  void set_doubles_aside(const Triangle_soup& own);
+  Index front(Index face) const { return m_fronts.empty() ? face : m_fronts[face]; }
+  std::vector<Index> plies(Index front) const;
   bool is_seam(Index p, Index q) const { return m_seams.count(std::minmax(p, q)) > 0; }
   std::vector<std::vector<Index>> fans_at(Index position) const;
   bool is_one_fan(Index position) const { return fans_at(position).size() == 1; }
@@ -113,9 +120,12 @@ private:
   std::vector<Index> m_position_of_vertex;
   std::vector<Face> m_faces;
   std::vector<std::vector<Index>> m_faces_at;
-  std::vector<char> m_is_frozen;            // by position
-  std::set<Index> m_offending;              // positions
-  std::vector<std::set<Index>> m_ancestors; // by face
+  std::vector<char> m_is_frozen;                 // by position
+  std::set<Index> m_offending;                   // positions
+  std::vector<std::set<Index>> m_ancestors;      // by face
+  std::vector<Index> m_fronts;                   // by face; empty before `find_seams`
+  std::map<Index, std::vector<Index>> m_doubles; // by front: it, and those that go with it
+  std::vector<Index_triple> m_slots; // by face: at which corner of its front each of its own is, in the soup
   std::set<std::pair<Index, Index>> m_pairs_at_start;
   std::vector<char> m_part_of_face; // of own faces; empty when no parts may intersect
 

@@ -595,6 +595,8 @@ Verdict judge_stop(const World& world, const World_run& run)
     add(part.name, part.ratio);
   for (const std::string& part : world.intent.kept)
     add(part, 1);
+  for (Index t = 0; t < run.prepared.fronts.size(); ++t) // a double counts where its front does
+    share_of[t] = share_of[run.prepared.fronts[t]];
   // What is locked or frozen, by position. Coincident vertices that are not sewn hold further faces: how
   // many, only the report says. The share of each is open then, and with it the target.
   std::vector<char> is_held(soup.points.size() + world.obstacle.points.size(), false);
@@ -763,6 +765,8 @@ Verdict judge_reduction(const World& world, const World_run& run, Judged_complex
     return broken;
   if (run.result.shared_meshes > 0 && !run.collapses.empty())
     ++counts.options["shared_meshes"];
+  if (run.prepared.doubles() > 0 && !run.collapses.empty())
+    ++counts.options["doubles"];
   if (auto broken = judge_stop(world, run))
     return broken;
   if (!run.verification.accepted()) {

@@ -505,6 +505,42 @@ void add_needles(Triangle_soup& soup, Random& random)
     add_needle(soup, random.below(soup.triangles.size()), random.below(3));
 }
 
+void add_doubles(Triangle_soup& soup, Random& random)
+{
+  constexpr std::size_t most = 120;
+  if (soup.triangles.size() > most)
+    soup.triangles.resize(most);
+  const std::vector<Index_triple> before = soup.triangles;
+  const std::size_t single = random.one_of({2, 5, 1000}), own = random.one_of({1, 1000, 4, 20}),
+                    straight = random.one_of({2, 1, 1000, 1000}), place = random.below(4);
+  const auto is_double = [&, half = random.one_in(3)](std::size_t t) {
+    return half ? t < before.size() / 2 : !random.one_in(single);
+  };
+  for (int times = random.one_in(4) ? 2 : 1; times > 0; --times) {
+    std::map<Index, Index> copies; // of vertices
+    for (std::size_t t = 0; t < before.size(); ++t) {
+      if (!is_double(t))
+        continue;
+      Index_triple triangle = before[t];
+      for (Index& v : triangle) {
+        if (copies.count(v) == 0) {
+          copies[v] = v;
+          if (random.one_in(own)) {
+            copies[v] = Index(soup.points.size());
+            soup.points.push_back(Point_3(soup.points[v]));
+          }
+        }
+        v = copies[v];
+      }
+      std::rotate(triangle.begin(), triangle.begin() + random.below(3), triangle.end());
+      if (!random.one_in(straight))
+        std::swap(triangle[1], triangle[2]);
+      const bool is_anywhere = place == 3 && random.one_in(2); // mostly behind all of the others
+      soup.triangles.insert(is_anywhere ? soup.triangles.begin() : soup.triangles.end(), triangle);
+    }
+  }
+}
+
 // Where it lies
 // ----------------------------------------------------------------------------------------------------------
 

@@ -29,6 +29,10 @@ void spoil(Triangle_soup& soup, Random& random);
 /// Divides some triangles at a side, and fills the T-junctions with triangles without an area.
 void add_needles(Triangle_soup& soup, Random& random);
 
+/// Adds doubles: triangles with the same three positions as others, of some, of half or of all triangles,
+/// once or twice, with their vertices or with others in the same places, turned over or not.
+void add_doubles(Triangle_soup& soup, Random& random);
+
 /// Puts points elsewhere: scaled, far from the origin, on the other side, sheared, at distances of units in
 /// the last place, between 32-bit floats, with zeros of either sign. Returns what was done.
 std::string displace(Triangle_soup& soup, Random& random);

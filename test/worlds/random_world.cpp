@@ -336,6 +336,11 @@ World random_world(std::uint64_t seed)
     add_needles(soup, others);
     world.scene += ", with needles";
   }
+  if (world.seed % 8 == 6 || world.seed % 16 == 13) {
+    Random others(seed + 4); // likewise
+    add_doubles(soup, others);
+    world.scene += ", with doubles";
+  }
   if (const std::string done = displace(soup, random); !done.empty())
     world.scene += ", " + done;
   decorate(soup, random);

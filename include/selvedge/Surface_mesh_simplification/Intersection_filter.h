@@ -141,13 +141,15 @@ public:
   /// Exempts pairs of faces that offend, and all pairs that descend from them; a degenerate face is a pair
   /// with itself. Faces at the moving vertices pass on what they descend from to the faces that a collapse
   /// leaves. A face that is degenerate never changes, but a collapse onto an end of its edge may contract it.
-  /// By default, no pair is exempt.
+  /// By default, no pair is exempt. `multiplicities` says which faces stand for several triangles in one
+  /// place, so that their pairs count as often.
   ///
   /// **Preconditions** The pairs are all that keep the mesh from being embedded, each once. No question has
   /// been asked yet.
-  void exempt(const std::vector<std::pair<Face, Face>>& offending_pairs) const
+  void exempt(const std::vector<std::pair<Face, Face>>& offending_pairs,
+              const std::vector<std::pair<Face, unsigned>>& multiplicities = {}) const
   {
-    m_guard->exempt(offending_pairs);
+    m_guard->exempt(offending_pairs, multiplicities);
   }
 
   /// Lets faces of two parts intersect each other, at the start and afterwards: no face of the first is

@@ -132,9 +132,10 @@ public:
   }
 
   /// As `Intersection_filter::exempt`, for one of the poses.
-  void exempt(std::size_t pose, const std::vector<std::pair<Face, Face>>& offending_pairs) const
+  void exempt(std::size_t pose, const std::vector<std::pair<Face, Face>>& offending_pairs,
+              const std::vector<std::pair<Face, unsigned>>& multiplicities = {}) const
   {
-    m_state->filters[pose].exempt(offending_pairs);
+    m_state->filters[pose].exempt(offending_pairs, multiplicities);
   }
 
   /// As `Intersection_filter::let_intersect`, in all poses.

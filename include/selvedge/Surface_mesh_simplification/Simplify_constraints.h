@@ -58,6 +58,10 @@ struct Simplify_constraints
   /// Faces that no target and no count of the report includes: obstacles. Lock their vertices, too.
   std::vector<Face> uncounted_faces;
 
+  /// How many triangles of the result a face stands for, where there are several in one place. Targets and
+  /// counts of the report are of these triangles, and so are counts of offending pairs.
+  std::vector<std::pair<Face, unsigned>> multiplicities;
+
   /// The pairs of faces that keep the mesh from being embedded, all of them and each once; a degenerate face
   /// is a pair with itself. They and their descendants are exempt, see `Intersection_filter::exempt`. A mesh
   /// of which all such faces have locked vertices needs none.

@@ -31,6 +31,17 @@ public:
   using Id = std::uint32_t;
   using Pair = std::pair<Id, Id>; ///< two faces, or one that is degenerate, twice
 
+  /// Makes a face count several times: its pairs are as many. Call it after `begin`.
+  void count_times(Id face, unsigned times)
+  {
+    m_times.resize(m_set_of_face.size(), 1);
+    if (face < m_times.size())
+      m_times[face] = times;
+  }
+
+  /// Returns how many pairs the pair of two faces stands for.
+  std::size_t times(Id f, Id g) const { return m_times.empty() ? 1 : std::size_t(m_times[f]) * m_times[g]; }
+
   /// Names the pairs that offend at the start, of faces with numbers less than `faces`.
   void begin(const std::vector<Pair>& pairs, std::size_t faces)
   {
@@ -106,7 +117,7 @@ public:
     for (const Id face : m_considered)
       if (const auto found = m_pairs.find(face); found != m_pairs.end())
         for (const Id other : found->second)
-          twice += other == face ? 0u : m_considered_at[other] == m_now ? 1u : 2u;
+          twice += (other == face ? 0 : m_considered_at[other] == m_now ? 1 : 2) * times(face, other);
     return twice / 2;
   }
 
@@ -206,6 +217,7 @@ private:
 
   std::vector<std::vector<Id>> m_partners;         // by ancestor: those with which it offended
   std::vector<Id> m_set_of_face;                   // by face
+  std::vector<unsigned> m_times;                   // by face, or empty
   std::vector<Set> m_sets;                         // the first is the empty one
   std::vector<Id> m_free_sets;                     // those that no face has any more
   std::unordered_map<Id, std::vector<Id>> m_pairs; // by face: those with which it offends now

@@ -23,7 +23,8 @@ namespace selvedge {
 /// Counts faces against targets: how many there are and how many are to be left, in each *share* of a mesh.
 ///
 /// Every face belongs to one share, at first to share 0. The target of a share is 0 until it is set. A share
-/// that has reached its target loses no further face. Faces can also be left uncounted.
+/// that has reached its target loses no further face. Faces can also be left uncounted, or count several
+/// times.
 ///
 /// It serves as a predicate for `Halfedge_filter`, as a stop, and as a listener of collapses. Copies share
 /// one state.
@@ -65,12 +66,20 @@ public:
     return m_state->shares.size() - 1;
   }
 
+  /// Makes a face count several times.
+  void count_times(Face face, unsigned times)
+  {
+    uncount(face);
+    put(m_state->further_times, face, times - 1);
+    share_of(face).faces += times;
+  }
+
   /// `assign` moves a face to a share, `leave_out` takes it out of the count.
   void assign(Face face, std::size_t number)
   {
     uncount(face);
     put(m_state->share_of, face, std::uint32_t(number));
-    ++m_state->shares[number].faces;
+    m_state->shares[number].faces += times(face);
   }
   void leave_out(Face face)
   {
@@ -94,7 +103,7 @@ public:
       const auto corners = CGAL::vertices_around_face(halfedge(face, mesh), mesh);
       if (is_counted(face) &&
           std::all_of(corners.begin(), corners.end(), [&](auto v) { return get(is_locked, v); })) {
-        ++share_of(face).fixed;
+        share_of(face).fixed += times(face);
         put(m_state->is_fixed, face, true);
       }
     }
@@ -162,6 +171,7 @@ private:
   {
     explicit State(const TriangleMesh& mesh_)
         : mesh(mesh_), share_of(get(CGAL::dynamic_face_property_t<std::uint32_t>(), mesh_)),
+          further_times(get(CGAL::dynamic_face_property_t<unsigned>(), mesh_)),
           is_fixed(get(CGAL::dynamic_face_property_t<unsigned char>(), mesh_)), shares{{internal::face_count(
                                                                                             mesh_),
                                                                                         0}}
@@ -171,18 +181,21 @@ private:
     const TriangleMesh& mesh;
     typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<std::uint32_t>>::const_type
         share_of;
+    typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<unsigned>>::const_type
+        further_times;
     typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<unsigned char>>::const_type
         is_fixed;
     std::vector<Share> shares;
     bool are_all_counted = true;
   };
 
+  unsigned times(Face face) const { return 1 + get(m_state->further_times, face); }
   Share& share_of(Face face) const { return m_state->shares[get(m_state->share_of, face)]; }
 
   void uncount(Face face)
   {
     if (is_counted(face))
-      --share_of(face).faces;
+      share_of(face).faces -= times(face);
   }
 
   template <class Predicate>

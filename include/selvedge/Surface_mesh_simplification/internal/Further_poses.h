@@ -95,14 +95,14 @@ public:
 
   /// Begins the exact test; `make_index()` returns an empty index.
   template <class MakeIndex>
-  void build_index(const MakeIndex& make_index,
+  void build_index(const MakeIndex& make_index, const decltype(Constraints::multiplicities)& multiplicities,
                    const decltype(Constraints::may_intersect)& may_intersect)
   {
     if (empty())
       return;
     m_intersection.emplace(m_mesh, points(), No_filter(), make_index);
     for (std::size_t i = 0; i < m_poses.size(); ++i)
-      m_intersection->exempt(i, m_offending_pairs[i]);
+      m_intersection->exempt(i, m_offending_pairs[i], multiplicities);
     m_intersection->let_intersect(may_intersect);
   }
 

@@ -22,7 +22,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -74,13 +73,17 @@ public:
     require_exact_predicates<GeomTraits>();
   }
 
-  /// Exempts all pairs that descend from these, which offend at the start. Call it before the first question.
-  void exempt(const std::vector<std::pair<Face, Face>>& offending)
+  /// Exempts all pairs that descend from these, which offend at the start. A face of several triangles makes
+  /// as many pairs. Call it before the first question.
+  void exempt(const std::vector<std::pair<Face, Face>>& offending,
+              const std::vector<std::pair<Face, unsigned>>& multiplicities)
   {
     std::vector<Descent::Pair> pairs;
     for (const auto& [f, g] : offending)
       pairs.push_back({m_faces.id(f), m_faces.id(g)});
     m_descent.begin(pairs, m_faces.size());
+    for (const auto& [face, times] : multiplicities)
+      m_descent.count_times(m_faces.id(face), times);
   }
 
   /// Permits pairs between two parts. Call it before the first question.
@@ -262,16 +265,21 @@ private:
   }
 
   // Finds the exempt pairs with a changed face that offend after the collapse, in an order that does not
-  // depend on the index. When there are more than `limit`, it stops there and returns false.
+  // depend on the index. When a limit is given, and there are more or two faces come to have the same
+  // corners, it stops there and returns false.
   template <class Profile>
-  bool find_pairs_after(const Collapse<Profile>& collapse,
-                        std::size_t limit = (std::numeric_limits<std::size_t>::max)())
+  bool find_pairs_after(const Collapse<Profile>& collapse, std::optional<std::size_t> limit = {})
   {
     m_pairs_after.clear();
+    std::size_t count = 0;
     const auto is_within_limit = [&](std::size_t i, const Triangle& other, Id id) {
-      if (!m_permitted.has(m_changed_ids[i], id) && do_faces_offend(m_changed[i], other, m_traits))
+      if (!m_permitted.has(m_changed_ids[i], id) && do_faces_offend(m_changed[i], other, m_traits)) {
         m_pairs_after.push_back({m_changed_ids[i], id});
-      return m_pairs_after.size() <= limit;
+        count += m_descent.times(m_changed_ids[i], id);
+        if (limit && have_same_corners(m_changed[i], other))
+          return false;
+      }
+      return !limit || count <= *limit;
     };
     CGAL::Bbox_3 box;
     for (std::size_t i = 0; i < m_changed.size(); ++i) {
@@ -297,6 +305,11 @@ private:
           return false;
     }
     return true;
+  }
+
+  static bool have_same_corners(const Triangle& f, const Triangle& g)
+  {
+    return std::is_permutation(f.begin(), f.end(), g.begin());
   }
 
   static CGAL::Bbox_3 box_of(const Triangle& triangle)

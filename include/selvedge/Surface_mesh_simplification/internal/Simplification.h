@@ -248,7 +248,8 @@ public:
         m_error(max_error(), m_tracked, m_uv),
         m_poses(mesh, options, constraints, m_diagonal, max_error(), {&mesh, m_rule},
                 [&](const auto& of_pose) { return make_rule(constraints, of_pose); }),
-        m_offending_pairs(constraints.offending_pairs), m_may_intersect(constraints.may_intersect)
+        m_offending_pairs(constraints.offending_pairs), m_multiplicities(constraints.multiplicities),
+        m_may_intersect(constraints.may_intersect)
   {
     refuse_out_of_range();
     if (!m_poses.empty() && options.placement == Placement::optimal)
@@ -563,9 +564,9 @@ private:
     Cancellation_scope::check();
     if (m_options.check_intersections) {
       m_intersection.emplace(m_mesh, m_error, empty_index(), m_points);
-      m_intersection->exempt(m_offending_pairs);
+      m_intersection->exempt(m_offending_pairs, m_multiplicities);
       m_intersection->let_intersect(m_may_intersect);
-      m_poses.build_index([this] { return empty_index(); }, m_may_intersect);
+      m_poses.build_index([this] { return empty_index(); }, m_multiplicities, m_may_intersect);
     }
     Cancellation_scope::check();
     m_report.seconds_index = seconds_since(start);
@@ -884,6 +885,8 @@ private:
   Targets make_targets(const Simplify_constraints<TriangleMesh>& constraints) const
   {
     Targets targets(m_mesh);
+    for (const auto& [face, times] : constraints.multiplicities)
+      targets.count_times(face, times);
     for (const auto& share : constraints.shares) {
       const std::size_t number = targets.add_share();
       for (const auto face : share.faces)
@@ -998,6 +1001,7 @@ private:
   Error m_error;
   Poses m_poses;
   std::vector<std::pair<typename Intersection::Face, typename Intersection::Face>> m_offending_pairs;
+  decltype(Simplify_constraints<TriangleMesh>::multiplicities) m_multiplicities;
   decltype(Simplify_constraints<TriangleMesh>::may_intersect) m_may_intersect;
   std::optional<Intersection> m_intersection;
   Simplify_report m_report;
