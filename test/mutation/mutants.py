@@ -198,7 +198,7 @@ group(
     ("placement_test", "worlds_test"),
     ("rounded[i] = nearest_float32(rounded[i]);", ";", "places are no 32-bit floats"),
     ("if (m_is_place_allowed && !m_is_place_allowed(result))", "if (false)", "places leave their cell"),
-    ("before == CGAL::COLLINEAR || uv_orientation(face, m_places[h], uv) == before;", "true;",
+    ("before == CGAL::COLLINEAR || uv_orientation(all, m_places[h], uv) == before;", "true;",
      "triangles of the texture turn over"),
     ("  lock(is_new);\n", "", "vertices that the user locks move"),
 )
@@ -345,7 +345,7 @@ group(
 group(
     "src/soup/Working_mesh.cpp",
     ("orientation_test",),
-    ("turn(result.corners.back());", ";", "the result keeps turned faces"),
+    ("turn(of_triangle);", ";", "the result keeps turned faces"),
     ("turn(m_corners.back());", ";", "corners of turned faces lie at other vertices"),
 )
 group(
@@ -521,12 +521,12 @@ group(
     filter_of_pairs,
     ("      m_set_of_face[face] = set;", "      m_set_of_face[face] = s_none;", "faces that change lose their ancestors"),
     ("      if (f == g)\n        continue;", "", "what a degenerate face leaves behind is exempt from itself"),
-    ("other == face ? 0u : m_considered_at", "other == face ? 2u : m_considered_at", "a degenerate face makes room for a pair"),
+    ("other == face ? 0 : m_considered_at", "other == face ? 2 : m_considered_at", "a degenerate face makes room for a pair"),
     ("    for (const Id a : m_union)\n      for", "    for (const Id a : m_sets[m_set_of_face[faces.front()]].ancestors)\n      for",
      "exemption is asked of one face as it was before the collapse"),
     ("    for (const Id face : m_considered)\n      remove_pairs(face);", "", "pairs that have gone still count"),
     ("    for (const Pair& pair : pairs)\n      add_pair(pair);\n    if", "    if", "pairs that have come do not count"),
-    ("m_considered_at[other] == m_now ? 1u : 2u", "2u", "pairs within the star count twice"),
+    ("m_considered_at[other] == m_now ? 1 : 2", "2", "pairs within the star count twice"),
     ("m_is_exempt_inside = is_any_marked(m_union);", "m_is_exempt_inside = false;", "no pair within the star is exempt"),
     ("    if (m_considered_at[face] == m_now)\n      return m_is_exempt_inside;\n", "",
      "faces at the other end that moves are asked for what they were before"),
@@ -545,7 +545,7 @@ group(
     ("changed.insert(changed.end(), m_triangles_at[position].begin(), m_triangles_at[position].end());",
      "changed.push_back(m_triangles_at[position].front());", "one triangle alone hands on ancestors"),
     (" && left > 0 &&", " &&", "pairs may become more"),
-    ("is_old && left > 0 && descent.are_partners(first, second)", "is_old && left > 0",
+    (": descent.are_partners(first, second));", ": true);",
      "whatever is where the collapses lead may offend"),
     ("if (result.points[result.triangles[i][k]] != descent.corner(triangles_of_original[i], k))", "if (false)",
      "a triangle need not be where the collapses lead"),
@@ -663,6 +663,6 @@ group(
 group(
     headers + "Surface_mesh_simplification/internal/Face_targets.h",
     doubles,
-    ("put(m_state->further_times, face, times - 1);", "", "a face goes as one, whatever it stands for"),
+    ("put(m_state->further_times, face, times - 1);", "", "a face with doubles counts once"),
     sources=("src/simplify/simplify_soup.cpp",),
 )
