@@ -231,7 +231,7 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
   if (prepared.normals == Normals_treatment::smooth)
     stream << "  normals made anew, with the hard edges of the input\n";
   if (const auto held = std::count(prepared.is_held.begin(), prepared.is_held.end(), char(true)); held > 0)
-    stream << "  coincident in some poses and not in others, so that they do not move: "
+    stream << "  coincident in some poses and not in others, so that their faces are frozen: "
            << counted(std::size_t(held), "vertex", "vertices") << ", the first is " << prepared.first_held
            << '\n';
   print_border_gaps(stream, request, prepared.border_gaps, diagonal);
@@ -276,9 +276,10 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
            << with_commas(result.shared_places) << " places reduced once, alike in all"
            << (request.options.placement == Placement::optimal ? ", at vertices of the input" : "");
   if (result.apart_meshes > 0)
-    stream << "\ninstances: " << counted(result.apart_meshes, "mesh", "meshes")
-           << " not the same in all places (snapped, rounded, degenerate or doubled in some), so each place was "
-              "reduced by itself";
+    stream
+        << "\ninstances: " << counted(result.apart_meshes, "mesh", "meshes")
+        << " not the same in all places (snapped, rounded, degenerate or doubled in some), so each place was "
+           "reduced by itself";
   if (const std::size_t turned = prepared.turned_faces(); turned > 0)
     stream << "\norientation: " << counted(turned, "face")
            << " turned to agree with the others of their surface, and turned back in the output";

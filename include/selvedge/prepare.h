@@ -152,8 +152,8 @@ struct Prepared_soup
   /// For each further pose of `soup`, the offending pairs in it, together with the obstacle in its pose.
   std::vector<std::vector<Offending_pair>> offending_pairs_in_poses;
 
-  /// For every vertex, whether it is coincident with another in some poses and not in all: then it does not
-  /// move. Empty when there is one pose. `first_held` says of the first which it is, and in which pose.
+  /// For every vertex, whether it is coincident with another in some poses and not in all: then its triangles
+  /// are frozen. Empty when there is one pose. `first_held` says of the first which it is, and in which pose.
   std::vector<char> is_held;
   std::string first_held;
 
@@ -164,8 +164,9 @@ struct Prepared_soup
   Defects defects = Defects::freeze;
 
   /// For every triangle, whether it is frozen: its vertices do not move. Frozen are triangles with a corner
-  /// where only rounding has made positions equal, and all triangles of the obstacle; unless pairs may
-  /// descend, also the triangles of all offending pairs, so that these stay as they are.
+  /// where only rounding has made positions equal, or that is coincident with others in some poses alone, and
+  /// all triangles of the obstacle; unless pairs may descend, also the triangles of all offending pairs, so
+  /// that these stay as they are.
   std::vector<char> is_frozen;
   std::size_t frozen_faces = 0; ///< of `soup`
 

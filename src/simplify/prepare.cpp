@@ -164,11 +164,19 @@ private:
     const auto hold = [&](const std::vector<Index>& here, const std::string& where) {
       std::vector<Index> first(here.size(), s_none); // by position here, of those in all poses
       std::vector<char> is_several(here.size(), false);
+      const auto refuse_if_degenerate = [&](const std::vector<Index_triple>& triangles, Index first_vertex,
+                                            const std::string& whose) {
+        for (const Index_triple& triangle : triangles) {
+          const auto& [a, b, c] = triangle;
+          if (has_two_corners_at_one_position({a + first_vertex, b + first_vertex, c + first_vertex}, here))
+            throw Input_error("triangle " + std::to_string(&triangle - triangles.data() + 1) + whose +
+                              " has two corners at one position " + where +
+                              " and not in all poses; leave out this pose, or part the corners");
+        }
+      };
+      refuse_if_degenerate(soup().triangles, 0, "");
+      refuse_if_degenerate(obstacle().triangles, Index(soup().points.size()), " of the obstacle");
       for (const Index_triple& triangle : soup().triangles) {
-        if (has_two_corners_at_one_position(triangle, here))
-          throw Input_error("triangle " + std::to_string(&triangle - soup().triangles.data() + 1) +
-                            " has two corners at one position " + where +
-                            " and not in all poses; leave out this pose, or part the corners");
         for (const Index v : triangle) {
           Index& of_position = first[here[v]];
           is_several[here[v]] |= of_position != s_none && of_position != in_all[v];
@@ -211,11 +219,16 @@ private:
 
   // Parts that may intersect have no position in common, not even one that only rounding has made one. So no
   // star of a vertex ever has triangles of both.
-  void require_apart(const char* when)
+  void require_apart(const std::string& when)
   {
     if (m_options.may_intersect.empty())
       return;
-    const std::vector<Index> positions = number_positions(soup().points);
+    require_apart(number_positions(soup().points), when);
+    for (const Pose& pose : soup().poses)
+      require_apart(number_positions(pose.points), when + " in the pose '" + pose.name + "'");
+  }
+  void require_apart(const std::vector<Index>& positions, const std::string& when)
+  {
     for (const auto& [a, b] : m_options.may_intersect) {
       const std::vector<char> is_of_a = triangles_named(soup(), a), is_of_b = triangles_named(soup(), b);
       std::vector<char> has_a(positions.size(), false);
@@ -344,6 +357,13 @@ private:
                       });
   }
 
+  void freeze_held()
+  {
+    for (Index t = 0; t < m_prepared.soup.triangles.size() && !m_prepared.is_held.empty(); ++t)
+      for (const Index v : m_prepared.soup.triangles[t])
+        m_prepared.is_frozen[t] |= m_prepared.is_held[v];
+  }
+
   void freeze(std::size_t own_triangles)
   {
     std::vector<char>& is_frozen = m_prepared.is_frozen;
@@ -367,6 +387,7 @@ private:
           is_frozen[t] |= is_merged[m_positions_rounded[v]] ||
                           (!m_is_merged_in_a_pose.empty() && m_is_merged_in_a_pose[v]);
     }
+    freeze_held();
     m_prepared.frozen_faces = std::count(is_frozen.begin(), is_frozen.begin() + own_triangles, true);
     std::fill(is_frozen.begin() + own_triangles, is_frozen.end(), true);
   }

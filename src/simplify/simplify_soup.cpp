@@ -228,10 +228,6 @@ private:
           if (is_face(pair.first) && is_face(pair.second))
             pose.offending_pairs.emplace_back(pair.first, pair.second);
     }
-    if (!m_prepared.is_held.empty())
-      for (const auto v : mesh.vertices())
-        if (m_prepared.is_held[of_soup[v]])
-          constraints.locked_vertices.push_back(v);
   }
 
   // Finds collapses in cells, and does them to the whole mesh, which then knows as much of them as of its own

@@ -3,6 +3,8 @@
 
 #include "World.h"
 
+#include <selvedge/poses.h>
+
 #include <nlohmann/json.hpp>
 
 #include <charconv>
@@ -67,6 +69,13 @@ void write_world(const World& world, const std::filesystem::path& folder)
   write_mesh(folder / ("mesh." + extension(world.input_format)), world.soup);
   if (!world.obstacle.triangles.empty())
     write_mesh(folder / "obstacle.obj", world.obstacle);
+  for (const auto& [soup, name] :
+       {std::make_pair(&world.soup, ""), std::make_pair(&world.obstacle, "obstacle_")})
+    for (std::size_t pose = 0; pose < soup->poses.size(); ++pose)
+      write_mesh(folder / (name + soup->poses[pose].name + ".obj"), in_pose(*soup, pose));
+  Json poses = Json::array();
+  for (const Pose& pose : world.soup.poses)
+    poses.push_back(pose.name);
   const Simplify_options& options = world.options;
   Json ratios = Json::array();
   for (const Simplify_intent::Part_ratio& part : world.intent.ratios)
@@ -76,6 +85,8 @@ void write_world(const World& world, const std::filesystem::path& folder)
                      {"command", command_line(world)},
                      {"input", extension(world.input_format)},
                      {"has_obstacle", !world.obstacle.triangles.empty()},
+                     {"poses", poses},
+                     {"does_obstacle_move", !world.obstacle.poses.empty()},
                      {"output", extension(world.output_format)},
                      {"sewn", world.is_sewn},
                      {"defects", name_of(world.defects)},
@@ -127,6 +138,12 @@ World read_world(const std::filesystem::path& folder)
   world.soup = read_mesh(folder / ("mesh." + extension(world.input_format))).soup;
   if (json["has_obstacle"])
     world.obstacle = read_mesh(folder / "obstacle.obj").soup;
+  for (const std::string& pose : json.value("poses", std::vector<std::string>())) {
+    world.soup.poses.push_back(read_pose(folder / (pose + ".obj"), world.soup));
+    if (json["does_obstacle_move"])
+      world.obstacle.poses.push_back(
+          {pose, read_pose(folder / ("obstacle_" + pose + ".obj"), world.obstacle).points});
+  }
   world.output_format = format_of(json["output"]);
   world.is_sewn = json["sewn"];
   // Worlds of earlier versions say whether they are strict.
@@ -192,6 +209,10 @@ std::string command_line(const World& world)
   };
   if (!world.obstacle.triangles.empty())
     add("--obstacle", "obstacle.obj");
+  for (const Pose& pose : world.soup.poses)
+    add("--pose", pose.name + ".obj");
+  for (const Pose& pose : world.obstacle.poses)
+    add("--obstacle-pose", "obstacle_" + pose.name + ".obj");
   if (options.ratio)
     add("--ratio", text_of(*options.ratio));
   for (const Simplify_intent::Part_ratio& part : world.intent.ratios)

@@ -183,8 +183,37 @@ bool is_too_far_apart(const Triangle_soup& soup, const Triangle_soup& obstacle)
   return true;
 }
 
+World in_pose(const World& world, std::size_t pose)
+{
+  World posed = world;
+  posed.soup.points = world.soup.poses[pose].points;
+  if (!world.obstacle.poses.empty())
+    posed.obstacle.points = world.obstacle.poses[pose].points;
+  posed.soup.poses.clear();
+  posed.obstacle.poses.clear();
+  return posed;
+}
+
+/// Whether some triangle has three positions in one pose and fewer in another.
+bool has_side_of_length_zero_in_some_pose(const World& world)
+{
+  std::set<std::pair<std::vector<Index_triple>, std::vector<Index_triple>>> triangles; // of both
+  const auto add = [&](const Expected_start& start) {
+    triangles.emplace(start.soup.triangles, start.obstacle.triangles);
+  };
+  add(Expected_start(world));
+  for (std::size_t pose = 0; pose < world.soup.poses.size(); ++pose)
+    add(Expected_start(in_pose(world, pose)));
+  return triangles.size() > 1;
+}
+
 Verdict judge_refusal(const World& world, const std::string& message)
 {
+  if (has_side_of_length_zero_in_some_pose(world))
+    return std::nullopt;
+  for (std::size_t pose = 0; pose < world.soup.poses.size(); ++pose)
+    if (!judge_refusal(in_pose(world, pose), message))
+      return std::nullopt;
   const bool is_rounded = world.prepare_options().round_to_float32;
   if (is_rounded)
     for (const Point_3& p : world.soup.points)
@@ -677,6 +706,18 @@ Verdict judge_replay(const World& world, const World_run& run)
         (run.prepared.normals == Normals_treatment::kept &&
          verdict.soup.normals.of_triangle != run.result.soup.normals.of_triangle))))
     return broken("the log leads to another result");
+  for (std::size_t pose = 0; pose < world.soup.poses.size(); ++pose) {
+    std::istringstream again(run.log);
+    Log_reader reader_again(again, "log");
+    Replay_options options;
+    options.pose = pose;
+    const Replay_verdict in_pose =
+        replay(world.soup, world.input_format == Mesh_format::stl, reader_again, options);
+    if (!in_pose.violations.empty())
+      return broken("in " + world.soup.poses[pose].name + ", " + name(in_pose.violations.front().kind) +
+                    ": " + in_pose.violations.front().message + " at step " +
+                    std::to_string(in_pose.violations.front().step));
+  }
   return std::nullopt;
 }
 
@@ -779,6 +820,67 @@ Verdict judge_reduction(const World& world, const World_run& run, Judged_complex
   return std::nullopt;
 }
 
+/// The same collapses in each further pose.
+Verdict judge_poses(const World& world, const World_run& run)
+{
+  const Prepared_soup& prepared = run.prepared;
+  for (std::size_t pose = 0; pose < prepared.soup.poses.size(); ++pose) {
+    const World posed = in_pose(world, pose);
+    const auto broken = [&](Promise promise, const std::string& what) {
+      return Broken_promise{promise, what + " in the pose " + prepared.soup.poses[pose].name};
+    };
+    const Expected_start expected(posed);
+    const std::vector<Point_3>& points = prepared.soup.poses[pose].points;
+    if (expected.soup.triangles != prepared.soup.triangles || points.size() != expected.soup.points.size() ||
+        !std::equal(points.begin(), points.end(), expected.soup.points.begin(), has_same_bits))
+      return broken(Promise::preparation, "other triangles or points");
+    Judged_complex complex(expected.soup, expected.obstacle);
+    complex.permit(expected.part_of);
+    const auto pairs = complex.offending_pairs();
+    std::set<std::pair<Index, Index>> found;
+    for (const Offending_pair& pair : prepared.offending_pairs_in_poses[pose])
+      found.insert({pair.first, pair.second});
+    if (found != pairs)
+      return broken(Promise::preparation, std::to_string(found.size()) + " offending pairs found, of " +
+                                              std::to_string(pairs.size()));
+    if (world.defects == Defects::descend)
+      complex.exempt(pairs);
+    for (Index f = 0; f < expected.soup.triangles.size() + expected.obstacle.triangles.size(); ++f) {
+      bool is_frozen = f >= expected.soup.triangles.size();
+      if (!is_frozen)
+        for (const Index v : expected.soup.triangles[f])
+          is_frozen = is_frozen || expected.is_merged[v];
+      if (world.defects != Defects::descend)
+        for (const auto& [a, b] : pairs)
+          is_frozen = is_frozen || a == f || b == f;
+      if (is_frozen && !prepared.is_frozen[f])
+        return broken(Promise::frozen, "triangle " + std::to_string(f) + " should be frozen, and is not");
+      if (is_frozen)
+        complex.freeze(f);
+    }
+    for (Index t = 0; t < prepared.is_turned.size(); ++t)
+      if (prepared.is_turned[t])
+        complex.turn(t);
+    complex.find_seams(prepared.soup);
+    for (const Soup_collapse& collapse : run.collapses)
+      if (prepared.is_held[collapse.removed])
+        return broken(Promise::frozen, "vertex " + std::to_string(collapse.removed) +
+                                           " is coincident with others in some poses alone, and has moved");
+    Judgement_counts uncounted;
+    if (auto verdict = judge_collapses(run, complex, uncounted))
+      return broken(verdict->promise, verdict->message);
+    const Triangle_soup& result = run.result.soup;
+    for (Index i = 0; i < result.triangles.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Index corner = run.result.corners[i][k];
+        if (!has_same_bits(result.poses[pose].points[result.triangles[i][k]],
+                           points[prepared.soup.triangles[corner / 3][corner % 3]]))
+          return broken(Promise::attributes, "a point of another vertex");
+      }
+  }
+  return std::nullopt;
+}
+
 Verdict judge_other_options(const World& world, const World_run& run, const Judged_complex& complex,
                             Judgement_counts& counts, std::size_t option_sets)
 {
@@ -789,6 +891,8 @@ Verdict judge_other_options(const World& world, const World_run& run, const Judg
     again.prepared = run.prepared;
     again.verification = verify(again.result, again.prepared);
     if (auto broken = judge_reduction(other, again, complex, counts))
+      return broken;
+    if (auto broken = judge_poses(other, again))
       return broken;
   }
   return std::nullopt;
@@ -809,6 +913,8 @@ Verdict judge(const World& world, const World_run& run, Judgement_counts& counts
   if (auto broken = judge_snaps(world, run, complex, counts))
     return broken;
   if (auto broken = judge_reduction(world, run, complex, counts))
+    return broken;
+  if (auto broken = judge_poses(world, run))
     return broken;
   if (extent.is_replay_asked)
     if (auto broken = judge_replay(world, run))
@@ -874,9 +980,15 @@ template <class Function>
 World with_points(const World& world, Function function)
 {
   World twin = world;
-  for (Triangle_soup* soup : {&twin.soup, &twin.obstacle})
-    for (Point_3& p : soup->points)
+  const auto change = [&](std::vector<Point_3>& points) {
+    for (Point_3& p : points)
       p = Point_3(function(p.x()), function(p.y()), function(p.z()));
+  };
+  for (Triangle_soup* soup : {&twin.soup, &twin.obstacle}) {
+    change(soup->points);
+    for (Pose& pose : soup->poses)
+      change(pose.points);
+  }
   return twin;
 }
 
@@ -890,10 +1002,16 @@ std::optional<int> random_exponent(const World& world, Random& random)
       high = std::max(high, std::ilogb(x));
     }
   };
-  for (const Triangle_soup* soup : {&world.soup, &world.obstacle})
-    for (const Point_3& p : soup->points)
+  const auto add_all = [&](const std::vector<Point_3>& points) {
+    for (const Point_3& p : points)
       for (int i = 0; i < 3; ++i)
         add(p[i]);
+  };
+  for (const Triangle_soup* soup : {&world.soup, &world.obstacle}) {
+    add_all(soup->points);
+    for (const Pose& pose : soup->poses)
+      add_all(pose.points);
+  }
   add(world.weld_distance);
   const bool is_rounded = world.prepare_options().round_to_float32;
   const int least = is_rounded ? -100 : -960, most = is_rounded ? 120 : 960;
@@ -939,6 +1057,8 @@ Triangle_soup permuted(Triangle_soup soup, Random& random)
   for (Index i = 0; i < vertices.size(); ++i)
     number[vertices[i]] = i;
   soup.points = reordered(soup.points, vertices);
+  for (Pose& pose : soup.poses)
+    pose.points = reordered(pose.points, vertices);
   reorder(soup.vertex_attributes, vertices);
   soup.triangles = reordered(soup.triangles, triangles);
   soup.polygons.clear();

@@ -273,6 +273,17 @@ void let_objects_intersect(World& world)
       v = first[v];
     return v;
   };
+  for (const Pose& pose : soup.poses) {
+    std::map<std::array<float, 3>, Index> here;
+    for (Index v = 0; v < soup.points.size(); ++v) {
+      const Point_3& p = pose.points[v];
+      const Index other =
+          here.emplace(std::array{float(p.x()) + 0.f, float(p.y()) + 0.f, float(p.z()) + 0.f}, v)
+              .first->second;
+      if (const Index from = root(other), to = root(v); from != to)
+        first[std::max(from, to)] = std::min(from, to);
+    }
+  }
   for (const auto& [a, b, c] : soup.triangles)
     for (const Index v : {b, c})
       if (const Index from = root(a), to = root(v); from != to)
@@ -304,6 +315,79 @@ void let_objects_intersect(World& world)
     soup.objects.of_triangle.push_back(is_of_neither ? 0 : object->second);
   }
   world.may_intersect = {{"skin", "cloth"}};
+}
+
+/// Gives the mesh further poses, and perhaps the obstacle: the space is sheared and turned, positions are
+/// jittered by distances that the mesh has, vertices of one position part, or what is connected goes
+/// elsewhere. Other random numbers, so that worlds of earlier versions stay what they were but for that.
+void add_poses(World& world)
+{
+  Triangle_soup& soup = world.soup;
+  for (const Triangle_soup* part : {&soup, &world.obstacle})
+    for (const Point_3& p : part->points)
+      for (int axis = 0; axis < 3; ++axis)
+        if (p[axis] != 0 && !(std::abs(p[axis]) > 1e-9 && std::abs(p[axis]) < 1e9))
+          return;
+  Random random(world.seed + 6);
+  const bool moves_obstacle = !world.obstacle.triangles.empty() && random.one_in(2);
+  for (int number = random.between(1, 3); number > 0; --number) {
+    std::array<std::array<double, 3>, 3> map{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    if (random.one_in(2))
+      for (auto& row : map)
+        for (double& entry : row)
+          entry += random.one_of({0., 0., 0., 1., -1., 0.5});
+    const auto mapped_point = [&](const Point_3& p) {
+      std::array<double, 3> q{};
+      for (std::size_t i = 0; i < 3; ++i)
+        q[i] = map[i][0] * p.x() + map[i][1] * p.y() + map[i][2] * p.z();
+      return Point_3(q[0], q[1], q[2]);
+    };
+    const auto any_point = [&] { return soup.points[random.below(soup.points.size())]; };
+    const Point_3 from = any_point(), to = any_point();
+    const auto displaced = [&](const Point_3& p) {
+      return p + random.one_of({1., -1., 0.5, 0.125}) * (to - from);
+    };
+    Pose pose{"pose_" + std::to_string(number), {}};
+    for (const Point_3& p : soup.points)
+      pose.points.push_back(mapped_point(p));
+    const int kind = random.between(0, 3);
+    if (kind == 1) { // by positions: seams stay closed
+      std::map<std::array<double, 3>, Point_3> places;
+      for (Index v = 0; v < soup.points.size(); ++v) {
+        const Point_3& p = soup.points[v];
+        const auto [place, is_new] = places.try_emplace({p.x() + 0., p.y() + 0., p.z() + 0.}, pose.points[v]);
+        if (is_new && random.one_in(6))
+          place->second = displaced(pose.points[v]);
+        pose.points[v] = place->second;
+      }
+    } else if (kind == 2) { // by numbers: seams may open
+      for (Point_3& p : pose.points)
+        if (random.one_in(12))
+          p = displaced(p);
+    } else if (kind == 3) { // what has later numbers goes elsewhere
+      const std::size_t first = random.below(soup.points.size());
+      for (std::size_t v = first; v < soup.points.size(); ++v)
+        pose.points[v] = pose.points[v] + (to - from);
+    }
+    soup.poses.push_back(std::move(pose));
+    if (moves_obstacle) {
+      Pose& beside = world.obstacle.poses.emplace_back(Pose{soup.poses.back().name, {}});
+      for (const Point_3& p : world.obstacle.points)
+        beside.points.push_back(mapped_point(p));
+    }
+  }
+  world.weld_distance = 0;
+  world.are_clear_gaps_welded = false;
+  world.is_sewn = false;
+}
+
+/// Takes back what does not go with several poses.
+void fit_options_to_poses(World& world)
+{
+  if (world.soup.poses.empty())
+    return;
+  world.options.faces_per_cell = 0;
+  world.options.placement = Placement::vertices;
 }
 
 void choose_options(World& world, Random& random)
@@ -395,6 +479,9 @@ World random_world(std::uint64_t seed)
   if (has_polygons)
     world.soup.polygons = fans(world.soup);
   world.defects = random.one_in(25) ? Defects::refuse : random.one_in(4) ? Defects::freeze : Defects::descend;
+  if (world.seed % 5 == 4 && world.input_format == Mesh_format::obj && !world.soup.points.empty())
+    add_poses(world);
+  fit_options_to_poses(world);
   // Cells refuse the option, and snaps may join the two parts.
   if (world.seed % 3 != 0 && world.input_format == Mesh_format::obj && world.options.faces_per_cell == 0 &&
       world.weld_distance == 0 && !world.are_clear_gaps_welded)
@@ -413,6 +500,7 @@ World with_other_options(const World& world, std::uint64_t number)
   choose_options(other, random);
   if (!world.may_intersect.empty())
     other.options.faces_per_cell = 0;
+  fit_options_to_poses(other);
   return other;
 }
 
