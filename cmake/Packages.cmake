@@ -1,4 +1,4 @@
-# Packages of Debian: `cmake --build --preset release --target package` makes selvedge, libselvedge-dev and python3-selvedge in
+# Makes packages of Debian: `cmake --build --preset release --target package` makes selvedge, libselvedge-dev and python3-selvedge in
 # build/release. test/install/packages.sh tests them.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
