@@ -16,7 +16,14 @@ namespace selvedge::app {
 class Help_formatter : public CLI::Formatter
 {
 public:
-  std::string make_option_opts(const CLI::Option* option) const override
+  std::string make_option_opts(const CLI::Option* option) const override { return value_of(option); }
+  std::string make_option_desc(const CLI::Option* option) const override
+  {
+    return wrapped(explanation_of(option));
+  }
+
+  /// Returns what follows the name of an option, such as " FILE", with a blank before it.
+  static std::string value_of(const CLI::Option* option)
   {
     if (option->get_type_size() == 0 || option->get_type_name().empty())
       return "";
@@ -24,7 +31,8 @@ public:
     return ' ' + option->get_type_name() + (is_list ? " ..." : "");
   }
 
-  std::string make_option_desc(const CLI::Option* option) const override
+  /// Returns the sentences on an option, in one line.
+  static std::string explanation_of(const CLI::Option* option)
   {
     std::string text = option->get_description();
     if (option->get_required())
@@ -33,7 +41,7 @@ public:
       text += " (default: " + option->get_default_str() + ')';
     for (const CLI::Option* other : option->get_excludes())
       text += " (not with " + other->get_name() + ')';
-    return wrapped(text);
+    return text;
   }
 
 private:

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "Help_formatter.h"
+#include "completion.h"
 #include "interruption.h"
+#include "manual_page.h"
 #include "subcommands.h"
 
 #include <selvedge/Cancellation_scope.h>
@@ -69,6 +71,13 @@ Exit_code run(int argc, char** argv)
   app.name("selvedge");
   app.formatter(std::make_shared<Help_formatter>());
   app.set_version_flag("--version", "selvedge " SELVEDGE_VERSION);
+  const auto print = [](const std::string& text) { throw CLI::CallForVersion(text, 0); };
+  app.add_flag_callback("--man", [&] { print(manual_page(app)); },
+                        "Display the manual page in the language of man and exit");
+  app.add_option_function<std::string>(
+         "--completion", [&](const std::string& shell) { print(completion(app, shell)); },
+         "Display a script by which a shell completes command lines and exit")
+      ->type_name("bash|zsh|fish");
   app.require_subcommand(1);
   std::string footer = "Examples:\n"
                        "  selvedge generate skirt -o skirt.obj --faces 50000 --layers 3\n"

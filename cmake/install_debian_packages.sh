@@ -4,36 +4,57 @@
 #
 # Installs what Selvedge is built from, on Debian 12 or later; does nothing where all of it is there already.
 # With the argument "fuzz" also clang and its run-time libraries, of which libFuzzer is one, with "manual" Doxygen, with "python"
-# what the Python package and its tests need, with "html" Chromium, in which the pages of --html are tested. The argument
+# what the Python package and its tests need, with "html" Chromium, in which the pages of --html are tested, with "many" what
+# works through folders of meshes, with "package" what the test of the packages needs. The argument
 # "benchmark" asks for the peers that the benchmark programs measure, which are among the packages of every build.
+# With "list" it installs nothing, and prints a table: package, what it is needed for, why, and which version of it is here.
 set -euo pipefail
 
-packages=(
-  g++ cmake ninja-build
-  libcgal-dev           # the geometry
-  libcli11-dev          # options of the app
-  libssl-dev            # SHA-256, for logs of collapses
-  libtbb-dev            # threads
-  zlib1g-dev            # files in .gz
-  libmeshoptimizer-dev  # compressed glTF files; may be left out
-  libdraco-dev          # compressed glTF files; may be left out
-  libtinygltf-dev       # glTF documents
-  nlohmann-json3-dev    # glTF documents, reports of the app
-  esbuild libjs-three   # the page of --html; may be left out
-  libgtest-dev          # tests
-  python3               # tests: whether includes go one way
-  libopenmesh-dev       # tests: a mesh of floats, through CGAL's adaptor
-  libeigen3-dev         # tests: the Garland-Heckbert policies of CGAL, beside which ours must work
-)
-if [[ "${1:-}" == fuzz ]]; then
-  packages+=(clang libclang-rt-dev)
-elif [[ "${1:-}" == python ]]; then
-  packages+=(python3-dev pybind11-dev python3-numpy)
-elif [[ "${1:-}" == html ]]; then
-  packages+=(chromium)
-elif [[ "${1:-}" == manual ]]; then
-  packages+=(doxygen)
+# Every package, the argument with which it is installed, what it is needed for, and why. `policies` and `library` are needed by
+# whoever compiles against these, too, so that the package libselvedge-dev depends on them.
+table() {
+  cat <<'TABLE'
+g++                  always  build             compiles
+cmake                always  build             configures
+ninja-build          always  build             runs the compiler
+libcgal-dev          always  policies,library  the geometry
+libcli11-dev         always  program           options
+libssl-dev           always  library           SHA-256, for logs of collapses
+libtbb-dev           always  library           threads
+zlib1g-dev           always  library           files in .gz
+libmeshoptimizer-dev always  library           compressed glTF files; may be left out
+libdraco-dev         always  library           compressed glTF files; may be left out
+libtinygltf-dev      always  library           glTF documents
+nlohmann-json3-dev   always  library,program   glTF documents, reports
+esbuild              always  program           bundles the page of --html; may be left out
+libjs-three          always  program           draws the page of --html; may be left out
+libgtest-dev         always  tests             every test
+python3              always  tests             whether includes go one way
+libopenmesh-dev      always  tests             a mesh of floats, through CGAL's adaptor
+libeigen3-dev        always  tests             the Garland-Heckbert policies of CGAL, beside which ours must work
+clang                fuzz    tests             fuzzing
+libclang-rt-dev      fuzz    tests             sanitizers and libFuzzer
+python3-dev          python  python            headers of Python
+pybind11-dev         python  python            the module
+python3-numpy        python  python            arrays
+chromium             html    tests             pages of --html
+doxygen              manual  manual            manual and reference
+snakemake            many    workflow          a folder of meshes
+parallel             many    workflow          a folder of meshes, without Snakemake
+dpkg-dev             package tests             the dependencies of the packages
+mmdebstrap           package tests             a clean system, in which the packages are tested
+TABLE
+}
+
+if [[ "${1:-}" == list ]]; then
+  printf 'package\tneeded for\twhy\tversion here\thomepage\n'
+  while read -r package _ needed_for why; do
+    found=$(dpkg-query -W -f '${Version}\t${Homepage}' "$package" 2>/dev/null) || found='none\t'
+    printf '%s\t%s\t%s\t%b\n' "$package" "$needed_for" "$why" "$found"
+  done < <(table)
+  exit
 fi
+mapfile -t packages < <(table | awk -v wanted="${1:-always}" '$2 == "always" || $2 == wanted { print $1 }')
 
 is_installed() { [[ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" == installed ]]; }
 
