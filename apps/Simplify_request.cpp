@@ -12,6 +12,7 @@
 #include "threads.h"
 
 #include <selvedge/Error.h>
+#include <selvedge/poses.h>
 
 #include <charconv>
 #include <cmath>
@@ -102,10 +103,11 @@ void check_poses(const Simplify_request& request)
       throw Argument_error("--poses-out: the name must contain " + std::string(mark) + ", which stands for " +
                            what + ": --poses-out 'small_{pose}.obj'");
   };
-  require_mark(pose_mark, "the name of the pose");
+  if (!is_point_cache(request.poses_output))
+    require_mark(pose_mark, "the name of the pose");
   if (!request.lods.empty())
     require_mark(level_mark, "the number of the level");
-  if (!request.poses_output.empty())
+  if (!request.poses_output.empty() && !is_point_cache(request.poses_output))
     format_of(request.poses_output, std::nullopt);
 }
 
@@ -348,10 +350,12 @@ void add_options(CLI::App& command, Simplify_request& request)
 
   const char* const poses =
       "Poses (the same vertices and faces at other places, such as frames of an animation)";
-  add_poses_option(command, "--pose,--poses", request.poses,
-                   "Further poses of IN: a mesh file, or a pattern in quotes for several, in natural order. "
-                   "Everything that holds in IN holds in each of them: no layers touch or pass through each "
-                   "other, limits are kept, and the cost is the mean of all. May be given several times.")
+  add_poses_option(
+      command, "--pose,--poses", request.poses,
+      "Further poses of IN: a mesh file, a pattern in quotes for several, in natural order, or a "
+      "point cache (.mdd, .pc2). "
+      "Everything that holds in IN holds in each of them: no layers touch or pass through each "
+      "other, limits are kept, and the cost is the mean of all. May be given several times.")
       ->group(poses);
   add_poses_option(command, "--obstacle-pose,--obstacle-poses", request.obstacle_poses,
                    "Poses of the obstacle, as many as of IN and in the same order. Without them it stands "
@@ -360,7 +364,7 @@ void add_options(CLI::App& command, Simplify_request& request)
   command
       .add_option("--poses-out", request.poses_output,
                   "Files for the poses of the result: {pose} stands for the name of each, the name of its "
-                  "file without ending.")
+                  "file without ending. Or one point cache.")
       ->type_name("PATTERN")
       ->group(poses);
 

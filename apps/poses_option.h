@@ -13,7 +13,8 @@
 
 namespace selvedge::app {
 
-/// Declares an option that names further poses of a mesh, by files and patterns of such.
+/// Declares an option that names further poses of a mesh, by files (meshes and point caches) and patterns of
+/// such.
 CLI::Option* add_poses_option(CLI::App& command, const std::string& option, std::vector<std::string>& names,
                               const std::string& description);
 

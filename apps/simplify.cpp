@@ -25,6 +25,7 @@
 #include <selvedge/mesh_files.h>
 #include <selvedge/poses.h>
 #include <selvedge/references.h>
+#include <selvedge/rounding.h>
 
 #include <algorithm>
 #include <atomic>
@@ -85,7 +86,10 @@ private:
   bool is_rounded(const Triangle_soup& soup) const
   {
     return needs_float32(soup, output_format()) ||
-           (!m_request.poses_output.empty() && stores_float32(mesh_format(m_request.poses_output)));
+           (!m_request.poses_output.empty() &&
+            (is_point_cache(m_request.poses_output) || stores_float32(mesh_format(m_request.poses_output))) &&
+            !std::all_of(soup.poses.begin(), soup.poses.end(),
+                         [](const Pose& pose) { return has_float32_points(pose.points); }));
   }
 
   Prepared_soup read_and_prepare()
@@ -242,6 +246,12 @@ private:
 
   void write_poses(const Triangle_soup& soup, std::size_t level)
   {
+    if (is_point_cache(m_request.poses_output)) {
+      const std::string name = pose_output(m_request, level, "");
+      write_point_cache(output_path(name), soup);
+      m_files_written.push_back(name);
+      return;
+    }
     for (std::size_t i = 0; i < soup.poses.size() && !m_request.poses_output.empty(); ++i) {
       const std::string name = pose_output(m_request, level, soup.poses[i].name);
       write_output(name, in_pose(soup, i), mesh_format(name), m_request.is_ascii);

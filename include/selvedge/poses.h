@@ -27,6 +27,25 @@ namespace selvedge {
 /// and the first difference. Vertices and faces are counted from 1 in it. Linear.
 Pose read_pose(const std::filesystem::path& path, const Triangle_soup& mesh);
 
+/// Returns whether the ending of a path is that of a point cache, `.mdd` or `.pc2`, in upper or lower case.
+bool is_point_cache(const std::filesystem::path& path);
+
+/// Reads the poses of a mesh from a point cache, one for each frame: LightWave's MDD (also Blender's), or PC2
+/// of 3ds Max (version 1). They are named frame_1, frame_2 and so on, and have the times of the frames.
+///
+/// Throws `Input_error` when the file cannot be read, is truncated or longer than it says, has another number
+/// of points than the mesh has vertices, or a coordinate that is not finite. Counts in the file are not
+/// believed before the bytes are there. Linear.
+std::vector<Pose> read_point_cache(const std::filesystem::path& path, const Triangle_soup& mesh);
+
+/// Writes the poses of a mesh to a point cache; the mesh's own places are not among them. PC2 holds the time
+/// of the first frame and the time from there to the second. The file appears whole or not at all
+/// (`write_mesh`).
+///
+/// Throws `Argument_error` when there is no pose, or a coordinate is not the value of a 32-bit float, and
+/// `Output_error` when the file cannot be written.
+void write_point_cache(const std::filesystem::path& path, const Triangle_soup& mesh);
+
 /// Returns the files that a name stands for: the file of this name where there is one; otherwise, of a
 /// pattern with `*`, `?` or `[...]` (POSIX glob), all files that match but `mesh`, in natural order: frame_2
 /// before frame_10. Throws `Input_error` when there is none.

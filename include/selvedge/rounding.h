@@ -7,6 +7,7 @@
 #include <selvedge/Triangle_soup.h>
 
 #include <cstddef>
+#include <vector>
 
 namespace selvedge {
 
@@ -26,6 +27,9 @@ double nearest_float32(double value);
 
 /// Returns whether every coordinate of a soup, in all poses, is the value of a 32-bit float.
 bool has_float32_points(const Triangle_soup& soup);
+
+/// Returns whether every coordinate of some points is the value of a 32-bit float.
+bool has_float32_points(const std::vector<Point_3>& points);
 
 /// Returns whether every coordinate of a soup in its first pose has no more binary digits than a 32-bit float
 /// has, at whatever exponent. It holds for a soup exactly when it does for its multiple by a power of two.

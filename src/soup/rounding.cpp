@@ -20,15 +20,18 @@ bool is_float32(double value)
   return nearest_float32(value) == value;
 }
 
+bool has_float32_points(const std::vector<Point_3>& points)
+{
+  return std::all_of(points.begin(), points.end(), [](const Point_3& point) {
+    return is_float32(point.x()) && is_float32(point.y()) && is_float32(point.z());
+  });
+}
+
 bool has_float32_points(const Triangle_soup& soup)
 {
-  const auto has_alone = [](const std::vector<Point_3>& points) {
-    return std::all_of(points.begin(), points.end(), [](const Point_3& point) {
-      return is_float32(point.x()) && is_float32(point.y()) && is_float32(point.z());
-    });
-  };
-  return has_alone(soup.points) && std::all_of(soup.poses.begin(), soup.poses.end(),
-                                               [&](const Pose& pose) { return has_alone(pose.points); });
+  return has_float32_points(soup.points) &&
+         std::all_of(soup.poses.begin(), soup.poses.end(),
+                     [](const Pose& pose) { return has_float32_points(pose.points); });
 }
 
 bool has_float32_digits(const Triangle_soup& soup)

@@ -171,7 +171,7 @@ Triangle_soup selected(const Triangle_soup& soup, const std::vector<Index>& tria
   const std::vector<Index> vertices = keep_used(result.triangles, soup.points.size());
   result.points = rows(soup.points, vertices);
   for (const Pose& pose : soup.poses)
-    result.poses.push_back({pose.name, rows(pose.points, vertices)});
+    result.poses.push_back({pose.name, rows(pose.points, vertices), pose.time});
   result.vertex_attributes = rows(soup.vertex_attributes, vertices);
   result.triangle_attributes = rows(soup.triangle_attributes, triangles);
   result.uvs = selected(soup.uvs, corners);
