@@ -72,8 +72,8 @@ Exit_code run(int argc, char** argv)
   app.formatter(std::make_shared<Help_formatter>());
   app.set_version_flag("--version", "selvedge " SELVEDGE_VERSION);
   const auto print = [](const std::string& text) { throw CLI::CallForVersion(text, 0); };
-  app.add_flag_callback("--man", [&] { print(manual_page(app)); },
-                        "Display the manual page in the language of man and exit");
+  app.add_flag_callback(
+      "--man", [&] { print(manual_page(app)); }, "Display the manual page in the language of man and exit");
   app.add_option_function<std::string>(
          "--completion", [&](const std::string& shell) { print(completion(app, shell)); },
          "Display a script by which a shell completes command lines and exit")

@@ -20,11 +20,7 @@ std::string literal(const std::string& text)
     if (c == '\\')
       escaped += "\\e";
     else if (c == '-' || c == '\'' || c == '`' || c == '^' || c == '~') // would become typographic ones
-      escaped += c == '-'    ? "\\-"
-                 : c == '\'' ? "\\(aq"
-                 : c == '`'  ? "\\(ga"
-                 : c == '^'  ? "\\(ha"
-                             : "\\(ti";
+      escaped += c == '-' ? "\\-" : c == '\'' ? "\\(aq" : c == '`' ? "\\(ga" : c == '^' ? "\\(ha" : "\\(ti";
     else
       escaped += c;
   }
@@ -44,8 +40,9 @@ void print_options(std::ostream& page, const CLI::App& command)
     page << ".TP\n\\fI" << literal(option->get_name()) << "\\fR\n"
          << literal(Help_formatter::explanation_of(option)) << '\n';
   for (const std::string& group : command.get_groups()) {
-    const auto options = command.get_options(
-        [&](const CLI::Option* o) { return o->nonpositional() && !group.empty() && o->get_group() == group; });
+    const auto options = command.get_options([&](const CLI::Option* o) {
+      return o->nonpositional() && !group.empty() && o->get_group() == group;
+    });
     if (!options.empty() && group != "Options")
       page << ".PP\n" << literal(group) << ":\n";
     for (const CLI::Option* option : options)
