@@ -10,8 +10,8 @@
 
 namespace selvedge::app {
 
-/// Returns a script by which a shell completes the subcommands of a program, their options, and the words that
-/// an option takes. Everything else is completed as the name of a file.
+/// Returns a script by which a shell completes the subcommands of a program, their options, and the words
+/// that an option takes. Everything else is completed as the name of a file.
 ///
 /// @param shell  bash, zsh or fish
 ///

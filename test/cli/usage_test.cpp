@@ -5,6 +5,8 @@
 
 #include <selvedge/mesh_files.h>
 
+#include <sstream>
+
 namespace selvedge::test {
 namespace {
 
@@ -19,6 +21,34 @@ TEST(App_usage, HelpTeachesByExample)
     EXPECT_EQ(result.err, "");
     EXPECT_NE(result.out.find(std::string("  selvedge ") + command), std::string::npos) << result.out;
     EXPECT_NE(result.out.find("Examples:"), std::string::npos) << result.out;
+  }
+}
+
+TEST(App_usage, ManualPageAndCompletionsHaveEveryOption)
+{
+  const std::string manual = run_app({"--man"}).out;
+  std::vector<std::string> scripts{manual};
+  for (const char* shell : {"bash", "zsh", "fish"})
+    scripts.push_back(run_app({"--completion", shell}).out);
+  EXPECT_EQ(run_app({"--completion", "tcsh"}).code, 2);
+  for (const char* command : {"simplify", "verify", "info", "replay", "generate"}) {
+    std::istringstream help(run_app({command, "--help"}).out);
+    std::size_t options = 0;
+    for (std::string line; std::getline(help, line);) {
+      if (line.rfind("  -", 0) != 0)
+        continue;
+      const std::size_t begin = line.find("--") + 2;
+      const std::string name = line.substr(begin, line.find(' ', begin) - begin);
+      std::string escaped;
+      for (const char c : "--" + name)
+        escaped += c == '-' ? "\\-" : std::string(1, c);
+      EXPECT_NE(scripts[0].find(escaped), std::string::npos) << name;
+      EXPECT_NE(scripts[1].find("--" + name), std::string::npos) << name;
+      EXPECT_NE(scripts[2].find("--" + name), std::string::npos) << name;
+      EXPECT_NE(scripts[3].find("-l " + name), std::string::npos) << name;
+      ++options;
+    }
+    EXPECT_GT(options, 3u);
   }
 }
 

@@ -36,7 +36,7 @@ expect_table() {
   expect "rows of $1" 14 "$(wc -l <"$1/table.csv")"
   expect "failures in $1" 3 "$(grep -c ',,3,' "$1/table.csv")"
 }
-jobs_left() { run "$1" -n 2>&1 | tee dry.log | awk '$1 == "simplify" { n = $2 } END { print n + 0 }'; }
+jobs_left() { run "$1" -n 2>&1 | tee dry.log | awk '$1 == "simplify" && NF == 4 { n = $2 } END { print n + 0 }'; }
 
 echo "--- Snakemake, interrupted as soon as one mesh is done, and resumed"
 set -m # a process group of its own, which gets the signal as that of a terminal does
@@ -77,7 +77,7 @@ if [[ "${2:-}" == slurm ]]; then
   dd if=/dev/urandom of=slurm/munge.key bs=128 count=1 status=none
   chmod 600 slurm/munge.key
   munged --foreground --force --key-file="$PWD/slurm/munge.key" --socket="$PWD/slurm/munge.socket" \
-    --pid-file="$PWD/slurm/munge.pid" --log-file="$PWD/slurm/munge.log" --seed-file="$PWD/slurm/munge.seed" &
+    --pid-file="$PWD/slurm/munge.pid" --log-file="$PWD/slurm/munge.log" --seed-file="$PWD/slurm/munge.seed" 2>/dev/null &
   started+=($!)
   cat >slurm/slurm.conf <<CONF
 ClusterName=selvedge
