@@ -9,12 +9,15 @@
 #include <selvedge/Error.h>
 #include <selvedge/generate.h>
 #include <selvedge/mesh_files.h>
+#include <selvedge/poses.h>
 #include <selvedge/rounding.h>
 #include <selvedge/verify.h>
 
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace selvedge::app {
 namespace {
@@ -25,10 +28,24 @@ struct Generate_request
   std::string output;
   std::optional<Mesh_format> mesh_format;
   Generate_options options;
+  std::size_t poses = 0;
+  std::string poses_output;
   bool is_list = false;
   bool is_quiet = false;
   bool is_ascii = false;
 };
+
+std::string named_pose(const Generate_request& request, const std::string& pose)
+{
+  constexpr std::string_view mark = "{pose}";
+  std::string name = request.poses_output;
+  const std::size_t place = name.find(mark);
+  if (place == std::string::npos)
+    throw Argument_error(
+        "--poses-out: the name must contain {pose}, which stands for the number of the pose, or "
+        "be that of a point cache (.mdd, .pc2)");
+  return name.replace(place, mark.size(), pose);
+}
 
 Exit_code run(const Generate_request& request)
 {
@@ -45,17 +62,42 @@ Exit_code run(const Generate_request& request)
   check_streams({}, {{"--output", request.output}}, request.mesh_format);
   const Mesh_format format = format_of(request.output, request.mesh_format);
   require_writable(request.output);
+  if ((request.poses > 0) != !request.poses_output.empty())
+    throw Argument_error("--poses N says how many, and --poses-out PATTERN where; give both or none");
+  const bool is_cache = is_point_cache(request.poses_output);
+  if (request.poses > 0 && !is_cache)
+    format_of(named_pose(request, ""), std::nullopt);
 
   Triangle_soup soup = generate(request.name, request.options);
   if (stores_float32(format) && round_to_float32(soup).coordinates > 0 && !is_embedded(soup))
     throw Output_error(request.output +
                        ": not written, because rounding to the 32-bit floats of this format would make "
                        "triangles touch; choose .ply or .obj, or a larger --gap");
+  soup.poses = moving_poses(soup, request.poses);
+  if (is_cache || (request.poses > 0 && stores_float32(mesh_format(request.poses_output))))
+    for (Pose& pose : soup.poses)
+      for (Point_3& p : pose.points)
+        p = Point_3(nearest_float32(p.x()), nearest_float32(p.y()), nearest_float32(p.z()));
+  std::size_t pairs = 0;
+  for (std::size_t i = 0; i < soup.poses.size(); ++i)
+    pairs += offending_pairs(in_pose(soup, i)).size();
   write_output(request.output, soup, format, request.is_ascii);
+  if (is_cache)
+    write_point_cache(output_path(request.poses_output), soup);
+  for (std::size_t i = 0; i < soup.poses.size() && !is_cache; ++i) {
+    const std::string name = named_pose(request, soup.poses[i].name);
+    write_output(name, in_pose(soup, i), mesh_format(name), request.is_ascii);
+  }
   const Text_to_standard_error elsewhere(is_standard_output(request.output));
-  if (!request.is_quiet)
-    std::cout << request.output << ": '" << request.name << "' with "
-              << counted(soup.triangles.size(), "face") << ", free of intersections by construction"
+  if (request.is_quiet)
+    return exit_done;
+  std::cout << request.output << ": '" << request.name << "' with " << counted(soup.triangles.size(), "face")
+            << ", free of intersections by construction" << std::endl;
+  if (request.poses > 0)
+    std::cout << request.poses_output << ": " << counted(request.poses, "pose") << ", "
+              << (pairs == 0 ? "judged: embedded in each"
+                             : counted(pairs, "offending pair") +
+                                   " in all; fewer with more --faces or a larger --gap")
               << std::endl;
   return exit_done;
 }
@@ -95,11 +137,21 @@ Action add_generate(CLI::App& command)
       ->check(in_range(0))
       ->type_name("S")
       ->capture_default_str();
+  command
+      .add_option("--poses", request->poses,
+                  "Number of poses to make as well: the mesh twists, sways and breathes.")
+      ->transform(whole_number())
+      ->type_name("N");
+  command
+      .add_option("--poses-out", request->poses_output,
+                  "Files for the poses, of which {pose} is the number, or one point cache (.mdd, .pc2).")
+      ->type_name("PATTERN");
   command.add_flag("--quiet", request->is_quiet, "Print no summary.");
   command.add_flag("--ascii", request->is_ascii, "Write PLY and STL as text.");
   command.footer("Examples:\n"
                  "  selvedge generate --list\n"
                  "  selvedge generate skirt -o skirt.obj --faces 50000 --layers 3\n"
+                 "  selvedge generate skirt -o skirt.obj --poses 8 --poses-out 'skirt_{pose}.obj'\n"
                  "  selvedge generate sheets -o sheets.ply --faces 1000000 --layers 5 --gap 1e-9\n\n"
                  "The same name and options give the same bytes on every machine.");
   return [request] { return run(*request); };

@@ -155,7 +155,7 @@ SELVEDGE_C_API selvedge_options* selvedge_options_new(void);
 SELVEDGE_C_API void selvedge_options_free(selvedge_options* options);
 
 /* Sets one option: "ratio" to "0.3", "placement" to "optimal", "lock" to the name of a part, and so on. Names
-   are those in docs/report.md (without lods, obstacle, polygons and strict), values those of the command line
+   are those in docs/report.md (without lods, obstacle, polygons, poses and strict), values those of the command line
    ("true" or "false" for flags); "log" "true" asks for a log. "lock", "keep", "part_ratios" ("collar=0.5")
    and "may_intersect" ("skin:dress") add to what was set before. Returns 0, or -1 when there is no such
    option or value; the error then names the nearest. */

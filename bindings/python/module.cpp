@@ -117,13 +117,20 @@ auto rows(const Array& array, const char* name)
   return array.template unchecked<2>();
 }
 
+std::vector<Point_3> points_of(const Points& points)
+{
+  std::vector<Point_3> result;
+  const auto of_points = rows(points, "points");
+  result.reserve(std::size_t(of_points.shape(0)));
+  for (py::ssize_t i = 0; i < of_points.shape(0); ++i)
+    result.emplace_back(of_points(i, 0), of_points(i, 1), of_points(i, 2));
+  return result;
+}
+
 Triangle_soup soup_of(const Points& points, const Triangles& triangles)
 {
   Triangle_soup soup;
-  const auto of_points = rows(points, "points");
-  soup.points.reserve(std::size_t(of_points.shape(0)));
-  for (py::ssize_t i = 0; i < of_points.shape(0); ++i)
-    soup.points.emplace_back(of_points(i, 0), of_points(i, 1), of_points(i, 2));
+  soup.points = points_of(points);
   const auto of_triangles = rows(triangles, "triangles");
   soup.triangles.reserve(std::size_t(of_triangles.shape(0)));
   for (py::ssize_t i = 0; i < of_triangles.shape(0); ++i)
@@ -185,9 +192,12 @@ private:
 Result reduce(const Points& points, const Triangles& triangles, const Options& options,
               const std::vector<Index>& groups, const std::vector<std::string>& group_names,
               const std::vector<Index>& locked, const std::optional<std::vector<double>>& weights,
-              const std::optional<Mesh_arrays>& obstacle, const Progress& progress)
+              const std::optional<Mesh_arrays>& obstacle, const std::vector<Points>& poses,
+              const Progress& progress)
 {
   Triangle_soup soup = soup_of(points, triangles);
+  for (const Points& pose : poses)
+    soup.poses.push_back({"pose_" + std::to_string(soup.poses.size() + 1), points_of(pose)});
   bindings::Reduction_request request;
   for (const auto& [name, value] : options)
     request.set(name, value);

@@ -5,6 +5,7 @@
 
 #include "apps/report_json.h"
 
+#include <selvedge/Error.h>
 #include <selvedge/Reduction_log.h>
 #include <selvedge/collapse_log.h>
 #include <selvedge/merge.h>
@@ -33,6 +34,9 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request)
     : m_input_triangles(input.triangles), m_options(request.json()), m_is_sewn(request.is_sewn)
 {
   request.check();
+  if (request.is_sewn && !input.poses.empty())
+    throw Argument_error(
+        "sewn: vertices that meet in one pose may be apart in others; leave out one of the two");
   std::optional<tbb::global_control> limit;
   if (request.threads)
     limit.emplace(tbb::global_control::max_allowed_parallelism, *request.threads);

@@ -73,6 +73,15 @@ const std::vector<Scene_description>& scenes();
 /// range.
 Triangle_soup generate(std::string_view name, const Generate_options& options = {});
 
+/// Returns poses of a mesh that moves, `count` of them, from slight to strong: it is twisted around the z
+/// axis, to one side and the other in turn, by up to 62°, sways, and breathes. They are named "1", "2" and so
+/// on.
+///
+/// Each pose is a one-to-one smooth map of space. It keeps surfaces apart; faces, whose corners alone it
+/// moves, are flat again afterwards, so that coarse meshes may come to touch: `verify` tells. The same bytes
+/// in any build, as `generate`. Linear.
+std::vector<Pose> moving_poses(const Triangle_soup& soup, std::size_t count);
+
 /// A scene in which one collapse tunnels: a shallow bump over a small separate patch. Moving `moving` along
 /// the edge to `target` leaves an embedded mesh, but on the way the faces at `moving` pass through the patch,
 /// which lies under the bump before and above the sheet after. No other rule refuses this collapse: `moving`

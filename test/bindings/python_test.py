@@ -82,6 +82,19 @@ class Simplify(unittest.TestCase):
         self.assertEqual(pairs_with_body(obstacle=(mesh.points, mesh.triangles[half:])), 0)
         self.assertGreater(pairs_with_body(), 0)
 
+    def test_poses_are_all_guarded(self):
+        mesh = layers(2000, 2)
+        bent = mesh.points + np.array([0, 0, 1]) * (3 * mesh.points[:, :1] ** 2)
+
+        def pairs_in_pose(**options):
+            result = selvedge.simplify(*mesh, ratio=0.1, error=None, **options)
+            return len(selvedge.verify(bent[result.vertices], result.triangles).pairs)
+
+        self.assertEqual(pairs_in_pose(poses=[bent]), 0)
+        self.assertGreater(pairs_in_pose(), 0)
+        with self.assertRaises(ValueError):
+            selvedge.simplify(*mesh, poses=[bent[1:]], ratio=0.5)
+
     def test_log_is_replayed_and_a_wrong_one_is_not(self):
         mesh = layers()
         result = selvedge.simplify(*mesh, ratio=0.3, log=True)

@@ -279,6 +279,17 @@ TEST(Poses, RoundingIsJudgedInEach)
       ASSERT_EQ(double(float(point.x())), point.x());
 }
 
+TEST(Poses, OfGeneratedGarmentsAreEmbedded)
+{
+  Generate_options options;
+  options.faces = 6000;
+  Triangle_soup soup = generate("jacket", options);
+  soup.poses = moving_poses(soup, 3);
+  ASSERT_EQ(soup.poses.size(), 3u);
+  EXPECT_EQ(pairs_in_poses(soup), 0u);
+  EXPECT_NE(soup.poses[0].points, soup.poses[1].points);
+}
+
 TEST(Poses, FilterWorksInBothLoops)
 {
   using Points = Simplify_constraints<Mesh>::Pose_points;

@@ -74,12 +74,14 @@ def option_names():
     return _selvedge.option_names()
 
 
-def simplify(points, triangles, *, obstacle=None, groups=None, weights=None, lock_vertices=None, log=False,
+def simplify(points, triangles, *, poses=None, obstacle=None, groups=None, weights=None, lock_vertices=None, log=False,
              progress=None, **options):
     """Reduces a mesh, and has the result judged. Returns a `Result`.
 
     options: those of `selvedge simplify` by their names in its reports (`option_names`), such as ratio=0.3, faces=2000,
     error=0.001 (None: no limit), placement="optimal", lock=["collar"], part_ratios={"collar": 0.5}, threads=1.
+    poses: further places of the points, an array of shape (poses, points, 3), such as frames of an animation: the result is
+    legal in each. Those of the result are poses[:, result.vertices].
     obstacle: (points, triangles) that no face may touch or pass through.
     groups: one name for each triangle; `lock`, `keep`, `part_ratios` and `may_intersect` ("A:B") refer to them.
     weights: one number for each vertex, at least 0: how costly it is to remove, relative to the largest.
@@ -102,6 +104,7 @@ def simplify(points, triangles, *, obstacle=None, groups=None, weights=None, loc
                            [] if lock_vertices is None else [int(v) for v in lock_vertices],
                            None if weights is None else _weights(weights, len(points)),
                            None if obstacle is None else (_points(obstacle[0]), _triangles(obstacle[1])),
+                           [] if poses is None else [_points(pose) for pose in poses],
                            None if progress is None else lambda *counts: bool(progress(*counts)))
     return Result(run, triangle_array.dtype)
 

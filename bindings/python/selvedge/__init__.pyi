@@ -40,6 +40,7 @@ def simplify(
     points: ArrayLike,
     triangles: ArrayLike,
     *,
+    poses: Optional[ArrayLike] = None,
     obstacle: Optional[Tuple[ArrayLike, ArrayLike]] = None,
     groups: Optional[Sequence[Any]] = None,
     weights: Optional[Sequence[float]] = None,
