@@ -373,7 +373,7 @@ group(
 group(
     "src/simplify/prepare.cpp",
     ("obstacle_test", "prepare_test", "intent_test", "replay_test"),
-    ("is_frozen[t] |= is_merged[m_positions_rounded[v]];", ";", "what rounding merges moves"),
+    ("is_frozen[t] |= is_merged[m_positions_rounded[v]] ||", "is_frozen[t] |=", "what rounding merges moves"),
     ("take_apart(m_prepared.positions, m_positions_rounded);", "", "what rounding takes apart is one position"),
     ("is_frozen[pair.first] = is_frozen[pair.second] = true;", "is_frozen[pair.first] = true;", "one face of a pair moves"),
 )
@@ -665,4 +665,32 @@ group(
     doubles,
     ("put(m_state->further_times, face, times - 1);", "", "a face with doubles counts once"),
     sources=("src/simplify/simplify_soup.cpp",),
+)
+
+# Poses
+poses = ("poses_test",)
+
+group(
+    headers + "Surface_mesh_simplification/Pose_intersection_filter.h",
+    poses,
+    ("for (std::size_t i = 0; i < count; ++i) {", "for (std::size_t i = 0; i < 1; ++i) {", "one pose is guarded"),
+    sources=("src/simplify/simplify_soup.cpp",),
+)
+group(
+    headers + "Surface_mesh_simplification/internal/Further_poses.h",
+    poses,
+    ("return sum / double(m_poses.size() + 1);", "return cost_of_first;", "the cost is that of the first pose"),
+    ("return m_poses[i].error.allows(in_pose);", "return true;", "limits hold in the first pose alone"),
+    sources=("src/simplify/simplify_soup.cpp",),
+)
+group(
+    "src/simplify/prepare.cpp",
+    poses,
+    ("m_prepared.is_frozen[t] |= m_prepared.is_held[v];", ";", "what coincides in some poses moves"),
+)
+group(
+    "src/replay/replay.cpp",
+    poses,
+    ("if (!stated.sha256.empty() && stated.sha256 != digest_of(original.poses[pose]))", "if (false)",
+     "the replay takes any pose for the one of the log"),
 )
