@@ -220,8 +220,8 @@ Json options_json(const Simplify_request& request)
           {"may_intersect", request.may_intersect},
           {"weights", request.intent.weights.empty() ? Json(nullptr) : Json(request.intent.weights)},
           {"obstacle", request.obstacle.empty() ? Json(nullptr) : Json(request.obstacle)},
-          {"poses", request.poses},
-          {"obstacle_poses", request.obstacle_poses},
+          {"pose", request.poses},
+          {"obstacle_pose", request.obstacle_poses},
           {"poses_out", request.poses_output.empty() ? Json(nullptr) : Json(request.poses_output)},
           {"weld", request.weld == "auto" ? Json(request.weld) : Json(request.weld_distance)},
           {"sewn", request.is_sewn},
@@ -351,13 +351,13 @@ void add_options(CLI::App& command, Simplify_request& request)
   const char* const poses =
       "Poses (the same vertices and faces at other places, such as frames of an animation)";
   add_poses_option(
-      command, "--pose,--poses", request.poses,
+      command, "--pose", request.poses,
       "Further poses of IN: a mesh file, a pattern in quotes for several, in natural order, or a "
       "point cache (.mdd, .pc2). "
       "Everything that holds in IN holds in each of them: no layers touch or pass through each "
       "other, limits are kept, and the cost is the mean of all. May be given several times.")
       ->group(poses);
-  add_poses_option(command, "--obstacle-pose,--obstacle-poses", request.obstacle_poses,
+  add_poses_option(command, "--obstacle-pose", request.obstacle_poses,
                    "Poses of the obstacle, as many as of IN and in the same order. Without them it stands "
                    "still.")
       ->group(poses);
@@ -552,7 +552,7 @@ void add_options(CLI::App& command, Simplify_request& request)
       "body.obj\n"
       "  selvedge simplify jacket.obj -o small.obj --ratio 0.1 --require-target || echo missed\n"
       "  selvedge simplify draped.obj -o small.obj --ratio 0.3 --weld auto      # close narrow gaps\n"
-      "  selvedge simplify rest.obj -o small.obj --ratio 0.2 --poses 'frame_*.obj' --poses-out "
+      "  selvedge simplify rest.obj -o small.obj --ratio 0.2 --pose 'frame_*.obj' --poses-out "
       "'small_{pose}.obj'\n\n"
       "The result is always judged before it is written. A target that cannot be reached is no error: the\n"
       "result is written, and summary and report say what prevented more. Ctrl-C during the reduction stops "

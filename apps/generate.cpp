@@ -65,8 +65,14 @@ Exit_code run(const Generate_request& request)
   if ((request.poses > 0) != !request.poses_output.empty())
     throw Argument_error("--poses N says how many, and --poses-out PATTERN where; give both or none");
   const bool is_cache = is_point_cache(request.poses_output);
-  if (request.poses > 0 && !is_cache)
-    format_of(named_pose(request, ""), std::nullopt);
+  if (request.poses > 0 && !is_cache) {
+    format_of(named_pose(request, "1"), std::nullopt);
+    for (std::size_t i = 1; i <= request.poses; ++i)
+      require_distinct({{"--poses-out", named_pose(request, std::to_string(i))}},
+                       {{"--output", request.output}});
+  }
+  if (request.poses > 0)
+    require_writable(is_cache ? request.poses_output : named_pose(request, "1"));
 
   Triangle_soup soup = generate(request.name, request.options);
   if (stores_float32(format) && round_to_float32(soup).coordinates > 0 && !is_embedded(soup))

@@ -285,7 +285,7 @@ Action add_replay(CLI::App& command)
   command.add_option("ORIGINAL", request->original, "Mesh that was reduced.")->required()->type_name("");
   command.add_option("LOG", request->log, "Log of the collapses that reduced it.")->required()->type_name("");
   add_poses_option(
-      command, "--pose,--poses", request->poses,
+      command, "--pose", request->poses,
       "The further poses of the log, in its order, in each of which every step is judged, too: a "
       "mesh file, or a pattern in quotes. May be given several times.");
   command.add_option("-o,--output", request->output, "File for the mesh to which the steps lead.")

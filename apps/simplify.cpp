@@ -92,6 +92,31 @@ private:
                          [](const Pose& pose) { return has_float32_points(pose.points); }));
   }
 
+  // Their names are known only now.
+  void check_pose_outputs(const std::vector<Pose>& poses) const
+  {
+    if (m_request.poses_output.empty())
+      return;
+    std::vector<Named_file> written;
+    const std::vector<std::string> meshes = outputs(m_request);
+    for (std::size_t level = 1; level <= meshes.size(); ++level) {
+      written.push_back({"--output", meshes[level - 1]});
+      for (const Pose& pose : poses) {
+        written.push_back({"--poses-out", pose_output(m_request, level, pose.name)});
+        if (is_point_cache(m_request.poses_output))
+          break;
+      }
+    }
+    for (const auto& [option, name] :
+         {std::make_pair("--report", m_request.report), std::make_pair("--log", m_request.log),
+          std::make_pair("--html", m_request.html)})
+      written.push_back({option, name});
+    require_distinct(written, {{"--obstacle", m_request.obstacle}});
+    for (const Named_file& file : written)
+      if (!file.path.empty())
+        require_writable(file.path);
+  }
+
   Prepared_soup read_and_prepare()
   {
     m_bar.begin("reading");
@@ -101,6 +126,7 @@ private:
     m_seconds["read"] = seconds_since(start);
     m_report["input"] = input_json(m_request.input, file);
     read_poses(m_request.poses, m_request.input, file.soup);
+    check_pose_outputs(file.soup.poses);
     if (m_request.are_polygons_split)
       file.soup.polygons.clear();
     m_polygons = file.soup.polygons.size();

@@ -288,10 +288,10 @@ Action add_verify(CLI::App& command)
       ->type_name("");
   command.add_option("--against", request->original, "Original mesh, of which MESH is a reduction.")
       ->type_name("FILE");
-  add_poses_option(command, "--pose,--poses", request->poses,
+  add_poses_option(command, "--pose", request->poses,
                    "Further poses of MESH, each judged like it: a mesh file, or a pattern in quotes. May be "
                    "given several times.");
-  add_poses_option(command, "--against-pose,--against-poses", request->poses_of_original,
+  add_poses_option(command, "--against-pose", request->poses_of_original,
                    "The same poses of the original, in the same order.");
   command
       .add_option(

@@ -74,8 +74,8 @@ const std::vector<Scene_description>& scenes();
 Triangle_soup generate(std::string_view name, const Generate_options& options = {});
 
 /// Returns poses of a mesh that moves, `count` of them, from slight to strong: it is twisted around the z
-/// axis, to one side and the other in turn, by up to 62°, sways, and breathes. They are named "1", "2" and so
-/// on.
+/// axis, to one side and the other in turn, by up to 62° over a height as large as its largest side, sways,
+/// and breathes. They are named "1", "2" and so on.
 ///
 /// Each pose is a one-to-one smooth map of space. It keeps surfaces apart; faces, whose corners alone it
 /// moves, are flat again afterwards, so that coarse meshes may come to touch: `verify` tells. The same bytes

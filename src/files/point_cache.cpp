@@ -102,14 +102,13 @@ private:
              " vertices; export both from one mesh, without changing it in between");
   }
 
-  // Both factors are below 2^31, and so the product of both with a few bytes is below 2^64.
   void require_rest(std::size_t frames, std::size_t bytes_more) const
   {
-    const std::size_t bytes = frames * (bytes_more + 3 * s_number * m_mesh.points.size());
-    if (m_bytes.remaining() != bytes)
-      refuse("has " + std::to_string(m_bytes.remaining()) + " bytes after its header, and " +
-             std::to_string(frames) + " frames take " + std::to_string(bytes) +
-             "; it is truncated or damaged, export it again");
+    const std::size_t bytes = bytes_more + 3 * s_number * m_mesh.points.size(); // of a frame
+    if (m_bytes.remaining() % bytes != 0 || m_bytes.remaining() / bytes != frames)
+      refuse("has " + std::to_string(m_bytes.remaining()) + " bytes after its header, and is to have " +
+             std::to_string(frames) + " frames of " + std::to_string(bytes) +
+             " bytes; it is truncated or damaged, export it again");
   }
 
   std::vector<Pose> poses(const std::vector<float>& times)

@@ -14,12 +14,10 @@ namespace selvedge {
 std::vector<Pose> moving_poses(const Triangle_soup& soup, std::size_t count)
 {
   std::vector<Pose> poses;
-  double low = 0, high = 0;
-  for (const Point_3& p : soup.points) {
-    low = std::min(low, p.z());
-    high = std::max(high, p.z());
-  }
-  const double height = high > low ? high - low : 1;
+  CGAL::Bbox_3 box;
+  for (const Point_3& p : soup.points)
+    box += p.bbox();
+  const double low = box.zmin(), height = std::max({box.x_span(), box.y_span(), box.z_span()});
   for (std::size_t i = 1; i <= count; ++i) {
     const double share = double(i) / double(count), side = i % 2 == 0 ? -1 : 1;
     const auto moved = [&](const Point_3& p) {

@@ -321,7 +321,7 @@ TEST(Bindings, HaveTheOptionsAndDefaultsOfTheProgram)
                 .code,
             0);
   nlohmann::json expected = nlohmann::json::parse(contents_of(report))["options"];
-  for (const char* name : {"lods", "obstacle", "obstacle_poses", "polygons", "poses", "poses_out", "strict"})
+  for (const char* name : {"lods", "obstacle", "obstacle_pose", "polygons", "pose", "poses_out", "strict"})
     EXPECT_EQ(expected.erase(name), 1u);
   bindings::Reduction_request request;
   request.set("ratio", "0.5");

@@ -78,10 +78,10 @@ TEST(Pose_files, CutPolygonsAsTheMeshDoes)
   const char* const faces = "f 1 2 3 4\nf 4 3 5\n";
   write_file(folder / "flat.obj", std::string("v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 1 4 0\n") + faces);
   // Here the quadrangle is not convex, and is cut along its other diagonal.
-  write_file(folder / "dent.obj", std::string("v 1.9 0.2 0\nv 2 0 0\nv 2 2 0\nv 0 -2 0\nv 1 4 0\n") + faces);
+  write_file(folder / "dent.obj", std::string("v 0 0 0\nv 0.5 1.5 0\nv 2 2 0\nv 0 2 0\nv 1 4 0\n") + faces);
   const Triangle_soup mesh = read_mesh(folder / "flat.obj").soup;
   ASSERT_NE(read_mesh(folder / "dent.obj").soup.triangles, mesh.triangles);
-  EXPECT_EQ(read_pose(folder / "dent.obj", mesh).points[0], Point_3(1.9, 0.2, 0));
+  EXPECT_EQ(read_pose(folder / "dent.obj", mesh).points[1], Point_3(0.5, 1.5, 0));
 }
 
 TEST(Pose_files, AreFoundByPatternsInNaturalOrder)
