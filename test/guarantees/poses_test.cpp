@@ -282,7 +282,7 @@ TEST(Poses, RoundingIsJudgedInEach)
 TEST(Poses, OfGeneratedGarmentsAreEmbedded)
 {
   Generate_options options;
-  options.faces = 6000;
+  options.faces = 20000;
   Triangle_soup soup = generate("jacket", options);
   soup.poses = moving_poses(soup, 3);
   ASSERT_EQ(soup.poses.size(), 3u);
