@@ -78,6 +78,7 @@ struct Pose
 {
   std::string name;            ///< for messages and for the names of files, such as "frame_0012"
   std::vector<Point_3> points; ///< one per vertex of the mesh
+  float time = 0;              ///< in a point cache: when it is, in seconds or frames
 };
 
 /// What a glTF file holds beyond its triangles. Opaque.
