@@ -221,6 +221,7 @@ TEST(Gltf_poses, BlendJointsByTheirWeights)
     auto& attributes = other.json["meshes"][0]["primitives"][0]["attributes"];
     attributes["JOINTS_0"] = other.rows(joints, "VEC4");
     attributes["WEIGHTS_0"] = other.rows(weights, "VEC4", true);
+    other.animate("bend", 1, "rotation", "LINEAR", {0}, {0.3f, 0.2f, 0.1f, 0.9f});
     other.animate("bend", 2, "rotation", "LINEAR", {0}, {0.5f, 0.1f, 0.7f, 0.3f});
     return other.poses()[0].points;
   };
