@@ -61,7 +61,8 @@ namespace selvedge {
 /// An instance of EXT_mesh_gpu_instancing stands where a child of its node would, with its row of
 /// TRANSLATION, ROTATION (normalised integers are fractions, in doubles) and SCALE. A skinned mesh is taken
 /// in its bind pose, with the identity for G, because its node does not move it, as the format says. Morph
-/// targets and animations are carried along, but nothing is guaranteed for the shapes that they make.
+/// targets and animations are carried along; nothing is guaranteed for the shapes that they make, unless they
+/// are given as poses (gltf_poses.h).
 /// Triangles of nodes that mirror are turned over, so that outside is outside.
 ///
 /// When a scene is written to glTF again, every vertex that is not at a new place keeps its rows of all

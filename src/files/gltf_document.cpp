@@ -221,45 +221,6 @@ void check_lists(const Gltf_document& document)
   }
 }
 
-/// Returns the transform of a node. The rotation is not normalised, so that every entry is one fixed formula
-/// of the numbers in the file.
-Matrix local_matrix(const tinygltf::Node& node)
-{
-  Matrix result = identity_matrix;
-  if (!node.matrix.empty()) {
-    for (std::size_t row = 0; row < 3; ++row)
-      for (std::size_t column = 0; column < 4; ++column)
-        result[row][column] = node.matrix[4 * column + row];
-    return result;
-  }
-  if (!node.rotation.empty()) {
-    const double x = node.rotation[0], y = node.rotation[1], z = node.rotation[2], w = node.rotation[3];
-    result = {{{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w), 0},
-               {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w), 0},
-               {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y), 0}}};
-  }
-  for (std::size_t row = 0; row < 3; ++row) {
-    for (std::size_t column = 0; column < 3 && !node.scale.empty(); ++column)
-      result[row][column] *= node.scale[column];
-    if (!node.translation.empty())
-      result[row][3] = node.translation[row];
-  }
-  return result;
-}
-
-/// Multiplies two transforms in the order of operations that mesh_files.h states.
-Matrix product(const Matrix& a, const Matrix& b)
-{
-  Matrix result;
-  for (std::size_t row = 0; row < 3; ++row)
-    for (std::size_t column = 0; column < 4; ++column) {
-      result[row][column] = a[row][0] * b[0][column] + a[row][1] * b[1][column] + a[row][2] * b[2][column];
-      if (column == 3)
-        result[row][column] += a[row][3];
-    }
-  return result;
-}
-
 /// Computes the global transforms of the nodes of the scene, which must be a forest.
 void place_nodes(Gltf_document& document)
 {
@@ -283,20 +244,22 @@ void place_nodes(Gltf_document& document)
                     std::to_string(model.scenes.size()) + "; correct it");
     stack = model.scenes[scene].nodes;
   }
-  const auto enter = [&](int n, const Matrix& parent) {
+  const auto enter = [&](int n, std::optional<Index> parent) {
     if (n < 0 || std::size_t(n) >= size)
       document.fail("its scene names node " + std::to_string(n) + ", which is not there; correct it");
     if (document.to_world[n])
       document.fail("node " + std::to_string(n) + " stands in the scene twice; give each node one parent");
-    document.to_world[n] = product(parent, local_matrix(model.nodes[n]));
+    document.to_world[n] =
+        product(parent ? *document.to_world[*parent] : identity_matrix, local_matrix(model.nodes[n]));
+    document.placed_nodes.push_back({Index(n), parent});
   };
   for (const int root : stack)
-    enter(root, identity_matrix);
+    enter(root, std::nullopt);
   while (!stack.empty()) {
     const int n = stack.back();
     stack.pop_back();
     for (const int child : model.nodes[n].children) {
-      enter(child, *document.to_world[n]);
+      enter(child, Index(n));
       stack.push_back(child);
     }
   }
@@ -356,12 +319,49 @@ void place_instances(Gltf_document& document)
       node.scale = json.value("scale", std::vector<double>());
       if (const Json& weights = member(document.json["nodes"][n], "weights"); !weights.empty())
         json["weights"] = weights;
-      document.instances[n].push_back({std::move(json), product(*document.to_world[n], local_matrix(node))});
+      const Matrix in_node = local_matrix(node);
+      document.instances[n].push_back({std::move(json), in_node, product(*document.to_world[n], in_node)});
     }
   }
 }
 
 } // namespace
+
+Matrix local_matrix(const tinygltf::Node& node)
+{
+  Matrix result = identity_matrix;
+  if (!node.matrix.empty()) {
+    for (std::size_t row = 0; row < 3; ++row)
+      for (std::size_t column = 0; column < 4; ++column)
+        result[row][column] = node.matrix[4 * column + row];
+    return result;
+  }
+  if (!node.rotation.empty()) {
+    const double x = node.rotation[0], y = node.rotation[1], z = node.rotation[2], w = node.rotation[3];
+    result = {{{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w), 0},
+               {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w), 0},
+               {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y), 0}}};
+  }
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3 && !node.scale.empty(); ++column)
+      result[row][column] *= node.scale[column];
+    if (!node.translation.empty())
+      result[row][3] = node.translation[row];
+  }
+  return result;
+}
+
+Matrix product(const Matrix& a, const Matrix& b)
+{
+  Matrix result;
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t column = 0; column < 4; ++column) {
+      result[row][column] = a[row][0] * b[0][column] + a[row][1] * b[1][column] + a[row][2] * b[2][column];
+      if (column == 3)
+        result[row][column] += a[row][3];
+    }
+  return result;
+}
 
 const Json& instance_attributes(const Json& node)
 {

@@ -26,13 +26,14 @@ struct Gltf_document
   Gltf_scene::Json json;
   tinygltf::Model model;
   std::vector<std::optional<Gltf_scene::Matrix>> to_world; ///< of every node that is in the scene
+  std::vector<Gltf_scene::Placed_node> placed_nodes;       ///< the nodes of the scene, parents first
 
   /// A node that does what one row of EXT_mesh_gpu_instancing does, as a child of the node with the
   /// extension.
   struct Instance
   {
     Gltf_scene::Json node;
-    Gltf_scene::Matrix to_world;
+    Gltf_scene::Matrix in_node, to_world;
   };
   std::map<std::size_t, std::vector<Instance>> instances; ///< of nodes that are in the scene
   std::map<std::string, std::size_t> remarks;             ///< for `Read_notes`
@@ -48,6 +49,13 @@ Gltf_document read_gltf_document(std::string_view contents, Mesh_format format, 
 
 /// Returns a list in an object; an empty one when it is not there.
 const Gltf_scene::Json& member(const Gltf_scene::Json& object, const char* name);
+
+/// Returns the transform of a node. The rotation is not normalised, so that every entry is one fixed formula
+/// of the numbers in the file.
+Gltf_scene::Matrix local_matrix(const tinygltf::Node& node);
+
+/// Multiplies two transforms in the order of operations that mesh_files.h states.
+Gltf_scene::Matrix product(const Gltf_scene::Matrix& a, const Gltf_scene::Matrix& b);
 
 inline constexpr const char* instancing_extension = "EXT_mesh_gpu_instancing";
 

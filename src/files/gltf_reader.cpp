@@ -56,6 +56,7 @@ public:
     if (soup().triangles.empty())
       fail(what_there_is() + "; export the mesh as triangles");
     m_scene->document = std::move(json());
+    m_scene->placed_nodes = std::move(m_document.placed_nodes);
     soup().scene = m_scene;
     return std::move(m_file);
   }
@@ -92,7 +93,7 @@ private:
   struct Place
   {
     std::size_t node;
-    Matrix to_world;
+    Matrix in_node, to_world;
     Json* json; // says which mesh it is
   };
 
@@ -109,7 +110,7 @@ private:
       Json& node = json()["nodes"][n];
       const auto found = m_document.instances.find(n);
       if (found == m_document.instances.end()) {
-        result.push_back({n, *m_document.to_world[n], &node});
+        result.push_back({n, identity_matrix, *m_document.to_world[n], &node});
         continue;
       }
       rows += double(found->second.size()) * rows_of(model().meshes[model().nodes[n].mesh]);
@@ -124,7 +125,7 @@ private:
         instances.back()["mesh"] = node["mesh"];
       }
       for (std::size_t i = 0; i < instances.size(); ++i)
-        result.push_back({n, found->second[i].to_world, &instances[i]});
+        result.push_back({n, found->second[i].in_node, found->second[i].to_world, &instances[i]});
       remark("instances of EXT_mesh_gpu_instancing", instances.size());
     }
     return result;
@@ -225,7 +226,8 @@ private:
           block_of(mesh, primitive, "mesh " + std::to_string(mesh) + ", primitive " + std::to_string(p));
       const auto [it, is_new] = instance_of_block.emplace(block, Index(m_scene->instances.size()));
       if (is_new)
-        m_scene->instances.push_back({block, 0, to_world, is_mirroring(to_world)});
+        m_scene->instances.push_back(
+            {block, 0, to_world, is_mirroring(to_world), Index(place.node), place.in_node});
       m_scene->parts.push_back({own, mesh, p, it->second, 0, Json::object()});
       m_sources.push_back(&primitive);
       if (!primitive.targets.empty())

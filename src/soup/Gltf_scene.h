@@ -26,6 +26,8 @@ struct Gltf_scene
   using Json = nlohmann::ordered_json;
   using Matrix = std::array<std::array<double, 4>, 3>; ///< its fourth row is 0 0 0 1
 
+  static constexpr Matrix identity_matrix = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+
   /// The rows of an accessor, without gaps and with its sparse values in place.
   struct Column
   {
@@ -55,6 +57,8 @@ struct Gltf_scene
     Index first = 0;
     Matrix to_world = {};
     bool is_mirrored = false; ///< `to_world` turns the triangles over
+    Index node = 0;
+    Matrix in_node = identity_matrix; ///< that of an instance of EXT_mesh_gpu_instancing
   };
 
   /// A primitive in a node: a group of the soup. No two nodes share a mesh; those that do in the file have
@@ -77,6 +81,13 @@ struct Gltf_scene
     std::vector<Json> instances;
   };
 
+  /// A node of the scene.
+  struct Placed_node
+  {
+    Index node = 0;
+    std::optional<Index> parent; ///< none at a root
+  };
+
   /// Returns the number of the instance that a vertex of the scene belongs to.
   std::size_t instance_of(Index scene_vertex) const;
 
@@ -88,6 +99,7 @@ struct Gltf_scene
   std::vector<Instance> instances;
   std::vector<Part> parts; ///< those of one mesh follow each other
   std::vector<Instanced_node> instanced_nodes;
+  std::vector<Placed_node> placed_nodes; ///< parents before their children
   std::vector<std::string> only_in_gltf; ///< names of what no other format holds
 };
 
@@ -100,7 +112,7 @@ enum Component_type {
   type_float32
 };
 
-constexpr Gltf_scene::Matrix identity_matrix = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+constexpr Gltf_scene::Matrix identity_matrix = Gltf_scene::identity_matrix;
 
 /// Returns the number of bytes of a component; zero for types that glTF does not know.
 std::size_t component_size(int component_type);

@@ -23,7 +23,7 @@ LEVELS = [
                "include/selvedge/Sewing_notes.h", "include/selvedge/Snapping_notes.h", "include/selvedge/internal/Scale.h",
                "src/soup/"]),
     ("welding", ["src/weld/"]),
-    ("files", ["include/selvedge/mesh_files.h", "include/selvedge/poses.h", "include/selvedge/references.h", "src/files/", "include/selvedge/generate.h", "src/generate/"]),
+    ("files", ["include/selvedge/gltf_poses.h", "include/selvedge/mesh_files.h", "include/selvedge/poses.h", "include/selvedge/references.h", "src/files/", "include/selvedge/generate.h", "src/generate/"]),
     ("judge", ["include/selvedge/verify.h", "include/selvedge/compare.h", "src/verify/"]),
     ("logs", ["include/selvedge/Reduction_limits.h", "include/selvedge/collapse_log.h", "include/selvedge/Sha256.h", "src/log/"]),
     ("replay", ["include/selvedge/replay.h", "src/replay/"]),

@@ -491,6 +491,18 @@ group(
      "places that a snap has changed are one"),
 )
 group(
+    "src/files/gltf_poses.cpp",
+    ("gltf_poses_test",),
+    ("side = cosine < 0 ? -1 : 1", "side = 1", "rotations take the longer way"),
+    ("channel.part(key + 1, 0)", "channel.part(key + 1, 2)", "a spline ends with the tangent of its next part"),
+    ("return std::make_pair(skin.joints[a.joint], a.weight) <", "return &a != &a && std::make_pair(skin.joints[a.joint], a.weight) <",
+     "joints are summed in the order of the file"),
+    ("if (is_bind_pose || m_influences[i].empty())", "if (true)", "skins move nothing"),
+    ("files::product(world[skin.joints[j]], skin.inverse_bind[j])", "world[skin.joints[j]]", "no inverse bind matrix"),
+    ("world[instance.node], instance.in_node)", "world[instance.node], identity_matrix)", "instances fall together"),
+    ("if (key++ % every == 0)", "if (++key % every == 0)", "the first keyframe is left out"),
+)
+group(
     "src/files/gltf_writer.cpp",
     ("gltf_test:Gltf.*", "instances_test"),
     ("        all += contents[i];", "", "copies are alike whatever they have become"),

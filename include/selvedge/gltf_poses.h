@@ -1,0 +1,69 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_GLTF_POSES_H
+#define SELVEDGE_GLTF_POSES_H
+
+#include <selvedge/Triangle_soup.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace selvedge {
+
+/// \file
+/// Poses that a glTF file makes of its own meshes, by morph targets and by animations.
+///
+/// Everything is computed in doubles from the numbers of the file, in the space of the scene, as the
+/// positions of the mesh are (mesh_files.h, **Scenes**), and is not rounded further. Vertices with the same
+/// position, the same displacements, the same transform of their node, and the same joints with the same
+/// weights (in any order, of any skin with the same inverse bind matrices) have the same positions in every
+/// pose, bit for bit.
+///
+/// **Preconditions** The mesh was read from glTF; its vertices may have been selected since. `name` stands
+/// for the file in messages.
+///
+/// **Not promised** What a GPU shows: it computes in 32-bit floats, and may round every operation otherwise.
+///
+/// Both functions throw `Input_error` when the mesh was not read from glTF, the file has none of what is
+/// asked for, what it says is not valid, a coordinate is not finite, or the poses would have more than 2^28
+/// vertices in all.
+
+/// Returns a pose for each name of a morph target: every target of this name has weight 1, on all meshes that
+/// have it, and all others have weight 0. Skinned meshes stay in their bind pose, and nodes where they are.
+/// The pose is named after the targets (`extras.targetNames` of the mesh), or `target_2` for the third target
+/// of a mesh without such names.
+///
+/// **Complexity** O(n) for each pose, n being the number of vertices and their displacements.
+std::vector<Pose> morph_poses(const Triangle_soup& mesh, const std::string& name);
+
+/// Returns a pose for the keyframes of an animation: the first, and every `every`-th after it, of all times
+/// at which any of its channels has one. `animation` is the name of an animation, `animation_2` for the third
+/// if that has no name, or `all` for each of them, one after another. Pose `walk_7` is the seventh keyframe
+/// of `walk`, whether others are left out or not; `Pose::time` is its time in seconds.
+///
+/// As glTF 2.0 has it (3.7.3, 3.11, appendix C):
+/// - Channels are evaluated between their own keyframes: STEP, LINEAR (spherical for rotations, the shorter
+///   way), CUBICSPLINE (rotations are normalised afterwards); before the first and after the last they stay.
+///   At a channel's own keyframe, its value is that of the file. What no channel moves is as the file has it.
+/// - Nodes: global transforms are products as in mesh_files.h.
+/// - Morph targets: a position is that of the file, plus each displacement times its weight. Weights come
+///   from the animation, else from the node, else from the mesh.
+/// - Skins, after morph targets: the position is transformed by the sum of weight × global transform of the
+///   joint × its inverse bind matrix, in the order of the joints' nodes. All sets of joints and weights
+///   count. Weights are as stored, whatever their sum; integers are fractions. The node of the mesh itself
+///   does not count.
+///
+/// Channels of other extensions are left out. Sine and arc cosine are those of the C library: between
+/// keyframes of rotations, the last bits may differ from one system to another.
+///
+/// Throws `Argument_error` when `every` is 0.
+///
+/// **Complexity** O(n + m + log k) for each pose, with m nodes of the scene and k keyframes.
+std::vector<Pose> animation_poses(const Triangle_soup& mesh, const std::string& animation, std::size_t every,
+                                  const std::string& name);
+
+} // namespace selvedge
+
+#endif // SELVEDGE_GLTF_POSES_H
