@@ -80,12 +80,13 @@ void read_ratios(Simplify_request& request)
 void check_poses(const Simplify_request& request)
 {
   const auto refuse_with = [](const char* option, const char* why) {
-    throw Argument_error(std::string("--pose: ") + why + "; leave out " + option + " or --pose");
+    throw Argument_error(std::string(option) + ": " + why +
+                         "; leave it out, or the further poses (--pose, --morphs, --animation)");
   };
   if (request.poses.empty()) {
     if (!request.obstacle_poses.empty() || !request.poses_output.empty())
       throw Argument_error(std::string(request.poses_output.empty() ? "--obstacle-pose" : "--poses-out") +
-                           ": the mesh has no further poses; give them by --pose");
+                           ": the mesh has no further poses; give them by --pose, --morphs or --animation");
     return;
   }
   if (request.is_in_cells)
@@ -177,7 +178,7 @@ std::string pose_output(const Simplify_request& request, std::size_t level, cons
   std::string name = request.poses_output;
   for (const auto& [mark, text] :
        {std::make_pair(level_mark, std::to_string(level)), std::make_pair(pose_mark, pose)})
-    if (const std::size_t place = name.find(mark); place != std::string::npos)
+    for (std::size_t place = 0; (place = name.find(mark, place)) != std::string::npos; place += text.size())
       name.replace(place, mark.size(), text);
   return name;
 }
@@ -220,8 +221,11 @@ Json options_json(const Simplify_request& request)
           {"may_intersect", request.may_intersect},
           {"weights", request.intent.weights.empty() ? Json(nullptr) : Json(request.intent.weights)},
           {"obstacle", request.obstacle.empty() ? Json(nullptr) : Json(request.obstacle)},
-          {"pose", request.poses},
-          {"obstacle_pose", request.obstacle_poses},
+          {"pose", request.poses.files},
+          {"morphs", request.poses.are_morphs},
+          {"animation", request.poses.animation.empty() ? Json(nullptr) : Json(request.poses.animation)},
+          {"every", request.poses.every},
+          {"obstacle_pose", request.obstacle_poses.files},
           {"poses_out", request.poses_output.empty() ? Json(nullptr) : Json(request.poses_output)},
           {"weld", request.weld == "auto" ? Json(request.weld) : Json(request.weld_distance)},
           {"sewn", request.is_sewn},
@@ -350,21 +354,22 @@ void add_options(CLI::App& command, Simplify_request& request)
 
   const char* const poses =
       "Poses (the same vertices and faces at other places, such as frames of an animation)";
-  add_poses_option(
-      command, "--pose", request.poses,
+  add_pose_options(
+      command, request.poses, "IN",
       "Further poses of IN: a mesh file, a pattern in quotes for several, in natural order, or a "
       "point cache (.mdd, .pc2). "
       "Everything that holds in IN holds in each of them: no layers touch or pass through each "
-      "other, limits are kept, and the cost is the mean of all. May be given several times.")
-      ->group(poses);
-  add_poses_option(command, "--obstacle-pose", request.obstacle_poses,
+      "other, limits are kept, and the cost is the mean of all. May be given several times.",
+      poses);
+  add_poses_option(command, "--obstacle-pose", request.obstacle_poses.files,
                    "Poses of the obstacle, as many as of IN and in the same order. Without them it stands "
                    "still.")
       ->group(poses);
   command
       .add_option("--poses-out", request.poses_output,
                   "Files for the poses of the result: {pose} stands for the name of each, the name of its "
-                  "file without ending. Or one point cache.")
+                  "file without ending, of its morph target, or of its animation with the number of the "
+                  "keyframe. Or one point cache.")
       ->type_name("PATTERN")
       ->group(poses);
 

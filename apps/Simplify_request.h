@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_APPS_SIMPLIFY_REQUEST_H
 #define SELVEDGE_APPS_SIMPLIFY_REQUEST_H
 
+#include "poses_option.h"
 #include "report_json.h"
 
 #include <selvedge/simplify.h>
@@ -30,9 +31,9 @@ struct Simplify_request
   std::string error;               // "E", "none", or empty for the default
   std::vector<double> lods;
   std::string obstacle;
-  std::vector<std::string> poses, obstacle_poses; // files, or patterns of such
-  std::string poses_output;                       // with {pose}
-  std::vector<std::string> may_intersect;         // "PART:PART"
+  Pose_sources poses, obstacle_poses;
+  std::string poses_output;               // with {pose}
+  std::vector<std::string> may_intersect; // "PART:PART"
   Simplify_options options;
   Simplify_intent intent;
   bool is_unguarded = false;

@@ -3,9 +3,13 @@
 
 #include "poses_option.h"
 
+#include "subcommands.h"
+
+#include <selvedge/gltf_poses.h>
 #include <selvedge/poses.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <utility>
 
@@ -20,14 +24,46 @@ CLI::Option* add_poses_option(CLI::App& command, const std::string& option, std:
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
-void read_poses(const std::vector<std::string>& names, const std::string& mesh_file, Triangle_soup& mesh)
+void add_pose_options(CLI::App& command, Pose_sources& sources, const std::string& mesh,
+                      const std::string& description, const std::string& group)
 {
-  for (const std::string& name : names)
-    for (const std::filesystem::path& file : files_named(name, mesh_file)) {
-      std::vector<Pose> poses =
-          is_point_cache(file) ? read_point_cache(file, mesh) : std::vector<Pose>{read_pose(file, mesh)};
-      std::move(poses.begin(), poses.end(), std::back_inserter(mesh.poses));
-    }
+  add_poses_option(command, "--pose", sources.files, description)->group(group);
+  command
+      .add_flag("--morphs", sources.are_morphs,
+                "Each morph target of " + mesh +
+                    " (glTF), at weight 1 on all meshes that have it, is a further pose.")
+      ->group(group);
+  CLI::Option* const animation =
+      command
+          .add_option("--animation", sources.animation,
+                      "The keyframes of this animation of " + mesh +
+                          " (glTF), or of all of them, are further poses: skins, morph targets and moving "
+                          "nodes are evaluated in double precision.")
+          ->type_name("NAME|all")
+          ->check(CLI::Validator([](const std::string& name) { return name.empty() ? "no name" : ""; }, ""))
+          ->group(group);
+  command
+      .add_option("--every", sources.every,
+                  "Of the keyframes of --animation, take the first and each N-th after it.")
+      ->type_name("N")
+      ->check(in_range(1))
+      ->needs(animation)
+      ->capture_default_str()
+      ->group(group);
+}
+
+void read_poses(const Pose_sources& sources, const std::string& mesh_file, Triangle_soup& mesh)
+{
+  const auto append = [&](std::vector<Pose> poses) {
+    std::move(poses.begin(), poses.end(), std::back_inserter(mesh.poses));
+  };
+  for (const std::string& name : sources.files)
+    for (const std::filesystem::path& file : files_named(name, mesh_file))
+      append(is_point_cache(file) ? read_point_cache(file, mesh) : std::vector<Pose>{read_pose(file, mesh)});
+  if (sources.are_morphs)
+    append(morph_poses(mesh, mesh_file));
+  if (!sources.animation.empty())
+    append(animation_poses(mesh, sources.animation, sources.every, mesh_file));
 }
 
 } // namespace selvedge::app

@@ -8,18 +8,34 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 namespace selvedge::app {
 
-/// Declares an option that names further poses of a mesh, by files (meshes and point caches) and patterns of
-/// such.
+/// Where the further poses of a mesh come from. They are taken in the order of the members.
+struct Pose_sources
+{
+  std::vector<std::string> files; ///< meshes and point caches, and patterns of such
+  bool are_morphs = false;        ///< whether each morph target of the glTF file is one
+  std::string animation;          ///< name of an animation of the glTF file, or "all"
+  std::size_t every = 1;          ///< one in so many keyframes of it
+
+  bool empty() const { return files.empty() && !are_morphs && animation.empty(); }
+};
+
+/// Declares an option that names further poses of a mesh by files.
 CLI::Option* add_poses_option(CLI::App& command, const std::string& option, std::vector<std::string>& names,
                               const std::string& description);
 
-/// Reads the poses that the option names into a mesh that was read from a file.
-void read_poses(const std::vector<std::string>& names, const std::string& mesh_file, Triangle_soup& mesh);
+/// Declares --pose, with this description, and --morphs, --animation and --every, in a group of the help.
+/// `mesh` says in the help which file they are of.
+void add_pose_options(CLI::App& command, Pose_sources& sources, const std::string& mesh,
+                      const std::string& description, const std::string& group);
+
+/// Reads the further poses of a mesh that was read from a file.
+void read_poses(const Pose_sources& sources, const std::string& mesh_file, Triangle_soup& mesh);
 
 } // namespace selvedge::app
 

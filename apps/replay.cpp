@@ -37,7 +37,7 @@ struct Replay_request
 {
   std::string original;
   std::string log;
-  std::vector<std::string> poses;
+  Pose_sources poses;
   std::string output;
   std::string scene;
   std::string limits;
@@ -284,10 +284,11 @@ Action add_replay(CLI::App& command)
   const auto request = std::make_shared<Replay_request>();
   command.add_option("ORIGINAL", request->original, "Mesh that was reduced.")->required()->type_name("");
   command.add_option("LOG", request->log, "Log of the collapses that reduced it.")->required()->type_name("");
-  add_poses_option(
-      command, "--pose", request->poses,
+  add_pose_options(
+      command, request->poses, "ORIGINAL",
       "The further poses of the log, in its order, in each of which every step is judged, too: a "
-      "mesh file, or a pattern in quotes. May be given several times.");
+      "mesh file, or a pattern in quotes. May be given several times.",
+      "Poses (those of the log, in its order)");
   command.add_option("-o,--output", request->output, "File for the mesh to which the steps lead.")
       ->type_name("FILE");
   CLI::Option* const limits =

@@ -33,7 +33,8 @@ struct Verify_request
 {
   std::string mesh;
   std::string original;
-  std::vector<std::string> poses, poses_of_original;
+  Pose_sources poses;
+  std::vector<std::string> files_of_poses_of_original;
   std::string report;
   std::string html;
   std::optional<Mesh_format> format;
@@ -249,7 +250,9 @@ Exit_code run(const Verify_request& request)
   options.may_intersect = part_pairs(request.may_intersect, mesh.soup);
   if (has_original) {
     original = Mesh_input(request.original, request.format).read();
-    read_poses(request.poses_of_original, request.original, original.soup);
+    Pose_sources of_original = request.poses;
+    of_original.files = request.files_of_poses_of_original;
+    read_poses(of_original, request.original, original.soup);
     report["original"] = input_json(request.original, original);
     options.weld_distance = request.weld_distance;
     verification = verify(mesh.soup, original.soup, options);
@@ -288,11 +291,14 @@ Action add_verify(CLI::App& command)
       ->type_name("");
   command.add_option("--against", request->original, "Original mesh, of which MESH is a reduction.")
       ->type_name("FILE");
-  add_poses_option(command, "--pose", request->poses,
+  const char* const poses = "Poses (the same vertices and faces at other places)";
+  add_pose_options(command, request->poses, "MESH, and of its original",
                    "Further poses of MESH, each judged like it: a mesh file, or a pattern in quotes. May be "
-                   "given several times.");
-  add_poses_option(command, "--against-pose", request->poses_of_original,
-                   "The same poses of the original, in the same order.");
+                   "given several times.",
+                   poses);
+  add_poses_option(command, "--against-pose", request->files_of_poses_of_original,
+                   "The same poses of the original, in the same order.")
+      ->group(poses);
   command
       .add_option(
           "--weld", request->weld_distance,

@@ -1,0 +1,155 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Further poses, from files and from glTF, as a user gives them to the app.
+
+#include "App_run.h"
+
+#include <selvedge/internal/base64.h>
+#include <selvedge/mesh_files.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace selvedge::test {
+namespace {
+
+/// Two sheets, slightly curved, one above the other, which a morph target named "up/waves" lets wave together, and an
+/// animation that brings it in within a second. As glTF, and as two OBJ files.
+class Waving_sheets : public ::testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    constexpr std::uint32_t n = 20;
+    std::vector<float> flat, rise;
+    std::vector<std::uint32_t> faces;
+    std::string obj, waving_obj, obj_faces;
+    for (std::uint32_t sheet = 0; sheet < 2; ++sheet)
+      for (std::uint32_t i = 0; i <= n; ++i)
+        for (std::uint32_t j = 0; j <= n; ++j) {
+          const float z = float(sheet) / 64 + float(i * i) / 64,
+                      wave = std::floor(8 * std::sin(0.9f * float(i)) * std::cos(0.7f * float(j)));
+          flat.insert(flat.end(), {float(i), float(j), z});
+          rise.insert(rise.end(), {0, 0, wave / 8});
+          const std::string row = "v " + std::to_string(i) + ' ' + std::to_string(j) + ' ';
+          obj += row + std::to_string(z) + '\n';
+          waving_obj += row + std::to_string(z + wave / 8) + '\n';
+          const std::uint32_t corner = sheet * (n + 1) * (n + 1) + i * (n + 1) + j;
+          if (i < n && j < n)
+            for (const auto& [a, b] :
+                 {std::pair(corner + n + 1, corner + n + 2), std::pair(corner + n + 2, corner + 1)}) {
+              faces.insert(faces.end(), {corner, a, b});
+              obj_faces += "f " + std::to_string(corner + 1) + ' ' + std::to_string(a + 1) + ' ' +
+                           std::to_string(b + 1) + '\n';
+            }
+        }
+    write_text(folder / "flat.obj", obj + obj_faces);
+    write_text(folder / "waving.obj", waving_obj + obj_faces);
+
+    std::string bytes;
+    nlohmann::json views, accessors;
+    const auto add = [&](const auto& numbers, int component, const char* type, std::size_t count) {
+      const std::size_t size = numbers.size() * 4;
+      views.push_back({{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", size}});
+      bytes.append(reinterpret_cast<const char*>(numbers.data()), size);
+      accessors.push_back(
+          {{"bufferView", accessors.size()}, {"componentType", component}, {"count", count}, {"type", type}});
+      return accessors.size() - 1;
+    };
+    const std::size_t points = add(flat, 5126, "VEC3", flat.size() / 3),
+                      target = add(rise, 5126, "VEC3", flat.size() / 3),
+                      corners = add(faces, 5125, "SCALAR", faces.size()),
+                      times = add(std::vector<float>{0, 1}, 5126, "SCALAR", 2),
+                      weights = add(std::vector<float>{0, 1}, 5126, "SCALAR", 2);
+    const nlohmann::json document = {
+        {"asset", {{"version", "2.0"}}},
+        {"buffers",
+         {{{"byteLength", bytes.size()},
+           {"uri", "data:application/octet-stream;base64," + internal::base64(bytes)}}}},
+        {"bufferViews", views},
+        {"accessors", accessors},
+        {"meshes",
+         {{{"primitives",
+            {{{"attributes", {{"POSITION", points}}},
+              {"indices", corners},
+              {"targets", {{{"POSITION", target}}}}}}},
+           {"extras", {{"targetNames", {"up/waves"}}}}}}},
+        {"nodes", {{{"mesh", 0}}}},
+        {"scenes", {{{"nodes", {0}}}}},
+        {"animations",
+         {{{"name", "wave"},
+           {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}},
+           {"samplers", {{{"input", times}, {"output", weights}}}}}}}};
+    write_text(gltf, document.dump());
+  }
+
+  /// Runs the app with its log, and expects that it is done.
+  void simplify(const std::string& mesh, const std::string& output, std::vector<std::string> poses)
+  {
+    poses.insert(poses.begin(), {"simplify", mesh, "-o", output, "--ratio", "0.2", "--quiet", "--log", log});
+    const App_result result = run_app(poses);
+    EXPECT_EQ(result.code, 0) << result.err;
+  }
+
+  Workspace folder;
+  const std::string gltf = folder / "sheets.gltf", log = folder / "steps.log";
+};
+
+TEST_F(Waving_sheets, PierceEachOtherInAPoseThatIsNotGiven)
+{
+  simplify(gltf, folder / "alone.glb", {});
+  EXPECT_EQ(run_app({"verify", folder / "alone.glb", "--against", gltf}).code, 0);
+  const App_result result = run_app({"verify", folder / "alone.glb", "--against", gltf, "--morphs"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_NE(result.out.find("pose 'up_waves': "), std::string::npos) << result.out;
+}
+
+TEST_F(Waving_sheets, AreLegalInMorphTargetsAndKeyframes)
+{
+  for (const std::vector<std::string>& poses : {std::vector<std::string>{"--morphs"},
+                                                {"--animation", "wave"},
+                                                {"--morphs", "--animation", "all", "--every", "2"}}) {
+    const std::string small = folder / "small.glb";
+    simplify(gltf, small, poses);
+    std::vector<std::string> verify{"verify", small, "--against", gltf}, replay{"replay", gltf, log};
+    verify.insert(verify.end(), poses.begin(), poses.end());
+    replay.insert(replay.end(), poses.begin(), poses.end());
+    EXPECT_EQ(run_app(verify).code, 0);
+    EXPECT_EQ(run_app(replay).code, 0);
+  }
+}
+
+TEST_F(Waving_sheets, ComeOutInEveryPose)
+{
+  simplify(folder / "flat.obj", folder / "of_files.obj",
+           {"--pose", folder / "waving.obj", "--poses-out", folder / "{pose}_of_{pose}.obj"});
+  simplify(gltf, folder / "of_gltf.obj", {"--morphs", "--poses-out", folder / "{pose}.obj"});
+  const auto points = [&](const char* name) { return read_mesh(folder / name).soup.points; };
+  EXPECT_EQ(points("of_files.obj"), points("of_gltf.obj"));
+  EXPECT_EQ(points("waving_of_waving.obj"), points("up_waves.obj")) << "a slash is no folder";
+  EXPECT_NE(points("up_waves.obj"), points("of_gltf.obj"));
+}
+
+TEST_F(Waving_sheets, OfOtherFilesHaveNoMorphTargets)
+{
+  for (const std::vector<std::string>& poses :
+       {std::vector<std::string>{"--morphs"}, {"--animation", "all"}}) {
+    std::vector<std::string> arguments{"simplify",       folder / "flat.obj", "-o",
+                                       folder / "x.obj", "--ratio",           "0.5"};
+    arguments.insert(arguments.end(), poses.begin(), poses.end());
+    const App_result result = run_app(arguments);
+    EXPECT_EQ(result.code, 3);
+    EXPECT_NE(result.err.find("flat.obj: "), std::string::npos) << result.err;
+  }
+  EXPECT_EQ(run_app({"simplify", gltf, "-o", folder / "x.glb", "--ratio", "0.5", "--every", "2"}).code, 2);
+  EXPECT_EQ(run_app({"simplify", gltf, "-o", folder / "x.glb", "--ratio", "0.5", "--animation", "dive"}).code,
+            3);
+}
+
+} // namespace
+} // namespace selvedge::test
