@@ -211,7 +211,7 @@ private:
     const std::vector<tinygltf::Primitive>& primitives = model().meshes[mesh].primitives;
     const bool is_skinned = node.skin != -1;
     if (is_skinned)
-      remark("skinned meshes, taken in their bind pose");
+      remark("skinned meshes, read in their bind pose (their animations can be given as poses)");
     const std::size_t parts =
         std::count_if(primitives.begin(), primitives.end(), [&](const auto& p) { return is_reducible(p); });
     const Matrix& to_world = is_skinned ? identity_matrix : place.to_world;
@@ -231,7 +231,7 @@ private:
       m_scene->parts.push_back({own, mesh, p, it->second, 0, Json::object()});
       m_sources.push_back(&primitive);
       if (!primitive.targets.empty())
-        remark("primitives with morph targets, whose shapes are carried and not guarded");
+        remark("primitives with morph targets, which are kept (they can be given as poses)");
       soup().groups.names.push_back(group_name(place.node, mesh, p, parts));
     }
   }
