@@ -12,6 +12,8 @@
 #include <meshoptimizer.h>
 #endif
 #ifdef SELVEDGE_HAS_DRACO
+#include <draco/attributes/attribute_octahedron_transform.h>
+#include <draco/attributes/attribute_quantization_transform.h>
 #include <draco/compression/decode.h>
 #endif
 
@@ -19,6 +21,7 @@
 #include <climits>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <utility>
 
 namespace selvedge::files {
@@ -27,7 +30,6 @@ namespace {
 using Json = Gltf_scene::Json;
 
 constexpr const char* s_meshopt = "EXT_meshopt_compression";
-constexpr const char* s_draco = "KHR_draco_mesh_compression";
 constexpr std::size_t s_always = 1 << 16; // bytes that anything may be decoded to
 
 /// Returns what an extension says of a part of the document; null when it says nothing.
@@ -225,23 +227,53 @@ public:
     if (!result.ok() || result.value()->num_faces() != faces)
       m_document.fail(place + " cannot be decoded by Draco; export the file again");
     const draco::Mesh& mesh = *result.value();
+    const std::unique_ptr<draco::Mesh> quantised = quantised_mesh(bytes);
     put(primitive.indices, number, indices_of(mesh, indices.componentType), place);
     const Json& attributes = member(extension, "attributes");
     for (const auto& [name, target] : primitive.attributes) {
       if (!attributes.is_object() || !attributes.contains(name))
         continue; // it is not compressed
-      const draco::PointAttribute* const attribute =
-          mesh.GetAttributeByUniqueId(std::uint32_t(number_in(m_document, attributes, name.c_str())));
+      const auto id = std::uint32_t(number_in(m_document, attributes, name.c_str()));
+      const draco::PointAttribute* const attribute = mesh.GetAttributeByUniqueId(id);
       const tinygltf::Accessor& of_target = m_document.model.accessors[std::size_t(target)];
       std::vector<unsigned char> rows;
       if (!attribute || mesh.num_points() != of_target.count ||
           !append_attribute(*attribute, of_target.count, of_target, rows))
         m_document.fail(place + ": " + name + " does not fit its compressed data; export the file again");
       put(target, number, std::move(rows), place);
+      m_document.compressions[target] = compression(*quantised->GetAttributeByUniqueId(id));
     }
   }
 
 private:
+  // Decodes again, and leaves attributes quantised as they are in the bytes.
+  static std::unique_ptr<draco::Mesh> quantised_mesh(std::string_view bytes)
+  {
+    draco::DecoderBuffer buffer;
+    buffer.Init(bytes.data(), bytes.size());
+    draco::Decoder decoder;
+    for (int type = 0; type < draco::GeometryAttribute::NAMED_ATTRIBUTES_COUNT; ++type)
+      decoder.SetSkipAttributeTransform(draco::GeometryAttribute::Type(type));
+    return std::move(decoder.DecodeMeshFromBuffer(&buffer)).value();
+  }
+
+  static Gltf_scene::Compression compression(const draco::PointAttribute& attribute)
+  {
+    const draco::AttributeTransformData* const data = attribute.GetAttributeTransformData();
+    if (!data)
+      return {};
+    if (data->transform_type() == draco::ATTRIBUTE_OCTAHEDRON_TRANSFORM) {
+      draco::AttributeOctahedronTransform transform;
+      transform.InitFromAttribute(attribute);
+      return {{{transform.quantization_bits(), {}, 0}}};
+    }
+    draco::AttributeQuantizationTransform transform;
+    if (data->transform_type() != draco::ATTRIBUTE_QUANTIZATION_TRANSFORM ||
+        !transform.InitFromAttribute(attribute))
+      return {};
+    return {{{transform.quantization_bits(), transform.min_values(), transform.range()}}};
+  }
+
   // Returns an accessor, and adds the bytes that it stands for.
   const tinygltf::Accessor& accessor(int number, const std::string& place, std::size_t& size) const
   {
@@ -311,7 +343,7 @@ std::string missing_decoder(const std::string& extension)
     return "meshoptimizer";
 #endif
 #ifndef SELVEDGE_HAS_DRACO
-  if (extension == s_draco)
+  if (extension == draco_extension)
     return "Draco";
 #endif
   static_cast<void>(extension);
@@ -328,7 +360,7 @@ void prepare_for_decoding(const Json& document, Json& reduced)
   const Json& accessors = member(document, "accessors");
   for (const Json& mesh : member(document, "meshes"))
     for (const Json& primitive : mesh.is_object() ? member(mesh, "primitives") : Json::array())
-      if (const Json* const extension = extension_of(primitive, s_draco);
+      if (const Json* const extension = extension_of(primitive, draco_extension);
           extension && primitive.contains("indices") && primitive["indices"].is_number_unsigned()) {
         const std::size_t number = primitive["indices"];
         if (accessors.is_array() && number < accessors.size() && accessors[number].is_object() &&
@@ -379,18 +411,20 @@ void decode_primitives(Gltf_document& document)
   for (std::size_t m = 0; m < document.model.meshes.size(); ++m)
     for (std::size_t p = 0; p < document.model.meshes[m].primitives.size(); ++p) {
       Json& json = document.json["meshes"][m]["primitives"][p];
-      const Json* const extension = extension_of(json, s_draco);
+      const Json* const extension = extension_of(json, draco_extension);
       if (!extension)
         continue;
       decoding.decode(document.model.meshes[m].primitives[p], *extension,
                       "mesh " + std::to_string(m) + ", primitive " + std::to_string(p));
-      remove_extension_of(json, s_draco);
+      remove_extension_of(json, draco_extension);
       ++decoded;
     }
   if (decoded == 0)
     return;
-  remove_extension(document.json, s_draco);
-  document.remarks["primitives decoded from KHR_draco_mesh_compression, from now on plain"] += decoded;
+  remove_extension(document.json, draco_extension);
+  document.remarks
+      ["primitives decoded from KHR_draco_mesh_compression; glTF output has it where it loses nothing"] +=
+      decoded;
 #else
   static_cast<void>(document);
 #endif

@@ -13,6 +13,8 @@ namespace selvedge::files {
 // The extensions by which a glTF file keeps its meshes small. What they say is decoded after tinygltf has
 // read the document; then the document is a plain one, in which nothing names them any more.
 
+inline constexpr const char* draco_extension = "KHR_draco_mesh_compression";
+
 /// Returns the library without which a file that names this extension cannot be read; empty when there is no
 /// such extension or the library is there.
 std::string missing_decoder(const std::string& extension);
@@ -27,7 +29,8 @@ void prepare_for_decoding(const Gltf_scene::Json& document, Gltf_scene::Json& re
 /// than 256 times as large as they are.
 void decode_views(Gltf_document& document);
 
-/// Decodes the primitives of KHR_draco_mesh_compression: their accessors get buffer views of their own.
+/// Decodes the primitives of KHR_draco_mesh_compression: their accessors get buffer views of their own, and
+/// `Gltf_document::compressions` says how they were quantised.
 ///
 /// Throws `Input_error` when they cannot be decoded, do not fit their accessors, or when these hold more than
 /// 64 KiB and more than 1024 times as much as what is decoded.

@@ -36,6 +36,7 @@ struct Gltf_document
     Gltf_scene::Matrix in_node, to_world;
   };
   std::map<std::size_t, std::vector<Instance>> instances; ///< of nodes that are in the scene
+  std::map<int, Gltf_scene::Compression> compressions;    ///< of accessors that Draco held
   std::map<std::string, std::size_t> remarks;             ///< for `Read_notes`
 
   /// Throws an `Input_error` that names the file.

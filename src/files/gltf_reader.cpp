@@ -299,6 +299,8 @@ private:
   Column read_column(int accessor, const std::string& name, std::size_t count, const std::string& place)
   {
     Column result = Gltf_column_reader(m_document, place).read(accessor, name, count);
+    if (const auto found = m_document.compressions.find(accessor); found != m_document.compressions.end())
+      result.compression = found->second;
     m_is_free_accessor[accessor] = true;
     if (model().accessors[accessor].sparse.isSparse && !result.is_sparse)
       remark("sparse accessors, from now on written in full");

@@ -3,6 +3,7 @@
 
 #include "files/formats.h"
 #include "files/gltf_decoding.h"
+#include "files/gltf_encoding.h"
 #include "soup/Gltf_scene.h"
 #include "soup/flat_shading.h"
 
@@ -48,6 +49,9 @@ public:
     find_copies_alike();
     put_vertices();
     put_triangles();
+    if (m_has_draco)
+      for (const char* key : {"extensionsUsed", "extensionsRequired"})
+        m_document[key].push_back(draco_extension);
     fill_free();
     renumber_meshes();
     put_instances();
@@ -260,20 +264,25 @@ private:
     m_attributes.resize(m_scene.instances.size());
     m_targets.resize(m_scene.instances.size());
     m_sizes.resize(m_scene.instances.size());
+    m_compressible.resize(m_scene.instances.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       m_sizes[i] = vertices[i].size();
       if (vertices[i].empty())
         continue;
       const Gltf_scene::Instance& instance = m_scene.instances[i];
       const auto put = [&](const Column& column, const auto& bytes_of) {
-        Column left = {column.name,       column.accessor, column.component_type,
-                       column.components, column.row_size, {},
-                       column.is_sparse};
+        Column left = {column.name,       column.accessor,   column.component_type,
+                       column.components, column.row_size,   {},
+                       column.is_sparse,  column.compression};
         left.rows.reserve(vertices[i].size() * column.row_size);
         Cancellation_poll poll;
         for (const Vertices_by_normal::Vertex& v : vertices[i]) {
           poll();
           left.rows += bytes_of(v);
+        }
+        if (left.compression) { // is put with the triangles
+          m_compressible[i].push_back(std::move(left));
+          return std::size_t(0);
         }
         return put_accessor(left, vertices[i].size(), s_vertices);
       };
@@ -322,6 +331,7 @@ private:
         continue;
       }
       Json& primitive = m_document["meshes"][part.mesh]["primitives"][part.primitive];
+      const bool is_compressed = put_compressible(part, corners[i], primitive);
       put_accessors(m_attributes[part.instance], primitive["attributes"]);
       for (std::size_t k = 0; k < m_targets[part.instance].size(); ++k)
         put_accessors(m_targets[part.instance][k], primitive["targets"][k]);
@@ -333,12 +343,44 @@ private:
       Column column = {"indices", part.index_json, type, 1, component_size(type), {}};
       column.accessor["type"] = "SCALAR";
       column.accessor["componentType"] = type;
+      primitive.erase("mode");
+      if (is_compressed) {
+        primitive["indices"] = put_decoded_accessor(column, corners[i].size());
+        continue;
+      }
       column.rows.reserve(corners[i].size() * column.row_size);
       for (const Index corner : corners[i])
         append_index(column, corner);
       primitive["indices"] = put_accessor(column, corners[i].size(), s_indices);
-      primitive.erase("mode");
     }
+  }
+
+  // Puts the columns that were compressed in the file: compressed again, with the corners, if no other
+  // primitive has them, and plain otherwise. Returns whether they are compressed.
+  bool put_compressible(const Gltf_scene::Part& part, const std::vector<Index>& corners, Json& primitive)
+  {
+    const std::vector<Column> columns = std::exchange(m_compressible[part.instance], {});
+    if (columns.empty())
+      return false;
+    const bool is_alone = std::count_if(m_scene.parts.begin(), m_scene.parts.end(), [&](const auto& other) {
+                            return other.instance == part.instance;
+                          }) == 1;
+    // Poses in other files, and accessors that stay plain, are in the order of the vertices.
+    const Gltf_scene::Block& of_part = block(m_scene.instances[part.instance]);
+    const bool may_reorder = m_soup.poses.empty() && of_part.targets.empty() &&
+                             columns.size() == m_attributes[part.instance].size();
+    const std::optional<Draco_primitive> encoded =
+        is_alone ? encoded_by_draco(columns, corners, may_reorder) : std::nullopt;
+    const std::size_t size = m_sizes[part.instance];
+    for (const Column& column : columns)
+      m_attributes[part.instance][column.name] =
+          encoded ? put_decoded_accessor(column, size) : put_accessor(column, size, s_vertices);
+    if (!encoded)
+      return false;
+    primitive["extensions"][draco_extension] = {{"bufferView", put_view({}, encoded->bytes, s_any)},
+                                                {"attributes", encoded->attributes}};
+    m_has_draco = true;
+    return true;
   }
 
   // Sets the numbers of accessors by name; null stands for one that goes.
@@ -361,13 +403,35 @@ private:
     return number;
   }
 
+  // Returns what the document says about an accessor, apart from where its bytes are.
+  static Json description(const Column& column, std::size_t count)
+  {
+    Json result = column.accessor;
+    result["count"] = count;
+    if (!column.rows.empty() &&
+        (column.name == "POSITION" || result.contains("min") || result.contains("max")))
+      put_bounds(result, column, count);
+    return result;
+  }
+
+  // Puts an accessor whose bytes are compressed.
+  std::size_t put_decoded_accessor(const Column& column, std::size_t count)
+  {
+    return put_accessor(description(column, count));
+  }
+
+  std::size_t put_accessor(Json accessor)
+  {
+    Json& accessors = m_document["accessors"];
+    const std::size_t number = next(m_free_accessors, accessors.size());
+    accessors[number] = std::move(accessor);
+    return number;
+  }
+
   // Accessors that say the same of the same bytes become one, as in files that share them.
   std::size_t put_accessor(const Column& column, std::size_t count, int target)
   {
-    Json rest = column.accessor;
-    rest["count"] = count;
-    if (column.name == "POSITION" || rest.contains("min") || rest.contains("max"))
-      put_bounds(rest, column, count);
+    const Json rest = description(column, count);
     std::string bytes = column.is_sparse ? column.rows : bytes_of_view(column, count, target);
     const std::size_t hash = std::hash<std::string>()(bytes);
     for (auto range = m_written.equal_range(hash); range.first != range.second; ++range.first) {
@@ -383,10 +447,7 @@ private:
     if (!column.is_sparse || !put_sparse(accessor, column, count))
       accessor["bufferView"] = written.view = put_view(column, std::move(bytes), target);
     accessor.update(rest);
-    Json& accessors = m_document["accessors"];
-    written.accessor = next(m_free_accessors, accessors.size());
-    accessors[written.accessor] = std::move(accessor);
-    return written.accessor;
+    return written.accessor = put_accessor(std::move(accessor));
   }
 
   // Puts only the rows that are not zero, where that takes less space. Returns whether it does.
@@ -585,6 +646,8 @@ private:
   std::vector<Index> m_numbers;                      // by vertex of `m_split`, in its instance
   std::vector<Json> m_attributes;                    // by instance
   std::vector<std::vector<Json>> m_targets;
+  std::vector<std::vector<Column>> m_compressible; // likewise
+  bool m_has_draco = false;
   std::vector<std::size_t> m_sizes;
   std::vector<const Gltf_scene::Part*> m_empty;
   struct Written

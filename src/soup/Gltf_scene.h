@@ -28,6 +28,18 @@ struct Gltf_scene
 
   static constexpr Matrix identity_matrix = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 
+  /// How KHR_draco_mesh_compression held a column.
+  struct Compression
+  {
+    struct Quantisation
+    {
+      int bits = 0;
+      std::vector<float> origin; ///< empty where the column was quantised as directions
+      float range = 0;
+    };
+    std::optional<Quantisation> quantisation; ///< none where no bit was lost
+  };
+
   /// The rows of an accessor, without gaps and with its sparse values in place.
   struct Column
   {
@@ -37,7 +49,8 @@ struct Gltf_scene
     std::size_t components = 0;
     std::size_t row_size = 0;
     std::string rows;
-    bool is_sparse = false; ///< the file holds only rows that are not zero
+    bool is_sparse = false;                                ///< the file holds only rows that are not zero
+    std::optional<Compression> compression = std::nullopt; ///< none where the file held it plain
 
     bool is_normalized() const { return accessor.value("normalized", false); }
   };

@@ -1,0 +1,287 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "files/gltf_encoding.h"
+
+#include <selvedge/Cancellation_scope.h>
+
+#ifdef SELVEDGE_HAS_DRACO
+#include <draco/compression/decode.h>
+#include <draco/compression/expert_encode.h>
+#endif
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <string_view>
+#include <utility>
+
+namespace selvedge::files {
+
+#ifdef SELVEDGE_HAS_DRACO
+namespace {
+
+using Column = Gltf_scene::Column;
+
+/// Draco quantises normals as directions, others in a box.
+draco::GeometryAttribute::Type draco_type(const Column& column, bool is_of_steps)
+{
+  const auto is_of = [&](const char* name) { return column.name.compare(0, std::strlen(name), name) == 0; };
+  return is_of("POSITION")                 ? draco::GeometryAttribute::POSITION
+         : is_of("NORMAL") && !is_of_steps ? draco::GeometryAttribute::NORMAL
+         : is_of("TEXCOORD")               ? draco::GeometryAttribute::TEX_COORD
+         : is_of("COLOR")                  ? draco::GeometryAttribute::COLOR
+                                           : draco::GeometryAttribute::GENERIC;
+}
+
+draco::DataType draco_type(int component_type)
+{
+  switch (component_type) {
+  case type_int8:
+    return draco::DT_INT8;
+  case type_uint8:
+    return draco::DT_UINT8;
+  case type_int16:
+    return draco::DT_INT16;
+  case type_uint16:
+    return draco::DT_UINT16;
+  case type_uint32:
+    return draco::DT_UINT32;
+  default:
+    return draco::DT_FLOAT32;
+  }
+}
+
+std::string_view row_of(const Column& column, std::size_t row)
+{
+  return std::string_view(column.rows).substr(row * column.row_size, column.row_size);
+}
+
+/// Stands for the lowest corner of a quantised column until it is put into the bytes. Draco's own option
+/// keeps six decimals of it.
+float placeholder(std::size_t column)
+{
+  return -1000 - float(column);
+}
+
+/// Whether whole numbers of so many bits are exact as 32-bit floats, placeholder included.
+bool is_exact_in_float(int bits)
+{
+  return bits <= 22;
+}
+
+/// Returns the numbers of a column in steps of its quantisation, from the placeholder on.
+std::vector<float> steps_of(const Column& column, const Gltf_scene::Compression::Quantisation& quantisation,
+                            float origin)
+{
+  const float most = float((1u << quantisation.bits) - 1);
+  std::vector<float> steps(column.rows.size() / sizeof(float));
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const std::size_t place = i % column.components;
+    const double from_corner = component(column, i / column.components, place) - quantisation.origin[place];
+    steps[i] =
+        origin + float(std::clamp(std::round(from_corner / quantisation.range * most), 0., double(most)));
+  }
+  return steps;
+}
+
+/// One column among those of a primitive, and whether Draco quantises it.
+struct Packed_column
+{
+  const Column* column;
+  std::optional<Gltf_scene::Compression::Quantisation> quantisation;
+  bool is_of_steps() const { return quantisation && !quantisation->origin.empty(); }
+};
+
+/// Returns a primitive as Draco has it. Its attributes are the columns, in their order; those that were
+/// quantised in a box count its steps.
+std::unique_ptr<draco::Mesh> draco_mesh(const std::vector<Packed_column>& columns,
+                                        const std::vector<Index>& corners, std::uint32_t rows)
+{
+  auto mesh = std::make_unique<draco::Mesh>();
+  mesh->set_num_points(rows);
+  mesh->SetNumFaces(corners.size() / 3);
+  for (std::size_t i = 0; i < corners.size(); i += 3)
+    mesh->SetFace(draco::FaceIndex(std::uint32_t(i / 3)),
+                  {{draco::PointIndex(corners[i]), draco::PointIndex(corners[i + 1]),
+                    draco::PointIndex(corners[i + 2])}});
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const Column& column = *columns[i].column;
+    draco::GeometryAttribute attribute;
+    attribute.Init(draco_type(column, columns[i].is_of_steps()), nullptr, std::uint8_t(column.components),
+                   draco_type(column.component_type), column.is_normalized(), std::int64_t(column.row_size),
+                   0);
+    draco::PointAttribute* const added = mesh->attribute(mesh->AddAttribute(attribute, true, rows));
+    const std::vector<float> steps = columns[i].is_of_steps()
+                                         ? steps_of(column, *columns[i].quantisation, placeholder(i))
+                                         : std::vector<float>();
+    for (std::uint32_t row = 0; row < rows; ++row)
+      added->SetAttributeValue(draco::AttributeValueIndex(row),
+                               steps.empty() ? static_cast<const void*>(row_of(column, row).data())
+                                             : &steps[row * column.components]);
+  }
+  return mesh;
+}
+
+/// Compresses a mesh. Empty if Draco cannot.
+std::string encoded(const draco::Mesh& mesh, const std::vector<Packed_column>& columns,
+                    draco::MeshEncoderMethod method)
+{
+  draco::ExpertEncoder encoder(mesh);
+  encoder.SetEncodingMethod(method);
+  encoder.SetSpeedOptions(0, 0);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (!columns[i].quantisation)
+      continue;
+    const int bits = columns[i].quantisation->bits;
+    if (columns[i].is_of_steps())
+      encoder.SetAttributeExplicitQuantization(
+          int(i), bits, int(columns[i].column->components),
+          std::vector<float>(columns[i].column->components, placeholder(i)).data(), float((1u << bits) - 1));
+    else
+      encoder.SetAttributeQuantization(int(i), bits);
+  }
+  draco::EncoderBuffer buffer;
+  if (!encoder.EncodeToBuffer(&buffer).ok())
+    return {};
+  std::string bytes(buffer.data(), buffer.size());
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (columns[i].is_of_steps()) {
+      const auto box = [](const std::vector<float>& origin, float range) {
+        std::string result;
+        for (const float coordinate : origin)
+          append_little_endian(result, coordinate);
+        append_little_endian(result, range);
+        return result;
+      };
+      const auto& [bits, origin, range] = *columns[i].quantisation;
+      const std::string steps =
+          box(std::vector<float>(origin.size(), placeholder(i)), float((1u << bits) - 1));
+      const std::size_t place = bytes.find(steps);
+      if (place == std::string::npos)
+        return {};
+      bytes.replace(place, steps.size(), box(origin, range));
+    }
+  return bytes;
+}
+
+/// Returns what bytes stand for; null if they have other numbers of vertices or faces than `mesh`, or other
+/// attributes.
+std::unique_ptr<draco::Mesh> decoded(const std::string& bytes, const draco::Mesh& mesh)
+{
+  draco::DecoderBuffer buffer;
+  buffer.Init(bytes.data(), bytes.size());
+  auto result = draco::Decoder().DecodeMeshFromBuffer(&buffer);
+  if (bytes.empty() || !result.ok() || result.value()->num_points() != mesh.num_points() ||
+      result.value()->num_faces() != mesh.num_faces())
+    return nullptr;
+  for (int i = 0; i < mesh.num_attributes(); ++i) {
+    const draco::PointAttribute* const attribute =
+        result.value()->GetAttributeByUniqueId(mesh.attribute(i)->unique_id());
+    if (!attribute || attribute->byte_stride() != mesh.attribute(i)->byte_stride())
+      return nullptr;
+  }
+  return std::move(result).value();
+}
+
+/// Returns the bytes that an attribute has for a vertex.
+std::string_view row_of(const draco::Mesh& mesh, std::uint32_t id, std::uint32_t row)
+{
+  const draco::PointAttribute& attribute = *mesh.GetAttributeByUniqueId(id);
+  return {reinterpret_cast<const char*>(attribute.GetAddressOfMappedIndex(draco::PointIndex(row))),
+          std::size_t(attribute.byte_stride())};
+}
+
+/// Returns the triangles as the bytes of their corners, from the least corner on, in ascending order.
+template <class Row_of>
+std::vector<std::string> triangles_of(const draco::Mesh& mesh, std::size_t columns, const Row_of& row)
+{
+  std::vector<std::string> result;
+  for (draco::FaceIndex i(0); i < mesh.num_faces(); ++i) {
+    std::array<std::string, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t column = 0; column < columns; ++column)
+        corners[k] += row(column, mesh.face(i)[k].value());
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    result.push_back(corners[0] + corners[1] + corners[2]);
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+} // namespace
+#endif
+
+std::optional<Draco_primitive> encoded_by_draco(const std::vector<Column>& columns,
+                                                const std::vector<Index>& corners, bool may_reorder)
+{
+#ifdef SELVEDGE_HAS_DRACO
+  const auto rows = std::uint32_t(columns.front().rows.size() / columns.front().row_size);
+  std::size_t size = corners.size() * (rows < 0xffff ? 2 : 4);
+  std::vector<Packed_column> packed;
+  for (const Column& column : columns) {
+    size += column.rows.size();
+    packed.push_back({&column, column.compression->quantisation});
+    if (packed.back().is_of_steps() &&
+        (column.component_type != type_float32 || !is_exact_in_float(column.compression->quantisation->bits)))
+      packed.back().quantisation.reset();
+  }
+  std::unique_ptr<draco::Mesh> mesh;
+  std::string bytes;
+  // In the same order: what quantisation does not give back as it was is kept without it.
+  for (bool is_same = false; !is_same;) {
+    Cancellation_scope::check();
+    mesh = draco_mesh(packed, corners, rows);
+    bytes = encoded(*mesh, packed, draco::MESH_SEQUENTIAL_ENCODING);
+    const std::unique_ptr<draco::Mesh> again = decoded(bytes, *mesh);
+    if (!again)
+      return std::nullopt;
+    for (draco::FaceIndex i(0); i < mesh->num_faces(); ++i)
+      if (again->face(i) != mesh->face(i))
+        return std::nullopt;
+    is_same = true;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      std::uint32_t row = 0;
+      while (row < rows &&
+             row_of(*again, mesh->attribute(int(i))->unique_id(), row) == row_of(columns[i], row))
+        ++row;
+      if (row == rows)
+        continue;
+      if (!packed[i].quantisation)
+        return std::nullopt;
+      packed[i].quantisation.reset();
+      is_same = false;
+    }
+  }
+  // In Draco's order, which takes less space.
+  if (may_reorder) {
+    Cancellation_scope::check();
+    std::string reordered = encoded(*mesh, packed, draco::MESH_EDGEBREAKER_ENCODING);
+    const std::unique_ptr<draco::Mesh> again = decoded(reordered, *mesh);
+    if (again && reordered.size() < bytes.size() &&
+        triangles_of(*mesh, columns.size(), [&](std::size_t i, std::uint32_t row) {
+          return row_of(columns[i], row);
+        }) == triangles_of(*again, columns.size(), [&](std::size_t i, std::uint32_t row) {
+          return row_of(*again, mesh->attribute(int(i))->unique_id(), row);
+        }))
+      bytes = std::move(reordered);
+  }
+  if (bytes.size() >= size)
+    return std::nullopt;
+  Draco_primitive result = {std::move(bytes), Gltf_scene::Json::object()};
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    result.attributes[columns[i].name] = mesh->attribute(int(i))->unique_id();
+  return result;
+#else
+  static_cast<void>(columns);
+  static_cast<void>(corners);
+  static_cast<void>(may_reorder);
+  return std::nullopt;
+#endif
+}
+
+} // namespace selvedge::files

@@ -1,0 +1,35 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SRC_FILES_GLTF_ENCODING_H
+#define SELVEDGE_SRC_FILES_GLTF_ENCODING_H
+
+#include "soup/Gltf_scene.h"
+
+#include <selvedge/Triangle_soup.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace selvedge::files {
+
+/// A primitive as KHR_draco_mesh_compression holds it.
+struct Draco_primitive
+{
+  std::string bytes;
+  Gltf_scene::Json attributes; ///< numbers in the bytes, by name
+};
+
+/// Compresses a primitive by Draco, such that decoding gives the very same bits: columns are quantised as
+/// they were in the file if that loses nothing, and are kept as they are otherwise. Vertices and triangles
+/// stay in their order unless they may be reordered, which takes about a third of the space.
+///
+/// The columns have one row for each vertex; there is one at least. `corners`, three for each triangle,
+/// counts the rows. Returns nothing where the result would not be smaller, or there is no Draco. O(n log n).
+std::optional<Draco_primitive> encoded_by_draco(const std::vector<Gltf_scene::Column>& columns,
+                                                const std::vector<Index>& corners, bool may_reorder);
+
+} // namespace selvedge::files
+
+#endif // SELVEDGE_SRC_FILES_GLTF_ENCODING_H
