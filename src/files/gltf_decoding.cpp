@@ -29,7 +29,6 @@ namespace {
 
 using Json = Gltf_scene::Json;
 
-constexpr const char* s_meshopt = "EXT_meshopt_compression";
 constexpr std::size_t s_always = 1 << 16; // bytes that anything may be decoded to
 
 /// Returns what an extension says of a part of the document; null when it says nothing.
@@ -339,7 +338,7 @@ private:
 std::string missing_decoder(const std::string& extension)
 {
 #ifndef SELVEDGE_HAS_MESHOPTIMIZER
-  if (extension == s_meshopt)
+  if (extension == meshopt_extension)
     return "meshoptimizer";
 #endif
 #ifndef SELVEDGE_HAS_DRACO
@@ -354,7 +353,7 @@ void prepare_for_decoding(const Json& document, Json& reduced)
 {
   const Json& buffers = member(document, "buffers");
   for (std::size_t i = 0; i < buffers.size() && buffers.is_array(); ++i)
-    if (const Json* const extension = extension_of(buffers[i], s_meshopt);
+    if (const Json* const extension = extension_of(buffers[i], meshopt_extension);
         extension && extension->value("fallback", false) && !buffers[i].contains("uri"))
       reduced["buffers"][i] = {{"byteLength", 1}, {"uri", "data:application/octet-stream;base64,AA=="}};
   const Json& accessors = member(document, "accessors");
@@ -372,10 +371,9 @@ void prepare_for_decoding(const Json& document, Json& reduced)
 void decode_views(Gltf_document& document)
 {
 #ifdef SELVEDGE_HAS_MESHOPTIMIZER
-  std::size_t decoded = 0;
   for (std::size_t i = 0; i < document.model.bufferViews.size(); ++i) {
     Json& json = document.json["bufferViews"][i];
-    const Json* const extension = extension_of(json, s_meshopt);
+    const Json* const extension = extension_of(json, meshopt_extension);
     if (!extension)
       continue;
     Cancellation_scope::check();
@@ -389,15 +387,17 @@ void decode_views(Gltf_document& document)
     view.buffer = whole.buffer;
     view.byteOffset = 0;
     view.byteStride = stride;
-    remove_extension_of(json, s_meshopt);
-    ++decoded;
+    document.meshopt_views[Index(i)] =
+        extension->value("mode", "") == "ATTRIBUTES" ? number_in(document, *extension, "byteStride") : 0;
+    remove_extension_of(json, meshopt_extension);
   }
-  if (decoded == 0)
+  if (document.meshopt_views.empty())
     return;
   for (Json& buffer : document.json["buffers"])
-    remove_extension_of(buffer, s_meshopt);
-  remove_extension(document.json, s_meshopt);
-  document.remarks["buffer views decoded from EXT_meshopt_compression, from now on plain"] += decoded;
+    remove_extension_of(buffer, meshopt_extension);
+  remove_extension(document.json, meshopt_extension);
+  document.remarks["buffer views decoded from EXT_meshopt_compression; glTF output has it, too"] +=
+      document.meshopt_views.size();
 #else
   static_cast<void>(document);
 #endif

@@ -14,6 +14,7 @@ namespace selvedge::files {
 // read the document; then the document is a plain one, in which nothing names them any more.
 
 inline constexpr const char* draco_extension = "KHR_draco_mesh_compression";
+inline constexpr const char* meshopt_extension = "EXT_meshopt_compression";
 
 /// Returns the library without which a file that names this extension cannot be read; empty when there is no
 /// such extension or the library is there.
@@ -23,7 +24,7 @@ std::string missing_decoder(const std::string& extension);
 /// nothing until they are decoded become one byte, and accessors of compressed primitives refer to some view.
 void prepare_for_decoding(const Gltf_scene::Json& document, Gltf_scene::Json& reduced);
 
-/// Decodes the buffer views of EXT_meshopt_compression.
+/// Decodes the buffer views of EXT_meshopt_compression, and lists them in `Gltf_document::meshopt_views`.
 ///
 /// Throws `Input_error` when they cannot be decoded, or when their contents are more than 64 KiB and more
 /// than 256 times as large as they are.

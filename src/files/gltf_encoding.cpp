@@ -5,6 +5,9 @@
 
 #include <selvedge/Cancellation_scope.h>
 
+#ifdef SELVEDGE_HAS_MESHOPTIMIZER
+#include <meshoptimizer.h>
+#endif
 #ifdef SELVEDGE_HAS_DRACO
 #include <draco/compression/decode.h>
 #include <draco/compression/expert_encode.h>
@@ -280,6 +283,68 @@ std::optional<Draco_primitive> encoded_by_draco(const std::vector<Column>& colum
   static_cast<void>(columns);
   static_cast<void>(corners);
   static_cast<void>(may_reorder);
+  return std::nullopt;
+#endif
+}
+
+#ifdef SELVEDGE_HAS_MESHOPTIMIZER
+namespace {
+
+template <class Number>
+std::optional<std::string> encoded_triangles(const std::string& bytes)
+{
+  std::vector<Number> indices(bytes.size() / sizeof(Number));
+  std::memcpy(indices.data(), bytes.data(), bytes.size());
+  const std::vector<unsigned> plain(indices.begin(), indices.end());
+  meshopt_encodeIndexVersion(1);
+  const unsigned largest = *std::max_element(plain.begin(), plain.end());
+  std::string result(meshopt_encodeIndexBufferBound(plain.size(), std::size_t(largest) + 1), '\0');
+  auto* const data = reinterpret_cast<unsigned char*>(result.data());
+  result.resize(meshopt_encodeIndexBuffer(data, result.size(), plain.data(), plain.size()));
+  std::vector<unsigned> again(plain.size());
+  if (meshopt_decodeIndexBuffer(again.data(), again.size(), data, result.size()) != 0)
+    return std::nullopt;
+  auto of_again = again.begin();
+  for (auto corner = plain.begin(); corner != plain.end(); corner += 3, of_again += 3) {
+    std::rotate(of_again, std::find(of_again, of_again + 3, *corner), of_again + 3);
+    if (!std::equal(corner, corner + 3, of_again))
+      return std::nullopt;
+  }
+  return result;
+}
+
+std::optional<std::string> encoded_rows(const std::string& bytes, std::size_t row_size)
+{
+  const std::size_t rows = bytes.size() / row_size;
+  std::string result(meshopt_encodeVertexBufferBound(rows, row_size), '\0');
+  auto* const data = reinterpret_cast<unsigned char*>(result.data());
+  result.resize(meshopt_encodeVertexBuffer(data, result.size(), bytes.data(), rows, row_size));
+  std::string again(bytes.size(), '\0');
+  if (meshopt_decodeVertexBuffer(again.data(), rows, row_size, data, result.size()) != 0 || again != bytes)
+    return std::nullopt;
+  return result;
+}
+
+} // namespace
+#endif
+
+std::optional<std::string> encoded_by_meshopt(const std::string& bytes, std::size_t row_size,
+                                              bool are_triangles)
+{
+#ifdef SELVEDGE_HAS_MESHOPTIMIZER
+  const bool is_possible =
+      !bytes.empty() && row_size > 0 && bytes.size() % row_size == 0 &&
+      (are_triangles ? row_size == 2 || row_size == 4 : row_size % 4 == 0 && row_size <= 256);
+  if (!is_possible || (are_triangles && bytes.size() / row_size % 3 != 0))
+    return std::nullopt;
+  const std::optional<std::string> result = !are_triangles  ? encoded_rows(bytes, row_size)
+                                            : row_size == 2 ? encoded_triangles<std::uint16_t>(bytes)
+                                                            : encoded_triangles<std::uint32_t>(bytes);
+  return result && result->size() < bytes.size() ? result : std::nullopt;
+#else
+  static_cast<void>(bytes);
+  static_cast<void>(row_size);
+  static_cast<void>(are_triangles);
   return std::nullopt;
 #endif
 }

@@ -8,6 +8,7 @@
 
 #include <selvedge/Triangle_soup.h>
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,14 @@ struct Draco_primitive
 /// counts the rows. Returns nothing where the result would not be smaller, or there is no Draco. O(n log n).
 std::optional<Draco_primitive> encoded_by_draco(const std::vector<Gltf_scene::Column>& columns,
                                                 const std::vector<Index>& corners, bool may_reorder);
+
+/// Compresses the bytes of a buffer view as EXT_meshopt_compression has it: rows of so many bytes, or
+/// triangles of indices of so many bytes. Decoding gives the same bytes; corners of triangles may be rotated.
+///
+/// Returns nothing where the result would not be smaller, rows are none that the extension takes, or there is
+/// no meshoptimizer. Linear.
+std::optional<std::string> encoded_by_meshopt(const std::string& bytes, std::size_t row_size,
+                                              bool are_triangles);
 
 } // namespace selvedge::files
 

@@ -404,6 +404,7 @@ private:
         remark("images in files of their own, whose addresses are kept");
     }
     m_scene->views.resize(model().bufferViews.size());
+    m_scene->meshopt_views = m_document.meshopt_views;
     for (int i = 0; i < int(model().bufferViews.size()); ++i)
       if ((freed.count(i) != 0 || may_drop) && kept.count(i) == 0)
         m_scene->free_views.push_back(Index(i));

@@ -42,6 +42,9 @@ public:
         m_free_views(scene.free_views.rbegin(), scene.free_views.rend())
   {
     check();
+    for (const auto& [view, row_size] : scene.meshopt_views)
+      if (row_size > 0)
+        m_row_sizes[view] = {row_size, false};
   }
 
   void write(Byte_writer& out, Mesh_format format)
@@ -50,8 +53,7 @@ public:
     put_vertices();
     put_triangles();
     if (m_has_draco)
-      for (const char* key : {"extensionsUsed", "extensionsRequired"})
-        m_document[key].push_back(draco_extension);
+      require(draco_extension);
     fill_free();
     renumber_meshes();
     put_instances();
@@ -536,6 +538,10 @@ private:
     views[number] = std::move(view);
     m_views.resize(views.size());
     m_views[number] = std::move(bytes);
+    m_row_sizes.erase(Index(number));
+    if (target != s_any)
+      m_row_sizes[Index(number)] = {target == s_indices ? column.row_size : stride_of(column, target),
+                                    target == s_indices};
     return number;
   }
 
@@ -620,18 +626,57 @@ private:
   std::string put_buffer()
   {
     std::string bytes;
+    std::size_t decoded = 0; // bytes of views that are compressed
+    const auto begin_view = [](std::size_t& size) { size = (size + 3) / 4 * 4; };
     for (std::size_t i = 0; i < m_views.size(); ++i) {
-      bytes.resize((bytes.size() + 3) / 4 * 4, '\0');
+      std::size_t begin = bytes.size();
+      begin_view(begin);
+      bytes.resize(begin, '\0');
       Json& view = m_document["bufferViews"][i];
-      view["buffer"] = 0;
-      view["byteOffset"] = bytes.size();
-      bytes += m_views[i];
+      const std::optional<std::string> encoded = compressed_view(i);
+      if (encoded) {
+        const auto& [row_size, are_triangles] = m_row_sizes.at(Index(i));
+        begin_view(decoded);
+        view["buffer"] = 1;
+        view["byteOffset"] = decoded;
+        view["extensions"][meshopt_extension] = {{"buffer", 0},
+                                                 {"byteOffset", begin},
+                                                 {"byteLength", encoded->size()},
+                                                 {"byteStride", row_size},
+                                                 {"count", m_views[i].size() / row_size},
+                                                 {"mode", are_triangles ? "TRIANGLES" : "ATTRIBUTES"}};
+        decoded += m_views[i].size();
+      } else {
+        view["buffer"] = 0;
+        view["byteOffset"] = begin;
+      }
+      bytes += encoded ? *encoded : m_views[i];
     }
     Json buffer = m_document.contains("buffers") ? m_document["buffers"][0] : Json::object();
     buffer.erase("uri");
     buffer["byteLength"] = bytes.size();
     m_document["buffers"] = Json::array({std::move(buffer)});
+    if (decoded > 0) {
+      m_document["buffers"].push_back(
+          {{"byteLength", decoded}, {"extensions", {{meshopt_extension, {{"fallback", true}}}}}});
+      require(meshopt_extension);
+    }
     return bytes;
+  }
+
+  // Returns a view compressed as others of the file were, unless it was plain there.
+  std::optional<std::string> compressed_view(std::size_t view) const
+  {
+    const auto found = m_row_sizes.find(Index(view));
+    return m_scene.meshopt_views.empty() || found == m_row_sizes.end()
+               ? std::nullopt
+               : encoded_by_meshopt(m_views[view], found->second.first, found->second.second);
+  }
+
+  void require(const char* extension)
+  {
+    for (const char* key : {"extensionsUsed", "extensionsRequired"})
+      m_document[key].push_back(extension);
   }
 
   bool m_is_scene_made;
@@ -648,6 +693,7 @@ private:
   std::vector<std::vector<Json>> m_targets;
   std::vector<std::vector<Column>> m_compressible; // likewise
   bool m_has_draco = false;
+  std::map<Index, std::pair<std::size_t, bool>> m_row_sizes; // of views of attributes and of triangles
   std::vector<std::size_t> m_sizes;
   std::vector<const Gltf_scene::Part*> m_empty;
   struct Written

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -105,7 +106,9 @@ struct Gltf_scene
   std::size_t instance_of(Index scene_vertex) const;
 
   Json document;
-  std::vector<std::string> views;    ///< the bytes of every buffer view, unless it is free
+  std::vector<std::string> views; ///< the bytes of every buffer view, unless it is free
+  /// By view: bytes of a row, of those that EXT_meshopt_compression held; 0 for indices.
+  std::map<Index, std::size_t> meshopt_views;
   std::vector<Index> free_views;     ///< numbers that nothing refers to any more
   std::vector<Index> free_accessors; ///< likewise
   std::vector<Block> blocks;
