@@ -1,0 +1,261 @@
+# Copyright (c) 2026 the Selvedge authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One reduction: from the selected objects to files, through the program, and back."""
+
+import json
+import os
+import re
+import tempfile
+
+import bpy
+import numpy
+
+from . import ply
+from .corners import Corners, column, world_places
+from .program import Program, ReductionError
+from .rebuild import Rebuilt
+from .settings import program_path
+
+_INPUT, _OUTPUT, _OBSTACLE, _REPORT = "selected_objects.ply", "reduced.ply", "obstacle.ply", "report.json"
+
+
+def reduce_selected(context):
+    """Reduces the selected mesh objects as the settings of the scene say.
+
+    This is a generator: it yields what it does at present, as a text and, where it is known, a percentage. It returns what to
+    tell the user, a sentence and whether it is a warning. Nothing is changed before its end. Closing it ends everything. It
+    throws ReductionError.
+    """
+    settings = context.scene.selvedge
+    program = program_path(context)
+    obstacles = _obstacles(settings)
+    inputs = [_Input(selected) for selected in _selection(context, obstacles)]
+    with tempfile.TemporaryDirectory(prefix="selvedge_", dir=bpy.app.tempdir) as folder:
+        yield "writing the selected objects", None
+        files = _Files(folder, inputs)
+        places = numpy.concatenate([made.places_of(made.basis) for made in inputs])
+        files.write(_INPUT, places)
+        command = [program, "simplify", _INPUT, "-o", _OUTPUT, "--report", _REPORT, *settings.arguments()]
+        depsgraph = context.evaluated_depsgraph_get()
+        obstacle = _Obstacle(obstacles, depsgraph) if obstacles else None
+        if obstacle:
+            obstacle.write(os.path.join(folder, _OBSTACLE), depsgraph)
+            command += ["--obstacle", _OBSTACLE]
+
+        for name in _names_of_shape_keys(inputs) if settings.uses_shape_keys else []:
+            yield f"writing the shape key {name}", None
+            pose = files.new_name("shape_key_" + name)
+            files.write(pose, numpy.concatenate([made.places_of(made.shape(name)) for made in inputs]))
+            command += ["--pose", pose] + (["--obstacle-pose", _OBSTACLE] if obstacle else [])
+        if settings.uses_frames:
+            for frame, depsgraph in _frames(context, settings.frame_step):
+                yield f"writing frame {frame}", None
+                pose = files.new_name(f"frame_{frame}")
+                files.write(pose, numpy.concatenate([made.places_in_frame(depsgraph, frame) for made in inputs]))
+                command += ["--pose", pose]
+                if obstacle:
+                    obstacle.write(os.path.join(folder, "obstacle_" + pose), depsgraph)
+                    command += ["--obstacle-pose", "obstacle_" + pose]
+
+        yield from _run(command, folder)
+        yield "making the reduced meshes", None
+        _store(inputs, *files.result(places))
+        with open(os.path.join(folder, _REPORT)) as report:
+            return _summary(json.load(report), len(inputs))
+
+
+class _Input:
+    """A selected object: its triangles and wedges, and where they are. Coordinates have the shape (vertices, 3)."""
+
+    def __init__(self, selected):
+        self.object = selected
+        self.corners = Corners(selected.data)
+        keys = selected.data.shape_keys
+        reference = keys.reference_key.data if keys else selected.data.vertices
+        self.basis = column(reference, "co", numpy.float32, 3)
+
+    def places_of(self, coordinates, matrix=None):
+        """Returns the places of all wedges in world space."""
+        return world_places(coordinates, matrix or self.object.matrix_world)[self.corners.vertices]
+
+    def names_of_shapes(self):
+        keys = self.object.data.shape_keys
+        return [key.name for key in keys.key_blocks if key != keys.reference_key] if keys else []
+
+    def shape(self, name):
+        """Returns the coordinates in which the shape key of this name has the value 1, and all others 0."""
+        if name not in self.names_of_shapes():
+            return self.basis
+        keys = self.object.data.shape_keys
+        key = keys.key_blocks[name]
+        coordinates = column(key.data, "co", numpy.float32, 3)
+        if not keys.use_relative or key.relative_key == keys.reference_key:
+            return coordinates
+        return self.basis.astype(float) + coordinates - column(key.relative_key.data, "co", numpy.float32, 3)
+
+    def places_in_frame(self, depsgraph, frame):
+        evaluated = self.object.evaluated_get(depsgraph)
+        mesh = evaluated.to_mesh()
+        try:
+            if len(mesh.vertices) != len(self.basis) or not numpy.array_equal(
+                    column(mesh.loops, "vertex_index", numpy.int32), self.corners.loop_vertices):
+                raise ReductionError(f"A modifier of '{self.object.name}' adds or removes vertices or faces in frame {frame}. Hide "
+                                     "it in the viewport while the object is reduced, or use no frames")
+            return self.places_of(column(mesh.vertices, "co", numpy.float32, 3), evaluated.matrix_world)
+        finally:
+            evaluated.to_mesh_clear()
+
+
+class _Obstacle:
+    """Objects that are not changed, as their modifiers make them."""
+
+    def __init__(self, objects, depsgraph):
+        self._objects = objects
+        self._triangles = self._read(depsgraph)[1]
+
+    def write(self, path, depsgraph):
+        places, triangles = self._read(depsgraph)
+        if not numpy.array_equal(triangles, self._triangles):
+            raise ReductionError(f"The faces of the obstacle change in frame {depsgraph.scene.frame_current}. Choose another "
+                                 "obstacle, or use no frames")
+        ply.write(path, _vertices(places), _faces(triangles))
+
+    def _read(self, depsgraph):
+        places, triangles, count = [], [], 0
+        for item in self._objects:
+            evaluated = item.evaluated_get(depsgraph)
+            mesh = evaluated.to_mesh()
+            mesh.calc_loop_triangles()
+            places.append(world_places(column(mesh.vertices, "co", numpy.float32, 3), evaluated.matrix_world))
+            triangles.append(column(mesh.loop_triangles, "vertices", numpy.int32, 3) + count)
+            count += len(mesh.vertices)
+            evaluated.to_mesh_clear()
+        return numpy.concatenate(places), numpy.concatenate(triangles)
+
+
+class _Files:
+    """The files of one run. In all of them the wedges and triangles of all objects are numbered one after another."""
+
+    def __init__(self, folder, inputs):
+        self._folder = folder
+        self._names = set()
+        starts = numpy.cumsum([0] + [len(made.corners.vertices) for made in inputs])
+        triangles = numpy.concatenate([made.corners.triangles + start for made, start in zip(inputs, starts)])
+        self._uvs = numpy.concatenate([made.corners.uvs for made in inputs])
+        self._faces = _faces(triangles)
+
+    def new_name(self, wanted):
+        """Returns a name for a file, by which messages of the program name it."""
+        name = stem = re.sub(r"\W", "_", wanted)
+        while name in self._names:
+            name = f"{stem}_{len(self._names)}"
+        self._names.add(name)
+        return name + ".ply"
+
+    def write(self, name, places):
+        ply.write(os.path.join(self._folder, name), _vertices(places, self._uvs), self._faces)
+
+    def result(self, places):
+        """Returns the wedges of the triangles that are left, and which triangles these were."""
+        vertices, faces = ply.read(os.path.join(self._folder, _OUTPUT))
+        found = numpy.stack([vertices[axis] for axis in "xyz"], axis=1)
+        if not numpy.array_equal(found, places[vertices["number"]]):
+            raise ReductionError("The options move vertices to new places, where they have no weights and shape keys: leave out "
+                                 "--placement and --weld")
+        return vertices["number"][faces["vertex_indices"]].astype(numpy.int64), faces["number"].astype(numpy.int64)
+
+
+def _vertices(places, uvs=None):
+    """Returns the rows of a file; with texture coordinates, the vertices are also numbered."""
+    vertices = numpy.empty(len(places), [(name, "<f8") for name in "xyz"] +
+                           ([("s", "<f4"), ("t", "<f4"), ("number", "<u4")] if uvs is not None else []))
+    vertices["x"], vertices["y"], vertices["z"] = places.T
+    if uvs is not None:
+        vertices["s"], vertices["t"] = uvs.T
+        vertices["number"] = numpy.arange(len(places))
+    return vertices
+
+
+def _faces(triangles):
+    faces = numpy.empty(len(triangles), ply.FACE)
+    faces["corners"] = 3
+    faces["vertex_indices"] = triangles
+    faces["number"] = numpy.arange(len(triangles))
+    return faces
+
+
+def _selection(context, obstacles):
+    selected = [one for one in context.selected_objects if one.type == "MESH" and one.data.polygons and one not in obstacles]
+    if not selected:
+        raise ReductionError("Select one or more mesh objects with faces, other than the obstacle")
+    for one in selected:
+        if one.library or one.data.library:
+            raise ReductionError(f"'{one.name}' is linked from another file: make it local first")
+        if any(modifier.type == "MULTIRES" for modifier in one.modifiers):
+            raise ReductionError(f"'{one.name}' has a Multiresolution modifier, whose details would be lost: apply it first")
+    return selected
+
+
+def _obstacles(settings):
+    chosen = list(settings.obstacles.all_objects) if settings.obstacles else []
+    if settings.obstacle and settings.obstacle not in chosen:
+        chosen.append(settings.obstacle)
+    return [one for one in chosen if one.type == "MESH"]
+
+
+def _names_of_shape_keys(inputs):
+    return list(dict.fromkeys(name for made in inputs for name in made.names_of_shapes()))
+
+
+def _frames(context, step):
+    """Goes through the timeline and back to where it was; yields each `step`th frame, with the scene in it."""
+    scene = context.scene
+    before = scene.frame_current, scene.frame_subframe
+    try:
+        for frame in range(scene.frame_start, scene.frame_end + 1):
+            scene.frame_set(frame)  # also those between, because a simulation needs them
+            if (frame - scene.frame_start) % step == 0:
+                yield frame, context.evaluated_depsgraph_get()
+    finally:
+        scene.frame_set(before[0], subframe=before[1])
+
+
+def _run(command, folder):
+    program = Program(command, folder)
+    try:
+        while program.is_running():
+            yield program.line or "reading", program.percentage
+        if program.exit_code != 0:
+            raise ReductionError(program.line or f"The program ended with exit code {program.exit_code}")
+    finally:
+        program.end()
+
+
+def _store(inputs, triangles, numbers):
+    """Gives every object what is left of its triangles."""
+    rebuilt = []
+    try:
+        first_wedge = first_triangle = 0
+        for made in inputs:
+            corners = made.corners
+            is_own = (numbers >= first_triangle) & (numbers < first_triangle + len(corners.triangles))
+            rebuilt.append(Rebuilt(made.object.data, corners, triangles[is_own] - first_wedge, numbers[is_own] - first_triangle))
+            first_wedge += len(corners.vertices)
+            first_triangle += len(corners.triangles)
+        for made, new in zip(inputs, rebuilt):
+            if made.object.data.users > 1:  # other objects, which nobody has judged, keep the mesh as it is
+                made.object.data = made.object.data.copy()
+            new.store(made.object.data)
+    finally:
+        for new in rebuilt:
+            new.free()
+
+
+def _summary(report, objects):
+    faces, verified = report["faces"], report["verified"]
+    pairs = sum(judged["pairs"] for judged in [verified, *verified.get("poses", [])])
+    text = f"{faces['input']:,} triangles of {objects} object{'s' if objects > 1 else ''} reduced to {faces['output']:,}; "
+    text += f"{pairs:,} pairs intersect, as before" if pairs else "no layer pierces another"
+    if report["target"]["reached"]:
+        return text, False
+    return text + f"; the target of {faces['target']:,} is missed: {report['target']['outcome']}", True
