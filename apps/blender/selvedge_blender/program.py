@@ -5,6 +5,7 @@
 import os
 import re
 import subprocess
+import tempfile
 
 
 class ReductionError(Exception):
@@ -15,13 +16,15 @@ class Program:
     """A run of the program in a folder. Its stderr is a terminal, because it shows its progress to nothing else."""
 
     def __init__(self, command, folder):
+        self._summary = tempfile.TemporaryFile("w+", encoding="utf-8")
         self._terminal, for_the_program = os.openpty()
         os.set_blocking(self._terminal, False)
         try:
-            self._process = subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+            self._process = subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=self._summary,
                                              stderr=for_the_program, start_new_session=True)
         except OSError as error:
             os.close(self._terminal)
+            self._summary.close()
             raise ReductionError(f"The program '{command[0]}' does not start: {error.strerror}") from None
         finally:
             os.close(for_the_program)
@@ -35,6 +38,12 @@ class Program:
     @property
     def exit_code(self):
         return self._process.returncode
+
+    @property
+    def summary(self):
+        """The lines that the program has printed at its end."""
+        self._summary.seek(0)
+        return self._summary.read().splitlines()
 
     @property
     def line(self):
@@ -53,6 +62,7 @@ class Program:
             self._process.kill()
             self._process.wait()
         os.close(self._terminal)
+        self._summary.close()
 
     def _listen(self):
         try:

@@ -69,19 +69,19 @@ class Rebuilt:
         for of_vertices, of_loops, of_edges, polygon in zip(*(row.tolist() for row in rows)):
             face = self._mesh.faces.new([vertices[i] for i in of_vertices])
             face.copy_from(faces[polygon])
+            face.smooth = faces[polygon].smooth  # which copy_from leaves out, as it does the marks of edges
             for loop, of_loop, of_edge in zip(face.loops, of_loops, of_edges):
                 loop.copy_from(loops[of_loop])
                 edge = loop.edge
                 if edge.index != -1 or of_edge == -1:
                     continue
-                # A new edge is what the edge was of which the program has moved an end. Of two that became one, that
-                # which was marked counts.
+                # A new edge is what the edge was of which the program has moved an end. Of two that became one, each
+                # mark counts.
                 if edge not in new_edges:
                     new_edges.add(edge)
                     edge.copy_from(edges[of_edge])
-                else:
-                    edge.seam |= edges[of_edge].seam
-                    edge.smooth &= edges[of_edge].smooth
+                edge.seam |= edges[of_edge].seam
+                edge.smooth &= edges[of_edge].smooth
 
     def _remove_unused(self):
         """Removes the edges and vertices that had faces and have none now; others without faces stay."""

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One reduction: from the selected objects to files, through the program, and back."""
 
+import contextlib
 import json
 import os
 import re
@@ -16,7 +17,7 @@ from .program import Program, ReductionError
 from .rebuild import Rebuilt
 from .settings import program_path
 
-_INPUT, _OUTPUT, _OBSTACLE, _REPORT = "selected_objects.ply", "reduced.ply", "obstacle.ply", "report.json"
+_OUTPUT, _REPORT = "reduced.ply", "report.json"
 
 
 def reduce_selected(context):
@@ -34,34 +35,33 @@ def reduce_selected(context):
         yield "writing the selected objects", None
         files = _Files(folder, inputs)
         places = numpy.concatenate([made.places_of(made.basis) for made in inputs])
-        files.write(_INPUT, places)
-        command = [program, "simplify", _INPUT, "-o", _OUTPUT, "--report", _REPORT, *settings.arguments()]
-        depsgraph = context.evaluated_depsgraph_get()
-        obstacle = _Obstacle(obstacles, depsgraph) if obstacles else None
+        command = [program, "simplify", files.write("selected_objects", places), "-o", _OUTPUT, "--report", _REPORT]
+        command += settings.arguments()
+        obstacle = _Obstacle(folder, obstacles, context.evaluated_depsgraph_get()) if obstacles else None
         if obstacle:
-            obstacle.write(os.path.join(folder, _OBSTACLE), depsgraph)
-            command += ["--obstacle", _OBSTACLE]
+            command += ["--obstacle", obstacle.write("obstacle", context.evaluated_depsgraph_get())]
 
-        for name in _names_of_shape_keys(inputs) if settings.uses_shape_keys else []:
-            yield f"writing the shape key {name}", None
-            pose = files.new_name("shape_key_" + name)
-            files.write(pose, numpy.concatenate([made.places_of(made.shape(name)) for made in inputs]))
-            command += ["--pose", pose] + (["--obstacle-pose", _OBSTACLE] if obstacle else [])
-        if settings.uses_frames:
-            for frame, depsgraph in _frames(context, settings.frame_step):
-                yield f"writing frame {frame}", None
-                pose = files.new_name(f"frame_{frame}")
-                files.write(pose, numpy.concatenate([made.places_in_frame(depsgraph, frame) for made in inputs]))
-                command += ["--pose", pose]
-                if obstacle:
-                    obstacle.write(os.path.join(folder, "obstacle_" + pose), depsgraph)
-                    command += ["--obstacle-pose", "obstacle_" + pose]
+        for key in _names_of_shape_keys(inputs) if settings.uses_shape_keys else []:
+            yield f"writing the shape key {key}", None
+            name = files.new_name("shape_key_" + key)
+            places_of_key = numpy.concatenate([made.places_of(made.shape(key)) for made in inputs])
+            command += ["--pose", files.write(name, places_of_key)]
+            if obstacle:
+                with obstacle.in_shape(key):
+                    command += ["--obstacle-pose", obstacle.write("obstacle_" + name, context.evaluated_depsgraph_get())]
+        for frame, depsgraph in _frames(context, settings.frame_step) if settings.uses_frames else []:
+            yield f"writing frame {frame}", None
+            name = files.new_name(f"frame_{frame}")
+            places_in_frame = numpy.concatenate([made.places_in_frame(depsgraph, frame) for made in inputs])
+            command += ["--pose", files.write(name, places_in_frame)]
+            if obstacle:
+                command += ["--obstacle-pose", obstacle.write("obstacle_" + name, depsgraph)]
 
-        yield from _run(command, folder)
+        summary = yield from _run(command, folder)
         yield "making the reduced meshes", None
         _store(inputs, *files.result(places))
         with open(os.path.join(folder, _REPORT)) as report:
-            return _summary(json.load(report), len(inputs))
+            return _message(json.load(report), summary, len(inputs))
 
 
 class _Input:
@@ -109,16 +109,31 @@ class _Input:
 class _Obstacle:
     """Objects that are not changed, as their modifiers make them."""
 
-    def __init__(self, objects, depsgraph):
+    def __init__(self, folder, objects, depsgraph):
+        self._folder = folder
         self._objects = objects
         self._triangles = self._read(depsgraph)[1]
 
-    def write(self, path, depsgraph):
+    def write(self, name, depsgraph):
         places, triangles = self._read(depsgraph)
         if not numpy.array_equal(triangles, self._triangles):
             raise ReductionError(f"The faces of the obstacle change in frame {depsgraph.scene.frame_current}. Choose another "
                                  "obstacle, or use no frames")
-        ply.write(path, _vertices(places), _faces(triangles))
+        return _write(self._folder, name, _vertices(places), _faces(triangles))
+
+    @contextlib.contextmanager
+    def in_shape(self, name):
+        """For a while, the shape key of this name has the value 1, and all others 0, in every object that has it."""
+        before = [(one, one.show_only_shape_key, one.active_shape_key_index) for one in self._objects]
+        try:
+            for one in self._objects:
+                keys = one.data.shape_keys
+                if keys and name in keys.key_blocks:
+                    one.show_only_shape_key, one.active_shape_key_index = True, keys.key_blocks.find(name)
+            yield
+        finally:
+            for one, shows_one, index in before:
+                one.show_only_shape_key, one.active_shape_key_index = shows_one, index
 
     def _read(self, depsgraph):
         places, triangles, count = [], [], 0
@@ -145,15 +160,15 @@ class _Files:
         self._faces = _faces(triangles)
 
     def new_name(self, wanted):
-        """Returns a name for a file, by which messages of the program name it."""
+        """Returns a name for a file, by which the program names it in messages."""
         name = stem = re.sub(r"\W", "_", wanted)
         while name in self._names:
             name = f"{stem}_{len(self._names)}"
         self._names.add(name)
-        return name + ".ply"
+        return name
 
     def write(self, name, places):
-        ply.write(os.path.join(self._folder, name), _vertices(places, self._uvs), self._faces)
+        return _write(self._folder, name, _vertices(places, self._uvs), self._faces)
 
     def result(self, places):
         """Returns the wedges of the triangles that are left, and which triangles these were."""
@@ -163,6 +178,12 @@ class _Files:
             raise ReductionError("The options move vertices to new places, where they have no weights and shape keys: leave out "
                                  "--placement and --weld")
         return vertices["number"][faces["vertex_indices"]].astype(numpy.int64), faces["number"].astype(numpy.int64)
+
+
+def _write(folder, name, vertices, faces):
+    """Writes a file and returns its name in the folder."""
+    ply.write(os.path.join(folder, name + ".ply"), vertices, faces)
+    return name + ".ply"
 
 
 def _vertices(places, uvs=None):
@@ -227,6 +248,7 @@ def _run(command, folder):
             yield program.line or "reading", program.percentage
         if program.exit_code != 0:
             raise ReductionError(program.line or f"The program ended with exit code {program.exit_code}")
+        return program.summary
     finally:
         program.end()
 
@@ -251,11 +273,11 @@ def _store(inputs, triangles, numbers):
             new.free()
 
 
-def _summary(report, objects):
+def _message(report, summary, objects):
     faces, verified = report["faces"], report["verified"]
     pairs = sum(judged["pairs"] for judged in [verified, *verified.get("poses", [])])
     text = f"{faces['input']:,} triangles of {objects} object{'s' if objects > 1 else ''} reduced to {faces['output']:,}; "
-    text += f"{pairs:,} pairs intersect, as before" if pairs else "no layer pierces another"
+    text += f"{pairs:,} pairs of them intersect, as before" if pairs else "no layer pierces another"
     if report["target"]["reached"]:
         return text, False
-    return text + f"; the target of {faces['target']:,} is missed: {report['target']['outcome']}", True
+    return text + "; target not reached, " + next((line for line in summary if line.startswith("held back")), ""), True
