@@ -94,7 +94,7 @@ class Panel(bpy.types.Panel):
             column.prop(settings, "deviation")
         else:
             column.prop(settings, "ratio" if settings.target == "RATIO" else "faces")
-            row = column.row(heading="Limit Deviation")
+            row = column.row(heading="Deviation")
             row.prop(settings, "has_limit", text="")
             limit = row.row()
             limit.active = settings.has_limit
@@ -102,7 +102,7 @@ class Panel(bpy.types.Panel):
         column = layout.column()
         column.prop(settings, "obstacle")
         column.prop(settings, "obstacles", text="Collection")
-        column = layout.column(heading="Layers Keep Apart")
+        column = layout.column(heading="Also In")
         column.prop(settings, "uses_shape_keys")
         column.prop(settings, "uses_frames")
         step = column.column()

@@ -57,15 +57,15 @@ class Settings(bpy.types.PropertyGroup):
         name="Obstacles", type=bpy.types.Collection,
         description="Collection of objects that no layer may touch or pass through. They are not changed")
     uses_shape_keys: BoolProperty(
-        name="In Every Shape Key", default=True,
+        name="Shape Keys", default=True,
         description="No layer pierces another in any of the shape keys at value 1, either. Keys of the same name in several "
                     "objects count as one. Time and memory grow with the number of keys")
     uses_frames: BoolProperty(
-        name="In Frames of the Timeline", default=False,
+        name="Frames", default=False,
         description="No layer pierces another in frames of the animation, either. Modifiers may move vertices, but not add or "
                     "remove any. Time and memory grow with the number of frames")
     frame_step: IntProperty(
-        name="Every", default=10, min=1, description="Use each frame of this distance, from the start frame to the end frame")
+        name="Every Nth", default=10, min=1, description="Use each frame of this distance, from the start frame to the end frame")
     options: StringProperty(
         name="Options",
         description="Further options for the program, as in a command line: --normal-change 30 --aspect-ratio 0.2")
