@@ -66,13 +66,14 @@ def _make(name, number, faces, points, shapes):
     bpy.context.scene.collection.objects.link(made)
     made.select_set(True)
 
-    places = points[used]
+    places, of_faces = points[used], points[numpy.array(faces)].mean(axis=1)
+    is_right, is_front = of_faces[:, 0] > 0, of_faces[:, 1] > 0
     angle = numpy.arctan2(places[:, 1], places[:, 0])
     for map_name, factor in (("UVMap", 1), ("second", 3)):
         uv_map = mesh.uv_layers.new(name=map_name)
         uvs = numpy.stack([factor * angle, places[:, 2]], axis=1)[corners]
         if map_name == "second":  # has a seam of its own
-            uvs[numpy.repeat(places[corners.reshape(-1, 3)].mean(axis=1)[:, 1] > 0, 3)] += 1
+            uvs[numpy.repeat(is_front, 3)] += 1
         uv_map.data.foreach_set("uv", uvs.astype(numpy.float32).ravel())
     group = made.vertex_groups.new(name="weights")
     for vertex, height in enumerate(places[:, 2]):
@@ -83,10 +84,9 @@ def _make(name, number, faces, points, shapes):
     colours.data.foreach_set("color", numpy.c_[numpy.abs(places) % 1, numpy.ones(len(used))][corners].astype(numpy.float32).ravel())
     for material in ("left", "right"):
         mesh.materials.append(bpy.data.materials.get(material) or bpy.data.materials.new(material))
-    is_right = points[numpy.array(faces)].mean(axis=1)[:, 0] > 0
     mesh.polygons.foreach_set("material_index", is_right.astype(numpy.int32))
     mesh.polygons.foreach_set("use_smooth", numpy.ones(len(faces), bool))
-    mesh.attributes.new("of_faces", "INT", "FACE").data.foreach_set("value", is_right.astype(numpy.int32) + 10)
+    mesh.attributes.new("of_faces", "INT", "FACE").data.foreach_set("value", 2 * is_front + is_right)
     _mark_material_border(mesh)
     made.shape_key_add(name="Basis")
     for shape, shape_points in shapes.items():

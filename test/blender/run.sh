@@ -20,10 +20,12 @@ trap 'rm -rf "$folder"' EXIT
 "$selvedge" generate skirt -o "$folder/skirt.obj" --faces 12000 --poses 2 --poses-out "$folder/pose_{pose}.obj" --quiet
 # Nothing of the person who runs this is read or written.
 export HOME="$folder" SELVEDGE="$selvedge" FOLDER="$folder" ADD_ON="$tree/apps/blender" LIBGL_ALWAYS_SOFTWARE=1
-test() { # Blender itself ends with 0 whatever a script does, except with --python-exit-code
-  timeout 600 "$@" >"$folder/log" 2>&1 && grep -q "^all is well" "$folder/log" || { cat "$folder/log" >&2; exit 1; }
+export TMPDIR="$folder" PYTHONDONTWRITEBYTECODE=1
+run() { # Blender ends with 0 when a script fails
+  timeout 600 "$@" >"$folder/log" 2>&1 && grep -q "^all is well" "$folder/log" ||
+    { cat "$folder/log" >&2; exit 1; }
   grep "^ok: " "$folder/log"
 }
 cd "$tree/test/blender"
-test blender --background --factory-startup --python-exit-code 1 --python background_test.py
-test xvfb-run -a -s "-screen 0 1280x800x24" blender --factory-startup --enable-event-simulate --no-window-focus --python window_test.py
+run blender --background --factory-startup --python background_test.py
+run xvfb-run -a -s "-screen 0 1280x800x24" blender --factory-startup --enable-event-simulate --no-window-focus --python window_test.py

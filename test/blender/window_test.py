@@ -22,6 +22,19 @@ def view():
     return bpy.context.temp_override(window=window, area=area, region=region)
 
 
+def show_panel():
+    """Puts the panel on the tab of the sidebar that is open; returns a list that gets an entry whenever it is drawn."""
+    from selvedge_blender.operators import Panel
+
+    drawn, draw = [], Panel.draw
+    bpy.utils.unregister_class(Panel)
+    Panel.bl_category, Panel.draw = "Item", lambda self, context: drawn.append(draw(self, context))
+    bpy.utils.register_class(Panel)
+    with view():
+        bpy.context.space_data.show_region_ui = True
+    return drawn
+
+
 def press(key):
     window = bpy.context.window_manager.windows[0]
     window.event_simulate(type=key, value="PRESS", x=window.width // 2, y=window.height // 2)
@@ -33,12 +46,9 @@ def objects():
     return sorted(bpy.data.objects, key=lambda one: one.name)
 
 
-def folders():
-    return [name for name in os.listdir(bpy.app.tempdir) if name.startswith("selvedge_")]
-
-
 def is_running():
-    return bool(folders())
+    """Whether there are files of a reduction."""
+    return any(name.startswith("selvedge_") for name in os.listdir(bpy.app.tempdir))
 
 
 def begin():
@@ -55,9 +65,14 @@ def steps():
         bpy.ops.ed.undo_push(message="the garment")
     then = garment.everything(objects())
     garment.settings(ratio=0.3)
+    drawn = show_panel()
+    for _ in range(10):
+        yield
+    check("the panel is drawn", drawn)
 
     begin()
-    yield
+    while not is_running():
+        yield
     while is_running():
         yield
     reduced = garment.everything(objects())

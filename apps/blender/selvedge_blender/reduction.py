@@ -245,7 +245,7 @@ def _run(command, folder):
     program = Program(command, folder)
     try:
         while program.is_running():
-            yield program.line or "reading", program.percentage
+            yield program.line or "running the program", program.percentage
         if program.exit_code != 0:
             raise ReductionError(program.line or f"The program ended with exit code {program.exit_code}")
         return program.summary
