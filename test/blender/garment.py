@@ -91,6 +91,9 @@ def _make(name, number, faces, points, shapes):
     made.shape_key_add(name="Basis")
     for shape, shape_points in shapes.items():
         made.shape_key_add(name=shape).data.foreach_set("co", local(shape_points).ravel())
+    made.active_shape_key_index = number % 3
+    if number == 1:  # Blender shows the basis, wherever vertices of the mesh itself are
+        mesh.vertices.foreach_set("co", local(points + 5).ravel())
     made.modifiers.new("Smooth", "SMOOTH").factor = 0
     return made
 
@@ -120,22 +123,27 @@ def values(items, name, size=1):
     return [tuple(value) if size > 1 else value for value in read]
 
 
+def coordinates(made, shape="Basis"):
+    keys = made.data.shape_keys
+    return values(keys.key_blocks[shape].data if keys else made.data.vertices, "co", 3)
+
+
 def vertices_of(made):
     """Returns everything that vertices have, by their coordinates, which are different for all."""
     mesh = made.data
     keys = [values(key.data, "co", 3) for key in mesh.shape_keys.key_blocks]
     rows = zip([tuple((group.group, group.weight) for group in vertex.groups) for vertex in mesh.vertices],
                values(mesh.attributes["of_points"].data, "color", 4), zip(*keys))
-    return dict(zip(values(mesh.vertices, "co", 3), rows))
+    return dict(zip(coordinates(made), rows))
 
 
 def corners_of(made):
     """Returns for every corner its vertex with everything that it and its face have."""
-    mesh = made.data
-    of_loops = zip(*(values(uv_map.data, "uv", 2) for uv_map in mesh.uv_layers), values(mesh.attributes["of_corners"].data, "color", 4))
-    of_loops = list(of_loops)
+    mesh, places = made.data, coordinates(made)
+    uvs = [values(uv_map.data, "uv", 2) for uv_map in mesh.uv_layers]
+    of_loops = list(zip(*uvs, values(mesh.attributes["of_corners"].data, "color", 4)))
     of_faces = values(mesh.attributes["of_faces"].data, "value")
-    return {(tuple(mesh.vertices[mesh.loops[loop].vertex_index].co), of_loops[loop], face.material_index, face.use_smooth,
+    return {(places[mesh.loops[loop].vertex_index], of_loops[loop], face.material_index, face.use_smooth,
              of_faces[face.index]) for face in mesh.polygons for loop in face.loop_indices}
 
 
@@ -150,14 +158,13 @@ def triangles(objects):
     return sum(len(one.data.loop_triangles) for one in objects if one.data.calc_loop_triangles() is None)
 
 
-def write(objects, name, shape=None):
-    """Writes the objects as they are, or in a shape, to an OBJ file in world space with all digits; returns its path."""
+def write(objects, name, shape="Basis"):
+    """Writes the objects in a shape to an OBJ file in world space with all digits; returns its path."""
     path, count = os.path.join(FOLDER, f"written_{name}.obj"), 1
     with open(path, "w") as file:
         for one in objects:
             matrix = numpy.array(one.matrix_world)
-            source = one.data.shape_keys.key_blocks[shape].data if shape else one.data.vertices
-            for place in numpy.array(values(source, "co", 3)) @ matrix[:3, :3].T + matrix[:3, 3]:
+            for place in numpy.array(coordinates(one, shape)) @ matrix[:3, :3].T + matrix[:3, 3]:
                 file.write("v {!r} {!r} {!r}\n".format(*map(float, place)))
             one.data.calc_loop_triangles()
             for triangle in one.data.loop_triangles:

@@ -10,6 +10,8 @@ wedge that it leaves then says by its number which values the corner has.
 
 import numpy
 
+from .program import ReductionError
+
 # For the types of attributes that Blender has at corners: the name of the value, and how many numbers it has.
 _VALUES = {"FLOAT": ("value", 1), "INT": ("value", 1), "INT8": ("value", 1), "BOOLEAN": ("value", 1), "FLOAT2": ("vector", 2),
            "FLOAT_VECTOR": ("vector", 3), "FLOAT_COLOR": ("color", 4), "BYTE_COLOR": ("color", 4)}
@@ -37,6 +39,8 @@ class Corners:
         following = numpy.arange(1, len(mesh.loops) + 1)  # for each loop the next one of its polygon
         starts = column(mesh.polygons, "loop_start", numpy.int32)
         sizes = column(mesh.polygons, "loop_total", numpy.int32)
+        if (numpy.cumsum(sizes) - sizes != starts).any():
+            raise ReductionError(f"The corners of '{mesh.name}' are not in the order of its faces: enter and leave its edit mode")
         following[starts + sizes - 1] = starts
 
         edges = column(mesh.loops, "edge_index", numpy.int32)

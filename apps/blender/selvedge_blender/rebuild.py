@@ -10,6 +10,7 @@ import bmesh
 import numpy
 
 from .corners import column
+from .program import ReductionError
 
 
 class Rebuilt:
@@ -20,10 +21,10 @@ class Rebuilt:
     """
 
     def __init__(self, mesh, corners, triangles, numbers):
-        self._input = bmesh.new()
-        self._input.from_mesh(mesh)
-        self._mesh = bmesh.new()
-        self._mesh.from_mesh(mesh)
+        self._name = mesh.name
+        self._input, self._mesh = bmesh.new(), bmesh.new()
+        for made in (self._input, self._mesh):
+            made.from_mesh(mesh, use_shape_key=True)  # places are those of the basis, if there is one
         self._normals = None
         if mesh.has_custom_normals:
             self._keep_normals(mesh)
@@ -67,7 +68,11 @@ class Rebuilt:
         rows = (corners.vertices[triangles], corners.loops[triangles], corners.edges[numbers], corners.polygons[numbers])
         new_edges = set()
         for of_vertices, of_loops, of_edges, polygon in zip(*(row.tolist() for row in rows)):
-            face = self._mesh.faces.new([vertices[i] for i in of_vertices])
+            try:
+                face = self._mesh.faces.new([vertices[i] for i in of_vertices])
+            except ValueError:
+                raise ReductionError(f"'{self._name}' has several faces between the same vertices, as both sides of a leaf: "
+                                     "separate them") from None
             face.copy_from(faces[polygon])
             face.smooth = faces[polygon].smooth  # which copy_from leaves out, as it does the marks of edges
             for loop, of_loop, of_edge in zip(face.loops, of_loops, of_edges):
