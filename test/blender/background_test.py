@@ -153,6 +153,14 @@ check("loose vertices and edges stay, others go", len(grid.data.vertices) == len
 grid.data.calc_normals_split()
 check("custom normals stay", numpy.allclose(garment.values(grid.data.loops, "normal", 3), (0, 0.6, 0.8), atol=0.005))
 
+from selvedge_blender.program import Program  # known only now
+
+program = Program(["sh", "-c", r"printf '\r\033[Kreducing [===   ] 42 %%, 7 faces' >&2; exec sleep 1000"], garment.FOLDER)
+while program.is_running() and not program.line:
+    pass
+check("the progress is read", program.percentage == 42 and program.line.endswith("7 faces"))
+program.end()
+
 mesh = grid.data = bpy.data.meshes.new("leaf")
 points = [(x, y, 0.01 * x * y) for x in range(9) for y in range(9)]
 faces = [(i, i + 9, i + 10, i + 1) for i in range(71) if i % 9 != 8]

@@ -9,7 +9,7 @@ import bpy
 from .program import ReductionError
 from .reduction import reduce_selected
 
-_SECONDS = 0.1  # between two looks at the program
+_SECONDS = 0.05  # between two looks at the program
 
 
 class Reduce(bpy.types.Operator):

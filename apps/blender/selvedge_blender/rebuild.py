@@ -12,6 +12,8 @@ import numpy
 from .corners import column
 from .program import ReductionError
 
+_ORIGIN = "selvedge_origin"  # for a while, an attribute of corners: their numbers in the input
+
 
 class Rebuilt:
     """What becomes of a mesh, which stays as it is until `store`.
@@ -47,10 +49,6 @@ class Rebuilt:
             mesh.normals_split_custom_set(self._normals[origins])
         mesh.update()
 
-    def free(self):
-        self._input.free()
-        self._mesh.free()
-
     def _keep_normals(self, mesh):
         # They are stored relative to normals that Blender computes, which change: so they are set anew.
         mesh.calc_normals_split()
@@ -62,8 +60,8 @@ class Rebuilt:
                 loop[origin] = number
 
     def _add_faces(self, corners, triangles, numbers):
-        vertices, faces = list(self._mesh.verts), list(self._input.faces)
-        edges = list(self._input.edges)
+        vertices = list(self._mesh.verts)
+        edges, faces = list(self._input.edges), list(self._input.faces)
         loops = [loop for face in faces for loop in face.loops]
         rows = (corners.vertices[triangles], corners.loops[triangles], corners.edges[numbers], corners.polygons[numbers])
         new_edges = set()
@@ -96,9 +94,6 @@ class Rebuilt:
         loose_vertices = {vertex.index for vertex in self._input.verts if not vertex.link_edges}
         for vertex in [vertex for vertex in self._mesh.verts if not vertex.link_edges and vertex.index not in loose_vertices]:
             self._mesh.verts.remove(vertex)
-
-
-_ORIGIN = "selvedge_origin"
 
 
 def _whole_polygons(corners, triangles, numbers, polygons):

@@ -34,7 +34,7 @@ def reduce_selected(context):
     with tempfile.TemporaryDirectory(prefix="selvedge_", dir=bpy.app.tempdir) as folder:
         yield "writing the selected objects", None
         files = _Files(folder, inputs)
-        places = numpy.concatenate([made.places_of(made.basis) for made in inputs])
+        places = numpy.concatenate([item.places_of(item.basis) for item in inputs])
         command = [program, "simplify", files.write("selected_objects", places), "-o", _OUTPUT, "--report", _REPORT]
         command += settings.arguments()
         obstacle = _Obstacle(folder, obstacles, context.evaluated_depsgraph_get()) if obstacles else None
@@ -44,7 +44,7 @@ def reduce_selected(context):
         for key in _names_of_shape_keys(inputs) if settings.uses_shape_keys else []:
             yield f"writing the shape key {key}", None
             name = files.new_name("shape_key_" + key)
-            places_of_key = numpy.concatenate([made.places_of(made.shape(key)) for made in inputs])
+            places_of_key = numpy.concatenate([item.places_of(item.shape(key)) for item in inputs])
             command += ["--pose", files.write(name, places_of_key)]
             if obstacle:
                 with obstacle.in_shape(key):
@@ -52,7 +52,7 @@ def reduce_selected(context):
         for frame, depsgraph in _frames(context, settings.frame_step) if settings.uses_frames else []:
             yield f"writing frame {frame}", None
             name = files.new_name(f"frame_{frame}")
-            places_in_frame = numpy.concatenate([made.places_in_frame(depsgraph, frame) for made in inputs])
+            places_in_frame = numpy.concatenate([item.places_in_frame(depsgraph, frame) for item in inputs])
             command += ["--pose", files.write(name, places_in_frame)]
             if obstacle:
                 command += ["--obstacle-pose", obstacle.write("obstacle_" + name, depsgraph)]
@@ -153,19 +153,16 @@ class _Files:
 
     def __init__(self, folder, inputs):
         self._folder = folder
-        self._names = set()
-        starts = numpy.cumsum([0] + [len(made.corners.vertices) for made in inputs])
-        triangles = numpy.concatenate([made.corners.triangles + start for made, start in zip(inputs, starts)])
-        self._uvs = numpy.concatenate([made.corners.uvs for made in inputs])
+        self._poses = 0
+        starts = numpy.cumsum([0] + [len(item.corners.vertices) for item in inputs])
+        triangles = numpy.concatenate([item.corners.triangles + start for item, start in zip(inputs, starts)])
+        self._uvs = numpy.concatenate([item.corners.uvs for item in inputs])
         self._faces = _faces(triangles)
 
-    def new_name(self, wanted):
-        """Returns a name for a file, by which the program names it in messages."""
-        name = stem = re.sub(r"\W", "_", wanted)
-        while name in self._names:
-            name = f"{stem}_{len(self._names)}"
-        self._names.add(name)
-        return name
+    def new_name(self, pose):
+        """Returns a name for the file of a pose, by which the program names it in messages."""
+        self._poses += 1
+        return re.sub(r"\W", "_", f"{self._poses}_{pose}")
 
     def write(self, name, places):
         return _write(self._folder, name, _vertices(places, self._uvs), self._faces)
@@ -221,11 +218,14 @@ def _obstacles(settings):
     chosen = list(settings.obstacles.all_objects) if settings.obstacles else []
     if settings.obstacle and settings.obstacle not in chosen:
         chosen.append(settings.obstacle)
-    return [one for one in chosen if one.type == "MESH"]
+    meshes = [one for one in chosen if one.type == "MESH"]
+    if settings.obstacles and not meshes:
+        raise ReductionError(f"The collection '{settings.obstacles.name}' has no mesh objects that could be an obstacle")
+    return meshes
 
 
 def _names_of_shape_keys(inputs):
-    return list(dict.fromkeys(name for made in inputs for name in made.names_of_shapes()))
+    return list(dict.fromkeys(name for item in inputs for name in item.names_of_shapes()))
 
 
 def _frames(context, step):
@@ -256,21 +256,17 @@ def _run(command, folder):
 def _store(inputs, triangles, numbers):
     """Gives every object what is left of its triangles."""
     rebuilt = []
-    try:
-        first_wedge = first_triangle = 0
-        for made in inputs:
-            corners = made.corners
-            is_own = (numbers >= first_triangle) & (numbers < first_triangle + len(corners.triangles))
-            rebuilt.append(Rebuilt(made.object.data, corners, triangles[is_own] - first_wedge, numbers[is_own] - first_triangle))
-            first_wedge += len(corners.vertices)
-            first_triangle += len(corners.triangles)
-        for made, new in zip(inputs, rebuilt):
-            if made.object.data.users > 1:  # other objects, which nobody has judged, keep the mesh as it is
-                made.object.data = made.object.data.copy()
-            new.store(made.object.data)
-    finally:
-        for new in rebuilt:
-            new.free()
+    first_wedge = first_triangle = 0
+    for item in inputs:
+        corners = item.corners
+        is_own = (numbers >= first_triangle) & (numbers < first_triangle + len(corners.triangles))
+        rebuilt.append(Rebuilt(item.object.data, corners, triangles[is_own] - first_wedge, numbers[is_own] - first_triangle))
+        first_wedge += len(corners.vertices)
+        first_triangle += len(corners.triangles)
+    for item, new in zip(inputs, rebuilt):
+        if item.object.data.users > 1:  # other objects, which nobody has judged, keep the mesh as it is
+            item.object.data = item.object.data.copy()
+        new.store(item.object.data)
 
 
 def _message(report, summary, objects):
