@@ -153,6 +153,11 @@ check("loose vertices and edges stay, others go", len(grid.data.vertices) == len
 grid.data.calc_normals_split()
 check("custom normals stay", numpy.allclose(garment.values(grid.data.loops, "normal", 3), (0, 0.6, 0.8), atol=0.005))
 
+bpy.ops.mesh.primitive_circle_add(fill_type="NGON")
+check("a single polygon is reduced", reduce() is None and len(bpy.context.object.data.polygons) > 1)
+bpy.data.objects.remove(bpy.context.object)
+grid.select_set(True)
+
 from selvedge_blender.program import Program  # known only now
 
 program = Program(["sh", "-c", r"printf '\r\033[Kreducing [===   ] 42 %%, 7 faces' >&2; exec sleep 1000"], garment.FOLDER)

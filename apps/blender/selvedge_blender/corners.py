@@ -65,7 +65,7 @@ class Corners:
             is_joined &= values[polygons[left]] == values[polygons[right]]
         for values in _values_of_corners(mesh):
             for one, other in (begins, ends):
-                is_joined &= (values[one] == values[other]).reshape(len(left), -1).all(axis=1)
+                is_joined &= (values[one] == values[other]).all(axis=tuple(range(1, values.ndim)))
 
         labels = _components(len(edges), *(numpy.concatenate(pair)[numpy.tile(is_joined, 2)] for pair in zip(begins, ends)))
         self.loops, wedges = numpy.unique(labels, return_inverse=True)

@@ -40,16 +40,18 @@ class Reduce(bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
-        if event.type == "ESC":
-            self._steps.close()
-            self.report({"INFO"}, "Selvedge: cancelled; nothing is changed")
-            result = {"CANCELLED"}
-        elif event.type == "TIMER":
-            result = self._step(context)
-        else:
+        if event.type not in {"ESC", "TIMER"}:
             return {"RUNNING_MODAL"}
-        if result != {"RUNNING_MODAL"}:
-            self._end(context)
+        result = {"CANCELLED"}
+        try:
+            if event.type == "TIMER":
+                result = self._step(context)
+            else:
+                self._steps.close()
+                self.report({"INFO"}, "Selvedge: cancelled; nothing is changed")
+        finally:
+            if result != {"RUNNING_MODAL"}:
+                self._end(context)
         return result
 
     def cancel(self, context):
