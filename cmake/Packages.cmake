@@ -24,7 +24,7 @@ if(SELVEDGE_BUILD_APP)
   set(built_from ${PROJECT_BINARY_DIR}/built_from.tsv)
   install(CODE "execute_process(COMMAND bash ${needs} list OUTPUT_FILE ${built_from})" COMPONENT program)
   install(FILES README.md CHANGELOG.md CITATION.cff ${built_from} DESTINATION ${documents} COMPONENT program)
-  install(DIRECTORY docs DESTINATION ${documents} COMPONENT program FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg"
+  install(DIRECTORY docs DESTINATION ${documents} COMPONENT program FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.jpg" PATTERN "*.svg"
           PATTERN manual EXCLUDE)
   install(FILES LICENSE DESTINATION ${documents} RENAME copyright COMPONENT program)
 endif()

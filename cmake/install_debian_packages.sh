@@ -5,8 +5,9 @@
 # Installs what Selvedge is built from, on Debian 12 or later; does nothing where all of it is there already.
 # With the argument "fuzz" also clang and its run-time libraries, of which libFuzzer is one, with "manual" Doxygen, with "python"
 # what the Python package and its tests need, with "html" Chromium, in which the pages of --html are tested, with "many" what
-# works through folders of meshes, with "package" what the test of the packages needs. The argument
-# "benchmark" asks for the peers that the benchmark programs measure, which are among the packages of every build.
+# works through folders of meshes, with "package" what the test of the packages needs, with "blender" what the test of the add-on
+# for Blender needs. The argument "benchmark" asks for the peers that the benchmark programs measure, which are among the packages
+# of every build.
 # With "list" it installs nothing, and prints a table: package, what it is needed for, why, and which version of it is here.
 set -euo pipefail
 
@@ -41,6 +42,10 @@ chromium             html    tests             pages of --html
 doxygen              manual  manual            manual and reference
 snakemake            many    workflow          a folder of meshes
 parallel             many    workflow          a folder of meshes, without Snakemake
+blender              blender tests             the add-on for Blender
+xvfb                 blender tests             a display for Blender's window
+xauth                blender tests             a display for Blender's window
+libgl1-mesa-dri      blender tests             OpenGL without a graphics card
 dpkg-dev             package tests             the dependencies of the packages
 mmdebstrap           package tests             a clean system, in which the packages are tested
 TABLE

@@ -36,6 +36,7 @@ in_root sh -ec '
   selvedge-cgalsimp2 missing.off 0.1 missing_out.off && exit 1
   selvedge generate nested -o nested.off --faces 4000 && selvedge-cgalsimp2 nested.off 0.3 less.off
   test -s /usr/share/man/man1/selvedge.1
+  test -s /usr/share/selvedge/blender/selvedge_blender/__init__.py
   bash -c "source /usr/share/bash-completion/completions/selvedge && complete -p selvedge"'
 
 echo "--- Python"
