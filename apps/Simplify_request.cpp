@@ -84,8 +84,10 @@ void check_poses(const Simplify_request& request)
                          "; leave it out, or the further poses (--pose, --morphs, --animation)");
   };
   if (request.poses.empty()) {
-    if (!request.obstacle_poses.empty() || !request.poses_output.empty())
-      throw Argument_error(std::string(request.poses_output.empty() ? "--obstacle-pose" : "--poses-out") +
+    if (!request.obstacle_poses.empty() || !request.poses_output.empty() || request.are_key_poses_chosen)
+      throw Argument_error(std::string(!request.poses_output.empty()     ? "--poses-out"
+                                       : !request.obstacle_poses.empty() ? "--obstacle-pose"
+                                                                         : "--key-poses") +
                            ": the mesh has no further poses; give them by --pose, --morphs or --animation");
     return;
   }
@@ -226,6 +228,7 @@ Json options_json(const Simplify_request& request)
           {"animation", request.poses.animation.empty() ? Json(nullptr) : Json(request.poses.animation)},
           {"every", request.poses.every},
           {"obstacle_pose", request.obstacle_poses.files},
+          {"key_poses", request.are_key_poses_chosen ? "auto" : "all"},
           {"poses_out", request.poses_output.empty() ? Json(nullptr) : Json(request.poses_output)},
           {"weld", request.weld == "auto" ? Json(request.weld) : Json(request.weld_distance)},
           {"sewn", request.is_sewn},
@@ -364,6 +367,17 @@ void add_options(CLI::App& command, Simplify_request& request)
   add_poses_option(command, "--obstacle-pose", request.obstacle_poses.files,
                    "Poses of the obstacle, as many as of IN and in the same order. Without them it stands "
                    "still.")
+      ->group(poses);
+  command
+      .add_option(
+          "--key-poses", request.are_key_poses_chosen,
+          "Poses in which every collapse is judged: all, or a few that differ most, and those in which "
+          "the result has pairs that it should not have: then it is reduced again, until there is none. "
+          "Faster for many poses. All are judged at the end, but what happens on the way, and limits, "
+          "hold in the few alone.")
+      ->transform(one_of<bool>({{"all", false}, {"auto", true}}))
+      ->type_name("all|auto")
+      ->default_str("all")
       ->group(poses);
   command
       .add_option("--poses-out", request.poses_output,

@@ -32,6 +32,7 @@ struct Simplify_request
   std::vector<double> lods;
   std::string obstacle;
   Pose_sources poses, obstacle_poses;
+  bool are_key_poses_chosen = false;
   std::string poses_output;               // with {pose}
   std::vector<std::string> may_intersect; // "PART:PART"
   Simplify_options options;

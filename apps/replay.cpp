@@ -236,8 +236,19 @@ Exit_code run(const Replay_request& request)
     }
   };
   const Replay_verdict verdict = replay_once();
+  // A log of key poses has fewer than the mesh.
+  const std::vector<Log_header::Posed>& stated = verdict.header.poses;
+  const auto is_stated = [&](const Pose& pose) {
+    return stated.empty() || stated.size() >= original.soup.poses.size() ||
+           std::any_of(stated.begin(), stated.end(),
+                       [&](const auto& posed) { return posed.name == pose.name; });
+  };
   std::vector<Replay_verdict> in_poses;
+  std::vector<std::string> names;
   for (std::size_t pose = 0; pose < original.soup.poses.size() && !verdict.is_stopped; ++pose) {
+    if (!is_stated(original.soup.poses[pose]))
+      continue;
+    names.push_back(original.soup.poses[pose].name);
     options.pose = pose;
     in_poses.push_back(replay_once());
     in_poses.back().soup = {};
@@ -255,7 +266,7 @@ Exit_code run(const Replay_request& request)
   add_replay(report, verdict);
   Json poses = Json::array();
   for (std::size_t i = 0; i < in_poses.size(); ++i) {
-    Json& pose = poses.emplace_back(Json{{"name", original.soup.poses[i].name}});
+    Json& pose = poses.emplace_back(Json{{"name", names[i]}});
     add_replay(pose, in_poses[i]);
   }
   report["poses"] = std::move(poses);
@@ -267,7 +278,11 @@ Exit_code run(const Replay_request& request)
     put_report(request, report, [&] {
       print(request, verdict);
       for (std::size_t i = 0; i < in_poses.size(); ++i)
-        print(original.soup.poses[i].name, in_poses[i]);
+        print(names[i], in_poses[i]);
+      if (const std::size_t others = original.soup.poses.size() - in_poses.size();
+          others > 0 && !verdict.is_stopped)
+        std::cout << counted(others, "further pose") << " not judged: the log does not name "
+                  << (others == 1 ? "it" : "them") << '\n';
     });
   }
   if (!request.scene.empty() && !verdict.violations.empty())

@@ -21,6 +21,7 @@
 #include <selvedge/Reduction_log.h>
 #include <selvedge/Sha256.h>
 #include <selvedge/collapse_log.h>
+#include <selvedge/key_poses.h>
 #include <selvedge/merge.h>
 #include <selvedge/mesh_files.h>
 #include <selvedge/poses.h>
@@ -30,6 +31,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -61,8 +63,12 @@ public:
     try {
       m_report["input"] = nullptr;
       const Prepared_soup prepared = read_and_prepare();
-      std::vector<Level> levels = reduce(prepared);
-      judge(levels, prepared);
+      m_guarded_poses = key_poses(prepared.soup, number_of_key_poses(prepared.soup.poses.size()));
+      std::vector<Level> levels;
+      do {
+        levels = reduce(prepared);
+        judge(levels, prepared);
+      } while (guard_more_poses(levels));
       write(levels);
       report(prepared, levels);
       return m_outcome.exit_code();
@@ -170,10 +176,35 @@ private:
     }
   }
 
+  std::size_t number_of_key_poses(std::size_t poses) const
+  {
+    return m_request.are_key_poses_chosen ? std::size_t(std::ceil(std::sqrt(double(poses)))) : poses;
+  }
+
+  // Adds the poses in which the judge found new pairs to those that are guarded. Returns whether
+  // there are any, so that the reduction is to be done again.
+  bool guard_more_poses(const std::vector<Level>& levels)
+  {
+    const std::size_t guarded = m_guarded_poses.size();
+    if (m_outcome.is_interrupted || !m_request.options.check_intersections)
+      return false;
+    for (const Level& level : levels)
+      for (std::size_t pose = 0; pose < level.verification.poses.size(); ++pose)
+        if (!level.verification.poses[pose].new_pairs.empty())
+          m_guarded_poses.push_back(pose);
+    std::sort(m_guarded_poses.begin(), m_guarded_poses.end());
+    m_guarded_poses.erase(std::unique(m_guarded_poses.begin(), m_guarded_poses.end()), m_guarded_poses.end());
+    return m_guarded_poses.size() > guarded;
+  }
+
   std::vector<Level> reduce(const Prepared_soup& prepared)
   {
     m_bar.begin("sewing and indexing");
     Simplify_options options = m_request.options;
+    if (m_guarded_poses.size() < prepared.soup.poses.size())
+      options.guarded_poses = m_guarded_poses;
+    m_log.str({});
+    m_collapses.clear();
     if (output_format() != Mesh_format::gltf && output_format() != Mesh_format::glb)
       options.instances = Instances::apart;
     options.should_stop = [this](const Simplify_progress& progress) {
@@ -187,7 +218,11 @@ private:
     };
     std::optional<Reduction_log> log;
     if (!m_request.log.empty()) {
-      log.emplace(m_log, m_log_header, *m_numbering, prepared, options);
+      Log_header header = m_log_header;
+      header.poses.clear();
+      for (const std::size_t pose : m_guarded_poses)
+        header.poses.push_back(m_log_header.poses[pose]);
+      log.emplace(m_log, header, *m_numbering, prepared, options);
     }
     if (log || !m_request.html.empty())
       options.on_collapse = [&](const Soup_collapse& collapse) {
@@ -219,7 +254,7 @@ private:
       m_seconds["index"] = std::max(m_seconds["index"], results[i].report.seconds_index);
       m_seconds["cells"] = std::max(m_seconds["cells"], results[i].report.seconds_cells);
       m_seconds["reduce"] = std::max(m_seconds["reduce"], results[i].report.seconds_reduce);
-      levels.push_back({names[i], std::move(results[i]), {}, {}});
+      levels.push_back({names[i], std::move(results[i]), {}, m_guarded_poses, {}});
     }
     return levels;
   }
@@ -233,6 +268,7 @@ private:
   {
     m_bar.begin(levels.size() == 1 ? "judging the result" : "judging the results");
     const Clock::time_point start = Clock::now();
+    m_outcome = {};
     m_outcome.is_guarded = m_request.options.check_intersections;
     m_outcome.is_target_required = m_request.is_target_required;
     for (Level& level : levels) {
@@ -309,6 +345,10 @@ private:
         json["options"] = options_json(m_request);
       add_reduction(json, prepared, level.result);
       add_verification(json, level.verification, true);
+      for (Json& pose : json["verified"]["poses"])
+        pose["guarded"] = false;
+      for (const std::size_t pose : level.guarded_poses)
+        json["verified"]["poses"][pose]["guarded"] = true;
       const Clock::time_point start = Clock::now();
       add_parts(json, prepared, level.result);
       seconds_parts += seconds_since(start);
@@ -381,6 +421,7 @@ private:
   std::optional<Log_numbering> m_numbering; // these three are used only when a log is written
   Log_header m_log_header;
   std::ostringstream m_log;
+  std::vector<std::size_t> m_guarded_poses;
   std::vector<Soup_collapse> m_collapses; // if a page shows them
   std::map<std::string, double> m_seconds;
   std::size_t m_polygons = 0; // of the input, faces of more than three corners that may be written

@@ -184,8 +184,9 @@ void print_border_gaps(std::ostream& stream, const Simplify_request& request, co
 }
 
 // Says what the judge found in the further poses.
-void print_poses(std::ostream& stream, const Verification& verification, Defects defects)
+void print_poses(std::ostream& stream, const Level& level, Defects defects)
 {
+  const Verification& verification = level.verification;
   std::size_t pairs = 0, unexplained = 0, of_original = 0, affected = 0;
   for (const Verification::In_pose& pose : verification.poses) {
     pairs += pose.pairs.size();
@@ -194,6 +195,8 @@ void print_poses(std::ostream& stream, const Verification& verification, Defects
     affected += !pose.pairs.empty();
   }
   stream << "\nposes: " << counted(verification.poses.size(), "further pose") << " judged, ";
+  if (level.guarded_poses.size() < verification.poses.size())
+    stream << with_commas(level.guarded_poses.size()) << " of them at every collapse, ";
   if (pairs == 0)
     stream << "embedded in each";
   else
@@ -250,7 +253,7 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
 void print_summary(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
                    const Level& level, const Outcome& outcome)
 {
-  const auto& [output, result, verification, polygons] = level;
+  const auto& [output, result, verification, guarded, polygons] = level;
   const Simplify_report& done = result.report;
   const std::size_t faces = result.soup.triangles.size();
   const Distance& distance = verification.distances->original_to_result;
@@ -310,7 +313,7 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
            << origin_of_pairs(verification, prepared.defects);
   stream << ", topology " << (verification.same_topology() ? "kept" : "CHANGED");
   if (!verification.poses.empty())
-    print_poses(stream, verification, prepared.defects);
+    print_poses(stream, level, prepared.defects);
   for (const Verification::Permitted& parts : verification.permitted)
     stream << "\nmay intersect: " << counted(parts.pairs_of_original, "pair") << " between '" << parts.first
            << "' and '" << parts.second << "' before, " << with_commas(parts.pairs) << " now";
@@ -324,7 +327,7 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
 
 std::string complaint(const Simplify_request& request, const Level& level, const Outcome& outcome)
 {
-  const auto& [output, result, verification, polygons] = level;
+  const auto& [output, result, verification, guarded, polygons] = level;
   const std::string where = request.lods.empty() ? "" : output + ": ";
   if (!outcome.is_written()) {
     if (verification.accepted() && verification.same_topology())

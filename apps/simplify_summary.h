@@ -22,6 +22,7 @@ struct Level
   std::string output;
   Simplified_soup result;
   Verification verification;
+  std::vector<std::size_t> guarded_poses; ///< numbers of the further poses in which collapses were judged
 
   /// Faces of more than three corners, in the input and in the file.
   struct Polygons

@@ -118,6 +118,10 @@ struct Simplify_options
   /// How many faces a cluster of `Face_index::clusters` should have, at least 1.
   std::size_t faces_per_cluster = 100;
 
+  /// The further poses, by number, in which collapses are judged: all of them when it has no value. The others
+  /// are carried along, and nothing is promised of them before `verify` has judged the result (key_poses.h).
+  std::optional<std::vector<std::size_t>> guarded_poses;
+
   /// The number of faces per *cell*, or 0 for a reduction without cells. With cells, a soup is first reduced
   /// in disjoint boxes of space, each of at most about this many faces, on as many threads as oneTBB grants;
   /// then what is left is reduced as a whole. Every guarantee holds as without cells. The result differs from

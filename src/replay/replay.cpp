@@ -705,10 +705,15 @@ void require_pose(const Triangle_soup& original, const Log_header& header, std::
     throw Argument_error("there is no pose " + std::to_string(pose) + "; the mesh has " +
                          std::to_string(original.poses.size()) + " further poses");
   const std::string& name = original.poses[pose].name;
-  if (pose >= header.poses.size())
+  // Without some of the mesh's poses, the log has the others by their names.
+  std::size_t place = pose;
+  if (header.poses.size() < original.poses.size())
+    for (place = 0; place < header.poses.size() && header.poses[place].name != name;)
+      ++place;
+  if (place >= header.poses.size())
     throw Input_error("the log says nothing of the pose '" + name + "': it has " +
                       std::to_string(header.poses.size()) + " further poses; leave out the others");
-  const Log_header::Posed& stated = header.poses[pose];
+  const Log_header::Posed& stated = header.poses[place];
   if (!stated.sha256.empty() && stated.sha256 != digest_of(original.poses[pose]))
     throw Input_error("the pose '" + name + "' is not the pose '" + stated.name +
                       "' that the log has in its place; give the same poses in the same order");

@@ -47,9 +47,13 @@ Log_header completed(Log_header header, const Prepared_soup& prepared, const Sim
   if (prepared.snapping.distance > 0)
     header.limits.weld_distance = prepared.snapping.distance;
   const Triangle_soup& obstacle = prepared.obstacle;
-  if (header.poses.empty())
-    for (const Pose& pose : prepared.soup.poses)
+  const std::vector<Pose>& poses = prepared.soup.poses;
+  if (header.poses.empty() && !options.guarded_poses)
+    for (const Pose& pose : poses)
       header.poses.push_back({pose.name, {}});
+  else if (header.poses.empty())
+    for (const std::size_t pose : *options.guarded_poses)
+      header.poses.push_back({poses[pose].name, {}});
   if (!header.obstacle && !obstacle.triangles.empty())
     header.obstacle = {obstacle.points.size(), obstacle.triangles.size(), {}};
   return header;

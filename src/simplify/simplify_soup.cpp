@@ -209,13 +209,20 @@ private:
       partners.emplace_back(vertices[pair.first], vertices[pair.second]);
   }
 
-  // Puts the mesh into the further poses of the soup.
+  static std::vector<std::size_t> all_poses(const Triangle_soup& soup)
+  {
+    std::vector<std::size_t> numbers(soup.poses.size());
+    std::iota(numbers.begin(), numbers.end(), std::size_t(0));
+    return numbers;
+  }
+
+  // Puts the mesh into the further poses of the soup that are guarded.
   void pose(Simplify_constraints<Working_mesh::Mesh>& constraints, const std::vector<Index>& of_soup)
   {
     const Triangle_soup& soup = m_prepared.soup;
     auto& mesh = m_working.mesh();
     const std::size_t own_vertices = soup.points.size();
-    for (std::size_t i = 0; i < soup.poses.size(); ++i) {
+    for (const std::size_t i : m_options.guarded_poses.value_or(all_poses(soup))) {
       auto& pose = constraints.poses.emplace_back();
       pose.points = get(CGAL::dynamic_vertex_property_t<Point_3>(), mesh);
       const std::vector<Point_3>& beside = points_in_pose(m_prepared.obstacle, i);
@@ -329,6 +336,11 @@ Simplified_soup simplify_soup(const Prepared_soup& prepared, const Simplify_opti
     throw Argument_error("in cells no part can have a ratio of its own; leave out one of the two options");
   if (options.faces_per_cell > 0 && !prepared.soup.poses.empty())
     throw Argument_error("a mesh in several poses is not reduced in cells; leave out one of the two options");
+  if (options.guarded_poses)
+    for (const std::size_t pose : *options.guarded_poses)
+      if (pose >= prepared.soup.poses.size())
+        throw Argument_error("the mesh has no further pose " + std::to_string(pose) +
+                             " that could be guarded; it has " + std::to_string(prepared.soup.poses.size()));
   if (options.faces_per_cell > 0 && !prepared.may_intersect.empty())
     throw Argument_error("in cells no parts may intersect each other; leave out one of the two options");
   return Soup_reduction(prepared, options, intent).run();

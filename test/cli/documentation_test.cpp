@@ -88,7 +88,7 @@ TEST(App_documentation, OptionsInReportsAreThoseOfTheHelp)
     }
     ++defaults;
   }
-  EXPECT_EQ(defaults, 20u);
+  EXPECT_EQ(defaults, 21u);
 }
 
 } // namespace

@@ -18,8 +18,8 @@
 namespace selvedge::test {
 namespace {
 
-/// Two sheets, slightly curved, one above the other, which a morph target named "up/waves" lets wave together, and an
-/// animation that brings it in within a second. As glTF, and as two OBJ files.
+/// Two sheets, slightly curved, one above the other, which a morph target named "up/waves" lets wave
+/// together, and an animation that brings it in within a second. As glTF, and as two OBJ files.
 class Waving_sheets : public ::testing::Test
 {
 protected:
@@ -122,6 +122,36 @@ TEST_F(Waving_sheets, AreLegalInMorphTargetsAndKeyframes)
     EXPECT_EQ(run_app(verify).code, 0);
     EXPECT_EQ(run_app(replay).code, 0);
   }
+}
+
+TEST_F(Waving_sheets, AreGuardedInKeyPosesAndJudgedInAll)
+{
+  // Of four poses, two are chosen at first: those farthest from each other.
+  const std::vector<std::string> poses{
+      "--pose", folder / "flat.obj", "--pose", folder / "waving.obj", "--morphs",
+      "--pose", folder / "half.obj"};
+  const Triangle_soup flat = read_mesh(folder / "flat.obj").soup,
+                      waving = read_mesh(folder / "waving.obj").soup;
+  Triangle_soup half = flat;
+  for (std::size_t v = 0; v < half.points.size(); ++v)
+    half.points[v] = v % 2 == 0 ? flat.points[v] : waving.points[v];
+  write_mesh(folder / "half.obj", half);
+  std::vector<std::string> arguments = poses;
+  arguments.insert(arguments.end(), {"--key-poses", "auto", "--report", folder / "r.json"});
+  simplify(gltf, folder / "small.glb", arguments);
+  const auto report = nlohmann::json::parse(contents_of(folder / "r.json"));
+  std::size_t guarded = 0;
+  for (const auto& pose : report["verified"]["poses"]) {
+    guarded += pose["guarded"].get<bool>();
+    EXPECT_EQ(pose["new_pairs"], 0) << pose["name"];
+  }
+  EXPECT_GE(guarded, 2u);
+  EXPECT_LT(guarded, 4u);
+  std::vector<std::string> replay{"replay", gltf, log};
+  replay.insert(replay.end(), poses.begin(), poses.end());
+  const App_result replayed = run_app(replay);
+  EXPECT_EQ(replayed.code, 0) << replayed.err;
+  EXPECT_NE(replayed.out.find("not judged: the log does not name"), std::string::npos) << replayed.out;
 }
 
 TEST_F(Waving_sheets, ComeOutInEveryPose)

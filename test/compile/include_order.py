@@ -28,7 +28,7 @@ LEVELS = [
     ("logs", ["include/selvedge/Reduction_limits.h", "include/selvedge/collapse_log.h", "include/selvedge/Sha256.h", "src/log/"]),
     ("replay", ["include/selvedge/replay.h", "src/replay/"]),
     ("reduction", ["include/selvedge/prepare.h", "include/selvedge/simplify.h", "include/selvedge/Reduction_log.h",
-                   "include/selvedge/part_report.h", "src/simplify/"]),
+                   "include/selvedge/key_poses.h", "include/selvedge/part_report.h", "src/simplify/"]),
     ("inspection", ["include/selvedge/inspect.h", "src/inspect/"]),
     ("app", ["apps/"]),
     ("bindings", ["bindings/"]),

@@ -97,6 +97,7 @@ void write_world(const World& world, const std::filesystem::path& folder)
                      {"may_intersect", world.may_intersect},
                      {"ratio", optional_json(options.ratio)},
                      {"faces", optional_json(options.faces)},
+                     {"guarded_poses", optional_json(options.guarded_poses)},
                      {"error", optional_json(options.max_error)},
                      {"normal_change", options.max_normal_change},
                      {"aspect_ratio", options.min_aspect_ratio},
@@ -163,6 +164,8 @@ World read_world(const std::filesystem::path& folder)
   Simplify_options& options = world.options;
   read_optional(json["ratio"], options.ratio);
   read_optional(json["faces"], options.faces);
+  if (json.contains("guarded_poses")) // worlds of earlier versions have none
+    read_optional(json["guarded_poses"], options.guarded_poses);
   read_optional(json["error"], options.max_error);
   options.max_normal_change = json["normal_change"];
   options.min_aspect_ratio = json["aspect_ratio"];

@@ -7,6 +7,7 @@
 #include <selvedge/mesh_files.h>
 #include <selvedge/simplify.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -44,6 +45,13 @@ struct World
   std::optional<std::size_t> questions;
 
   Prepare_options prepare_options() const;
+
+  /// Whether collapses are judged in a further pose.
+  bool is_guarded(std::size_t pose) const
+  {
+    const auto& guarded = options.guarded_poses;
+    return !guarded || std::find(guarded->begin(), guarded->end(), pose) != guarded->end();
+  }
 };
 
 /// Writes the world as files: the mesh, the obstacle if there is one, and `world.json` with all that was

@@ -50,6 +50,16 @@ const char* file_name(const World& world)
 
 } // namespace
 
+Verification verify_guarded(const World& world, const World_run& run)
+{
+  Verification verification = verify(run.result, run.prepared);
+  std::vector<Verification::In_pose>& poses = verification.poses;
+  for (std::size_t pose = poses.size(); pose-- > 0;)
+    if (!world.is_guarded(pose))
+      poses.erase(poses.begin() + std::ptrdiff_t(pose));
+  return verification;
+}
+
 World_run run(const World& world)
 {
   World_run run = prepared(world);
@@ -74,7 +84,7 @@ World_run run(const World& world)
   reduce(world, run.prepared, &log, run);
   log.finish(run.result);
   run.log = stream.str();
-  run.verification = verify(run.result, run.prepared);
+  run.verification = verify_guarded(world, run);
 
   if (!run.result.soup.triangles.empty()) {
     const Temporary_folder folder;

@@ -40,6 +40,9 @@ World_run run_without_output(const World& world);
 /// Once more from the same `Prepared_soup`, with other options; only `collapses` and `result` are set.
 World_run run_again(const World& world, const Prepared_soup& prepared);
 
+/// Judges the result of a run, in its own pose and in those that were guarded.
+Verification verify_guarded(const World& world, const World_run& run);
+
 } // namespace selvedge::test
 
 #endif // SELVEDGE_TEST_WORLDS_WORLD_RUN_H

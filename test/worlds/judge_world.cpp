@@ -707,6 +707,8 @@ Verdict judge_replay(const World& world, const World_run& run)
          verdict.soup.normals.of_triangle != run.result.soup.normals.of_triangle))))
     return broken("the log leads to another result");
   for (std::size_t pose = 0; pose < world.soup.poses.size(); ++pose) {
+    if (!world.is_guarded(pose))
+      continue;
     std::istringstream again(run.log);
     Log_reader reader_again(again, "log");
     Replay_options options;
@@ -867,8 +869,9 @@ Verdict judge_poses(const World& world, const World_run& run)
         return broken(Promise::frozen, "vertex " + std::to_string(collapse.removed) +
                                            " is coincident with others in some poses alone, and has moved");
     Judgement_counts uncounted;
-    if (auto verdict = judge_collapses(run, complex, uncounted))
-      return broken(verdict->promise, verdict->message);
+    if (world.is_guarded(pose))
+      if (auto verdict = judge_collapses(run, complex, uncounted))
+        return broken(verdict->promise, verdict->message);
     const Triangle_soup& result = run.result.soup;
     for (Index i = 0; i < result.triangles.size(); ++i)
       for (std::size_t k = 0; k < 3; ++k) {
@@ -889,7 +892,7 @@ Verdict judge_other_options(const World& world, const World_run& run, const Judg
     const World other = with_other_options(world, number);
     World_run again = run_again(other, run.prepared);
     again.prepared = run.prepared;
-    again.verification = verify(again.result, again.prepared);
+    again.verification = verify_guarded(other, again);
     if (auto broken = judge_reduction(other, again, complex, counts))
       return broken;
     if (auto broken = judge_poses(other, again))

@@ -388,6 +388,12 @@ void fit_options_to_poses(World& world)
     return;
   world.options.faces_per_cell = 0;
   world.options.placement = Placement::vertices;
+  if (world.seed % 3 == 0) // no random number, so that worlds of earlier versions stay what they were
+    for (std::size_t pose = world.seed % 2; pose < world.soup.poses.size(); pose += 2) {
+      if (!world.options.guarded_poses)
+        world.options.guarded_poses.emplace();
+      world.options.guarded_poses->push_back(pose);
+    }
 }
 
 void choose_options(World& world, Random& random)

@@ -1,0 +1,26 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_KEY_POSES_H
+#define SELVEDGE_KEY_POSES_H
+
+#include <selvedge/Triangle_soup.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace selvedge {
+
+/// Returns the numbers of `count` further poses of a mesh (all, when it has no more), in ascending order.
+/// They are chosen one after the other, each the farthest from the mesh's own pose and those chosen before;
+/// the distance of two poses is the root mean square of the distances of their vertices.
+///
+/// With `Simplify_options::guarded_poses`, a mesh of many poses is reduced in these alone, and `verify` then
+/// judges all: poses in which it finds something are guarded as well in the next run.
+///
+/// **Complexity** O(count × poses × vertices).
+std::vector<std::size_t> key_poses(const Triangle_soup& mesh, std::size_t count);
+
+} // namespace selvedge
+
+#endif // SELVEDGE_KEY_POSES_H

@@ -1,0 +1,36 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <selvedge/Cancellation_scope.h>
+#include <selvedge/key_poses.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace selvedge {
+
+std::vector<std::size_t> key_poses(const Triangle_soup& mesh, std::size_t count)
+{
+  std::vector<double> nearest(mesh.poses.size(), std::numeric_limits<double>::infinity());
+  const auto come_near = [&](const std::vector<Point_3>& points) {
+    for (std::size_t pose = 0; pose < nearest.size(); ++pose) {
+      Cancellation_scope::check();
+      double sum = 0;
+      for (std::size_t v = 0; v < points.size(); ++v)
+        sum += CGAL::squared_distance(points[v], mesh.poses[pose].points[v]);
+      nearest[pose] = std::min(nearest[pose], sum);
+    }
+  };
+  std::vector<std::size_t> chosen;
+  come_near(mesh.points);
+  while (chosen.size() < std::min(count, nearest.size())) {
+    const auto farthest = std::max_element(nearest.begin(), nearest.end());
+    chosen.push_back(std::size_t(farthest - nearest.begin()));
+    come_near(mesh.poses[chosen.back()].points);
+    *farthest = -1; // chosen
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+} // namespace selvedge
