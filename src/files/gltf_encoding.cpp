@@ -291,26 +291,29 @@ std::optional<Draco_primitive> encoded_by_draco(const std::vector<Column>& colum
 namespace {
 
 template <class Number>
-std::optional<std::string> encoded_triangles(const std::string& bytes)
+std::optional<std::string> encoded_indices(const std::string& bytes, bool may_rotate)
 {
   std::vector<Number> indices(bytes.size() / sizeof(Number));
   std::memcpy(indices.data(), bytes.data(), bytes.size());
   const std::vector<unsigned> plain(indices.begin(), indices.end());
-  meshopt_encodeIndexVersion(1);
-  const unsigned largest = *std::max_element(plain.begin(), plain.end());
-  std::string result(meshopt_encodeIndexBufferBound(plain.size(), std::size_t(largest) + 1), '\0');
-  auto* const data = reinterpret_cast<unsigned char*>(result.data());
-  result.resize(meshopt_encodeIndexBuffer(data, result.size(), plain.data(), plain.size()));
   std::vector<unsigned> again(plain.size());
-  if (meshopt_decodeIndexBuffer(again.data(), again.size(), data, result.size()) != 0)
+  const std::size_t vertices = std::size_t(*std::max_element(plain.begin(), plain.end())) + 1;
+  std::string result(may_rotate ? meshopt_encodeIndexBufferBound(plain.size(), vertices)
+                                : meshopt_encodeIndexSequenceBound(plain.size(), vertices),
+                     '\0');
+  auto* const data = reinterpret_cast<unsigned char*>(result.data());
+  meshopt_encodeIndexVersion(1);
+  result.resize(may_rotate ? meshopt_encodeIndexBuffer(data, result.size(), plain.data(), plain.size())
+                           : meshopt_encodeIndexSequence(data, result.size(), plain.data(), plain.size()));
+  const int status = may_rotate
+                         ? meshopt_decodeIndexBuffer(again.data(), again.size(), data, result.size())
+                         : meshopt_decodeIndexSequence(again.data(), again.size(), data, result.size());
+  if (status != 0)
     return std::nullopt;
   auto of_again = again.begin();
-  for (auto corner = plain.begin(); corner != plain.end(); corner += 3, of_again += 3) {
+  for (auto corner = plain.begin(); corner != plain.end() && may_rotate; corner += 3, of_again += 3)
     std::rotate(of_again, std::find(of_again, of_again + 3, *corner), of_again + 3);
-    if (!std::equal(corner, corner + 3, of_again))
-      return std::nullopt;
-  }
-  return result;
+  return again == plain ? std::optional(result) : std::nullopt;
 }
 
 std::optional<std::string> encoded_rows(const std::string& bytes, std::size_t row_size)
@@ -329,7 +332,7 @@ std::optional<std::string> encoded_rows(const std::string& bytes, std::size_t ro
 #endif
 
 std::optional<std::string> encoded_by_meshopt(const std::string& bytes, std::size_t row_size,
-                                              bool are_triangles)
+                                              bool are_triangles, bool may_rotate)
 {
 #ifdef SELVEDGE_HAS_MESHOPTIMIZER
   const bool is_possible =
@@ -337,14 +340,16 @@ std::optional<std::string> encoded_by_meshopt(const std::string& bytes, std::siz
       (are_triangles ? row_size == 2 || row_size == 4 : row_size % 4 == 0 && row_size <= 256);
   if (!is_possible || (are_triangles && bytes.size() / row_size % 3 != 0))
     return std::nullopt;
-  const std::optional<std::string> result = !are_triangles  ? encoded_rows(bytes, row_size)
-                                            : row_size == 2 ? encoded_triangles<std::uint16_t>(bytes)
-                                                            : encoded_triangles<std::uint32_t>(bytes);
+  const std::optional<std::string> result = !are_triangles ? encoded_rows(bytes, row_size)
+                                            : row_size == 2
+                                                ? encoded_indices<std::uint16_t>(bytes, may_rotate)
+                                                : encoded_indices<std::uint32_t>(bytes, may_rotate);
   return result && result->size() < bytes.size() ? result : std::nullopt;
 #else
   static_cast<void>(bytes);
   static_cast<void>(row_size);
   static_cast<void>(are_triangles);
+  static_cast<void>(may_rotate);
   return std::nullopt;
 #endif
 }

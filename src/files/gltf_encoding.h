@@ -32,12 +32,13 @@ std::optional<Draco_primitive> encoded_by_draco(const std::vector<Gltf_scene::Co
                                                 const std::vector<Index>& corners, bool may_reorder);
 
 /// Compresses the bytes of a buffer view as EXT_meshopt_compression has it: rows of so many bytes, or
-/// triangles of indices of so many bytes. Decoding gives the same bytes; corners of triangles may be rotated.
+/// triangles of indices of so many bytes. Decoding gives the same bytes; where `may_rotate` is given, the
+/// corners of triangles may be rotated, which takes less space.
 ///
 /// Returns nothing where the result would not be smaller, rows are none that the extension takes, or there is
 /// no meshoptimizer. Linear.
 std::optional<std::string> encoded_by_meshopt(const std::string& bytes, std::size_t row_size,
-                                              bool are_triangles);
+                                              bool are_triangles, bool may_rotate);
 
 } // namespace selvedge::files
 

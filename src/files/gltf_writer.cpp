@@ -644,7 +644,9 @@ private:
                                                  {"byteLength", encoded->size()},
                                                  {"byteStride", row_size},
                                                  {"count", m_views[i].size() / row_size},
-                                                 {"mode", are_triangles ? "TRIANGLES" : "ATTRIBUTES"}};
+                                                 {"mode", !are_triangles         ? "ATTRIBUTES"
+                                                          : m_soup.poses.empty() ? "TRIANGLES"
+                                                                                 : "INDICES"}};
         decoded += m_views[i].size();
       } else {
         view["buffer"] = 0;
@@ -670,7 +672,8 @@ private:
     const auto found = m_row_sizes.find(Index(view));
     return m_scene.meshopt_views.empty() || found == m_row_sizes.end()
                ? std::nullopt
-               : encoded_by_meshopt(m_views[view], found->second.first, found->second.second);
+               : encoded_by_meshopt(m_views[view], found->second.first, found->second.second,
+                                    m_soup.poses.empty());
   }
 
   void require(const char* extension)

@@ -245,7 +245,10 @@ inline bool judge_mesh(std::string_view contents, Mesh_format format)
     options.encoding = encoding;
     std::string bytes;
     try {
-      bytes = written(first, options);
+      // Compressed glTF keeps the order of a mesh that has further poses.
+      Triangle_soup in_order = first;
+      in_order.poses = {{"the same", first.points, 0}};
+      bytes = written(in_order, options);
     } catch (const Argument_error& error) {
       throw Broken_promise(std::string("what was read cannot be written: ") + error.what());
     }
