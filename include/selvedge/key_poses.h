@@ -18,7 +18,7 @@ namespace selvedge {
 /// With `Simplify_options::guarded_poses`, a mesh of many poses is reduced in these alone, and `verify` then
 /// judges all: poses in which it finds something are guarded as well in the next run.
 ///
-/// **Complexity** O(count × poses × vertices).
+/// **Complexity** O(count × poses × vertices); O(poses) when there are no more than `count`.
 std::vector<std::size_t> key_poses(const Triangle_soup& mesh, std::size_t count);
 
 } // namespace selvedge

@@ -3,6 +3,8 @@
 
 #include <selvedge/Reduction_log.h>
 
+#include "guarded_poses.h"
+
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Sha256.h>
 
@@ -47,13 +49,9 @@ Log_header completed(Log_header header, const Prepared_soup& prepared, const Sim
   if (prepared.snapping.distance > 0)
     header.limits.weld_distance = prepared.snapping.distance;
   const Triangle_soup& obstacle = prepared.obstacle;
-  const std::vector<Pose>& poses = prepared.soup.poses;
-  if (header.poses.empty() && !options.guarded_poses)
-    for (const Pose& pose : poses)
-      header.poses.push_back({pose.name, {}});
-  else if (header.poses.empty())
-    for (const std::size_t pose : *options.guarded_poses)
-      header.poses.push_back({poses[pose].name, {}});
+  if (header.poses.empty())
+    for (const std::size_t pose : guarded_poses(prepared.soup, options))
+      header.poses.push_back({prepared.soup.poses[pose].name, {}});
   if (!header.obstacle && !obstacle.triangles.empty())
     header.obstacle = {obstacle.points.size(), obstacle.triangles.size(), {}};
   return header;

@@ -6,11 +6,18 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace selvedge {
 
 std::vector<std::size_t> key_poses(const Triangle_soup& mesh, std::size_t count)
 {
+  std::vector<std::size_t> chosen;
+  if (count >= mesh.poses.size()) { // nothing is to be chosen
+    chosen.resize(mesh.poses.size());
+    std::iota(chosen.begin(), chosen.end(), std::size_t(0));
+    return chosen;
+  }
   std::vector<double> nearest(mesh.poses.size(), std::numeric_limits<double>::infinity());
   const auto come_near = [&](const std::vector<Point_3>& points) {
     for (std::size_t pose = 0; pose < nearest.size(); ++pose) {
@@ -21,9 +28,8 @@ std::vector<std::size_t> key_poses(const Triangle_soup& mesh, std::size_t count)
       nearest[pose] = std::min(nearest[pose], sum);
     }
   };
-  std::vector<std::size_t> chosen;
   come_near(mesh.points);
-  while (chosen.size() < std::min(count, nearest.size())) {
+  while (chosen.size() < count) {
     const auto farthest = std::max_element(nearest.begin(), nearest.end());
     chosen.push_back(std::size_t(farthest - nearest.begin()));
     come_near(mesh.poses[chosen.back()].points);

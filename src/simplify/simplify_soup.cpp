@@ -4,6 +4,7 @@
 #include <selvedge/simplify.h>
 
 #include "Stopwatch.h"
+#include "guarded_poses.h"
 #include "reduce_in_cells.h"
 #include "soup/Working_mesh.h"
 #include "soup/obstacle.h"
@@ -209,20 +210,13 @@ private:
       partners.emplace_back(vertices[pair.first], vertices[pair.second]);
   }
 
-  static std::vector<std::size_t> all_poses(const Triangle_soup& soup)
-  {
-    std::vector<std::size_t> numbers(soup.poses.size());
-    std::iota(numbers.begin(), numbers.end(), std::size_t(0));
-    return numbers;
-  }
-
   // Puts the mesh into the further poses of the soup that are guarded.
   void pose(Simplify_constraints<Working_mesh::Mesh>& constraints, const std::vector<Index>& of_soup)
   {
     const Triangle_soup& soup = m_prepared.soup;
     auto& mesh = m_working.mesh();
     const std::size_t own_vertices = soup.points.size();
-    for (const std::size_t i : m_options.guarded_poses.value_or(all_poses(soup))) {
+    for (const std::size_t i : guarded_poses(soup, m_options)) {
       auto& pose = constraints.poses.emplace_back();
       pose.points = get(CGAL::dynamic_vertex_property_t<Point_3>(), mesh);
       const std::vector<Point_3>& beside = points_in_pose(m_prepared.obstacle, i);
