@@ -104,6 +104,15 @@ class Quadric_cost
     double weight = 1;
     Enclosure enclosure;
   };
+  // What a face gives to the quadrics at its corners: kept, since each is asked for many times.
+  struct Face_plane
+  {
+    Vector normal{0, 0, 0}; // of length 1, or 0 for a face without area
+    double doubled_area = 0;
+    double weight = 0;
+  };
+  using Plane_map =
+      typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<Face_plane>>::const_type;
   using Quadric_map =
       typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<Vertex_quadric>>::const_type;
 
@@ -157,6 +166,8 @@ public:
     if (!(m_state->diagonal > 0))
       m_state->diagonal = 1; // all points are one
     Cancellation_poll poll;
+    for (const auto face : faces(mesh))
+      compute_plane(face, mesh, points);
     auto weight = m_state->weights.begin();
     for (const Vertex v : vertices(mesh)) {
       poll();
@@ -282,6 +293,10 @@ public:
     const auto& mesh = profile.surface_mesh();
     const auto& points = profile.vertex_point_map();
     const double memory = m_state->options.memory;
+    if (memory < 1)
+      for (const Halfedge h : CGAL::halfedges_around_target(kept, mesh))
+        if (!CGAL::is_border(h, mesh))
+          compute_plane(face(h, mesh), mesh, points);
     compute_quadric(kept, mesh, points, memory, merged);
     put(m_state->quadrics, kept, merged);
     if (memory < 1)
@@ -297,6 +312,7 @@ private:
   {
     State(const TriangleMesh& mesh, const Quadric_cost_options& options_, const EdgeIsLineMap& edge_is_line_)
         : options(options_), edge_is_line(edge_is_line_),
+          planes(get(CGAL::dynamic_face_property_t<Face_plane>(), mesh)),
           quadrics(get(CGAL::dynamic_vertex_property_t<Vertex_quadric>(), mesh))
     {
     }
@@ -310,6 +326,7 @@ private:
 
     Quadric_cost_options options;
     EdgeIsLineMap edge_is_line;
+    Plane_map planes;
     Quadric_map quadrics;
     std::vector<double> weights; // by vertex; empty when all are 1
     Vector origin{0, 0, 0};
@@ -358,55 +375,76 @@ private:
                                      internal::difference(corners[2], corners[0]))};
   }
 
-  // Computes everything about a vertex that follows from the faces around it and, as far as `memory` says,
-  // from what it has accumulated. Returns the quadric of the faces, which a memory of 1 does not ask for.
+  template <class VertexPointMap>
+  void compute_plane(typename Graph_traits::face_descriptor face, const TriangleMesh& mesh,
+                     const VertexPointMap& points) const
+  {
+    Face_plane plane;
+    plane.normal = corners_and_normal(halfedge(face, mesh), mesh, points).second;
+    plane.doubled_area = normalise(plane.normal);
+    plane.weight = weight_of_area(0.5 * plane.doubled_area);
+    put(m_state->planes, face, plane);
+  }
+
+  // Computes everything about a vertex that follows from the planes of the faces around it and, as far as
+  // `memory` says, from what it has accumulated. Returns the quadric of the faces, which a memory of 1 does
+  // not ask for.
   template <class VertexPointMap>
   Quadric compute_quadric(Vertex v, const TriangleMesh& mesh, const VertexPointMap& points, double memory,
                           Vertex_quadric& of_vertex) const
   {
     const State& state = *m_state;
-    Quadric of_faces;
+    const Vector place = state.vector(get(points, v));
+    Quadric of_faces; // relative to the vertex, through which all of these planes pass
     of_vertex.enclosure = {};
-    if (memory < 1 && halfedge(v, mesh) != Graph_traits::null_halfedge())
+    if (memory < 1 && halfedge(v, mesh) != Graph_traits::null_halfedge()) {
+      double weight = 0;
       for (const Halfedge to_v : CGAL::halfedges_around_target(v, mesh)) {
         if (CGAL::is_border(to_v, mesh)) {
           of_vertex.enclosure.is_closed = false;
           continue;
         }
+        const Face_plane& plane = get(state.planes, face(to_v, mesh));
+        of_vertex.enclosure.add(plane.normal, internal::dot(plane.normal, place), plane.doubled_area);
+        of_faces.add_square(plane.normal, plane.weight);
+        weight += plane.weight;
         const Halfedge from_v = next(to_v, mesh);
-        auto [corners, normal] = corners_and_normal(from_v, mesh, points);
-        of_vertex.enclosure.add(normal, internal::dot(normal, corners[0]));
-        const double weight = weight_of_area(0.5 * normalise(normal));
-        of_faces.add_square(normal, -internal::dot(normal, corners[0]), weight);
-        of_faces.add_point(corners[0], state.options.stabiliser * weight);
-        add_line(from_v, normal, corners[0], corners[1], mesh, of_faces);
-        add_line(to_v, normal, corners[2], corners[0], mesh, of_faces);
+        if (const double share = share_of_line(from_v, mesh))
+          add_line(share, plane.normal, place, state.vector(get(points, target(from_v, mesh))), of_faces);
+        if (const double share = share_of_line(to_v, mesh))
+          add_line(share, plane.normal, state.vector(get(points, source(to_v, mesh))), place, of_faces);
       }
-    of_faces *= of_vertex.weight;
+      of_faces.add_origin(state.options.stabiliser * weight);
+      of_faces *= of_vertex.weight;
+      of_faces = of_faces.moved_by(place);
+    }
     of_vertex.quadric = of_faces;
     of_vertex.quadric *= 1 - memory;
     Quadric remembered = of_vertex.accumulated;
     remembered *= memory;
     of_vertex.quadric += remembered;
-    of_vertex.own_cost = of_vertex.quadric(state.vector(get(points, v)));
+    of_vertex.own_cost = of_vertex.quadric(place);
     return of_faces;
   }
 
-  // Adds the plane that stands on an edge of a face, if the edge is a border or a line.
-  void add_line(Halfedge h, const Vector& normal, const Vector& start, const Vector& end,
-                const TriangleMesh& mesh, Quadric& sum) const
+  // Returns which share of the weight of a border an edge has: 1 for a border, 0 for an edge that is no line.
+  double share_of_line(Halfedge h, const TriangleMesh& mesh) const
   {
-    const bool is_border = CGAL::is_border(opposite(h, mesh), mesh);
-    if (!is_border && !get(m_state->edge_is_line, edge(h, mesh)))
-      return;
+    if (CGAL::is_border(opposite(h, mesh), mesh))
+      return 1;
     // The surface on both sides holds a line inside it, so that little is enough.
     constexpr double share_of_inner_line = 0.1;
+    return get(m_state->edge_is_line, edge(h, mesh)) ? share_of_inner_line : 0;
+  }
+
+  // Adds the plane that stands on an edge of a face with this normal.
+  void add_line(double share, const Vector& normal, const Vector& start, const Vector& end,
+                Quadric& sum) const
+  {
     Vector along = internal::difference(end, start);
     const double length = normalise(along);
-    const Vector upright = internal::cross(normal, along);
-    sum.add_square(upright, -internal::dot(upright, start),
-                   m_state->options.border_weight * (is_border ? 1 : share_of_inner_line) *
-                       weight_of_area(length * length));
+    sum.add_square(internal::cross(normal, along),
+                   m_state->options.border_weight * share * weight_of_area(length * length));
   }
 
   std::shared_ptr<State> m_state;

@@ -31,15 +31,37 @@ public:
     m_c += weight * d * d;
   }
 
-  /// Adds weight × squared distance to `point`.
-  void add_point(const Vector_of_doubles& point, double weight)
+  /// Adds weight × (gradient · x)².
+  void add_square(const Vector_of_doubles& gradient, double weight)
+  {
+    const double x = weight * gradient[0], y = weight * gradient[1], z = weight * gradient[2];
+    m_xx += x * gradient[0];
+    m_xy += x * gradient[1];
+    m_xz += x * gradient[2];
+    m_yy += y * gradient[1];
+    m_yz += y * gradient[2];
+    m_zz += z * gradient[2];
+  }
+
+  /// Adds weight × squared distance to the origin.
+  void add_origin(double weight)
   {
     m_xx += weight;
     m_yy += weight;
     m_zz += weight;
+  }
+
+  /// Returns the function whose value at x is that of this one at x − `point`.
+  Symmetric_quadric moved_by(const Vector_of_doubles& point) const
+  {
+    Symmetric_quadric moved = *this;
+    const Vector_of_doubles product{m_xx * point[0] + m_xy * point[1] + m_xz * point[2],
+                                    m_xy * point[0] + m_yy * point[1] + m_yz * point[2],
+                                    m_xz * point[0] + m_yz * point[1] + m_zz * point[2]};
     for (std::size_t i = 0; i < 3; ++i)
-      m_b[i] -= weight * point[i];
-    m_c += weight * dot(point, point);
+      moved.m_b[i] -= product[i];
+    moved.m_c += dot(product, point) - 2 * dot(m_b, point);
+    return moved;
   }
 
   Symmetric_quadric& operator+=(const Symmetric_quadric& other)
