@@ -183,6 +183,7 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
                      {"motions_judged", guard.motions_judged},
                      {"stars_clear_by_view", guard.stars_clear_by_view},
                      {"faces_near", guard.faces_near},
+                     {"faces_clear_in_packs", guard.faces_clear_in_packs},
                      {"faces_clear_by_box", guard.faces_clear_by_box},
                      {"faces_clear_by_view", guard.faces_clear_by_view},
                      {"pairs_clear_by_view", guard.pairs_clear_by_view},

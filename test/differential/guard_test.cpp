@@ -273,9 +273,9 @@ void compare(Mesh mesh, Random& random, Counts& counts)
     }
   }
   const auto& s = filter.statistics();
-  const std::array<std::size_t, 7> stages{s.stars_clear_by_view, s.faces_clear_by_box, s.faces_clear_by_view,
-                                          s.pairs_clear_by_view, s.refused_by_link,    s.refused_by_star,
-                                          s.refused_by_sweep};
+  const std::array<std::size_t, 7> stages{
+      s.stars_clear_by_view, s.faces_clear_in_packs, s.faces_clear_by_view, s.pairs_clear_by_view,
+      s.refused_by_link,     s.refused_by_star,      s.refused_by_sweep};
   std::transform(stages.begin(), stages.end(), counts.stages.begin(), counts.stages.begin(), std::plus<>());
 }
 

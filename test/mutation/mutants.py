@@ -55,6 +55,29 @@ group(
 )
 
 group(
+    headers + "geometry/internal/Star_pack_filter.h",
+    ("star_pack_filter_test",),
+    ("s_rounding = float(16 * s_unit)", "s_rounding = float(s_unit / 16)", "bounds for single precision too small"),
+    ("const double shift = 4 * s_unit * reach * m_scale;", "const double shift = s_unit / 64 * reach * m_scale;",
+     "rounding of coordinates far from the origin not counted"),
+    ("m_is_above[k] = ~are_all_shared & (", "m_is_above[k] = (", "a face is clear of a sweep that has its three corners"),
+    ("is_left &= m_is_corner[corner][a] | (side > error);", "is_left &= m_is_corner[corner][a] | (side > -error);",
+     "a side known without a bound"),
+    ("are_clear &= is_beyond | is_right | was_left;", "are_clear &= is_beyond | is_right | is_left;",
+     "the left of the wrong ray"),
+    ("add_edge_between({a, b, s_from, s_to}, is_clear);", "add_edge_between({a, b, s_from, s_from}, is_clear);",
+     "a sweep without its goal"),
+    ("(is_own_left & (is_shared | (side < -error)))", "(is_own_left & (is_shared | (side < error)))",
+     "points on an edge of the face are beyond it"),
+    ("const Answers is_shared = m_is_corner[edge][k] | m_is_corner[next][k];",
+     "const Answers is_shared = m_is_corner[edge][k] | m_is_corner[third][k];", "the wrong corners lie on an edge"),
+    ("float(slab.upper * inverse * m_scale)", "float(slab.lower * inverse * m_scale)", "a slab without its upper side"),
+    ("clear<4>(pack, 4) << 4", "clear<4>(pack, 0) << 4", "plain instructions ask the first half twice"),
+    ("if (!(std::fabs(x) <= largest)) {", "if (std::fabs(x) > 1e300) {", "numbers beyond the range of floats"),
+    ("return shift < 0x1p-3;", "return true;", "used where floats are too coarse"),
+)
+
+group(
     headers + "geometry/internal/Projected_star.h",
     ("projected_star_test",),
     ("{m_star, of_lines.negative,", "{m_star, of_lines.positive,", "inside and outside of the rim exchanged"),
@@ -166,7 +189,10 @@ group(
     loop + "Face_table.h",
     ("guard_test",),
     ("m_index.set(id, box(id));", "", "the index does not follow"),
-    ("m_corners[id] = find_corners(h);", "", "corners do not follow"),
+    ("        set_triangle(id, h);\n", "", "corners do not follow"),
+    ("m_triangles[id] = Float_triangle::of(m_triangles[id].corners, corners);",
+     "if (m_triangles[id].coordinates == std::array<float, 9>{}) m_triangles[id] = Float_triangle::of(m_triangles[id].corners, corners);",
+     "floats do not follow"),
 )
 group(
     loop + "Collapse.h",
@@ -638,8 +664,9 @@ may_intersect = ("may_intersect_test",)
 group(
     headers + "Surface_mesh_simplification/internal/Intersection_guard.h",
     may_intersect,
-    ("!m_permitted.has_at(j, face.id) && ", "", "faces of parts that may intersect are kept apart in mixed stars"),
+    ("!m_permitted.has_at(j, face.id) &&\n            ", "", "faces of parts that may intersect are kept apart in mixed stars"),
     ("motion.target && std::count(face", "false && std::count(face", "parts that may intersect are joined"),
+    ("if (!m_permitted.is_any()) {", "if (true) {", "faces at the target are left out before their parts are looked at"),
     sources=("src/simplify/simplify_soup.cpp",),
 )
 group(

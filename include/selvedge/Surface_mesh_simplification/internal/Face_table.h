@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_FACE_TABLE_H
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_FACE_TABLE_H
 
+#include <selvedge/geometry/internal/Star_pack_filter.h>
 #include <selvedge/internal/Vector_of_doubles.h>
 #include <selvedge/internal/instructions.h>
 
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <type_traits>
 #include <utility>
@@ -46,9 +48,9 @@ class Face_table
   using Number = typename VertexTable::Number;
   using Point = typename VertexTable::Point;
   // In other kernels, coordinates may be exact numbers that no double represents.
-  static constexpr bool s_are_corners_wanted =
-      Wants_corners<FaceIndex>::value &&
+  static constexpr bool s_are_coordinates_doubles =
       std::is_same_v<typename CGAL::Kernel_traits<Point>::Kernel::FT, double>;
+  static constexpr bool s_are_corners_wanted = Wants_corners<FaceIndex>::value && s_are_coordinates_doubles;
 
 public:
   using Face = typename Graph_traits::face_descriptor;
@@ -60,14 +62,17 @@ public:
         m_ids(get(CGAL::dynamic_face_property_t<Id>(), mesh))
   {
     m_faces.reserve(num_faces(mesh));
-    m_corners.reserve(num_faces(mesh));
+    m_triangles.reserve(num_faces(mesh));
+    if constexpr (s_are_coordinates_doubles)
+      find_origin();
     std::vector<Id> ids;
     ids.reserve(num_faces(mesh));
     for (const Face face : faces(mesh)) {
       const Id id = Id(m_faces.size());
       put(m_ids, face, id);
       m_faces.push_back(face);
-      m_corners.push_back(find_corners(halfedge(face, mesh)));
+      m_triangles.emplace_back();
+      set_triangle(id, halfedge(face, mesh));
       ids.push_back(id);
     }
     m_size = m_faces.size();
@@ -80,10 +85,10 @@ public:
 
   Face descriptor(Id id) const { return m_faces[id]; }
   Id id(Face face) const { return get(m_ids, face); }
-  const Corners& corners(Id id) const { return m_corners[id]; }
+  const Corners& corners(Id id) const { return m_triangles[id].corners; }
   bool is_at(Id id, Number vertex) const
   {
-    const auto& [a, b, c] = m_corners[id];
+    const auto& [a, b, c] = corners(id);
     return a == vertex || b == vertex || c == vertex;
   }
 
@@ -120,6 +125,37 @@ public:
     remove_at(mover, near);
   }
 
+  /// The sweeps of a star, one bit for each, that are not known to be clear of a face.
+  using Sweeps = Star_pack_filter::Mask;
+
+  /// Removes the faces that a filter proves clear of its star from a list of faces, none of which is at the
+  /// mover, and finds for each of the others the sweeps that are not proved clear of it.
+  void remove_clear(Star_pack_filter& filter, std::vector<Id>& near, std::vector<Sweeps>& unclear) const
+  {
+    if (filter.enter(m_origin, m_reach)) {
+      Star_pack_filter::Pack pack;
+      std::size_t left = 0;
+      for_each_pack(near, pack, [&](std::size_t first, std::size_t count) {
+        for (auto rest = filter.unclear(pack, count); rest != 0; rest &= rest - 1)
+          near[left++] = near[first + lowest_bit(rest)];
+      });
+      near.resize(left);
+      left = 0;
+      unclear.resize(near.size());
+      Star_pack_filter::Sweeps of_pack;
+      for_each_pack(near, pack, [&](std::size_t first, std::size_t count) {
+        filter.find_unclear(pack, of_pack);
+        for (std::size_t i = 0; i < count; ++i)
+          if (of_pack[i] != 0) {
+            near[left] = near[first + i];
+            unclear[left++] = of_pack[i];
+          }
+      });
+      near.resize(left);
+    }
+    unclear.resize(near.size(), ~Sweeps(0));
+  }
+
   /// Removes the faces at a vertex from a list of faces.
   void remove_at(Number vertex, std::vector<Id>& near) const
   {
@@ -142,7 +178,7 @@ public:
     for (const Halfedge h : CGAL::halfedges_around_target(halfedge(kept, m_mesh), m_mesh))
       if (!CGAL::is_border(h, m_mesh)) {
         const Id id = get(m_ids, face(h, m_mesh));
-        m_corners[id] = find_corners(h);
+        set_triangle(id, h);
         if constexpr (s_are_corners_wanted)
           m_index.set(id, box(id), coordinates_of());
         else
@@ -156,6 +192,43 @@ public:
   std::size_t size() const { return m_size; }
 
 private:
+  // Calls `function(first, count)` for eight faces of a list after the other, when they are in `pack`.
+  template <class Function>
+  void for_each_pack(const std::vector<Id>& list, Star_pack_filter::Pack& pack,
+                     const Function& function) const
+  {
+    constexpr std::size_t width = Star_pack_filter::width;
+    for (std::size_t first = 0; first < list.size(); first += width) {
+      const std::size_t count = (std::min)(width, list.size() - first);
+      for (std::size_t i = 0; i < count; ++i)
+        pack.set(i, m_triangles[list[first + i]]);
+      function(first, count);
+    }
+  }
+
+  void find_origin()
+  {
+    CGAL::Bbox_3 box;
+    for (const Vertex v : vertices(m_mesh))
+      box += m_vertices.point(m_vertices.number(v)).bbox();
+    for (int axis = 0; axis < 3 && (box.min)(axis) <= (box.max)(axis); ++axis)
+      m_origin[std::size_t(axis)] = 0.5 * (box.min)(axis) + 0.5 * (box.max)(axis);
+  }
+
+  void set_triangle(Id id, Halfedge h)
+  {
+    m_triangles[id].corners = find_corners(h);
+    if constexpr (s_are_coordinates_doubles) {
+      auto corners = coordinates_of()(id);
+      for (Vector_of_doubles& corner : corners)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          corner[axis] -= m_origin[axis];
+          m_reach = (std::max)(m_reach, std::fabs(corner[axis]));
+        }
+      m_triangles[id] = Float_triangle::of(m_triangles[id].corners, corners);
+    }
+  }
+
   Corners find_corners(Halfedge h) const
   {
     return {m_vertices.number(source(h, m_mesh)), m_vertices.number(target(h, m_mesh)),
@@ -165,7 +238,7 @@ private:
   auto collect(std::vector<Id>& near) const
   {
     return [&near, this](Id id) {
-      prefetch(m_corners[id]);
+      prefetch(m_triangles[id]);
       near.push_back(id);
     };
   }
@@ -175,7 +248,7 @@ private:
     return [this](Id id) {
       std::array<Vector_of_doubles, 3> result;
       for (std::size_t i = 0; i < 3; ++i) {
-        const Point& p = m_vertices.point(m_corners[id][i]);
+        const Point& p = m_vertices.point(corners(id)[i]);
         result[i] = {p[0], p[1], p[2]};
       }
       return result;
@@ -184,7 +257,7 @@ private:
 
   CGAL::Bbox_3 box(Id id) const
   {
-    const auto& [a, b, c] = m_corners[id];
+    const auto& [a, b, c] = corners(id);
     return m_vertices.point(a).bbox() + m_vertices.point(b).bbox() + m_vertices.point(c).bbox();
   }
 
@@ -193,8 +266,10 @@ private:
   FaceIndex m_index;
   typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<Id>>::const_type m_ids;
   std::size_t m_size = 0;
-  std::vector<Face> m_faces;      // by number
-  std::vector<Corners> m_corners; // by number: in the mesh they are five look-ups away
+  std::vector<Face> m_faces;               // by number
+  std::vector<Float_triangle> m_triangles; // by number: in the mesh, corners are five look-ups away
+  Vector_of_doubles m_origin{0, 0, 0};     // of the floats
+  double m_reach = 0;                      // no coordinate relative to the origin has been larger
 };
 
 } // namespace internal

@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -60,6 +61,7 @@ class Intersection_guard
   using Vertex = typename Vertices::Vertex;
   using Halfedge = typename boost::graph_traits<TriangleMesh>::halfedge_descriptor;
   using Id = typename Faces::Id;
+  using Sweeps = typename Faces::Sweeps;
   using Triangle = std::array<typename Vertices::Point, 3>;
 
 public:
@@ -154,6 +156,7 @@ private:
   struct Stationary_face : View::Stationary_face
   {
     Id id;
+    Sweeps unclear;
   };
 
   // A loop calls its visitor before it asks a filter, so that a loop without the visitor is noticed when it
@@ -386,18 +389,18 @@ private:
 
   bool are_sweeps_clear(const Motion& motion)
   {
-    if (m_view.has_view())
-      m_view.enclose_star();
+    m_view.enclose_star();
     gather_faces_near(motion);
     m_stationary.clear();
     if (m_permitted.is_any())
       m_permitted.begin_star(m_star, m_faces);
     // A vertex that does not merge with a neighbour must not come to the position of any other vertex.
     std::optional<Id> face_at_place;
-    for (const Id id : m_near) {
+    for (std::size_t i = 0; i < m_near.size(); ++i) {
+      const Id id = m_near[i];
       const auto& corners = m_faces.corners(id);
       const auto a = local(corners[0]), b = local(corners[1]);
-      Stationary_face face{{{a, b, local(corners[2])}}, id};
+      Stationary_face face{{{a, b, local(corners[2])}}, id, m_unclear[i]};
       if (!motion.target)
         for (const auto corner : face.corners)
           if (m_star[corner] == motion.place)
@@ -418,7 +421,8 @@ private:
     m_sweeps.clear();
     for (const Stationary_face& face : m_stationary)
       for (std::size_t j = 0; j < m_star.link().size(); ++j)
-        if (!m_star.is_contracted(j) && !m_permitted.has_at(j, face.id) && !is_sweep_clear(j, face)) {
+        if (is_unclear(j, face) && !m_star.is_contracted(j) && !m_permitted.has_at(j, face.id) &&
+            !is_sweep_clear(j, face)) {
           m_blockers.push_back(m_faces.descriptor(face.id));
           return false;
         }
@@ -434,12 +438,23 @@ private:
     m_faces.find_near(m_star.box(), m_star.points(), mover, m_near);
     if (motion.is_joint())
       remove_at_others(*motion.others);
-    if (motion.is_target_moved)
+    const std::size_t faces_near = m_near.size();
+    m_statistics.faces_near += faces_near;
+    m_unclear.clear();
+    // Faces at the target matter for permitted pairs even where they are clear.
+    if (!m_permitted.is_any()) {
+      m_faces.remove_clear(m_view.pack_filter(), m_near, m_unclear);
+      m_statistics.faces_clear_in_packs += faces_near - m_near.size();
+    }
+    // These are in the table where the target was.
+    if (motion.is_target_moved) {
       m_faces.add_all_at(*motion.target, mover, m_near);
+      m_unclear.clear();
+    }
+    m_unclear.resize(m_near.size(), ~Sweeps(0));
     for (const Id id : m_near)
       for (const auto corner : m_faces.corners(id))
         m_vertices.prefetch(corner);
-    m_statistics.faces_near += m_near.size();
   }
 
   // Returns the number of a vertex among the star's points. A new point is added to the view as well.
@@ -458,6 +473,11 @@ private:
     m_statistics.faces_clear_by_box += clear == View::Clear::by_box;
     m_statistics.faces_clear_by_view += clear == View::Clear::by_view;
     return clear != View::Clear::no;
+  }
+
+  static bool is_unclear(std::size_t j, const Stationary_face& face)
+  {
+    return j >= std::numeric_limits<Sweeps>::digits || (face.unclear >> j & 1) != 0;
   }
 
   bool is_sweep_clear(std::size_t j, const Stationary_face& face)
@@ -500,6 +520,7 @@ private:
 
   // Buffers, so that judging a motion allocates nothing.
   std::vector<Id> m_near;
+  std::vector<Sweeps> m_unclear;             // the sweeps that each of them may meet
   std::vector<Stationary_face> m_stationary; // those of them not yet clear of the whole star
   std::vector<std::optional<Sweep_test<GeomTraits>>> m_sweeps; // by edge of the link, made when needed
   std::vector<Id> m_considered, m_changed_ids; // the faces that a collapse changes or removes; changes alone

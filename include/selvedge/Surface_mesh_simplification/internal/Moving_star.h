@@ -14,6 +14,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -70,6 +71,7 @@ public:
     m_points.clear();
     m_points.push_back(m_vertices.point(m_vertices.number(motion.mover)));
     m_points.push_back(motion.place);
+    m_numbers = {m_vertices.number(motion.mover), motion.target ? m_vertices.number(*motion.target) : s_none};
     if (motion.target)
       m_vertices.mark(m_vertices.number(*motion.target), s_to);
     m_link.clear();
@@ -146,12 +148,17 @@ public:
       return m_vertices.mark(v);
     const Local point = Local(m_points.size());
     m_points.push_back(m_vertices.point(v));
+    m_numbers.push_back(v);
     m_vertices.mark(v, point);
     return point;
   }
 
   const std::vector<Point>& points() const { return m_points; }
   const Point& operator[](Local point) const { return m_points[point]; }
+
+  /// The number in the vertex table of a vertex at each of the points, or `s_none` for a place without one.
+  const std::vector<Number>& numbers() const { return m_numbers; }
+  static constexpr Number s_none = (std::numeric_limits<Number>::max)();
 
   /// The number of points of the star itself, which come first.
   std::size_t size() const { return m_size; }
@@ -227,6 +234,7 @@ private:
   const TriangleMesh& m_mesh;
   VertexTable& m_vertices;
   std::vector<Point> m_points;
+  std::vector<Number> m_numbers; // by point
   std::size_t m_size = 0;
   std::vector<Link_edge> m_link;
   std::vector<char> m_is_contracted; // by edge

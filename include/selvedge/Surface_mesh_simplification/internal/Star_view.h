@@ -6,6 +6,7 @@
 
 #include <selvedge/geometry/internal/Projected_star.h>
 #include <selvedge/geometry/internal/Separation_filter.h>
+#include <selvedge/geometry/internal/Star_pack_filter.h>
 
 #include <CGAL/Kernel_traits.h>
 
@@ -91,11 +92,23 @@ public:
   /// Called before the first face is compared with the star.
   void enclose_star()
   {
+    m_pack_filter.begin_without_star();
+    if (!m_has_view)
+      return;
     m_view.enclose();
     m_star_points.resize(m_star.size());
     std::iota(m_star_points.begin(), m_star_points.end(), Local(0));
     m_star_mask = m_view.mask(m_star_points);
+    if constexpr (s_is_possible) {
+      m_pack_filter.begin(m_view, coordinates(m_star[s_from]), m_star.numbers(), m_star.link());
+      if (m_has_projection)
+        m_pack_filter.begin_sectors();
+      m_pack_filter.begin_sweeps(m_view);
+    }
   }
+
+  /// Proves faces clear of the whole star, many at a time, before they are asked about one by one.
+  Star_pack_filter& pack_filter() { return m_pack_filter; }
 
   /// Says whether the face is proved clear of the whole star at all times, and how. Stores its heights.
   Clear is_clear_of_star(Stationary_face& face)
@@ -171,6 +184,7 @@ private:
   bool m_has_view = false;
   Projected_star m_projection;
   bool m_has_projection = false;
+  Star_pack_filter m_pack_filter;
   std::vector<Local> m_star_points; // the numbers of all points of the star
   Separation_filter::Mask m_star_mask = 0;
   std::vector<Face_slabs> m_face_slabs; // by edge of the link, made when needed

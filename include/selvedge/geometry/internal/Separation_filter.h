@@ -110,6 +110,12 @@ public:
 
   const Vector& operator[](Index i) const { return m_points[i].position; }
 
+  /// The axes of the view, perpendicular to each other up to rounding and not longer than 1.
+  const Vector& axis(std::size_t i) const { return m_axes[i]; }
+
+  /// The largest distance of a point from the origin, as the sum of its coordinates' sizes.
+  double extent() const { return m_extent; }
+
   /// How much twice the area of a triangle in the view must differ from 0 for its sign to be known.
   double area_error() const { return m_area_error; }
 
