@@ -103,24 +103,24 @@ public:
     }
   }
 
-  /// The number of the first vertex that belongs to free faces of a cell alone and is not on a border.
+  /// The number of the first vertex that belongs, with its neighbours, to free faces alone and is on no
+  /// border.
   Index free_vertex(std::size_t i) const
   {
     const Triangle_soup soup = piece(i);
-    std::vector<std::size_t> faces(soup.points.size(), 0), free(soup.points.size(), 0);
-    for (const Index_triple& triangle : soup.triangles) {
-      bool is_free = true;
-      for (const Index v : triangle)
-        is_free = is_free && cell(i).contains(soup.points[v]);
+    std::vector<std::size_t> faces(soup.points.size(), 0);
+    std::vector<char> is_inner(soup.points.size(), true), has_inner_star = is_inner;
+    for (const Index_triple& triangle : soup.triangles)
       for (const Index v : triangle) {
         ++faces[v];
-        free[v] += is_free;
+        for (const Index other : triangle)
+          is_inner[v] &= cell(i).contains(soup.points[other]);
       }
-    }
-    for (Index v = 0; v < faces.size(); ++v)
-      if (faces[v] > 4 && free[v] == faces[v])
-        return v;
-    throw std::runtime_error("no vertex is free");
+    for (const Index_triple& triangle : soup.triangles)
+      for (const Index v : triangle)
+        for (const Index other : triangle)
+          has_inner_star[v] &= faces[other] > 4 && is_inner[other];
+    return Index(std::find(has_inner_star.begin(), has_inner_star.end(), true) - has_inner_star.begin());
   }
 
 private:
