@@ -277,6 +277,14 @@ TEST(Pieces, RefuseAFixedFaceThatIsMissingOrChanged)
     std::swap(soup.triangles[first_fixed(soup)][0], soup.triangles[first_fixed(soup)][1]);
   });
   EXPECT_NE(turned.find("is no fixed face of cell_1.ply"), std::string::npos) << turned;
+  const std::string twice = cut.refusal(0, [&](Triangle_soup& soup) {
+    const Triangle_soup piece = soup;
+    soup = Triangle_soup{};
+    soup.points = piece.points;
+    soup.triangles = piece.triangles;
+    soup.triangles.push_back(piece.triangles[first_fixed(piece)]);
+  });
+  EXPECT_NE(twice.find("is no fixed face of cell_1.ply"), std::string::npos) << twice;
 }
 
 TEST(Pieces, RefuseLayersThatIntersectInsideTheCell)
