@@ -309,6 +309,13 @@ group(
     ("working.constraints().diagonal = whole.diagonal;", "", "drift as a share of the cell"),
 )
 group(
+    "src/soup/Parts.cpp",
+    ("intent_test",),
+    ("return flag <= 1;", "return flag <= 2;", "numbers of triangles name a part"),
+    ("if (is_known ||", "if (", "a piece without fixed faces cannot be reduced with the others"),
+)
+
+group(
     "src/cells/cut.cpp",
     ("pieces_test",),
     ("if (box.min(at.axis) <= at.plane)", "if (box.min(at.axis) < at.plane)", "faces that touch the wall are not in the piece below"),
