@@ -38,6 +38,7 @@ struct Cells_request
   std::optional<std::size_t> cells, faces_per_cell;
   double shift = 0;
   std::string plan;
+  bool is_verified = false;
   bool is_quiet = false;
   std::optional<std::size_t> threads;
 };
@@ -88,6 +89,8 @@ Exit_code cut(const Cells_request& request)
 {
   if (!request.results.empty())
     throw Argument_error("cut takes one mesh, but a second name is given: " + request.results);
+  if (request.is_verified)
+    throw Argument_error("--verify is for cells join; leave it out");
   require_mark("--output", request.output);
   if (output_format(request.output) != Mesh_format::ply)
     throw Argument_error("--output: pieces are PLY files, which hold what marks their fixed faces; choose a "
@@ -207,13 +210,18 @@ Exit_code join(const Cells_request& request)
     faces_before += piece.triangles.size();
   }
   const Triangle_soup whole = joined.take();
+  // There are no more than in the pieces, unless their judge or this program errs.
+  if (request.is_verified && offending_pairs(whole).size() > joined.pairs())
+    throw Error(request.output + ": not written, because faces intersect that do not in the pieces; please "
+                                 "report this");
   write_output(request.output, whole, format, false);
   if (request.is_quiet)
     return exit_done;
   std::cout << request.output << ": " << counted(whole.triangles.size(), "face") << " joined from "
             << counted(pieces.size(), "piece") << " of " << with_commas(faces_before)
             << " faces; every piece is judged: walls kept, "
-            << (joined.pairs() == 0 ? "embedded" : "no new pair of faces intersects") << '\n';
+            << (joined.pairs() == 0 ? "embedded" : "no new pair of faces intersects")
+            << (request.is_verified ? ", and so is the joined mesh\n" : "\n");
   for (const std::string& attribute : joined.lost_attributes())
     std::cout << "  not carried, because some results do not have it: " << attribute << '\n';
   std::cout << std::flush;
@@ -269,6 +277,8 @@ Action add_cells(CLI::App& command)
                   "File for the plan, which join needs. Without this option, it has the name of a piece with "
                   "'plan' for the number, and ends in .json.")
       ->type_name("FILE");
+  command.add_flag("--verify", request->is_verified,
+                   "Judge the joined mesh as a whole as well, which needs memory for all of it.");
   command.add_flag("--quiet", request->is_quiet, "Print no summary.");
   Thread_limit::add_option(command, request->threads);
   command.footer(

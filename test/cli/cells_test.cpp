@@ -27,9 +27,10 @@ TEST(App_cells, CutsAMeshWhosePiecesAreReducedAndJoined)
                  "--ratio", "0.3", "--keep", "fixed", "--defects", "freeze", "--quiet"});
     EXPECT_EQ(reduced.code, 0) << reduced.err;
   }
-  const App_result joined = run_app({"cells", "join", folder / "cell_plan.json", small, "-o", out});
+  const App_result joined =
+      run_app({"cells", "join", folder / "cell_plan.json", small, "-o", out, "--verify"});
   EXPECT_EQ(joined.code, 0) << joined.err;
-  EXPECT_NE(joined.out.find("embedded"), std::string::npos) << joined.out;
+  EXPECT_NE(joined.out.find("embedded, and so is the joined mesh"), std::string::npos) << joined.out;
   EXPECT_EQ(run_app({"verify", out, "--against", in}).code, 0);
 
   // Without --keep, walls are crossed.
@@ -58,6 +59,7 @@ TEST(App_cells, RefusesWhatMakesNoSense)
       {{"cells", "cut", in, "-o", pieces, "--cells", "0"}, 2, "--cells"},
       {{"cells", "cut", in, "-o", pieces, "--cells", "2", "--shift", "1"}, 2, "--shift"},
       {{"cells", "cut", in, "-o", out, "--cells", "2"}, 2, "{cell}"},
+      {{"cells", "cut", in, "-o", pieces, "--cells", "2", "--verify"}, 2, "--verify"},
       {{"cells", "cut", in, "-o", folder / "{cell}.obj", "--cells", "2"}, 2, ".ply"},
       {{"cells", "cut", in, out, "-o", pieces, "--cells", "2"}, 2, "one mesh"},
       {{"cells", "cut", in, "-o", pieces, "--cells", "2", "--plan", in}, 2, "--plan and IN"},
