@@ -12,8 +12,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
+
+#include <stdlib.h>
+#include <unistd.h>
 
 namespace selvedge {
 namespace {

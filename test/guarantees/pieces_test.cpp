@@ -27,14 +27,14 @@
 namespace selvedge::test {
 namespace {
 
-using Reduction = std::function<Triangle_soup(Triangle_soup, std::size_t cell)>;
+using Piece_reduction = std::function<Triangle_soup(Triangle_soup, std::size_t cell)>;
 
 Triangle_soup unchanged(Triangle_soup piece, std::size_t)
 {
   return piece;
 }
 
-Triangle_soup reduced(const Triangle_soup& piece, double ratio, bool check_intersections = true)
+Triangle_soup reduced_piece(const Triangle_soup& piece, double ratio, bool check_intersections = true)
 {
   Simplify_options options;
   options.ratio = ratio;
@@ -48,7 +48,7 @@ Triangle_soup reduced(const Triangle_soup& piece, double ratio, bool check_inter
 
 Triangle_soup reduced_to_a_quarter(Triangle_soup piece, std::size_t)
 {
-  return reduced(piece, 0.25);
+  return reduced_piece(piece, 0.25);
 }
 
 /// A mesh in pieces, as files.
@@ -76,7 +76,7 @@ public:
     return faces;
   }
 
-  Triangle_soup join(const Reduction& reduction) const
+  Triangle_soup join(const Piece_reduction& reduction) const
   {
     std::vector<Cell> cells;
     for (const Cell_piece& piece : m_mesh.pieces)
@@ -208,7 +208,7 @@ TEST(Pieces, AreEmbeddedTogetherWhenEachIsReduced)
 TEST(Pieces, AreRefusedWhenLayersWerePierced)
 {
   const Cut cut(nested_spheres(6000, 4, 1e-4));
-  EXPECT_THROW(cut.join([](Triangle_soup piece, std::size_t) { return reduced(piece, 0.25, false); }),
+  EXPECT_THROW(cut.join([](Triangle_soup piece, std::size_t) { return reduced_piece(piece, 0.25, false); }),
                Input_error);
 }
 
@@ -217,7 +217,7 @@ TEST(Pieces, AreReducedAtFormerWallsInASecondRound)
   const Triangle_soup first = Cut(skirt(6000, 3)).join(reduced_to_a_quarter);
   const Cut again(first, 6, 0.5);
   const Triangle_soup second =
-      again.join([](Triangle_soup piece, std::size_t) { return reduced(piece, 0.6); });
+      again.join([](Triangle_soup piece, std::size_t) { return reduced_piece(piece, 0.6); });
   EXPECT_LT(second.triangles.size(), first.triangles.size() - again.free_faces() / 4);
   EXPECT_TRUE(is_embedded(second));
 }
