@@ -316,7 +316,8 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->default_str("vertices")
       ->group(how_far);
 
-  const char* const parts = "Parts (PART names a group, an object or a material)";
+  const char* const parts = "Parts (PART names a group, an object, a material, or a property of 0 and 1 of "
+                            "the faces of a PLY file)";
   command
       .add_option("--lock", request.intent.locked,
                   "Parts whose vertices must not move. Their faces count for --faces, but not for --ratio.")

@@ -35,9 +35,11 @@ std::vector<Part_kind> part_kinds(const Triangle_soup& soup);
 
 /// Returns one flag per triangle: whether its group, object or material has this name. A label of several
 /// words can be given as a whole or by one of its words: after the line `g sleeve left`, triangles have the
-/// names "sleeve left", "sleeve" and "left".
+/// names "sleeve left", "sleeve" and "left". A triangle attribute of the type uint8 that is 0 or 1 for every
+/// triangle, such as a property of the faces of a PLY file, names those with 1, of which there may be none.
 ///
-/// Throws `Argument_error`, which lists the known names, when no triangle has this name.
+/// Throws `Argument_error`, which lists the known names, when neither a triangle nor an attribute has this
+/// name.
 std::vector<char> triangles_named(const Triangle_soup& soup, const std::string& name);
 
 } // namespace selvedge

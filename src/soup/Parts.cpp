@@ -55,6 +55,14 @@ bool has_word(const std::string& text, const std::string& word)
   return false;
 }
 
+/// Whether the attribute says yes (1) or no (0) of every triangle.
+bool is_flag(const Attribute& attribute)
+{
+  return attribute.components == 1 && attribute.type == Attribute::Type::uint8 &&
+         std::all_of(attribute.rows.begin(), attribute.rows.end(),
+                     [](unsigned char flag) { return flag <= 1; });
+}
+
 } // namespace
 
 const char* name(Part_kind::Name kind)
@@ -99,7 +107,15 @@ std::vector<char> triangles_named(const Triangle_soup& soup, const std::string& 
       if (is_used[i])
         known.insert(labels.names[i]);
   });
-  if (std::find(is_named.begin(), is_named.end(), true) != is_named.end())
+  bool is_known = false;
+  for (const Attribute& attribute : soup.triangle_attributes)
+    if (!attribute.name.empty() && is_flag(attribute)) {
+      known.insert(attribute.name);
+      is_known |= attribute.name == name;
+      for (std::size_t t = 0; t < is_named.size() && attribute.name == name; ++t)
+        is_named[t] |= char(attribute.rows[t]);
+    }
+  if (is_known || std::find(is_named.begin(), is_named.end(), true) != is_named.end())
     return is_named;
   known.erase("");
   std::string list;

@@ -6,14 +6,15 @@
 
 #include <selvedge/Triangle_soup.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
 namespace selvedge::internal {
 
 /// Returns one flag per triangle: whether its group, object or material has this name, as a whole or as one
-/// of its words. It is the judge's own reading of what `triangles_named` promises, except that a name that no
-/// triangle has is no error.
+/// of its words, or an attribute of 0 and 1 with this name is 1. It is the judge's own reading of what
+/// `triangles_named` promises, except that a name that no triangle has is no error.
 inline std::vector<char> triangles_of_part(const Triangle_soup& soup, const std::string& name)
 {
   // Blanks around both make a word of a whole name, too.
@@ -34,6 +35,12 @@ inline std::vector<char> triangles_of_part(const Triangle_soup& soup, const std:
     for (std::size_t t = 0; t < labels->of_triangle.size(); ++t)
       is_of_part[t] |= is_meant[labels->of_triangle[t]];
   }
+  for (const Attribute& attribute : soup.triangle_attributes)
+    if (attribute.name == name && !name.empty() && attribute.type == Attribute::Type::uint8 &&
+        attribute.rows.size() == is_of_part.size() && // of one component
+        std::none_of(attribute.rows.begin(), attribute.rows.end(), [](unsigned char r) { return r > 1; }))
+      for (std::size_t t = 0; t < is_of_part.size(); ++t)
+        is_of_part[t] |= char(attribute.rows[t]);
   return is_of_part;
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 TEST(App_usage, HelpTeachesByExample)
 {
-  for (const char* command : {"", "simplify", "verify", "info", "replay", "generate"}) {
+  for (const char* command : {"", "simplify", "verify", "info", "replay", "generate", "cells"}) {
     std::vector<std::string> arguments{"--help"};
     if (*command)
       arguments.insert(arguments.begin(), command);
@@ -31,7 +31,7 @@ TEST(App_usage, ManualPageAndCompletionsHaveEveryOption)
   for (const char* shell : {"bash", "zsh", "fish"})
     scripts.push_back(run_app({"--completion", shell}).out);
   EXPECT_EQ(run_app({"--completion", "tcsh"}).code, 2);
-  for (const char* command : {"simplify", "verify", "info", "replay", "generate"}) {
+  for (const char* command : {"simplify", "verify", "info", "replay", "generate", "cells"}) {
     std::istringstream help(run_app({command, "--help"}).out);
     std::size_t options = 0;
     for (std::string line; std::getline(help, line);) {

@@ -29,6 +29,7 @@ LEVELS = [
     ("replay", ["include/selvedge/replay.h", "src/replay/"]),
     ("reduction", ["include/selvedge/prepare.h", "include/selvedge/simplify.h", "include/selvedge/Reduction_log.h",
                    "include/selvedge/key_poses.h", "include/selvedge/part_report.h", "src/simplify/"]),
+    ("cells", ["include/selvedge/cells.h", "src/cells/"]),
     ("inspection", ["include/selvedge/inspect.h", "src/inspect/"]),
     ("app", ["apps/"]),
     ("bindings", ["bindings/"]),

@@ -153,6 +153,23 @@ TEST(Intent, APartIsCalledByItsGroupsItsObjectOrItsMaterial)
   EXPECT_EQ(std::size_t(std::count(body.begin(), body.end(), true)), faces_of(soup, 1).size());
 }
 
+TEST(Intent, APartIsCalledByAnAttributeThatSaysYesOrNoOfItsTriangles)
+{
+  Triangle_soup soup = two_groups(8);
+  std::vector<unsigned char> rows(soup.triangles.size(), 0);
+  soup.triangle_attributes = {{"nowhere", Attribute::Type::uint8, 1, false, rows}};
+  rows[3] = rows[5] = 1;
+  soup.triangle_attributes.push_back({"fixed", Attribute::Type::uint8, 1, false, rows});
+  rows[4] = 2;
+  soup.triangle_attributes.push_back({"number", Attribute::Type::uint8, 1, false, rows});
+  const std::vector<char> named = triangles_named(soup, "fixed");
+  EXPECT_EQ(std::count(named.begin(), named.end(), true), 2);
+  EXPECT_TRUE(named[3] && named[5]);
+  const std::vector<char> nowhere = triangles_named(soup, "nowhere");
+  EXPECT_EQ(std::count(nowhere.begin(), nowhere.end(), true), 0);
+  EXPECT_THROW(triangles_named(soup, "number"), Argument_error);
+}
+
 TEST(Intent, AnUnknownNameIsRefusedAndTheKnownOnesAreListed)
 {
   const Prepared_soup prepared = prepare(two_groups(8));

@@ -335,6 +335,38 @@ group(
     ("working.constraints().diagonal = whole.diagonal;", "", "drift as a share of the cell"),
 )
 group(
+    "src/soup/Parts.cpp",
+    ("intent_test",),
+    ("return flag <= 1;", "return flag <= 2;", "numbers of triangles name a part"),
+    ("if (is_known ||", "if (", "a piece without fixed faces cannot be reduced with the others"),
+)
+
+group(
+    "src/cells/cut.cpp",
+    ("pieces_test",),
+    ("if (box.min(at.axis) <= at.plane)", "if (box.min(at.axis) < at.plane)", "faces that touch the wall are not in the piece below"),
+    ("[&](const Point_3& p) { return !(p[axis] > plane); }", "[&](const Point_3&) { return false; }",
+     "vertices in the plane count for the cell above", "the walls alone depend on it, and any walls will do"),
+    ("sizes.front() = options.shift;", "", "the shift makes one more cell and moves no wall by its share",
+     "the walls are other ones all the same"),
+    ("is_free = is_free && cell.contains(rows.point(v));", "is_free = is_free || cell.contains(rows.point(v));",
+     "faces with a corner beyond the wall are marked as free"),
+)
+
+group(
+    "src/cells/join.cpp",
+    ("pieces_test",),
+    ("return cell.touches(box) &&\n           std::none_of", "return std::none_of", "triangles of a polygon come from two pieces"),
+    ("std::rotate(corners.begin(), corners.begin() + first, corners.end());", "std::sort(corners.begin(), corners.end());",
+     "a fixed face may turn over"),
+    ("if (found == fixed.end() || found->second.empty())", "if (found == fixed.end())", "a fixed face more often than before"),
+    ("if (missing > 0)", "if (false)", "fixed faces may be missing"),
+    ("if (!added.empty())", "if (false)", "pieces may intersect themselves"),
+    ("!matching.is_complete())", "false)", "pieces may have new holes"),
+    ("numbers[v] == no_number ? next : m_vertices", "true ? next : m_vertices", "vertices at walls are not joined"),
+)
+
+group(
     "src/soup/Working_mesh.cpp",
     ("hindrances_test",),
     ("weakest = (std::max)(weakest, reason);", "weakest = reason;", "a face has the reason of its last edge"),

@@ -8,9 +8,11 @@
 
 #include "soup/Gltf_scene.h"
 #include "soup/selection.h"
+#include "support/Temporary_folder.h"
 #include "support/soups.h"
 #include <selvedge/Error.h>
 #include <selvedge/Parts.h>
+#include <selvedge/cells.h>
 #include <selvedge/collapse_log.h>
 #include <selvedge/replay.h>
 #include <selvedge/rounding.h>
@@ -1105,6 +1107,77 @@ Verdict judge_levels(const World& world, const World_run& run)
   return std::nullopt;
 }
 
+/// Cuts the world into pieces, reduces each by itself, and joins them: no pair of faces offends that did not,
+/// and pieces that are not reduced are the world again.
+Verdict judge_in_pieces(const World& world, Random& random)
+{
+  Triangle_soup whole;
+  whole.points = world.soup.points;
+  whole.triangles = world.soup.triangles;
+  const Temporary_folder folder;
+  write_mesh(folder / "whole.ply", whole);
+  Cut_options cut_options;
+  cut_options.cells = std::size_t(random.between(1, 5));
+  cut_options.shift = random.one_in(2) ? 0.5 : 0;
+  const Cut_mesh cut = cut_into_cells(folder / "whole.ply", cut_options,
+                                      [&](std::size_t i) { return folder / (std::to_string(i) + ".ply"); });
+  std::vector<Cell> cells;
+  for (const Cell_piece& piece : cut.pieces)
+    cells.push_back(piece.cell);
+  Simplify_options options = world.options;
+  options.ratio = 0;
+  options.faces.reset();
+  options.faces_per_cell = 0;
+  options.guarded_poses.reset();
+  options.placement = Placement::vertices;
+  options.check_intersections = true;
+  Simplify_intent intent;
+  intent.kept = {std::string(fixed_property)};
+  Prepare_options prepare_options;
+  prepare_options.defects = Defects::freeze;
+  prepare_options.orient = world.are_faces_oriented;
+
+  Cell_join unchanged(cells), reduced(cells);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Triangle_soup piece = read_mesh(cut.pieces[i].file).soup;
+    const std::string name = std::to_string(i + 1) + ".ply";
+    unchanged.add(i, piece, piece, name, name);
+    Triangle_soup result = piece;
+    try {
+      result = simplify_soup(prepare(piece, prepare_options), options, intent).soup;
+    } catch (const Input_error&) { // no face has an area
+    }
+    reduced.add(i, piece, std::move(result), name, "reduced " + name);
+  }
+  const auto positions_of = [](const Triangle_soup& soup, Index triangle) {
+    std::array<std::array<double, 3>, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Point_3& p = soup.points[soup.triangles[triangle][i]];
+      corners[i] = {p.x() + 0.0, p.y() + 0.0, p.z() + 0.0};
+    }
+    std::sort(corners.begin(), corners.end());
+    return corners;
+  };
+  const auto faces_of = [&](const Triangle_soup& soup) {
+    std::multiset<std::array<std::array<double, 3>, 3>> faces;
+    for (Index t = 0; t < soup.triangles.size(); ++t)
+      faces.insert(positions_of(soup, t));
+    return faces;
+  };
+  const auto pairs_of = [&](const Triangle_soup& soup) {
+    std::set<std::set<std::array<std::array<double, 3>, 3>>> pairs;
+    for (const auto& [a, b] : Judged_complex(soup, {}).offending_pairs())
+      pairs.insert({positions_of(soup, a), positions_of(soup, b)});
+    return pairs;
+  };
+  if (faces_of(unchanged.take()) != faces_of(whole))
+    return Broken_promise{Promise::embedded, "pieces that are not reduced are not the whole"};
+  const auto before = pairs_of(whole), after = pairs_of(reduced.take());
+  if (!std::includes(before.begin(), before.end(), after.begin(), after.end()))
+    return Broken_promise{Promise::embedded, "pieces that were reduced and joined have new offending pairs"};
+  return std::nullopt;
+}
+
 } // namespace
 
 Verdict judge_twins(const World& world, const World_run& run, Judgement_counts& counts,
@@ -1161,7 +1234,12 @@ Verdict judge_twins(const World& world, const World_run& run, Judgement_counts& 
   }
   if (!world.lods.empty()) {
     ++counts.twins;
-    return judge_levels(world, run);
+    if (auto broken = judge_levels(world, run))
+      return broken;
+  }
+  if (random.one_in(8) && !is_scene && world.soup.poses.empty()) {
+    ++counts.twins;
+    return judge_in_pieces(world, random);
   }
   return std::nullopt;
 }
