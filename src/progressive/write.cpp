@@ -337,8 +337,19 @@ private:
         corners[part].push_back(v - m_firsts[instance]);
     }
     std::vector<Json> result;
-    for (const std::vector<Index>& of_part : corners)
-      result.push_back(of_part.empty() ? Json() : Json(add_numbers(*m_scene, of_part)));
+    for (std::size_t part = 0; part < corners.size(); ++part) {
+      const bool are_short = m_scene->blocks[m_scene->parts[part].instance].size < 0xffff;
+      std::string bytes;
+      for (const Index corner : corners[part])
+        if (are_short)
+          append_little_endian(bytes, std::uint16_t(corner));
+        else
+          append_little_endian(bytes, corner);
+      result.emplace_back();
+      if (!bytes.empty())
+        result.back() = add_accessor(*m_scene, std::move(bytes), are_short ? type_uint16 : type_uint32,
+                                     "SCALAR", corners[part].size());
+    }
     return result;
   }
 
