@@ -114,6 +114,25 @@ void check_poses(const Simplify_request& request)
     format_of(request.poses_output, std::nullopt);
 }
 
+void check_progressive(const Simplify_request& request)
+{
+  if (request.progressive.empty())
+    return;
+  const auto refuse = [](const std::string& why) { throw Argument_error("--progressive: " + why); };
+  const Mesh_format format = output_format(request.progressive);
+  if (format != Mesh_format::glb && format != Mesh_format::gltf)
+    refuse("the file is a glTF file; choose a name that ends in .glb");
+  if (request.options.placement == Placement::optimal)
+    refuse("--placement optimal makes new vertices, and a progressive file has those of the input; leave out "
+           "one of the two");
+  if (request.is_unguarded)
+    refuse("every step in the file has been judged; leave out --no-intersection-check");
+  if (!request.lods.empty() && (request.is_in_cells || !request.intent.ratios.empty()))
+    refuse(
+        "with --cells, or with ratios of parts, each of --lods is a reduction of its own, and the file holds "
+        "one; leave out --lods");
+}
+
 /// Refuses what can be refused before any work is done.
 void check(const Simplify_request& request)
 {
@@ -135,19 +154,22 @@ void check(const Simplify_request& request)
     throw Argument_error(
         "--log: a log holds one reduction, but --lods asks for several; leave out one of the two");
   check_poses(request);
+  check_progressive(request);
   require_html(request.html);
   std::vector<Named_file> written;
   for (const std::string& output : outputs(request)) {
     format_of(output, request.format);
     written.push_back({"--output", output});
   }
-  written.insert(written.end(),
-                 {{"--report", request.report}, {"--log", request.log}, {"--html", request.html}});
+  const std::vector<Named_file> beside = {{"--report", request.report},
+                                          {"--log", request.log},
+                                          {"--progressive", request.progressive},
+                                          {"--html", request.html}};
+  written.insert(written.end(), beside.begin(), beside.end());
   check_streams({{"IN", request.input}, {"--obstacle", request.obstacle}}, written, request.format);
   // A mesh may replace its input, but nothing else may.
   require_distinct(written, {{"--obstacle", request.obstacle}});
-  require_distinct({{"--report", request.report}, {"--log", request.log}, {"--html", request.html}},
-                   {{"IN", request.input}});
+  require_distinct(beside, {{"IN", request.input}});
   for (const Named_file& file : written)
     if (!file.path.empty())
       require_writable(file.path);
@@ -218,6 +240,7 @@ Json options_json(const Simplify_request& request)
           {"uv_weight", options.uv_weight},
           {"part_ratios", part_ratios},
           {"lods", request.lods},
+          {"progressive", request.progressive.empty() ? Json(nullptr) : Json(request.progressive)},
           {"lock", request.intent.locked},
           {"keep", request.intent.kept},
           {"may_intersect", request.may_intersect},
@@ -304,6 +327,14 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->delimiter(',')
       ->check(in_range(0, 1))
       ->type_name("R,R")
+      ->group(how_far);
+
+  command
+      .add_option(
+          "--progressive", request.progressive,
+          "Write the mesh with all steps of the reduction, as one glTF file: `selvedge level` and engines "
+          "make any level from it, from all faces down to the target.")
+      ->type_name("FILE")
       ->group(how_far);
 
   command

@@ -26,6 +26,7 @@ struct Simplify_request
   std::optional<Mesh_format> format; // of IN or output where they are "-"
   std::string report;
   std::string log;
+  std::string progressive;
   std::string html;
   std::vector<std::string> ratios; // "R" or "PART=R"
   std::string error;               // "E", "none", or empty for the default

@@ -103,6 +103,7 @@ Exit_code run(int argc, char** argv)
       add("simplify", "Reduce a mesh to fewer faces, judge the result, and write it.", add_simplify),
       add("verify", "Judge a mesh, or compare a reduced mesh with its original.", add_verify),
       add("info", "Say what is in a mesh, and what a reduction would find in it.", add_info),
+      add("level", "Make any state of a reduction from its progressive file.", add_level),
       add("replay", "Judge every step of a reduction, from its log.", add_replay),
       add("generate", "Make a garment in layers or another test scene, free of intersections.",
           add_generate),

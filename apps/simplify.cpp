@@ -25,6 +25,7 @@
 #include <selvedge/merge.h>
 #include <selvedge/mesh_files.h>
 #include <selvedge/poses.h>
+#include <selvedge/progressive.h>
 #include <selvedge/references.h>
 #include <selvedge/rounding.h>
 
@@ -69,7 +70,7 @@ public:
         levels = reduce(prepared);
         judge(levels, prepared);
       } while (guard_more_poses(levels));
-      write(levels);
+      write(prepared, levels);
       report(prepared, levels);
       return m_outcome.exit_code();
     } catch (const Interrupted&) {
@@ -92,6 +93,7 @@ private:
   bool is_rounded(const Triangle_soup& soup) const
   {
     return needs_float32(soup, output_format()) ||
+           (!m_request.progressive.empty() && needs_float32(soup, Mesh_format::glb)) ||
            (!m_request.poses_output.empty() &&
             (is_point_cache(m_request.poses_output) || stores_float32(mesh_format(m_request.poses_output))) &&
             !std::all_of(soup.poses.begin(), soup.poses.end(),
@@ -115,7 +117,7 @@ private:
     }
     for (const auto& [option, name] :
          {std::make_pair("--report", m_request.report), std::make_pair("--log", m_request.log),
-          std::make_pair("--html", m_request.html)})
+          std::make_pair("--progressive", m_request.progressive), std::make_pair("--html", m_request.html)})
       written.push_back({option, name});
     require_distinct(written, {{"--obstacle", m_request.obstacle}});
     for (const Named_file& file : written)
@@ -153,10 +155,13 @@ private:
       m_log_header.obstacle = {obstacle.points.size(), obstacle.triangles.size(), obstacle_input.sha256()};
     }
 
-    if (!is_standard_output(m_request.output))
-      m_references = relocate_references(file.soup, output_format(),
-                                         std::filesystem::path(m_request.input).parent_path(),
-                                         std::filesystem::path(m_request.output).parent_path());
+    m_folder_of_references = std::filesystem::path(m_request.input).parent_path();
+    if (!is_standard_output(m_request.output)) {
+      const auto folder = std::filesystem::path(m_request.output).parent_path();
+      m_references = relocate_references(file.soup, output_format(), m_folder_of_references, folder);
+      if (output_format() == Mesh_format::glb || output_format() == Mesh_format::gltf)
+        m_folder_of_references = folder;
+    }
 
     m_bar.begin("judging the input");
     Prepare_options options;
@@ -170,7 +175,12 @@ private:
     options.orient = m_request.are_faces_oriented;
     options.may_intersect = part_pairs(m_request.may_intersect, file.soup);
     try {
-      return prepare(std::move(file.soup), options, obstacle);
+      Prepared_soup prepared = prepare(std::move(file.soup), options, obstacle);
+      if (!m_request.progressive.empty() && prepared.normals == Normals_treatment::smooth)
+        throw Argument_error(
+            "--progressive: normals that are made anew are others in every level, and the file has "
+            "one for each vertex; give --normals keep or drop");
+      return prepared;
     } catch (const Input_error& error) {
       throw Input_error(input_name(m_request.input) + ": " + error.what());
     }
@@ -203,8 +213,10 @@ private:
     Simplify_options options = m_request.options;
     if (m_guarded_poses.size() < prepared.soup.poses.size())
       options.guarded_poses = m_guarded_poses;
+    options.is_progression_recorded = !m_request.progressive.empty();
     m_log.str({});
     m_collapses.clear();
+    m_progression = {};
     if (output_format() != Mesh_format::gltf && output_format() != Mesh_format::glb)
       options.instances = Instances::apart;
     options.should_stop = [this](const Simplify_progress& progress) {
@@ -243,6 +255,10 @@ private:
       throw Interrupted("interrupted before the reduction began");
     if (log)
       log->finish(results.back());
+    // When one run passes through all levels, the one of the fewest faces has all steps.
+    for (Simplified_soup& result : results)
+      if (result.progression.steps.size() >= m_progression.steps.size())
+        m_progression = std::move(result.progression);
     m_seconds["check"] = prepared.seconds_check;
     m_seconds["snap"] = prepared.seconds_snap;
     m_seconds["weld"] = prepared.seconds_positions;
@@ -282,7 +298,36 @@ private:
     m_seconds["verify"] = seconds_since(start);
   }
 
-  void write(const std::vector<Level>& levels)
+  // Writes the prepared input with the steps. Names of images are relative to the folder of the output so
+  // far.
+  void write_progression(const Prepared_soup& prepared, const std::vector<Level>& levels)
+  {
+    if (m_request.progressive.empty())
+      return;
+    const std::filesystem::path path = m_request.progressive;
+    Triangle_soup soup = prepared.soup;
+    relocate_references(soup, Mesh_format::glb, m_folder_of_references, path.parent_path());
+    Progressive_notes notes;
+    notes.fixed_faces = levels.front().result.report.faces_fixed;
+    notes.guarded_poses = m_guarded_poses;
+    notes.are_poses_written = !m_request.poses.files.empty();
+    for (const Level& level : levels)
+      if (!m_request.lods.empty())
+        notes.levels.push_back(level.result.soup.triangles.size());
+    write_progressive(path, soup, m_progression, notes);
+    m_files_written.push_back(m_request.progressive);
+    std::vector<std::string> dropped = not_carried(soup, Mesh_format::glb);
+    if (const std::string poses = poses_not_carried(soup, notes); !poses.empty())
+      dropped.push_back(poses);
+    m_report["progressive"] = {
+        {"path", m_request.progressive},
+        {"steps", m_progression.steps.size()},
+        {"faces", prepared.soup.triangles.size()},
+        {"least_faces", triangles_after(m_progression, m_progression.steps.size()).size()},
+        {"not_carried", dropped}};
+  }
+
+  void write(const Prepared_soup& prepared, const std::vector<Level>& levels)
   {
     const Clock::time_point start = Clock::now();
     if (m_outcome.is_written()) {
@@ -293,6 +338,7 @@ private:
         m_files_written.push_back(level.output);
         write_poses(level.result.soup, std::size_t(&level - levels.data()) + 1);
       }
+      write_progression(prepared, levels);
     }
     // The log is written even when the result was refused, because it shows why.
     if (!m_request.log.empty()) {
@@ -330,6 +376,7 @@ private:
                   m_report["input"]["notes"], dropped, m_references);
       for (const Level& level : levels)
         print_summary(stream, m_request, prepared, level, m_outcome);
+      print_progression(stream);
     }
     if (m_request.report.empty() && m_request.html.empty())
       return;
@@ -358,6 +405,8 @@ private:
       if (!m_request.lods.empty())
         add_level(m_report["lods"].emplace_back(Json::object()), level);
     m_seconds["parts"] = seconds_parts;
+    if (!m_report.contains("progressive"))
+      m_report["progressive"] = nullptr;
     m_report["seconds"] = Json::object();
     for (const char* phase :
          {"read", "weld", "check", "snap", "index", "cells", "reduce", "verify", "write", "parts"})
@@ -370,6 +419,19 @@ private:
     }
     if (!m_request.html.empty())
       write_file(output_path(m_request.html), page(prepared, levels));
+  }
+
+  void print_progression(std::ostream& stream) const
+  {
+    const auto written = m_report.find("progressive");
+    if (written == m_report.end())
+      return;
+    stream << "progressive: every level from " << counted(written->at("faces"), "face") << " to "
+           << with_commas(written->at("least_faces")) << ", in "
+           << counted(m_progression.steps.size(), "step");
+    for (const Json& what : written->at("not_carried"))
+      stream << "; without " << what.get<std::string>();
+    stream << std::endl;
   }
 
   std::string page(const Prepared_soup& prepared, const std::vector<Level>& levels) const
@@ -423,6 +485,8 @@ private:
   std::ostringstream m_log;
   std::vector<std::size_t> m_guarded_poses;
   std::vector<Soup_collapse> m_collapses; // if a page shows them
+  Progression m_progression;              // if it is written
+  std::filesystem::path m_folder_of_references;
   std::map<std::string, double> m_seconds;
   std::size_t m_polygons = 0; // of the input, faces of more than three corners that may be written
   bool m_is_stop_told = false;

@@ -27,6 +27,7 @@ Action add_replay(CLI::App& command);
 Action add_info(CLI::App& command);
 Action add_generate(CLI::App& command);
 Action add_cells(CLI::App& command);
+Action add_level(CLI::App& command);
 
 /// Accepts a number in [least, most]. Unlike `CLI::Range` it refuses NaN.
 inline CLI::Validator in_range(double least, double most = std::numeric_limits<double>::infinity())

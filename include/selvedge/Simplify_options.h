@@ -118,8 +118,9 @@ struct Simplify_options
   /// How many faces a cluster of `Face_index::clusters` should have, at least 1.
   std::size_t faces_per_cluster = 100;
 
-  /// The further poses, by number, in which collapses are judged: all of them when it has no value. The others
-  /// are carried along, and nothing is promised of them before `verify` has judged the result (key_poses.h).
+  /// The further poses, by number, in which collapses are judged: all of them when it has no value. The
+  /// others are carried along, and nothing is promised of them before `verify` has judged the result
+  /// (key_poses.h).
   std::optional<std::vector<std::size_t>> guarded_poses;
 
   /// The number of faces per *cell*, or 0 for a reduction without cells. With cells, a soup is first reduced
@@ -137,6 +138,10 @@ struct Simplify_options
 
   /// What becomes of meshes that stand in several places of a glTF scene (`simplify_soup`).
   Instances instances = Instances::shared;
+
+  /// Whether `Simplified_soup::progression` lists the steps. Not with `Placement::optimal`
+  /// (`Argument_error`), which makes new vertices.
+  bool is_progression_recorded = false;
 
   /// Called before each collapse of a soup, as `Reduction_log` takes it. It may be empty. With
   /// `simplify_mesh` it must be empty (`Argument_error`); use an observer there.

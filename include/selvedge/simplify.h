@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_SIMPLIFY_H
 #define SELVEDGE_SIMPLIFY_H
 
+#include <selvedge/Progression.h>
 #include <selvedge/Sewing_notes.h>
 #include <selvedge/Simplify_options.h>
 #include <selvedge/Simplify_report.h>
@@ -68,6 +69,9 @@ struct Simplified_soup
   /// The collapses that led to it, in order, when offending pairs of the original were allowed to descend
   /// (`Defects::descend`) and there are any; otherwise empty.
   std::vector<Soup_collapse> collapses;
+
+  /// The steps that led to it, if `Simplify_options::is_progression_recorded`; otherwise empty.
+  Progression progression;
 
   std::size_t placed_vertices = 0; ///< how many vertices of `soup` are at new places
 

@@ -53,6 +53,7 @@ public:
     fill_soup();
     close_quantization();
     set_free();
+    forget_progression();
     if (soup().triangles.empty())
       fail(what_there_is() + "; export the mesh as triangles");
     m_scene->document = std::move(json());
@@ -368,6 +369,24 @@ private:
         return false;
     }
     return true;
+  }
+
+  // Drops the lists of a progressive file, which say where the vertices of its own triangles go.
+  void forget_progression()
+  {
+    const auto forget = [this](Json& element) {
+      const auto extras = element.find("extras");
+      if (extras == element.end() || !extras->is_object() || extras->erase(progressive_extras) == 0)
+        return;
+      if (extras->empty())
+        element.erase("extras");
+      m_file.notes.ignored["lists of collapses (selvedge level reads them)"] = 1;
+    };
+    forget(json());
+    if (json().contains("meshes"))
+      for (Json& mesh : json()["meshes"])
+        for (Json& primitive : mesh["primitives"])
+          forget(primitive);
   }
 
   // Finds the accessors and buffer views that only the triangles of the soup need, and keeps the bytes of all

@@ -128,6 +128,8 @@ private:
     if (m_options.uv_weight > 0)
       m_working.measure_uvs(uv_unit(soup, m_prepared.scale));
     m_working.count_refusals(part_kinds(soup));
+    if (m_options.is_progression_recorded)
+      m_working.record_progression(m_progression);
     const auto has_none = [](const std::vector<Offending_pair>& pairs) { return pairs.empty(); };
     if (m_prepared.defects != Defects::descend ||
         (has_none(m_prepared.offending_pairs) &&
@@ -292,6 +294,7 @@ private:
     if (report.hindrances.total() > 0)
       result.held_by = std::move(left.held_by);
     result.collapses = m_collapses;
+    result.progression = m_progression;
     result.shared_meshes = m_shared_meshes;
     result.shared_places = m_shared_places;
     result.apart_meshes = m_apart_meshes;
@@ -314,6 +317,7 @@ private:
   double m_seconds_sew;
   std::size_t m_shared_meshes = 0, m_shared_places = 0, m_apart_meshes = 0;
   std::vector<Soup_collapse> m_collapses; // if they are needed to judge the result
+  Progression m_progression;              // if it is recorded
   internal::Simplification<Working_mesh::Mesh, Working_mesh> m_simplification;
   bool m_is_stopped_in_cells = false;
   std::size_t m_cells = 0;
@@ -328,6 +332,10 @@ Simplified_soup simplify_soup(const Prepared_soup& prepared, const Simplify_opti
 {
   if (options.faces_per_cell > 0 && !intent.ratios.empty())
     throw Argument_error("in cells no part can have a ratio of its own; leave out one of the two options");
+  if (options.is_progression_recorded && options.placement == Placement::optimal)
+    throw Argument_error(
+        "a collapse to a new place makes a new vertex, and a progression has none; let vertices "
+        "go to others, or record no progression");
   if (options.faces_per_cell > 0 && !prepared.soup.poses.empty())
     throw Argument_error("a mesh in several poses is not reduced in cells; leave out one of the two options");
   if (options.guarded_poses)

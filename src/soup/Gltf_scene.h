@@ -119,6 +119,10 @@ struct Gltf_scene
   std::vector<std::string> only_in_gltf; ///< names of what no other format holds
 };
 
+/// Under this name, the `extras` of a document and of its primitives hold the lists of a progressive file
+/// (progressive.h).
+inline constexpr const char* progressive_extras = "selvedge_progressive";
+
 enum Component_type {
   type_int8 = 5120,
   type_uint8,

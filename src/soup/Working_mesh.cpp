@@ -773,6 +773,7 @@ std::pair<Index, Index> Working_mesh::ends_in_soup(Mesh::Halfedge_index moving) 
 // Gives the corners that move the corners of the goal.
 void Working_mesh::carry(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule)
 {
+  record_moves(moving);
   for_each_moved_wedge(moving, [&](Index from, Index to) {
     Wedge& merged = m_wedges[to];
     merged.quadric += m_wedges[from].quadric;
@@ -1133,7 +1134,15 @@ void Working_mesh::measure_uvs(double unit)
   m_origin = {origin.x(), origin.y(), origin.z()};
   m_uv_origin = uv_of(first);
 
-  const std::vector<Mesh::Vertex_index> vertices = number_wedges();
+  Wedge_numbers numbers = number_wedges();
+  const std::vector<Mesh::Vertex_index>& vertices = numbers.vertices;
+  m_wedge_numbers = std::move(numbers.of_face);
+  m_wedges.assign(vertices.size(), {});
+  std::vector<Index> wedges_at(m_mesh.number_of_vertices(), 0);
+  for (const Mesh::Vertex_index v : vertices)
+    ++wedges_at[v];
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    m_wedges[i].is_alone = wedges_at[vertices[i]] == 1;
   Cancellation_poll poll;
   for (const Mesh::Halfedge_index h : m_mesh.halfedges()) {
     poll();
@@ -1152,21 +1161,23 @@ void Working_mesh::measure_uvs(double unit)
     m_wedges[i].own_cost = m_wedges[i].quadric(relative(m_mesh.point(vertices[i])), m_wedges[i].uv);
 }
 
-// Numbers the wedges of all vertices, and returns the vertex of each wedge.
-std::vector<Working_mesh::Mesh::Vertex_index> Working_mesh::number_wedges()
+Working_mesh::Wedge_numbers Working_mesh::number_wedges() const
 {
   std::vector<char> is_line(m_mesh.number_of_edges(), false);
   for (const Mesh::Edge_index e : m_constraints.line_edges)
     is_line[e] = true;
-  m_wedge_numbers.assign(m_corners.size(), {s_none, s_none, s_none});
-  std::vector<Mesh::Vertex_index> vertices;
+  Wedge_numbers result;
+  result.of_face.assign(m_corners.size(), {s_none, s_none, s_none});
+  const auto number_at = [&](Mesh::Halfedge_index h) -> Index& {
+    return result.of_face[m_mesh.face(h)][m_places[h]];
+  };
   for (const Mesh::Halfedge_index first : m_mesh.halfedges()) {
-    const auto is_numbered = [this](Mesh::Halfedge_index h) {
-      return m_mesh.is_border(h) || !is_own(m_mesh.face(h)) || wedge_at(h) != s_none;
+    const auto is_numbered = [&](Mesh::Halfedge_index h) {
+      return m_mesh.is_border(h) || !is_own(m_mesh.face(h)) || number_at(h) != s_none;
     };
     if (is_numbered(first))
       continue;
-    const auto number = [&](Mesh::Halfedge_index h) { wedge_at(h) = Index(vertices.size()); };
+    const auto number = [&](Mesh::Halfedge_index h) { number_at(h) = Index(result.vertices.size()); };
     // Walks around the vertex in both directions, until it meets the first face, a line or a border.
     number(first);
     for (Mesh::Halfedge_index h = first; !is_line[m_mesh.edge(m_mesh.next(h))];) {
@@ -1181,15 +1192,61 @@ std::vector<Working_mesh::Mesh::Vertex_index> Working_mesh::number_wedges()
         break;
       number(h);
     }
-    vertices.push_back(m_mesh.target(first));
+    result.vertices.push_back(m_mesh.target(first));
   }
-  m_wedges.assign(vertices.size(), {});
-  std::vector<Index> wedges_at(m_mesh.number_of_vertices(), 0);
-  for (const Mesh::Vertex_index v : vertices)
-    ++wedges_at[v];
-  for (std::size_t i = 0; i < vertices.size(); ++i)
-    m_wedges[i].is_alone = wedges_at[vertices[i]] == 1;
-  return vertices;
+  return result;
+}
+
+// The plies of a face have wedges of their own. Those of one wedge of the mesh follow each other: all its
+// faces have as many plies, in one order.
+void Working_mesh::record_progression(Progression& progression)
+{
+  m_progression = &progression;
+  const Wedge_numbers numbers = number_wedges();
+  std::vector<Index> first(numbers.vertices.size() + 1, 0); // by wedge of the mesh
+  const auto for_each_corner = [&](const auto& function) {
+    for (const Mesh::Face_index face : m_mesh.faces())
+      for (std::size_t place = 0; place < 3 && is_own(face); ++place)
+        function(face, place, numbers.of_face[face][place]);
+  };
+  for_each_corner(
+      [&](Mesh::Face_index face, std::size_t, Index wedge) { first[wedge + 1] = ply_count(face); });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  progression = {};
+  progression.wedges.resize(m_soup.triangles.size());
+  for_each_corner([&](Mesh::Face_index face, std::size_t place, Index wedge) {
+    for (Index i = 0; i < ply_count(face); ++i) {
+      const Corner corner = corners(face, i)[place];
+      progression.wedges[corner / 3][corner % 3] = first[wedge] + i;
+    }
+  });
+}
+
+// A contracted face has a corner in each wedge that moves, and one in the wedge to which that goes.
+void Working_mesh::record_moves(Mesh::Halfedge_index moving)
+{
+  if (!m_progression)
+    return;
+  auto& [wedges, moves, steps] = *m_progression;
+  const auto begin = std::ptrdiff_t(steps.empty() ? 0 : steps.back()); // of the moves of this step
+  for (const Mesh::Halfedge_index side : {moving, m_mesh.opposite(moving)}) {
+    if (m_mesh.is_border(side) || !is_own(m_mesh.face(side)))
+      continue;
+    const auto [to_mover, to_goal] = halfedges_to_ends(moving, side);
+    for (Index i = 0; i < ply_count(m_mesh.face(side)); ++i) {
+      const Corner from = corner_at(to_mover, i), to = corner_at(to_goal, i);
+      const Progression::Move move = {wedges[from / 3][from % 3], wedges[to / 3][to % 3]};
+      if (std::none_of(moves.begin() + begin, moves.end(),
+                       [&](const Progression::Move& other) { return other.from == move.from; }))
+        moves.push_back(move);
+    }
+  }
+}
+
+void Working_mesh::after_step()
+{
+  if (m_progression)
+    m_progression->steps.push_back(m_progression->moves.size());
 }
 
 // Calls function(from, to) with the wedges at both ends of a motion, once for each side of a line along it.

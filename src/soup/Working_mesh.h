@@ -8,6 +8,7 @@
 #include "selection.h"
 #include "shared_meshes.h"
 #include <selvedge/Parts.h>
+#include <selvedge/Progression.h>
 #include <selvedge/Sewing_notes.h>
 #include <selvedge/Simplify_options.h>
 #include <selvedge/Surface_mesh_simplification/Border_rule.h>
@@ -189,6 +190,12 @@ public:
   /// Sets a function that is called before each collapse.
   void record(std::function<void(const Collapse&)> recorder) { m_recorder = std::move(recorder); }
 
+  /// Makes `progression` hold the wedges of the soup, and records every step in it from now on.
+  ///
+  /// **Preconditions** Nothing has been collapsed, and no vertex goes to a new place. `progression` outlives
+  /// the mesh.
+  void record_progression(Progression& progression);
+
   /// What differs across an edge, at either end of it, in the corners that its two faces have now.
   struct Differences
   {
@@ -211,6 +218,7 @@ public:
     carry(moving, rule);
   }
   void before_placement(Mesh::Halfedge_index moving, const Point_3& place, bool is_mover_first);
+  void after_step();
   internal::Optional<Point_3> rounded_place(Mesh::Halfedge_index edge, const Point_3& place) const;
   void on_refused(Mesh::Halfedge_index moving, const Refusals& refusals);
   bool keeps_pieces(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule) const;
@@ -310,6 +318,7 @@ private:
   std::pair<Index, Index> ends_in_soup(Mesh::Halfedge_index moving) const;
   void carry(Mesh::Halfedge_index moving, const Border_rule<Mesh>& rule);
   void carry_places(Mesh::Halfedge_index moving);
+  void record_moves(Mesh::Halfedge_index moving);
   struct Mixture
   {
     Vertex_values::Shares shares;
@@ -324,7 +333,12 @@ private:
 
   Index& wedge_at(Mesh::Halfedge_index h) { return m_wedge_numbers[m_mesh.face(h)][m_places[h]]; }
   Index wedge_at(Mesh::Halfedge_index h) const { return m_wedge_numbers[m_mesh.face(h)][m_places[h]]; }
-  std::vector<Mesh::Vertex_index> number_wedges();
+  struct Wedge_numbers
+  {
+    std::vector<Index_triple> of_face;        // by face, for each of its corners
+    std::vector<Mesh::Vertex_index> vertices; // by wedge
+  };
+  Wedge_numbers number_wedges() const;
   Uv_quadric::Vector relative(const Point_3& point) const;
   Uv relative(const Uv& uv) const;
 
@@ -344,6 +358,7 @@ private:
   Sewing_notes m_notes;
   std::function<void(const Soup_collapse&)> m_listener;
   std::function<void(const Collapse&)> m_recorder;
+  Progression* m_progression = nullptr;
 
   // A vertex at a new place: where it is in the soup's unit, and its values there.
   struct Placed_vertex

@@ -5,6 +5,8 @@
 
 #include "support/round_trip.h"
 
+#include "progressive/lists.h"
+
 #include <sanitizer/allocator_interface.h>
 
 #include <selvedge/Error.h>
@@ -54,6 +56,8 @@ void read(std::string_view kind, std::string_view contents)
       Log_reader reader(stream, "log");
       for (Log_step step; reader.read(step);)
         ;
+    } else if (kind == "progressive") {
+      read_progressive(contents, Mesh_format::gltf, "input");
     } else {
       read_mesh(contents, mesh_format("m." + std::string(kind)), "input");
     }
@@ -65,7 +69,7 @@ void read(std::string_view kind, std::string_view contents)
 /// the square of the size that counts.
 std::size_t most_bytes(std::string_view kind, std::size_t size)
 {
-  const bool is_gltf = kind == "glb" || kind == "gltf";
+  const bool is_gltf = kind == "glb" || kind == "gltf" || kind == "progressive";
   return (256 << 10) + 256 * size * (is_gltf ? 1 + size / 256 : 1);
 }
 
@@ -81,6 +85,8 @@ void judge(std::string_view kind, std::string_view contents)
             "reading " + std::to_string(contents.size()) + " bytes takes " + std::to_string(bytes));
     if (kind == "log")
       judge_log(contents);
+    else if (kind == "progressive")
+      judge_progressive(contents);
     else
       judge_mesh(contents, mesh_format("m." + std::string(kind)));
   } catch (const std::exception& error) {

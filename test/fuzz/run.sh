@@ -6,7 +6,7 @@
 #
 #   test/fuzz/run.sh --runs 20000           so many executions of each program, the same ones every time
 #   test/fuzz/run.sh --minutes 60           so long each, with other random numbers every time
-#   test/fuzz/run.sh --minutes 60 obj log   only these of obj off ply stl glb gltf log
+#   test/fuzz/run.sh --minutes 60 obj log   only these of obj off ply stl glb gltf log progressive
 #
 # Starts from test/fuzz/seeds. With --minutes it goes on from what earlier runs have found worth keeping, in
 # build/fuzz/corpus. Ends with status 1 when a program stopped, by a crash, a broken promise, a hang of 20 seconds, or an
@@ -25,7 +25,7 @@ case "${1:-}" in
 esac
 kinds=("${@:3}")
 if [[ ${#kinds[@]} == 0 ]]; then
-  kinds=(obj off ply stl glb gltf log)
+  kinds=(obj off ply stl glb gltf log progressive)
 fi
 
 # Every mesh that is read is written: in memory, if there is a file system there.

@@ -531,7 +531,7 @@ group(
      "other places are not asked"),
     ("const bool are_apart = m_observer.are_companions_apart(collapse.moving(), m_companions);",
      "const bool are_apart = true;", "places that come near each other change alike"),
-    ("if (m_motions_left == 0) // no motion", "if (true) // no motion", "a level while places differ"),
+    ("if (m_motions_left == 0) { // no motion", "if (true) { // no motion", "a level while places differ"),
     ("m_observer.are_companions_apart(moving, companions) &&", "true &&",
      "places that are too near are no reason"),
     sources=("src/simplify/simplify_soup.cpp",),
@@ -779,4 +779,45 @@ group(
     poses,
     ("if (!stated.sha256.empty() && stated.sha256 != digest_of(original.poses[pose]))", "if (false)",
      "the replay takes any pose for the one of the log"),
+)
+
+progressive = ("progressive_test",)
+
+group(
+    "src/soup/Working_mesh.cpp",
+    progressive,
+    ("first[wedge + 1] = ply_count(face);", "first[wedge + 1] = 1;", "doubles share the wedges of their neighbours"),
+    ("for (const Mesh::Halfedge_index side : {moving, m_mesh.opposite(moving)}) {\n    if (m_mesh.is_border(side) || !is_own",
+     "for (const Mesh::Halfedge_index side : {moving}) {\n    if (m_mesh.is_border(side) || !is_own",
+     "one side of a seam stays behind"),
+)
+group(
+    headers + "Surface_mesh_simplification/internal/Simplification.h",
+    progressive,
+    ("      m_observer.after_step();\n", "", "no step ends"),
+    sources=("src/simplify/simplify_soup.cpp",),
+)
+group(
+    "src/soup/Progression.cpp",
+    progressive,
+    ("for (std::size_t i = moves; i-- > 0;)", "for (std::size_t i = 0; i < moves; ++i)",
+     "a wedge follows the first of its moves alone"),
+)
+group(
+    "src/progressive/level.cpp",
+    progressive,
+    ("mesh.steps[v] <= steps &&", "mesh.steps[v] < steps &&", "the last step is left out"),
+)
+group(
+    "src/progressive/write.cpp",
+    progressive,
+    ("~m_fates.steps[wedge], ", "", "vertices are not in the order in which they go"),
+    ("if (uses[wedge] == 0)", "if (false)", "vertices end that no triangle has"),
+    ("pose.points[m_soup.triangles[m_corners[wedge] / 3][m_corners[wedge] % 3]]",
+     "pose.points[m_soup.triangles[wedge / 3][wedge % 3]]", "a pose has the places of other vertices"),
+)
+group(
+    "src/progressive/read.cpp",
+    progressive,
+    ("if (is_digest_judged && progressive", "if (false && progressive", "what another program has changed is read"),
 )

@@ -7,6 +7,7 @@
 #include "support/Temporary_folder.h"
 #include "support/soups.h"
 
+#include "progressive/lists.h"
 #include "soup/selection.h"
 #include <selvedge/Error.h>
 #include <selvedge/collapse_log.h>
@@ -264,6 +265,21 @@ inline bool judge_mesh(std::string_view contents, Mesh_format format)
     const bool is_text_kept =
         format == Mesh_format::obj || format == Mesh_format::off || format == Mesh_format::ply;
     promise(!is_text_kept || written(second, options) == bytes, "what is written changes");
+  }
+  return true;
+}
+
+/// Makes levels of a progressive file in glTF, whatever its digest is. Returns false when it is refused.
+inline bool judge_progressive(std::string_view contents)
+{
+  try {
+    const Progressive_mesh mesh = progressive::read(contents, Mesh_format::gltf, "input", false);
+    expect_sound(mesh.soup);
+    for (const std::size_t steps : {std::size_t(0), mesh.step_count() / 2, mesh.step_count()})
+      if (const Triangle_soup soup = level(mesh, steps); !soup.triangles.empty())
+        expect_sound(soup);
+  } catch (const Input_error&) {
+    return false;
   }
   return true;
 }

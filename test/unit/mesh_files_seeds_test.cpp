@@ -45,7 +45,9 @@ TEST_P(Seeds, AreRefusedOrSurviveWritingAndReading)
   const std::string contents(std::istreambuf_iterator<char>(stream), {});
   const std::string kind = GetParam().parent_path().filename().string();
   const bool is_refused = GetParam().stem().string().rfind("refused", 0) == 0;
-  const bool is_read = kind == "log" ? judge_log(contents) : judge_mesh(contents, mesh_format("m." + kind));
+  const bool is_read = kind == "log"           ? judge_log(contents)
+                       : kind == "progressive" ? judge_progressive(contents)
+                                               : judge_mesh(contents, mesh_format("m." + kind));
   const bool needs_decoder = GetParam().stem().string().rfind("packed", 0) == 0; // which a build may lack
   EXPECT_TRUE(is_read == !is_refused || needs_decoder);
 }

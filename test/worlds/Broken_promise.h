@@ -22,6 +22,7 @@ enum class Promise {
   stop,        ///< the target is reached and not passed, or the report says that it was not
   verdict,     ///< the library's judge finds nothing wrong with the result
   log_replay,  ///< the log is accepted, limits of quality included, and leads to the result
+  progression, ///< every step leads to the state that the reduction had, also from a file
   written,     ///< the file reads back as the result
   determinism, ///< twins that must be the same are the same
   refusal      ///< what is refused is what should be, by an error of the right kind

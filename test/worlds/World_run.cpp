@@ -9,6 +9,7 @@
 #include <selvedge/Reduction_log.h>
 #include <selvedge/collapse_log.h>
 #include <selvedge/merge.h>
+#include <selvedge/progressive.h>
 
 #include <sstream>
 
@@ -27,6 +28,7 @@ void reduce(const World& world, const Prepared_soup& prepared, Reduction_log* lo
     options.should_stop = [&run, left = *world.questions](const Simplify_progress&) mutable {
       return run.is_told_to_stop = run.is_told_to_stop || left-- == 0;
     };
+  options.is_progression_recorded = options.placement == Placement::vertices;
   run.result = simplify_soup(prepared, options, world.intent);
 }
 
@@ -91,6 +93,13 @@ World_run run(const World& world)
     write_mesh(folder / file_name(world),
                world.is_sewn ? merged_at_positions(run.result.soup) : run.result.soup);
     run.read_back = read_mesh(folder / file_name(world)).soup;
+    if ((world.output_format == Mesh_format::glb || world.output_format == Mesh_format::gltf) &&
+        !world.is_sewn && !run.result.progression.empty() &&
+        run.prepared.normals != Normals_treatment::smooth) {
+      write_progressive(folder / "all.glb", run.prepared.soup, run.result.progression);
+      const Progressive_mesh mesh = read_progressive(folder / "all.glb");
+      run.last_level = level(mesh, mesh.step_count());
+    }
   }
   return run;
 }

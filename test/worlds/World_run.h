@@ -27,6 +27,9 @@ struct World_run
   Verification verification;
   std::string log;
   Triangle_soup read_back; ///< from the file written
+
+  /// From a progressive file, if the output is glTF and one can hold the steps.
+  std::optional<Triangle_soup> last_level;
 };
 
 /// Does what a world asks for, up to the file; without levels of detail. Throws what the library throws,

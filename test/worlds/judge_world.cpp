@@ -39,9 +39,9 @@ namespace selvedge::test {
 
 const char* name(Promise promise)
 {
-  static constexpr const char* s_names[] = {"preparation", "embedded",    "motion", "topology", "seams",
-                                            "attributes",  "frozen",      "stop",   "verdict",  "log replay",
-                                            "written",     "determinism", "refusal"};
+  static constexpr const char* s_names[] = {
+      "preparation", "embedded", "motion",     "topology",    "seams",   "attributes",  "frozen",
+      "stop",        "verdict",  "log replay", "progression", "written", "determinism", "refusal"};
   return s_names[std::size_t(promise)];
 }
 
@@ -333,8 +333,36 @@ std::vector<char> held(const World& world, const Triangle_soup& soup, bool with_
   return is_held;
 }
 
+// Whether the triangles after so many steps of the progression are those that are alive, with their corners
+// where they are now.
+bool is_state(const World_run& run, std::size_t steps, const Judged_complex& complex)
+{
+  const Progression& progression = run.result.progression;
+  std::map<Index, Index> position_of_wedge; // from where it starts
+  for (std::size_t t = 0; t < progression.wedges.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index position = complex.position(run.prepared.soup.triangles[t][k]);
+      if (position_of_wedge.emplace(progression.wedges[t][k], position).first->second != position)
+        return false;
+    }
+  std::size_t alive = 0;
+  for (const auto& [triangle, wedges] : triangles_after(progression, steps)) {
+    Index_triple positions = complex.positions_of(triangle);
+    if (!run.prepared.is_turned.empty() && run.prepared.is_turned[triangle])
+      std::swap(positions[1], positions[2]);
+    for (std::size_t k = 0; k < 3; ++k)
+      if (position_of_wedge.at(wedges[k]) != positions[k])
+        return false;
+    alive += complex.is_alive(triangle);
+  }
+  return alive == complex.own_faces_alive();
+}
+
+// In places of a shared mesh, several collapses are one step.
 Verdict judge_collapses(const World_run& run, Judged_complex& complex, Judgement_counts& counts)
 {
+  const Progression& progression = run.result.progression;
+  std::size_t steps = 0;
   for (std::size_t i = 0; i < run.collapses.size(); ++i) {
     const auto& [removed, kept, at, is_removed_first] = run.collapses[i];
     ++counts.collapses;
@@ -346,7 +374,12 @@ Verdict judge_collapses(const World_run& run, Judged_complex& complex, Judgement
                          std::to_string(kept) + (at ? " at a new place" : "");
       return broken;
     }
+    if (steps < progression.steps.size() && is_state(run, steps + 1, complex))
+      ++steps;
   }
+  if (steps != progression.steps.size() || (!progression.empty() && !is_state(run, steps, complex)))
+    return Broken_promise{Promise::progression,
+                          "step " + std::to_string(steps + 1) + " is none that the reduction took"};
   return std::nullopt;
 }
 
@@ -778,6 +811,31 @@ Verdict judge_file(const World& world, const World_run& run)
   return std::nullopt;
 }
 
+// The last level from the progressive file, against the result in a file of the same format.
+Verdict judge_progressive_file(const World_run& run)
+{
+  if (!run.last_level)
+    return std::nullopt;
+  const Triangle_soup &level = *run.last_level, &result = run.read_back;
+  const auto broken = [](const char* what) { return Broken_promise{Promise::progression, what}; };
+  if (level.triangles.size() != result.triangles.size() || level.uvs.empty() != result.uvs.empty())
+    return broken("the last level has not the triangles of the result");
+  const bool has_normals = run.prepared.normals == Normals_treatment::kept && !level.normals.empty();
+  for (Index t = 0; t < level.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index corner = Index(3 * t + k);
+      if (!has_same_bits(level.points[level.triangles[t][k]], result.points[result.triangles[t][k]]))
+        return broken("the last level has a corner elsewhere");
+      if (!has_same_value(level.uvs, t, result.uvs, corner, k) ||
+          (has_normals && !has_same_value(level.normals, t, result.normals, corner, k)))
+        return broken("the last level has another value at a corner");
+      if (!have_same_rows(level.vertex_attributes, level.triangles[t][k], result.vertex_attributes,
+                          result.triangles[t][k]))
+        return broken("the last level has another attribute at a corner");
+    }
+  return std::nullopt;
+}
+
 /// One reduction of what is prepared; the complex is as it was before it.
 Verdict judge_reduction(const World& world, const World_run& run, Judged_complex complex,
                         Judgement_counts& counts)
@@ -925,6 +983,8 @@ Verdict judge(const World& world, const World_run& run, Judgement_counts& counts
     if (auto broken = judge_replay(world, run))
       return broken;
   if (auto broken = judge_file(world, run))
+    return broken;
+  if (auto broken = judge_progressive_file(run))
     return broken;
   return judge_other_options(world, run, complex, counts, extent.option_sets);
 }

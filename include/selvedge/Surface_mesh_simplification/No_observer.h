@@ -41,6 +41,9 @@ struct No_observer
   {
   }
 
+  /// Called when all vertices that move together have moved.
+  void after_step() {}
+
   /// Returns the place as it will be stored, or none where no vertex may be.
   template <class Halfedge, class Point>
   internal::Optional<Point> rounded_place(const Halfedge& /*edge*/, const Point& place) const

@@ -803,8 +803,10 @@ private:
       m_intersection->visitor().after_collapse(kept);
     if (m_motions_left > 0)
       --m_motions_left;
-    if (m_motions_left == 0) // no motion of several vertices is half done
+    if (m_motions_left == 0) { // no motion of several vertices is half done
+      m_observer.after_step();
       pass_levels();
+    }
   }
 
   // Reports the levels that have been reached. Each is a snapshot on which nothing that follows depends.

@@ -1,0 +1,101 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "output_files.h"
+#include "standard_streams.h"
+#include "subcommands.h"
+#include "text.h"
+
+#include <selvedge/Error.h>
+#include <selvedge/progressive.h>
+#include <selvedge/references.h>
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace selvedge::app {
+namespace {
+
+struct Level_request
+{
+  std::string input;
+  std::string output;
+  std::optional<Mesh_format> format; // of output where it is "-"
+  std::optional<std::size_t> faces;
+  std::optional<double> ratio;
+  bool is_quiet = false;
+  bool is_ascii = false;
+};
+
+Exit_code run(const Level_request& request)
+{
+  if (!request.faces && !request.ratio)
+    throw Argument_error("say which level: give --faces or --ratio");
+  check_streams({}, {{"--output", request.output}}, request.format);
+  const Mesh_format format = format_of(request.output, request.format);
+  require_distinct({{"--output", request.output}}, {{"FILE", request.input}});
+  require_writable(request.output);
+
+  const Progressive_mesh mesh = read_progressive(request.input);
+  const std::size_t target =
+      std::max(request.faces.value_or(0), request.ratio ? faces_at_ratio(mesh, *request.ratio) : 0);
+  const std::size_t steps = steps_to_faces(mesh, target);
+  Triangle_soup soup = level(mesh, steps);
+  const std::filesystem::path input = request.input, output = request.output;
+  if (!is_standard_output(request.output))
+    relocate_references(soup, format, input.parent_path(), output.parent_path());
+  write_output(request.output, soup, format, request.is_ascii);
+
+  const Text_to_standard_error elsewhere(is_standard_output(request.output));
+  if (request.is_quiet)
+    return exit_done;
+  std::cout << request.output << ": " << counted(soup.triangles.size(), "face") << " of "
+            << with_commas(mesh.faces.front()) << ", after " << with_commas(steps) << " of "
+            << counted(mesh.step_count(), "step") << ", each of which was judged";
+  if (soup.triangles.size() > target)
+    std::cout << "; the file has no level of fewer faces";
+  std::cout << std::endl;
+  return exit_done;
+}
+
+} // namespace
+
+Action add_level(CLI::App& command)
+{
+  const auto request = std::make_shared<Level_request>();
+  command.add_option("FILE", request->input, "Progressive file, made by `selvedge simplify --progressive`.")
+      ->required()
+      ->type_name("");
+  command
+      .add_option("-o,--output", request->output,
+                  std::string("File to write: ") + mesh_endings + "; its ending chooses the format.")
+      ->required()
+      ->type_name("FILE");
+  add_format_option(command, request->format);
+  command
+      .add_option("--faces", request->faces,
+                  "Number of faces to keep, of all. The level is the first one that has no more.")
+      ->transform(whole_number())
+      ->type_name("N");
+  command
+      .add_option("--ratio", request->ratio,
+                  "Share of the faces to keep, from 0 to 1, of those that could be reduced, as in simplify.")
+      ->check(in_range(0, 1))
+      ->type_name("R");
+  command.add_flag("--quiet", request->is_quiet, "Print no summary.");
+  command.add_flag("--ascii", request->is_ascii, "Write PLY and STL as text.");
+  command.footer(
+      "Examples:\n"
+      "  selvedge simplify jacket.obj -o least.glb --ratio 0.02 --progressive jacket.glb\n"
+      "  selvedge level jacket.glb --faces 20000 -o jacket_20000.glb\n"
+      "  selvedge level jacket.glb --ratio 0.25 -o jacket_quarter.obj\n"
+      "  selvedge verify jacket_20000.glb --against jacket.glb      # judge it once more\n\n"
+      "A level has the faces that `selvedge simplify` gives for the same number with the same options,\n"
+      "and no reduction is run again. A file that is not as simplify wrote it is refused.");
+  return [request] { return run(*request); };
+}
+
+} // namespace selvedge::app
