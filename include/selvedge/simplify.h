@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_SIMPLIFY_H
 #define SELVEDGE_SIMPLIFY_H
 
+#include <selvedge/Reduction_history.h>
 #include <selvedge/Sewing_notes.h>
 #include <selvedge/Simplify_options.h>
 #include <selvedge/Simplify_report.h>
@@ -77,6 +78,11 @@ struct Simplified_soup
 
   Sewing_notes sewing;
   Simplify_report report;
+
+  /// What the collapses cost and what was refused between them, with `Simplify_options::is_history_kept`. A
+  /// cost is a share of the squared diagonal. What was refused in cells is not counted, and `by_loop` in the
+  /// last sample alone.
+  Reduction_history history;
 
   /// Refusals by part: for each of the `part_kinds` of the original, for each part of this kind. A refusal
   /// counts for the parts of one face beside the edge.
