@@ -52,6 +52,51 @@ std::string without_tags(const std::string& json)
   return text;
 }
 
+const std::vector<Point_3>& points_in(const Triangle_soup& soup, std::size_t pose)
+{
+  return pose == 0 || soup.poses.empty() ? soup.points : soup.poses[pose - 1].points;
+}
+
+// Returns for every vertex one of those that are where it is, in all poses.
+std::vector<Index> representatives(const Triangle_soup& soup)
+{
+  const auto is_before = [&](Index a, Index b) {
+    if (soup.points[a] != soup.points[b])
+      return soup.points[a] < soup.points[b];
+    for (const Pose& pose : soup.poses)
+      if (pose.points[a] != pose.points[b])
+        return pose.points[a] < pose.points[b];
+    return false;
+  };
+  std::vector<Index> order(soup.points.size()), result(soup.points.size());
+  std::iota(order.begin(), order.end(), Index(0));
+  std::sort(order.begin(), order.end(), is_before);
+  for (std::size_t i = 0; i < order.size(); ++i)
+    result[order[i]] = i > 0 && !is_before(order[i - 1], order[i]) ? result[order[i - 1]] : order[i];
+  return result;
+}
+
+Json history_json(const Reduction_history& history)
+{
+  Json collapses = Json::array(), least = Json::array(), largest = Json::array(), refused = Json::array();
+  for (const Reduction_history::Sample& sample : history.samples()) {
+    collapses.push_back(sample.collapses);
+    least.push_back(float(sample.least_cost));
+    largest.push_back(float(sample.largest_cost));
+  }
+  for (const Refusals::Rule& rule : Refusals::rules()) {
+    Json counts = Json::array();
+    for (const Reduction_history::Sample& sample : history.samples())
+      counts.push_back(sample.refused.*rule.count);
+    if (!counts.empty() && counts.back() > 0)
+      refused.push_back({{"rule", rule.name}, {"counts", std::move(counts)}});
+  }
+  return {{"collapses", std::move(collapses)},
+          {"least", std::move(least)},
+          {"largest", std::move(largest)},
+          {"refused", std::move(refused)}};
+}
+
 // Points at infinity are as far as the farthest other ones.
 double finite(double number)
 {
@@ -77,14 +122,14 @@ void require_html(const std::string& file)
                          "libjs-three and esbuild) and build it again, or leave the option out");
 }
 
-Html_report::Html_report(const Triangle_soup& before, const Triangle_soup& beside,
-                         const std::vector<Index>& positions)
-    : m_before(before), m_beside(beside), m_positions(positions)
+Html_report::Html_report(const Triangle_soup& before, const Triangle_soup& beside)
+    : m_before(before), m_beside(beside)
 {
   for (const Triangle_soup* soup : {&before, &beside})
-    for (const Index_triple& triangle : soup->triangles)
-      for (const Index v : triangle)
-        m_box += soup->points[v].bbox();
+    for (std::size_t pose = 0; pose <= soup->poses.size(); ++pose)
+      for (const Index_triple& triangle : soup->triangles)
+        for (const Index v : triangle)
+          m_box += points_in(*soup, pose)[v].bbox();
   Json extents = Json::array();
   // Halves, because the difference of two large coordinates may overflow.
   const auto half_span = [this](int axis) { return m_box.max(axis) / 2 - m_box.min(axis) / 2; };
@@ -92,14 +137,17 @@ Html_report::Html_report(const Triangle_soup& before, const Triangle_soup& besid
   for (int axis = 0; axis < 3; ++axis)
     extents.push_back(largest > 0 ? half_span(axis) / largest : 0);
   m_scene = {{"extents", extents},         {"meshes", Json::array()}, {"levels", Json::array()},
-             {"collapses", Json::array()}, {"places", Json::array()}, {"obstacle", nullptr}};
+             {"collapses", Json::array()}, {"places", Json::array()}, {"obstacle", nullptr},
+             {"poses", Json::array()}};
+  for (const Pose& pose : before.poses)
+    m_scene["poses"].push_back(pose.name);
   for (const Hindrances::Description& description : Hindrances::descriptions())
     m_scene["reasons"].push_back(description.name);
-  m_nodes = nodes_of(before, positions);
+  m_nodes = nodes_of(before);
   m_scene["meshes"].push_back(mesh_json(before, m_nodes));
   if (beside.triangles.empty())
     return;
-  m_nodes_beside = nodes_of(beside, {});
+  m_nodes_beside = nodes_of(beside);
   m_scene["meshes"].push_back(mesh_json(beside, m_nodes_beside));
 }
 
@@ -126,21 +174,36 @@ Json Html_report::section(const Numbers& numbers)
   return {begin, count};
 }
 
-Html_report::Nodes Html_report::nodes_of(const Triangle_soup& soup, const std::vector<Index>& positions) const
+Html_report::Nodes Html_report::nodes_of(const Triangle_soup& soup) const
 {
+  const std::vector<Index> representative = representatives(soup);
   Nodes nodes;
   nodes.of_vertex.assign(soup.points.size(), none);
   for (const Index_triple& triangle : soup.triangles)
     for (const Index v : triangle) {
-      const Index first = positions.empty() ? v : positions[v];
-      if (nodes.of_vertex[first] == none) {
-        nodes.of_vertex[first] = Index(nodes.size());
-        for (int axis = 0; axis < 3; ++axis)
-          nodes.coordinates.push_back(quantised(soup.points[v][axis], axis));
-      }
-      nodes.of_vertex[v] = nodes.of_vertex[first];
+      Index& node = nodes.of_vertex[representative[v]];
+      if (node != none)
+        continue;
+      node = Index(nodes.size());
+      for (int axis = 0; axis < 3; ++axis)
+        nodes.coordinates.push_back(quantised(soup.points[v][axis], axis));
     }
+  for (Index v = 0; v < representative.size(); ++v)
+    nodes.of_vertex[v] = nodes.of_vertex[representative[v]];
   return nodes;
+}
+
+Json Html_report::poses_json(const Triangle_soup& soup, const Nodes& nodes)
+{
+  Json poses = Json::array();
+  for (const Pose& pose : soup.poses) {
+    Numbers coordinates(3 * nodes.size());
+    for (Index v = 0; v < pose.points.size(); ++v)
+      for (int axis = 0; axis < 3 && nodes.of_vertex[v] != none; ++axis)
+        coordinates[3 * nodes.of_vertex[v] + Index(axis)] = quantised(pose.points[v][axis], axis);
+    poses.push_back(section(coordinates));
+  }
+  return poses;
 }
 
 Json Html_report::uv_json(const Triangle_soup& soup)
@@ -172,6 +235,7 @@ Json Html_report::mesh_json(const Triangle_soup& soup, const Nodes& nodes)
                      {"of_triangle", section(kind.of_triangle)}});
   return {{"points", section(nodes.coordinates)},
           {"corners", section(corners)},
+          {"poses", poses_json(soup, nodes)},
           {"kinds", std::move(kinds)},
           {"uv", uv_json(soup)},
           {"flags", nullptr}};
@@ -194,7 +258,9 @@ void Html_report::add_input(const Prepared_soup& prepared, const std::vector<std
       if (t < flags.size())
         flags[t] |= is_offending;
   m_scene["meshes"][0]["flags"] = section(flags);
-  add_pairs("Offending pairs of the input", prepared.offending_pairs, m_before, false);
+  add_pairs("Offending pairs of the input", prepared.offending_pairs, m_before);
+  for (std::size_t i = 0; i < prepared.offending_pairs_in_poses.size(); ++i)
+    add_pairs("Offending pairs of the input", prepared.offending_pairs_in_poses[i], m_before, i + 1);
 }
 
 std::size_t Html_report::add_collapses(const std::vector<Soup_collapse>& collapses)
@@ -203,7 +269,9 @@ std::size_t Html_report::add_collapses(const std::vector<Soup_collapse>& collaps
   std::vector<Index> into(m_nodes.size());
   std::iota(into.begin(), into.end(), Index(0));
   const auto node_now = [&](std::size_t vertex) {
-    Index node = m_nodes.of_vertex[m_positions.empty() ? vertex : m_positions[vertex]];
+    Index node = m_nodes.of_vertex[vertex];
+    if (node == none) // no triangle moves with it
+      return Index(0);
     while (into[node] != node)
       node = into[node] = into[into[node]];
     return node;
@@ -211,7 +279,8 @@ std::size_t Html_report::add_collapses(const std::vector<Soup_collapse>& collaps
   Numbers removed, kept, placed, places;
   for (std::size_t i = 0; i < collapses.size(); ++i) {
     const Index from = node_now(collapses[i].removed), to = node_now(collapses[i].kept);
-    into[from] = to;
+    if (!into.empty())
+      into[from] = to;
     removed.push_back(from);
     kept.push_back(to);
     if (!collapses[i].place)
@@ -239,7 +308,6 @@ Json Html_report::distances_json(const std::vector<double>& distances, const Nod
 void Html_report::add_level(const std::string& name, const Simplified_soup& result,
                             const Verification& verification, std::size_t collapses, std::size_t steps)
 {
-  const bool is_first = m_scene["levels"].empty();
   const std::vector<double> distances = vertex_distances(m_before, result.soup);
   const double largest =
       distances.empty() ? 0 : finite(*std::max_element(distances.begin(), distances.end()));
@@ -254,18 +322,47 @@ void Html_report::add_level(const std::string& name, const Simplified_soup& resu
                                {"triangles", section(result.triangles)},
                                {"held_by", section(held_by)},
                                {"uv", uv_json(result.soup)},
-                               {"accepted", verification.accepted()},
+                               {"largest", largest},
+                               {"distances", distances_json(distances, m_nodes, largest)},
+                               {"history", history_json(result.history)}});
+  add_new_pairs(verification, result.soup);
+  add_deviations("Farthest from the result", m_before, distances);
+}
+
+void Html_report::add_replay(const std::string& name, const Replay_verdict& verdict, std::size_t collapses)
+{
+  const std::vector<double> distances = vertex_distances(m_before, verdict.soup);
+  const double largest =
+      distances.empty() ? 0 : finite(*std::max_element(distances.begin(), distances.end()));
+  m_scene["levels"].push_back({{"name", name},
+                               {"mesh", 0},
+                               {"collapses", collapses},
+                               {"steps", verdict.steps},
+                               {"faces", verdict.soup.triangles.size()},
                                {"largest", largest},
                                {"distances", distances_json(distances, m_nodes, largest)}});
-  add_pairs("Pairs that offend only in the result", verification.new_pairs, result.soup, true);
-  if (is_first)
-    add_deviations("Farthest from the result", m_before, distances, false);
+}
+
+void Html_report::add_violations(const std::vector<Violation>& violations, std::size_t pose)
+{
+  Json list = Json::array();
+  for (std::size_t i = 0; i < (std::min)(violations.size(), most_places); ++i) {
+    const Violation& violation = violations[i];
+    const std::string where =
+        violation.step > 0 ? "step " + with_commas(violation.step) + ": " : std::string("the result: ");
+    list.push_back({{"text", where + selvedge::name(violation.kind) + ": " + violation.message},
+                    {"step", violation.step},
+                    {"triangles", violation.triangles}});
+  }
+  add_places("Refused steps", violations.size(), std::move(list), pose);
 }
 
 void Html_report::add_result(const std::string& name, const Verification& verification)
 {
   if (m_beside.triangles.empty()) {
-    add_pairs("Offending pairs", verification.pairs, m_before, false);
+    add_pairs("Offending pairs", verification.pairs, m_before);
+    for (std::size_t i = 0; i < verification.poses.size(); ++i)
+      add_pairs("Offending pairs", verification.poses[i].pairs, m_before, i + 1);
     return;
   }
   const std::vector<double> before = vertex_distances(m_before, m_beside),
@@ -277,13 +374,12 @@ void Html_report::add_result(const std::string& name, const Verification& verifi
   m_scene["levels"].push_back({{"name", name},
                                {"mesh", 1},
                                {"faces", m_beside.triangles.size()},
-                               {"accepted", verification.accepted()},
                                {"largest", largest},
                                {"distances", distances_json(before, m_nodes, largest)},
                                {"distances_after", distances_json(after, m_nodes_beside, largest)}});
-  add_pairs("Pairs that offend only in the result", verification.new_pairs, m_beside, true);
-  add_deviations("Farthest from the result", m_before, before, false);
-  add_deviations("Farthest from the original", m_beside, after, true);
+  add_new_pairs(verification, m_beside);
+  add_deviations("Farthest from the result", m_before, before);
+  add_deviations("Farthest from the original", m_beside, after);
 }
 
 Json Html_report::place_json(const std::vector<Point_3>& corners, const std::string& text) const
@@ -297,8 +393,29 @@ Json Html_report::place_json(const std::vector<Point_3>& corners, const std::str
   return place;
 }
 
+// Places belong to the level that was added last; without one, they are those of the mesh before.
+void Html_report::add_places(const std::string& heading, std::size_t count, Json list, std::size_t pose)
+{
+  if (list.empty())
+    return;
+  const std::size_t levels = m_scene["levels"].size();
+  m_scene["places"].push_back({{"heading", heading},
+                               {"count", count},
+                               {"pose", pose},
+                               {"level", levels > 0 ? Json(levels - 1) : Json(nullptr)},
+                               {"list", std::move(list)}});
+}
+
+void Html_report::add_new_pairs(const Verification& verification, const Triangle_soup& result)
+{
+  const char* const heading = "Pairs that offend only in the result";
+  add_pairs(heading, verification.new_pairs, result);
+  for (std::size_t i = 0; i < verification.poses.size(); ++i)
+    add_pairs(heading, verification.poses[i].new_pairs, result, i + 1);
+}
+
 void Html_report::add_pairs(const std::string& heading, const std::vector<Offending_pair>& pairs,
-                            const Triangle_soup& soup, bool is_after)
+                            const Triangle_soup& soup, std::size_t pose)
 {
   Json list = Json::array();
   for (std::size_t i = 0; i < (std::min)(pairs.size(), most_places); ++i) {
@@ -308,17 +425,15 @@ void Html_report::add_pairs(const std::string& heading, const std::vector<Offend
       const bool is_own = t < soup.triangles.size();
       const Triangle_soup& owner = is_own ? soup : m_beside;
       for (const Index v : owner.triangles[is_own ? t : t - soup.triangles.size()])
-        corners.push_back(owner.points[v]);
+        corners.push_back(points_in(owner, pose)[v]);
     }
     list.push_back(place_json(corners, describe(pairs[i])));
   }
-  if (!list.empty())
-    m_scene["places"].push_back(
-        {{"heading", heading}, {"count", pairs.size()}, {"is_after", is_after}, {"list", std::move(list)}});
+  add_places(heading, pairs.size(), std::move(list), pose);
 }
 
 void Html_report::add_deviations(const std::string& heading, const Triangle_soup& soup,
-                                 const std::vector<double>& distances, bool is_after)
+                                 const std::vector<double>& distances)
 {
   constexpr std::size_t most_deviations = 12;
   std::vector<Index> order(distances.size());
@@ -342,9 +457,8 @@ void Html_report::add_deviations(const std::string& heading, const Triangle_soup
     list.push_back(place_json({soup.points[v]}, "vertex " + std::to_string(v + 1) + ": " +
                                                     with_digits(distances[v]) + " away"));
   }
-  if (!list.empty())
-    m_scene["places"].push_back(
-        {{"heading", heading}, {"count", list.size()}, {"is_after", is_after}, {"list", std::move(list)}});
+  const std::size_t count = list.size();
+  add_places(heading, count, std::move(list), 0);
 }
 
 std::string Html_report::page(const Json& report) const

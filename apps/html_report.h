@@ -26,27 +26,32 @@ void require_html(const std::string& file);
 /// The report to look at: one HTML file that shows a mesh before and after, and needs no other file.
 ///
 /// Points, triangles, collapses and what hangs on them are lists of whole numbers, packed into one block;
-/// coordinates are rounded to 1/65535 of the box around everything shown. The rest is JSON, whose text cannot
+/// coordinates are rounded to 1/65535 of the box around everything shown, in all poses. The rest is JSON, whose text cannot
 /// end the element of the page that holds it, whatever files and parts are called. `html/viewer.js` reads
 /// both. Triangles are numbered as in the soups.
 class Html_report
 {
 public:
-  /// Shows `before` on the left; `beside` is another mesh that comes into view, or empty. `positions[v]` is
-  /// the first vertex with which vertex v of `before` is one; without it, each is by itself. Both soups must
-  /// outlive the report.
-  Html_report(const Triangle_soup& before, const Triangle_soup& beside,
-              const std::vector<Index>& positions = {});
+  /// Shows `before` on the left; `beside` is another mesh that comes into view, or empty. Vertices that are
+  /// at one position in all poses are shown as one. Both soups must outlive the report.
+  Html_report(const Triangle_soup& before, const Triangle_soup& beside);
 
   /// Shows which faces do not move, the pairs that offend, and `beside` as an obstacle.
   void add_input(const Prepared_soup& prepared, const std::vector<std::string>& locked_parts);
 
-  /// Adds collapses of the vertices of `before`. Returns their number, for `add_level`.
+  /// Adds collapses of the vertices of `before`. One of a vertex onto itself changes nothing. Returns their
+  /// number, for `add_level` and `add_replay`.
   std::size_t add_collapses(const std::vector<Soup_collapse>& collapses);
 
   /// Adds a result, to which the first `steps` of some collapses lead.
   void add_level(const std::string& name, const Simplified_soup& result, const Verification& verification,
                  std::size_t collapses, std::size_t steps);
+
+  /// Adds what a log leads to, by the first steps of some collapses.
+  void add_replay(const std::string& name, const Replay_verdict& verdict, std::size_t collapses);
+
+  /// Adds the steps that a replay refused: in the pose of the file, numbered 0, or in a further pose.
+  void add_violations(const std::vector<Violation>& violations, std::size_t pose);
 
   /// Shows `beside` as the result, of which nothing but the mesh is known; or no result if it is empty.
   void add_result(const std::string& name, const Verification& verification);
@@ -57,7 +62,8 @@ public:
 private:
   using Numbers = std::vector<std::uint32_t>;
 
-  // The vertices of a mesh as the page numbers them: those that are one have one number.
+  // The vertices of a mesh as the page numbers them: those that are one have one number. Those that only
+  // unused vertices share have none.
   struct Nodes
   {
     std::vector<Index> of_vertex;
@@ -67,19 +73,21 @@ private:
 
   Json section(const Numbers& numbers);
   std::uint32_t quantised(double coordinate, int axis) const;
-  Nodes nodes_of(const Triangle_soup& soup, const std::vector<Index>& positions) const;
+  Nodes nodes_of(const Triangle_soup& soup) const;
+  Json poses_json(const Triangle_soup& soup, const Nodes& nodes);
   Json mesh_json(const Triangle_soup& soup, const Nodes& nodes);
   Json uv_json(const Triangle_soup& soup);
   Json distances_json(const std::vector<double>& distances, const Nodes& nodes, double largest);
   Json place_json(const std::vector<Point_3>& corners, const std::string& text) const;
+  void add_places(const std::string& heading, std::size_t count, Json list, std::size_t pose);
   void add_pairs(const std::string& heading, const std::vector<Offending_pair>& pairs,
-                 const Triangle_soup& soup, bool is_after);
+                 const Triangle_soup& soup, std::size_t pose = 0);
+  void add_new_pairs(const Verification& verification, const Triangle_soup& result);
   void add_deviations(const std::string& heading, const Triangle_soup& soup,
-                      const std::vector<double>& distances, bool is_after);
+                      const std::vector<double>& distances);
 
   const Triangle_soup& m_before;
   const Triangle_soup& m_beside;
-  const std::vector<Index> m_positions;
   CGAL::Bbox_3 m_box;
   Nodes m_nodes, m_nodes_beside;
   Json m_scene;

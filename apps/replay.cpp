@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "Progress_bar.h"
+#include "html_report.h"
 #include "interruption.h"
 #include "output_files.h"
 #include "poses_option.h"
@@ -17,6 +18,7 @@
 #include <selvedge/Simplify_options.h>
 #include <selvedge/mesh_files.h>
 #include <selvedge/replay.h>
+#include <selvedge/rounding.h>
 
 #include <algorithm>
 #include <atomic>
@@ -42,6 +44,7 @@ struct Replay_request
   std::string scene;
   std::string limits;
   std::string report;
+  std::string html;
   std::optional<Mesh_format> format;
   bool is_free_of_limits = false;
   bool is_all_wanted = false;
@@ -182,6 +185,28 @@ void print(const std::string& pose, const Replay_verdict& verdict)
   std::cout << std::flush;
 }
 
+// Returns the steps that were taken, as collapses of vertices of the original. One that joins no two vertices
+// moves nothing.
+std::vector<Soup_collapse> steps_taken(Log_reader& log, const Log_numbering& numbering,
+                                       const Replay_verdict& verdict)
+{
+  std::vector<Soup_collapse> steps;
+  auto violation = verdict.violations.begin();
+  Log_step step;
+  while (steps.size() < verdict.steps && log.read(step)) {
+    if (step.kind != Log_step::Kind::snap && step.kind != Log_step::Kind::collapse)
+      continue;
+    steps.push_back(
+        {numbering.vertex(step.removed), numbering.vertex(step.kept), step.place, step.is_removed_first});
+    if (violation == verdict.violations.end() || violation->step != steps.size())
+      continue;
+    if (violation->kind == Violation_kind::no_edge)
+      steps.back() = {steps.back().kept, steps.back().kept};
+    ++violation;
+  }
+  return steps;
+}
+
 std::unique_ptr<std::istream> in_memory(std::istream& stream)
 {
   std::ostringstream text;
@@ -189,10 +214,19 @@ std::unique_ptr<std::istream> in_memory(std::istream& stream)
   return std::make_unique<std::istringstream>(text.str());
 }
 
+void rewind(std::istream& stream)
+{
+  stream.clear();
+  stream.seekg(0);
+}
+
 Exit_code run(const Replay_request& request)
 {
-  const std::vector<Named_file> written{
-      {"--output", request.output}, {"--scene", request.scene}, {"--report", request.report}};
+  require_html(request.html);
+  const std::vector<Named_file> written{{"--output", request.output},
+                                        {"--scene", request.scene},
+                                        {"--report", request.report},
+                                        {"--html", request.html}};
   std::vector<Named_file> put_out = written;
   if (request.is_json)
     put_out.push_back({"--json", "-"});
@@ -207,7 +241,7 @@ Exit_code run(const Replay_request& request)
   Replay_options options;
   options.limits = imposed_limits(request.limits);
   std::unique_ptr<std::istream> stream = open_text(request.log);
-  if (!request.poses.empty()) // is read again for each
+  if (!request.poses.empty() || !request.html.empty()) // is read again for each pose, and for the page
     stream = in_memory(*stream);
   Mesh_input input(request.original, request.format);
   Mesh_file original = input.read();
@@ -224,10 +258,8 @@ Exit_code run(const Replay_request& request)
   options.should_stop = [&](std::size_t) { return is_kept = is_interrupted(); };
   const auto replay_once = [&] {
     try {
-      if (options.pose) {
-        stream->clear();
-        stream->seekg(0);
-      }
+      if (options.pose)
+        rewind(*stream);
       Log_reader log(*stream, input_name(request.log));
       return replay(original.soup, original.format == Mesh_format::stl, log, options);
     } catch (const Input_error& error) {
@@ -244,10 +276,12 @@ Exit_code run(const Replay_request& request)
                        [&](const auto& posed) { return posed.name == pose.name; });
   };
   std::vector<Replay_verdict> in_poses;
+  std::vector<std::size_t> numbers;
   std::vector<std::string> names;
   for (std::size_t pose = 0; pose < original.soup.poses.size() && !verdict.is_stopped; ++pose) {
     if (!is_stated(original.soup.poses[pose]))
       continue;
+    numbers.push_back(pose);
     names.push_back(original.soup.poses[pose].name);
     options.pose = pose;
     in_poses.push_back(replay_once());
@@ -274,7 +308,8 @@ Exit_code run(const Replay_request& request)
   report["exit_code"] = int(code);
   {
     const Text_to_standard_error elsewhere(is_standard_output(request.output) ||
-                                           is_standard_output(request.scene));
+                                           is_standard_output(request.scene) ||
+                                           is_standard_output(request.html));
     put_report(request, report, [&] {
       print(request, verdict);
       for (std::size_t i = 0; i < in_poses.size(); ++i)
@@ -289,6 +324,20 @@ Exit_code run(const Replay_request& request)
     write_file(output_path(request.scene), verdict.violations.front().scene);
   if (!request.output.empty() && !verdict.is_stopped)
     write_output(request.output, verdict.soup, *format, request.is_ascii);
+  if (!request.html.empty()) {
+    const Log_numbering numbering(original.soup, original.format == Mesh_format::stl);
+    if (verdict.header.is_rounded_to_float32)
+      round_to_float32(original.soup);
+    const Triangle_soup nothing;
+    Html_report html(original.soup, nothing);
+    rewind(*stream);
+    Log_reader log(*stream, input_name(request.log));
+    html.add_replay(request.log, verdict, html.add_collapses(steps_taken(log, numbering, verdict)));
+    html.add_violations(verdict.violations, 0);
+    for (std::size_t i = 0; i < in_poses.size(); ++i)
+      html.add_violations(in_poses[i].violations, numbers[i] + 1);
+    write_file(output_path(request.html), html.page(report));
+  }
   return code;
 }
 
@@ -324,6 +373,7 @@ Action add_replay(CLI::App& command)
       ->type_name("FILE");
   add_format_option(command, request->format);
   add_report_options(command, *request);
+  add_html_option(command, request->html);
   add_polygons_option(command, request->are_polygons_split);
   command.add_flag("--ascii", request->is_ascii, "Write PLY and STL as text.");
   command.footer(
@@ -332,6 +382,7 @@ Action add_replay(CLI::App& command)
       "  selvedge replay jacket.obj jacket.log -o again.obj && cmp small.obj again.obj\n"
       "  selvedge replay jacket.obj jacket.log --limits seed    # the paper's limits, not the log's\n"
       "  selvedge replay jacket.obj of_my_own_program.log --no-limits --all\n"
+      "  selvedge replay jacket.obj jacket.log --all --html jacket.html    # look at every step\n"
       "  selvedge replay jacket.obj jacket.log --json | jq .terms\n\n"
       "The exit code is 0 when every step is accepted and the result is what the log says. A verdict covers "
       "only\n"

@@ -219,6 +219,7 @@ private:
     m_progression = {};
     if (output_format() != Mesh_format::gltf && output_format() != Mesh_format::glb)
       options.instances = Instances::apart;
+    options.is_history_kept = !m_request.html.empty();
     options.should_stop = [this](const Simplify_progress& progress) {
       m_bar.update(progress);
       m_is_kept = true;
@@ -392,10 +393,15 @@ private:
         json["options"] = options_json(m_request);
       add_reduction(json, prepared, level.result);
       add_verification(json, level.verification, true);
-      for (Json& pose : json["verified"]["poses"])
+      for (Json& pose : json["verified"]["poses"]) {
         pose["guarded"] = false;
-      for (const std::size_t pose : level.guarded_poses)
-        json["verified"]["poses"][pose]["guarded"] = true;
+        pose["refused"] = 0;
+      }
+      for (std::size_t i = 0; i < level.guarded_poses.size(); ++i) {
+        Json& pose = json["verified"]["poses"][level.guarded_poses[i]];
+        pose["guarded"] = true;
+        pose["refused"] = level.result.report.refused_in_poses[i];
+      }
       const Clock::time_point start = Clock::now();
       add_parts(json, prepared, level.result);
       seconds_parts += seconds_since(start);
@@ -436,7 +442,7 @@ private:
 
   std::string page(const Prepared_soup& prepared, const std::vector<Level>& levels) const
   {
-    Html_report html(prepared.soup, prepared.obstacle, prepared.positions);
+    Html_report html(prepared.soup, prepared.obstacle);
     std::vector<std::string> still = m_request.intent.locked;
     still.insert(still.end(), m_request.intent.kept.begin(), m_request.intent.kept.end());
     html.add_input(prepared, still);

@@ -272,7 +272,10 @@ Exit_code run(const Verify_request& request)
   }
   report["memory"] = {{"peak_bytes", peak_memory_bytes()}};
   report["exit_code"] = int(code);
-  put_report(request, report, [&] { print(request, mesh, *verification, comparison); });
+  {
+    const Text_to_standard_error elsewhere(is_standard_output(request.html));
+    put_report(request, report, [&] { print(request, mesh, *verification, comparison); });
+  }
   if (!request.html.empty()) {
     Html_report html(has_original ? original.soup : mesh.soup, has_original ? mesh.soup : original.soup);
     html.add_result(request.mesh, *verification);

@@ -3,10 +3,11 @@
 
 // The page of --html. Two models, before and after, are drawn with one camera into the two halves of a canvas.
 //
-// A model never changes its triangles. The vertex shader looks up where the vertex of each corner is: every
-// vertex that has been removed is where that vertex is into which it has merged, so that triangles which are
-// gone have no area. A state between two collapses thus costs one pass over the vertices, from any other
-// state, and nothing is kept between them.
+// The triangles of a model stand in the order in which they go, those that stay first: what is left after any
+// collapse is the first so many of them, drawn by one call. The vertex shader looks up where the vertex of each
+// corner is: every vertex that has been removed is where that vertex is into which it has merged. A state
+// between two collapses thus costs one pass over the vertices, from any other state, and nothing is kept
+// between them.
 
 import {
   BufferAttribute, BufferGeometry, DataTexture, DoubleSide, FloatType, LineBasicMaterial, LineSegments, Mesh, NearestFilter, PerspectiveCamera,
@@ -35,8 +36,8 @@ async function unpacked(text) {
 }
 
 // The numbers of a section: differences, folded so that small ones are small, byte by byte.
-function numbers(block, [begin, count]) {
-  const result = new Uint32Array(count);
+function numbers(block, [begin, count], List = Uint32Array) {
+  const result = new List(count);
   for (let i = 0, at = begin, value = 0; i < count; ++i, ++at) {
     const folded = block[at] | block[at + count] << 8 | block[at + 2 * count] << 16 | block[at + 3 * count] << 24;
     result[i] = value += folded >>> 1 ^ -(folded & 1);
@@ -50,7 +51,7 @@ const sections = new Set(['points', 'corners', 'of_triangle', 'values', 'flags',
 function read(value, block) {
   for (const [key, child] of Object.entries(value))
     if (sections.has(key) && Array.isArray(child) && typeof child[0] === 'number')
-      value[key] = numbers(block, child);
+      value[key] = numbers(block, child, key === 'points' ? Uint16Array : Uint32Array);
     else if (child && typeof child === 'object')
       read(child, block);
 }
@@ -142,19 +143,55 @@ const fragment_shader = `
     gl_FragColor = vec4(base, opacity);
   }`;
 
+const NEVER = 0xffffffff;
+
+// For every triangle, the number of collapses after which it is gone. Two corners have merged when the ways of
+// both, each from vertex to vertex by the collapses that remove them, have come together.
+function last_steps(corners, nodes, {removed, kept}) {
+  const time = new Uint32Array(nodes).fill(NEVER), target = new Uint32Array(nodes);
+  for (let i = 0; i < removed.length; ++i)
+    if (removed[i] !== kept[i]) {
+      time[removed[i]] = i + 1;
+      target[removed[i]] = kept[i];
+    }
+  const meeting = (a, b) => {
+    let step = 0;
+    while (a !== b) {
+      if (time[a] > time[b])
+        [a, b] = [b, a];
+      step = time[a];
+      if (step === NEVER)
+        break;
+      a = target[a];
+    }
+    return step;
+  };
+  const result = new Uint32Array(corners.length / 3);
+  for (let t = 0; t < result.length; ++t) {
+    const a = corners[3 * t], b = corners[3 * t + 1], c = corners[3 * t + 2];
+    result[t] = Math.min(meeting(a, b), meeting(b, c), meeting(c, a));
+  }
+  return result;
+}
+
 class Model {
-  constructor(mesh, box, corners, texels) {
+  // `place(steps, axis)` is where a coordinate is, and `pose(i)` has those of all nodes in a pose.
+  constructor(mesh, place, pose) {
     this.mesh = mesh;
+    this.place = place;
+    this.pose = pose;
     this.nodes = mesh.points.length / 3;
     this.faces = mesh.corners.length / 3;
     this.home = new Float32Array(mesh.points.length);
-    for (let i = 0; i < this.home.length; ++i)
-      this.home[i] = box.place(mesh.points[i], i % 3);
     this.into = new Uint32Array(this.nodes);
-    this.texels = texels;
-    const geometry = new BufferGeometry();
-    geometry.setAttribute('position', corners);
-    geometry.setAttribute('texel', texels);
+    this.order = new Uint32Array(this.faces); // the face of each row
+    this.last_step = new Uint32Array(this.faces); // of the face of each row: after it, the face is gone
+    this.corners = new BufferAttribute(new Float32Array(mesh.corners.length), 1);
+    this.texels = new BufferAttribute(new Float32Array(mesh.uv ? 2 * mesh.corners.length : 0), 2);
+    const geometry = this.geometry = new BufferGeometry();
+    geometry.setAttribute('position', this.corners);
+    if (mesh.uv)
+      geometry.setAttribute('texel', this.texels);
     this.node_texture = list_texture(this.nodes, FloatType);
     this.colour_texture = list_texture(this.faces, UnsignedByteType);
     this.uniforms = {
@@ -168,14 +205,49 @@ class Model {
     this.object.frustumCulled = false;
     this.scene = new Scene();
     this.scene.add(this.object);
+    this.put_into(0);
+    this.follow(null);
+    this.seek(0, null);
+  }
+
+  put_into(pose) {
+    if (this.shown_pose === pose)
+      return;
+    this.shown_pose = pose;
+    const points = pose === 0 ? this.mesh.points : this.pose(pose - 1);
+    for (let i = 0; i < this.home.length; ++i)
+      this.home[i] = this.place(points[i], i % 3);
+  }
+
+  // Makes ready to show the mesh after any of these collapses, and of no others.
+  follow(collapses) {
+    if (this.collapses === collapses)
+      return;
+    this.collapses = collapses;
+    const {faces, mesh: {corners}} = this;
+    const last_step = collapses ? last_steps(corners, this.nodes, collapses) : new Uint32Array(faces).fill(NEVER);
+    // Counted by steps, of which there are no more than vertices.
+    const steps = collapses ? collapses.removed.length : 0, begin = new Uint32Array(steps + 3);
+    const rank = step => step === NEVER ? 0 : steps + 1 - step;
+    for (const step of last_step)
+      ++begin[rank(step) + 1];
+    for (let i = 1; i < begin.length; ++i)
+      begin[i] += begin[i - 1];
+    for (let t = 0; t < faces; ++t) {
+      const row = begin[rank(last_step[t])]++;
+      this.order[row] = t;
+      this.last_step[row] = last_step[t];
+      for (let k = 0; k < 3; ++k)
+        this.corners.array[3 * row + k] = corners[3 * t + k];
+    }
+    this.corners.needsUpdate = true;
     this.checked = -1;
-    this.seek(null, 0, null);
   }
 
   // Shows the mesh after the first `step` collapses. `shares` has a number for every vertex of the original;
   // where several have merged, the largest is shown.
-  seek(collapses, step, shares) {
-    const {into, home} = this;
+  seek(step, shares) {
+    const {into, home, collapses} = this;
     for (let v = 0; v < into.length; ++v)
       into[v] = v;
     let points = home;
@@ -184,11 +256,13 @@ class Model {
       const {removed, kept, placed, places} = collapses;
       for (let i = step - 1; i >= 0; --i)
         into[removed[i]] = into[kept[i]];
-      if (placed.length > 0 && placed[0] < step)
+      // New places are places in the first pose; a reduction that makes them has no others.
+      if (this.shown_pose === 0 && placed.length > 0 && placed[0] < step)
         points = home.slice();
-      for (let k = 0; k < placed.length && placed[k] < step; ++k)
+      for (let k = 0; points !== home && k < placed.length && placed[k] < step; ++k)
         points.set(places.subarray(3 * k, 3 * k + 3), 3 * kept[placed[k]]);
     }
+    this.points = points;
     const data = this.node_texture.image.data;
     for (let v = 0; v < into.length; ++v) {
       const from = 3 * into[v];
@@ -198,30 +272,44 @@ class Model {
       data[4 * v + 3] = 0;
     }
     if (shares) {
-      const largest = new Float32Array(into.length);
+      // Through the entry of the vertex that is left.
+      for (let v = 0; v < into.length; ++v) {
+        const at = 4 * into[v] + 3;
+        data[at] = Math.max(data[at], shares[v] / 65535);
+      }
       for (let v = 0; v < into.length; ++v)
-        largest[into[v]] = Math.max(largest[into[v]], shares[v] / 65535);
-      for (let v = 0; v < into.length; ++v)
-        data[4 * v + 3] = largest[into[v]];
+        data[4 * v + 3] = data[4 * into[v] + 3];
     }
     this.node_texture.needsUpdate = true;
     this.step = step;
-    const {corners} = this.mesh;
-    this.left = 0;
-    for (let c = 0; c < corners.length; c += 3) {
-      const a = into[corners[c]], b = into[corners[c + 1]], d = into[corners[c + 2]];
-      this.left += a !== b && b !== d && d !== a;
+    let low = 0, high = this.faces; // The last steps descend.
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (this.last_step[middle] > step)
+        low = middle + 1;
+      else
+        high = middle;
     }
+    this.left = low;
+    this.geometry.setDrawRange(0, 3 * low);
+  }
+
+  // The corners of a face as it is shown.
+  corners_of(face) {
+    return [0, 1, 2].map(k => new Vector3().fromArray(this.points, 3 * this.into[this.mesh.corners[3 * face + k]]));
   }
 
   // Gives every face a colour by `colour(face)`; null hides it.
   paint(colour) {
     const data = this.colour_texture.image.data;
-    for (let t = 0; t < this.faces; ++t) {
-      const c = colour(t);
-      data[4 * t + 3] = c ? 255 : 0;
-      if (c)
-        data.set(c, 4 * t);
+    for (let row = 0; row < this.faces; ++row) {
+      const c = colour(this.order[row]);
+      data[4 * row + 3] = c ? 255 : 0;
+      if (c) {
+        data[4 * row] = c[0];
+        data[4 * row + 1] = c[1];
+        data[4 * row + 2] = c[2];
+      }
     }
     this.colour_texture.needsUpdate = true;
   }
@@ -239,23 +327,25 @@ class Model {
       texels[2 * corner + 1] = reals[2 * i + 1] * scale;
     };
     if (level && level.uv && this.step === level.steps) {
-      level.triangles.forEach((triangle, row) => {
+      const row_in_result = new Uint32Array(this.faces);
+      level.triangles.forEach((triangle, row) => row_in_result[triangle] = row);
+      for (let row = 0; row < this.left; ++row)
         for (let k = 0; k < 3; ++k)
-          put(3 * triangle + k, level.uv.reals, level.uv.corners[3 * row + k]);
-      });
+          put(3 * row + k, level.uv.reals, level.uv.corners[3 * row_in_result[this.order[row]] + k]);
     } else {
       uv.at_node = uv.at_node || values_at_nodes(this.mesh, this.nodes);
-      for (let c = 0; c < corners.length; ++c) {
-        const node = this.into[corners[c]];
-        let nearest = own[c], least = Infinity;
-        if (node !== corners[c])
-          for (const i of uv.at_node[node] || []) {
-            const distance = (values[2 * i] - values[2 * own[c]]) ** 2 + (values[2 * i + 1] - values[2 * own[c] + 1]) ** 2;
-            if (distance < least)
-              [least, nearest] = [distance, i];
-          }
-        put(c, values, nearest);
-      }
+      for (let row = 0; row < this.left; ++row)
+        for (let k = 0; k < 3; ++k) {
+          const c = 3 * this.order[row] + k, node = this.into[corners[c]];
+          let nearest = own[c], least = Infinity;
+          if (node !== corners[c])
+            for (const i of uv.at_node[node] || []) {
+              const distance = (values[2 * i] - values[2 * own[c]]) ** 2 + (values[2 * i + 1] - values[2 * own[c] + 1]) ** 2;
+              if (distance < least)
+                [least, nearest] = [distance, i];
+            }
+          put(3 * row + k, values, nearest);
+        }
     }
     this.texels.needsUpdate = true;
   }
@@ -288,9 +378,11 @@ function prepare_uv(uv, scale) {
 // ── Page ──────────────────────────────────────────────────────────────────────────────────────────────────
 
 class Viewer {
-  constructor(report, scene) {
+  constructor(report, scene, block) {
     this.report = report;
     this.data = scene;
+    this.block = block;
+    this.pose = 0; // that of the file; the others are numbered from 1
     this.level = scene.levels[scene.levels.length - 1] || null;
     this.mode = 'part';
     this.kind = 0;
@@ -315,11 +407,14 @@ class Viewer {
     for (const level of levels)
       if (level.uv)
         prepare_uv(level.uv, scale);
-    const model = mesh => {
-      mesh.corner_attribute = mesh.corner_attribute || new BufferAttribute(Float32Array.from(mesh.corners), 1);
-      const texels = new BufferAttribute(new Float32Array(2 * mesh.corners.length), 2);
-      return new Model(mesh, this.box, mesh.corner_attribute, texels);
-    };
+    // Poses are read when they are shown first.
+    const model = mesh => new Model(mesh, this.box.place, pose => {
+      if (mesh.poses.length === 0)
+        return mesh.points;
+      if (Array.isArray(mesh.poses[pose]))
+        mesh.poses[pose] = numbers(this.block, mesh.poses[pose], Uint16Array);
+      return mesh.poses[pose];
+    });
     this.models = [model(meshes[0])];
     if (this.level)
       this.models.push(model(meshes[this.level.mesh]));
@@ -339,6 +434,7 @@ class Viewer {
     this.renderer.setScissorTest(true);
     this.renderer.setClearColor(0xeef0f3);
     this.renderer.autoClear = false;
+    this.rings = document.querySelectorAll('.ring');
     this.camera = new PerspectiveCamera(32, 1, 0.001, 100);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.zoomSpeed = 1.4;
@@ -395,7 +491,7 @@ class Viewer {
       if (this.outline)
         this.renderer.render(this.outline, this.camera);
     });
-    document.querySelectorAll('.ring').forEach((ring, side) => {
+    this.rings.forEach((ring, side) => {
       ring.hidden = !this.marked || side >= this.models.length;
       if (ring.hidden)
         return;
@@ -414,13 +510,8 @@ class Viewer {
     $('#name').textContent = path.replace(/.*[/\\]/, '') || path;
     document.title = $('#name').textContent + ' – Selvedge';
     $('#run').textContent = `selvedge ${report.command}, version ${report.version}`;
-    const verified = report.verified;
-    const is_good = report.exit_code !== 1 && (report.command !== 'verify' || report.exit_code === 0);
-    $('#verdict').textContent = verified.embedded ? 'No two faces touch or cross'
-      : verified.new_pairs === 0 ? `No new contact: the ${number(verified.pairs)} pairs that offend come from the input`
-      : `${number(verified.new_pairs)} pairs of faces touch or cross${verified.pairs_of_original === undefined ? '' : ' that did not before'}`;
-    $('#verdict').classList.toggle('bad', !is_good || verified.new_pairs > 0);
-    const exact = 'Every verdict is of the exact coordinates; the pictures have them rounded to 1/65,535 of the box around the meshes.';
+    const exact = 'Every verdict is of the exact coordinates; the pictures have them rounded to 1/65,535 of the box around the meshes' +
+      (data.poses.length > 0 ? ' in all poses.' : '.');
     $('#exact').textContent = exact;
 
     this.fill_levels();
@@ -476,35 +567,70 @@ class Viewer {
       this.cut = Number($('#cut').value);
       this.request();
     };
-    this.fill_places();
-    $('#slider').oninput = () => this.show_step(Number($('#slider').value));
+    this.fill_poses();
+    $('#slider').oninput = () => this.go_to_step(Number($('#slider').value));
     $('#play').onclick = () => this.play();
+    this.make_plots();
     $('#before b').textContent = this.level ? 'Before' : path.replace(/.*[/\\]/, '');
-    $('#before span').textContent = `${number(this.models[0].faces)} faces`;
+    $('#before span').textContent = `${number(this.models[0].left)} faces`;
     $('#after').hidden = $('#middle').hidden = !this.level;
+    const open = report.terms ? report.terms.not_judged : [];
+    $('#open').hidden = open.length === 0;
+    $('#open').append(...open.map(({sentence}) => element('p', {className: 'soft', textContent: sentence})));
   }
 
   fill_levels() {
-    const {levels} = this.data;
+    const {levels, meshes} = this.data;
     $('#levels').hidden = levels.length < 2;
+    const faces = meshes[0].corners.length / 3;
     levels.forEach(level => $('#levels .choices').append(level.button = element('button', {
-      textContent: `${number(level.faces)} faces`, title: level.name, onclick: () => this.show_level(level)
+      textContent: `${number(level.faces)} faces (${figure(100 * level.faces / faces)} %)`, title: level.name, onclick: () => this.show_level(level)
     })));
   }
 
+  fill_verdict() {
+    const {report} = this;
+    let text, is_good = report.exit_code !== 1;
+    if (report.command === 'replay') {
+      const refused = [report, ...report.poses].reduce((sum, {violations}) => sum + violations.count, 0);
+      text = refused > 1 ? `${number(refused)} steps are refused` : refused === 1 ? 'A step is refused'
+        : report.exit_code !== 0 ? 'Interrupted: no step was refused until then' : 'Every step is accepted';
+    } else {
+      const {verified} = this.report_of_level();
+      const poses = [verified, ...verified.poses], sum = key => poses.reduce((sum, pose) => sum + pose[key], 0);
+      is_good = is_good && sum('new_pairs') === 0 && (report.command !== 'verify' || report.exit_code === 0);
+      text = verified.embedded ? 'No two faces touch or cross'
+        : sum('new_pairs') === 0 ? `No new contact: the ${number(sum('pairs'))} pairs that offend come from the input`
+        : `${number(sum('new_pairs'))} pairs of faces touch or cross${verified.pairs_of_original === undefined ? '' : ' that did not before'}`;
+      if (poses.length > 1)
+        text += `, in ${number(poses.length)} poses`;
+    }
+    $('#verdict').textContent = text;
+    $('#verdict').classList.toggle('bad', !is_good);
+  }
+
+  // What the report says of the level that is shown.
+  report_of_level() {
+    return this.report.lods ? this.report.lods[this.data.levels.indexOf(this.level)] : this.report;
+  }
+
   fill_facts() {
-    const {report, level} = this;
-    const of_level = report.lods ? report.lods[this.data.levels.indexOf(level)] : report;
+    const {report, level} = this, of_level = this.report_of_level();
     const facts = [['Faces', level ? `${number(this.models[0].faces)} → ${number(level.faces)}` : number(this.models[0].faces)]];
     if (of_level.target)
       facts.push(['Target', of_level.target.reached ? 'reached' : of_level.target.outcome === 'stopped' ? 'stopped' : 'not reached']);
+    if (report.steps)
+      facts.push(['Steps judged', number(report.steps.taken)], ['Limits', {log: 'those of the log', judge: 'the judge’s', none: 'none'}[report.terms.limits_of]],
+        ['File', report.terms.input_bound ? 'the one that the log names' : 'NOT BOUND to the log'],
+        ['Result', report.terms.result_bound ? 'the one that the log states' : 'NOT BOUND to the log']);
     const distance = of_level.distance;
     if (distance)
       facts.push(['Farthest off', `${figure(100 * Math.max(distance.original_to_result.max, distance.result_to_original.max))} % of size`],
         ['On average (RMS)', `${figure(100 * distance.original_to_result.rms)} % of size`]);
     if (report.frozen)
       facts.push(['Offending pairs before', number(report.frozen.pairs)]);
-    facts.push(['Pieces', number((of_level.pieces || report.pieces).count)]);
+    if (of_level.pieces)
+      facts.push(['Pieces', number(of_level.pieces.count)]);
     if (report.seconds && report.seconds.reduce)
       facts.push(['Reduced in', `${figure(report.seconds.reduce)} s`]);
     $('#facts').replaceChildren(...facts.flatMap(([name, value]) => [element('dt', {textContent: name}), element('dd', {textContent: value})]));
@@ -530,54 +656,160 @@ class Viewer {
       $('#parts').append(element('li', {className: 'soft', textContent: `and ${number(order.length - most)} smaller ones`}));
   }
 
+  // The poses, and how many collapses the exact test refused in each.
+  fill_poses() {
+    const {poses} = this.data;
+    $('#poses').hidden = poses.length === 0;
+    ['as in the file', ...poses].forEach((name, pose) => {
+      const button = element('button', {className: 'place', onclick: () => {
+        this.stop();
+        this.show_pose(pose);
+      }}, element('span', {className: 'name', textContent: name, title: name}), element('span', {className: 'count'}));
+      $('#poses .list').append(element('li', {}, button));
+    });
+    this.pose_buttons = document.querySelectorAll('#poses .place');
+    $('#play_poses').onclick = () => this.play_poses();
+  }
+
+  count_refusals_in_poses() {
+    const {refused, verified} = this.report_of_level();
+    if (!refused || this.data.poses.length === 0)
+      return;
+    const counts = verified.poses.map(pose => pose.guarded ? pose.refused : null);
+    counts.unshift(refused.intersection - counts.reduce((sum, count) => sum + count, 0));
+    counts.forEach((count, pose) => {
+      this.pose_buttons[pose].querySelector('.count').textContent = count === null ? 'judged alone' : number(count);
+    });
+    $('#poses .soft').textContent = 'With how many collapses the exact test refused there, after the poses asked before had allowed them.' +
+      (counts.includes(null) ? ' Where a pose was judged alone, the result was, but not each collapse.' : '');
+  }
+
   fill_places() {
-    for (const {heading, count, list, is_after} of this.data.places) {
+    const {levels, places, poses} = this.data;
+    $('#places').replaceChildren();
+    for (const {heading, count, list, pose, level} of places) {
+      if (level !== null && levels[level] !== this.level)
+        continue;
       const items = list.map(place => {
-        const button = element('button', {className: 'place', textContent: place.text});
+        const button = element('button', {className: 'place', textContent: place.text, title: place.text});
         button.onclick = () => {
-          document.querySelectorAll('.place.on').forEach(other => other.classList.remove('on'));
+          document.querySelectorAll('#places .on').forEach(other => other.classList.remove('on'));
           button.classList.add('on');
-          this.fly(place);
+          this.stop();
+          this.show_pose(pose);
+          this.visit(place);
         };
         return element('li', {}, button);
       });
       if (count > list.length)
         items.push(element('li', {className: 'soft', textContent: `and ${number(count - list.length)} more`}));
-      $('#places').append(element('h2', {textContent: heading}), element('ul', {className: 'list'}, ...items));
+      const title = pose > 0 ? `${heading}, in pose ${poses[pose - 1]}` : heading;
+      $('#places').append(element('h2', {textContent: title}), element('ul', {className: 'list'}, ...items));
     }
+  }
+
+  // ── Plots ──
+
+  make_plots() {
+    const plots = $('#plots');
+    const seek = event => {
+      const {left, width} = plots.getBoundingClientRect();
+      const share = Math.min(1, Math.max(0, (event.clientX - left) / width));
+      this.go_to_step(Math.round(share * this.level.steps));
+    };
+    plots.onpointerdown = seek;
+    plots.onpointermove = event => event.buttons & 1 && seek(event);
+  }
+
+  fill_plots() {
+    const history = this.level && this.level.history;
+    const is_shown = Boolean(history && history.collapses.length > 1);
+    $('#replay').classList.toggle('plotted', is_shown);
+    if (!is_shown)
+      return;
+    const {collapses, least, largest, refused} = history;
+    const steps = this.level.steps, x = collapses.map(count => 1000 * count / steps);
+    const begin = [0, ...x.slice(0, -1)]; // of each sample
+    // Costs are shown by their logarithms. Those of flat places are 0 or nearly so: six decades are enough.
+    const most = Math.log10(Math.max(...largest, 1e-300)), decades = 6;
+    const y = cost => 100 * Math.min(1, (most - Math.log10(Math.max(cost, 1e-300))) / decades);
+    const up = x.map((end, i) => `${begin[i]},${y(largest[i])} ${end},${y(largest[i])}`);
+    const down = x.map((end, i) => `${end},${y(least[i])} ${begin[i]},${y(least[i])}`).reverse();
+    $('#costs').replaceChildren(svg('polygon', {points: [...up, ...down].join(' '), fill: '#2d5bd7', stroke: '#2d5bd7'}));
+    const total = Math.max(1, ...refused.map(({counts}) => counts[counts.length - 1]));
+    const colour = i => css(colour_of_number(i + 1));
+    $('#refusals').replaceChildren(...refused.map(({counts}, i) => svg('polyline', {
+      points: `0,100 ${counts.map((count, k) => `${x[k]},${100 - 100 * count / total}`).join(' ')}`, fill: 'none', stroke: colour(i)
+    })));
+    this.refusal_counts = refused.map(({rule, counts}, i) => {
+      const count = element('span', {className: 'count'});
+      return {counts, count, row: element('li', {title: rule}, swatch(colour(i)), element('span', {className: 'name', textContent: rule}), count)};
+    });
+    $('#refused').replaceChildren(...this.refusal_counts.map(({row}) => row));
+  }
+
+  // Says what the plots show at a step.
+  mark_plots(step) {
+    const {history, steps} = this.level;
+    if (!$('#replay').classList.contains('plotted'))
+      return;
+    $('#marker').style.left = `${100 * step / steps}%`;
+    const {collapses, least, largest} = history;
+    const sample = collapses.findIndex(count => count >= step), i = sample < 0 ? collapses.length - 1 : sample;
+    $('#cost').textContent = least[i] === largest[i] ? figure(largest[i]) : `${figure(least[i])} to ${figure(largest[i])}`;
+    for (const {counts, count} of this.refusal_counts)
+      count.textContent = number(step === 0 ? 0 : counts[i]);
   }
 
   // ── What is shown ──
 
   show_level(level) {
+    this.stop();
     this.level = level;
+    this.fill_verdict();
     this.fill_facts();
+    this.fill_places();
+    this.count_refusals_in_poses();
     for (const other of this.data.levels)
       other.button.classList.toggle('on', other === level);
     const is_replayed = level && level.collapses !== undefined && level.steps > 0;
     $('#replay').hidden = !is_replayed;
+    this.fill_plots();
     this.resize();
     if (is_replayed) {
       $('#slider').max = level.steps;
-      $('#slider').value = level.steps;
+      this.models[1].follow(this.data.collapses[level.collapses]);
     }
-    if (level) {
-      this.models[0].seek(null, 0, level.distances);
-      this.show_step(is_replayed ? level.steps : 0);
-    }
+    this.steps_done = is_replayed ? level.steps : 0;
+    this.show_pose(this.pose);
     this.show_mode(this.mode);
+  }
+
+  show_pose(pose) {
+    this.pose = pose;
+    this.pose_buttons.forEach((button, i) => button.classList.toggle('on', i === pose));
+    for (const model of this.models)
+      model.put_into(pose);
+    this.models[0].seek(0, this.level && this.level.distances);
+    if (this.level)
+      this.show_step(this.steps_done);
+    if (this.obstacle) {
+      this.obstacle.put_into(pose);
+      this.obstacle.seek(0, null);
+    }
+    this.request();
   }
 
   show_step(step) {
     const {level} = this, [, after] = this.models;
-    if (level.collapses === undefined) {
-      after.seek(null, 0, level.distances_after);
-    } else {
-      after.seek(this.data.collapses[level.collapses], step, level.distances);
-      $('#step').textContent = `${number(step)} of ${number(level.steps)} collapses`;
-      $('#slider').value = step;
-    }
+    this.steps_done = step;
+    after.seek(step, level.collapses === undefined ? level.distances_after : level.distances);
     const is_end = level.collapses === undefined || step === level.steps;
+    if (level.collapses !== undefined) {
+      $('#step').textContent = `${number(step)} of ${number(level.steps)} ${this.report.command === 'replay' ? 'steps' : 'collapses'}`;
+      $('#slider').value = step;
+      this.mark_plots(step);
+    }
     $('#after b').textContent = is_end ? 'After' : 'On the way';
     $('#after span').textContent = `${number(after.left)} faces`;
     if (this.mode === 'checker')
@@ -585,30 +817,57 @@ class Viewer {
     this.request();
   }
 
-  play() {
-    const {steps} = this.level, seconds = 10;
-    if (this.playing) {
-      this.playing = null;
-    } else {
-      const from = Number($('#slider').value) % steps, start = performance.now();
-      const playing = this.playing = now => {
-        if (this.playing !== playing)
-          return;
-        const step = Math.min(steps, Math.max(from, Math.round(from + (now - start) / 1000 / seconds * steps)));
-        this.show_step(step);
-        if (step < steps)
-          requestAnimationFrame(playing);
-        else
-          this.stop();
-      };
-      requestAnimationFrame(playing);
-    }
-    $('#play').textContent = this.playing ? 'Pause' : 'Play';
+  // Shows a step at somebody's wish: what was playing ends.
+  go_to_step(step) {
+    this.stop();
+    this.show_step(step);
+  }
+
+  // Calls `show(seconds)` for every picture until it returns false or something else is played.
+  run(button, show) {
+    this.stop();
+    const start = performance.now();
+    const playing = this.playing = now => {
+      if (this.playing !== playing)
+        return;
+      if (show(Math.max(0, now - start) / 1000))
+        requestAnimationFrame(playing);
+      else
+        this.stop();
+    };
+    this.play_button = button;
+    button.textContent = 'Pause';
+    requestAnimationFrame(playing);
   }
 
   stop() {
     this.playing = null;
-    $('#play').textContent = 'Play';
+    if (this.play_button)
+      this.play_button.textContent = 'Play';
+    this.play_button = null;
+  }
+
+  play() {
+    if (this.play_button === $('#play'))
+      return this.stop();
+    const {steps} = this.level, from = this.steps_done % steps, seconds = 10;
+    this.run($('#play'), now => {
+      this.show_step(Math.min(steps, Math.round(from + now / seconds * steps)));
+      return this.steps_done < steps;
+    });
+  }
+
+  // All poses, again and again: a few of them slowly, the frames of a motion fast.
+  play_poses() {
+    if (this.play_button === $('#play_poses'))
+      return this.stop();
+    const count = this.data.poses.length + 1, per_second = count > 12 ? 12 : 2, from = this.pose;
+    this.run($('#play_poses'), now => {
+      const pose = (from + Math.floor(now * per_second)) % count;
+      if (pose !== this.pose)
+        this.show_pose(pose);
+      return true;
+    });
   }
 
   show_mode(mode) {
@@ -683,17 +942,36 @@ class Viewer {
     this.request();
   }
 
-  // Comes near to a place, and cuts away what is before it. Turns only to look straight at a triangle.
-  fly(place) {
-    const corners = place.corners.map(corner => new Vector3(...corner.map((steps, axis) => this.box.place(steps, axis))));
+  // Shows a place in the list. That of a refused step is where the step begins, with its faces before and after.
+  visit(place) {
+    const [, after] = this.models, triangles = place.triangles || [];
+    if (place.corners) {
+      const corners = place.corners.map(corner => new Vector3(...corner.map((steps, axis) => this.box.place(steps, axis))));
+      return this.fly(corners, []);
+    }
+    if (place.step === 0 || place.step > this.level.steps)
+      return this.show_step(this.level.steps);
+    this.show_step(place.step);
+    const moved = triangles.flatMap(face => after.corners_of(face));
+    this.show_step(place.step - 1);
+    const {removed, kept} = this.data.collapses[this.level.collapses];
+    const ends = [removed, kept].map(list => new Vector3().fromArray(after.points, 3 * after.into[list[place.step - 1]]));
+    this.fly(triangles.length > 0 ? triangles.flatMap(face => after.corners_of(face)) : ends, moved);
+  }
+
+  // Comes near to a point or to triangles, and cuts away what is before them. Turns only to look straight at
+  // a triangle. `moved` are triangles that are outlined, too.
+  fly(corners, moved) {
     const least = corners.reduce((a, b) => a.clone().min(b)), most = corners.reduce((a, b) => a.clone().max(b));
     const target = this.marked = least.clone().add(most).multiplyScalar(0.5);
     const direction = this.camera.position.clone().sub(this.controls.target).normalize();
     // A pair lies between layers as a rule: its outline is drawn over everything.
-    const sides = corners.length > 1 ? corners.flatMap((corner, i) => [corner, corners[i % 3 < 2 ? i + 1 : i - 2]]) : [];
     this.outline = new Scene();
-    this.outline.add(new LineSegments(new BufferGeometry().setFromPoints(sides), new LineBasicMaterial({color: 0xd6218b, depthTest: false})));
-    if (corners.length > 1) {
+    for (const [shown, color] of [[moved, 0xf08c00], [corners, 0xd6218b]]) {
+      const sides = shown.length > 2 ? shown.flatMap((corner, i) => [corner, shown[i % 3 < 2 ? i + 1 : i - 2]]) : shown.length === 2 ? shown : [];
+      this.outline.add(new LineSegments(new BufferGeometry().setFromPoints(sides), new LineBasicMaterial({color, depthTest: false})));
+    }
+    if (corners.length > 2) {
       const [a, b, c] = corners, normal = b.clone().sub(a).cross(c.clone().sub(a));
       if (normal.length() > 0)
         direction.copy(normal.normalize().multiplyScalar(normal.dot(direction) < 0 ? -1 : 1));
@@ -718,15 +996,23 @@ class Viewer {
   }
 }
 
-const swatch = colour => element('span', {className: 'swatch', style: `background:${css(colour)}`});
+const swatch = colour => element('span', {className: 'swatch', style: `background:${typeof colour === 'string' ? colour : css(colour)}`});
+
+function svg(tag, attributes) {
+  const made = document.createElementNS('http://www.w3.org/2000/svg', tag);
+  for (const [name, value] of Object.entries(attributes))
+    made.setAttribute(name, value);
+  return made;
+}
 const REASONS = Array.from({length: 22}, (_, i) => colour_of_number(i + 1));
 const STILL = [[OFFENDING, [214, 40, 57], 'in an offending pair'], [FROZEN, [52, 110, 196], 'frozen'],
   [LOCKED, [233, 164, 34], 'locked or kept, as asked'], [0, FREE, 'free to change']];
 
 async function start() {
   const report = JSON.parse($('#report').textContent), scene = JSON.parse($('#scene').textContent);
-  read(scene, await unpacked($('#block').textContent));
-  window.viewer = new Viewer(report, scene);
+  const block = await unpacked($('#block').textContent);
+  read(scene, block);
+  window.viewer = new Viewer(report, scene, block);
 }
 
 start().catch(error => {

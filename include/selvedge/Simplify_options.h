@@ -143,6 +143,9 @@ struct Simplify_options
   /// (`Argument_error`), which makes new vertices.
   bool is_progression_recorded = false;
 
+  /// Whether `Simplified_soup::history` is kept. It changes nothing else. `simplify_mesh` keeps none.
+  bool is_history_kept = false;
+
   /// Called before each collapse of a soup, as `Reduction_log` takes it. It may be empty. With
   /// `simplify_mesh` it must be empty (`Argument_error`); use an observer there.
   std::function<void(const Soup_collapse&)> on_collapse;

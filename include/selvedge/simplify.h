@@ -5,6 +5,7 @@
 #define SELVEDGE_SIMPLIFY_H
 
 #include <selvedge/Progression.h>
+#include <selvedge/Reduction_history.h>
 #include <selvedge/Sewing_notes.h>
 #include <selvedge/Simplify_options.h>
 #include <selvedge/Simplify_report.h>
@@ -81,6 +82,11 @@ struct Simplified_soup
 
   Sewing_notes sewing;
   Simplify_report report;
+
+  /// What the collapses cost and what was refused between them, with `Simplify_options::is_history_kept`. A
+  /// cost is a share of the squared diagonal. What was refused in cells is not counted, and `by_loop` in the
+  /// last sample alone.
+  Reduction_history history;
 
   /// Refusals by part: for each of the `part_kinds` of the original, for each part of this kind. A refusal
   /// counts for the parts of one face beside the edge.

@@ -180,12 +180,7 @@ private:
 /// The collapses of one cell, which is reduced as if it had to reach the share alone.
 struct Cell_run
 {
-  struct Collapse
-  {
-    Working_mesh::Collapse collapse;
-    double cost;
-  };
-  std::vector<Collapse> collapses;
+  std::vector<Cell_collapse> collapses;
   std::size_t movable_vertices = 0;
   double last_cost = s_infinity; ///< the highest cost; infinite when the cell did not reach its target
 };
@@ -314,10 +309,10 @@ Cell_collapses reduce_in_cells(const Cell_context& whole)
   result.is_stopped = stop.is_stopped();
   const double limit = result.is_stopped ? s_infinity : common_cost(runs);
   for (const Cell_run& run : runs)
-    for (const auto& [collapse, cost] : run.collapses) {
-      if (cost > limit)
+    for (const Cell_collapse& found : run.collapses) {
+      if (found.cost > limit)
         break;
-      result.collapses.push_back(collapse);
+      result.collapses.push_back(found);
     }
   return result;
 }

@@ -27,10 +27,16 @@ struct Cell_context
   double share;
 };
 
+struct Cell_collapse
+{
+  Working_mesh::Collapse collapse;
+  double cost;
+};
+
 struct Cell_collapses
 {
   std::size_t cells = 0;
-  std::vector<Working_mesh::Collapse> collapses; ///< cell by cell, those of each cell in their order
+  std::vector<Cell_collapse> collapses; ///< cell by cell, those of each cell in their order
   bool is_stopped = false;                       ///< `should_stop` of the options has returned true
 };
 

@@ -130,19 +130,32 @@ private:
     m_working.count_refusals(part_kinds(soup));
     if (m_options.is_progression_recorded)
       m_working.record_progression(m_progression);
-    const auto has_none = [](const std::vector<Offending_pair>& pairs) { return pairs.empty(); };
-    if (m_prepared.defects != Defects::descend ||
-        (has_none(m_prepared.offending_pairs) &&
-         std::all_of(m_prepared.offending_pairs_in_poses.begin(), m_prepared.offending_pairs_in_poses.end(),
-                     has_none)))
+    const auto has_some = [](const std::vector<Offending_pair>& pairs) { return !pairs.empty(); };
+    const bool do_pairs_descend =
+        m_prepared.defects == Defects::descend &&
+        (has_some(m_prepared.offending_pairs) ||
+         std::any_of(m_prepared.offending_pairs_in_poses.begin(), m_prepared.offending_pairs_in_poses.end(),
+                     has_some));
+    if (!do_pairs_descend && !m_options.is_history_kept)
       m_working.on_collapse(m_options.on_collapse);
     else
-      m_working.on_collapse([this](const Soup_collapse& collapse) {
-        m_collapses.push_back(collapse);
+      m_working.on_collapse([this, do_pairs_descend](const Soup_collapse& collapse) {
+        if (do_pairs_descend)
+          m_collapses.push_back(collapse);
+        if (m_options.is_history_kept)
+          add_to_history();
         if (m_options.on_collapse)
           m_options.on_collapse(collapse);
       });
     return constraints;
+  }
+
+  void add_to_history()
+  {
+    Refusals refused = m_simplification.refusals();
+    refused.by_loop = 0; // it counts this collapse
+    m_history.add(m_simplification.cost() / (m_simplification.diagonal() * m_simplification.diagonal()),
+                  refused);
   }
 
   // Where a mesh has doubles in one place, and not in all, or shares them with something else, it is reduced
@@ -260,7 +273,7 @@ private:
         total.faces - std::min(total.faces, std::size_t(faces_per_collapse * double(found.collapses.size())));
     const Simplify_progress progress{total.faces, total.target, faces_left};
     m_is_stopped_in_cells = found.is_stopped;
-    for (const auto& [moving, place, is_mover_first] : found.collapses) {
+    for (const auto& [collapse, cost] : found.collapses) {
       // Small cells may together go too far, each by its last face.
       if (m_simplification.targets().is_reached())
         break;
@@ -271,7 +284,8 @@ private:
         m_is_stopped_in_cells = true;
         break;
       }
-      m_simplification.collapse(m_working.halfedge(moving), place, is_mover_first);
+      m_simplification.collapse(m_working.halfedge(collapse.moving), collapse.place, collapse.is_mover_first,
+                                cost);
       ++m_collapses_in_cells;
     }
     if (m_is_stopped_in_cells)
@@ -295,6 +309,8 @@ private:
       result.held_by = std::move(left.held_by);
     result.collapses = m_collapses;
     result.progression = m_progression;
+    result.history = m_history;
+    result.history.finish(report.refused);
     result.shared_meshes = m_shared_meshes;
     result.shared_places = m_shared_places;
     result.apart_meshes = m_apart_meshes;
@@ -318,6 +334,7 @@ private:
   std::size_t m_shared_meshes = 0, m_shared_places = 0, m_apart_meshes = 0;
   std::vector<Soup_collapse> m_collapses; // if they are needed to judge the result
   Progression m_progression;              // if it is recorded
+  Reduction_history m_history;
   internal::Simplification<Working_mesh::Mesh, Working_mesh> m_simplification;
   bool m_is_stopped_in_cells = false;
   std::size_t m_cells = 0;

@@ -82,13 +82,35 @@ async function probe() {
   found.none = halves();
   q('#all').click();
   found.all = halves();
-  found.places = all('.place').length;
+  if (viewer.level && q('#replay').classList.contains('plotted')) {
+    const box = q('#plots').getBoundingClientRect(), counts = () => all('#refused .count').map(count => count.textContent);
+    found.plot = {at_end: counts(), shapes: all('#plots svg *').length};
+    q('#plots').dispatchEvent(new PointerEvent('pointerdown', {clientX: box.left + box.width / 4, clientY: box.top + 5}));
+    found.plot.share = viewer.models[1].step / viewer.level.steps;
+    found.plot.slider = Number(q('#slider').value) === viewer.models[1].step;
+    found.plot.marker = (q('#marker').getBoundingClientRect().left + 1 - box.left) / box.width;
+    found.plot.clicked = halves();
+    found.plot.counts = counts();
+    viewer.go_to_step(viewer.level.steps);
+  }
+  found.poses = all('#poses .place').map(button => {
+    button.click();
+    return {name: button.querySelector('.name').textContent, refused: button.querySelector('.count').textContent, halves: halves()};
+  });
+  if (found.poses.length) {
+    all('#poses .place')[0].click();
+    found.poses_return = halves();
+  }
+  found.places = all('#places .place').length;
   if (found.places) {
-    all('.place')[0].click();
+    const button = all('#places .place')[0];
+    button.click();
     await new Promise(done => setTimeout(done, 1500));
     found.flown = halves();
     found.rings = all('.ring').filter(ring => !ring.hidden).length;
+    found.first_place = {text: button.textContent, step: viewer.level ? viewer.models[1].step : 0, pose: viewer.pose};
   }
+  found.verdict = q('#verdict').textContent;
   found.evil = !!q('#evil');
   return found;
 }
@@ -135,7 +157,7 @@ class Pages:
         (self.folder / "probed.html").write_text(text)
         out = subprocess.run(
             [self.chromium, "--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
-             "--enable-unsafe-swiftshader", "--window-size=800,400", f"--user-data-dir={self.folder / 'profile'}",
+             "--enable-unsafe-swiftshader", "--window-size=800,600", f"--user-data-dir={self.folder / 'profile'}",
              "--virtual-time-budget=20000", "--dump-dom", (self.folder / "probed.html").as_uri()],
             capture_output=True, text=True, timeout=300)
         match = re.search(r'<pre id="found">([^<]*)', out.stdout)
@@ -161,6 +183,10 @@ class Pages:
         assert sums(found["without_part"])[0] != sums(found["whole"])[0]
         assert found["all"] == found["whole"]
         assert not found["evil"]
+        if "plot" in found:
+            plot = found["plot"]
+            assert abs(plot["share"] - 0.25) < 0.01 and abs(plot["marker"] - 0.25) < 0.01 and plot["slider"], (page, plot)
+            assert plot["clicked"][1] != found["all"][1] and plot["shapes"] == 1 + len(plot["counts"]), (page, plot)
         if found["places"]:
             assert found["rings"] > 0 and sums(found["flown"]) != sums(found["whole"]), page
 
@@ -193,6 +219,35 @@ def main():
             assert ("without_obstacle" in found) == ("--obstacle" in options)
         pages.run("simplify", "in.obj", "-o", "out.glb", "--ratio", "0", "--keep", "lining", "--error", "1e-9", "--html", "held.html")
         assert "mode-reason" in pages.look("held.html")["modes"]
+
+        # A tall pose, and one in which the layers are near each other.
+        points = [line.split() for line in (folder / "in.obj").read_text().splitlines()]
+        for name, of in (("tall", lambda x, y, z: (x, 3 * y, z)), ("near", lambda x, y, z: (x, y, z - 0.145 * (z > 0.1)))):
+            (folder / f"{name}.obj").write_text("\n".join(
+                " ".join(["v", *map(str, of(*map(float, words[1:])))]) if words[0] == "v" else " ".join(words) for words in points) + "\n")
+        poses = ["--pose", "tall.obj", "--pose", "near.obj"]
+        pages.run("simplify", "in.obj", "-o", "posed.obj", "--ratio", "0.1", "--error", "none", "--html", "poses.html", "--log", "posed.log",
+                  "--report", "poses.json", *poses)
+        found, report = pages.look("poses.html"), json.loads((folder / "poses.json").read_text())
+        assert [pose["name"] for pose in found["poses"]] == ["as in the file", "tall", "near"]
+        assert len({pose["halves"][side]["sum"] for pose in found["poses"] for side in (0, 1)}) == 6, found["poses"]
+        assert found["poses_return"] == found["whole"]
+        refused = [int(pose["refused"].replace(",", "")) for pose in found["poses"]]
+        assert sum(refused) == report["refused"]["intersection"] > 0, (refused, report["refused"])
+        assert int(found["plot"]["at_end"][-1].replace(",", "")) == report["refused"]["intersection"], found["plot"]
+
+        # A replay: as it was, and with a step that joins no neighbours and a vertex that jumps through the other layer.
+        pages.run("replay", "in.obj", "posed.log", "--html", "replayed.html", *poses)
+        found = pages.look("replayed.html")
+        assert found["verdict"] == "Every step is accepted" and found["places"] == 0, found
+        assert found["levels"][0]["shown"] == report["faces"]["output"]
+        lines = (folder / "posed.log").read_text().splitlines()
+        first = next(i for i, line in enumerate(lines) if line.startswith("c "))
+        lines[first + 4:first + 4] = ["c 0 323", lines[first].replace(lines[first].split()[1], "0", 1)]
+        (folder / "bad.log").write_text("\n".join(lines) + "\n")
+        pages.run("replay", "in.obj", "bad.log", "--all", "--no-limits", "--html", "bad.html", code=1)
+        found = pages.look("bad.html")
+        assert found["first_place"]["text"].startswith("step 5: no_edge") and found["first_place"]["step"] == 4, found["first_place"]
 
         pages.run("verify", "out.obj", "--against", "in.obj", "--html", "verify.html")
         assert len(pages.look("verify.html")["first"]) == 2

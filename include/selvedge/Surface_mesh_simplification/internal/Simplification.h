@@ -266,9 +266,11 @@ public:
   }
 
   /// Moves the source of `moving` onto its target, or both to `place`, without asking any filter, since the
-  /// caller knows that this is allowed: it repeats collapses that were found in cells. Call it before `run`.
-  void collapse(Halfedge moving, const std::optional<Point>& place = {}, bool is_mover_first = false)
+  /// caller knows that this is allowed: it repeats collapses that were found in cells at `cost`. Call it
+  /// before `run`.
+  void collapse(Halfedge moving, const std::optional<Point>& place, bool is_mover_first, double cost)
   {
+    m_cost = cost;
     const Geom_traits traits;
     m_quadrics.initialize(m_mesh, m_points, traits);
     const Lazy_edge_profile<TriangleMesh, VertexPointMap, Geom_traits> profile(moving, m_mesh, m_points,
@@ -288,6 +290,24 @@ public:
 
   /// Returns the cost of the edge that the loop considers now.
   double cost() const { return m_cost; }
+
+  /// Returns what was refused until now. Within a collapse, `by_loop` counts this collapse, too.
+  Refusals refusals() const
+  {
+    Refusals result;
+    result.border = m_line.refusals() + m_pieces.refusals() + m_border.refusals();
+    result.target = m_target.refusals();
+    result.error = m_error.refusals();
+    result.aspect_ratio = m_aspect_ratio.refusals();
+    result.normal_change = m_normal_change.refusals();
+    result.uv = m_uv.refusals();
+    result.intersection = (m_intersection ? m_intersection->refusals() : 0) + m_refused_in_first_pose;
+    m_poses.add_refusals(result);
+    // What the last filter accepted and the loop did not collapse. A stop comes before the filters.
+    result.companions = m_companions_too_near;
+    result.by_loop = m_accepted - m_report.collapses;
+    return result;
+  }
 
   /// Ends where the target is reached or nothing more is possible. `are_hindrances_counted` says whether a
   /// reduction that ends short of its target looks once more at all edges, to say why.
@@ -936,23 +956,6 @@ private:
         << ": its diagonal is to be from 2^-200 to 2^200, so that squares of areas are numbers; multiply all "
            "coordinates by a power of two, which loses no digit, and those of the result by its inverse";
     throw Argument_error(text.str());
-  }
-
-  Refusals refusals() const
-  {
-    Refusals result;
-    result.border = m_line.refusals() + m_pieces.refusals() + m_border.refusals();
-    result.target = m_target.refusals();
-    result.error = m_error.refusals();
-    result.aspect_ratio = m_aspect_ratio.refusals();
-    result.normal_change = m_normal_change.refusals();
-    result.uv = m_uv.refusals();
-    result.intersection = (m_intersection ? m_intersection->refusals() : 0) + m_refused_in_first_pose;
-    m_poses.add_refusals(result);
-    // What the last filter accepted and the loop did not collapse. A stop comes before the filters.
-    result.companions = m_companions_too_near;
-    result.by_loop = m_accepted - m_report.collapses;
-    return result;
   }
 
   Simplify_report report() const
