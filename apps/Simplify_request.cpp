@@ -14,8 +14,10 @@
 #include <selvedge/Error.h>
 #include <selvedge/poses.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <string_view>
 #include <system_error>
 
@@ -177,20 +179,23 @@ void check(const Simplify_request& request)
 
 } // namespace
 
+bool are_levels_in_one_file(const Simplify_request& request)
+{
+  return !request.lods.empty() && request.output.find(level_mark) == std::string::npos;
+}
+
 std::vector<std::string> outputs(const Simplify_request& request)
 {
   const std::size_t place = request.output.find(level_mark);
-  if (request.lods.empty()) {
-    if (place != std::string::npos)
-      throw Argument_error(
-          "--output: {lod} stands for the number of a level, but no level is asked for; give "
-          "--lods R,R, or a name without {lod}");
-    return {request.output};
-  }
-  if (place == std::string::npos)
+  if (request.lods.empty() && place != std::string::npos)
+    throw Argument_error("--output: {lod} stands for the number of a level, but no level is asked for; give "
+                         "--lods R,R, or a name without {lod}");
+  if (are_levels_in_one_file(request) && !is_gltf(format_of(request.output, request.format)))
     throw Argument_error(
         "--lods: the name of the output must contain {lod}, which stands for the number of the level: -o "
-        "'jacket_{lod}.obj'");
+        "'jacket_{lod}.obj'; only .glb and .gltf files hold all levels in one: -o jacket.glb");
+  if (place == std::string::npos)
+    return {request.output};
   std::vector<std::string> names;
   for (std::size_t level = 1; level <= request.lods.size(); ++level)
     names.push_back(std::string(request.output).replace(place, level_mark.size(), std::to_string(level)));
@@ -271,6 +276,8 @@ Defects defects_of(const Simplify_request& request)
 
 void complete(Simplify_request& request)
 {
+  if (are_levels_in_one_file(request)) // from fine to coarse
+    std::sort(request.lods.begin(), request.lods.end(), std::greater<>());
   request.options.check_intersections = !request.is_unguarded;
   request.options.faces_per_cell = request.is_in_cells ? faces_per_cell : 0;
   read_ratios(request);
@@ -323,7 +330,9 @@ void add_options(CLI::App& command, Simplify_request& request)
       .add_option(
           "--lods", request.lods,
           "Ratios of several levels of detail, made in one run. Each is what a run for it alone gives. "
-          "In the name of the output, {lod} stands for the number of the level.")
+          "In the name of the output, {lod} stands for the number of the level. A .glb or .gltf output "
+          "without {lod} holds all levels, from fine to coarse, by the extension MSFT_lod; 1 is the mesh as "
+          "it came.")
       ->delimiter(',')
       ->check(in_range(0, 1))
       ->type_name("R,R")
@@ -599,6 +608,7 @@ void add_options(CLI::App& command, Simplify_request& request)
       "  selvedge simplify jacket.obj -o small.ply --faces 20000 --report small.json\n"
       "  selvedge simplify jacket.obj -o jacket.obj --error 0.0005    # at most 0.05 % of the size away\n"
       "  selvedge simplify jacket.obj -o 'jacket_{lod}.obj' --lods 0.5,0.25,0.1\n"
+      "  selvedge simplify jacket.glb -o levels.glb --lods 1,0.5,0.1      # all in one file\n"
       "  selvedge simplify jacket.obj -o small.obj --ratio 0.2 --ratio collar=0.8 --keep logo --obstacle "
       "body.obj\n"
       "  selvedge simplify jacket.obj -o small.obj --ratio 0.1 --require-target || echo missed\n"

@@ -63,8 +63,11 @@ void add_options(CLI::App& command, Simplify_request& request);
 /// @throws Output_error    a file cannot be written
 void complete(Simplify_request& request);
 
-/// Returns the output file of each level: the name with the level's number, from 1, in place of {lod}.
-/// Without levels it is the name as given.
+/// Returns whether several levels of detail go to one file: the name of the output has no {lod}.
+bool are_levels_in_one_file(const Simplify_request& request);
+
+/// Returns the output file of each level: the name with the level's number, from 1, in place of {lod}. It is
+/// the name as given, once, when there are no levels or all are in one file.
 std::vector<std::string> outputs(const Simplify_request& request);
 
 /// Returns the output file of a pose: `Simplify_request::poses_output`, or the name that it has for a level

@@ -31,6 +31,7 @@ struct Info_request
   std::string mesh;
   std::string report;
   std::optional<Mesh_format> format;
+  std::size_t level = 1;
   bool is_json = false;
   std::optional<std::size_t> threads;
 };
@@ -356,7 +357,7 @@ Exit_code run(const Info_request& request)
     require_distinct({{"--report", request.report}}, {{"MESH", request.mesh}});
     require_writable(request.report);
   }
-  Mesh_file file = Mesh_input(request.mesh, request.format).read();
+  Mesh_file file = Mesh_input(request.mesh, request.format).read(request.level);
   Json report = new_report("info");
   report["input"] = input_json(request.mesh, file);
   const Contents contents = contents_of(file);
@@ -382,6 +383,7 @@ Action add_info(CLI::App& command)
   command.add_option("MESH", request->mesh, std::string("Mesh to describe: ") + mesh_endings + ".")
       ->required()
       ->type_name("");
+  add_level_option(command, request->level, "MESH");
   add_format_option(command, request->format);
   add_report_options(command, *request);
   Thread_limit::add_option(command, request->threads);

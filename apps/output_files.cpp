@@ -39,6 +39,16 @@ bool is_same_file(const fs::path& a, const fs::path& b)
   return end_of_links(a) == end_of_links(b) || fs::equivalent(a, b, ignored);
 }
 
+template <class Write>
+void write_as_output(const fs::path& name, const Write& write)
+{
+  try {
+    write(output_path(name));
+  } catch (const Argument_error& error) {
+    throw Output_error(name.string() + ": cannot be written: " + error.what());
+  }
+}
+
 } // namespace
 
 Mesh_format output_format(const fs::path& path)
@@ -48,6 +58,11 @@ Mesh_format output_format(const fs::path& path)
   } catch (const Input_error& error) {
     throw Argument_error(error.what());
   }
+}
+
+bool is_gltf(Mesh_format format)
+{
+  return format == Mesh_format::gltf || format == Mesh_format::glb;
 }
 
 fs::path output_path(const fs::path& name)
@@ -112,11 +127,14 @@ void write_output(const fs::path& name, const Triangle_soup& soup, Mesh_format f
   Write_options options;
   options.format = format;
   options.encoding = is_ascii ? Encoding::ascii : Encoding::binary;
-  try {
-    write_mesh(output_path(name), soup, options);
-  } catch (const Argument_error& error) {
-    throw Output_error(name.string() + ": cannot be written: " + error.what());
-  }
+  write_as_output(name, [&](const fs::path& path) { write_mesh(path, soup, options); });
+}
+
+void write_output(const fs::path& name, const std::vector<Triangle_soup>& levels, Mesh_format format)
+{
+  Write_options options;
+  options.format = format;
+  write_as_output(name, [&](const fs::path& path) { write_levels_of_detail(path, levels, options); });
 }
 
 } // namespace selvedge::app

@@ -18,6 +18,9 @@ namespace selvedge::app {
 /// none.
 Mesh_format output_format(const std::filesystem::path& path);
 
+/// Returns whether a format is glTF, as text or packed.
+bool is_gltf(Mesh_format format);
+
 /// Returns the path to write to for the name of a file; "-" stands for standard output.
 std::filesystem::path output_path(const std::filesystem::path& name);
 
@@ -45,6 +48,10 @@ CLI::Option* add_polygons_option(CLI::App& command, bool& are_split);
 /// line is not at fault then.
 void write_output(const std::filesystem::path& name, const Triangle_soup& soup, Mesh_format format,
                   bool is_ascii);
+
+/// Does the same for several levels of detail in one file, as `write_levels_of_detail` does.
+void write_output(const std::filesystem::path& name, const std::vector<Triangle_soup>& levels,
+                  Mesh_format format);
 
 } // namespace selvedge::app
 

@@ -106,9 +106,9 @@ private:
     if (m_request.poses_output.empty())
       return;
     std::vector<Named_file> written;
-    const std::vector<std::string> meshes = outputs(m_request);
-    for (std::size_t level = 1; level <= meshes.size(); ++level) {
-      written.push_back({"--output", meshes[level - 1]});
+    for (const std::string& mesh : outputs(m_request))
+      written.push_back({"--output", mesh});
+    for (std::size_t level = 1; level <= std::max<std::size_t>(m_request.lods.size(), 1); ++level) {
       for (const Pose& pose : poses) {
         written.push_back({"--poses-out", pose_output(m_request, level, pose.name)});
         if (is_point_cache(m_request.poses_output))
@@ -217,7 +217,7 @@ private:
     m_log.str({});
     m_collapses.clear();
     m_progression = {};
-    if (output_format() != Mesh_format::gltf && output_format() != Mesh_format::glb)
+    if (!is_gltf(output_format()))
       options.instances = Instances::apart;
     options.is_history_kept = !m_request.html.empty();
     options.should_stop = [this](const Simplify_progress& progress) {
@@ -271,7 +271,10 @@ private:
       m_seconds["index"] = std::max(m_seconds["index"], results[i].report.seconds_index);
       m_seconds["cells"] = std::max(m_seconds["cells"], results[i].report.seconds_cells);
       m_seconds["reduce"] = std::max(m_seconds["reduce"], results[i].report.seconds_reduce);
-      levels.push_back({names[i], std::move(results[i]), {}, m_guarded_poses, {}});
+      const bool is_one_of_file = are_levels_in_one_file(m_request);
+      levels.push_back({names[is_one_of_file ? 0 : i], std::move(results[i]), {}, m_guarded_poses, {}});
+      if (is_one_of_file)
+        levels.back().number = i + 1;
     }
     return levels;
   }
@@ -334,9 +337,18 @@ private:
     if (m_outcome.is_written()) {
       m_bar.begin("writing");
       // Merging changes nothing but vertex numbers: the verdict on positions stands.
+      if (are_levels_in_one_file(m_request)) {
+        std::vector<Triangle_soup> soups;
+        for (const Level& level : levels)
+          soups.push_back(written(level.result));
+        write_output(m_request.output, soups, output_format());
+        m_files_written.push_back(m_request.output);
+      }
       for (const Level& level : levels) {
-        write_output(level.output, written(level.result), output_format(), m_request.is_ascii);
-        m_files_written.push_back(level.output);
+        if (level.number == 0) {
+          write_output(level.output, written(level.result), output_format(), m_request.is_ascii);
+          m_files_written.push_back(level.output);
+        }
         write_poses(level.result.soup, std::size_t(&level - levels.data()) + 1);
       }
       write_progression(prepared, levels);
@@ -385,6 +397,7 @@ private:
     const auto add_level = [&](Json& json, const Level& level) {
       json["output"] = {{"path", level.output},
                         {"written", m_outcome.is_written()},
+                        {"level", level.number == 0 ? Json(nullptr) : Json(level.number)},
                         {"polygons", level.polygons.output},
                         {"not_carried", dropped},
                         {"references", m_references},
@@ -463,7 +476,7 @@ private:
         begin += std::ptrdiff_t(steps);
       }
       is_stopped = level.result.report.is_stopped;
-      html.add_level(level.output, level.result, level.verification, number, steps);
+      html.add_level(name_of(level), level.result, level.verification, number, steps);
     }
     return html.page(m_report);
   }

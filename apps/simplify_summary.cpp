@@ -209,6 +209,11 @@ void print_poses(std::ostream& stream, const Level& level, Defects defects)
 
 } // namespace
 
+std::string name_of(const Level& level)
+{
+  return level.output + (level.number == 0 ? "" : " (level " + std::to_string(level.number) + ")");
+}
+
 void print_input(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
                  double diagonal, const Json& notes, const std::vector<std::string>& dropped,
                  const std::vector<std::string>& references)
@@ -253,7 +258,7 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
 void print_summary(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
                    const Level& level, const Outcome& outcome)
 {
-  const auto& [output, result, verification, guarded, polygons] = level;
+  const auto& [output, result, verification, guarded, polygons, number] = level;
   const Simplify_report& done = result.report;
   const std::size_t faces = result.soup.triangles.size();
   const Distance& distance = verification.distances->original_to_result;
@@ -322,13 +327,13 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
   if (distance.maximum > far_off)
     stream << "worst deviation " << percent(distance.maximum) << " of the size, "
            << place_of(distance.farthest, prepared.soup) << '\n';
-  stream << (outcome.is_written() ? "written: " : "NOT written: ") << output << std::endl;
+  stream << (outcome.is_written() ? "written: " : "NOT written: ") << name_of(level) << std::endl;
 }
 
 std::string complaint(const Simplify_request& request, const Level& level, const Outcome& outcome)
 {
-  const auto& [output, result, verification, guarded, polygons] = level;
-  const std::string where = request.lods.empty() ? "" : output + ": ";
+  const auto& [output, result, verification, guarded, polygons, number] = level;
+  const std::string where = request.lods.empty() ? "" : name_of(level) + ": ";
   if (!outcome.is_written()) {
     if (verification.accepted() && verification.same_topology())
       return "";

@@ -29,7 +29,12 @@ struct Level
   {
     std::size_t input = 0, output = 0;
   } polygons;
+
+  std::size_t number = 0; ///< among the levels in the file, from 1; 0 where it is alone there
 };
+
+/// Returns the name of the file, and which of its levels this is where it holds several.
+std::string name_of(const Level& level);
 
 /// Prints to `stream` what was read and prepared. `diagonal` is that of the bounding box; `notes` are those
 /// of the report about the file; `dropped` is what the output's format cannot hold; `references` are the

@@ -48,6 +48,17 @@ CLI::Option* add_format_option(CLI::App& command, std::optional<Mesh_format>& fo
       ->type_name("obj|off|ply|stl|glb|gltf");
 }
 
+CLI::Option* add_level_option(CLI::App& command, std::size_t& level, const std::string& mesh)
+{
+  return command
+      .add_option("--lod", level,
+                  "Level of detail of " + mesh + ", a glTF file with MSFT_lod: 1 is the finest.")
+      ->transform(whole_number())
+      ->check(in_range(1))
+      ->type_name("N")
+      ->capture_default_str();
+}
+
 void check_streams(const std::vector<Named_file>& read, const std::vector<Named_file>& written,
                    const std::optional<Mesh_format>& format)
 {
@@ -74,16 +85,17 @@ std::string input_name(const std::string& name)
   return name == stream_name ? "standard input" : name;
 }
 
-Mesh_file Mesh_input::read()
+Mesh_file Mesh_input::read(std::size_t level)
 {
+  const Read_options options{level - 1};
   if (m_name != stream_name)
-    return read_mesh(m_name);
+    return read_mesh(m_name, options);
   const Mesh_format format = format_of(m_name, m_format);
   const std::string contents = read_file("/dev/stdin");
   Sha256 sha256;
   sha256.add(contents);
   m_sha256 = sha256.digest();
-  return read_mesh(contents, format, input_name(m_name));
+  return read_mesh(contents, format, input_name(m_name), options);
 }
 
 std::string Mesh_input::sha256() const

@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstddef>
 #include <istream>
 #include <memory>
 #include <optional>
@@ -27,6 +28,9 @@ constexpr char mesh_endings[] = ".obj, .off, .ply, .stl, .glb or .gltf, each als
 
 /// Adds `--format`.
 CLI::Option* add_format_option(CLI::App& command, std::optional<Mesh_format>& format);
+
+/// Adds `--lod`: which level of detail of `mesh` is read, counted from 1.
+CLI::Option* add_level_option(CLI::App& command, std::size_t& level, const std::string& mesh);
 
 /// Throws `Argument_error` when two files are standard input or two are standard output, and when there is a
 /// `format` although no file is either.
@@ -49,9 +53,9 @@ public:
   {
   }
 
-  /// Reads the mesh. Throws `Input_error`, and `Argument_error` for standard input without a format. To be
-  /// called once.
-  Mesh_file read();
+  /// Reads the mesh, or a further one of its levels of detail, which are counted from 1. Throws
+  /// `Input_error`, and `Argument_error` for standard input without a format. To be called once.
+  Mesh_file read(std::size_t level = 1);
 
   /// The SHA-256 of the bytes of the file. To be called after `read`.
   std::string sha256() const;

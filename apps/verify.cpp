@@ -33,6 +33,7 @@ struct Verify_request
 {
   std::string mesh;
   std::string original;
+  std::size_t level = 1;
   Pose_sources poses;
   std::vector<std::string> files_of_poses_of_original;
   std::string report;
@@ -239,7 +240,7 @@ Exit_code run(const Verify_request& request)
   for (const Named_file& file : written)
     if (!file.path.empty())
       require_writable(file.path);
-  Mesh_file mesh = Mesh_input(request.mesh, request.format).read();
+  Mesh_file mesh = Mesh_input(request.mesh, request.format).read(request.level);
   read_poses(request.poses, request.mesh, mesh.soup);
   Json report = new_report("verify");
   report["input"] = input_json(request.mesh, mesh);
@@ -294,6 +295,7 @@ Action add_verify(CLI::App& command)
       ->type_name("");
   command.add_option("--against", request->original, "Original mesh, of which MESH is a reduction.")
       ->type_name("FILE");
+  add_level_option(command, request->level, "MESH");
   const char* const poses = "Poses (the same vertices and faces at other places)";
   add_pose_options(command, request->poses, "MESH, and of its original",
                    "Further poses of MESH, each judged like it: a mesh file, or a pattern in quotes. May be "

@@ -138,6 +138,14 @@ struct Mesh_file
   Read_notes notes;
 };
 
+struct Read_options
+{
+  /// The level of detail to read of a glTF file with MSFT_lod, 0 being the finest. A node with fewer levels
+  /// is read at its coarsest. `Input_error` when no node has the level, and for other formats when it is not
+  /// 0.
+  std::size_t level_of_detail = 0;
+};
+
 /// Reads a mesh. The path's extension says the format.
 ///
 /// - OBJ: `v` with a weight (attribute `w`) or a colour (`red`, `green`, `blue`, `alpha`), `vt` of one or two
@@ -161,7 +169,8 @@ struct Mesh_file
 ///   second is subtracted from 1, because it points down in glTF. Normals are turned with their nodes, and
 ///   COLOR_0 is a colour. Other attributes are carried when all vertices have them in the same form. In
 ///   primitives without indices, vertices that agree in every attribute become one. Buffers are in the file,
-///   data addresses, or files beside it. What EXT_meshopt_compression, KHR_draco_mesh_compression (2.2) and
+///   data addresses, or files beside it. Of levels of detail (MSFT_lod) in nodes one is read, and the others
+///   are left out. What EXT_meshopt_compression, KHR_draco_mesh_compression (2.2) and
 ///   KHR_mesh_quantization pack is decoded and written plain. Refused: other required extensions.
 ///
 /// In OBJ, OFF and PLY files of at least 100 triangles, or of quads, in which no two faces share a vertex,
@@ -171,10 +180,11 @@ struct Mesh_file
 /// Vertices in messages are counted as the format counts them: from 1 in OBJ, from 0 elsewhere.
 ///
 /// Throws `Input_error`.
-Mesh_file read_mesh(const std::filesystem::path& path);
+Mesh_file read_mesh(const std::filesystem::path& path, const Read_options& options = {});
 
 /// Reads a mesh from memory. `name` stands for the file in messages.
-Mesh_file read_mesh(std::string_view contents, Mesh_format format, const std::string& name);
+Mesh_file read_mesh(std::string_view contents, Mesh_format format, const std::string& name,
+                    const Read_options& options = {});
 
 enum class Encoding { binary, ascii, binary_big_endian };
 
@@ -225,6 +235,25 @@ struct Write_options
 /// PLY file hold no blanks and do not end in a backslash.
 void write_mesh(const std::filesystem::path& path, const Triangle_soup& soup,
                 const Write_options& options = {});
+
+/// Writes one mesh in all of its levels of detail, from fine to coarse, to one glTF file with the extension
+/// MSFT_lod: reading each of them (`Read_options::level_of_detail`) gives what reading it from a file of its
+/// own would give, but for numbers of vertices and nodes. The finest stands in the scene, where it would in a
+/// file of its own. Each node of the scene in which levels differ names the nodes of the others, which are
+/// outside the scene, are called like it with `_LOD1` and so on, and have its transform, skin, weights and
+/// instances. A node that does more than show a mesh (it moves, is a joint, or has children, a camera or an
+/// extension) gets a child that does this for it, because a program that shows a level leaves out the node
+/// that names it. Animations of morph weights move all levels. Whatever levels have in common stands in the
+/// file once. `MSFT_screencoverage`, by which programs choose a level, is the number of triangles of the next
+/// level divided by that of the finest, and 0 for the last.
+///
+/// **Preconditions** beyond those of `write_mesh`, checked (`Argument_error`): there is a level, the format
+/// is glTF, and all are reductions of one soup.
+///
+/// **Not promised** Levels of different nodes side by side: a program may show one node at one level and its
+/// neighbour at another, which no judge of a level has seen.
+void write_levels_of_detail(const std::filesystem::path& path, const std::vector<Triangle_soup>& levels,
+                            const Write_options& options = {});
 
 /// Returns the names of what this soup holds and a file of that format does not; empty when it holds all.
 std::vector<std::string> not_carried(const Triangle_soup& soup, Mesh_format format);

@@ -17,15 +17,18 @@ Mesh_file read_off(std::string_view contents, const std::string& name);
 Mesh_file read_ply(std::string_view contents, const std::string& name);
 Mesh_file read_stl(std::string_view contents, const std::string& name);
 
-/// `folder` is where buffers in files of their own are looked for; null when there is none.
+/// `folder` is where buffers in files of their own are looked for; null when there is none. `level` is that
+/// of `Read_options`.
 Mesh_file read_gltf(std::string_view contents, Mesh_format format, const std::string& name,
-                    const std::filesystem::path* folder);
+                    const std::filesystem::path* folder, std::size_t level);
 
 void write_obj(Byte_writer& out, const Triangle_soup& soup, const Write_options& options);
 void write_off(Byte_writer& out, const Triangle_soup& soup, const Write_options& options);
 void write_ply(Byte_writer& out, const Triangle_soup& soup, const Write_options& options);
 void write_stl(Byte_writer& out, const Triangle_soup& soup, const Write_options& options);
-void write_gltf(Byte_writer& out, const Triangle_soup& soup, Mesh_format format);
+
+/// Writes one mesh in all of its levels of detail, from fine to coarse. There is one at least.
+void write_gltf(Byte_writer& out, const std::vector<const Triangle_soup*>& levels, Mesh_format format);
 
 /// Names what only glTF files hold of this scene.
 const std::vector<std::string>& only_in_gltf(const Gltf_scene& scene);

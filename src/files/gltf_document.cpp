@@ -6,6 +6,7 @@
 #include "files/Binary_reader.h"
 #include "files/gltf_column_reader.h"
 #include "files/gltf_decoding.h"
+#include "files/gltf_levels.h"
 
 #include <selvedge/Error.h>
 
@@ -83,7 +84,8 @@ void parse(std::string_view json, Gltf_document& document)
 bool is_understood(const std::string& extension)
 {
   return extension == "EXT_meshopt_compression" || extension == "KHR_draco_mesh_compression" ||
-         extension == "KHR_mesh_quantization" || extension == instancing_extension;
+         extension == "KHR_mesh_quantization" || extension == instancing_extension ||
+         extension == levels_extension;
 }
 
 void refuse_extensions(const Gltf_document& document)
@@ -390,13 +392,14 @@ void Gltf_document::fail(const std::string& message) const
 }
 
 Gltf_document read_gltf_document(std::string_view contents, Mesh_format format, const std::string& name,
-                                 const std::filesystem::path* folder)
+                                 const std::filesystem::path* folder, std::size_t level)
 {
   Gltf_document document;
   document.name = name;
   const Chunks chunks = format == Mesh_format::glb ? split(contents, document) : Chunks{contents, {}};
   parse(chunks.json, document);
   refuse_extensions(document);
+  choose_level(document, level);
   load(chunks.embedded, folder, document);
   check_lists(document);
   decode_views(document);

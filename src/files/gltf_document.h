@@ -45,9 +45,10 @@ struct Gltf_document
 };
 
 /// Reads a glTF file. Throws `Input_error`, or an exception of the JSON library, when the file cannot be
-/// read. `folder` is where buffers in files of their own are looked for; null when there is none.
+/// read. `folder` is where buffers in files of their own are looked for; null when there is none. `level` is
+/// that of `choose_level` (gltf_levels.h).
 Gltf_document read_gltf_document(std::string_view contents, Mesh_format format, const std::string& name,
-                                 const std::filesystem::path* folder);
+                                 const std::filesystem::path* folder, std::size_t level);
 
 /// Returns a list in an object; an empty one when it is not there.
 const Gltf_scene::Json& member(const Gltf_scene::Json& object, const char* name);

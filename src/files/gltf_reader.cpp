@@ -4,6 +4,7 @@
 #include "files/formats.h"
 #include "files/gltf_column_reader.h"
 #include "files/gltf_decoding.h"
+#include "files/gltf_levels.h"
 #include "files/row_unlike.h"
 
 #include "soup/selection.h"
@@ -365,7 +366,9 @@ private:
   {
     for (const Json& extension : member(json(), "extensionsUsed")) {
       const std::string name = extension.is_string() ? extension.get<std::string>() : "";
-      if (!is_apart_from_meshes(name) && name != "KHR_mesh_quantization" && name != instancing_extension)
+      // What is left of MSFT_lod is of materials.
+      if (!is_apart_from_meshes(name) && name != "KHR_mesh_quantization" && name != instancing_extension &&
+          name != levels_extension)
         return false;
     }
     return true;
@@ -704,10 +707,10 @@ private:
 } // namespace
 
 Mesh_file read_gltf(std::string_view contents, Mesh_format format, const std::string& name,
-                    const std::filesystem::path* folder)
+                    const std::filesystem::path* folder, std::size_t level)
 {
   try {
-    return Gltf_reader(read_gltf_document(contents, format, name, folder), format).read();
+    return Gltf_reader(read_gltf_document(contents, format, name, folder, level), format).read();
   } catch (const nlohmann::json::exception& error) {
     throw Input_error(name + ": not a valid glTF file (" + error.what() + "); export it again");
   }

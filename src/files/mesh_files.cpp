@@ -159,9 +159,11 @@ Mesh_file connected(Mesh_file file)
 
 // `folder` holds the files that a glTF file refers to; null when these cannot be read.
 Mesh_file read_contents(std::string_view contents, Mesh_format format, const std::string& name,
-                        const std::filesystem::path* folder)
+                        const std::filesystem::path* folder, const Read_options& options)
 {
   refuse_what_is_no_mesh(contents, format, name);
+  if (options.level_of_detail > 0 && !is_gltf(format))
+    throw Input_error(name + ": is no glTF file, and only these have levels of detail; leave the level out");
   switch (format) {
   case Mesh_format::obj:
     return connected(files::read_obj(contents, name));
@@ -171,7 +173,7 @@ Mesh_file read_contents(std::string_view contents, Mesh_format format, const std
     return with_shared_vertices(connected(files::read_ply(contents, name)));
   case Mesh_format::glb:
   case Mesh_format::gltf:
-    return with_shared_vertices(files::read_gltf(contents, format, name, folder));
+    return with_shared_vertices(files::read_gltf(contents, format, name, folder, options.level_of_detail));
   case Mesh_format::stl:
     break;
   }
@@ -239,17 +241,18 @@ std::string read_file(const std::filesystem::path& path)
   return is_gzip(path) ? files::unpacked(bytes, path.string()) : bytes;
 }
 
-Mesh_file read_mesh(const std::filesystem::path& path)
+Mesh_file read_mesh(const std::filesystem::path& path, const Read_options& options)
 {
   const Mesh_format format = mesh_format(path);
   const std::string contents = read_file(path);
   const std::filesystem::path folder = path.parent_path();
-  return read_contents(contents, format, path.string(), &folder);
+  return read_contents(contents, format, path.string(), &folder, options);
 }
 
-Mesh_file read_mesh(std::string_view contents, Mesh_format format, const std::string& name)
+Mesh_file read_mesh(std::string_view contents, Mesh_format format, const std::string& name,
+                    const Read_options& options)
 {
-  return read_contents(contents, format, name, nullptr);
+  return read_contents(contents, format, name, nullptr, options);
 }
 
 void write_mesh(const std::filesystem::path& path, const Triangle_soup& soup, const Write_options& options)
@@ -268,8 +271,25 @@ void write_mesh(const std::filesystem::path& path, const Triangle_soup& soup, co
     return files::write_stl(out, soup, options);
   case Mesh_format::glb:
   case Mesh_format::gltf:
-    return files::write_gltf(out, soup, format);
+    return files::write_gltf(out, {&soup}, format);
   }
+}
+
+void write_levels_of_detail(const std::filesystem::path& path, const std::vector<Triangle_soup>& levels,
+                            const Write_options& options)
+{
+  const Mesh_format format = options.format ? *options.format : mesh_format(path);
+  if (!is_gltf(format))
+    throw Argument_error("only glTF files hold several levels of detail; write each level to its own file");
+  if (levels.empty())
+    throw Argument_error("there is no level of detail to write");
+  std::vector<const Triangle_soup*> soups;
+  for (const Triangle_soup& level : levels) {
+    check_writable(level, format, options);
+    soups.push_back(&level);
+  }
+  files::Byte_writer out(path);
+  files::write_gltf(out, soups, format);
 }
 
 std::vector<std::string> not_carried(const Triangle_soup& soup, Mesh_format format)

@@ -153,6 +153,39 @@ TEST(App_simplify, GoesThroughEveryFormat)
     }
 }
 
+TEST(App_simplify, PutsAllLevelsIntoOneFileAndReadsEach)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("skirt", "in.ply", 2000), out = folder / "levels.glb",
+                    report = folder / "report.json";
+  const App_result result = run_app({"simplify", in, "-o", out, "--lods", "0.4,1,0.7", "--report", report});
+  EXPECT_EQ(result.code, 0) << result.err;
+  const nlohmann::json levels = nlohmann::json::parse(contents_of(report))["lods"];
+  ASSERT_EQ(levels.size(), 3u);
+  std::size_t finer = 0;
+  for (std::size_t level = 1; level <= 3; ++level) {
+    const std::string number = std::to_string(level);
+    EXPECT_NE(result.out.find("written: " + out + " (level " + number + ")\n"), std::string::npos)
+        << result.out;
+    EXPECT_EQ(levels[level - 1]["output"]["level"], level);
+    const App_result judged = run_app({"verify", out, "--lod", number, "--against", in, "--json"});
+    EXPECT_EQ(judged.code, 0) << judged.err;
+    const std::size_t faces = nlohmann::json::parse(judged.out)["input"]["faces"];
+    EXPECT_EQ(levels[level - 1]["faces"]["output"], faces);
+    EXPECT_TRUE(finer == 0 || faces < finer);
+    finer = faces;
+    EXPECT_NE(run_app({"info", out, "--lod", number}).out.find("this is number " + number),
+              std::string::npos);
+  }
+  const App_result absent = run_app({"verify", out, "--lod", "4"});
+  EXPECT_EQ(absent.code, 3);
+  EXPECT_NE(absent.err.find("the file has only levels 1 to 3"), std::string::npos) << absent.err;
+  EXPECT_EQ(folder.files(), 3u);
+  // A reduction of such a file is one of its finest level.
+  EXPECT_EQ(run_app({"simplify", out, "-o", folder / "one.glb", "--ratio", "0.5"}).code, 0);
+  EXPECT_EQ(run_app({"info", folder / "one.glb", "--lod", "2"}).code, 3);
+}
+
 TEST(App_simplify, GivesTheSameBytesEachTime)
 {
   const Workspace folder;

@@ -564,7 +564,38 @@ group(
     "src/files/gltf_writer.cpp",
     ("gltf_test:Gltf.*", "instances_test"),
     ("        all += contents[i];", "", "copies are alike whatever they have become"),
-    ("std::all_of(instances.begin(), instances.end(), is_like_first)", "true", "instances that differ stay instances"),
+)
+group(
+    "src/files/gltf_nodes.cpp",
+    ("gltf_test:Gltf.*:Gltf_levels.*", "instances_test"),
+    ("return mesh(i) == mesh(instances.front());", "return true;", "instances that differ stay instances"),
+    ("meshes[*finer] == meshes[*coarser]", "false", "a mesh that stays is there for every level"),
+    ("if (!is_for_its_mesh_alone(node))", "if (false)", "a level takes away the children of its node"),
+    ("m_needed_nodes.count(n) == 0 && ", "", "a level does not move with its node"),
+    ("if (is_of_weights(channel) && node_of(channel) == n)", "if (false)", "weights move a node without a mesh"),
+    ("            animation[\"channels\"].push_back(channel);", ";", "weights move the finest level alone"),
+    ("set_mesh(coarser, m_levels[level].meshes[mesh]);", "set_mesh(coarser, m_levels[1].meshes[mesh]);", "all coarser levels are the second"),
+)
+group(
+    "src/files/gltf_levels.cpp",
+    ("gltf_test:Gltf_levels.*",),
+    ("numbers[std::min(level, numbers.size()) - 1]", "numbers[0]", "a level is the second whichever is asked for"),
+    ("    drop_channels(dropped);", "", "channels move nodes that have gone"),
+    ("    drop_meshes(std::move(meshes));", "", "meshes of other levels stay"),
+    ("for_each([&](const Json& mesh) { dropped.erase(mesh.get<std::size_t>()); });", "", "a mesh that a node still names goes"),
+    ("      if (node.contains(\"name\"))\n        coarser[\"name\"] = node[\"name\"];", "", "a level has another name"),
+    ("std::none_of(materials.begin(), materials.end(), levels_of)", "true", "levels of materials lose their extension"),
+)
+group(
+    "src/files/Gltf_output.cpp",
+    ("gltf_test:Gltf_levels.*",),
+    ("m_views[view].compare(0, bytes.size(), bytes) == 0", "true", "rows that begin alike are taken for the same"),
+    ("[\"byteStride\"] = stride; // must", "; // must", "several accessors of a view without a stride"),
+)
+group(
+    "src/files/united_levels.cpp",
+    ("gltf_test:Gltf_levels.*",),
+    ("const std::size_t number = count[key]++;", "const std::size_t number = 0;", "vertices at one position become one"),
 )
 
 # Pairs that offend already

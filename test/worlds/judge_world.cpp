@@ -14,6 +14,8 @@
 #include <selvedge/Parts.h>
 #include <selvedge/cells.h>
 #include <selvedge/collapse_log.h>
+#include <selvedge/merge.h>
+#include <selvedge/mesh_files.h>
 #include <selvedge/replay.h>
 #include <selvedge/rounding.h>
 #include <selvedge/verify.h>
@@ -1143,6 +1145,28 @@ Triangle_soup permuted(Triangle_soup soup, Random& random)
   return soup;
 }
 
+/// Levels that one file holds are read as they were judged.
+Verdict judge_file_of_levels(const World& world, const std::vector<Simplified_soup>& levels)
+{
+  std::vector<Triangle_soup> soups;
+  for (const Simplified_soup& level : levels)
+    soups.push_back(world.is_sewn ? merged_at_positions(level.soup) : level.soup);
+  const bool is_gltf = world.output_format == Mesh_format::glb || world.output_format == Mesh_format::gltf;
+  if (!is_gltf || std::any_of(soups.begin(), soups.end(),
+                              [](const Triangle_soup& soup) { return soup.triangles.empty(); }))
+    return std::nullopt;
+  const Temporary_folder folder;
+  write_levels_of_detail(folder / "levels.glb", soups);
+  for (std::size_t i = 0; i < soups.size(); ++i) {
+    Read_options options;
+    options.level_of_detail = i;
+    if (corner_points(read_mesh(folder / "levels.glb", options).soup, true) != corner_points(soups[i], true))
+      return Broken_promise{Promise::written,
+                            "the file of all levels has other triangles in level " + std::to_string(i + 1)};
+  }
+  return std::nullopt;
+}
+
 Verdict judge_levels(const World& world, const World_run& run)
 {
   const std::vector<Simplified_soup> levels =
@@ -1164,7 +1188,7 @@ Verdict judge_levels(const World& world, const World_run& run)
     if (!verify(levels[i], run.prepared).accepted())
       return Broken_promise{Promise::verdict, "level " + std::to_string(i + 1)};
   }
-  return std::nullopt;
+  return judge_file_of_levels(world, levels);
 }
 
 /// Cuts the world into pieces, reduces each by itself, and joins them: no pair of faces offends that did not,

@@ -1,0 +1,299 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "files/Gltf_output.h"
+
+#include "files/gltf_decoding.h"
+#include "files/gltf_encoding.h"
+
+#include <selvedge/Error.h>
+#include <selvedge/internal/base64.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+namespace selvedge::files {
+namespace {
+
+using Json = Gltf_output::Json;
+using Target = Gltf_output::Target;
+
+// Returns a number for a new element. Free numbers are used first, so that all others stay.
+std::size_t next(std::vector<Index>& free, std::size_t size)
+{
+  if (free.empty())
+    return size;
+  const Index number = free.back();
+  free.pop_back();
+  return number;
+}
+
+void put_bounds(Json& accessor, const Gltf_scene::Column& column, std::size_t count)
+{
+  Json least = Json::array(), largest = Json::array();
+  for (std::size_t k = 0; k < column.components; ++k) {
+    double low = component(column, 0, k), high = low;
+    for (std::size_t i = 1; i < count; ++i) {
+      low = std::min(low, component(column, i, k));
+      high = std::max(high, component(column, i, k));
+    }
+    if (column.component_type == type_float32) {
+      least.push_back(low);
+      largest.push_back(high);
+    } else {
+      least.push_back(std::int64_t(low));
+      largest.push_back(std::int64_t(high));
+    }
+  }
+  accessor["min"] = std::move(least);
+  accessor["max"] = std::move(largest);
+}
+
+// Returns what the document says about an accessor, apart from where its bytes are.
+Json description(const Gltf_scene::Column& column, std::size_t count)
+{
+  Json result = column.accessor;
+  result["count"] = count;
+  if (!column.rows.empty() && (column.name == "POSITION" || result.contains("min") || result.contains("max")))
+    put_bounds(result, column, count);
+  return result;
+}
+
+// Rows of vertices begin at multiples of four bytes.
+std::size_t stride_of(const Gltf_scene::Column& column, Target target)
+{
+  return target == Target::vertices ? (column.row_size + 3) / 4 * 4 : column.row_size;
+}
+
+std::string bytes_of_view(const Gltf_scene::Column& column, std::size_t count, Target target)
+{
+  const std::size_t stride = stride_of(column, target);
+  if (stride == column.row_size)
+    return column.rows;
+  std::string bytes;
+  bytes.reserve(count * stride);
+  for (std::size_t i = 0; i < count; ++i) {
+    bytes.append(column.rows, i * column.row_size, column.row_size);
+    bytes.append(stride - column.row_size, '\0');
+  }
+  return bytes;
+}
+
+} // namespace
+
+void append_index(Gltf_scene::Column& column, Index index)
+{
+  for (std::size_t k = 0; k < column.row_size; ++k)
+    column.rows += static_cast<char>(index >> (8 * k) & 0xff);
+}
+
+Gltf_output::Gltf_output(const Gltf_scene& scene, bool may_rotate, bool may_share_rows)
+    : document(scene.document), m_is_compressed(!scene.meshopt_views.empty()), m_may_rotate(may_rotate),
+      m_may_share_rows(may_share_rows), m_views(scene.views),
+      m_free_accessors(scene.free_accessors.rbegin(), scene.free_accessors.rend()),
+      m_free_views(scene.free_views.rbegin(), scene.free_views.rend())
+{
+  for (const auto& [view, row_size] : scene.meshopt_views)
+    if (row_size > 0)
+      m_row_sizes[view] = {row_size, false};
+}
+
+std::size_t Gltf_output::put_accessor(const Column& column, std::size_t count, Target target)
+{
+  const Json rest = description(column, count);
+  std::string bytes = column.is_sparse ? column.rows : bytes_of_view(column, count, target);
+  const std::size_t hash = std::hash<std::string>()(bytes);
+  for (auto range = m_written.equal_range(hash); range.first != range.second; ++range.first) {
+    const Written& known = range.first->second;
+    if (known.target == target && known.is_sparse == column.is_sparse && known.rest == rest &&
+        (known.is_sparse ? known.sparse_rows : m_views[known.view]).compare(0, bytes.size(), bytes) == 0)
+      return known.accessor;
+  }
+  Written& written = m_written.emplace(hash, Written{rest, target, column.is_sparse, {}, 0, 0})->second;
+  Json accessor = Json::object();
+  if (column.is_sparse)
+    written.sparse_rows = std::exchange(bytes, bytes_of_view(column, count, target));
+  if (!column.is_sparse || !put_sparse(accessor, column, count))
+    accessor["bufferView"] = written.view = put_rows(column, std::move(bytes), target);
+  accessor.update(rest);
+  return written.accessor = add_accessor(std::move(accessor));
+}
+
+std::size_t Gltf_output::put_decoded_accessor(const Column& column, std::size_t count)
+{
+  return add_accessor(description(column, count));
+}
+
+std::size_t Gltf_output::put_bytes(std::string bytes)
+{
+  return put_view({}, std::move(bytes), Target::none);
+}
+
+void Gltf_output::require(const char* extension)
+{
+  for (const char* key : {"extensionsUsed", "extensionsRequired"})
+    document[key].push_back(extension);
+}
+
+void Gltf_output::write(Byte_writer& out, Mesh_format format)
+{
+  fill_free();
+  std::string bytes = put_buffer();
+  if (format == Mesh_format::gltf) {
+    document["buffers"][0]["uri"] = "data:application/octet-stream;base64," + internal::base64(bytes);
+    out << document.dump(1, '\t') << '\n';
+  } else {
+    std::string json = document.dump();
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    bytes.resize((bytes.size() + 3) / 4 * 4, '\0');
+    const std::size_t size = 12 + 8 + json.size() + 8 + bytes.size();
+    if (size > std::numeric_limits<std::uint32_t>::max())
+      throw Output_error("a GLB file holds no more than 4 GiB; write .gltf instead");
+    out << "glTF";
+    out.binary(std::uint32_t(2));
+    out.binary(std::uint32_t(size));
+    out.binary(std::uint32_t(json.size()));
+    out << "JSON" << json;
+    out.binary(std::uint32_t(bytes.size()));
+    out << std::string_view("BIN\0", 4) << bytes;
+  }
+  out.commit();
+}
+
+std::size_t Gltf_output::add_accessor(Json accessor)
+{
+  Json& accessors = document["accessors"];
+  const std::size_t number = next(m_free_accessors, accessors.size());
+  accessors[number] = std::move(accessor);
+  return number;
+}
+
+// Puts only the rows that are not zero, where that takes less space. Returns whether it does.
+bool Gltf_output::put_sparse(Json& accessor, const Column& column, std::size_t count)
+{
+  const int type = count <= 0x100 ? int(type_uint8) : count <= 0x10000 ? int(type_uint16) : int(type_uint32);
+  Column indices = {"indices", {}, type, 1, component_size(type), {}};
+  Column values = {"values", {}, column.component_type, column.components, column.row_size, {}};
+  std::size_t size = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string_view row = std::string_view(column.rows).substr(i * column.row_size, column.row_size);
+    if (row.find_first_not_of('\0') == row.npos)
+      continue;
+    ++size;
+    append_index(indices, Index(i));
+    values.rows += row;
+  }
+  if (indices.rows.size() + values.rows.size() >= column.rows.size())
+    return false;
+  if (size > 0)
+    accessor["sparse"] = {
+        {"count", size},
+        {"indices", {{"bufferView", put_view(indices, indices.rows, Target::none)}, {"componentType", type}}},
+        {"values", {{"bufferView", put_view(values, values.rows, Target::none)}}}};
+  return true;
+}
+
+// Puts a buffer view, or returns one that begins with the same rows.
+std::size_t Gltf_output::put_rows(const Column& column, std::string bytes, Target target)
+{
+  if (target != Target::vertices || !m_may_share_rows)
+    return put_view(column, std::move(bytes), target);
+  const std::size_t stride = stride_of(column, target);
+  const std::string first_row = bytes.substr(0, stride);
+  for (auto range = m_views_by_first_row.equal_range(first_row); range.first != range.second; ++range.first)
+    if (const std::size_t view = range.first->second; m_views[view].compare(0, bytes.size(), bytes) == 0) {
+      document["bufferViews"][view]["byteStride"] = stride; // must be there for several accessors
+      return view;
+    }
+  const std::size_t view = put_view(column, std::move(bytes), target);
+  m_views_by_first_row.emplace(first_row, view);
+  return view;
+}
+
+std::size_t Gltf_output::put_view(const Column& column, std::string bytes, Target target)
+{
+  Json view = {{"buffer", 0}, {"byteOffset", 0}, {"byteLength", bytes.size()}};
+  if (const std::size_t stride = stride_of(column, target); stride != column.row_size)
+    view["byteStride"] = stride;
+  if (target != Target::none)
+    view["target"] = int(target);
+  Json& views = document["bufferViews"];
+  const std::size_t number = next(m_free_views, views.size());
+  views[number] = std::move(view);
+  m_views.resize(views.size());
+  m_views[number] = std::move(bytes);
+  m_row_sizes.erase(Index(number));
+  if (target != Target::none)
+    m_row_sizes[Index(number)] = {target == Target::indices ? column.row_size : stride_of(column, target),
+                                  target == Target::indices};
+  return number;
+}
+
+// Puts the smallest valid accessor or buffer view where a removed primitive has left a number.
+void Gltf_output::fill_free()
+{
+  for (const Index number : m_free_accessors)
+    document["accessors"][number] = {{"componentType", int(type_uint8)}, {"count", 1}, {"type", "SCALAR"}};
+  for (const Index number : m_free_views) {
+    document["bufferViews"][number] = {{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 1}};
+    m_views[number].assign(1, '\0');
+  }
+}
+
+// Puts all buffer views into one buffer, each at a multiple of four bytes.
+std::string Gltf_output::put_buffer()
+{
+  std::string bytes;
+  std::size_t decoded = 0; // bytes of views that are compressed
+  const auto begin_view = [](std::size_t& size) { size = (size + 3) / 4 * 4; };
+  for (std::size_t i = 0; i < m_views.size(); ++i) {
+    std::size_t begin = bytes.size();
+    begin_view(begin);
+    bytes.resize(begin, '\0');
+    Json& view = document["bufferViews"][i];
+    const std::optional<std::string> encoded = compressed_view(i);
+    if (encoded) {
+      const auto& [row_size, are_triangles] = m_row_sizes.at(Index(i));
+      begin_view(decoded);
+      view["buffer"] = 1;
+      view["byteOffset"] = decoded;
+      view["extensions"][meshopt_extension] = {{"buffer", 0},
+                                               {"byteOffset", begin},
+                                               {"byteLength", encoded->size()},
+                                               {"byteStride", row_size},
+                                               {"count", m_views[i].size() / row_size},
+                                               {"mode", !are_triangles ? "ATTRIBUTES"
+                                                        : m_may_rotate ? "TRIANGLES"
+                                                                       : "INDICES"}};
+      decoded += m_views[i].size();
+    } else {
+      view["buffer"] = 0;
+      view["byteOffset"] = begin;
+    }
+    bytes += encoded ? *encoded : m_views[i];
+  }
+  Json buffer = document.contains("buffers") ? document["buffers"][0] : Json::object();
+  buffer.erase("uri");
+  buffer["byteLength"] = bytes.size();
+  document["buffers"] = Json::array({std::move(buffer)});
+  if (decoded > 0) {
+    document["buffers"].push_back(
+        {{"byteLength", decoded}, {"extensions", {{meshopt_extension, {{"fallback", true}}}}}});
+    require(meshopt_extension);
+  }
+  return bytes;
+}
+
+// Returns a view compressed as others of the file were, unless it was plain there.
+std::optional<std::string> Gltf_output::compressed_view(std::size_t view) const
+{
+  const auto found = m_row_sizes.find(Index(view));
+  return !m_is_compressed || found == m_row_sizes.end()
+             ? std::nullopt
+             : encoded_by_meshopt(m_views[view], found->second.first, found->second.second, m_may_rotate);
+}
+
+} // namespace selvedge::files

@@ -1,0 +1,90 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SRC_FILES_GLTF_OUTPUT_H
+#define SELVEDGE_SRC_FILES_GLTF_OUTPUT_H
+
+#include "files/Byte_writer.h"
+#include "soup/Gltf_scene.h"
+
+#include <selvedge/mesh_files.h>
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace selvedge::files {
+
+/// A glTF document that is being made, with the bytes of its buffer views. New accessors and views first take
+/// the numbers that are free in the scene, so that all others stay.
+class Gltf_output
+{
+public:
+  using Json = Gltf_scene::Json;
+  using Column = Gltf_scene::Column;
+
+  enum class Target { none = 0, vertices = 34962, indices = 34963 }; ///< of a buffer view
+
+  /// `may_rotate` says whether the corners of triangles may be rotated where that compresses better, and
+  /// `may_share_rows` whether columns that are the first rows of others are to be sought.
+  Gltf_output(const Gltf_scene& scene, bool may_rotate, bool may_share_rows);
+
+  Json document;
+
+  /// Puts a column of so many rows, and returns the number of its accessor. Accessors that say the same of
+  /// the same bytes become one, as in files that share them.
+  /// A column of vertices that is the first rows of an earlier one gets its buffer view.
+  std::size_t put_accessor(const Column& column, std::size_t count, Target target);
+
+  /// Puts an accessor whose bytes are compressed.
+  std::size_t put_decoded_accessor(const Column& column, std::size_t count);
+
+  /// Puts bytes, and returns the number of their buffer view.
+  std::size_t put_bytes(std::string bytes);
+
+  /// Returns what primitives that are compressed to these bytes have in the document; null until it is set.
+  Json& compressed_primitive(const std::string& bytes) { return m_compressed_primitives[bytes]; }
+
+  /// Adds a name to the lists of extensions that the document uses and requires.
+  void require(const char* extension);
+
+  /// Completes the document and writes it. To be called once.
+  void write(Byte_writer& out, Mesh_format format);
+
+private:
+  struct Written
+  {
+    Json rest; // of an accessor
+    Target target;
+    bool is_sparse;
+    std::string sparse_rows; // in full
+    std::size_t view, accessor;
+  };
+
+  std::size_t add_accessor(Json accessor);
+  bool put_sparse(Json& accessor, const Column& column, std::size_t count);
+  std::size_t put_rows(const Column& column, std::string bytes, Target target);
+  std::size_t put_view(const Column& column, std::string bytes, Target target);
+  void fill_free();
+  std::string put_buffer();
+  std::optional<std::string> compressed_view(std::size_t view) const;
+
+  bool m_is_compressed, m_may_rotate, m_may_share_rows;
+  std::vector<std::string> m_views;
+  std::vector<Index> m_free_accessors, m_free_views;         // the first at the back
+  std::map<Index, std::pair<std::size_t, bool>> m_row_sizes; // of views of attributes and of triangles
+  std::unordered_multimap<std::size_t, Written> m_written;   // by the hash of the bytes
+  std::multimap<std::string, std::size_t> m_views_by_first_row;
+  std::map<std::string, Json> m_compressed_primitives;
+};
+
+/// Appends an index of the column's size to its rows.
+void append_index(Gltf_scene::Column& column, Index index);
+
+} // namespace selvedge::files
+
+#endif // SELVEDGE_SRC_FILES_GLTF_OUTPUT_H

@@ -1,0 +1,260 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "files/gltf_nodes.h"
+
+#include "files/gltf_decoding.h"
+#include "files/gltf_document.h"
+#include "files/gltf_levels.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace selvedge::files {
+namespace {
+
+using Json = Gltf_scene::Json;
+
+// Return what a channel of an animation moves; nobody has checked channels before.
+const Json& node_of(const Json& channel)
+{
+  return member(member(channel, "target"), "node");
+}
+
+bool is_of_weights(const Json& channel)
+{
+  return member(member(channel, "target"), "path") == "weights";
+}
+
+/// Gives nodes their meshes.
+class Node_writer
+{
+public:
+  Node_writer(Json& document, std::vector<Gltf_level> levels)
+      : m_document(document), m_levels(std::move(levels))
+  {
+    share_between_levels();
+    number_meshes();
+    for (const Json& animation : member(document, "animations"))
+      for (const Json& channel : member(animation, "channels"))
+        if (!is_of_weights(channel))
+          m_needed_nodes.insert(node_of(channel));
+    for (const Json& skin : member(document, "skins")) {
+      for (const Json& joint : member(skin, "joints"))
+        m_needed_nodes.insert(joint);
+      m_needed_nodes.insert(member(skin, "skeleton"));
+    }
+  }
+
+  void put(const std::vector<Gltf_scene::Instanced_node>& instanced_nodes)
+  {
+    std::set<std::size_t> instanced;
+    for (const Gltf_scene::Instanced_node& node : instanced_nodes)
+      instanced.insert(node.node);
+    std::vector<Place> places;
+    for (std::size_t n = 0; n < nodes().size(); ++n)
+      if (nodes()[n].contains("mesh") && instanced.count(n) == 0)
+        places.push_back({n, nodes()[n]["mesh"]});
+    for (const Gltf_scene::Instanced_node& node : instanced_nodes)
+      put_instances(node, places);
+    for (const auto& [node, mesh] : places)
+      put_levels(node, mesh);
+    if (!instanced_nodes.empty() && std::all_of(nodes().begin(), nodes().end(), [](const Json& node) {
+          return instance_attributes(node).empty();
+        }))
+      remove_extension(m_document, instancing_extension);
+    if (m_has_levels)
+      m_document["extensionsUsed"].push_back(levels_extension);
+  }
+
+private:
+  struct Place
+  {
+    std::size_t node, mesh; // of the scene
+  };
+
+  Json& nodes() { return m_document["nodes"]; }
+
+  // What is the same in two levels stands in the file once, as do meshes that are not reduced.
+  void share_between_levels()
+  {
+    const Json& meshes = m_document["meshes"];
+    for (std::size_t level = 1; level < m_levels.size(); ++level)
+      for (std::size_t m = 0; m < m_levels[level].meshes.size(); ++m) {
+        const std::optional<Index>& finer = m_levels[level - 1].meshes[m];
+        std::optional<Index>& coarser = m_levels[level].meshes[m];
+        if (finer && coarser && meshes[*finer] == meshes[*coarser])
+          coarser = finer;
+      }
+  }
+
+  void number_meshes()
+  {
+    Json& meshes = m_document["meshes"];
+    std::vector<char> is_kept(meshes.size(), false);
+    for (const Gltf_level& level : m_levels)
+      for (const std::optional<Index>& mesh : level.meshes)
+        if (mesh)
+          is_kept[*mesh] = true;
+    std::vector<Index> numbers;
+    Json kept = Json::array();
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+      numbers.push_back(Index(kept.size()));
+      if (is_kept[m])
+        kept.push_back(std::move(meshes[m]));
+    }
+    meshes = std::move(kept);
+    for (Gltf_level& level : m_levels)
+      for (std::optional<Index>& mesh : level.meshes)
+        if (mesh)
+          mesh = numbers[*mesh];
+  }
+
+  static void set_mesh(Json& node, const std::optional<Index>& mesh)
+  {
+    if (mesh) {
+      node["mesh"] = *mesh;
+      return;
+    }
+    for (const char* key : {"mesh", "skin", "weights"})
+      node.erase(key);
+    remove_extension_of(node, instancing_extension);
+  }
+
+  // Instances that do not share one mesh any more, in any level, become nodes.
+  void put_instances(const Gltf_scene::Instanced_node& node, std::vector<Place>& places)
+  {
+    const std::vector<Json>& instances = node.instances;
+    const bool are_alike = std::all_of(m_levels.begin(), m_levels.end(), [&](const Gltf_level& level) {
+      const auto mesh = [&](const Json& instance) {
+        return level.meshes[instance["mesh"].get<std::size_t>()];
+      };
+      return mesh(instances.front()) && std::all_of(instances.begin(), instances.end(), [&](const Json& i) {
+               return mesh(i) == mesh(instances.front());
+             });
+    });
+    if (are_alike)
+      return places.push_back({node.node, instances.front()["mesh"]});
+    set_mesh(nodes()[node.node], std::nullopt);
+    for (const Json& instance : instances) {
+      const std::size_t mesh = instance["mesh"];
+      if (!m_levels.front().meshes[mesh])
+        continue;
+      places.push_back({nodes().size(), mesh});
+      nodes()[node.node]["children"].push_back(nodes().size());
+      nodes().push_back(instance);
+    }
+  }
+
+  bool do_levels_differ(std::size_t mesh) const
+  {
+    return std::any_of(m_levels.begin(), m_levels.end(), [&](const Gltf_level& level) {
+      return level.meshes[mesh] != m_levels.front().meshes[mesh];
+    });
+  }
+
+  // Whether they do so anywhere. Where they do not, they are there all the same.
+  bool do_levels_differ() const
+  {
+    for (std::size_t mesh = 0; mesh < m_levels.front().meshes.size(); ++mesh)
+      if (do_levels_differ(mesh))
+        return true;
+    return false;
+  }
+
+  // Puts a mesh of the scene into a node, and its further levels beside it.
+  void put_levels(std::size_t node, std::size_t mesh)
+  {
+    const std::optional<Index> finest = m_levels.front().meshes[mesh];
+    set_mesh(nodes()[node], finest);
+    if (!finest || m_levels.size() == 1 || (do_levels_differ() && !do_levels_differ(mesh)))
+      return;
+    m_has_levels = true;
+    if (!is_for_its_mesh_alone(node))
+      node = with_mesh_in_child(node);
+    Json numbers = Json::array(), coverages = Json::array();
+    for (std::size_t level = 1; level < m_levels.size(); ++level) {
+      numbers.push_back(nodes().size());
+      Json coarser = nodes()[node];
+      if (member(coarser, "name").is_string())
+        coarser["name"] = coarser["name"].get<std::string>() + "_LOD" + std::to_string(level);
+      set_mesh(coarser, m_levels[level].meshes[mesh]);
+      nodes().push_back(std::move(coarser));
+      // As many triangles in a place of the picture as the finest level has where it fills all of it.
+      coverages.push_back(double(m_levels[level].triangles) / double(m_levels.front().triangles));
+    }
+    coverages.push_back(0.0);
+    for (Json& animation : list("animations"))
+      for (std::size_t c = 0; c < animation["channels"].size(); ++c) {
+        Json channel = animation["channels"][c];
+        if (!is_of_weights(channel) || node_of(channel) != node)
+          continue;
+        for (const Json& coarser : numbers)
+          if (nodes()[coarser.get<std::size_t>()].contains("mesh")) {
+            channel["target"]["node"] = coarser;
+            animation["channels"].push_back(channel);
+          }
+      }
+    Json& extras = nodes()[node]["extras"];
+    if (extras.is_null() || extras.is_object())
+      extras["MSFT_screencoverage"] = std::move(coverages);
+    nodes()[node]["extensions"][levels_extension]["ids"] = std::move(numbers);
+  }
+
+  bool is_for_its_mesh_alone(std::size_t n) const
+  {
+    const Json& node = m_document["nodes"][n];
+    const Json& extensions = member(node, "extensions");
+    return m_needed_nodes.count(n) == 0 && !node.contains("children") && !node.contains("camera") &&
+           (extensions.empty() || (extensions.size() == 1 && extensions.contains(instancing_extension)));
+  }
+
+  // Moves what a node shows to a new child of it, and returns the child.
+  std::size_t with_mesh_in_child(std::size_t n)
+  {
+    const std::size_t number = nodes().size();
+    Json child = Json::object();
+    Json& node = nodes()[n];
+    if (node.contains("name"))
+      child["name"] = node["name"];
+    for (const char* key : {"mesh", "skin", "weights"})
+      if (node.contains(key))
+        child[key] = std::move(node[key]);
+    if (!instance_attributes(node).empty())
+      child["extensions"][instancing_extension] = node["extensions"][instancing_extension];
+    set_mesh(node, std::nullopt);
+    node["children"].push_back(number);
+    nodes().push_back(std::move(child));
+    for (Json& animation : list("animations"))
+      for (Json& channel : animation["channels"])
+        if (is_of_weights(channel) && node_of(channel) == n)
+          channel["target"]["node"] = number;
+    return number;
+  }
+
+  // Returns a list of the document; an empty one when it is not there.
+  Json& list(const char* name)
+  {
+    static Json none;
+    none = Json::array();
+    const auto found = m_document.find(name);
+    return found == m_document.end() ? none : *found;
+  }
+
+  Json& m_document;
+  std::vector<Gltf_level> m_levels;
+  std::set<Json> m_needed_nodes; // numbers of those that move, or are joints
+  bool m_has_levels = false;
+};
+
+} // namespace
+
+void put_meshes_in_nodes(Json& document, const std::vector<Gltf_scene::Instanced_node>& instanced_nodes,
+                         std::vector<Gltf_level> levels)
+{
+  Node_writer(document, std::move(levels)).put(instanced_nodes);
+}
+
+} // namespace selvedge::files
