@@ -104,8 +104,7 @@ Exit_code run(int argc, char** argv)
       add("verify", "Judge a mesh, or compare a reduced mesh with its original.", add_verify),
       add("info", "Say what is in a mesh, and what a reduction would find in it.", add_info),
       add("replay", "Judge every step of a reduction, from its log.", add_replay),
-      add("generate", "Make a garment in layers or another test scene, free of intersections.",
-          add_generate),
+      add("generate", "Make a garment in layers or another test scene, free of intersections.", add_generate),
       add("cells", "Cut a mesh that is too large for one machine into pieces, and join them again.",
           add_cells)};
 
