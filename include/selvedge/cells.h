@@ -42,8 +42,9 @@ namespace selvedge {
 /// breaks one of them. So:
 /// 1. *Embedded* (G1): the offending pairs of the joined mesh are among those of the whole; there are none
 ///    when the whole was embedded. docs/guarantees.md proves it.
-/// 2. *Motion* (G2): when each piece was reduced by `simplify_soup` with its fixed faces kept, no layer has
-///    passed through another, in the whole either. What another program did on the way is not judged.
+/// 2. *Motion* (G2): when each piece was reduced by `simplify_soup` with its fixed faces kept and
+///    `Placement::vertices`, no layer has passed through another, in the whole either. What another program
+///    did on the way is not judged.
 /// 3. *Complete*: pieces that were not reduced give the faces of the whole again, each once.
 
 /// An open box, unbounded where its sides are infinite.
