@@ -105,8 +105,7 @@ Exit_code run(int argc, char** argv)
       add("info", "Say what is in a mesh, and what a reduction would find in it.", add_info),
       add("level", "Make any state of a reduction from its progressive file.", add_level),
       add("replay", "Judge every step of a reduction, from its log.", add_replay),
-      add("generate", "Make a garment in layers or another test scene, free of intersections.",
-          add_generate),
+      add("generate", "Make a garment in layers or another test scene, free of intersections.", add_generate),
       add("cells", "Cut a mesh that is too large for one machine into pieces, and join them again.",
           add_cells)};
 

@@ -38,11 +38,13 @@ namespace selvedge {
 /// 3. no pair of faces offends (verify.h) that did not offend before,
 /// 4. the pieces of the mesh, in the sense of verify.h, match those from before (`match_pieces`).
 ///
-/// **Guarantees** `Cell_join` checks this contract exactly, and refuses a piece that breaks it. So:
+/// **Guarantees** `Cell_join` checks 1 to 3 exactly and 4 as `match_pieces` does, and refuses a piece that
+/// breaks one of them. So:
 /// 1. *Embedded* (G1): the offending pairs of the joined mesh are among those of the whole; there are none
 ///    when the whole was embedded. docs/guarantees.md proves it.
-/// 2. *Motion* (G2): when each piece was reduced by `simplify_soup` with its fixed faces kept, no layer has
-///    passed through another, in the whole either. What another program did on the way is not judged.
+/// 2. *Motion* (G2): when each piece was reduced by `simplify_soup` with its fixed faces kept and
+///    `Placement::vertices`, no layer has passed through another, in the whole either. What another program
+///    did on the way is not judged.
 /// 3. *Complete*: pieces that were not reduced give the faces of the whole again, each once.
 
 /// An open box, unbounded where its sides are infinite.

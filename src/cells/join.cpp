@@ -52,6 +52,45 @@ CGAL::Bbox_3 box_of(const Triangle_soup& soup, Index triangle)
   return box;
 }
 
+/// The fixed faces of a piece, to be taken out one by one.
+class Fixed_faces
+{
+public:
+  Fixed_faces(const Triangle_soup& piece, const Cell& cell)
+  {
+    int first = 0;
+    for (Index t = Index(piece.triangles.size()); t-- > 0;)
+      if (!is_free(piece, t, cell))
+        m_faces[corner_positions(piece, t, first)].push_back(t);
+  }
+
+  /// Takes out the first face at these positions; none when there is none left.
+  std::optional<Index> take(const Corner_positions& positions)
+  {
+    const auto found = m_faces.find(positions);
+    if (found == m_faces.end() || found->second.empty())
+      return std::nullopt;
+    const Index face = found->second.back();
+    found->second.pop_back();
+    return face;
+  }
+
+  /// Returns the faces that are left, but for those with two corners at one position, in ascending order.
+  std::vector<Index> left() const
+  {
+    std::vector<Index> left;
+    for (const auto& [corners, faces] : m_faces)
+      if (corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0])
+        left.insert(left.end(), faces.begin(), faces.end());
+    std::sort(left.begin(), left.end());
+    return left;
+  }
+
+private:
+  /// Of equal ones, the first is at the back.
+  std::unordered_map<Corner_positions, std::vector<Index>, boost::hash<Corner_positions>> m_faces;
+};
+
 std::string described(const Triangle_soup& soup, Index triangle)
 {
   std::string text = "face " + std::to_string(triangle + 1) + " at ";
@@ -154,15 +193,9 @@ void Cell_join::add(std::size_t number, const Triangle_soup& piece, Triangle_sou
   const Cell& cell = m_cells.at(number);
   const auto refuse = [&](const std::string& message) { throw Input_error(result_name + ": " + message); };
 
-  // The fixed faces of the piece, by their positions; of equal ones the first is at the back.
-  std::unordered_map<Corner_positions, std::vector<Index>, boost::hash<Corner_positions>> fixed;
   CGAL::Bbox_3 box_of_piece;
-  for (Index t = Index(piece.triangles.size()); t-- > 0;) {
+  for (Index t = 0; t < piece.triangles.size(); ++t)
     box_of_piece += box_of(piece, t);
-    if (int first; !is_free(piece, t, cell))
-      fixed[corner_positions(piece, t, first)].push_back(t);
-  }
-
   // A face that several pieces have is taken from that of the first cell that it touches. (A triangle of a
   // polygon need not touch every cell whose piece has the polygon.)
   std::vector<Cell> earlier;
@@ -172,6 +205,7 @@ void Cell_join::add(std::size_t number, const Triangle_soup& piece, Triangle_sou
     return cell.touches(box) &&
            std::none_of(earlier.begin(), earlier.end(), [&](const Cell& c) { return c.touches(box); });
   };
+  Fixed_faces fixed(piece, cell);
   const std::vector<Index> numbers_of_piece = numbers_in_whole(piece, piece_name);
   std::vector<Index> numbers(result.points.size(), no_number), taken;
   std::vector<Index_triple> corners;
@@ -179,17 +213,15 @@ void Cell_join::add(std::size_t number, const Triangle_soup& piece, Triangle_sou
     bool is_taken = true;
     if (!is_free(result, t, cell)) {
       int first = 0, first_of_piece = 0;
-      const auto found = fixed.find(corner_positions(result, t, first));
-      if (found == fixed.end() || found->second.empty())
+      const std::optional<Index> same = fixed.take(corner_positions(result, t, first));
+      if (!same)
         refuse(described(result, t) + " reaches out of its cell, and is no fixed face of " + piece_name +
                "; keep faces with a corner on or beyond a wall as they are, and all others inside, in the "
                "precision of that file");
-      const Index of_piece = found->second.back();
-      found->second.pop_back();
-      corner_positions(piece, of_piece, first_of_piece);
+      corner_positions(piece, *same, first_of_piece);
       for (int i = 0; i < 3; ++i)
         numbers[result.triangles[t][(first + i) % 3]] =
-            numbers_of_piece[piece.triangles[of_piece][(first_of_piece + i) % 3]];
+            numbers_of_piece[piece.triangles[*same][(first_of_piece + i) % 3]];
       is_taken = is_taken_here(box_of(result, t));
     }
     if (is_taken) {
@@ -197,18 +229,9 @@ void Cell_join::add(std::size_t number, const Triangle_soup& piece, Triangle_sou
       corners.push_back({3 * t, 3 * t + 1, 3 * t + 2});
     }
   }
-  std::size_t missing = 0;
-  Index first_missing = no_number;
-  for (const auto& [positions, faces] : fixed)
-    for (const Index t : faces) {
-      if (positions[0] == positions[1] || positions[1] == positions[2] || positions[2] == positions[0])
-        continue;
-      ++missing;
-      first_missing = std::min(first_missing, t);
-    }
-  if (missing > 0)
-    refuse("of the fixed faces of " + piece_name + ", " + std::to_string(missing) +
-           " are missing, the first of them " + described(piece, first_missing) +
+  if (const std::vector<Index> missing = fixed.left(); !missing.empty())
+    refuse("of the fixed faces of " + piece_name + ", " + std::to_string(missing.size()) +
+           " are missing, the first of them " + described(piece, missing.front()) +
            "; keep faces with a corner on or beyond a wall as they are");
   if (const std::vector<Offending_pair> pairs = offending_pairs(result); !pairs.empty()) {
     const std::vector<Offending_pair> added = new_pairs(result, pairs, piece, offending_pairs(piece));

@@ -116,13 +116,13 @@ class Mesh:
         return sum(pose["pairs"] for pose in verdict["verified"]["poses"])
 
     def reduced(self, ratio, is_in_all):
-        """Returns the pairs in the result, CPU seconds and megabytes."""
+        """Returns the faces of the result, its pairs, CPU seconds and megabytes."""
         out, report = self.folder / "out.obj", self.folder / "report.json"
         _, seconds = run(self.selvedge, "simplify", *self.files[:None if is_in_all else 1], "-o", out, "--ratio", str(ratio),
                          "--threads", "1", "--quiet", "--report", report)
         megabytes = json.loads(report.read_bytes())["memory"]["peak_bytes"] / 1e6
         points, faces = read_obj(out)
-        return self.pairs(self.write("out", [self.row[p] for p in points], faces)), seconds, megabytes
+        return len(faces), self.pairs(self.write("out", [self.row[p] for p in points], faces)), seconds, megabytes
 
 
 def main():
@@ -133,17 +133,18 @@ def main():
     parser.add_argument("--ratio", type=float, default=0.1)
     arguments = parser.parse_args()
     print("| mesh | faces | further poses | pairs in them: input | meshoptimizer | own pose guarded | all guarded "
-          "| seconds, own pose | all | MB, own pose | all |\n|" + " --- |" * 11)
+          "| seconds, own pose | all | MB, own pose | all | faces left, all |\n|" + " --- |" * 12)
     for name in arguments.meshes:
         for count in arguments.poses:
             with tempfile.TemporaryDirectory() as folder:
                 mesh = Mesh(arguments.selvedge.resolve(), name, count, pathlib.Path(folder))
                 theirs = meshoptimizer(mesh.points, mesh.faces, int(arguments.ratio * len(mesh.faces)))
                 of_theirs = mesh.pairs(mesh.write("theirs", range(len(mesh.points)), theirs))
-                own, own_seconds, own_megabytes = mesh.reduced(arguments.ratio, False)
-                everywhere, seconds, megabytes = mesh.reduced(arguments.ratio, True)
+                _, own, own_seconds, own_megabytes = mesh.reduced(arguments.ratio, False)
+                left, everywhere, seconds, megabytes = mesh.reduced(arguments.ratio, True)
                 print(f"| {pathlib.Path(name).stem} | {len(mesh.faces):,} | {count} | {mesh.pairs(mesh.files):,} | {of_theirs:,} "
-                      f"| {own:,} | {everywhere:,} | {own_seconds:.1f} | {seconds:.1f} | {own_megabytes:.0f} | {megabytes:.0f} |",
+                      f"| {own:,} | {everywhere:,} | {own_seconds:.1f} | {seconds:.1f} | {own_megabytes:.0f} | {megabytes:.0f} "
+                      f"| {left:,} |",
                       flush=True)
 
 
