@@ -440,6 +440,24 @@ TEST(JudgeOfWorlds, SeesAFileThatIsNotTheResult)
   });
 }
 
+TEST(JudgeOfWorlds, SeesAStepThatLeadsElsewhere)
+{
+  expect_seen("progression", plain_world(), [](World_run& run) {
+    Progression::Move& last = run.result.progression.moves.back();
+    last.to = last.from;
+  });
+}
+
+TEST(JudgeOfWorlds, SeesALevelThatIsNotTheResult)
+{
+  World world = plain_world();
+  world.output_format = Mesh_format::glb;
+  expect_seen("progression", world, [](World_run& run) {
+    Point_3& p = run.last_level->points[2];
+    p = Point_3(p.x(), p.y(), std::nextafter(p.z(), 9));
+  });
+}
+
 TEST(JudgeOfWorlds, SeesATwinThatDiffers)
 {
   std::size_t seen = 0, judged = 0;
