@@ -129,11 +129,10 @@ private:
       m_working.measure_uvs(uv_unit(soup, m_prepared.scale));
     m_working.count_refusals(part_kinds(soup));
     const auto has_some = [](const std::vector<Offending_pair>& pairs) { return !pairs.empty(); };
-    const bool do_pairs_descend =
-        m_prepared.defects == Defects::descend &&
-        (has_some(m_prepared.offending_pairs) ||
-         std::any_of(m_prepared.offending_pairs_in_poses.begin(), m_prepared.offending_pairs_in_poses.end(),
-                     has_some));
+    const bool do_pairs_descend = m_prepared.defects == Defects::descend &&
+                                  (has_some(m_prepared.offending_pairs) ||
+                                   std::any_of(m_prepared.offending_pairs_in_poses.begin(),
+                                               m_prepared.offending_pairs_in_poses.end(), has_some));
     if (!do_pairs_descend && !m_options.is_history_kept)
       m_working.on_collapse(m_options.on_collapse);
     else

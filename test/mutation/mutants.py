@@ -721,3 +721,11 @@ group(
     ("if (!stated.sha256.empty() && stated.sha256 != digest_of(original.poses[pose]))", "if (false)",
      "the replay takes any pose for the one of the log"),
 )
+
+group(
+    headers + "Reduction_history.h",
+    ("reduction_history_test",),
+    ("m_collapses_per_sample *= 2;", ";", "united samples go on as short ones"),
+    ("(std::min)(first.least_cost, second.least_cost)", "second.least_cost", "united samples forget the least cost"),
+    ("last.refused = refused;", ";", "what is refused within a sample does not count"),
+)
