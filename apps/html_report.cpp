@@ -258,9 +258,9 @@ void Html_report::add_input(const Prepared_soup& prepared, const std::vector<std
       if (t < flags.size())
         flags[t] |= is_offending;
   m_scene["meshes"][0]["flags"] = section(flags);
-  add_pairs("Offending pairs of the input", prepared.offending_pairs, m_before);
+  add_pairs("Offending pairs of the input", false, prepared.offending_pairs, m_before, 0);
   for (std::size_t i = 0; i < prepared.offending_pairs_in_poses.size(); ++i)
-    add_pairs("Offending pairs of the input", prepared.offending_pairs_in_poses[i], m_before, i + 1);
+    add_pairs("Offending pairs of the input", false, prepared.offending_pairs_in_poses[i], m_before, i + 1);
 }
 
 std::size_t Html_report::add_collapses(const std::vector<Soup_collapse>& collapses)
@@ -350,19 +350,18 @@ void Html_report::add_violations(const std::vector<Violation>& violations, std::
     const Violation& violation = violations[i];
     const std::string where =
         violation.step > 0 ? "step " + with_commas(violation.step) + ": " : std::string("the result: ");
-    list.push_back({{"text", where + selvedge::name(violation.kind) + ": " + violation.message},
-                    {"step", violation.step},
-                    {"triangles", violation.triangles}});
+    list.push_back(
+        {{"text", where + violation.message}, {"step", violation.step}, {"triangles", violation.triangles}});
   }
-  add_places("Refused steps", violations.size(), std::move(list), pose);
+  add_places("Refused steps", true, violations.size(), std::move(list), pose);
 }
 
 void Html_report::add_result(const std::string& name, const Verification& verification)
 {
   if (m_beside.triangles.empty()) {
-    add_pairs("Offending pairs", verification.pairs, m_before);
+    add_pairs("Offending pairs", true, verification.pairs, m_before, 0);
     for (std::size_t i = 0; i < verification.poses.size(); ++i)
-      add_pairs("Offending pairs", verification.poses[i].pairs, m_before, i + 1);
+      add_pairs("Offending pairs", true, verification.poses[i].pairs, m_before, i + 1);
     return;
   }
   const std::vector<double> before = vertex_distances(m_before, m_beside),
@@ -394,12 +393,14 @@ Json Html_report::place_json(const std::vector<Point_3>& corners, const std::str
 }
 
 // Places belong to the level that was added last; without one, they are those of the mesh before.
-void Html_report::add_places(const std::string& heading, std::size_t count, Json list, std::size_t pose)
+void Html_report::add_places(const std::string& heading, bool is_fault, std::size_t count, Json list,
+                             std::size_t pose)
 {
   if (list.empty())
     return;
   const std::size_t levels = m_scene["levels"].size();
   m_scene["places"].push_back({{"heading", heading},
+                               {"is_fault", is_fault},
                                {"count", count},
                                {"pose", pose},
                                {"level", levels > 0 ? Json(levels - 1) : Json(nullptr)},
@@ -409,13 +410,14 @@ void Html_report::add_places(const std::string& heading, std::size_t count, Json
 void Html_report::add_new_pairs(const Verification& verification, const Triangle_soup& result)
 {
   const char* const heading = "Pairs that offend only in the result";
-  add_pairs(heading, verification.new_pairs, result);
+  add_pairs(heading, true, verification.new_pairs, result, 0);
   for (std::size_t i = 0; i < verification.poses.size(); ++i)
-    add_pairs(heading, verification.poses[i].new_pairs, result, i + 1);
+    add_pairs(heading, true, verification.poses[i].new_pairs, result, i + 1);
 }
 
-void Html_report::add_pairs(const std::string& heading, const std::vector<Offending_pair>& pairs,
-                            const Triangle_soup& soup, std::size_t pose)
+void Html_report::add_pairs(const std::string& heading, bool is_fault,
+                            const std::vector<Offending_pair>& pairs, const Triangle_soup& soup,
+                            std::size_t pose)
 {
   Json list = Json::array();
   for (std::size_t i = 0; i < (std::min)(pairs.size(), most_places); ++i) {
@@ -429,7 +431,7 @@ void Html_report::add_pairs(const std::string& heading, const std::vector<Offend
     }
     list.push_back(place_json(corners, describe(pairs[i])));
   }
-  add_places(heading, pairs.size(), std::move(list), pose);
+  add_places(heading, is_fault, pairs.size(), std::move(list), pose);
 }
 
 void Html_report::add_deviations(const std::string& heading, const Triangle_soup& soup,
@@ -458,7 +460,7 @@ void Html_report::add_deviations(const std::string& heading, const Triangle_soup
                                                     with_digits(distances[v]) + " away"));
   }
   const std::size_t count = list.size();
-  add_places(heading, count, std::move(list), 0);
+  add_places(heading, false, count, std::move(list), 0);
 }
 
 std::string Html_report::page(const Json& report) const

@@ -26,9 +26,9 @@ void require_html(const std::string& file);
 /// The report to look at: one HTML file that shows a mesh before and after, and needs no other file.
 ///
 /// Points, triangles, collapses and what hangs on them are lists of whole numbers, packed into one block;
-/// coordinates are rounded to 1/65535 of the box around everything shown, in all poses. The rest is JSON, whose text cannot
-/// end the element of the page that holds it, whatever files and parts are called. `html/viewer.js` reads
-/// both. Triangles are numbered as in the soups.
+/// coordinates are rounded to 1/65535 of the box around everything shown, in all poses. The rest is JSON,
+/// whose text cannot end the element of the page that holds it, whatever files and parts are called.
+/// `html/viewer.js` reads both. Triangles are numbered as in the soups.
 class Html_report
 {
 public:
@@ -79,9 +79,9 @@ private:
   Json uv_json(const Triangle_soup& soup);
   Json distances_json(const std::vector<double>& distances, const Nodes& nodes, double largest);
   Json place_json(const std::vector<Point_3>& corners, const std::string& text) const;
-  void add_places(const std::string& heading, std::size_t count, Json list, std::size_t pose);
-  void add_pairs(const std::string& heading, const std::vector<Offending_pair>& pairs,
-                 const Triangle_soup& soup, std::size_t pose = 0);
+  void add_places(const std::string& heading, bool is_fault, std::size_t count, Json list, std::size_t pose);
+  void add_pairs(const std::string& heading, bool is_fault, const std::vector<Offending_pair>& pairs,
+                 const Triangle_soup& soup, std::size_t pose);
   void add_new_pairs(const Verification& verification, const Triangle_soup& result);
   void add_deviations(const std::string& heading, const Triangle_soup& soup,
                       const std::vector<double>& distances);

@@ -17,6 +17,7 @@ import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
 
 const $ = selector => document.querySelector(selector);
 const number = n => n.toLocaleString('en');
+const superscript = n => String(n).replace(/./g, c => '⁰¹²³⁴⁵⁶⁷⁸⁹'[c] || '⁻');
 const figure = x => x === null || x === undefined ? '–' : x === 0 ? '0' : String(Number(x.toPrecision(3)));
 
 function element(tag, properties = {}, ...children) {
@@ -30,7 +31,9 @@ function element(tag, properties = {}, ...children) {
 const FROZEN = 1, LOCKED = 2, OFFENDING = 4; // flags of a face, as in html_report.cpp
 
 async function unpacked(text) {
-  const packed = Uint8Array.from(atob(text), c => c.charCodeAt(0));
+  const bytes = atob(text), packed = new Uint8Array(bytes.length);
+  for (let i = 0; i < packed.length; ++i)
+    packed[i] = bytes.charCodeAt(i);
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('deflate'));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
@@ -572,7 +575,6 @@ class Viewer {
     $('#play').onclick = () => this.play();
     this.make_plots();
     $('#before b').textContent = this.level ? 'Before' : path.replace(/.*[/\\]/, '');
-    $('#before span').textContent = `${number(this.models[0].left)} faces`;
     $('#after').hidden = $('#middle').hidden = !this.level;
     const open = report.terms ? report.terms.not_judged : [];
     $('#open').hidden = open.length === 0;
@@ -589,21 +591,30 @@ class Viewer {
   }
 
   fill_verdict() {
-    const {report} = this;
-    let text, is_good = report.exit_code !== 1;
+    const {report} = this, of_level = this.report_of_level();
+    let text, is_good;
     if (report.command === 'replay') {
-      const refused = [report, ...report.poses].reduce((sum, {violations}) => sum + violations.count, 0);
-      text = refused > 1 ? `${number(refused)} steps are refused` : refused === 1 ? 'A step is refused'
+      const verdicts = [report, ...report.poses], of_result = ({violations}) => violations.kinds.some(({kind}) => kind === 'result');
+      const refused = verdicts.reduce((sum, verdict) => sum + verdict.violations.count - of_result(verdict), 0);
+      is_good = report.exit_code !== 1;
+      text = refused > 0 ? `${refused > 1 ? number(refused) + ' steps are' : 'A step is'} refused`
+        : verdicts.some(of_result) ? 'The result is not what the log says'
         : report.exit_code !== 0 ? 'Interrupted: no step was refused until then' : 'Every step is accepted';
     } else {
-      const {verified} = this.report_of_level();
-      const poses = [verified, ...verified.poses], sum = key => poses.reduce((sum, pose) => sum + pose[key], 0);
-      is_good = is_good && sum('new_pairs') === 0 && (report.command !== 'verify' || report.exit_code === 0);
+      const {verified} = of_level, poses = [verified, ...verified.poses];
+      const pairs = key => poses.reduce((sum, pose) => sum + pose[key], 0), added = pairs('new_pairs');
       text = verified.embedded ? 'No two faces touch or cross'
-        : sum('new_pairs') === 0 ? `No new contact: the ${number(sum('pairs'))} pairs that offend come from the input`
-        : `${number(sum('new_pairs'))} pairs of faces touch or cross${verified.pairs_of_original === undefined ? '' : ' that did not before'}`;
+        : added === 0 ? `No new contact: the ${number(pairs('pairs'))} pairs that offend come from the input`
+        : `${number(added)} pairs of faces touch or cross${verified.pairs_of_original === undefined ? '' : ' that did not before'}`;
       if (poses.length > 1)
         text += `, in ${number(poses.length)} poses`;
+      const faults = [
+        [report.options && !report.options.intersection_check, 'nothing kept layers apart (--no-intersection-check)'],
+        [of_level.matching && !of_level.matching.complete, 'pieces do not match those of the original'],
+        [report.layers && report.layers.swaps > 0, 'layers have changed places']
+      ].filter(([is_so]) => is_so).map(([, what]) => what);
+      is_good = added === 0 && faults.length === 0;
+      text = [text, ...faults].join('; ');
     }
     $('#verdict').textContent = text;
     $('#verdict').classList.toggle('bad', !is_good);
@@ -678,22 +689,23 @@ class Viewer {
     const counts = verified.poses.map(pose => pose.guarded ? pose.refused : null);
     counts.unshift(refused.intersection - counts.reduce((sum, count) => sum + count, 0));
     counts.forEach((count, pose) => {
-      this.pose_buttons[pose].querySelector('.count').textContent = count === null ? 'judged alone' : number(count);
+      this.pose_buttons[pose].querySelector('.count').textContent = count === null ? 'result only' : number(count);
     });
-    $('#poses .soft').textContent = 'With how many collapses the exact test refused there, after the poses asked before had allowed them.' +
-      (counts.includes(null) ? ' Where a pose was judged alone, the result was, but not each collapse.' : '');
+    $('#poses .soft').textContent = 'Beside each pose: how many collapses the exact test refused in it. The first that refuses ends the question, and the pose of the file comes first.' +
+      (counts.includes(null) ? ' In some poses only the result was judged, not each collapse.' : '');
   }
 
   fill_places() {
     const {levels, places, poses} = this.data;
-    $('#places').replaceChildren();
-    for (const {heading, count, list, pose, level} of places) {
+    for (const id of ['#faults', '#places'])
+      $(id).replaceChildren();
+    for (const {heading, is_fault, count, list, pose, level} of places) {
       if (level !== null && levels[level] !== this.level)
         continue;
       const items = list.map(place => {
         const button = element('button', {className: 'place', textContent: place.text, title: place.text});
         button.onclick = () => {
-          document.querySelectorAll('#places .on').forEach(other => other.classList.remove('on'));
+          document.querySelectorAll('#faults .on, #places .on').forEach(other => other.classList.remove('on'));
           button.classList.add('on');
           this.stop();
           this.show_pose(pose);
@@ -704,7 +716,7 @@ class Viewer {
       if (count > list.length)
         items.push(element('li', {className: 'soft', textContent: `and ${number(count - list.length)} more`}));
       const title = pose > 0 ? `${heading}, in pose ${poses[pose - 1]}` : heading;
-      $('#places').append(element('h2', {textContent: title}), element('ul', {className: 'list'}, ...items));
+      $(is_fault ? '#faults' : '#places').append(element('h2', {textContent: title}), element('ul', {className: 'list'}, ...items));
     }
   }
 
@@ -731,12 +743,17 @@ class Viewer {
     const steps = this.level.steps, x = collapses.map(count => 1000 * count / steps);
     const begin = [0, ...x.slice(0, -1)]; // of each sample
     // Costs are shown by their logarithms. Those of flat places are 0 or nearly so: six decades are enough.
-    const most = Math.log10(Math.max(...largest, 1e-300)), decades = 6;
+    const most = Math.ceil(Math.log10(Math.max(...largest, 1e-300)));
+    const lowest = Math.log10(least.reduce((a, cost) => cost > 0 ? Math.min(a, cost) : a, Infinity));
+    const decades = Math.min(6, Math.max(1, most - Math.floor(lowest)));
+    $('#decades').textContent = `10${superscript(most - decades)} to 10${superscript(most)}`;
     const y = cost => 100 * Math.min(1, (most - Math.log10(Math.max(cost, 1e-300))) / decades);
     const up = x.map((end, i) => `${begin[i]},${y(largest[i])} ${end},${y(largest[i])}`);
     const down = x.map((end, i) => `${end},${y(least[i])} ${begin[i]},${y(least[i])}`).reverse();
     $('#costs').replaceChildren(svg('polygon', {points: [...up, ...down].join(' '), fill: '#2d5bd7', stroke: '#2d5bd7'}));
-    const total = Math.max(1, ...refused.map(({counts}) => counts[counts.length - 1]));
+    const last = ({counts}) => counts[counts.length - 1];
+    refused.sort((a, b) => last(b) - last(a));
+    const total = refused.length > 0 ? last(refused[0]) : 1;
     const colour = i => css(colour_of_number(i + 1));
     $('#refusals').replaceChildren(...refused.map(({counts}, i) => svg('polyline', {
       points: `0,100 ${counts.map((count, k) => `${x[k]},${100 - 100 * count / total}`).join(' ')}`, fill: 'none', stroke: colour(i)
@@ -756,7 +773,8 @@ class Viewer {
     $('#marker').style.left = `${100 * step / steps}%`;
     const {collapses, least, largest} = history;
     const sample = collapses.findIndex(count => count >= step), i = sample < 0 ? collapses.length - 1 : sample;
-    $('#cost').textContent = least[i] === largest[i] ? figure(largest[i]) : `${figure(least[i])} to ${figure(largest[i])}`;
+    const cost = x => x === 0 ? '0' : x.toExponential(1);
+    $('#cost').textContent = least[i] === largest[i] ? cost(largest[i]) : `${cost(least[i])} to ${cost(largest[i])}`;
     for (const {counts, count} of this.refusal_counts)
       count.textContent = number(step === 0 ? 0 : counts[i]);
   }
@@ -790,6 +808,8 @@ class Viewer {
     this.pose_buttons.forEach((button, i) => button.classList.toggle('on', i === pose));
     for (const model of this.models)
       model.put_into(pose);
+    const name = pose > 0 ? `, ${this.data.poses[pose - 1]}` : '';
+    $('#before span').textContent = `${number(this.models[0].left)} faces${name}`;
     this.models[0].seek(0, this.level && this.level.distances);
     if (this.level)
       this.show_step(this.steps_done);
@@ -893,17 +913,16 @@ class Viewer {
       const names = data.meshes[0].kinds[this.kind];
       const by_name = kind && kind.kind !== 'piece' && mesh !== data.meshes[0] ? kind.names.map(name => names.names.indexOf(name)) : null;
       const part = t => !kind ? 0 : by_name ? by_name[kind.of_triangle[t]] : kind.of_triangle[t];
-      const colours = new Map();
-      const of_part = i => colours.get(i) || colours.set(i, i < 0 ? PLAIN : colour_of_number(i)).get(i);
+      const colours = Array.from({length: names.count}, (_, i) => colour_of_number(i));
       const colour = {
-        part: t => of_part(part(t)),
+        part: t => colours[part(t)] || PLAIN,
         plain: () => PLAIN,
         distance: () => PLAIN,
-        checker: t => of_part(part(t)),
+        checker: t => colours[part(t)] || PLAIN,
         reason: t => held[t] < 0 ? GONE : REASONS[held[t]] || FREE,
         still: t => STILL.find(([flag]) => mesh.flags && mesh.flags[t] & flag || flag === 0)[1]
       }[mode];
-      model.paint(t => hidden.has(part(t)) ? null : colour(t));
+      model.paint(hidden.size === 0 ? colour : t => hidden.has(part(t)) ? null : colour(t));
     });
     if (mode === 'reason') {
       const counts = new Map();

@@ -37,7 +37,7 @@ struct Cell_collapses
 {
   std::size_t cells = 0;
   std::vector<Cell_collapse> collapses; ///< cell by cell, those of each cell in their order
-  bool is_stopped = false;                       ///< `should_stop` of the options has returned true
+  bool is_stopped = false;              ///< `should_stop` of the options has returned true
 };
 
 /// Finds collapses that can be done to the whole mesh: cell by cell, or those of different cells in any order

@@ -107,6 +107,7 @@ TEST(App_usage, RefusesWhatMakesNoSense)
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--log", in}, "--log and IN"},
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--html", in}, "--html"},
       {{"verify", in, "--html", in}, "--html"},
+      {{"replay", in, "log", "--html", in}, "--html"},
       {{"simplify", in, "-o", in, "--ratio", "0.5", "--obstacle", in}, "--output and --obstacle"},
       {{"replay", in, "log", "-o", in}, "--output and ORIGINAL"},
       {{"verify", in, "--report", in}, "--report and MESH"},

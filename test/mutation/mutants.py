@@ -852,3 +852,10 @@ group(
     progressive,
     ("if (is_digest_judged && progressive", "if (false && progressive", "what another program has changed is read"),
 )
+group(
+    headers + "Reduction_history.h",
+    ("reduction_history_test",),
+    ("m_collapses_per_sample *= 2;", ";", "united samples go on as short ones"),
+    ("(std::min)(first.least_cost, second.least_cost)", "second.least_cost", "united samples forget the least cost"),
+    ("last.refused = refused;", ";", "what is refused within a sample does not count"),
+)

@@ -19,6 +19,7 @@ namespace {
 void reduce(const World& world, const Prepared_soup& prepared, Reduction_log* log, World_run& run)
 {
   Simplify_options options = world.options;
+  options.is_history_kept = true;
   options.on_collapse = [&](const Soup_collapse& collapse) {
     run.collapses.push_back(collapse);
     if (log)

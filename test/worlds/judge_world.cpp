@@ -635,6 +635,9 @@ Verdict judge_stop(const World& world, const World_run& run)
   const Triangle_soup& soup = run.prepared.soup;
   if (report.collapses != run.collapses.size())
     return broken("the report counts other collapses");
+  const std::vector<Reduction_history::Sample>& samples = run.result.history.samples();
+  if (report.collapses != (samples.empty() ? 0 : samples.back().collapses))
+    return broken("the history has other collapses");
   if (report.faces_input != soup.triangles.size() || report.faces_output != run.result.soup.triangles.size())
     return broken("the report counts other faces");
   if (report.is_stopped != run.is_told_to_stop)
