@@ -7,6 +7,7 @@
 #include "text.h"
 
 #include <selvedge/Error.h>
+#include <selvedge/poses.h>
 #include <selvedge/progressive.h>
 #include <selvedge/references.h>
 
@@ -15,6 +16,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace selvedge::app {
 namespace {
@@ -23,12 +26,35 @@ struct Level_request
 {
   std::string input;
   std::string output;
+  std::string poses_output;          // with {pose}
   std::optional<Mesh_format> format; // of output where it is "-"
   std::optional<std::size_t> faces;
   std::optional<double> ratio;
   bool is_quiet = false;
   bool is_ascii = false;
 };
+
+constexpr std::string_view s_mark_of_pose = "{pose}";
+
+// Writes the poses that a progressive file holds.
+void write_poses(const Level_request& request, const Triangle_soup& soup)
+{
+  if (soup.poses.empty())
+    throw Argument_error("--poses-out: the file holds no poses beside its own; leave the option out");
+  if (is_point_cache(request.poses_output))
+    return write_point_cache(output_path(request.poses_output), soup);
+  std::vector<Named_file> written = {{"--output", request.output}};
+  for (const Pose& pose : soup.poses) {
+    std::string name = request.poses_output;
+    name.replace(name.find(s_mark_of_pose), s_mark_of_pose.size(), pose.name);
+    written.push_back({"--poses-out", name});
+  }
+  require_distinct(written, {{"FILE", request.input}});
+  for (std::size_t i = 0; i < soup.poses.size(); ++i) {
+    const std::filesystem::path& path = written[i + 1].path;
+    write_output(path, in_pose(soup, i), output_format(path), request.is_ascii);
+  }
+}
 
 Exit_code run(const Level_request& request)
 {
@@ -38,6 +64,11 @@ Exit_code run(const Level_request& request)
   const Mesh_format format = format_of(request.output, request.format);
   require_distinct({{"--output", request.output}}, {{"FILE", request.input}});
   require_writable(request.output);
+  if (!request.poses_output.empty() && !is_point_cache(request.poses_output) &&
+      request.poses_output.find(s_mark_of_pose) == std::string::npos)
+    throw Argument_error(
+        "--poses-out: the name must contain {pose}, which stands for the name of the pose, or be "
+        "that of a point cache (.mdd, .pc2)");
 
   const Progressive_mesh mesh = read_progressive(request.input);
   const std::size_t target =
@@ -47,6 +78,8 @@ Exit_code run(const Level_request& request)
   const std::filesystem::path input = request.input, output = request.output;
   if (!is_standard_output(request.output))
     relocate_references(soup, format, input.parent_path(), output.parent_path());
+  if (!request.poses_output.empty())
+    write_poses(request, soup);
   write_output(request.output, soup, format, request.is_ascii);
 
   const Text_to_standard_error elsewhere(is_standard_output(request.output));
@@ -85,6 +118,10 @@ Action add_level(CLI::App& command)
                   "Share of the faces to keep, from 0 to 1, of those that could be reduced, as in simplify.")
       ->check(in_range(0, 1))
       ->type_name("R");
+  command
+      .add_option("--poses-out", request->poses_output,
+                  "Files for the poses that FILE holds, of which {pose} is the name. Or one point cache.")
+      ->type_name("PATTERN");
   command.add_flag("--quiet", request->is_quiet, "Print no summary.");
   command.add_flag("--ascii", request->is_ascii, "Write PLY and STL as text.");
   command.footer(

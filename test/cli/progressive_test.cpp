@@ -81,6 +81,23 @@ TEST_F(Progressive_file, TheProgramOfTheManualMakesTheSameLevel)
   EXPECT_EQ(std::stoul(contents_of(count)), corners(out).size() / 3);
 }
 
+TEST_F(Progressive_file, ALevelHasThePosesOfTheRun)
+{
+  run({"generate", "skirt", "-o", folder / "skirt.obj", "--faces", "2000", "--layers", "1", "--poses", "1",
+       "--poses-out", folder / "skirt_{pose}.obj", "--quiet"});
+  run({"simplify", folder / "skirt.obj", "-o", out, "--ratio", "0.5", "--pose", folder / "skirt_1.obj",
+       "--poses-out", folder / "run_{pose}.glb", "--progressive", folder / "skirt.glb", "--quiet"});
+  run({"level", folder / "skirt.glb", "--ratio", "0.5", "-o", folder / "level.glb", "--poses-out",
+       folder / "level_{pose}.glb"});
+  EXPECT_EQ(corners(folder / "level_skirt_1.glb"), corners(folder / "run_skirt_1.glb"));
+  EXPECT_NE(corners(folder / "level_skirt_1.glb"), corners(folder / "level.glb"));
+  expect_refused(
+      {"level", folder / "skirt.glb", "--ratio", "0.5", "-o", out, "--poses-out", folder / "a.obj"}, 2,
+      "must contain {pose}");
+  expect_refused({"level", file, "--ratio", "0.5", "-o", out, "--poses-out", folder / "a_{pose}.obj"}, 2,
+                 "holds no poses");
+}
+
 TEST_F(Progressive_file, WhatCannotBeIsRefused)
 {
   const std::vector<std::string> simplify{"simplify", in, "-o", out, "--ratio", "0.5", "--progressive"};

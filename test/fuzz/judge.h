@@ -8,9 +8,9 @@
 
 namespace selvedge::test {
 
-/// Reads `contents` as a file of a kind ("obj", "off", "ply", "stl", "glb", "gltf", "log", "progressive"), and aborts with a
-/// line on stderr when a promise is broken: those of `judge_mesh`, `judge_log` and `judge_progressive`, and that no more memory is
-/// taken at a time than `contents` can account for.
+/// Reads `contents` as a file of a kind ("obj", "off", "ply", "stl", "glb", "gltf", "log", "progressive"),
+/// and aborts with a line on stderr when a promise is broken: those of `judge_mesh`, `judge_log` and
+/// `judge_progressive`, and that no more memory is taken at a time than `contents` can account for.
 void judge(std::string_view kind, std::string_view contents);
 
 } // namespace selvedge::test
