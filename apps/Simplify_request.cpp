@@ -85,10 +85,12 @@ void check_poses(const Simplify_request& request)
     throw Argument_error(std::string(option) + ": " + why +
                          "; leave it out, or the further poses (--pose, --morphs, --animation)");
   };
+  const char* const of_obstacle =
+      request.obstacle_poses.files.empty() ? "--obstacle-animation" : "--obstacle-pose";
   if (request.poses.empty()) {
     if (!request.obstacle_poses.empty() || !request.poses_output.empty() || request.are_key_poses_chosen)
       throw Argument_error(std::string(!request.poses_output.empty()     ? "--poses-out"
-                                       : !request.obstacle_poses.empty() ? "--obstacle-pose"
+                                       : !request.obstacle_poses.empty() ? of_obstacle
                                                                          : "--key-poses") +
                            ": the mesh has no further poses; give them by --pose, --morphs or --animation");
     return;
@@ -102,13 +104,14 @@ void check_poses(const Simplify_request& request)
   if (request.options.placement == Placement::optimal)
     refuse_with("--placement optimal", "a new place is a place in one pose only");
   if (!request.obstacle_poses.empty() && request.obstacle.empty())
-    throw Argument_error("--obstacle-pose: there is no obstacle; give --obstacle FILE");
+    throw Argument_error(std::string(of_obstacle) + ": there is no obstacle; give --obstacle FILE");
+  const bool is_one_file = is_one_file_of_poses(request.poses_output);
   const auto require_mark = [&](std::string_view mark, const char* what) {
     if (!request.poses_output.empty() && request.poses_output.find(mark) == std::string::npos)
       throw Argument_error("--poses-out: the name must contain " + std::string(mark) + ", which stands for " +
                            what + ": --poses-out 'small_{pose}.obj'");
   };
-  if (!is_point_cache(request.poses_output))
+  if (!is_one_file)
     require_mark(pose_mark, "the name of the pose");
   if (!request.lods.empty())
     require_mark(level_mark, "the number of the level");
@@ -202,6 +205,12 @@ std::vector<std::string> outputs(const Simplify_request& request)
   return names;
 }
 
+bool is_one_file_of_poses(const std::string& name)
+{
+  return is_point_cache(name) || (!name.empty() && name.find(pose_mark) == std::string::npos &&
+                                  is_gltf(format_of(name, std::nullopt)));
+}
+
 std::string pose_output(const Simplify_request& request, std::size_t level, const std::string& pose)
 {
   std::string name = request.poses_output;
@@ -256,6 +265,8 @@ Json options_json(const Simplify_request& request)
           {"animation", request.poses.animation.empty() ? Json(nullptr) : Json(request.poses.animation)},
           {"every", request.poses.every},
           {"obstacle_pose", request.obstacle_poses.files},
+          {"obstacle_animation",
+           request.obstacle_poses.animation.empty() ? Json(nullptr) : Json(request.obstacle_poses.animation)},
           {"key_poses", request.are_key_poses_chosen ? "auto" : "all"},
           {"poses_out", request.poses_output.empty() ? Json(nullptr) : Json(request.poses_output)},
           {"weld", request.weld == "auto" ? Json(request.weld) : Json(request.weld_distance)},
@@ -276,6 +287,7 @@ Defects defects_of(const Simplify_request& request)
 
 void complete(Simplify_request& request)
 {
+  request.obstacle_poses.every = request.poses.every;
   if (are_levels_in_one_file(request)) // from fine to coarse
     std::sort(request.lods.begin(), request.lods.end(), std::greater<>());
   request.options.check_intersections = !request.is_unguarded;
@@ -411,6 +423,13 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->group(poses);
   command
       .add_option(
+          "--obstacle-animation", request.obstacle_poses.animation,
+          "The keyframes of this animation of the obstacle (glTF), or of all of them, are poses of the "
+          "obstacle, one in so many as --every says.")
+      ->type_name("NAME|all")
+      ->group(poses);
+  command
+      .add_option(
           "--key-poses", request.are_key_poses_chosen,
           "Poses in which every collapse is judged: all, or a few that differ most, and those in which "
           "the result has pairs that it should not have: then it is reduced again, until there is none. "
@@ -421,10 +440,12 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->default_str("all")
       ->group(poses);
   command
-      .add_option("--poses-out", request.poses_output,
-                  "Files for the poses of the result: {pose} stands for the name of each, the name of its "
-                  "file without ending, of its morph target, or of its animation with the number of the "
-                  "keyframe. Or one point cache.")
+      .add_option(
+          "--poses-out", request.poses_output,
+          "Files for the poses of the result: {pose} stands for the name of each, the name of its "
+          "file without ending, of its morph target, or of its animation with the number of the "
+          "keyframe. Without {pose}: one point cache, or one .glb or .gltf file that shows one pose after "
+          "another by morph targets.")
       ->type_name("PATTERN")
       ->group(poses);
 

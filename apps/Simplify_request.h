@@ -70,6 +70,10 @@ bool are_levels_in_one_file(const Simplify_request& request);
 /// the name as given, once, when there are no levels or all are in one file.
 std::vector<std::string> outputs(const Simplify_request& request);
 
+/// Returns whether a file of `Simplify_request::poses_output` holds all poses, by its name. Throws
+/// `Argument_error` when the name stands for no format.
+bool is_one_file_of_poses(const std::string& name);
+
 /// Returns the output file of a pose: `Simplify_request::poses_output`, or the name that it has for a level
 /// (from 1), with the name of the pose in place of {pose}.
 std::string pose_output(const Simplify_request& request, std::size_t level, const std::string& pose);

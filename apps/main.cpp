@@ -17,7 +17,6 @@
 #include <iostream>
 #include <memory>
 #include <new>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,20 +34,22 @@ Exit_code fail(Exit_code code, std::string message)
   return code;
 }
 
-// Counts the letters to be replaced, added or left out to make one word of the other.
+// Counts the letters to be replaced, added or left out, and the neighbours to be exchanged, to make one word
+// of the other.
 std::size_t letters_apart(const std::string& a, const std::string& b)
 {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t(0));
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] != b[j]);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, diagonal + 1, row[j] + 1});
+  std::vector<std::vector<std::size_t>> apart(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i)
+    for (std::size_t j = 0; j <= b.size(); ++j) {
+      apart[i][j] = i + j;
+      if (i == 0 || j == 0)
+        continue;
+      apart[i][j] =
+          std::min({apart[i - 1][j - 1] + (a[i - 1] != b[j - 1]), apart[i - 1][j] + 1, apart[i][j - 1] + 1});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        apart[i][j] = std::min(apart[i][j], apart[i - 2][j - 2] + 1);
     }
-  }
-  return row.back();
+  return apart.back().back();
 }
 
 // Says that there is no such word, and which word is meant: the nearest, if it is near, or else one of all.

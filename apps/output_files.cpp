@@ -6,6 +6,8 @@
 #include "subcommands.h"
 
 #include <selvedge/Error.h>
+#include <selvedge/gltf_poses.h>
+#include <selvedge/poses.h>
 
 #include <cerrno>
 #include <string>
@@ -135,6 +137,16 @@ void write_output(const fs::path& name, const std::vector<Triangle_soup>& levels
   Write_options options;
   options.format = format;
   write_as_output(name, [&](const fs::path& path) { write_levels_of_detail(path, levels, options); });
+}
+
+void write_output_of_poses(const fs::path& name, const Triangle_soup& soup)
+{
+  write_as_output(name, [&](const fs::path& path) {
+    if (is_point_cache(name))
+      write_point_cache(path, soup);
+    else
+      write_gltf_poses(path, soup);
+  });
 }
 
 } // namespace selvedge::app

@@ -53,6 +53,9 @@ void write_output(const std::filesystem::path& name, const Triangle_soup& soup, 
 void write_output(const std::filesystem::path& name, const std::vector<Triangle_soup>& levels,
                   Mesh_format format);
 
+/// Does the same for the further poses of a mesh in one file: a point cache, or else glTF.
+void write_output_of_poses(const std::filesystem::path& name, const Triangle_soup& soup);
+
 } // namespace selvedge::app
 
 #endif // SELVEDGE_APPS_OUTPUT_FILES_H

@@ -92,12 +92,16 @@ private:
   // One rounding for all files: the mesh and its poses are judged as they are written.
   bool is_rounded(const Triangle_soup& soup) const
   {
-    return needs_float32(soup, output_format()) ||
-           (!m_request.progressive.empty() && needs_float32(soup, Mesh_format::glb)) ||
-           (!m_request.poses_output.empty() &&
-            (is_point_cache(m_request.poses_output) || stores_float32(mesh_format(m_request.poses_output))) &&
-            !std::all_of(soup.poses.begin(), soup.poses.end(),
-                         [](const Pose& pose) { return has_float32_points(pose.points); }));
+    const std::string& poses = m_request.poses_output;
+    if (needs_float32(soup, output_format()) ||
+        (!m_request.progressive.empty() && needs_float32(soup, Mesh_format::glb)))
+      return true;
+    if (poses.empty() || (!is_point_cache(poses) && !stores_float32(mesh_format(poses))))
+      return false;
+    if (is_one_file_of_poses(poses) && !is_point_cache(poses) && !has_float32_points(soup.points))
+      return true; // the mesh itself is in that file as well
+    return !std::all_of(soup.poses.begin(), soup.poses.end(),
+                        [](const Pose& pose) { return has_float32_points(pose.points); });
   }
 
   // Their names are known only now.
@@ -111,7 +115,7 @@ private:
     for (std::size_t level = 1; level <= std::max<std::size_t>(m_request.lods.size(), 1); ++level) {
       for (const Pose& pose : poses) {
         written.push_back({"--poses-out", pose_output(m_request, level, pose.name)});
-        if (is_point_cache(m_request.poses_output))
+        if (is_one_file_of_poses(m_request.poses_output))
           break;
       }
     }
@@ -367,9 +371,9 @@ private:
 
   void write_poses(const Triangle_soup& soup, std::size_t level)
   {
-    if (is_point_cache(m_request.poses_output)) {
+    if (is_one_file_of_poses(m_request.poses_output)) {
       const std::string name = pose_output(m_request, level, "");
-      write_point_cache(output_path(name), soup);
+      write_output_of_poses(name, soup);
       m_files_written.push_back(name);
       return;
     }

@@ -132,14 +132,10 @@ std::size_t Gltf_output::put_bytes(std::string bytes)
   return put_view({}, std::move(bytes), Target::none);
 }
 
-void Gltf_output::require(const char* extension)
-{
-  for (const char* key : {"extensionsUsed", "extensionsRequired"})
-    document[key].push_back(extension);
-}
-
 void Gltf_output::write(Byte_writer& out, Mesh_format format)
 {
+  if (!m_compressed_primitives.empty())
+    require(draco_extension);
   fill_free();
   std::string bytes = put_buffer();
   if (format == Mesh_format::gltf) {
@@ -230,6 +226,13 @@ std::size_t Gltf_output::put_view(const Column& column, std::string bytes, Targe
     m_row_sizes[Index(number)] = {target == Target::indices ? column.row_size : stride_of(column, target),
                                   target == Target::indices};
   return number;
+}
+
+// Adds a name to the lists of extensions that the document uses and requires.
+void Gltf_output::require(const char* extension)
+{
+  for (const char* key : {"extensionsUsed", "extensionsRequired"})
+    document[key].push_back(extension);
 }
 
 // Puts the smallest valid accessor or buffer view where a removed primitive has left a number.

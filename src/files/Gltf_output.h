@@ -33,7 +33,7 @@ public:
   /// `may_share_rows` whether columns that are the first rows of others are to be sought.
   Gltf_output(const Gltf_scene& scene, bool may_rotate, bool may_share_rows);
 
-  Json document;
+  Json document; ///< references into it end when it gets a new key
 
   /// Puts a column of so many rows, and returns the number of its accessor. Accessors that say the same of
   /// the same bytes become one, as in files that share them.
@@ -46,11 +46,8 @@ public:
   /// Puts bytes, and returns the number of their buffer view.
   std::size_t put_bytes(std::string bytes);
 
-  /// Returns what primitives that are compressed to these bytes have in the document; null until it is set.
+  /// Returns what primitives that Draco compresses to these bytes have in the document; null until it is set.
   Json& compressed_primitive(const std::string& bytes) { return m_compressed_primitives[bytes]; }
-
-  /// Adds a name to the lists of extensions that the document uses and requires.
-  void require(const char* extension);
 
   /// Completes the document and writes it. To be called once.
   void write(Byte_writer& out, Mesh_format format);
@@ -69,6 +66,7 @@ private:
   bool put_sparse(Json& accessor, const Column& column, std::size_t count);
   std::size_t put_rows(const Column& column, std::string bytes, Target target);
   std::size_t put_view(const Column& column, std::string bytes, Target target);
+  void require(const char* extension);
   void fill_free();
   std::string put_buffer();
   std::optional<std::string> compressed_view(std::size_t view) const;

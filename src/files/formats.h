@@ -27,15 +27,18 @@ void write_off(Byte_writer& out, const Triangle_soup& soup, const Write_options&
 void write_ply(Byte_writer& out, const Triangle_soup& soup, const Write_options& options);
 void write_stl(Byte_writer& out, const Triangle_soup& soup, const Write_options& options);
 
-/// Writes one mesh in all of its levels of detail, from fine to coarse. There is one at least.
-void write_gltf(Byte_writer& out, const std::vector<const Triangle_soup*>& levels, Mesh_format format);
+/// Writes one mesh in all of its levels of detail, from fine to coarse. There is one at least. `has_poses` is
+/// that of `with_gltf_scene`, for soups without a scene.
+void write_gltf(Byte_writer& out, const std::vector<const Triangle_soup*>& levels, Mesh_format format,
+                bool has_poses = false);
 
 /// Names what only glTF files hold of this scene.
 const std::vector<std::string>& only_in_gltf(const Gltf_scene& scene);
 
 /// Returns the same triangles with a new document: one node for each group, and vertices split where corners
 /// differ in texture coordinates or normals. Precondition: coordinates are 32-bit floats.
-Triangle_soup with_gltf_scene(const Triangle_soup& soup);
+/// The poses of the soup become morph targets and keyframes if `has_poses` (`write_gltf_poses`).
+Triangle_soup with_gltf_scene(const Triangle_soup& soup, bool has_poses = false);
 
 /// Whether an OBJ file of this soup holds this attribute of its vertices: a colour, or else a weight.
 bool is_in_obj(const Triangle_soup& soup, const Attribute& attribute);

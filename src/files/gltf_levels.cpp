@@ -35,7 +35,7 @@ public:
   {
     std::size_t levels = 1;
     Numbers of_levels;
-    if (member(m_json, "nodes").is_array())
+    if (const auto list = m_json.find("nodes"); list != m_json.end() && list->is_array())
       for (std::size_t n = 0; n < nodes().size(); ++n) {
         const std::vector<std::size_t> numbers = numbers_of_levels(n);
         levels = std::max(levels, numbers.size() + 1);

@@ -6,6 +6,7 @@
 #include "soup/Gltf_scene.h"
 
 #include <selvedge/Cancellation_scope.h>
+#include <selvedge/Error.h>
 
 #include <algorithm>
 #include <cmath>
@@ -77,10 +78,14 @@ public:
   {
   }
 
-  Triangle_soup make()
+  Triangle_soup make(bool has_poses)
   {
+    if (has_poses)
+      find_displacements();
     number_vertices();
     make_document();
+    if (has_poses)
+      make_animation();
     m_result.scene = m_scene;
     return std::move(m_result);
   }
@@ -165,6 +170,11 @@ private:
       columns.push_back(column("TEXCOORD_0", type_float32, 2));
     if (!m_colours.empty())
       columns.push_back(column("COLOR_0", colour_type(), m_colours.size(), colour_type() != type_float32));
+    for (std::size_t target = 0; target < m_displacements.size(); ++target) {
+      Gltf_scene::Column displacements = column("POSITION", type_float32, 3);
+      displacements.is_sparse = true;
+      m_scene->blocks.back().targets.push_back({std::move(displacements)});
+    }
   }
 
   // Normalised integers keep their type where glTF has it for colours; all others become floats.
@@ -192,6 +202,9 @@ private:
       ++next;
     };
     put(point.x(), point.y(), point.z());
+    for (std::size_t target = 0; target < m_displacements.size(); ++target)
+      for (const float displacement : m_displacements[target][v.vertex])
+        append_little_endian(block.targets[target].front().rows, displacement);
     if (v.kind.has_normals)
       std::apply(put, m_normals.rows[v.normal]);
     if (v.kind.has_uvs)
@@ -206,6 +219,89 @@ private:
           if constexpr (sizeof number <= 2)
             append_little_endian(next->rows, number);
         });
+  }
+
+  // Finds two displacements for each pose that bring every vertex there; the second is left out where it is
+  // zero everywhere.
+  void find_displacements()
+  {
+    using Displacement = std::array<float, 3>;
+    for (const Pose& pose : m_soup.poses) {
+      std::vector<Displacement> first, rest;
+      Cancellation_poll poll;
+      for (std::size_t v = 0; v < m_soup.points.size(); ++v) {
+        poll();
+        first.emplace_back();
+        rest.emplace_back();
+        for (int axis = 0; axis < 3; ++axis) {
+          const double from = m_soup.points[v][axis], to = pose.points[v][axis];
+          first.back()[std::size_t(axis)] = float(to - from);
+          const double near = from + double(first.back()[std::size_t(axis)]);
+          rest.back()[std::size_t(axis)] = float(to - near);
+          if (near + double(rest.back()[std::size_t(axis)]) != to)
+            throw Argument_error(
+                "vertex " + std::to_string(v) + " (counted from 0) lies in pose '" + pose.name +
+                "' where no two 32-bit displacements bring it; write each pose to a file of its "
+                "own");
+        }
+      }
+      m_keys.push_back({m_displacements.size()});
+      m_target_names.push_back(pose.name);
+      m_displacements.push_back(std::move(first));
+      if (std::all_of(rest.begin(), rest.end(), [](const Displacement& d) { return d == Displacement{}; }))
+        continue;
+      m_keys.back().push_back(m_displacements.size());
+      m_target_names.push_back(pose.name + " (rest)");
+      m_displacements.push_back(std::move(rest));
+    }
+  }
+
+  // Returns the number of an accessor of numbers that are no part of a mesh.
+  std::size_t add_accessor(const std::vector<float>& numbers)
+  {
+    std::string bytes;
+    for (const float number : numbers)
+      append_little_endian(bytes, number);
+    Json& document = m_scene->document;
+    document["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 0}, {"byteLength", bytes.size()}});
+    const auto [least, largest] = std::minmax_element(numbers.begin(), numbers.end());
+    document["accessors"].push_back({{"bufferView", m_scene->views.size()},
+                                     {"componentType", int(type_float32)},
+                                     {"count", numbers.size()},
+                                     {"type", "SCALAR"},
+                                     {"min", {*least}},
+                                     {"max", {*largest}}});
+    m_scene->views.push_back(std::move(bytes));
+    return document["accessors"].size() - 1;
+  }
+
+  // Shows one pose after another.
+  void make_animation()
+  {
+    constexpr float per_second = 24;
+    std::vector<float> times, weights;
+    for (const Pose& pose : m_soup.poses)
+      times.push_back(pose.time);
+    const bool do_rise =
+        times.front() >= 0 && std::adjacent_find(times.begin(), times.end(),
+                                                 [](float a, float b) { return !(a < b); }) == times.end();
+    for (std::size_t key = 0; key < m_keys.size(); ++key) {
+      if (!do_rise)
+        times[key] = float(key) / per_second;
+      std::vector<float> at_key(m_displacements.size(), 0.f);
+      for (const std::size_t target : m_keys[key])
+        at_key[target] = 1;
+      weights.insert(weights.end(), at_key.begin(), at_key.end());
+    }
+    Json& document = m_scene->document;
+    Json animation = {{"name", "poses"}, {"channels", Json::array()}};
+    animation["samplers"] = {
+        {{"input", add_accessor(times)}, {"interpolation", "STEP"}, {"output", add_accessor(weights)}}};
+    for (std::size_t node = 0; node < document["nodes"].size(); ++node) // each has a mesh of its own
+      animation["channels"].push_back({{"sampler", 0}, {"target", {{"node", node}, {"path", "weights"}}}});
+    for (Json& mesh : document["meshes"])
+      mesh["extras"]["targetNames"] = m_target_names;
+    document["animations"] = Json::array({std::move(animation)});
   }
 
   void make_document()
@@ -262,6 +358,9 @@ private:
   Triangle_soup m_result;
   std::vector<Kind> m_kinds; // of instances, in order
   std::vector<Column> m_colours;
+  std::vector<std::vector<std::array<float, 3>>> m_displacements; // of vertices, by target
+  std::vector<std::string> m_target_names;
+  std::vector<std::vector<std::size_t>> m_keys; // targets of each pose
   Rows<2> m_uvs;
   Rows<3> m_normals;
 };
@@ -273,9 +372,9 @@ const std::vector<std::string>& only_in_gltf(const Gltf_scene& scene)
   return scene.only_in_gltf;
 }
 
-Triangle_soup with_gltf_scene(const Triangle_soup& soup)
+Triangle_soup with_gltf_scene(const Triangle_soup& soup, bool has_poses)
 {
-  return New_scene(soup).make();
+  return New_scene(soup).make(has_poses);
 }
 
 } // namespace selvedge::files

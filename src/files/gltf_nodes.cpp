@@ -77,17 +77,23 @@ private:
 
   Json& nodes() { return m_document["nodes"]; }
 
-  // What is the same in two levels stands in the file once, as do meshes that are not reduced.
+  // A mesh that is the same in all levels stands in the file once, unless none differs. Levels of a node that
+  // differ in others have meshes of their own: Babylon.js lets two nodes of one mesh go together, and it lets
+  // each level go when it has the next.
   void share_between_levels()
   {
     const Json& meshes = m_document["meshes"];
-    for (std::size_t level = 1; level < m_levels.size(); ++level)
-      for (std::size_t m = 0; m < m_levels[level].meshes.size(); ++m) {
-        const std::optional<Index>& finer = m_levels[level - 1].meshes[m];
-        std::optional<Index>& coarser = m_levels[level].meshes[m];
-        if (finer && coarser && meshes[*finer] == meshes[*coarser])
-          coarser = finer;
-      }
+    std::vector<std::size_t> alike;
+    for (std::size_t m = 0; m < m_levels.front().meshes.size(); ++m)
+      if (const std::optional<Index>& finest = m_levels.front().meshes[m];
+          finest && std::all_of(m_levels.begin(), m_levels.end(), [&](const Gltf_level& level) {
+            return level.meshes[m] && meshes[*level.meshes[m]] == meshes[*finest];
+          }))
+        alike.push_back(m);
+    if (alike.size() < m_levels.front().meshes.size())
+      for (const std::size_t m : alike)
+        for (Gltf_level& level : m_levels)
+          level.meshes[m] = m_levels.front().meshes[m];
   }
 
   void number_meshes()
@@ -148,28 +154,13 @@ private:
     }
   }
 
-  bool do_levels_differ(std::size_t mesh) const
-  {
-    return std::any_of(m_levels.begin(), m_levels.end(), [&](const Gltf_level& level) {
-      return level.meshes[mesh] != m_levels.front().meshes[mesh];
-    });
-  }
-
-  // Whether they do so anywhere. Where they do not, they are there all the same.
-  bool do_levels_differ() const
-  {
-    for (std::size_t mesh = 0; mesh < m_levels.front().meshes.size(); ++mesh)
-      if (do_levels_differ(mesh))
-        return true;
-    return false;
-  }
-
   // Puts a mesh of the scene into a node, and its further levels beside it.
   void put_levels(std::size_t node, std::size_t mesh)
   {
     const std::optional<Index> finest = m_levels.front().meshes[mesh];
     set_mesh(nodes()[node], finest);
-    if (!finest || m_levels.size() == 1 || (do_levels_differ() && !do_levels_differ(mesh)))
+    if (!finest || std::all_of(m_levels.begin(), m_levels.end(),
+                               [&](const Gltf_level& level) { return level.meshes[mesh] == finest; }))
       return;
     m_has_levels = true;
     if (!is_for_its_mesh_alone(node))

@@ -12,6 +12,8 @@
 
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
+#include <selvedge/gltf_poses.h>
+#include <selvedge/rounding.h>
 
 #include <algorithm>
 #include <map>
@@ -377,7 +379,6 @@ private:
         put["attributes"][column.name] = m_output.put_decoded_accessor(column, size);
       put["extension"] = {{"bufferView", m_output.put_bytes(encoded->bytes)},
                           {"attributes", encoded->attributes}};
-      m_output.require(draco_extension);
     }
     m_attributes[part.instance].update(put["attributes"]);
     primitive["indices"] = put["indices"];
@@ -444,7 +445,7 @@ struct Levels_of_scene
 };
 
 // Makes a scene for levels that have none.
-Levels_of_scene with_scene(const std::vector<const Triangle_soup*>& levels)
+Levels_of_scene with_scene(const std::vector<const Triangle_soup*>& levels, bool has_poses)
 {
   for (const Triangle_soup* const soup : levels) {
     if (soup->triangles.empty())
@@ -456,7 +457,7 @@ Levels_of_scene with_scene(const std::vector<const Triangle_soup*>& levels)
     return {levels, false, {}};
   Levels_of_scene result;
   result.is_scene_made = true;
-  Triangle_soup all = with_gltf_scene(levels.size() == 1 ? *levels.front() : united(levels));
+  Triangle_soup all = with_gltf_scene(levels.size() == 1 ? *levels.front() : united(levels), has_poses);
   if (levels.size() == 1) {
     result.made.push_back(std::move(all));
   } else {
@@ -483,9 +484,10 @@ Levels_of_scene with_scene(const std::vector<const Triangle_soup*>& levels)
 
 } // namespace
 
-void write_gltf(Byte_writer& out, const std::vector<const Triangle_soup*>& levels, Mesh_format format)
+void write_gltf(Byte_writer& out, const std::vector<const Triangle_soup*>& levels, Mesh_format format,
+                bool has_poses)
 {
-  const Levels_of_scene all = with_scene(levels);
+  const Levels_of_scene all = with_scene(levels, has_poses);
   const Gltf_scene& scene = *all.levels.front()->scene;
   const bool may_reorder = levels.front()->poses.empty();
   // Vertices of coarser levels come first, so that these levels have the first rows of the finer ones.
@@ -507,3 +509,23 @@ void write_gltf(Byte_writer& out, const std::vector<const Triangle_soup*>& level
 }
 
 } // namespace selvedge::files
+
+namespace selvedge {
+
+void write_gltf_poses(const std::filesystem::path& path, const Triangle_soup& mesh)
+{
+  const Mesh_format format = mesh_format(path);
+  if (format != Mesh_format::glb && format != Mesh_format::gltf)
+    throw Argument_error("only glTF files show a mesh in several poses");
+  if (mesh.poses.empty())
+    throw Argument_error("there is no pose to write");
+  if (!has_float32_points(mesh.points))
+    throw Argument_error("a coordinate is no 32-bit float; call round_to_float32 first");
+  Triangle_soup soup = mesh;
+  soup.scene = nullptr;
+  soup.scene_vertices.clear();
+  files::Byte_writer out(path);
+  files::write_gltf(out, {&soup}, format, true);
+}
+
+} // namespace selvedge

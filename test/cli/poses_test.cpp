@@ -5,11 +5,14 @@
 
 #include "App_run.h"
 
+#include <selvedge/gltf_poses.h>
 #include <selvedge/internal/base64.h>
 #include <selvedge/mesh_files.h>
+#include <selvedge/poses.h>
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -163,6 +166,71 @@ TEST_F(Waving_sheets, ComeOutInEveryPose)
   EXPECT_EQ(points("of_files.obj"), points("of_gltf.obj"));
   EXPECT_EQ(points("waving_of_waving.obj"), points("up_waves.obj")) << "a slash is no folder";
   EXPECT_NE(points("up_waves.obj"), points("of_gltf.obj"));
+}
+
+TEST_F(Waving_sheets, ComeOutAsOneAnimation)
+{
+  const std::vector<std::string> poses{"--pose", folder / "waving.obj", "--pose", folder / "flat.obj"};
+  for (const std::string& name : {folder / "poses.glb", folder / "poses.pc2"}) {
+    std::vector<std::string> arguments = poses;
+    arguments.insert(arguments.end(), {"--poses-out", name});
+    simplify(folder / "flat.obj", folder / "small.obj", arguments);
+  }
+  const Triangle_soup small = read_mesh(folder / "small.obj").soup,
+                      shown = read_mesh(folder / "poses.glb").soup;
+  EXPECT_EQ(shown.points, small.points);
+  EXPECT_EQ(shown.triangles, small.triangles);
+  const std::vector<Pose> keys = animation_poses(shown, "poses", 1, "poses.glb"),
+                          frames = read_point_cache(folder / "poses.pc2", small);
+  ASSERT_EQ(keys.size(), 2u);
+  for (const std::size_t key : {0, 1})
+    EXPECT_EQ(keys[key].points, frames[key].points);
+  EXPECT_NE(keys[0].points, shown.points);
+  EXPECT_EQ(keys[1].points, shown.points);
+  EXPECT_EQ(run_app({"verify", folder / "poses.glb", "--animation", "all"}).code, 0);
+  // So do several nodes.
+  Triangle_soup parts = small;
+  parts.poses = frames;
+  for (std::size_t t = 0; t < parts.triangles.size(); ++t)
+    parts.groups.of_triangle.push_back(Index(t % 2));
+  parts.groups.names = {"a", "b"};
+  write_gltf_poses(folder / "parts.gltf", parts);
+  Triangle_soup again = read_mesh(folder / "parts.gltf").soup;
+  again.poses = animation_poses(again, "poses", 1, "parts.gltf");
+  for (std::size_t v = 0; v < again.points.size(); ++v) {
+    const std::size_t of_small = std::size_t(
+        std::find(small.points.begin(), small.points.end(), again.points[v]) - small.points.begin());
+    ASSERT_LT(of_small, small.points.size());
+    EXPECT_EQ(again.poses[0].points[v], frames[0].points[of_small]);
+  }
+  EXPECT_EQ(run_app({"simplify", folder / "flat.obj", "-o", folder / "x.obj", "--ratio", "0.5", "--pose",
+                     folder / "waving.obj", "--poses-out", folder / "all.obj"})
+                .code,
+            2); // OBJ holds one pose
+}
+
+TEST_F(Waving_sheets, MayBeAnObstacleThatMoves)
+{
+  // The same sheets below those that wave, and farther below when these reach down.
+  Triangle_soup flat = read_mesh(folder / "flat.obj").soup;
+  for (const auto& [name, z] : {std::pair("below.obj", -1.), std::pair("farther.obj", -2.)}) {
+    Triangle_soup below = flat;
+    for (Point_3& p : below.points)
+      p = Point_3(p.x(), p.y(), p.z() + z);
+    write_mesh(folder / name, below);
+  }
+  const std::vector<std::string> arguments{"--obstacle", gltf, "--obstacle-animation", "all"};
+  std::vector<std::string> one = arguments, two = arguments;
+  one.insert(one.end(), {"--pose", folder / "below.obj", "--pose", folder / "farther.obj"});
+  simplify(folder / "below.obj", folder / "x.obj", one);
+  two.insert(two.end(), {"simplify", folder / "below.obj", "-o", folder / "x.obj", "--ratio", "0.5", "--pose",
+                         folder / "farther.obj"});
+  std::rotate(two.begin(), two.begin() + std::ptrdiff_t(arguments.size()), two.end());
+  EXPECT_EQ(run_app(two).code, 2); // one pose for two keyframes
+  EXPECT_EQ(run_app({"simplify", gltf, "-o", folder / "x.glb", "--ratio", "0.5", "--morphs",
+                     "--obstacle-animation", "all"})
+                .code,
+            2); // there is no obstacle
 }
 
 TEST_F(Waving_sheets, OfOtherFilesHaveNoMorphTargets)

@@ -170,7 +170,7 @@ TEST(App_simplify, PutsAllLevelsIntoOneFileAndReadsEach)
     EXPECT_EQ(levels[level - 1]["output"]["level"], level);
     const App_result judged = run_app({"verify", out, "--lod", number, "--against", in, "--json"});
     EXPECT_EQ(judged.code, 0) << judged.err;
-    const std::size_t faces = nlohmann::json::parse(judged.out)["input"]["faces"];
+    const std::size_t faces = nlohmann::json::parse(judged.out)["input"]["triangles"];
     EXPECT_EQ(levels[level - 1]["faces"]["output"], faces);
     EXPECT_TRUE(finer == 0 || faces < finer);
     finer = faces;

@@ -66,6 +66,7 @@ TEST(App_usage, RefusesWhatMakesNoSense)
       {{}, "subcommand"},
       {{"shrink"}, "there is no subcommand 'shrink' (see"},
       {{"simplfy", in}, "did you mean 'simplify'?"},
+      {{"inof", in}, "did you mean 'info'?"},
       {{"simplify", in, "-o", out, "--rato", "0.5"}, "did you mean '--ratio'?"},
       {{"simplify", in}, "--output"},
       {{"simplify", "-o", out, "--ratio", "0.5"}, "IN"},

@@ -569,7 +569,7 @@ group(
     "src/files/gltf_nodes.cpp",
     ("gltf_test:Gltf.*:Gltf_levels.*", "instances_test"),
     ("return mesh(i) == mesh(instances.front());", "return true;", "instances that differ stay instances"),
-    ("meshes[*finer] == meshes[*coarser]", "false", "a mesh that stays is there for every level"),
+    ("meshes[*level.meshes[m]] == meshes[*finest]", "false", "a mesh that stays is there for every level"),
     ("if (!is_for_its_mesh_alone(node))", "if (false)", "a level takes away the children of its node"),
     ("m_needed_nodes.count(n) == 0 && ", "", "a level does not move with its node"),
     ("if (is_of_weights(channel) && node_of(channel) == n)", "if (false)", "weights move a node without a mesh"),

@@ -5,6 +5,7 @@
 
 #include "support/Temporary_folder.h"
 
+#include "soup/selection.h"
 #include <selvedge/Error.h>
 #include <selvedge/mesh_files.h>
 
@@ -23,6 +24,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <set>
 #include <string>
 #include <vector>
@@ -193,6 +195,30 @@ std::string expect_written_by(const Mesh_file& file, const char* extension)
   EXPECT_EQ(std::set(again.soup.normals.values.begin(), again.soup.normals.values.end()),
             std::set(file.soup.normals.values.begin(), file.soup.normals.values.end()));
   return glb;
+}
+
+/// Writes the mesh, half of it and this half again as levels of one file, and expects each to be compressed
+/// once and to read as it was.
+void expect_levels_written_by(const Mesh_file& file, const char* extension)
+{
+  const Temporary_folder folder;
+  Triangle_soup half = file.soup;
+  std::vector<Index> first_half(half.triangles.size() / 2);
+  std::iota(first_half.begin(), first_half.end(), Index(0));
+  keep_triangles(half, first_half);
+  const std::vector<Triangle_soup> levels = {file.soup, half, half};
+  write_levels_of_detail(folder / "m.glb", levels);
+  const Json json = json_of(read_file(folder / "m.glb"));
+  EXPECT_EQ(json["extensionsUsed"], Json::array({"MSFT_lod", extension}));
+  EXPECT_EQ(json["extensionsRequired"], Json::array({extension}));
+  ASSERT_EQ(json["meshes"].size(), 3u);
+  EXPECT_NE(json["meshes"][0], json["meshes"][1]);
+  EXPECT_EQ(json["meshes"][1], json["meshes"][2]);
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    Read_options options;
+    options.level_of_detail = level;
+    EXPECT_EQ(triangles_of(read_mesh(folder / "m.glb", options).soup), triangles_of(levels[level]));
+  }
 }
 
 /// Changes bytes of the compressed part, some hundred all over it, each in turn: the file is read or refused.
@@ -380,6 +406,7 @@ TEST(Gltf_meshopt, IsReadAsThePlainFileAndWrittenAsItCame)
     EXPECT_NEAR(normal[2], 0.8, 0.02);
   }
   expect_written_by(filtered, "EXT_meshopt_compression");
+  expect_levels_written_by(filtered, "EXT_meshopt_compression");
 }
 
 TEST(Gltf_meshopt, IsRefusedWhereItIsBroken)
@@ -477,6 +504,7 @@ TEST(Gltf_draco, IsWrittenAsItCameBitForBit)
     const Document_of_sheet document = draco_sheet(true, is_quantised);
     EXPECT_LE(expect_written_by(read(document), s_draco).size(),
               document.glb().size() + (is_quantised ? 100 : 1500));
+    expect_levels_written_by(read(document), s_draco);
   }
 }
 

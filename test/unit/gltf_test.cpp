@@ -1125,6 +1125,13 @@ TEST(Gltf_levels, ThatAreNotThereAreRefused)
   twice.json["nodes"].push_back(twice.json["nodes"][0]);
   twice.json["scenes"][0]["nodes"].push_back(3);
   EXPECT_EQ(read_glb(twice).soup.triangles.size(), 2u);
+  try {
+    read_mesh(R"({"asset": {"version": "2.0"}, "animations": [{"name": "turn"}]})", Mesh_format::gltf,
+              "test");
+    FAIL() << "a file without nodes";
+  } catch (const Input_error& error) {
+    EXPECT_NE(std::string(error.what()).find("animations and no mesh"), std::string::npos) << error.what();
+  }
   Read_options coarser;
   coarser.level_of_detail = 1;
   EXPECT_THROW(read_mesh(to_glb(twice), Mesh_format::glb, "test", coarser), Input_error);
@@ -1144,9 +1151,11 @@ TEST(Gltf_levels, OfOtherMeshesAreRefused)
   named.groups.names.front() += "'";
   EXPECT_THROW(write_levels_of_detail(folder / "a.glb", {plain, named}), Argument_error);
   EXPECT_FALSE(std::filesystem::exists(folder / "a.glb"));
-  write_levels_of_detail(folder / "a.glb", {plain, plain}); // the same twice is two levels, of one mesh
+  write_levels_of_detail(folder / "a.glb", {plain, plain}); // the same twice is two levels
   EXPECT_EQ(read_level(folder / "a.glb", 1).soup.triangles.size(), 1u);
-  EXPECT_EQ(from_glb(contents(folder / "a.glb")).json["meshes"].size(), 1u);
+  const Json meshes = from_glb(contents(folder / "a.glb")).json["meshes"];
+  ASSERT_EQ(meshes.size(), 2u); // which share all accessors
+  EXPECT_EQ(meshes[0], meshes[1]);
 }
 
 TEST(Gltf, StripsAndFansBecomeTriangles)
