@@ -100,6 +100,12 @@ struct Simplify_options
   /// Whether layers are kept from piercing each other. False changes nothing else; it is meant as a control.
   bool check_intersections = true;
 
+  /// The distance, in units of the mesh, that pieces keep from each other: no two come nearer than this or,
+  /// if they are nearer already, than they are, in any guarded pose (`Intersection_filter::keep_clearance`).
+  /// Positive and finite; none by default. It needs `check_intersections`, and excludes cells and parts that
+  /// may intersect.
+  std::optional<double> clearance;
+
   /// Whether triangles of the texture are kept from turning over, where a mesh has texture coordinates. False
   /// changes nothing else; it is meant as a control.
   bool check_uv_orientation = true;
@@ -118,8 +124,9 @@ struct Simplify_options
   /// How many faces a cluster of `Face_index::clusters` should have, at least 1.
   std::size_t faces_per_cluster = 100;
 
-  /// The further poses, by number, in which collapses are judged: all of them when it has no value. The others
-  /// are carried along, and nothing is promised of them before `verify` has judged the result (key_poses.h).
+  /// The further poses, by number, in which collapses are judged: all of them when it has no value. The
+  /// others are carried along, and nothing is promised of them before `verify` has judged the result
+  /// (key_poses.h).
   std::optional<std::vector<std::size_t>> guarded_poses;
 
   /// The number of faces per *cell*, or 0 for a reduction without cells. With cells, a soup is first reduced

@@ -69,6 +69,8 @@ struct Simplified_soup
   /// (`Defects::descend`) and there are any; otherwise empty.
   std::vector<Soup_collapse> collapses;
 
+  std::optional<double> clearance; ///< that pieces keep from each other; `verify` judges it
+
   std::size_t placed_vertices = 0; ///< how many vertices of `soup` are at new places
 
   std::size_t shared_meshes = 0; ///< that were reduced in all of their places alike, and

@@ -721,3 +721,42 @@ group(
     ("if (!stated.sha256.empty() && stated.sha256 != digest_of(original.poses[pose]))", "if (false)",
      "the replay takes any pose for the one of the log"),
 )
+
+group(
+    headers + "geometry/clearance.h",
+    ("clearance_decision_test",),
+    ("m_of_sweeps.push_back({{s_to, p, p}, 2});", ";", "new edges have no distance"),
+    ("m_of_sweeps.push_back({{s_from, s_to, p}, 3});", ";", "facets at the edge have no distance"),
+    ("m_of_sweeps.push_back({{s_to, a, b}, 3});", ";", "moved faces have no distance"),
+    ("m_of_sweeps.push_back({{s_from, p, p}, 2});", ";", "the way to a new place has no distance"),
+    ("(Interval(upper[i]) + distance).sup()", "upper[i]", "the box is not inflated above"),
+    ("side_of_p == -side || ", "", "a star on both sides of a plane is beyond it"),
+    ("while (!CGAL::certainly(squared >= least) && next < m_star_near.size())", "while (false)",
+     "nearer faces may come no nearer than the clearance, wherever they were"),
+)
+group(
+    headers + "geometry/internal/feature_distances.h",
+    ("clearance_decision_test",),
+    ("CGAL::certainly(is_attained) ? (std::min)(least.sup(), squared.sup()) : least.sup()",
+     "(std::min)(least.sup(), squared.sup())", "what may not be attained counts as attained"),
+    ("(at_u + at_v <= length) & ", "", "a facet reaches beyond its third edge"),
+)
+group(
+    headers + "Surface_mesh_simplification/internal/Intersection_guard.h",
+    ("clearance_test:Clearance_of_pieces.*",),
+    ("m_faces.find_near(m_clearance.reach(m_star.box()), mover, m_near);", "m_faces.find_near(m_star.box(), mover, m_near);",
+     "faces are near where boxes meet"),
+    sources=("src/simplify/simplify_soup.cpp",),
+)
+group(
+    "src/verify/clearance.cpp",
+    ("clearance_test:Clearance_of_pieces.*",),
+    ("return exact() < CGAL::square(CGAL::Exact_rational(distance));", "return false;", "the judge is not exact"),
+    ("return exact() < other.exact();", "return false;", "the judge does not compare exactly"),
+)
+group(
+    "src/replay/replay.cpp",
+    ("clearance_test:Clearance_of_pieces.*",),
+    ("if (m_pieces[m_complex.face(f).positions[0]] != m_pieces[motion.mover])", "if (false)",
+     "the replay knows no clearance"),
+)
