@@ -29,11 +29,10 @@ std::vector<Index> pieces_of(const Complex& complex)
 
 bool is_clearance_kept(const Clearance_question& question, const Corners& standing)
 {
-  using Number = CGAL::Exact_rational;
   const Bounds limit = internal::square_bounds(question.distance);
   std::optional<Bounds> least; // of the limit and the squared distances of the star
   std::vector<Bounds> of_star;
-  std::optional<Number> exact_least;
+  std::optional<internal::Exact_square> exact_least;
   for (const Corners& facet : question.facets) {
     const Bounds squared = internal::squared_distance_bounds(facet, standing);
     if (squared.lower >= limit.upper)
@@ -51,7 +50,7 @@ bool is_clearance_kept(const Clearance_question& question, const Corners& standi
     if (squared.upper < least->lower)
       return false;
     if (!exact_least) {
-      exact_least = CGAL::square(Number(question.distance));
+      exact_least = internal::exact_square(question.distance);
       for (std::size_t i = 0; i < of_star.size(); ++i)
         if (of_star[i].lower <= least->upper)
           exact_least = std::min(*exact_least, internal::exact_squared_distance(question.star[i], standing));

@@ -151,7 +151,7 @@ public:
     const Bounds square = square_bounds(distance);
     if (m_bounds.upper < square.lower || m_bounds.lower >= square.upper)
       return m_bounds.upper < square.lower;
-    return exact() < CGAL::square(CGAL::Exact_rational(distance));
+    return exact() < exact_square(distance);
   }
   bool is_less(const Least_distance& other) const
   {
@@ -202,12 +202,12 @@ private:
     m_pairs.push_back({&a, &b, bounds.lower});
   }
 
-  const CGAL::Exact_rational& exact() const
+  const Exact_square& exact() const
   {
     if (!m_exact)
       for (const Pair& pair : m_pairs) {
         Cancellation_scope::check();
-        const CGAL::Exact_rational squared = exact_squared_distance(*pair.a, *pair.b);
+        const Exact_square squared = exact_squared_distance(*pair.a, *pair.b);
         if (!m_exact || squared < *m_exact)
           m_exact = squared;
         if (*m_exact == 0)
@@ -221,7 +221,7 @@ private:
   double m_limit;
   std::vector<Pair> m_pairs;
   Cancellation_poll m_poll;
-  mutable std::optional<CGAL::Exact_rational> m_exact;
+  mutable std::optional<Exact_square> m_exact;
 };
 
 using Trees = std::map<Index, Piece_tree>; // by piece

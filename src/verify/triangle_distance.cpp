@@ -4,8 +4,7 @@
 #include "triangle_distance.h"
 
 #include <CGAL/Interval_nt.h>
-#include <CGAL/Simple_cartesian.h>
-#include <CGAL/squared_distance_3.h>
+#include <CGAL/intersections.h>
 
 #include <algorithm>
 #include <limits>
@@ -104,6 +103,40 @@ Interval least_along(const std::array<Interval, 3>& direction, const Corners& co
   return least;
 }
 
+struct Exact_vector
+{
+  Exact_number x, y, z;
+
+  Exact_vector operator-(const Exact_vector& other) const { return {x - other.x, y - other.y, z - other.z}; }
+  Exact_number dot(const Exact_vector& other) const { return x * other.x + y * other.y + z * other.z; }
+  Exact_number square() const { return dot(*this); }
+  Exact_vector cross(const Exact_vector& other) const
+  {
+    return {y * other.z - z * other.y, z * other.x - x * other.z, x * other.y - y * other.x};
+  }
+};
+
+Exact_vector exact_vector(const Corner& p)
+{
+  return {Exact_number(p[0]), Exact_number(p[1]), Exact_number(p[2])};
+}
+
+// Whether an edge of one of two triangles meets the inside of the other, as it does where they meet other
+// than edge to edge.
+bool do_triangles_meet(const Corners& a, const Corners& b)
+{
+  const auto point = [](const Corner& p) { return Point_3(p[0], p[1], p[2]); };
+  const auto meets_edge_of = [&](const Corners& face, const Corners& other) {
+    const Kernel::Triangle_3 triangle(point(face[0]), point(face[1]), point(face[2]));
+    for (std::size_t i = 0; i < 3 && !triangle.is_degenerate(); ++i)
+      if (const Kernel::Segment_3 edge(point(other[i]), point(other[(i + 1) % 3]));
+          !edge.is_degenerate() && CGAL::do_intersect(triangle, edge))
+        return true;
+    return false;
+  };
+  return meets_edge_of(a, b) || meets_edge_of(b, a);
+}
+
 } // namespace
 
 Bounds squared_distance_bounds(const Corners& a, const Corners& b)
@@ -134,44 +167,53 @@ Bounds squared_distance_bounds(const Corners& a, const Corners& b)
   return {(std::max)(lower, 0.0), squared_length(way).sup()};
 }
 
-CGAL::Exact_rational exact_squared_distance(const Corners& a, const Corners& b)
+Exact_square exact_squared_distance(const Corners& a, const Corners& b)
 {
-  using Kernel = CGAL::Simple_cartesian<CGAL::Exact_rational>;
-  const auto triangle = [](const Corners& corners) {
-    const auto point = [](const Corner& p) { return Kernel::Point_3(p[0], p[1], p[2]); };
-    return Kernel::Triangle_3(point(corners[0]), point(corners[1]), point(corners[2]));
-  };
-  const Kernel::Triangle_3 of_a = triangle(a), of_b = triangle(b);
-  CGAL::Exact_rational least = CGAL::squared_distance(of_a[0], of_b[0]);
-  const auto take = [&](const CGAL::Exact_rational& squared) { least = (std::min)(least, squared); };
-  const auto take_edges = [&](const Kernel::Point_3& p, const Kernel::Point_3& q, const Kernel::Point_3& r,
-                              const Kernel::Point_3& s) {
-    if (p == q && r == s)
-      take(CGAL::squared_distance(p, r));
-    else if (p == q || r == s)
-      take(p == q ? CGAL::squared_distance(p, Kernel::Segment_3(r, s))
-                  : CGAL::squared_distance(r, Kernel::Segment_3(p, q)));
-    else
-      take(CGAL::squared_distance(Kernel::Segment_3(p, q), Kernel::Segment_3(r, s)));
-  };
-  // Where two triangles meet, an edge of one meets the other.
-  const auto meets_edge_of = [](const Kernel::Triangle_3& face, const Kernel::Triangle_3& other) {
-    for (int i = 0; i < 3 && !face.is_degenerate(); ++i)
-      if (other[i] != other[i + 1] && CGAL::do_intersect(face, Kernel::Segment_3(other[i], other[i + 1])))
-        return true;
-    return false;
-  };
-  if (meets_edge_of(of_a, of_b) || meets_edge_of(of_b, of_a))
+  if (do_triangles_meet(a, b))
     return 0;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j)
-      take_edges(of_a[i], of_a[i + 1], of_b[j], of_b[j + 1]);
-    if (!of_b.is_degenerate())
-      take(CGAL::squared_distance(of_a[i], of_b));
-    if (!of_a.is_degenerate())
-      take(CGAL::squared_distance(of_b[i], of_a));
+  const std::array<Exact_vector, 3> of_a{exact_vector(a[0]), exact_vector(a[1]), exact_vector(a[2])},
+      of_b{exact_vector(b[0]), exact_vector(b[1]), exact_vector(b[2])};
+  Exact_square least = (of_b[0] - of_a[0]).square();
+  const auto take = [&](const Exact_number& numerator, const Exact_number& denominator) {
+    least = (std::min)(least, Exact_square(numerator, denominator));
+  };
+  const auto is_share = [](const Exact_number& numerator, const Exact_number& denominator) {
+    return numerator >= 0 && numerator <= denominator;
+  };
+  // The foot of a corner on an edge, and in the plane of a triangle.
+  const auto take_corner = [&](const Exact_vector& p, const std::array<Exact_vector, 3>& of) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Exact_vector edge = of[(j + 1) % 3] - of[j], way = p - of[j];
+      take(way.square(), 1);
+      if (const Exact_number length = edge.square(); length > 0 && is_share(edge.dot(way), length))
+        take(edge.cross(way).square(), length);
+    }
+    const Exact_vector u = of[1] - of[0], v = of[2] - of[0], way = p - of[0], normal = u.cross(v);
+    const Exact_number area = normal.square(), s = way.cross(v).dot(normal), t = u.cross(way).dot(normal);
+    if (area > 0 && s >= 0 && t >= 0 && s + t <= area) {
+      const Exact_number height = way.dot(normal);
+      take(height * height, area);
+    }
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    take_corner(of_a[i], of_b);
+    take_corner(of_b[i], of_a);
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Exact_vector u = of_a[(i + 1) % 3] - of_a[i], v = of_b[(j + 1) % 3] - of_b[j],
+                         way = of_b[j] - of_a[i], normal = u.cross(v);
+      const Exact_number area = normal.square();
+      if (area > 0 && is_share(way.cross(v).dot(normal), area) && is_share(way.cross(u).dot(normal), area)) {
+        const Exact_number height = way.dot(normal);
+        take(height * height, area);
+      }
+    }
   }
   return least;
+}
+
+Exact_square exact_square(double number)
+{
+  return Exact_number(number) * Exact_number(number);
 }
 
 Bounds square_bounds(double number)

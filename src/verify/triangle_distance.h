@@ -4,9 +4,11 @@
 #ifndef SELVEDGE_SRC_VERIFY_TRIANGLE_DISTANCE_H
 #define SELVEDGE_SRC_VERIFY_TRIANGLE_DISTANCE_H
 
+#include <selvedge/Triangle_soup.h>
 #include <selvedge/verify.h>
 
-#include <CGAL/Exact_rational.h>
+#include <CGAL/Exact_kernel_selector.h>
+#include <CGAL/Quotient.h>
 
 #include <array>
 
@@ -23,8 +25,14 @@ using Corners = std::array<Corner, 3>; // of a triangle, which may be degenerate
 /// of each the upper.
 Bounds squared_distance_bounds(const Corners& a, const Corners& b);
 
+/// Sums and products of numbers of this type are exact, and so are comparisons of their quotients.
+using Exact_number = CGAL::Exact_kernel_selector<Kernel>::Exact_rt;
+using Exact_square = CGAL::Quotient<Exact_number>;
+
 /// Returns the squared distance of two triangles.
-CGAL::Exact_rational exact_squared_distance(const Corners& a, const Corners& b);
+Exact_square exact_squared_distance(const Corners& a, const Corners& b);
+
+Exact_square exact_square(double number);
 
 /// Returns bounds of the square of a number.
 Bounds square_bounds(double number);

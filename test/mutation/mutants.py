@@ -751,7 +751,7 @@ group(
 group(
     "src/verify/clearance.cpp",
     ("clearance_test:Clearance_of_pieces.*",),
-    ("return exact() < CGAL::square(CGAL::Exact_rational(distance));", "return false;", "the judge is not exact"),
+    ("return exact() < exact_square(distance);", "return false;", "the judge is not exact"),
     ("return exact() < other.exact();", "return false;", "the judge does not compare exactly"),
 )
 group(

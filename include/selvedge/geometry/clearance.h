@@ -33,11 +33,11 @@ namespace selvedge {
 /// distinct, as condition 0 demands.
 ///
 /// **Exactness** The answer is exact. The distance is the double given, to the last digit. Interval
-/// arithmetic decides where it can, and exact rational numbers where it cannot: mostly where two distances
+/// arithmetic decides where it can, and exact numbers where it cannot: mostly where two distances
 /// are equal. A kernel whose predicates are not exact does not compile.
 ///
 /// **Complexity** O(k) for a star of k faces, where F is nearer than D; less where a box or the plane of F
-/// shows that it is not. Where interval arithmetic does not decide, the answer takes some hundred times as
+/// shows that it is not. Where interval arithmetic does not decide, the answer takes some fifty times as
 /// long.
 template <class Kernel>
 class Clearance_test
@@ -122,7 +122,7 @@ public:
       m_exact.push_back(to_exact(m_points[p]));
     ++m_exact_decisions;
     return judge<Exact>(m_exact, {to_exact(f0), to_exact(f1), to_exact(f2)},
-                        CGAL::square(typename Exact::FT(m_distance)));
+                        typename Exact::Squared(CGAL::square(typename Exact::FT(m_distance))));
   }
 
   /// Returns how many answers took exact numbers.
@@ -134,8 +134,8 @@ private:
   using Approximate = internal::Feature_distances<Approximate_kernel>;
   using To_intervals = CGAL::Cartesian_converter<Kernel, Approximate_kernel>;
   using Exact_selector = CGAL::Exact_kernel_selector<Kernel>;
-  using Exact = internal::Feature_distances<typename Exact_selector::Exact_kernel>;
-  using To_exact = typename Exact_selector::C2E;
+  using Exact = internal::Feature_distances<typename Exact_selector::Exact_kernel_rt>;
+  using To_exact = typename Exact_selector::C2E_rt;
 
   using Index = std::size_t; // of a point of the motion
   static constexpr Index s_from = 0, s_to = 1;
@@ -237,21 +237,21 @@ private:
   // the star. (As soon as one of the star is not larger, the others do not matter.)
   template <class Distances>
   typename Distances::Boolean judge(const std::vector<typename Distances::Point>& points,
-                                    const typename Distances::Triangle& f, typename Distances::FT least)
+                                    const typename Distances::Triangle& f, typename Distances::Squared least)
   {
-    using FT = typename Distances::FT;
+    using Squared = typename Distances::Squared;
     using Boolean = typename Distances::Boolean;
     std::size_t next = 0; // feature of the star
     const auto take_next = [&] {
       visit<Distances>(m_of_star[m_star_near[next++]], points, f,
-                       [&](const Boolean& is_attained, const FT& squared) {
+                       [&](const Boolean& is_attained, const Squared& squared) {
                          Distances::take_least(least, is_attained, squared);
                        });
     };
     Boolean are_all_kept = true;
     const auto is_surely_kept = [&](Index i) {
       bool is_sure = true;
-      visit<Distances>(m_of_sweeps[i], points, f, [&](const Boolean& is_attained, const FT& squared) {
+      visit<Distances>(m_of_sweeps[i], points, f, [&](const Boolean& is_attained, const Squared& squared) {
         while (!CGAL::certainly(squared >= least) && next < m_star_near.size())
           take_next();
         const Boolean is_kept = (squared >= least) | (!is_attained);

@@ -502,6 +502,8 @@ private:
 
   bool is_clearance_kept(const Motion& motion)
   {
+    if (!m_is_descent_asked && is_star_flat())
+      return true; // all that it sweeps over is the star itself
     const auto mover = m_vertices.number(motion.mover);
     m_faces.find_near(m_clearance.reach(m_star.box()), mover, m_near);
     m_clearance.begin_motion(m_star.exact(), mover);
@@ -516,6 +518,19 @@ private:
       }
     }
     return true;
+  }
+
+  // Whether the star is a polygon around the mover. By condition 2, it is the same polygon at every time of
+  // the motion. On flat layers, distances are equal, which the test of clearance is slow to find out.
+  bool is_star_flat() const
+  {
+    const auto& base = m_star.link().front(); // of a face
+    return m_star.is_cycle() &&
+           std::all_of(m_star.points().begin(), m_star.points().begin() + std::ptrdiff_t(m_star.size()),
+                       [&](const auto& p) {
+                         return m_traits.coplanar_3_object()(m_star[Star::s_from], m_star[base[0]],
+                                                             m_star[base[1]], p);
+                       });
   }
 
   const TriangleMesh& m_mesh;

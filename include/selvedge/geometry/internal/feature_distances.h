@@ -6,6 +6,7 @@
 
 #include <CGAL/Interval_nt.h>
 #include <CGAL/Kernel/global_functions_3.h>
+#include <CGAL/Quotient.h>
 #include <CGAL/Uncertain.h>
 #include <CGAL/number_utils.h>
 
@@ -25,7 +26,8 @@ namespace internal {
 /// one of these is the least distance, so is another candidate, of an end or of an edge of the facet. For
 /// the same reason, feet on the ends of edges count.
 ///
-/// `Kernel` is a kernel of intervals or of exact numbers; with intervals, both answers may be uncertain.
+/// `Kernel` is a kernel of intervals, with which both answers may be uncertain, or of exact numbers, which
+/// need not be divisible: squared distances are then quotients.
 template <class Kernel>
 class Feature_distances
 {
@@ -34,6 +36,7 @@ class Feature_distances
 public:
   using Boolean = typename Kernel::Boolean;
   using FT = typename Kernel::FT;
+  using Squared = std::conditional_t<std::is_same_v<Boolean, bool>, CGAL::Quotient<FT>, FT>;
   using Point = typename Kernel::Point_3;
   using Triangle = std::array<Point, 3>;
 
@@ -46,7 +49,7 @@ public:
     for (std::size_t i = 0; i < 3; ++i) {
       const Point &p = f[i], &q = f[(i + 1) % 3];
       if constexpr (n == 1) {
-        visit(Boolean(true), (p - *feature[0]).squared_length());
+        visit(Boolean(true), Squared((p - *feature[0]).squared_length()));
         visit_point_and_edge(*feature[0], p, q, visit);
       } else if constexpr (n == 2) {
         visit_point_and_edge(p, *feature[0], *feature[1], visit);
@@ -60,7 +63,7 @@ public:
   }
 
   /// Replaces `least` by a candidate, if that is attained and less.
-  static void take_least(FT& least, const Boolean& is_attained, const FT& squared)
+  static void take_least(Squared& least, const Boolean& is_attained, const Squared& squared)
   {
     if constexpr (std::is_same_v<Boolean, bool>) {
       if (is_attained && squared < least)
@@ -78,6 +81,14 @@ private:
     return (numerator >= 0) & (numerator <= denominator);
   }
 
+  static Squared quotient(const FT& numerator, const FT& denominator)
+  {
+    if constexpr (std::is_same_v<Squared, FT>)
+      return numerator / denominator;
+    else
+      return {numerator, denominator};
+  }
+
   template <class Visit>
   static void visit_point_and_edge(const Point& point, const Point& p, const Point& q, const Visit& visit)
   {
@@ -85,7 +96,7 @@ private:
     const FT length = u.squared_length();
     const Boolean is_attained = is_fraction(w * u, length);
     if (CGAL::possibly(is_attained))
-      visit(is_attained, CGAL::cross_product(u, w).squared_length() / length);
+      visit(is_attained, quotient(CGAL::cross_product(u, w).squared_length(), length));
   }
 
   template <class Visit>
@@ -99,7 +110,7 @@ private:
     const Boolean is_attained = is_fraction(CGAL::cross_product(w, v) * n, length) &
                                 is_fraction(CGAL::cross_product(w, u) * n, length) & (length > 0);
     if (CGAL::possibly(is_attained))
-      visit(is_attained, CGAL::square(w * n) / length);
+      visit(is_attained, quotient(CGAL::square(w * n), length));
   }
 
   template <class Visit>
@@ -113,7 +124,7 @@ private:
     const FT at_v = CGAL::cross_product(u, w) * n, at_u = CGAL::cross_product(w, v) * n;
     const Boolean is_attained = (at_u >= 0) & (at_v >= 0) & (at_u + at_v <= length) & (length > 0);
     if (CGAL::possibly(is_attained))
-      visit(is_attained, CGAL::square(w * n) / length);
+      visit(is_attained, quotient(CGAL::square(w * n), length));
   }
 };
 
