@@ -451,7 +451,7 @@ void add_options(CLI::App& command, Simplify_request& request)
           "Distance to keep between pieces, in the unit of the file, in every pose that is guarded: no "
           "two come nearer to each other than this, or, where they are nearer already, than they are. "
           "Pieces are what is connected after sewing, and the obstacle.")
-      ->check(in_range(0))
+      ->check(positive())
       ->type_name("D")
       ->group(limits);
   command

@@ -340,7 +340,7 @@ Action add_verify(CLI::App& command)
           "Distance, in the unit of the file, that no two pieces may be nearer to each other than, in any "
           "pose; with --against, where they are nearer already, than they are in the original. Pieces "
           "are what common positions connect.")
-      ->check(in_range(0))
+      ->check(positive())
       ->type_name("D");
   add_part_pairs_option(command, request->may_intersect,
                         "Accept that these parts intersect each other, as `simplify` was told. May be given "
