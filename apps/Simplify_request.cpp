@@ -138,6 +138,23 @@ void check_progressive(const Simplify_request& request)
         "one; leave out --lods");
 }
 
+void check_clearance(const Simplify_request& request)
+{
+  if (!request.options.clearance)
+    return;
+  const auto refuse_with = [](const char* option, const char* why) {
+    throw Argument_error("--clearance: " + std::string(why) + "; leave it out, or " + option);
+  };
+  if (request.is_unguarded)
+    refuse_with("--no-intersection-check", "a distance is kept only where intersections are checked");
+  if (request.is_in_cells)
+    refuse_with("--cells", "cells do not know how near the pieces beside them are");
+  if (!request.weld.empty())
+    refuse_with("--weld", "closing gaps brings pieces nearer to each other");
+  if (!request.may_intersect.empty())
+    refuse_with("--may-intersect", "parts that may intersect have no distance");
+}
+
 /// Refuses what can be refused before any work is done.
 void check(const Simplify_request& request)
 {
@@ -160,6 +177,7 @@ void check(const Simplify_request& request)
         "--log: a log holds one reduction, but --lods asks for several; leave out one of the two");
   check_poses(request);
   check_progressive(request);
+  check_clearance(request);
   require_html(request.html);
   std::vector<Named_file> written;
   for (const std::string& output : outputs(request)) {
@@ -248,6 +266,7 @@ Json options_json(const Simplify_request& request)
           {"index", options.index == Face_index::packed ? "packed" : "clusters"},
           {"cluster_size", options.faces_per_cluster},
           {"intersection_check", options.check_intersections},
+          {"clearance", optional(options.clearance)},
           {"stabiliser", options.cost.stabiliser},
           {"memory", options.cost.memory},
           {"border_weight", options.cost.border_weight},
@@ -487,6 +506,15 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->check(in_range(0))
       ->type_name("D")
       ->capture_default_str()
+      ->group(limits);
+  command
+      .add_option(
+          "--clearance", options.clearance,
+          "Distance to keep between pieces, in the unit of the file, in every pose that is guarded: no "
+          "two come nearer to each other than this, or, where they are nearer already, than they are. "
+          "Pieces are what is connected after sewing, and the obstacle.")
+      ->check(positive())
+      ->type_name("D")
       ->group(limits);
   command
       .add_flag("--no-intersection-check", request.is_unguarded,

@@ -86,6 +86,33 @@ Json to_json(const Violation& violation)
           {"point", violation.point.empty() ? Json(nullptr) : Json(violation.point)}};
 }
 
+Json to_json(const Bounds& bounds)
+{
+  return {{"lower", bounds.lower}, {"upper", bounds.upper}};
+}
+
+Json to_json(const std::optional<Clearance_verdict>& verdict)
+{
+  if (!verdict)
+    return nullptr;
+  const bool has_original = verdict->least_of_original.has_value();
+  Json nearest = Json::array();
+  for (std::size_t i = 0; i < (std::min)(verdict->near.size(), most_named); ++i) {
+    const Near_pieces& pair = verdict->near[i];
+    nearest.push_back({{"first", pair.first + 1},
+                       {"second", pair.second + 1},
+                       {"now", to_json(pair.now)},
+                       {"before", has_original ? to_json(pair.before) : Json(nullptr)},
+                       {"too_near", pair.is_too_near}});
+  }
+  return {{"distance", verdict->clearance},
+          {"near", verdict->near.size()},
+          {"too_near", verdict->too_near()},
+          {"least", to_json(verdict->least)},
+          {"least_of_original", has_original ? to_json(*verdict->least_of_original) : Json(nullptr)},
+          {"nearest", std::move(nearest)}};
+}
+
 Json counted_from_1(const std::vector<Index>& numbers)
 {
   Json list = Json::array();
@@ -191,6 +218,7 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
                      {"refused_by_link", guard.refused_by_link},
                      {"refused_by_star", guard.refused_by_star},
                      {"refused_by_sweep", guard.refused_by_sweep},
+                     {"refused_by_clearance", guard.refused_by_clearance},
                      {"refused_by_descent", guard.refused_by_descent}};
   const Sewing_notes& welding = result.sewing;
   report["welding"] = {{"unused_vertices", welding.unused_vertices},
@@ -238,6 +266,7 @@ void add_verification(Json& report, const Verification& verification, bool has_o
       permitted.back()["pairs_of_original"] = parts.pairs_of_original;
   }
   report["verified"]["permitted"] = std::move(permitted);
+  report["verified"]["clearance"] = to_json(verification.clearance);
   if (has_original)
     report["verified"]["pairs_of_original"] = verification.pairs_of_original;
   Json poses = Json::array();
@@ -246,6 +275,7 @@ void add_verification(Json& report, const Verification& verification, bool has_o
         {{"name", pose.name}, {"pairs", pose.pairs.size()}, {"new_pairs", pose.new_pairs.size()}});
     if (has_original)
       poses.back()["pairs_of_original"] = pose.pairs_of_original;
+    poses.back()["clearance"] = to_json(pose.clearance);
   }
   report["verified"]["poses"] = std::move(poses);
   report["pieces"] = {{"count", verification.pieces.size()}, {"kinds", kinds_of(verification.pieces)}};

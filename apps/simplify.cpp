@@ -195,8 +195,8 @@ private:
     return m_request.are_key_poses_chosen ? std::size_t(std::ceil(std::sqrt(double(poses)))) : poses;
   }
 
-  // Adds the poses in which the judge found new pairs to those that are guarded. Returns whether
-  // there are any, so that the reduction is to be done again.
+  // Adds the poses in which the judge found new pairs or pieces too near to those that are guarded. Returns
+  // whether there are any, so that the reduction is to be done again.
   bool guard_more_poses(const std::vector<Level>& levels)
   {
     const std::size_t guarded = m_guarded_poses.size();
@@ -204,7 +204,8 @@ private:
       return false;
     for (const Level& level : levels)
       for (std::size_t pose = 0; pose < level.verification.poses.size(); ++pose)
-        if (!level.verification.poses[pose].new_pairs.empty())
+        if (const auto& judged = level.verification.poses[pose];
+            !judged.new_pairs.empty() || (judged.clearance && judged.clearance->too_near() > 0))
           m_guarded_poses.push_back(pose);
     std::sort(m_guarded_poses.begin(), m_guarded_poses.end());
     m_guarded_poses.erase(std::unique(m_guarded_poses.begin(), m_guarded_poses.end()), m_guarded_poses.end());

@@ -64,6 +64,8 @@ std::string remedy(Hindrance reason, const Simplify_request& request, Normals_tr
                                              : "";
   case Hindrance::error:
     return "--error " + with_digits(*options.max_error > 0 ? 5 * *options.max_error : 0.01);
+  case Hindrance::clearance:
+    return "--clearance " + with_digits(*options.clearance / 2);
   case Hindrance::companions:
     return "--instances apart";
   case Hindrance::by_loop:
@@ -183,6 +185,17 @@ void print_border_gaps(std::ostream& stream, const Simplify_request& request, co
            << (request.weld == "auto" ? ", which is the length chosen\n" : "; --weld auto joins them\n");
 }
 
+// Says in which further pose pieces are nearest to each other.
+std::string describe_poses_with_clearance(const Verification& verification)
+{
+  const auto nearest = std::min_element(
+      verification.poses.begin(), verification.poses.end(), [](const auto& a, const auto& b) {
+        return std::make_pair(a.clearance->too_near() == 0, a.clearance->least.lower) <
+               std::make_pair(b.clearance->too_near() == 0, b.clearance->least.lower);
+      });
+  return "nearest in '" + nearest->name + "', " + describe(*nearest->clearance);
+}
+
 // Says what the judge found in the further poses.
 void print_poses(std::ostream& stream, const Level& level, Defects defects)
 {
@@ -194,6 +207,8 @@ void print_poses(std::ostream& stream, const Level& level, Defects defects)
     of_original += pose.pairs_of_original;
     affected += !pose.pairs.empty();
   }
+  if (verification.clearance)
+    stream << "\nclearance in poses: " << describe_poses_with_clearance(verification);
   stream << "\nposes: " << counted(verification.poses.size(), "further pose") << " judged, ";
   if (level.guarded_poses.size() < verification.poses.size())
     stream << with_commas(level.guarded_poses.size()) << " of them at every collapse, ";
@@ -317,6 +332,8 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
            << " (triangles that touch or cross, or are degenerate), "
            << origin_of_pairs(verification, prepared.defects);
   stream << ", topology " << (verification.same_topology() ? "kept" : "CHANGED");
+  if (verification.clearance)
+    stream << "\nclearance: " << describe(*verification.clearance);
   if (!verification.poses.empty())
     print_poses(stream, level, prepared.defects);
   for (const Verification::Permitted& parts : verification.permitted)
@@ -340,6 +357,7 @@ std::string complaint(const Simplify_request& request, const Level& level, const
     return where + "THE RESULT IS WRONG and was not written: " +
            counted(verification.new_pairs.size(), "new offending pair") +
            (verification.same_topology() ? "" : ", topology changed") +
+           (verification.is_clearance_kept() ? "" : ", pieces nearer to each other than --clearance allows") +
            (verification.matching.is_complete() ? "" : ", " + verification.matching.mismatches[0].message) +
            "; this is a bug in selvedge: please report it with the input and the options";
   }

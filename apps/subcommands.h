@@ -29,6 +29,20 @@ Action add_generate(CLI::App& command);
 Action add_cells(CLI::App& command);
 Action add_level(CLI::App& command);
 
+/// Accepts a positive, finite number.
+inline CLI::Validator positive()
+{
+  return CLI::Validator(
+      [](const std::string& text) -> std::string {
+        double value = 0;
+        if (CLI::detail::lexical_cast(text, value) && value > 0 &&
+            value < std::numeric_limits<double>::infinity())
+          return {};
+        return "'" + text + "' is not a positive number";
+      },
+      "");
+}
+
 /// Accepts a number in [least, most]. Unlike `CLI::Range` it refuses NaN.
 inline CLI::Validator in_range(double least, double most = std::numeric_limits<double>::infinity())
 {

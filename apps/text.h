@@ -50,6 +50,22 @@ inline std::string percent(double share)
   return with_digits(100 * share) + " %";
 }
 
+/// Says what the judge found of a clearance.
+inline std::string describe(const Clearance_verdict& verdict)
+{
+  const std::size_t near = verdict.near.size(), too_near = verdict.too_near();
+  std::string text = (near == 0 ? "no two pieces" : counted(near, "pair") + " of pieces") + " nearer than " +
+                     with_digits(verdict.clearance);
+  if (near > 0 && verdict.least_of_original)
+    text +=
+        too_near == 0 ? ", none nearer than before" : ", " + with_commas(too_near) + " NEARER than before";
+  if (!std::isinf(verdict.least.lower))
+    text += "; the least distance is " + with_digits(verdict.least.lower);
+  if (verdict.least_of_original && !std::isinf(verdict.least_of_original->lower))
+    text += ", and was " + with_digits(verdict.least_of_original->lower);
+  return text;
+}
+
 /// Says how many border vertices have a partner within the clear length, which there is.
 inline std::string partners_in_clear_gaps(const Border_gaps& gaps, double diagonal)
 {

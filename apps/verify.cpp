@@ -41,6 +41,7 @@ struct Verify_request
   std::optional<Mesh_format> format;
   double weld_distance = 0;
   std::vector<std::string> may_intersect;
+  std::optional<double> clearance;
   bool is_json = false;
   std::optional<std::size_t> threads;
 };
@@ -142,6 +143,26 @@ void print(const Piece_matching& matching)
     std::cout << "  and " << with_commas(matching.mismatches.size() - named) << " more\n";
 }
 
+void print(const Clearance_verdict& verdict, const Triangle_soup& mesh)
+{
+  std::cout << "clearance: " << describe(verdict) << '\n';
+  const auto piece = [&](Index triangle) {
+    return triangle < mesh.triangles.size() ? "that of triangle " + with_commas(triangle + 1)
+                                            : std::string("the obstacle");
+  };
+  for (std::size_t i = 0; i < (std::min)(verdict.near.size(), named); ++i) {
+    const Near_pieces& pair = verdict.near[i];
+    std::cout << "  " << piece(pair.first) << " and " << piece(pair.second) << ": "
+              << with_digits(pair.now.lower, "%.6g");
+    if (verdict.least_of_original)
+      std::cout << ", and was " << with_digits(pair.before.lower, "%.6g")
+                << (pair.is_too_near ? ": TOO NEAR" : "");
+    std::cout << '\n';
+  }
+  if (verdict.near.size() > named)
+    std::cout << "  and " << with_commas(verdict.near.size() - named) << " more\n";
+}
+
 void print(const Verify_request& request, const Mesh_file& mesh, const Verification& verification,
            const std::optional<Comparison>& comparison)
 {
@@ -182,7 +203,13 @@ void print(const Verify_request& request, const Mesh_file& mesh, const Verificat
           << ", from which some of these may descend (--defects descend); `selvedge replay` judges that, "
              "with a log\n";
   }
+  if (verification.clearance)
+    print(*verification.clearance, mesh.soup);
   for (const Verification::In_pose& pose : verification.poses) {
+    if (pose.clearance) {
+      std::cout << "in pose '" << pose.name << "', ";
+      print(*pose.clearance, mesh.soup);
+    }
     std::cout << "pose '" << pose.name << "': ";
     if (pose.pairs.empty()) {
       std::cout << "embedded\n";
@@ -249,6 +276,7 @@ Exit_code run(const Verify_request& request)
   Mesh_file original;
   Verify_options options;
   options.may_intersect = part_pairs(request.may_intersect, mesh.soup);
+  options.clearance = request.clearance;
   if (has_original) {
     original = Mesh_input(request.original, request.format).read();
     Pose_sources of_original = request.poses;
@@ -263,8 +291,8 @@ Exit_code run(const Verify_request& request)
   } else {
     verification = verify(mesh.soup, options);
   }
-  const bool is_good =
-      has_original ? verification->accepted() && comparison->layers.swaps.empty() : verification->embedded();
+  const bool is_good = has_original ? verification->accepted() && comparison->layers.swaps.empty()
+                                    : verification->embedded() && verification->is_clearance_kept();
   const Exit_code code = is_good ? exit_done : exit_not_verified;
   add_verification(report, *verification, has_original);
   if (comparison) {
@@ -311,6 +339,14 @@ Action add_verify(CLI::App& command)
           "value that `simplify` was given, if MESH does not separate pieces (STL, --sewn).")
       ->check(in_range(0))
       ->type_name("EPS");
+  command
+      .add_option(
+          "--clearance", request->clearance,
+          "Distance, in the unit of the file, that no two pieces may be nearer to each other than, in any "
+          "pose; with --against, where they are nearer already, than they are in the original. Pieces "
+          "are what common positions connect.")
+      ->check(positive())
+      ->type_name("D");
   add_part_pairs_option(command, request->may_intersect,
                         "Accept that these parts intersect each other, as `simplify` was told. May be given "
                         "several times.");
@@ -322,6 +358,7 @@ Action add_verify(CLI::App& command)
       "Examples:\n"
       "  selvedge verify jacket.obj                        # do any triangles touch or cross?\n"
       "  selvedge verify small.obj --against jacket.obj    # is anything wrong that was not wrong before?\n"
+      "  selvedge verify small.obj --clearance 0.002       # are any two pieces nearer than this?\n"
       "  selvedge verify small.obj --json | jq .verified.pairs\n\n"
       "Without --against the exit code is 0 when MESH is embedded: no triangles touch or cross where they "
       "should\n"

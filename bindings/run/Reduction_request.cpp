@@ -188,6 +188,8 @@ const std::vector<Option>& table()
       {"intersection_check",
        [](Request& r, const std::string& value) { r.options.check_intersections = value_of(truth, value); },
        [](const Request& r) { return Json(r.options.check_intersections); }},
+      {"clearance", [](Request& r, const std::string& value) { r.options.clearance = number(value); },
+       [](const Request& r) { return optional_json(r.options.clearance); }},
       cost_option<&Quadric_cost_options::stabiliser>("stabiliser"),
       cost_option<&Quadric_cost_options::memory, 1>("memory"),
       cost_option<&Quadric_cost_options::border_weight>("border_weight"),

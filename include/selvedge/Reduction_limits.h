@@ -21,6 +21,7 @@ struct Reduction_limits
   std::optional<double> seam_turn;     ///< degrees
   std::optional<double> border_drift;  ///< share of the diagonal of the bounding box
   std::optional<double> weld_distance; ///< length in the unit of the coordinates
+  std::optional<double> clearance;     ///< likewise
 };
 
 /// Describes one limit: its names in logs and reports, and the words for it in messages. They are written in
@@ -34,7 +35,7 @@ struct Limit_description
   const char* broken; ///< what a step does that breaks the limit; the number and its unit follow
 };
 
-inline constexpr std::array<Limit_description, 6> limit_descriptions{
+inline constexpr std::array<Limit_description, 7> limit_descriptions{
     {{&Reduction_limits::normal_change, "normal_change", "°",
       "by how much a collapse turns the normal of a triangle", "the normal of a triangle turns by more than"},
      {&Reduction_limits::aspect_ratio, "aspect_ratio", "", "how thin a collapse makes a triangle",
@@ -47,7 +48,9 @@ inline constexpr std::array<Limit_description, 6> limit_descriptions{
       "how far collapses take a border or seam away from where it was",
       "the border or seam goes further away than"},
      {&Reduction_limits::weld_distance, "weld_distance", "", "how far a snap moves a vertex",
-      "the vertex snaps further than"}}};
+      "the vertex snaps further than"},
+     {&Reduction_limits::clearance, "clearance", "", "how near a collapse brings a piece to another",
+      "a triangle comes nearer to one of another piece than its neighbours were, and nearer than"}}};
 
 /// Returns the description of the limit that is the member `value`.
 constexpr const Limit_description& describe(std::optional<double> Reduction_limits::*value)

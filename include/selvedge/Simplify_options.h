@@ -100,6 +100,12 @@ struct Simplify_options
   /// Whether layers are kept from piercing each other. False changes nothing else; it is meant as a control.
   bool check_intersections = true;
 
+  /// The distance, in units of the mesh, that pieces keep from each other: no two come nearer than this or,
+  /// if they are nearer already, than they are, in any guarded pose (`Intersection_filter::keep_clearance`).
+  /// Positive and finite; none by default. It needs `check_intersections`, and excludes cells and parts that
+  /// may intersect.
+  std::optional<double> clearance;
+
   /// Whether triangles of the texture are kept from turning over, where a mesh has texture coordinates. False
   /// changes nothing else; it is meant as a control.
   bool check_uv_orientation = true;

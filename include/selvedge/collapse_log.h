@@ -67,10 +67,11 @@ namespace selvedge {
 ///   the least significant byte first, −0 as 0. Snaps and new places (X Y Z) do not go together with poses.
 /// - *limit*: a limit that the writer kept to, and by which it wants to be judged. NAME is a key of
 ///   `limit_descriptions` (`normal_change`, `aspect_ratio`, `border_turn`, `seam_turn`, `border_drift`,
-///   `weld_distance`). NUMBER is at least 0; `Reduction_limits` has the units. The diagonal is that of the
-///   bounding box of the vertices that triangles use, after all snaps. A limit that is not declared is not
-///   judged, except that a log with snaps must declare its `weld_distance`. When `border_turn`, `seam_turn`
-///   or `border_drift` is declared, vertices of borders and seams must also stay on their lines.
+///   `weld_distance`, `clearance`). NUMBER is at least 0; `Reduction_limits` has the units. The diagonal is
+///   that of the bounding box of the vertices that triangles use, after all snaps. A limit that is not
+///   declared is not judged, except that a log with snaps must declare its `weld_distance`. When
+///   `border_turn`, `seam_turn` or `border_drift` is declared, vertices of borders and seams must also stay
+///   on their lines.
 /// - *s*, a snap: the vertices at the position of MOVED go in a straight line to the position of KEPT, their
 ///   partner on a border within the weld distance (`Prepare_options::weld_distance` defines partners). No
 ///   edge joins the two.

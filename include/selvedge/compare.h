@@ -19,13 +19,6 @@
 
 namespace selvedge {
 
-/// A lower and an upper bound of a figure.
-struct Bounds
-{
-  double lower;
-  double upper;
-};
-
 /// Returns bounds of the largest distance from any point of the triangles of `from` to the nearest point of
 /// the triangles of `to`, in the unit of the coordinates.
 ///

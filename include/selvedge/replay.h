@@ -28,8 +28,9 @@ enum class Violation_kind {
   degenerate,    ///< a face has no area at some time on the way
   intersection,  ///< afterwards two faces meet beyond the positions that they share
   tunnelling,    ///< afterwards two faces do not meet, but on the way they did
+  clearance,     ///< a face comes nearer to another piece than the limit, and than the star was
   line,          ///< a vertex of a border or seam leaves its line, or is a corner or an end of it
-  border_turn,   ///< this and the next four: a limit of `Reduction_limits` is broken
+  border_turn,   ///< this and the next four: another limit of `Reduction_limits` is broken
   seam_turn,
   border_drift,
   normal_change,
@@ -163,7 +164,9 @@ std::vector<Not_judged> not_judged(const Replay_verdict& verdict);
 ///    (`Prepare_options::weld_distance` defines partners), no farther than `limits.weld_distance`. Neither of
 ///    the two belonged to a frozen face. The edges that a snap made one are pairs of border edges that run in
 ///    opposite directions. Guarantees 1 and 2 hold for snaps as for collapses.
-/// 5. *Limits*: every collapse kept every limit that has a value in `limits`.
+/// 5. *Limits*: every collapse kept every limit that has a value in `limits`. The clearance is exact: in the
+///    pose that is judged, no two pieces, which positions connect, came nearer to each other than it or,
+///    where they were nearer at the first collapse, than they were then.
 /// 6. *Result*: `soup` is what the log states as its result. `is_result_stated` tells whether the log states
 ///    it to the last triangle, or in counts alone.
 ///

@@ -74,6 +74,8 @@ struct Simplified_soup
   /// The steps that led to it, if `Simplify_options::is_progression_recorded`; otherwise empty.
   Progression progression;
 
+  std::optional<double> clearance; ///< that pieces keep from each other; `verify` judges it
+
   std::size_t placed_vertices = 0; ///< how many vertices of `soup` are at new places
 
   std::size_t shared_meshes = 0; ///< that were reduced in all of their places alike, and

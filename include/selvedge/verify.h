@@ -19,6 +19,13 @@
 
 namespace selvedge {
 
+/// A lower and an upper bound of a figure.
+struct Bounds
+{
+  double lower;
+  double upper;
+};
+
 /// What is wrong with a triangle or a pair of them.
 enum class Offence {
   degenerate,  ///< fewer than three distinct positions, or three collinear ones
@@ -197,6 +204,37 @@ struct Piece_matching
   bool is_complete() const { return mismatches.empty(); }
 };
 
+/// Two pieces that are nearer to each other than a clearance. Here, pieces are connected by positions.
+struct Near_pieces
+{
+  Index first;              ///< the first triangle of one, in the result
+  Index second;             ///< the first triangle of the other
+  Bounds now;               ///< of their least distance in the result
+  Bounds before{0, 0};      ///< likewise in the original; both 0 when there is none
+  bool is_too_near = false; ///< nearer than the clearance and, when there is an original, than in that
+};
+
+/// What `verify` finds when it is asked about a clearance. Lengths are in the unit of the coordinates, and
+/// bounds are certified.
+struct Clearance_verdict
+{
+  double clearance = 0;
+
+  /// All pairs of pieces of the result that are nearer than the clearance, the nearest first.
+  std::vector<Near_pieces> near;
+
+  /// Of the distances of any two pieces, the least; infinite when there is one piece only.
+  Bounds least{0, 0};
+  std::optional<Bounds> least_of_original;
+
+  /// Returns how many of `near` are too near.
+  std::size_t too_near() const
+  {
+    return std::size_t(
+        std::count_if(near.begin(), near.end(), [](const Near_pieces& pair) { return pair.is_too_near; }));
+  }
+};
+
 /// The options of `match_pieces` and `verify`.
 struct Verify_options
 {
@@ -231,6 +269,13 @@ struct Verify_options
   /// result is left out by the names of its triangles, and by those of `triangles_of_original` too where
   /// these are given. A name that no triangle has leaves out nothing.
   std::vector<std::pair<std::string, std::string>> may_intersect;
+
+  /// A distance, in the unit of the coordinates, that pieces keep from each other in every pose: no two are
+  /// nearer than this, or, where an original is given, than they are there. Pieces are connected by positions
+  /// in the original, or in the mesh itself, and the obstacle belongs to them; `Piece_matching` says which of
+  /// the result became of which. Positive and finite; not judged by default, and not together with parts that
+  /// may intersect.
+  std::optional<double> clearance;
 };
 
 /// Matches the pieces of a result with those of its original, in these steps:
@@ -330,6 +375,7 @@ struct Verification
     std::size_t pairs_of_original = 0;
   };
   std::vector<Permitted> permitted;
+  std::optional<Clearance_verdict> clearance; ///< if `Verify_options::clearance` asks for it
 
   /// The verdict on a further pose: as `pairs`, `pairs_of_original` and `new_pairs` are on the first.
   struct In_pose
@@ -338,6 +384,7 @@ struct Verification
     std::vector<Offending_pair> pairs;
     std::size_t pairs_of_original = 0;
     std::vector<Offending_pair> new_pairs;
+    std::optional<Clearance_verdict> clearance;
   };
   std::vector<In_pose> poses; ///< in the order of `Triangle_soup::poses`
 
@@ -349,10 +396,20 @@ struct Verification
   /// Returns whether both have the same number of pieces of every kind, by vertex numbers.
   bool same_topology() const { return topology_differences.empty(); }
 
+  /// Returns whether no two pieces are too near, in any pose. They are not when no clearance was asked for.
+  bool is_clearance_kept() const
+  {
+    const auto is_kept = [](const std::optional<Clearance_verdict>& verdict) {
+      return !verdict || verdict->too_near() == 0;
+    };
+    return is_kept(clearance) && std::all_of(poses.begin(), poses.end(),
+                                             [&](const In_pose& pose) { return is_kept(pose.clearance); });
+  }
+
   /// Returns whether nothing is wrong that was not wrong before.
   bool accepted() const
   {
-    return new_pairs.empty() && matching.is_complete() &&
+    return new_pairs.empty() && matching.is_complete() && is_clearance_kept() &&
            std::all_of(poses.begin(), poses.end(),
                        [](const In_pose& pose) { return pose.new_pairs.empty(); });
   }

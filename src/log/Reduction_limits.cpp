@@ -15,6 +15,7 @@ Reduction_limits limits_of(const Simplify_options& options)
   limits.border_turn = options.max_border_turn;
   limits.seam_turn = options.max_seam_turn;
   limits.border_drift = options.max_border_drift;
+  limits.clearance = options.clearance;
   return limits;
 }
 

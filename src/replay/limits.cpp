@@ -78,6 +78,8 @@ const Limit_description* limit_of(Violation_kind kind)
     return &describe(&Reduction_limits::border_drift);
   case Violation_kind::weld_distance:
     return &describe(&Reduction_limits::weld_distance);
+  case Violation_kind::clearance:
+    return &describe(&Reduction_limits::clearance);
   default:
     return nullptr;
   }

@@ -11,8 +11,13 @@ std::vector<Not_judged> not_judged(const Replay_verdict& verdict)
 {
   const Reduction_limits& limits = verdict.limits;
   std::vector<Not_judged> result;
+  // Without a weld distance nothing snaps, and pieces need a distance only where somebody asks for one.
+  const auto is_expected = [&](const Limit_description& limit) {
+    return limit.value == &Reduction_limits::clearance ? verdict.header.limits.clearance.has_value()
+                                                       : limit.value != &Reduction_limits::weld_distance;
+  };
   for (const Limit_description& limit : limit_descriptions)
-    if (limit.value != &Reduction_limits::weld_distance && !(limits.*limit.value)) // without it nothing snaps
+    if (is_expected(limit) && !(limits.*limit.value))
       result.push_back({limit.key, std::string(limit.bounds) + ": there is no limit"});
   if (!limits.border_turn && !limits.seam_turn && !limits.border_drift)
     result.push_back(

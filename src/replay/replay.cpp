@@ -6,6 +6,7 @@
 #include "Box_tree.h"
 #include "Complex.h"
 #include "Start.h"
+#include "clearance.h"
 #include "contact.h"
 #include "limits.h"
 #include "snap.h"
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <optional>
 #include <set>
 #include <utility>
@@ -219,6 +221,7 @@ private:
       judge_lock(removed, kept);
       judge_link(removed, kept);
       judge({removed, m_complex.place(kept)});
+      judge_clearance({removed, m_complex.place(kept)});
       judge_limits(removed, kept, m_complex.point(kept), true);
     } else {
       judge_lock(removed);
@@ -231,10 +234,13 @@ private:
                   second = step.is_removed_first ? kept : removed;
       if (is_at_removed) {
         judge({kept, m_complex.place(removed)});
+        judge_clearance({kept, m_complex.place(removed)});
       } else {
         judge({first, {no_position(), *place}});
+        judge_clearance({first, {no_position(), *place}});
         shift(first, *place);
         judge({second, m_complex.place(first)});
+        judge_clearance({second, m_complex.place(first)});
       }
       shift(kept, *place);
       report_pending_limit(removed, kept);
@@ -287,6 +293,8 @@ private:
       }
     build_tree();
     m_complex.find_seams();
+    if (m_verdict.limits.clearance)
+      m_pieces = pieces_of(m_complex);
   }
 
   // ---- Locks, snaps and links
@@ -502,6 +510,51 @@ private:
     }
   }
 
+  // Whether the motion, which meets nothing, keeps the clearance from other pieces.
+  void judge_clearance(const Motion& motion)
+  {
+    const std::optional<double>& limit = m_verdict.limits.clearance;
+    if (m_is_bad || !limit)
+      return;
+    const Coordinates from = m_complex.point(motion.mover), to = motion.target.at;
+    Clearance_question question{*limit, {}, {}};
+    Box box;
+    box.add(from);
+    box.add(to);
+    for (const Index f : m_complex.faces_at(motion.mover)) {
+      const auto [p, q] = m_complex.opposite_side(f, motion.mover);
+      const Coordinates a = m_complex.point(p), b = m_complex.point(q);
+      question.star.push_back({from, a, b});
+      box.add(a);
+      box.add(b);
+      if (p == motion.target.id || q == motion.target.id)
+        continue;
+      question.facets.push_back({to, a, b});
+      question.facets.push_back({from, to, a});
+      question.facets.push_back({from, to, b});
+    }
+    std::sort(question.facets.begin(), question.facets.end());
+    question.facets.erase(std::unique(question.facets.begin(), question.facets.end()), question.facets.end());
+    for (int axis = 0; axis < 3; ++axis) {
+      // A sum rounds by half of the last digit, and so by less than a step to the next number.
+      box.low[axis] = std::nextafter(box.low[axis] - *limit, -HUGE_VAL);
+      box.high[axis] = std::nextafter(box.high[axis] + *limit, HUGE_VAL);
+    }
+    const Index moving = m_complex.faces_at(motion.mover).front();
+    m_standing.clear();
+    m_tree.visit(box, [&](Index f) {
+      if (m_pieces[m_complex.face(f).positions[0]] != m_pieces[motion.mover])
+        m_standing.push_back(f);
+    });
+    for (const Index f : m_standing) {
+      Cancellation_scope::check();
+      const std::array<Place, 3> standing = m_complex.triangle(f);
+      if (!is_exempt(moving, f) &&
+          !is_clearance_kept(question, {standing[0].at, standing[1].at, standing[2].at}))
+        return report(Violation_kind::clearance, m_limits.message(Violation_kind::clearance), {moving, f});
+    }
+  }
+
   void report_meeting(Violation_kind kind, const Motion& motion, Index f, const std::array<Place, 3>& after,
                       Index g, const std::array<Place, 3>& other, const std::optional<std::string>& point)
   {
@@ -688,6 +741,7 @@ private:
   bool m_are_snaps_measured = false;
   std::optional<Violation_kind> m_pending_limit;
   std::vector<Index> m_standing;
+  std::vector<Index> m_pieces; // by position, if a clearance is to be kept
 
   // Of a step: the faces that it changes or removes, their ancestors, and what offended with these.
   std::vector<Index> m_changing;

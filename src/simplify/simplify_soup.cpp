@@ -30,7 +30,7 @@ class Soup_reduction
 public:
   Soup_reduction(const Prepared_soup& prepared, const Simplify_options& options,
                  const Simplify_intent& intent)
-      : m_options(options), m_prepared(prepared),
+      : m_options(scaled(options, prepared.scale)), m_clearance(options.clearance), m_prepared(prepared),
         m_working(prepared.soup, prepared.positions, frozen(prepared, intent), prepared.obstacle,
                   prepared.scale, prepared.is_turned, prepared.fronts),
         m_seconds_sew(m_stopwatch.seconds()),
@@ -54,6 +54,19 @@ public:
   }
 
 private:
+  static Simplify_options scaled(Simplify_options options, const Scale& scale)
+  {
+    if (!options.clearance)
+      return options;
+    const double clearance = *options.clearance;
+    options.clearance = scale(clearance);
+    if (scale.undone(*options.clearance) != clearance)
+      throw Argument_error(
+          "the clearance is so small beside the coordinates that it is no number at their scale; "
+          "leave it out, since nothing touches anyway");
+    return options;
+  }
+
   static std::vector<char> frozen(const Prepared_soup& prepared, const Simplify_intent& intent)
   {
     std::vector<char> is_frozen = prepared.is_frozen;
@@ -207,7 +220,7 @@ private:
     m_apart_meshes = shared.apart;
     for (const Shared_mesh& mesh : shared.meshes)
       m_shared_places += mesh.places.size();
-    m_working.share(std::move(shared.meshes));
+    m_working.share(std::move(shared.meshes), m_options.clearance.value_or(0));
   }
 
   void
@@ -310,6 +323,7 @@ private:
     result.progression = m_progression;
     result.history = m_history;
     result.history.finish(report.refused);
+    result.clearance = m_clearance;
     result.shared_meshes = m_shared_meshes;
     result.shared_places = m_shared_places;
     result.apart_meshes = m_apart_meshes;
@@ -326,6 +340,7 @@ private:
   }
 
   Simplify_options m_options;
+  std::optional<double> m_clearance; // in the unit of the soup
   const Prepared_soup& m_prepared;
   Stopwatch m_stopwatch;
   Working_mesh m_working;
@@ -359,6 +374,10 @@ Simplified_soup simplify_soup(const Prepared_soup& prepared, const Simplify_opti
       if (pose >= prepared.soup.poses.size())
         throw Argument_error("the mesh has no further pose " + std::to_string(pose) +
                              " that could be guarded; it has " + std::to_string(prepared.soup.poses.size()));
+  if (options.clearance && options.faces_per_cell > 0)
+    throw Argument_error("in cells no clearance is kept between pieces; leave out one of the two options");
+  if (options.clearance && !prepared.may_intersect.empty())
+    throw Argument_error("parts that may intersect have no clearance; leave out one of the two options");
   if (options.faces_per_cell > 0 && !prepared.may_intersect.empty())
     throw Argument_error("in cells no parts may intersect each other; leave out one of the two options");
   return Soup_reduction(prepared, options, intent).run();
@@ -407,6 +426,7 @@ Verification verify(const Simplified_soup& result, const Prepared_soup& original
   if (original.defects == Defects::descend)
     options.collapses = &result.collapses;
   options.may_intersect = original.may_intersect;
+  options.clearance = result.clearance;
   options.pairs_in_poses_of_original = &original.offending_pairs_in_poses;
   Verification verification =
       verify(result.soup, original.soup, original.offending_pairs, options, original.obstacle);

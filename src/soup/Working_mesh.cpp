@@ -8,6 +8,7 @@
 
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
+#include <selvedge/internal/inflated.h>
 #include <selvedge/rounding.h>
 
 #include <CGAL/Kernel/global_functions.h>
@@ -545,8 +546,9 @@ bool Working_mesh::is_flipped(Index face) const
   return m_shared[copy.mesh].places[copy.place].is_mirrored != (!m_is_turned.empty() && m_is_turned[face]);
 }
 
-void Working_mesh::share(std::vector<Shared_mesh> meshes)
+void Working_mesh::share(std::vector<Shared_mesh> meshes, double clearance)
 {
+  m_clearance = clearance;
   m_shared = std::move(meshes);
   if (m_shared.empty())
     return;
@@ -564,7 +566,7 @@ void Working_mesh::share(std::vector<Shared_mesh> meshes)
         for (const Mesh::Vertex_index v : m_mesh.vertices_around_face(m_mesh.halfedge(face)))
           box += m_mesh.point(v).bbox();
       }
-      boxes.emplace_back(box, p);
+      boxes.emplace_back(internal::inflated(box, clearance), p);
     }
     // No vertex leaves the box of its place: all go to others of the same place.
     std::sort(boxes.begin(), boxes.end(),
@@ -688,7 +690,7 @@ bool Working_mesh::are_companions_apart(Mesh::Halfedge_index moving,
   for (const Mesh::Halfedge_index companion : companions)
     set_box(companion);
   return std::none_of(near.begin(), near.end(), [&](const auto& pair) {
-    return CGAL::do_overlap(boxes[pair.first], boxes[pair.second]);
+    return CGAL::do_overlap(internal::inflated(boxes[pair.first], m_clearance), boxes[pair.second]);
   });
 }
 

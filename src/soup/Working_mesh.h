@@ -111,10 +111,11 @@ public:
 
   /// Makes the places of shared meshes one for the reduction: what holds a vertex in one place does so in
   /// all, and motions have companions. Where the faces of a mesh are not joined alike in all places, because
-  /// something is sewn to them in some, vertices are locked.
+  /// something is sewn to them in some, vertices are locked. Motions in places no farther from each other
+  /// than `clearance`, in the unit of the working mesh, are no companions.
   ///
   /// **Preconditions** Nothing has been collapsed.
-  void share(std::vector<Shared_mesh> meshes);
+  void share(std::vector<Shared_mesh> meshes, double clearance = 0);
 
   /// The number of faces, without those of the obstacle; doubles are none.
   std::size_t face_count() const { return m_mesh.number_of_faces() - m_constraints.uncounted_faces.size(); }
@@ -399,6 +400,7 @@ private:
 
   std::vector<Shared_mesh> m_shared;
   std::vector<std::vector<std::pair<Index, Index>>> m_near_places; // by mesh: their boxes meet
+  double m_clearance = 0;                                          // between the boxes of companions
   std::vector<Copy> m_copies;                                      // by face, or empty
   std::vector<char> m_is_held_elsewhere; // by vertex of the soup: only another place locks it
 

@@ -5,6 +5,7 @@
 #include <selvedge/Error.h>
 #include <selvedge/verify.h>
 
+#include "clearance.h"
 #include "rounded.h"
 #include "soup/obstacle.h"
 #include "triangles_of_part.h"
@@ -29,6 +30,12 @@ std::vector<Permitted> begin_permitted(const Verify_options& options)
   for (const auto& [a, b] : options.may_intersect)
     permitted.push_back({a, b});
   return permitted;
+}
+
+void refuse_clearance_of_permitted(const Verify_options& options)
+{
+  if (options.clearance && !options.may_intersect.empty())
+    throw Argument_error("parts that may intersect have no clearance; leave out one of the two options");
 }
 
 // Takes out what may intersect by the names of the original.
@@ -84,21 +91,29 @@ std::size_t take_out_pairs_between(const std::vector<char>& first, const std::ve
 
 Verification verify(const Triangle_soup& mesh, const Verify_options& options)
 {
+  refuse_clearance_of_permitted(options);
+  const auto judge_clearance_of = [&](const Triangle_soup& in_pose) {
+    return options.clearance ? std::optional(internal::judge_clearance(*options.clearance, in_pose,
+                                                                       internal::pieces_by_position(in_pose)))
+                             : std::nullopt;
+  };
   Verification verification;
   verification.permitted = begin_permitted(options);
-  tbb::parallel_invoke(Cancellation_scope::inherited([&] {
-                         verification.pairs = offending_pairs(mesh);
-                         permit_of_result(mesh, nullptr, options, verification.pairs, verification.permitted);
-                         verification.new_pairs = verification.pairs;
-                         for (std::size_t pose = 0; pose < mesh.poses.size(); ++pose) {
-                           std::vector<Permitted> permitted = begin_permitted(options);
-                           std::vector<Offending_pair> pairs =
-                               offending_pairs(geometry_in_pose(mesh, {}, pose));
-                           permit_of_result(mesh, nullptr, options, pairs, permitted);
-                           verification.poses.push_back({mesh.poses[pose].name, pairs, 0, pairs});
-                         }
-                       }),
-                       Cancellation_scope::inherited([&] { verification.pieces = pieces(mesh); }));
+  verification.clearance = judge_clearance_of(mesh);
+  tbb::parallel_invoke(
+      Cancellation_scope::inherited([&] {
+        verification.pairs = offending_pairs(mesh);
+        permit_of_result(mesh, nullptr, options, verification.pairs, verification.permitted);
+        verification.new_pairs = verification.pairs;
+        for (std::size_t pose = 0; pose < mesh.poses.size(); ++pose) {
+          std::vector<Permitted> permitted = begin_permitted(options);
+          const Triangle_soup in_pose = geometry_in_pose(mesh, {}, pose);
+          std::vector<Offending_pair> pairs = offending_pairs(in_pose);
+          permit_of_result(mesh, nullptr, options, pairs, permitted);
+          verification.poses.push_back({mesh.poses[pose].name, pairs, 0, pairs, judge_clearance_of(in_pose)});
+        }
+      }),
+      Cancellation_scope::inherited([&] { verification.pieces = pieces(mesh); }));
   return verification;
 }
 
@@ -116,6 +131,7 @@ Verification verify(const Triangle_soup& result, const Triangle_soup& original,
                     const std::vector<Offending_pair>& all_pairs_of_original, const Verify_options& options,
                     const Triangle_soup& obstacle)
 {
+  refuse_clearance_of_permitted(options);
   Verification verification;
   verification.permitted = begin_permitted(options);
   std::vector<Offending_pair> pairs_of_original = all_pairs_of_original;
@@ -168,6 +184,19 @@ Verification verify(const Triangle_soup& result, const Triangle_soup& original,
       Cancellation_scope::inherited([&] { verification.pieces = pieces(result); }),
       Cancellation_scope::inherited(
           [&] { verification.matching = match_pieces(result, original, options); }));
+  if (options.clearance) {
+    const auto judge_clearance_of = [&](const Triangle_soup& after, const Triangle_soup& before) {
+      return internal::judge_clearance(
+          *options.clearance, after, before,
+          internal::matched_pieces(after, before, verification.pieces, verification.matching,
+                                   options.triangles_of_original, obstacle.triangles.size()));
+    };
+    verification.clearance = judge_clearance_of(geometry_with_obstacle(result, obstacle),
+                                                geometry_with_obstacle(original, obstacle));
+    for (std::size_t pose = 0; pose < result.poses.size(); ++pose)
+      verification.poses[pose].clearance = judge_clearance_of(geometry_in_pose(result, obstacle, pose),
+                                                              geometry_in_pose(original, obstacle, pose));
+  }
   verification.topology_differences =
       topology_differences(verification.pieces, verification.matching.pieces_of_original);
   verification.distances = distances(result, original);

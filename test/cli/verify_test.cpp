@@ -48,6 +48,24 @@ TEST(App_verify, AgainstTheOriginalOnlyNewPairsCount)
   EXPECT_EQ(run_app({"verify", folder / "apart.obj", "--against", folder / "crossing.obj"}).code, 0);
 }
 
+TEST(App_verify, PiecesNearerThanAClearanceAreNotVerified)
+{
+  const Workspace folder;
+  write_text(folder / "apart.obj", apart);
+  write_text(folder / "nearer.obj",
+             "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 0.5\nv 1 1 3\nv 9 9 2\nf 1 2 3\nf 4 5 6\n");
+  EXPECT_EQ(run_app({"verify", folder / "apart.obj", "--clearance", "1"}).code, 0);
+  const App_result result = run_app({"verify", folder / "apart.obj", "--clearance", "1.5"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_NE(result.out.find("1 pair of pieces nearer than 1.5; the least distance is 1\n"), std::string::npos)
+      << result.out;
+  const auto against = [&](const char* mesh) {
+    return run_app({"verify", folder / mesh, "--against", folder / "apart.obj", "--clearance", "1.5"}).code;
+  };
+  EXPECT_EQ(against("apart.obj"), 0);
+  EXPECT_EQ(against("nearer.obj"), 1);
+}
+
 TEST(App_verify, AgainstTheOriginalTopologyCounts)
 {
   const Workspace folder;

@@ -331,7 +331,7 @@ group(
     ("if (!is_locked[v] && (is_bound[a] || is_bound[b]))", "if (!is_locked[v] && is_bound[v])", "neighbours of the wall move"),
     ("if (low <= plane)", "if (low < plane)", "faces that touch the wall are not in the cell below",
      "what moves in a cell is with its neighbours inside the wall, which such a face does not come into"),
-    ("if (cost > limit)", "if (false)", "every cell goes to its own cost"),
+    ("if (found.cost > limit)", "if (false)", "every cell goes to its own cost"),
     ("working.constraints().diagonal = whole.diagonal;", "", "drift as a share of the cell"),
 )
 group(
@@ -606,7 +606,7 @@ group(
     ("        m_considered.push_back(id);\n      }", "        if (a != other && b != other)\n          m_considered.push_back(id);\n      }",
      "faces that are removed hand on no ancestors"),
     ("find_pairs_after(collapse, m_descent.pairs_now())", "find_pairs_after(collapse)", "pairs may become more"),
-    ("m_is_descent_asked && m_descent.is_exempt(id)", "false", "no pair is exempt"),
+    ("if (m_is_descent_asked && m_descent.is_exempt(id))\n        continue;\n      if (!m_view", "if (!m_view", "no pair is exempt"),
     ("if (m_is_descent_asked && m_descent.is_exempt_inside()) {", "if (false) {",
      "a star that meets itself is judged as a whole"),
     ("[&](const auto& edge) { return is_face_kept(star, edge, m_traits); }", "[](const auto&) { return true; }",
@@ -858,4 +858,42 @@ group(
     ("m_collapses_per_sample *= 2;", ";", "united samples go on as short ones"),
     ("(std::min)(first.least_cost, second.least_cost)", "second.least_cost", "united samples forget the least cost"),
     ("last.refused = refused;", ";", "what is refused within a sample does not count"),
+)
+group(
+    headers + "geometry/clearance.h",
+    ("clearance_decision_test",),
+    ("m_of_sweeps.push_back({{s_to, p, p}, 2});", ";", "new edges have no distance"),
+    ("m_of_sweeps.push_back({{s_from, s_to, p}, 3});", ";", "facets at the edge have no distance"),
+    ("m_of_sweeps.push_back({{s_to, a, b}, 3});", ";", "moved faces have no distance"),
+    ("m_of_sweeps.push_back({{s_from, p, p}, 2});", ";", "the way to a new place has no distance"),
+    ("(Interval(upper[i]) + distance).sup()", "upper[i]", "the box is not inflated above"),
+    ("side_of_p == -side || ", "", "a star on both sides of a plane is beyond it"),
+    ("while (!CGAL::certainly(squared >= least) && next < m_star_near.size())", "while (false)",
+     "nearer faces may come no nearer than the clearance, wherever they were"),
+)
+group(
+    headers + "geometry/internal/feature_distances.h",
+    ("clearance_decision_test",),
+    ("CGAL::certainly(is_attained) ? (std::min)(least.sup(), squared.sup()) : least.sup()",
+     "(std::min)(least.sup(), squared.sup())", "what may not be attained counts as attained"),
+    ("(at_u + at_v <= length) & ", "", "a facet reaches beyond its third edge"),
+)
+group(
+    headers + "Surface_mesh_simplification/internal/Intersection_guard.h",
+    ("clearance_test:Clearance_of_pieces.*",),
+    ("m_faces.find_near(m_clearance.reach(m_star.box()), mover, m_near);", "m_faces.find_near(m_star.box(), mover, m_near);",
+     "faces are near where boxes meet"),
+    sources=("src/simplify/simplify_soup.cpp",),
+)
+group(
+    "src/verify/clearance.cpp",
+    ("clearance_test:Clearance_of_pieces.*",),
+    ("return exact() < exact_square(distance);", "return false;", "the judge is not exact"),
+    ("return exact() < other.exact();", "return false;", "the judge does not compare exactly"),
+)
+group(
+    "src/replay/replay.cpp",
+    ("clearance_test:Clearance_of_pieces.*",),
+    ("if (m_pieces[m_complex.face(f).positions[0]] != m_pieces[motion.mover])", "if (false)",
+     "the replay knows no clearance"),
 )

@@ -17,6 +17,7 @@ enum class Promise {
   topology,    ///< every collapse meets the link condition; every piece keeps its boundary loops and Euler
                ///< number
   seams, ///< what is on a border or seam moves along it alone; a snap goes to a partner within the distance
+  clearance,   ///< pieces come no nearer to each other than the distance asked for, or than they were
   attributes,  ///< every corner has what a corner of the input has there, on the same side
   frozen,      ///< nothing locked, kept or frozen moves
   stop,        ///< the target is reached and not passed, or the report says that it was not

@@ -3,6 +3,8 @@
 
 #include "Judged_complex.h"
 
+#include "verify/triangle_distance.h"
+
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -498,6 +500,80 @@ std::optional<Broken_promise> Judged_complex::judge_motion(Index moved, const Pl
       if (f != g && !is_exempt(f, g) && has_area(g) &&
           sweep.meets_beyond_shared(Standing_edge{place(c), place(d)}))
         return Broken_promise{Promise::motion, faces_named(f, g) + " of one star meet on the way"};
+    }
+  }
+  return judge_clearance(moved, t);
+}
+
+bool Judged_complex::is_near(const Box& a, const Box& b) const
+{
+  for (int i = 0; i < 3; ++i)
+    if (a.low[i] - b.high[i] > 1.001 * *m_clearance || b.low[i] - a.high[i] > 1.001 * *m_clearance)
+      return false;
+  return true;
+}
+
+void Judged_complex::keep_clearance(double distance)
+{
+  m_clearance = distance;
+  for (Index p = 0; p < m_points.size(); ++p)
+    m_piece.push_back(p);
+  const auto root = [&](Index p) {
+    while (m_piece[p] != p)
+      p = m_piece[p];
+    return p;
+  };
+  for (const Face& face : m_faces)
+    for (const Index p : face.positions)
+      if (const Index a = root(face.positions[0]), b = root(p); a != b)
+        m_piece[std::max(a, b)] = std::min(a, b);
+  for (Index& piece : m_piece)
+    piece = root(piece);
+  const double all = internal::square_bounds(distance).lower;
+  const auto corners = [&](const Index_triple& p) {
+    return internal::Corners{coordinates_of(m_points[p[0]]), coordinates_of(m_points[p[1]]),
+                             coordinates_of(m_points[p[2]])};
+  };
+  for (Index f = 0; f < m_faces.size(); ++f)
+    for (Index g = 0; g < f; ++g) {
+      const Index a = m_piece[m_faces[f].positions[0]], b = m_piece[m_faces[g].positions[0]];
+      if (a == b || !is_near(m_faces[f].box, m_faces[g].box))
+        continue;
+      double& least = m_least.emplace(std::minmax(a, b), all).first->second;
+      least = std::min(least, internal::squared_distance_bounds(corners(m_faces[f].positions),
+                                                                corners(m_faces[g].positions))
+                                  .lower);
+    }
+}
+
+// In intervals: what breaks the promise by less than their width is left to the replay, which is exact.
+std::optional<Broken_promise> Judged_complex::judge_clearance(Index moved, const Place& t) const
+{
+  if (!m_clearance)
+    return std::nullopt;
+  const std::array<double, 3> from = coordinates_of(m_points[moved]), to = coordinates_of(t.at);
+  for (const Index f : m_faces_at[moved]) {
+    if (has(f, t.position))
+      continue;
+    const auto [p, q] = others(f, moved);
+    const std::array<double, 3> a = coordinates_of(m_points[p]), b = coordinates_of(m_points[q]);
+    Box box = m_faces[f].box;
+    add(box, t.at);
+    for (Index g = 0; g < m_faces.size(); ++g) {
+      const Face& other = m_faces[g];
+      const Index piece = m_piece[other.positions[0]];
+      if (!other.is_alive || piece == m_piece[moved] || !is_near(box, other.box))
+        continue;
+      const auto found = m_least.find(std::minmax(piece, m_piece[moved]));
+      const double least =
+          found == m_least.end() ? internal::square_bounds(*m_clearance).lower : found->second;
+      const internal::Corners still{coordinates_of(m_points[other.positions[0]]),
+                                    coordinates_of(m_points[other.positions[1]]),
+                                    coordinates_of(m_points[other.positions[2]])};
+      for (const internal::Corners& facet :
+           {internal::Corners{to, a, b}, internal::Corners{from, to, a}, internal::Corners{from, to, b}})
+        if (internal::squared_distance_bounds(facet, still).upper < least)
+          return Broken_promise{Promise::clearance, faces_named(f, g) + " come too near to each other"};
     }
   }
   return std::nullopt;

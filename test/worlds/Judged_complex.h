@@ -43,6 +43,9 @@ public:
   /// question.
   void permit(std::vector<char> part_of_face) { m_part_of_face = std::move(part_of_face); }
 
+  /// From now on, pieces keep this distance from each other, or what they have now.
+  void keep_clearance(double distance);
+
   /// Of a vertex; those of the obstacle follow those of the soup.
   Index position(Index vertex) const { return m_position_of_vertex[vertex]; }
   bool is_alive(Index face) const { return m_faces[front(face)].is_alive; }
@@ -107,6 +110,8 @@ private:
   std::optional<Broken_promise> judge_link(Index removed, Index kept) const;
   std::optional<Broken_promise> judge_line(Index removed, Index kept) const;
   std::optional<Broken_promise> judge_motion(Index moved, const Place& target) const;
+  std::optional<Broken_promise> judge_clearance(Index moved, const Place& target) const;
+  bool is_near(const Box& a, const Box& b) const;
   void begin_collapse(const std::vector<Index>& movers);
   std::optional<Broken_promise> end_collapse();
   bool is_permitted(Index f, Index g) const;
@@ -128,6 +133,11 @@ private:
   std::vector<Index_triple> m_slots; // by face: at which corner of its front each of its own is, in the soup
   std::set<std::pair<Index, Index>> m_pairs_at_start;
   std::vector<char> m_part_of_face; // of own faces; empty when no parts may intersect
+
+  // What two pieces, by the numbers that positions have in common, must keep from each other: the square.
+  std::optional<double> m_clearance;
+  std::vector<Index> m_piece; // by position
+  std::map<std::pair<Index, Index>, double> m_least;
 
   // Of the present collapse.
   std::set<Index> m_changing;

@@ -105,6 +105,7 @@ void write_world(const World& world, const std::filesystem::path& folder)
                      {"seam_turn", options.max_seam_turn},
                      {"border_drift", options.max_border_drift},
                      {"check_intersections", options.check_intersections},
+                     {"clearance", optional_json(options.clearance)},
                      {"check_uv_orientation", options.check_uv_orientation},
                      {"uv_weight", options.uv_weight},
                      {"is_placement_optimal", options.placement == Placement::optimal},
@@ -167,6 +168,8 @@ World read_world(const std::filesystem::path& folder)
   if (json.contains("guarded_poses")) // worlds of earlier versions have none
     read_optional(json["guarded_poses"], options.guarded_poses);
   read_optional(json["error"], options.max_error);
+  if (json.contains("clearance")) // likewise
+    read_optional(json["clearance"], options.clearance);
   options.max_normal_change = json["normal_change"];
   options.min_aspect_ratio = json["aspect_ratio"];
   options.max_border_turn = json["border_turn"];
@@ -243,6 +246,8 @@ std::string command_line(const World& world)
   add_if_other("--border-turn", options.max_border_turn, plain.max_border_turn);
   add_if_other("--seam-turn", options.max_seam_turn, plain.max_seam_turn);
   add_if_other("--border-drift", options.max_border_drift, plain.max_border_drift);
+  if (options.clearance)
+    add("--clearance", text_of(*options.clearance));
   add_if_other("--uv-weight", options.uv_weight, plain.uv_weight);
   add_if_other("--border-weight", options.cost.border_weight, plain.cost.border_weight);
   add_if_other("--stabiliser", options.cost.stabiliser, plain.cost.stabiliser);

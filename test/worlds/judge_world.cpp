@@ -41,9 +41,10 @@ namespace selvedge::test {
 
 const char* name(Promise promise)
 {
-  static constexpr const char* s_names[] = {
-      "preparation", "embedded", "motion",     "topology",    "seams",   "attributes",  "frozen",
-      "stop",        "verdict",  "log replay", "progression", "written", "determinism", "refusal"};
+  static constexpr const char* s_names[] = {"preparation", "embedded",    "motion",     "topology",
+                                            "seams",       "clearance",   "attributes", "frozen",
+                                            "stop",        "verdict",     "log replay", "progression",
+                                            "written",     "determinism", "refusal"};
   return s_names[std::size_t(promise)];
 }
 
@@ -877,6 +878,8 @@ Verdict judge_reduction(const World& world, const World_run& run, Judged_complex
   counts.turned += run.prepared.turned_faces();
   turn_faces();
   complex.find_seams(run.prepared.soup);
+  if (world.options.clearance)
+    complex.keep_clearance(*world.options.clearance);
   const std::vector<Index> regions = complex.regions();
   if (auto broken = judge_collapses(run, complex, counts))
     return broken;
@@ -945,6 +948,8 @@ Verdict judge_poses(const World& world, const World_run& run)
       if (prepared.is_turned[t])
         complex.turn(t);
     complex.find_seams(prepared.soup);
+    if (world.options.clearance && world.is_guarded(pose))
+      complex.keep_clearance(*world.options.clearance);
     for (const Soup_collapse& collapse : run.collapses)
       if (prepared.is_held[collapse.removed])
         return broken(Promise::frozen, "vertex " + std::to_string(collapse.removed) +
@@ -1099,6 +1104,7 @@ std::optional<int> random_exponent(const World& world, Random& random)
       add_all(pose.points);
   }
   add(world.weld_distance);
+  add(world.options.clearance.value_or(0));
   const bool is_rounded = world.prepare_options().round_to_float32;
   const int least = is_rounded ? -100 : -960, most = is_rounded ? 120 : 960;
   if (low > high || low < least || high > most)
@@ -1321,6 +1327,8 @@ Verdict judge_twins(const World& world, const World_run& run, Judgement_counts& 
       ++counts.twins;
       World twin = with_points(world, [&](double x) { return std::ldexp(x, *exponent); });
       twin.weld_distance = std::ldexp(world.weld_distance, *exponent);
+      if (twin.options.clearance)
+        twin.options.clearance = std::ldexp(*world.options.clearance, *exponent);
       if (auto broken = compare(run_without_output(twin), run,
                                 "2^" + std::to_string(*exponent) + " times as large", *exponent))
         return broken;

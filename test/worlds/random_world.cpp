@@ -396,6 +396,26 @@ void fit_options_to_poses(World& world)
     }
 }
 
+/// Asks for a distance between pieces: some share of the size, or a distance that coordinates have, as of
+/// sheets above each other. Other random numbers, so that worlds of earlier versions stay what they were but
+/// for that.
+void choose_clearance(World& world, std::uint64_t number)
+{
+  const std::vector<Point_3>& points = world.soup.points;
+  if (world.seed % 3 != 0 || world.options.faces_per_cell > 0 || !world.may_intersect.empty() ||
+      world.weld_distance > 0 || world.are_clear_gaps_welded || points.empty())
+    return;
+  Random random(world.seed + 7 + number);
+  const double size = diagonal(world.soup);
+  const int axis = int(random.below(3));
+  const double difference =
+      std::abs(points[random.below(points.size())][axis] - points[random.below(points.size())][axis]);
+  const double distance = random.one_in(2) ? difference : size * random.one_of({1e-4, 1e-3, 0.01, 0.05, 0.2});
+  if (!(size < 1e100 && distance > 1e-12 * size))
+    return;
+  world.options.clearance = distance;
+}
+
 void choose_options(World& world, Random& random)
 {
   choose_limits(world.options, random);
@@ -492,6 +512,7 @@ World random_world(std::uint64_t seed)
   if (world.seed % 3 != 0 && world.input_format == Mesh_format::obj && world.options.faces_per_cell == 0 &&
       world.weld_distance == 0 && !world.are_clear_gaps_welded)
     let_objects_intersect(world);
+  choose_clearance(world, 0);
   return world;
 }
 
@@ -507,6 +528,7 @@ World with_other_options(const World& world, std::uint64_t number)
   if (!world.may_intersect.empty())
     other.options.faces_per_cell = 0;
   fit_options_to_poses(other);
+  choose_clearance(other, number);
   return other;
 }
 

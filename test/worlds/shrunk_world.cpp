@@ -105,6 +105,8 @@ private:
     set<Mesh_format>([](World& w) -> Mesh_format& { return w.output_format; }, Mesh_format::obj);
     set<std::optional<std::size_t>>([](World& w) -> std::optional<std::size_t>& { return w.questions; },
                                     std::nullopt);
+    set<std::optional<double>>([](World& w) -> std::optional<double>& { return w.options.clearance; },
+                               std::nullopt);
     clear<std::vector<double>>([](World& w) -> std::vector<double>& { return w.lods; });
     clear<std::vector<std::string>>([](World& w) -> std::vector<std::string>& { return w.intent.locked; });
     clear<std::vector<Index>>([](World& w) -> std::vector<Index>& { return w.intent.locked_vertices; });

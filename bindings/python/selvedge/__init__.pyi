@@ -60,6 +60,7 @@ def simplify(
     index: str = ...,
     cluster_size: int = ...,
     intersection_check: bool = ...,
+    clearance: float = ...,
     stabiliser: float = ...,
     memory: float = ...,
     border_weight: float = ...,

@@ -34,6 +34,7 @@ enum class Hindrance : unsigned char {
   uv,            ///< a triangle of the texture would turn over
   error,         ///< the surface would be too far from the original
   intersection,  ///< faces would touch or pass through each other
+  clearance,     ///< faces would come nearer to another piece than the clearance allows
   companions,    ///< the vertex could go here, but not in every other place where its mesh stands
   by_loop        ///< every rule accepts, but a geometric test of CGAL's loop does not
 };
@@ -85,6 +86,7 @@ public:
              {Hindrance::uv, "uv", "texture that would turn over", "uv"},
              {Hindrance::error, "error", "the error bound", "error"},
              {Hindrance::intersection, "intersection", "layers in the way", "intersection"},
+             {Hindrance::clearance, "clearance", "layers that would come too near", "clearance"},
              {Hindrance::companions, "companions", "other places of shared meshes", "companions"},
              {Hindrance::by_loop, "by_loop", "CGAL's loop", "by_loop"}}};
   }

@@ -165,6 +165,22 @@ public:
     m_guard->let_intersect(parts);
   }
 
+  /// Keeps pieces apart: no two come nearer to each other than `distance` or, if they are nearer already,
+  /// than they are. A piece is a set of faces that are connected by common positions.
+  ///
+  /// - G12 *Clearance*: after every collapse, and at every time on the way, the distance of any two pieces is
+  ///   at least the lesser of `distance` and what it was at the start. This is so place by place: a moving
+  ///   face stays at least as far from any face of another piece as `distance`, or as the star of its vertex
+  ///   was before (`Clearance_test`). Pairs that `exempt` or `let_intersect` names have no clearance.
+  ///
+  /// It is decided exactly, for the double given. Throws `Argument_error` when this is not positive and
+  /// finite.
+  ///
+  /// **Preconditions** No question has been asked yet. **Complexity** For each motion, one more query of the
+  /// index, for a box that is larger by `distance` on all sides, and the time of `Clearance_test` for each
+  /// face of another piece in it.
+  void keep_clearance(double distance) const { m_guard->keep_clearance(distance); }
+
   Visitor visitor() const { return Visitor(m_guard); }
 
   template <class Collapse>
@@ -185,6 +201,9 @@ public:
   /// motions that it tried, or all with which more exempt pairs would offend than before. Empty where the
   /// star of the moving vertex alone decided, and where the base filter refused.
   auto& blockers() const { return m_guard->blockers(); }
+
+  /// Returns whether the last collapse was refused for nothing but the distance of `keep_clearance`.
+  bool is_clearance_lacking() const { return m_guard->is_clearance_lacking(); }
 
   /// Returns, for the last collapse that this filter accepted with a place at neither end, in which order the
   /// ends go there: whether `collapse.mover()` goes first. The other order is asked for first.

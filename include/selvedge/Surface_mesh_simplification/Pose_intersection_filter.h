@@ -145,6 +145,13 @@ public:
       filter.let_intersect(parts);
   }
 
+  /// As `Intersection_filter::keep_clearance`, in all poses; pieces are those of each pose.
+  void keep_clearance(double distance) const
+  {
+    for (const In_pose& filter : m_state->filters)
+      filter.keep_clearance(distance);
+  }
+
   Visitor visitor() const { return Visitor(m_state); }
 
   template <class Collapse>
@@ -184,6 +191,9 @@ public:
     static const std::vector<Face> none;
     return m_state->refusing ? m_state->refusing->blockers() : none;
   }
+
+  /// Returns whether the last collapse was refused for nothing but the distance of `keep_clearance`.
+  bool is_clearance_lacking() const { return m_state->refusing && m_state->refusing->is_clearance_lacking(); }
 
   /// Returns how many collapses were refused in a pose.
   std::size_t refusals_in(std::size_t pose) const { return m_state->refused[pose]; }

@@ -21,6 +21,7 @@ struct Refusals
   std::size_t normal_change = 0;
   std::size_t uv = 0; ///< a texture triangle would turn over
   std::size_t intersection = 0;
+  std::size_t clearance = 0;  ///< faces would come too near others; see `Simplify_options::clearance`
   std::size_t companions = 0; ///< places of a shared mesh are so near each other that they cannot move alike
   std::size_t by_loop = 0;    ///< accepted by all rules, but refused by a geometric test of CGAL's loop
 
@@ -32,7 +33,7 @@ struct Refusals
   };
 
   /// Returns all rules, in order.
-  static constexpr std::array<Rule, 9> rules();
+  static constexpr std::array<Rule, 10> rules();
 
   friend Refusals& operator+=(Refusals& a, const Refusals& b)
   {
@@ -48,7 +49,7 @@ struct Refusals
   }
 };
 
-constexpr std::array<Refusals::Rule, 9> Refusals::rules()
+constexpr std::array<Refusals::Rule, 10> Refusals::rules()
 {
   return {{{"border", "border", &Refusals::border},
            {"target", "parts at their target", &Refusals::target},
@@ -57,6 +58,7 @@ constexpr std::array<Refusals::Rule, 9> Refusals::rules()
            {"normal_change", "normal change", &Refusals::normal_change},
            {"uv", "texture", &Refusals::uv},
            {"intersection", "intersection", &Refusals::intersection},
+           {"clearance", "clearance", &Refusals::clearance},
            {"companions", "other places of shared meshes", &Refusals::companions},
            {"by_loop", "CGAL's loop", &Refusals::by_loop}}};
 }

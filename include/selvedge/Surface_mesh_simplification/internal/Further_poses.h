@@ -96,7 +96,8 @@ public:
   /// Begins the exact test; `make_index()` returns an empty index.
   template <class MakeIndex>
   void build_index(const MakeIndex& make_index, const decltype(Constraints::multiplicities)& multiplicities,
-                   const decltype(Constraints::may_intersect)& may_intersect)
+                   const decltype(Constraints::may_intersect)& may_intersect,
+                   const std::optional<double>& clearance)
   {
     if (empty())
       return;
@@ -104,6 +105,8 @@ public:
     for (std::size_t i = 0; i < m_poses.size(); ++i)
       m_intersection->exempt(i, m_offending_pairs[i], multiplicities);
     m_intersection->let_intersect(may_intersect);
+    if (clearance)
+      m_intersection->keep_clearance(*clearance);
   }
 
   /// Whether the limits allow a collapse in every pose.
@@ -129,6 +132,9 @@ public:
   /// Returns the faces because of which the exact test refused the last collapse.
   const std::vector<Face>& blockers() const { return m_intersection->blockers(); }
 
+  /// Returns whether it refused that for nothing but clearance.
+  bool is_clearance_lacking() const { return m_intersection && m_intersection->is_clearance_lacking(); }
+
   /// Returns the first limit that holds back a collapse in some pose.
   template <class Collapse>
   std::optional<Hindrance> hindrance(const Collapse& collapse, bool is_border) const
@@ -150,8 +156,9 @@ public:
       if (reason)
         return reason;
     }
-    return !m_intersection || m_intersection->accepts(collapse) ? std::nullopt
-                                                                : std::optional(Hindrance::intersection);
+    if (!m_intersection || m_intersection->accepts(collapse))
+      return std::nullopt;
+    return m_intersection->is_clearance_lacking() ? Hindrance::clearance : Hindrance::intersection;
   }
 
   void on_started()

@@ -6,6 +6,7 @@
 
 #include <selvedge/Error.h>
 #include <selvedge/Surface_mesh_simplification/Intersection_statistics.h>
+#include <selvedge/Surface_mesh_simplification/internal/Clearance.h>
 #include <selvedge/Surface_mesh_simplification/internal/Collapse.h>
 #include <selvedge/Surface_mesh_simplification/internal/Descent.h>
 #include <selvedge/Surface_mesh_simplification/internal/Face_table.h>
@@ -50,6 +51,9 @@ namespace internal {
 ///
 /// Condition 1 is not asked of permitted pairs (`Permitted_pairs`) either; no star has faces of two
 /// parts that may intersect.
+///
+/// Where a clearance is asked for, a motion must also keep it from stationary faces of other pieces
+/// (`Clearance_test`). It is not asked of exempt and of permitted pairs.
 template <class TriangleMesh, class VertexPointMap, class GeomTraits, class FaceIndex>
 class Intersection_guard
 {
@@ -95,6 +99,9 @@ public:
     if (m_permitted.is_any())
       m_star.keep_faces();
   }
+
+  /// Keeps a distance between pieces. Call it before the first question.
+  void keep_clearance(double distance) { m_clearance.begin(m_mesh, m_vertices, distance); }
 
   Intersection_guard(const Intersection_guard&) = delete; // its parts refer to each other
   Intersection_guard& operator=(const Intersection_guard&) = delete;
@@ -148,7 +155,15 @@ public:
   /// Returns the faces that kept motions from being clear since `forget_blockers`: one at most for each
   /// motion, or those with which more pairs would offend.
   const std::vector<Face>& blockers() const { return m_blockers; }
-  void forget_blockers() { m_blockers.clear(); }
+  void forget_blockers()
+  {
+    m_blockers.clear();
+    m_is_clearance_lacking = false;
+  }
+
+  /// Returns whether the last motion asked about since `forget_blockers` lacked nothing but clearance.
+  bool is_clearance_lacking() const { return m_is_clearance_lacking; }
+
   const Intersection_statistics& statistics() const { return m_statistics; }
   const FaceIndex& index() const { return m_faces.index(); }
 
@@ -337,6 +352,7 @@ private:
   bool is_motion_clear(const Motion& motion)
   {
     ++m_statistics.motions_judged;
+    m_is_clearance_lacking = false;
     if (is_held(motion) || !m_star.gather(motion) || !m_star.is_link_condition_met(motion)) {
       ++m_statistics.refused_by_link;
       return false;
@@ -347,6 +363,11 @@ private:
     }
     if (!are_sweeps_clear(motion)) {
       ++m_statistics.refused_by_sweep;
+      return false;
+    }
+    if (m_clearance.is_asked() && !is_clearance_kept(motion)) {
+      ++m_statistics.refused_by_clearance;
+      m_is_clearance_lacking = true;
       return false;
     }
     return true;
@@ -499,6 +520,39 @@ private:
     return m_sweeps[j]->is_clear(p, q, r);
   }
 
+  bool is_clearance_kept(const Motion& motion)
+  {
+    if (!m_is_descent_asked && is_star_flat())
+      return true; // all that it sweeps over is the star itself
+    const auto mover = m_vertices.number(motion.mover);
+    m_faces.find_near(m_clearance.reach(m_star.box()), mover, m_near);
+    m_clearance.begin_motion(m_star.exact(), mover);
+    for (const Id id : m_near) {
+      const auto& [a, b, c] = m_faces.corners(id);
+      if (m_clearance.is_own(a) || (m_is_descent_asked && m_descent.is_exempt(id)) ||
+          (m_permitted.is_any() && m_permitted.has_some(id)))
+        continue;
+      if (!m_clearance.is_kept(m_vertices.point(a), m_vertices.point(b), m_vertices.point(c))) {
+        m_blockers.push_back(m_faces.descriptor(id));
+        return false;
+      }
+    }
+    return true;
+  }
+
+  // Whether the star is a polygon around the mover. By condition 2, it is the same polygon at every time of
+  // the motion. On flat layers, distances are equal, which the test of clearance is slow to find out.
+  bool is_star_flat() const
+  {
+    const auto& base = m_star.link().front(); // of a face
+    return m_star.is_cycle() &&
+           std::all_of(m_star.points().begin(), m_star.points().begin() + std::ptrdiff_t(m_star.size()),
+                       [&](const auto& p) {
+                         return m_traits.coplanar_3_object()(m_star[Star::s_from], m_star[base[0]],
+                                                             m_star[base[1]], p);
+                       });
+  }
+
   const TriangleMesh& m_mesh;
   GeomTraits m_traits;
   Vertices m_vertices;
@@ -513,6 +567,8 @@ private:
   std::size_t m_others_left = 0; // collapses that go along with the last one, and have not been done
   Descent m_descent;
   Permitted_pairs<Id> m_permitted;
+  Clearance<TriangleMesh, Vertices, GeomTraits> m_clearance;
+  bool m_is_clearance_lacking = false;
   bool m_is_descent_asked = false; // whether faces of the collapse in question have offending ancestors
   bool m_has_degenerate = false;   // whether a face of it is degenerate, and so contracted
   std::vector<Face> m_blockers;

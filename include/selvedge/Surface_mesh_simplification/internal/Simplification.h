@@ -255,6 +255,9 @@ public:
     if (!m_poses.empty() && options.placement == Placement::optimal)
       throw Argument_error("a new place of a vertex is a place in one pose; with several poses, vertices go "
                            "to others");
+    if (options.clearance && !options.check_intersections)
+      throw Argument_error(
+          "a clearance is kept where intersections are checked; leave one of the two options");
     if (!(options.uv_weight >= 0 && std::isfinite(options.uv_weight)))
       throw Argument_error("the weight of the texture is at least 0, and finite");
     m_quadrics.weigh(mesh, constraints.vertex_weights);
@@ -303,6 +306,8 @@ public:
     result.uv = m_uv.refusals();
     result.intersection = (m_intersection ? m_intersection->refusals() : 0) + m_refused_in_first_pose;
     m_poses.add_refusals(result);
+    result.intersection -= m_refused_by_clearance;
+    result.clearance = m_refused_by_clearance;
     // What the last filter accepted and the loop did not collapse. A stop comes before the filters.
     result.companions = m_companions_too_near;
     result.by_loop = m_accepted - m_report.collapses;
@@ -388,7 +393,7 @@ private:
     } else {
       Cgal_pass pass(
           m_mesh, m_points, costs, places, Filter{this}, Visitor(*this), [this] { return is_over(); },
-          [this] { return refusals().intersection; });
+          [this] { return refusals().intersection + refusals().clearance; });
       run_passes([&] {
         const std::size_t collapses_before = m_report.collapses;
         return pass() || m_report.collapses > collapses_before;
@@ -531,6 +536,8 @@ private:
     const std::size_t before = refused_by_contact();
     if (m_intersection->accepts(collapse))
       return Hindrance::by_loop;
+    if (m_intersection->is_clearance_lacking())
+      return Hindrance::clearance;
     return refused_by_contact() > before ? Hindrance::intersection : Hindrance::topology;
   }
 
@@ -586,7 +593,10 @@ private:
       m_intersection.emplace(m_mesh, m_error, empty_index(), m_points);
       m_intersection->exempt(m_offending_pairs, m_multiplicities);
       m_intersection->let_intersect(m_may_intersect);
-      m_poses.build_index([this] { return empty_index(); }, m_multiplicities, m_may_intersect);
+      if (m_options.clearance)
+        m_intersection->keep_clearance(*m_options.clearance);
+      m_poses.build_index([this] { return empty_index(); }, m_multiplicities, m_may_intersect,
+                          m_options.clearance);
     }
     Cancellation_scope::check();
     m_report.seconds_index = seconds_since(start);
@@ -733,18 +743,22 @@ private:
       return m_error.allows(collapse) && m_poses.allows_shape(collapse);
     if (m_poses.empty()) {
       m_blockers = &m_intersection->blockers();
-      return m_intersection->allows(collapse);
+      const bool is_allowed = m_intersection->allows(collapse);
+      m_refused_by_clearance += m_intersection->is_clearance_lacking();
+      return is_allowed;
     }
     if (!m_error.allows(collapse) || !m_poses.allows_shape(collapse))
       return false;
     if (!m_intersection->accepts(collapse)) {
       ++m_refused_in_first_pose;
+      m_refused_by_clearance += m_intersection->is_clearance_lacking();
       m_blockers = &m_intersection->blockers();
       return false;
     }
     if (m_poses.is_clear(collapse))
       return true;
     m_blockers = &m_poses.blockers();
+    m_refused_by_clearance += m_poses.is_clearance_lacking();
     return false;
   }
 
@@ -1019,6 +1033,7 @@ private:
   bool m_is_mover_first = false;  // of the last collapse accepted
   const std::vector<typename Intersection::Face>* m_blockers = nullptr; // of the last collapse refused
   std::size_t m_refused_in_first_pose = 0;
+  std::size_t m_refused_by_clearance = 0; // in any pose
   double m_cost = 0;
   bool m_are_hindrances_counted = true;
   Refusals m_refused_until_now;

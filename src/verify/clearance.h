@@ -1,0 +1,40 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SRC_VERIFY_CLEARANCE_H
+#define SELVEDGE_SRC_VERIFY_CLEARANCE_H
+
+#include <selvedge/verify.h>
+
+#include <optional>
+#include <vector>
+
+namespace selvedge::internal {
+
+/// Numbers the pieces of a mesh that are connected by positions: returns the number of each triangle's.
+std::vector<Index> pieces_by_position(const Triangle_soup& mesh);
+
+/// Numbers the pieces of a result and of its original alike: those of the original by position, with those
+/// that a match joins made one, and those of the result by what they are matched with, or else by vertices.
+/// Where `triangles_of_original` is given, a triangle has the number of that which it was. The last triangles
+/// of both meshes are those of one obstacle.
+struct Matched_pieces
+{
+  std::vector<Index> of_result, of_original; // by triangle
+};
+Matched_pieces matched_pieces(const Triangle_soup& result, const Triangle_soup& original,
+                              const std::vector<Piece>& pieces_of_result, const Piece_matching& matching,
+                              const std::vector<Index>& triangles_of_original,
+                              std::size_t obstacle_triangles);
+
+/// Finds the pieces that are nearer to each other than a clearance, and which of them are too near.
+///
+/// **Exactness** The answers are exact: interval arithmetic decides where it can, rational numbers otherwise.
+Clearance_verdict judge_clearance(double clearance, const Triangle_soup& mesh,
+                                  const std::vector<Index>& pieces);
+Clearance_verdict judge_clearance(double clearance, const Triangle_soup& result,
+                                  const Triangle_soup& original, const Matched_pieces& pieces);
+
+} // namespace selvedge::internal
+
+#endif // SELVEDGE_SRC_VERIFY_CLEARANCE_H
