@@ -65,16 +65,16 @@ std::vector<Pose> morph_poses(const Triangle_soup& mesh, const std::string& name
 std::vector<Pose> animation_poses(const Triangle_soup& mesh, const std::string& animation, std::size_t every,
                                   const std::string& name);
 
-/// Writes a mesh and its further poses to a glTF file, as a new document in the space of the mesh (`write_mesh`
-/// for meshes that were not read from glTF). Each pose is a morph target of its name, with a second one for
-/// what the first loses by rounding, if it loses anything. The animation `poses` has a keyframe for each and
-/// shows one after another, without what lies between them: at `Pose::time` where these rise from 0 or more,
-/// else 24 in a second. `animation_poses` of the file gives the poses bit for bit; `morph_poses` gives them
-/// without what is in second targets.
+/// Writes a mesh and its further poses to a glTF file, as a new document in the space of the mesh
+/// (`write_mesh` for meshes that were not read from glTF). Each pose is a morph target of its name, with a
+/// second one for what the first loses by rounding, if it loses anything. The animation `poses` has a
+/// keyframe for each and shows one after another, without what lies between them: at `Pose::time` where these
+/// rise from 0 or more, else 24 in a second. `animation_poses` of the file gives the poses bit for bit;
+/// `morph_poses` gives them without what is in second targets.
 ///
-/// Throws `Argument_error` when there is no pose, a coordinate of the mesh is not the value of a 32-bit float,
-/// a coordinate of a pose is not that of the mesh plus two such, or the name is not that of a glTF file, and
-/// `Output_error` when the file cannot be written, which appears whole or not at all.
+/// Throws `Argument_error` when there is no pose, a coordinate of the mesh is not the value of a 32-bit
+/// float, a coordinate of a pose is not that of the mesh plus two such, or the name is not that of a glTF
+/// file, and `Output_error` when the file cannot be written, which appears whole or not at all.
 ///
 /// **Complexity** O(p n + p² m) for p poses and m nodes.
 void write_gltf_poses(const std::filesystem::path& path, const Triangle_soup& mesh);
