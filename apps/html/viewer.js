@@ -1030,7 +1030,8 @@ const STILL = [[OFFENDING, [214, 40, 57], 'in an offending pair'], [FROZEN, [52,
 async function start() {
   const report = JSON.parse($('#report').textContent), scene = JSON.parse($('#scene').textContent);
   const block = await unpacked($('#block').textContent);
-  read(scene, block);
+  for (const lists of [scene.meshes, scene.levels, scene.collapses])
+    read(lists, block);
   window.viewer = new Viewer(report, scene, block);
 }
 

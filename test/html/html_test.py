@@ -102,13 +102,16 @@ async function probe() {
     found.poses_return = halves();
   }
   found.places = all('#faults .place, #places .place').length;
+  found.faults = all('#faults .place').map(button => {
+    button.click();
+    return {text: button.textContent, step: viewer.level ? viewer.models[1].step : 0, lines: viewer.outline.children[0].geometry.attributes.position.count};
+  });
   if (found.places) {
     const button = all('#faults .place, #places .place')[0];
     button.click();
     await new Promise(done => setTimeout(done, 1500));
     found.flown = halves();
     found.rings = all('.ring').filter(ring => !ring.hidden).length;
-    found.first_place = {text: button.textContent, step: viewer.level ? viewer.models[1].step : 0, pose: viewer.pose};
   }
   found.verdict = q('#verdict').textContent;
   found.evil = !!q('#evil');
@@ -237,18 +240,23 @@ def main():
         at_end = sorted(int(count.replace(",", "")) for count in found["plot"]["at_end"])
         assert at_end == sorted(count for count in report["refused"].values() if count > 0), found["plot"]
 
-        # A replay: as it was, and with a step that joins no neighbours and a vertex that jumps through the other layer.
+        # A replay: as it was; and of a reduction in which nothing kept the layers apart, with a step that joins no neighbours.
         pages.run("replay", "in.obj", "posed.log", "--html", "replayed.html", *poses)
         found = pages.look("replayed.html")
         assert found["verdict"] == "Every step is accepted" and found["places"] == 0, found
         assert found["levels"][0]["shown"] == report["faces"]["output"]
-        lines = (folder / "posed.log").read_text().splitlines()
-        first = next(i for i, line in enumerate(lines) if line.startswith("c "))
-        lines[first + 4:first + 4] = ["c 0 323", lines[first].replace(lines[first].split()[1], "0", 1)]
+        pages.run("generate", "skirt", "-o", "skirt.obj", "--faces", "1000", "--layers", "3", "--quiet")
+        pages.run("simplify", "skirt.obj", "-o", "unkept.obj", "--ratio", "0.1", "--no-intersection-check", "--log", "unkept.log", code=1)
+        lines = (folder / "unkept.log").read_text().splitlines()
+        lines.insert(next(i for i, line in enumerate(lines) if line.startswith("c ")) + 4, "c 0 323")
         (folder / "bad.log").write_text("\n".join(lines) + "\n")
-        pages.run("replay", "in.obj", "bad.log", "--all", "--no-limits", "--html", "bad.html", code=1)
-        found = pages.look("bad.html")
-        assert found["first_place"]["text"].startswith("step 5: no edge joins") and found["first_place"]["step"] == 4, found["first_place"]
+        pages.run("replay", "skirt.obj", "bad.log", "--all", "--no-limits", "--html", "bad.html", code=1)
+        faults = pages.look("bad.html")["faults"]
+        assert any(fault["text"].startswith("step 5: no edge joins") and fault["step"] == 4 for fault in faults), faults
+        crossing = [fault for fault in faults if "intersect" in fault["text"]]
+        assert crossing, faults
+        for fault in crossing: # the step is the next one, and its faces are outlined as they will be
+            assert fault["text"].startswith(f"step {fault['step'] + 1:,}:") and fault["lines"] >= 12, fault
 
         pages.run("verify", "out.obj", "--against", "in.obj", "--html", "verify.html")
         assert len(pages.look("verify.html")["first"]) == 2
