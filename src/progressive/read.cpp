@@ -21,7 +21,7 @@ class Progressive_reader
 {
 public:
   Progressive_reader(std::string_view contents, Mesh_format format, const std::string& name)
-      : m_document(files::read_gltf_document(contents, format, name, nullptr)),
+      : m_document(files::read_gltf_document(contents, format, name, nullptr, 0)),
         m_lists(lists_of(m_document.json)),
         m_columns(m_document, "a list of " + std::string(progressive_extras))
   {
@@ -31,7 +31,7 @@ public:
       m_document.fail("its list of collapses has version " + std::to_string(version) +
                       ", and this program reads version " + std::to_string(progressive::version) +
                       "; use the program that wrote it");
-    m_mesh.soup = files::read_gltf(contents, format, name, nullptr).soup;
+    m_mesh.soup = files::read_gltf(contents, format, name, nullptr, 0).soup;
   }
 
   Progressive_mesh read(bool is_digest_judged)
