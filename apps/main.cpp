@@ -100,7 +100,7 @@ Exit_code run(int argc, char** argv)
     CLI::App* const command = app.add_subcommand(name, description);
     return Command{command, declare(*command)};
   };
-  const std::array<Command, 6> commands{
+  const std::array<Command, 7> commands{
       add("simplify", "Reduce a mesh to fewer faces, judge the result, and write it.", add_simplify),
       add("verify", "Judge a mesh, or compare a reduced mesh with its original.", add_verify),
       add("info", "Say what is in a mesh, and what a reduction would find in it.", add_info),

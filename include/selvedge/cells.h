@@ -58,8 +58,8 @@ struct Cell
   /// Returns whether a point is strictly inside.
   bool contains(const Point_3& p) const
   {
-    for (int i = 0; i < 3; ++i)
-      if (!(low[i] < p[i] && p[i] < high[i]))
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!(low[i] < p[int(i)] && p[int(i)] < high[i]))
         return false;
     return true;
   }
@@ -67,8 +67,8 @@ struct Cell
   /// Returns whether a closed box meets the closure of this one.
   bool touches(const CGAL::Bbox_3& box) const
   {
-    for (int i = 0; i < 3; ++i)
-      if (!(box.min(i) <= high[i] && box.max(i) >= low[i]))
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!((box.min)(int(i)) <= high[i] && (box.max)(int(i)) >= low[i]))
         return false;
     return true;
   }

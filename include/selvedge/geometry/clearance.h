@@ -158,7 +158,7 @@ private:
       begin(f[0]);
       add(f[1]);
       add(f[2]);
-      for (int i = 0; i < 3; ++i) {
+      for (std::size_t i = 0; i < 3; ++i) {
         lower[i] = (Interval(lower[i]) - distance).inf();
         upper[i] = (Interval(upper[i]) + distance).sup();
       }
@@ -166,7 +166,7 @@ private:
 
     bool meets(const Box& other) const
     {
-      for (int i = 0; i < 3; ++i)
+      for (std::size_t i = 0; i < 3; ++i)
         if (lower[i] > other.upper[i] || other.lower[i] > upper[i])
           return false;
       return true;
@@ -175,16 +175,16 @@ private:
   private:
     void begin(const typename Approximate::Point& p)
     {
-      for (int i = 0; i < 3; ++i) {
-        lower[i] = p[i].inf();
-        upper[i] = p[i].sup();
+      for (std::size_t i = 0; i < 3; ++i) {
+        lower[i] = p[int(i)].inf();
+        upper[i] = p[int(i)].sup();
       }
     }
     void add(const typename Approximate::Point& p)
     {
-      for (int i = 0; i < 3; ++i) {
-        lower[i] = (std::min)(lower[i], p[i].inf());
-        upper[i] = (std::max)(upper[i], p[i].sup());
+      for (std::size_t i = 0; i < 3; ++i) {
+        lower[i] = (std::min)(lower[i], p[int(i)].inf());
+        upper[i] = (std::max)(upper[i], p[int(i)].sup());
       }
     }
   };
