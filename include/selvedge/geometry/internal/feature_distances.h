@@ -75,10 +75,16 @@ public:
   }
 
 private:
+  static bool both(bool a, bool b) { return a && b; }
+  static CGAL::Uncertain<bool> both(const CGAL::Uncertain<bool>& a, const CGAL::Uncertain<bool>& b)
+  {
+    return a & b;
+  }
+
   // Whether a fraction with a positive denominator lies between 0 and 1.
   static Boolean is_fraction(const FT& numerator, const FT& denominator)
   {
-    return (numerator >= 0) & (numerator <= denominator);
+    return both(numerator >= 0, numerator <= denominator);
   }
 
   static Squared quotient(const FT& numerator, const FT& denominator)
@@ -107,8 +113,9 @@ private:
     const FT length = n.squared_length();
     if (CGAL::certainly(length == 0))
       return;
-    const Boolean is_attained = is_fraction(CGAL::cross_product(w, v) * n, length) &
-                                is_fraction(CGAL::cross_product(w, u) * n, length) & (length > 0);
+    const Boolean are_fractions = both(is_fraction(CGAL::cross_product(w, v) * n, length),
+                                       is_fraction(CGAL::cross_product(w, u) * n, length));
+    const Boolean is_attained = both(are_fractions, length > 0);
     if (CGAL::possibly(is_attained))
       visit(is_attained, quotient(CGAL::square(w * n), length));
   }
@@ -122,7 +129,7 @@ private:
     if (CGAL::certainly(length == 0))
       return;
     const FT at_v = CGAL::cross_product(u, w) * n, at_u = CGAL::cross_product(w, v) * n;
-    const Boolean is_attained = (at_u >= 0) & (at_v >= 0) & (at_u + at_v <= length) & (length > 0);
+    const Boolean is_attained = both(both(at_u >= 0, at_v >= 0), both(at_u + at_v <= length, length > 0));
     if (CGAL::possibly(is_attained))
       visit(is_attained, quotient(CGAL::square(w * n), length));
   }
