@@ -94,10 +94,13 @@ void consider_corner(const Corner& p, const Corners& b, const Consider& consider
 
 Interval least_along(const std::array<Interval, 3>& direction, const Corners& corners, int sign)
 {
-  Interval least(std::numeric_limits<double>::infinity());
-  for (const Corner& p : corners) {
-    const Interval at = Interval(sign) * (direction[0] * Interval(p[0]) + direction[1] * Interval(p[1]) +
-                                          direction[2] * Interval(p[2]));
+  const auto height = [&](const Corner& p) {
+    return Interval(sign) *
+           (direction[0] * Interval(p[0]) + direction[1] * Interval(p[1]) + direction[2] * Interval(p[2]));
+  };
+  Interval least = height(corners[0]);
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    const Interval at = height(corners[i]);
     least = Interval((std::min)(least.inf(), at.inf()), (std::min)(least.sup(), at.sup()));
   }
   return least;
