@@ -664,10 +664,8 @@ std::vector<Working_mesh::Mesh::Halfedge_index> Working_mesh::companions(Mesh::H
   return result;
 }
 
-bool Working_mesh::is_led(Mesh::Halfedge_index edge) const
+bool Working_mesh::is_led_from_elsewhere(Mesh::Halfedge_index edge) const
 {
-  if (m_shared.empty())
-    return false;
   const Side here = side(edge);
   return is_shared(Mesh::Face_index(here.triangle)) && m_copies[here.triangle].place > 0;
 }

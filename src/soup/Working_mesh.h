@@ -229,7 +229,7 @@ public:
   std::vector<Mesh::Halfedge_index> companions(Mesh::Halfedge_index moving) const;
   bool are_companions_apart(Mesh::Halfedge_index moving,
                             const std::vector<Mesh::Halfedge_index>& companions) const;
-  bool is_led(Mesh::Halfedge_index edge) const;
+  bool is_led(Mesh::Halfedge_index edge) const { return !m_shared.empty() && is_led_from_elsewhere(edge); }
   Hindrance lock_reason(Mesh::Vertex_index v) const;
   Hindrance line_reason(Mesh::Edge_index e) const;
   void on_hindered(Mesh::Edge_index e, Hindrance reason);
@@ -259,6 +259,7 @@ private:
   Uv uv_at(Corner corner) const; // as it is now
   CGAL::Orientation uv_orientation(const Index_triple& corners, unsigned char place, const Uv& uv) const;
   bool keeps_uv_orientation_of(Mesh::Halfedge_index h, Index ply, const Uv& uv) const;
+  bool is_led_from_elsewhere(Mesh::Halfedge_index edge) const;
   bool is_own(Mesh::Face_index face) const { return std::size_t(face) < m_corners.size(); }
   Differences differences(Corner a, Corner b) const;
 

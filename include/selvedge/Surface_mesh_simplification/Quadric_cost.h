@@ -24,6 +24,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -102,6 +103,7 @@ class Quadric_cost
     Quadric quadric;     // of which the cost is made
     double own_cost = 0; // its value at the vertex itself
     double weight = 1;
+    bool has_lines = false; // whether a border or another line meets the vertex, or may have met it
     Enclosure enclosure;
   };
   // What a face gives to the quadrics at its corners: kept, since each is asked for many times.
@@ -174,6 +176,7 @@ public:
       Vertex_quadric of_vertex;
       if (!m_state->weights.empty())
         of_vertex.weight = *weight++;
+      of_vertex.has_lines = is_at_line(v, mesh);
       of_vertex.accumulated = compute_quadric(v, mesh, points, 0, of_vertex);
       put(m_state->quadrics, v, of_vertex);
     }
@@ -284,12 +287,6 @@ public:
   template <class Profile>
   void update_after_collapse(const Profile& profile, Vertex kept) const
   {
-    const Vertex_quadric &at_v0 = get(m_state->quadrics, profile.v0()),
-                         &at_v1 = get(m_state->quadrics, profile.v1());
-    Vertex_quadric merged;
-    merged.accumulated = at_v0.accumulated;
-    merged.accumulated += at_v1.accumulated;
-    merged.weight = (std::max)(at_v0.weight, at_v1.weight);
     const auto& mesh = profile.surface_mesh();
     const auto& points = profile.vertex_point_map();
     const double memory = m_state->options.memory;
@@ -297,14 +294,18 @@ public:
       for (const Halfedge h : CGAL::halfedges_around_target(kept, mesh))
         if (!CGAL::is_border(h, mesh))
           compute_plane(face(h, mesh), mesh, points);
-    compute_quadric(kept, mesh, points, memory, merged);
-    put(m_state->quadrics, kept, merged);
+    const Vertex_quadric& gone = get(m_state->quadrics, kept == profile.v0() ? profile.v1() : profile.v0());
+    change(m_state->quadrics, kept, [&](Vertex_quadric& merged) {
+      merged.accumulated += gone.accumulated;
+      merged.weight = (std::max)(merged.weight, gone.weight);
+      merged.has_lines |= gone.has_lines;
+      compute_quadric(kept, mesh, points, memory, merged);
+    });
     if (memory < 1)
-      for (const Vertex v : CGAL::vertices_around_target(halfedge(kept, mesh), mesh)) {
-        Vertex_quadric of_vertex = get(m_state->quadrics, v);
-        compute_quadric(v, mesh, points, memory, of_vertex);
-        put(m_state->quadrics, v, of_vertex);
-      }
+      for (const Vertex v : CGAL::vertices_around_target(halfedge(kept, mesh), mesh))
+        change(m_state->quadrics, v, [&](Vertex_quadric& of_vertex) {
+          compute_quadric(v, mesh, points, memory, of_vertex);
+        });
   }
 
 private:
@@ -335,6 +336,20 @@ private:
   };
 
   static bool is_weight(double number) { return number >= 0 && std::isfinite(number); }
+
+  // Calls a function with what a map has of a key, in its place where the map tells it.
+  template <class Map, class Key, class Function>
+  static void change(const Map& map, const Key& key, const Function& function)
+  {
+    using Value = typename boost::property_traits<Map>::value_type;
+    if constexpr (std::is_same_v<decltype(get(map, key)), Value&>) {
+      function(get(map, key));
+    } else {
+      Value value = get(map, key);
+      function(value);
+      put(map, key, value);
+    }
+  }
 
   // The factor that brings areas of which faces differ by orders of magnitude nearer to each other.
   double weight_of_area(double area) const
@@ -408,6 +423,8 @@ private:
         of_vertex.enclosure.add(plane.normal, internal::dot(plane.normal, place), plane.doubled_area);
         of_faces.add_square(plane.normal, plane.weight);
         weight += plane.weight;
+        if (!of_vertex.has_lines)
+          continue;
         const Halfedge from_v = next(to_v, mesh);
         if (const double share = share_of_line(from_v, mesh))
           add_line(share, plane.normal, place, state.vector(get(points, target(from_v, mesh))), of_faces);
@@ -425,6 +442,16 @@ private:
     of_vertex.quadric += remembered;
     of_vertex.own_cost = of_vertex.quadric(place);
     return of_faces;
+  }
+
+  bool is_at_line(Vertex v, const TriangleMesh& mesh) const
+  {
+    if (halfedge(v, mesh) == Graph_traits::null_halfedge())
+      return false;
+    const auto around = CGAL::halfedges_around_target(v, mesh);
+    return std::any_of(around.begin(), around.end(), [&](Halfedge h) {
+      return CGAL::is_border(h, mesh) || share_of_line(h, mesh) > 0;
+    });
   }
 
   // Returns which share of the weight of a border an edge has: 1 for a border, 0 for an edge that is no line.

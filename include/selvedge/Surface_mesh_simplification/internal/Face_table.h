@@ -130,25 +130,36 @@ public:
 
   /// Removes the faces that a filter proves clear of its star from a list of faces, none of which is at the
   /// mover, and finds for each of the others the sweeps that are not proved clear of it.
-  void remove_clear(Star_pack_filter& filter, std::vector<Id>& near, std::vector<Sweeps>& unclear) const
+  void remove_clear(Star_pack_filter& filter, std::vector<Id>& near, std::vector<Sweeps>& unclear)
   {
+    constexpr std::size_t width = Star_pack_filter::width;
+    unclear.clear();
     if (filter.enter(m_origin, m_reach)) {
-      Star_pack_filter::Pack pack;
+      // All packs are filled before the first is asked, which would wait for what has just been stored.
+      m_packs.resize(near.size() / width + 1);
+      for (std::size_t i = 0; i < near.size(); ++i)
+        m_packs[i / width].set(i % width, m_triangles[near[i]]);
+      const auto for_each_pack = [&](const auto& function) {
+        const std::size_t size = near.size();
+        for (std::size_t first = 0; first < size; first += width)
+          function(m_packs[first / width], first, (std::min)(width, size - first));
+      };
       std::size_t left = 0;
-      for_each_pack(near, pack, [&](std::size_t first, std::size_t count) {
-        for (auto rest = filter.unclear(pack, count); rest != 0; rest &= rest - 1)
-          near[left++] = near[first + lowest_bit(rest)];
+      for_each_pack([&](const auto& pack, std::size_t first, std::size_t count) {
+        for (auto rest = filter.unclear(pack, count); rest != 0; rest &= rest - 1) {
+          const std::size_t i = lowest_bit(rest);
+          m_packs[left / width].set(left % width, pack, i);
+          near[left++] = near[first + i];
+        }
       });
-      near.resize(left);
-      left = 0;
-      unclear.resize(near.size());
-      Star_pack_filter::Sweeps of_pack;
-      for_each_pack(near, pack, [&](std::size_t first, std::size_t count) {
+      near.resize(std::exchange(left, 0));
+      for_each_pack([&](const auto& pack, std::size_t first, std::size_t count) {
+        Star_pack_filter::Sweeps of_pack;
         filter.find_unclear(pack, of_pack);
         for (std::size_t i = 0; i < count; ++i)
           if (of_pack[i] != 0) {
-            near[left] = near[first + i];
-            unclear[left++] = of_pack[i];
+            near[left++] = near[first + i];
+            unclear.push_back(of_pack[i]);
           }
       });
       near.resize(left);
@@ -192,20 +203,6 @@ public:
   std::size_t size() const { return m_size; }
 
 private:
-  // Calls `function(first, count)` for eight faces of a list after the other, when they are in `pack`.
-  template <class Function>
-  void for_each_pack(const std::vector<Id>& list, Star_pack_filter::Pack& pack,
-                     const Function& function) const
-  {
-    constexpr std::size_t width = Star_pack_filter::width;
-    for (std::size_t first = 0; first < list.size(); first += width) {
-      const std::size_t count = (std::min)(width, list.size() - first);
-      for (std::size_t i = 0; i < count; ++i)
-        pack.set(i, m_triangles[list[first + i]]);
-      function(first, count);
-    }
-  }
-
   void find_origin()
   {
     CGAL::Bbox_3 box;
@@ -270,6 +267,7 @@ private:
   std::vector<Float_triangle> m_triangles; // by number: in the mesh, corners are five look-ups away
   Vector_of_doubles m_origin{0, 0, 0};     // of the floats
   double m_reach = 0;                      // no coordinate relative to the origin has been larger
+  std::vector<Star_pack_filter::Pack> m_packs; // a buffer
 };
 
 } // namespace internal

@@ -49,19 +49,8 @@ public:
                     const GeomTraits& traits)
       : m_mesh(mesh), m_points(points), m_traits(traits), m_v0_v1(v0_v1), m_v1_v0(opposite(v0_v1, mesh)),
         m_v0(target(m_v1_v0, mesh)), m_v1(target(v0_v1, mesh)), m_p0(get(points, m_v0)),
-        m_p1(get(points, m_v1)), m_is_v0_v1_border(CGAL::is_border(v0_v1, mesh)),
-        m_is_v1_v0_border(CGAL::is_border(m_v1_v0, mesh))
+        m_p1(get(points, m_v1))
   {
-    if (!m_is_v0_v1_border) {
-      m_v1_vL = next(m_v0_v1, mesh);
-      m_vL_v0 = next(m_v1_vL, mesh);
-      m_vL = target(m_v1_vL, mesh);
-    }
-    if (!m_is_v1_v0_border) {
-      m_v0_vR = next(m_v1_v0, mesh);
-      m_vR_v1 = next(m_v0_vR, mesh);
-      m_vR = target(m_v0_vR, mesh);
-    }
   }
 
   halfedge_descriptor v0_v1() const { return m_v0_v1; }
@@ -71,17 +60,17 @@ public:
   const Point& p0() const { return m_p0; }
   const Point& p1() const { return m_p1; }
 
-  vertex_descriptor vL() const { return m_vL; }
-  halfedge_descriptor v1_vL() const { return m_v1_vL; }
-  halfedge_descriptor vL_v0() const { return m_vL_v0; }
-  vertex_descriptor vR() const { return m_vR; }
-  halfedge_descriptor v0_vR() const { return m_v0_vR; }
-  halfedge_descriptor vR_v1() const { return m_vR_v1; }
+  vertex_descriptor vL() const { return sides().vL; }
+  halfedge_descriptor v1_vL() const { return sides().v1_vL; }
+  halfedge_descriptor vL_v0() const { return sides().vL_v0; }
+  vertex_descriptor vR() const { return sides().vR; }
+  halfedge_descriptor v0_vR() const { return sides().v0_vR; }
+  halfedge_descriptor vR_v1() const { return sides().vR_v1; }
 
-  bool is_v0_v1_a_border() const { return m_is_v0_v1_border; }
-  bool is_v1_v0_a_border() const { return m_is_v1_v0_border; }
-  bool left_face_exists() const { return !m_is_v0_v1_border; }
-  bool right_face_exists() const { return !m_is_v1_v0_border; }
+  bool is_v0_v1_a_border() const { return sides().is_v0_v1_border; }
+  bool is_v1_v0_a_border() const { return sides().is_v1_v0_border; }
+  bool left_face_exists() const { return !is_v0_v1_a_border(); }
+  bool right_face_exists() const { return !is_v1_v0_a_border(); }
 
   const TriangleMesh& surface() const { return m_mesh; }
   const TriangleMesh& surface_mesh() const { return m_mesh; }
@@ -104,15 +93,39 @@ public:
   }
 
 private:
+  struct Sides
+  {
+    bool is_v0_v1_border, is_v1_v0_border;
+    vertex_descriptor vL{}, vR{};
+    halfedge_descriptor v1_vL{}, vL_v0{}, v0_vR{}, vR_v1{};
+  };
+
+  // Found at the first question, which comes before the collapse: costs ask none.
+  const Sides& sides() const
+  {
+    if (!m_sides) {
+      m_sides = Sides{CGAL::is_border(m_v0_v1, m_mesh), CGAL::is_border(m_v1_v0, m_mesh)};
+      if (!m_sides->is_v0_v1_border) {
+        m_sides->v1_vL = next(m_v0_v1, m_mesh);
+        m_sides->vL_v0 = next(m_sides->v1_vL, m_mesh);
+        m_sides->vL = target(m_sides->v1_vL, m_mesh);
+      }
+      if (!m_sides->is_v1_v0_border) {
+        m_sides->v0_vR = next(m_v1_v0, m_mesh);
+        m_sides->vR_v1 = next(m_sides->v0_vR, m_mesh);
+        m_sides->vR = target(m_sides->v0_vR, m_mesh);
+      }
+    }
+    return *m_sides;
+  }
+
   TriangleMesh& m_mesh;
   const VertexPointMap& m_points;
   const GeomTraits& m_traits;
   halfedge_descriptor m_v0_v1, m_v1_v0;
   vertex_descriptor m_v0, m_v1;
   Point m_p0, m_p1;
-  bool m_is_v0_v1_border, m_is_v1_v0_border;
-  vertex_descriptor m_vL{}, m_vR{};
-  halfedge_descriptor m_v1_vL{}, m_vL_v0{}, m_v0_vR{}, m_vR_v1{};
+  mutable std::optional<Sides> m_sides;
   mutable std::optional<Full_profile> m_full;
 };
 

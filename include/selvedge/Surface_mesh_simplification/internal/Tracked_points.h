@@ -133,6 +133,7 @@ public:
     if (!state.found || *state.found != question(collapse))
       find_carriers(collapse);
     state.found.reset();
+    state.has_new_places |= collapse.are_both_moved();
     for (const Face face : state.emptied)
       put(state.first_of_face, face, s_none);
     for (const Move& move : state.moves)
@@ -161,6 +162,7 @@ private:
       }
       const Vector normal = cross(sides[0], sides[1]);
       const double length = std::sqrt(dot(normal, normal));
+      m_longest = longest;
       // Of needles, rounding may turn the normal.
       m_is_bounded = length > 1e-4 * longest;
       if (!m_is_bounded)
@@ -173,6 +175,9 @@ private:
 
     Face face() const { return m_face; }
     std::array<Point, 3> corners() const { return {m_triangle[0], m_triangle[1], m_triangle[2]}; }
+
+    /// The square of the length of the longest side.
+    double longest() const { return m_longest; }
 
     double squared_distance(const Point& p) const { return CGAL::squared_distance(p, m_triangle); }
 
@@ -206,6 +211,7 @@ private:
     Kernel::Triangle_3 m_triangle;
     std::array<Plane, 4>
         m_planes; // through the sides, pointing out of the triangle, and that of the triangle
+    double m_longest;
     bool m_is_bounded;
   };
 
@@ -233,6 +239,7 @@ private:
 
     const TriangleMesh& mesh;
     bool is_tracking = false;
+    bool has_new_places = false; // of vertices: all others are of the original
     double scale = 1;
     double max_error = std::numeric_limits<double>::infinity(); // times the scale
     std::vector<Point> points;                                  // of the original, times the scale
@@ -344,8 +351,11 @@ private:
     };
     if (is_new_place && !state.candidates.empty() && !is_near(state.candidates.front().corners()[0]))
       return false;
+    const bool are_corners_original = !is_new_place && !state.has_new_places;
     return std::all_of(state.candidates.begin(), state.candidates.end(), [&](const Candidate& candidate) {
-      return visit_grid(candidate.corners(), s_most_parts, is_near);
+      // In a grid of two parts, all points are in the middle of a side.
+      const bool is_near_corners = are_corners_original && candidate.longest() <= 4 * squared;
+      return is_near_corners || visit_grid(candidate.corners(), s_most_parts, is_near);
     });
   }
 

@@ -97,6 +97,13 @@ public:
       for (std::size_t row = 0; row < 3; ++row)
         corners[row][i] = triangle.corners[row];
     }
+    void set(std::size_t i, const Pack& other, std::size_t j)
+    {
+      for (std::size_t row = 0; row < 9; ++row)
+        coordinates[row][i] = other.coordinates[row][j];
+      for (std::size_t row = 0; row < 3; ++row)
+        corners[row][i] = other.corners[row][j];
+    }
   };
 
   /// Starts anew with nothing about which anything could be proved.
@@ -119,6 +126,8 @@ public:
       return;
     m_origin = origin;
     m_scale = std::ldexp(1.0, -std::ilogb(extent) - 1); // so that distances within the star are less than 1
+    m_reach_by_size = float(1.75 * m_scale);            // 1.75 is more than √3
+    m_least_size = float(1 / (1.75 * m_scale));
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j)
         m_axes[i][j] = float(view.axis(i)[j] * m_scale);
@@ -280,9 +289,9 @@ private:
   template <std::size_t lanes>
   struct Vectors
   {
-    typedef float Floats __attribute__((vector_size(4 * lanes)));
-    typedef std::int32_t Answers __attribute__((vector_size(4 * lanes))); // 0 or −1
-    typedef std::uint32_t Numbers __attribute__((vector_size(4 * lanes)));
+    typedef float Floats __attribute__((vector_size(4 * lanes), may_alias));
+    typedef std::int32_t Answers __attribute__((vector_size(4 * lanes), may_alias)); // 0 or −1
+    typedef std::uint32_t Numbers __attribute__((vector_size(4 * lanes), may_alias));
   };
 
   // As many triangles of a pack as one instruction takes, seen in the view. All of its functions are compiled
@@ -297,11 +306,12 @@ private:
     Seen_triangles(const Star_pack_filter& star, const Pack& pack, std::size_t first)
         : m_star(star)
     {
-      Floats largest = Floats{} + float(1 / (1.75 * star.m_scale));
+      Floats largest = Floats{} + star.m_least_size;
       for (std::size_t corner = 0; corner < 3; ++corner) {
         Floats d[3];
         for (std::size_t i = 0; i < 3; ++i) {
-          std::memcpy(&d[i], &pack.coordinates[3 * corner + i][first], sizeof d[i]);
+          // Of `memcpy`, GCC makes two copies of half the size and waits for both.
+          d[i] = *reinterpret_cast<const Floats*>(&pack.coordinates[3 * corner + i][first]);
           d[i] -= star.m_offset[i];
           enlarge(largest, d[i]);
         }
@@ -309,8 +319,8 @@ private:
           m_corners[corner][i] =
               d[0] * star.m_axes[i][0] + d[1] * star.m_axes[i][1] + d[2] * star.m_axes[i][2];
       }
-      m_reach = largest * float(1.75 * star.m_scale); // R: 1.75 is more than √3
-      m_rounding = m_reach * s_rounding;              // e
+      m_reach = largest * star.m_reach_by_size; // R
+      m_rounding = m_reach * s_rounding;        // e
     }
 
     // These functions do not return vectors but add to them, since how vectors are returned depends on the
@@ -343,8 +353,8 @@ private:
     {
       Answers are_all_shared = ~Answers{};
       for (std::size_t corner = 0; corner < 3; ++corner) {
-        typename Vectors<lanes>::Numbers number;
-        std::memcpy(&number, &pack.corners[corner][first], sizeof number);
+        const auto number =
+            *reinterpret_cast<const typename Vectors<lanes>::Numbers*>(&pack.corners[corner][first]);
         Answers is_shared{};
         for (std::size_t k = 0; k < m_star.m_points; ++k)
           is_shared |= m_is_corner[corner][k] = number == m_star.m_numbers[k];
@@ -472,7 +482,7 @@ private:
   private:
     static __attribute__((always_inline)) void enlarge(Floats& largest, const Floats& x)
     {
-      const Floats size = x < 0 ? -x : x;
+      const Floats size = Floats(Answers(x) & 0x7fffffff); // |x|
       largest = size > largest ? size : largest;
     }
 
@@ -547,6 +557,7 @@ private:
   bool m_is_usable = false;
   Vector_of_doubles m_origin{};
   double m_scale = 1;
+  float m_reach_by_size = 0, m_least_size = 0; // how R follows from the largest coordinate, which is not less
   std::array<std::array<float, 3>, 3> m_axes{};
   std::array<float, 3> m_lower{}, m_upper{}; // of the star, in the view
   std::array<float, 3> m_offset{};           // the view's origin, from that of the triangles
