@@ -70,7 +70,6 @@ public:
     filter.begin(m_view, coordinates(m_points[s_from]), m_numbers, m_edges);
     if (has_sectors)
       filter.begin_sectors();
-    filter.begin_sweeps(m_view);
     EXPECT_TRUE(filter.enter(coordinates(origin), reach));
     return filter;
   }
@@ -151,7 +150,7 @@ struct Counts
       }
       pack.set(i, Float_triangle::of(numbers, corners));
     }
-    const Star_pack_filter filter = star.filter(star.is_seen_clear(), origin, reach);
+    Star_pack_filter filter = star.filter(star.is_seen_clear(), origin, reach);
     const auto unclear = filter.unclear(pack, faces.size());
     Star_pack_filter::Sweeps unclear_sweeps;
     filter.find_unclear(pack, unclear_sweeps);

@@ -303,9 +303,8 @@ public:
     });
     if (memory < 1)
       for (const Vertex v : CGAL::vertices_around_target(halfedge(kept, mesh), mesh))
-        change(m_state->quadrics, v, [&](Vertex_quadric& of_vertex) {
-          compute_quadric(v, mesh, points, memory, of_vertex);
-        });
+        change(m_state->quadrics, v,
+               [&](Vertex_quadric& of_vertex) { compute_quadric(v, mesh, points, memory, of_vertex); });
   }
 
 private:
@@ -449,9 +448,8 @@ private:
     if (halfedge(v, mesh) == Graph_traits::null_halfedge())
       return false;
     const auto around = CGAL::halfedges_around_target(v, mesh);
-    return std::any_of(around.begin(), around.end(), [&](Halfedge h) {
-      return CGAL::is_border(h, mesh) || share_of_line(h, mesh) > 0;
-    });
+    return std::any_of(around.begin(), around.end(),
+                       [&](Halfedge h) { return CGAL::is_border(h, mesh) || share_of_line(h, mesh) > 0; });
   }
 
   // Returns which share of the weight of a border an edge has: 1 for a border, 0 for an edge that is no line.

@@ -263,10 +263,10 @@ private:
   FaceIndex m_index;
   typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<Id>>::const_type m_ids;
   std::size_t m_size = 0;
-  std::vector<Face> m_faces;               // by number
-  std::vector<Float_triangle> m_triangles; // by number: in the mesh, corners are five look-ups away
-  Vector_of_doubles m_origin{0, 0, 0};     // of the floats
-  double m_reach = 0;                      // no coordinate relative to the origin has been larger
+  std::vector<Face> m_faces;                   // by number
+  std::vector<Float_triangle> m_triangles;     // by number: in the mesh, corners are five look-ups away
+  Vector_of_doubles m_origin{0, 0, 0};         // of the floats
+  double m_reach = 0;                          // no coordinate relative to the origin has been larger
   std::vector<Star_pack_filter::Pack> m_packs; // a buffer
 };
 

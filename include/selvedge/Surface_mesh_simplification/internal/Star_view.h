@@ -103,7 +103,6 @@ public:
       m_pack_filter.begin(m_view, coordinates(m_star[s_from]), m_star.numbers(), m_star.link());
       if (m_has_projection)
         m_pack_filter.begin_sectors();
-      m_pack_filter.begin_sweeps(m_view);
     }
   }
 

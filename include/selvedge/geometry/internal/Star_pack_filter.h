@@ -109,7 +109,7 @@ public:
   /// Starts anew with nothing about which anything could be proved.
   void begin_without_star()
   {
-    m_is_usable = false;
+    m_is_usable = m_has_slabs = false;
     m_sectors = 0;
   }
 
@@ -124,6 +124,7 @@ public:
     if (!s_is_possible || !view.is_usable() || !(extent > 0x1p-100 && extent < 0x1p100) ||
         numbers.size() > s_most_points || link.size() > s_most_points)
       return;
+    m_view = &view;
     m_origin = origin;
     m_scale = std::ldexp(1.0, -std::ilogb(extent) - 1); // so that distances within the star are less than 1
     m_reach_by_size = float(1.75 * m_scale);            // 1.75 is more than √3
@@ -162,14 +163,6 @@ public:
     }
   }
 
-  /// Called before `find_unclear`, with the view of the star.
-  void begin_sweeps(const Separation_filter& view)
-  {
-    for (std::size_t j = 0; j < m_edges; ++j)
-      m_slabs[j] = {float_slab(view.slab({m_starts[j], m_ends[j], s_from}, s_to)),
-                    float_slab(view.slab({m_starts[j], m_ends[j], s_to}, s_from))};
-  }
-
   /// Called before triangles are asked about whose coordinates are relative to `origin`, and at most `reach`.
   /// Returns whether anything can be proved about them.
   bool enter(const Vector_of_doubles& origin, double reach)
@@ -203,9 +196,12 @@ public:
   }
 
   /// Finds for each triangle of a pack the sweeps that are not proved clear of it: bit j is for the face at
-  /// edge j of the link. It proves more than `unclear`, and takes longer.
-  void find_unclear(const Pack& pack, Sweeps& unclear) const
+  /// edge j of the link. It proves more than `unclear`, and takes longer. The view that the star has begun
+  /// with must still have its points.
+  void find_unclear(const Pack& pack, Sweeps& unclear)
   {
+    if (!m_has_slabs)
+      find_slabs();
 #ifdef __GNUC__
 #if defined(__x86_64__) || defined(__i386__)
     if (is_avx2_used())
@@ -265,6 +261,14 @@ private:
     std::array<float, 3> normal;
     float lower, upper;
   };
+
+  void find_slabs()
+  {
+    for (std::size_t j = 0; j < m_edges; ++j)
+      m_slabs[j] = {float_slab(m_view->slab({m_starts[j], m_ends[j], s_from}, s_to)),
+                    float_slab(m_view->slab({m_starts[j], m_ends[j], s_to}, s_from))};
+    m_has_slabs = true;
+  }
 
   Slab float_slab(const Separation_filter::Slab& slab) const
   {
@@ -554,7 +558,8 @@ private:
   }
 #endif
 
-  bool m_is_usable = false;
+  bool m_is_usable = false, m_has_slabs = false;
+  const Separation_filter* m_view = nullptr;
   Vector_of_doubles m_origin{};
   double m_scale = 1;
   float m_reach_by_size = 0, m_least_size = 0; // how R follows from the largest coordinate, which is not less
