@@ -95,6 +95,11 @@ class Quadric_cost
         normals[i] += factor * normal[i];
       products += factor * product;
     }
+    void add(const Enclosure& other)
+    {
+      add(other.normals, other.products);
+      is_closed &= other.is_closed;
+    }
   };
 
   struct Vertex_quadric
@@ -104,7 +109,6 @@ class Quadric_cost
     double own_cost = 0; // its value at the vertex itself
     double weight = 1;
     bool has_lines = false; // whether a border or another line meets the vertex, or may have met it
-    Enclosure enclosure;
   };
   // What a face gives to the quadrics at its corners: kept, since each is asked for many times.
   struct Face_plane
@@ -230,9 +234,12 @@ public:
     const Vector x0 = m_state->vector(profile.p0()), x1 = m_state->vector(profile.p1());
     const Vector along = difference(x1, x0);
     std::optional<Vector> least;
-    if (m_state->options.memory < 1 && at_v0.enclosure.is_closed && at_v1.enclosure.is_closed) {
-      Enclosure both = at_v0.enclosure;
-      both.add(at_v1.enclosure.normals, at_v1.enclosure.products);
+    Enclosure both;
+    if (m_state->options.memory < 1) {
+      both.add(enclosure_of(profile.v0(), profile));
+      both.add(enclosure_of(profile.v1(), profile));
+    }
+    if (m_state->options.memory < 1 && both.is_closed) {
       for (const Halfedge h : {profile.v0_v1(), profile.v1_v0()}) { // its face is in both
         const auto [corners, normal] =
             corners_and_normal(h, profile.surface_mesh(), profile.vertex_point_map());
@@ -400,6 +407,23 @@ private:
     put(m_state->planes, face, plane);
   }
 
+  template <class Profile>
+  Enclosure enclosure_of(Vertex v, const Profile& profile) const
+  {
+    const auto& mesh = profile.surface_mesh();
+    const Vector place = m_state->vector(get(profile.vertex_point_map(), v));
+    Enclosure result;
+    for (const Halfedge to_v : CGAL::halfedges_around_target(v, mesh)) {
+      if (CGAL::is_border(to_v, mesh)) {
+        result.is_closed = false;
+        continue;
+      }
+      const Face_plane& plane = get(m_state->planes, face(to_v, mesh));
+      result.add(plane.normal, internal::dot(plane.normal, place), plane.doubled_area);
+    }
+    return result;
+  }
+
   // Computes everything about a vertex that follows from the planes of the faces around it and, as far as
   // `memory` says, from what it has accumulated. Returns the quadric of the faces, which a memory of 1 does
   // not ask for.
@@ -410,16 +434,12 @@ private:
     const State& state = *m_state;
     const Vector place = state.vector(get(points, v));
     Quadric of_faces; // relative to the vertex, through which all of these planes pass
-    of_vertex.enclosure = {};
     if (memory < 1 && halfedge(v, mesh) != Graph_traits::null_halfedge()) {
       double weight = 0;
       for (const Halfedge to_v : CGAL::halfedges_around_target(v, mesh)) {
-        if (CGAL::is_border(to_v, mesh)) {
-          of_vertex.enclosure.is_closed = false;
+        if (CGAL::is_border(to_v, mesh))
           continue;
-        }
         const Face_plane& plane = get(state.planes, face(to_v, mesh));
-        of_vertex.enclosure.add(plane.normal, internal::dot(plane.normal, place), plane.doubled_area);
         of_faces.add_square(plane.normal, plane.weight);
         weight += plane.weight;
         if (!of_vertex.has_lines)

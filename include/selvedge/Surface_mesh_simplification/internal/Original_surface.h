@@ -15,7 +15,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -63,7 +62,7 @@ public:
                                                    point.x() + radius, point.y() + radius,
                                                    point.z() + radius),
                                       [&](Number part) {
-                                        const Number last = std::exchange(m_last, m_triangle_of_part[part]);
+                                        const Number last = std::exchange(m_last, triangle_of(part));
                                         return m_last != last && is_found();
                                       });
     };
@@ -79,20 +78,35 @@ private:
     return {m_points[a], m_points[b], m_points[c]};
   }
 
-  void make_index() const
+  Number triangle_of(Number part) const
   {
-    std::vector<CGAL::Bbox_3> boxes;
-    for (Number i = 0; i < m_triangles.size(); ++i) {
-      add_boxes(triangle_at(i), boxes);
-      m_triangle_of_part.resize(boxes.size(), i);
-    }
-    std::vector<Number> parts(boxes.size());
-    std::iota(parts.begin(), parts.end(), Number(0));
-    m_index.emplace();
-    m_index->build(parts, [&](Number part) { return boxes[part]; });
+    return part < m_triangles.size() ? part : m_triangle_of_part[part - m_triangles.size()];
   }
 
-  // Adds boxes that cover a triangle: one, unless it is thin, and its box wide in two directions.
+  void make_index() const
+  {
+    // Parts are numbered as the triangles are, and those of slivers after them.
+    std::vector<Number> parts;
+    std::vector<CGAL::Bbox_3> boxes; // of parts of slivers
+    const Number triangles = Number(m_triangles.size());
+    parts.reserve(triangles);
+    for (Number i = 0; i < triangles; ++i) {
+      const std::size_t first = boxes.size();
+      add_boxes(triangle_at(i), boxes);
+      if (boxes.size() == first)
+        parts.push_back(i);
+      for (std::size_t part = first; part < boxes.size(); ++part) {
+        parts.push_back(Number(triangles + part));
+        m_triangle_of_part.push_back(i);
+      }
+    }
+    m_index.emplace();
+    m_index->build(parts, [&](Number part) {
+      return part < triangles ? triangle_at(part).bbox() : boxes[part - triangles];
+    });
+  }
+
+  // Adds boxes that cover a triangle if it is thin, and its box wide in two directions.
   static void add_boxes(const Kernel::Triangle_3& triangle, std::vector<CGAL::Bbox_3>& boxes)
   {
     const CGAL::Bbox_3 box = triangle.bbox();
@@ -108,10 +122,8 @@ private:
     // The width of the triangle is its double area by its longest side.
     const double width = std::sqrt(4 * triangle.squared_area() / squares[longest]);
     constexpr int most_parts = 8;
-    if (!(widths[1] > most_parts * width)) {
-      boxes.push_back(box);
+    if (!(widths[1] > most_parts * width))
       return;
-    }
     // From a to b on the longest side and through c on the others, at equal shares of the way.
     const Point &a = triangle[int(longest)], &b = triangle[int(longest) + 1], &c = triangle[int(longest) + 2];
     const double at_c = (std::min)((std::max)(((c - a) * (b - a)) / squares[longest], 0.), 1.);
@@ -137,9 +149,9 @@ private:
 
   const std::vector<Point>& m_points;
   std::vector<std::array<Number, 3>> m_triangles;
-  mutable std::optional<Packed_R_tree> m_index; // of parts of triangles
-  mutable std::vector<Number> m_triangle_of_part;
-  mutable Number m_last = 0; // the triangle that was asked last
+  mutable std::optional<Packed_R_tree> m_index;   // of parts of triangles
+  mutable std::vector<Number> m_triangle_of_part; // those of slivers
+  mutable Number m_last = 0;                      // the triangle that was asked last
 };
 
 } // namespace internal
