@@ -5,6 +5,9 @@
 #define SELVEDGE_BENCHMARK_PEERS_H
 
 #include "Openmesh_decimater.h"
+#ifdef SELVEDGE_HAS_LIBIGL
+#include "Libigl_decimater.h"
+#endif
 
 #include "soup/Working_mesh.h"
 #include <selvedge/simplify.h>
@@ -76,6 +79,20 @@ inline Outcome run_openmesh(const Triangle_soup& soup, const Simplify_options& o
   outcome.soup.triangles = openmesh.triangles();
   return outcome;
 }
+
+#ifdef SELVEDGE_HAS_LIBIGL
+inline Outcome run_libigl(const Triangle_soup& soup, std::size_t faces)
+{
+  Libigl_decimater libigl(soup);
+  std::size_t collapses = 0;
+  const Stopwatch stopwatch;
+  libigl.reduce_to(faces, [&](std::size_t, std::size_t) { ++collapses; });
+  Outcome outcome{{}, stopwatch.seconds(), collapses};
+  outcome.soup.points = soup.points;
+  outcome.soup.triangles = libigl.triangles();
+  return outcome;
+}
+#endif
 
 inline std::size_t vertices_in_use(const Triangle_soup& soup)
 {

@@ -1,124 +1,27 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The log of libigl's decimation with its callbacks that block intersections, as qslim takes them: its
-// quadrics, asked at both ends of an edge, of which the cheaper is where the merged vertex goes.
+// The log of libigl's decimation that blocks intersections.
 
+#include "Libigl_decimater.h"
 #include "Peer_log.h"
 
-#include <igl/AABB.h>
-#include <igl/connect_boundary_to_infinity.h>
-#include <igl/decimate.h>
-#include <igl/edge_flaps.h>
-#include <igl/intersection_blocking_collapse_edge_callbacks.h>
-#include <igl/is_edge_manifold.h>
-#include <igl/max_faces_stopping_condition.h>
-#include <igl/per_vertex_point_to_plane_quadrics.h>
-#include <igl/qslim_optimal_collapse_edge_callbacks.h>
-#include <igl/quadric_binary_plus_operator.h>
-
-#include <limits>
-#include <tuple>
-
-namespace {
-
-using namespace selvedge;
-using namespace selvedge::benchmark;
-
-using Quadric = std::tuple<Eigen::MatrixXd, Eigen::RowVectorXd, double>;
-
-double cost_at(const Quadric& quadric, const Eigen::RowVectorXd& p)
-{
-  const auto& [a, b, c] = quadric;
-  return p.dot(p * a) + 2 * p.dot(b) + c;
-}
-
-std::vector<Index_triple> reduce(const Triangle_soup& soup, std::size_t faces, Peer_log& log)
-{
-  const auto rows = [](std::size_t size) { return static_cast<Eigen::Index>(size); };
-  Eigen::MatrixXd points(rows(soup.points.size()), 3), all_points, points_left;
-  for (std::size_t v = 0; v < soup.points.size(); ++v)
-    points.row(rows(v)) << soup.points[v].x(), soup.points[v].y(), soup.points[v].z();
-  Eigen::MatrixXi triangles(rows(soup.triangles.size()), 3), all_triangles, triangles_left;
-  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k)
-      triangles(rows(t), k) = static_cast<int>(soup.triangles[t][static_cast<std::size_t>(k)]);
-
-  // As igl::qslim does it.
-  auto* tree = new igl::AABB<Eigen::MatrixXd, 3>();
-  tree->init(points, triangles);
-  igl::connect_boundary_to_infinity(points, triangles, all_points, all_triangles);
-  if (!igl::is_edge_manifold(all_triangles))
-    throw Input_error("the mesh is no manifold, and libigl cannot reduce it");
-  Eigen::VectorXi edge_map;
-  Eigen::MatrixXi edges, edge_faces, edge_corners;
-  igl::edge_flaps(all_triangles, edges, edge_map, edge_faces, edge_corners);
-  std::vector<Quadric> quadrics;
-  igl::per_vertex_point_to_plane_quadrics(all_points, all_triangles, edge_map, edge_faces, edge_corners,
-                                          quadrics);
-  int v1 = -1, v2 = -1;
-  igl::decimate_cost_and_placement_callback optimal;
-  igl::decimate_pre_collapse_callback pre_collapse;
-  igl::decimate_post_collapse_callback post_collapse;
-  igl::qslim_optimal_collapse_edge_callbacks(edges, quadrics, v1, v2, optimal, pre_collapse, post_collapse);
-  igl::intersection_blocking_collapse_edge_callbacks(pre_collapse, post_collapse, tree, pre_collapse,
-                                                     post_collapse);
-
-  const igl::decimate_cost_and_placement_callback at_cheaper_end = [&](int e, const auto& V, const auto&,
-                                                                       const auto& E, const auto&,
-                                                                       const auto&, const auto&, double& cost,
-                                                                       Eigen::RowVectorXd& place) {
-    const Quadric quadric = igl::operator+(quadrics[static_cast<std::size_t>(E(e, 0))],
-                                           quadrics[static_cast<std::size_t>(E(e, 1))]);
-    cost = std::numeric_limits<double>::infinity();
-    place = V.row(E(e, 0));
-    for (int end = 0; end < 2; ++end)
-      if (const double c = cost_at(quadric, V.row(E(e, end))); c < cost) { // false for what is not a number
-        cost = c;
-        place = V.row(E(e, end));
-      }
-  };
-
-  std::size_t removed = 0, kept = 0;
-  const igl::decimate_pre_collapse_callback noting =
-      [&](const auto& V, const auto& F, const auto& E, const auto& EMAP, const auto& EF, const auto& EI,
-          const auto& Q, const auto& EQ, const auto& C, int e) {
-        const bool is_first_kept = C.row(e) == V.row(E(e, 0));
-        kept = static_cast<std::size_t>(E(e, is_first_kept ? 0 : 1));
-        removed = static_cast<std::size_t>(E(e, is_first_kept ? 1 : 0));
-        return pre_collapse(V, F, E, EMAP, EF, EI, Q, EQ, C, e);
-      };
-  const igl::decimate_post_collapse_callback logging =
-      [&](const auto& V, const auto& F, const auto& E, const auto& EMAP, const auto& EF, const auto& EI,
-          const auto& Q, const auto& EQ, const auto& C, int e, int e1, int e2, int f1, int f2,
-          bool is_collapsed) {
-        if (is_collapsed)
-          log.add(removed, kept, std::min(removed, kept));
-        post_collapse(V, F, E, EMAP, EF, EI, Q, EQ, C, e, e1, e2, f1, f2, is_collapsed);
-      };
-
-  int face_count = static_cast<int>(soup.triangles.size());
-  Eigen::VectorXi born_triangles, born_vertices;
-  igl::decimate(all_points, all_triangles, at_cheaper_end,
-                igl::max_faces_stopping_condition(face_count, face_count, static_cast<int>(faces)), noting,
-                logging, points_left, triangles_left, born_triangles, born_vertices);
-  delete tree;
-  std::vector<Index_triple> result;
-  for (Eigen::Index t = 0; t < triangles_left.rows(); ++t)
-    if (born_triangles(t) < triangles.rows()) { // the others go to infinity
-      Index_triple& triangle = result.emplace_back();
-      for (int k = 0; k < 3; ++k)
-        triangle[static_cast<std::size_t>(k)] = static_cast<Index>(born_vertices(triangles_left(t, k)));
-    }
-  return result;
-}
-
-} // namespace
+#include <algorithm>
+#include <cstddef>
+#include <vector>
 
 int main(int argc, char** argv)
 {
+  using namespace selvedge;
+  using namespace selvedge::benchmark;
   return write_peer_log(
       argc, argv,
       "The log of a reduction by libigl's decimation that blocks intersections, for `selvedge replay`.",
-      reduce);
+      [](const Triangle_soup& soup, std::size_t faces, Peer_log& log) {
+        Libigl_decimater libigl(soup);
+        libigl.reduce_to(faces, [&](std::size_t removed, std::size_t kept) {
+          log.add(removed, kept, std::min(removed, kept));
+        });
+        return libigl.triangles();
+      });
 }

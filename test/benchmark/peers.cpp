@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // What others take for the same reduction, and what they break: ours with and without the guard, CGAL's loop
-// with the same cost, placement and cheap filters, OpenMesh, and meshoptimizer, on the same meshes, in turns.
+// with the same cost, placement and cheap filters, OpenMesh, meshoptimizer and, where its headers are,
+// libigl, on the same meshes, in turns.
 
 #include "Peers.h"
 #include "Mesh.h"
@@ -53,12 +54,15 @@ void add_rows(Table& table, const Mesh& mesh, double ratio, int runs)
   unguarded.check_intersections = false;
   Simplify_options by_cgal = unguarded;
   by_cgal.loop = Collapse_loop::cgal;
-  const std::vector<Program> programs{
+  std::vector<Program> programs{
       {"CGAL's loop", [&] { return run_ours(prepared, by_cgal); }},
       {"selvedge", [&] { return run_ours(prepared, guarded); }},
       {"selvedge without guard", [&] { return run_ours(prepared, unguarded); }},
       {"OpenMesh", [&] { return run_openmesh(soup, guarded, target(soup, ratio)); }},
       {"meshoptimizer", [&] { return run_meshoptimizer(soup, target(soup, ratio)); }}};
+#ifdef SELVEDGE_HAS_LIBIGL
+  programs.push_back({"libigl, guarded", [&] { return run_libigl(soup, target(soup, ratio)); }});
+#endif
 
   std::vector<Row> tails(programs.size());
   const std::vector<Sample> seconds = interleaved(programs.size(), runs, [&](std::size_t which, int run) {
@@ -101,10 +105,12 @@ void print_table(const Request& request)
          "of "
       << request.runs
       << " interleaved.\nCGAL's loop has our cost, placement and cheap filters, and no guard; OpenMesh has "
-         "quadrics and our limits of normal\nchange and aspect ratio; meshoptimizer has no limits. RMS: from "
+         "quadrics and our limits of normal\nchange and aspect ratio; meshoptimizer has no limits; libigl "
+         "blocks intersections, and is there if "
+         "SELVEDGE_LIBIGL_INCLUDE\nsays where its headers are. RMS: from "
          "the original's vertices to the result, by its\ndiagonal. Pairs are counted by the judge, exactly; "
          "new are those that the original does not have. Textures, which\nours keeps, are no concern of "
-         "OpenMesh and meshoptimizer here. Memory is no part of this: all share one process.\n";
+         "others here. Memory is no part of this: all share one process.\n";
   if (!request.csv.empty())
     write_file(request.csv, table.csv());
 }
@@ -113,7 +119,7 @@ void print_table(const Request& request)
 
 int main(int argc, char** argv)
 {
-  CLI::App app("What selvedge, CGAL's loop, OpenMesh and meshoptimizer take for one reduction, and break.");
+  CLI::App app("What selvedge, CGAL's loop and other programs take for one reduction, and break.");
   Request request;
   app.add_option("MESH", request.meshes, "Files, or SCENE:FACES for generated ones")->capture_default_str();
   app.add_option("--ratio", request.ratio, "Share of the faces to keep")
