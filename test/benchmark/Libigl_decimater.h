@@ -47,7 +47,7 @@ public:
   void reduce_to(std::size_t faces, const On_collapse& on_collapse)
   {
     // As igl::qslim does it.
-    Eigen::MatrixXd all_points, points_left;
+    Eigen::MatrixXd all_points;
     Eigen::MatrixXi all_triangles;
     auto* tree = new igl::AABB<Eigen::MatrixXd, 3>();
     tree->init(m_points, m_triangles);
@@ -105,24 +105,48 @@ public:
     int face_count = static_cast<int>(m_triangles.rows());
     igl::decimate(all_points, all_triangles, at_cheaper_end,
                   igl::max_faces_stopping_condition(face_count, face_count, static_cast<int>(faces)), noting,
-                  logging, points_left, m_triangles_left, m_born_triangles, m_born_vertices);
+                  logging, m_points_left, m_triangles_left, m_born_triangles, m_born_vertices);
     delete tree;
   }
 
+  /// Returns the triangles that are left, in libigl's numbers.
   std::vector<Index_triple> triangles() const
+  {
+    return triangles_left([this](int vertex) { return static_cast<Index>(m_born_vertices(vertex)); });
+  }
+
+  /// Returns what is left.
+  Triangle_soup soup() const
+  {
+    Triangle_soup result;
+    std::vector<Index> number(static_cast<std::size_t>(m_points_left.rows()), Index(-1));
+    result.triangles = triangles_left([&](int vertex) {
+      Index& known = number[static_cast<std::size_t>(vertex)];
+      if (known == Index(-1)) {
+        known = static_cast<Index>(result.points.size());
+        result.points.emplace_back(m_points_left(vertex, 0), m_points_left(vertex, 1),
+                                   m_points_left(vertex, 2));
+      }
+      return known;
+    });
+    return result;
+  }
+
+private:
+  using Quadric = std::tuple<Eigen::MatrixXd, Eigen::RowVectorXd, double>;
+
+  template <class Number_of>
+  std::vector<Index_triple> triangles_left(const Number_of& number_of) const
   {
     std::vector<Index_triple> result;
     for (Eigen::Index t = 0; t < m_triangles_left.rows(); ++t)
       if (m_born_triangles(t) < m_triangles.rows()) { // the others go to infinity
         Index_triple& triangle = result.emplace_back();
         for (int k = 0; k < 3; ++k)
-          triangle[static_cast<std::size_t>(k)] = static_cast<Index>(m_born_vertices(m_triangles_left(t, k)));
+          triangle[static_cast<std::size_t>(k)] = number_of(m_triangles_left(t, k));
       }
     return result;
   }
-
-private:
-  using Quadric = std::tuple<Eigen::MatrixXd, Eigen::RowVectorXd, double>;
 
   static Eigen::Index row(std::size_t number) { return static_cast<Eigen::Index>(number); }
 
@@ -132,7 +156,7 @@ private:
     return p.dot(p * a) + 2 * p.dot(b) + c;
   }
 
-  Eigen::MatrixXd m_points;
+  Eigen::MatrixXd m_points, m_points_left;
   Eigen::MatrixXi m_triangles, m_triangles_left;
   Eigen::VectorXi m_born_triangles, m_born_vertices;
 };
