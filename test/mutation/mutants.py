@@ -235,6 +235,7 @@ group(
     ("return height * height + beside * beside > squared * (1 + 1e-6) + 1e-24;",
      "return 2 * (height * height + beside * beside) > squared;", "faces that are nearer are skipped"),
     ("1 / (length * std::sqrt(dot(sides[i], sides[i])))", "1 / length", "distances beyond long sides are too large"),
+    ("candidate.longest() <= 4 * squared", "candidate.longest() <= 16 * squared", "points far from all corners are near them"),
 )
 group(
     "src/soup/Vertex_values.cpp",
@@ -876,7 +877,7 @@ group(
     ("clearance_decision_test",),
     ("CGAL::certainly(is_attained) ? (std::min)(least.sup(), squared.sup()) : least.sup()",
      "(std::min)(least.sup(), squared.sup())", "what may not be attained counts as attained"),
-    ("(at_u + at_v <= length) & ", "", "a facet reaches beyond its third edge"),
+    ("both(at_u + at_v <= length, length > 0)", "length > 0", "a facet reaches beyond its third edge"),
 )
 group(
     headers + "Surface_mesh_simplification/internal/Intersection_guard.h",

@@ -115,63 +115,109 @@ double squared_distance(const Point_3& p, const std::array<Point_3, 3>& t)
   return CGAL::squared_distance(p, Kernel::Triangle_3(t[0], t[1], t[2]));
 }
 
-TEST(Tracked_points, ChangedFacesKeepToTheOriginalBetweenTheirCorners)
+using Tracked = internal::Tracked_points<Mesh>;
+using Profile = internal::Lazy_edge_profile<Mesh, Mesh::Property_map<Mesh::Vertex_index, Point_3>, Kernel>;
+using Triangles = std::vector<std::array<Point_3, 3>>;
+
+std::array<Point_3, 3> corners_after(const Mesh& mesh, Face f, const std::vector<Mesh::Vertex_index>& movers,
+                                     const Point_3& place)
 {
-  std::mt19937 random(12);
-  std::uniform_real_distribution<double> number(-0.3, 0.3);
-  Mesh mesh = mesh_of(mapped(sheet(9, 9), [&](const Point_3& p) {
-    return Point_3(p.x() + number(random), p.y() + number(random), 2 * number(random));
-  }));
-  const auto corners_of = [&](Face f, Mesh::Halfedge_index h, const Point_3& place) {
-    std::array<Point_3, 3> corners;
-    auto next = corners.begin();
-    for (const Mesh::Vertex_index v : mesh.vertices_around_face(mesh.halfedge(f)))
-      *next++ = h.is_valid() && (v == mesh.source(h) || v == mesh.target(h)) ? place : mesh.point(v);
-    return corners;
-  };
-  std::vector<std::array<Point_3, 3>> original;
-  for (const Face f : mesh.faces())
-    original.push_back(corners_of(f, {}, {}));
-  const auto points = get(CGAL::vertex_point, mesh);
-  std::size_t too_far = 0, near = 0, too_far_between_corners = 0;
+  std::array<Point_3, 3> corners;
+  auto next = corners.begin();
+  for (const Mesh::Vertex_index v : mesh.vertices_around_face(mesh.halfedge(f)))
+    *next++ = std::find(movers.begin(), movers.end(), v) != movers.end() ? place : mesh.point(v);
+  return corners;
+}
+
+// The largest distance from the grids of the faces that a collapse changes, and from its place, to the
+// nearest of all triangles.
+double farthest_from(const Triangles& original, const Mesh& mesh, Mesh::Halfedge_index h,
+                     const Point_3& place, double max_error)
+{
+  std::vector<Mesh::Vertex_index> movers;
+  for (const Mesh::Vertex_index v : {mesh.source(h), mesh.target(h)})
+    if (mesh.point(v) != place)
+      movers.push_back(v);
+  double farthest = 0;
+  for (const Mesh::Vertex_index v : movers)
+    for (const Face f : mesh.faces_around_target(mesh.halfedge(v))) {
+      if (f == Mesh::null_face() || f == mesh.face(h) || f == mesh.face(mesh.opposite(h)))
+        continue;
+      std::vector<Point_3> asked = grid_of(corners_after(mesh, f, movers, place), max_error);
+      if (movers.size() == 2)
+        asked.push_back(place);
+      for (const Point_3& p : asked) {
+        double least = std::numeric_limits<double>::infinity();
+        for (const auto& triangle : original)
+          least = std::min(least, squared_distance(p, triangle));
+        farthest = std::max(farthest, std::sqrt(least));
+      }
+    }
+  return farthest;
+}
+
+class Tracked_sheet : public testing::Test
+{
+protected:
+  Tracked_sheet()
+  {
+    std::uniform_real_distribution<double> number(-0.3, 0.3);
+    m_mesh = mesh_of(mapped(sheet(9, 9), [&](const Point_3& p) {
+      return Point_3(p.x() + number(m_random), p.y() + number(m_random), 2 * number(m_random));
+    }));
+    for (const Face f : m_mesh.faces())
+      m_original.push_back(corners_after(m_mesh, f, {}, {}));
+  }
+
+  // Compares what is said of a collapse with what all grids say. Counts whether it leads too far.
+  void ask(Mesh& mesh, const Tracked& tracked, Mesh::Halfedge_index h, const Point_3& place, double max_error)
+  {
+    const Profile profile = profile_of(mesh, h);
+    const double error = tracked.error_at(profile, place);
+    if (error > max_error && std::isfinite(error))
+      return; // refused because of the original's points, before the grids of the changed faces are asked
+    const double farthest = farthest_from(m_original, mesh, h, place, max_error);
+    ASSERT_GT(std::fabs(farthest - max_error), 1e-9) << "the test cannot tell";
+    EXPECT_EQ(std::isfinite(error), farthest <= max_error) << h;
+    ++(farthest <= max_error ? m_near : m_too_far);
+  }
+
+  static Profile profile_of(Mesh& mesh, Mesh::Halfedge_index h)
+  {
+    static const Kernel traits;
+    static Mesh::Property_map<Mesh::Vertex_index, Point_3> points;
+    points = mesh.points();
+    return Profile(h, mesh, points, traits);
+  }
+
+  std::mt19937 m_random{12};
+  Mesh m_mesh;
+  Triangles m_original;
+  std::size_t m_near = 0, m_too_far = 0;
+};
+
+TEST_F(Tracked_sheet, ChangedFacesKeepToTheOriginalBetweenTheirCorners)
+{
+  std::size_t too_far_between_corners = 0;
   for (const double max_error : {0.1, 0.2, 0.3, 0.5}) {
-    internal::Tracked_points<Mesh> tracked(mesh), tracked_vertices(mesh);
-    tracked.begin(points, 1, max_error);
-    tracked_vertices.begin(points, 1);
-    for (const Mesh::Edge_index e : mesh.edges()) {
-      const Mesh::Halfedge_index h = mesh.halfedge(e);
-      const Kernel traits;
-      const internal::Lazy_edge_profile<Mesh, std::decay_t<decltype(points)>, Kernel> profile(h, mesh, points,
-                                                                                              traits);
-      const Point_3 place = CGAL::midpoint(profile.p0(), profile.p1());
-      const double error = tracked.error_at(profile, place);
-      EXPECT_GE(error, tracked_vertices.error_at(profile, place));
-      if (error > max_error && std::isfinite(error))
-        continue; // refused because of the original's points, before the grids of the changed faces are asked
-      double farthest = 0; // of all grids, to the nearest of all triangles
-      for (const Mesh::Halfedge_index end : {h, mesh.opposite(h)})
-        for (const Face f : mesh.faces_around_target(end)) {
-          if (f == Mesh::null_face() || f == mesh.face(h) || f == mesh.face(mesh.opposite(h)))
-            continue;
-          std::vector<Point_3> asked = grid_of(corners_of(f, h, place), max_error);
-          asked.push_back(place);
-          for (const Point_3& p : asked) {
-            double least = std::numeric_limits<double>::infinity();
-            for (const auto& triangle : original)
-              least = std::min(least, squared_distance(p, triangle));
-            farthest = std::max(farthest, std::sqrt(least));
-          }
-        }
-      ASSERT_GT(std::fabs(farthest - max_error), 1e-9) << "the test cannot tell";
-      EXPECT_EQ(std::isfinite(error), farthest <= max_error) << e;
-      ++(farthest <= max_error ? near : too_far);
-      too_far_between_corners +=
-          farthest > max_error && tracked_vertices.error_at(profile, place) <= max_error;
+    Tracked tracked(m_mesh), tracked_vertices(m_mesh);
+    tracked.begin(m_mesh.points(), 1, max_error);
+    tracked_vertices.begin(m_mesh.points(), 1);
+    for (const Mesh::Edge_index e : m_mesh.edges()) {
+      const Mesh::Halfedge_index h = m_mesh.halfedge(e);
+      const Point_3 start = m_mesh.point(m_mesh.source(h)), end = m_mesh.point(m_mesh.target(h));
+      for (const Point_3& place : {CGAL::midpoint(start, end), start, end}) {
+        const double error_of_vertices = tracked_vertices.error_at(profile_of(m_mesh, h), place);
+        EXPECT_GE(tracked.error_at(profile_of(m_mesh, h), place), error_of_vertices);
+        const std::size_t before = m_too_far;
+        ask(m_mesh, tracked, h, place, max_error);
+        too_far_between_corners += m_too_far > before && error_of_vertices <= max_error;
+      }
     }
   }
-  EXPECT_GT(near, 100u);
-  EXPECT_GT(too_far, 10u);
-  EXPECT_GT(too_far_between_corners, 10u) << "which vertices alone would not tell";
+  EXPECT_GT(m_near, 300u);
+  EXPECT_GT(m_too_far, 30u);
+  EXPECT_GT(too_far_between_corners, 30u) << "which vertices alone would not tell";
 }
 
 TEST(OriginalSurface, IsNearWhatAnyTriangleIsNear)
