@@ -272,9 +272,9 @@ struct Verify_options
 
   /// A distance, in the unit of the coordinates, that pieces keep from each other in every pose: no two are
   /// nearer than this, or, where an original is given, than they are there. Pieces are connected by positions
-  /// in the original, or in the mesh itself, and the obstacle belongs to them; `Piece_matching` says which of
-  /// the result became of which. Positive and finite; not judged by default, and not together with parts that
-  /// may intersect.
+  /// in the original, or in the mesh itself; `Piece_matching` says which of the result became of which. An
+  /// obstacle has pieces of its own, and connects no others. Positive and finite; not judged by default, and
+  /// not together with parts that may intersect.
   std::optional<double> clearance;
 };
 

@@ -886,8 +886,15 @@ group(
     sources=("src/simplify/simplify_soup.cpp",),
 )
 group(
+    headers + "Surface_mesh_simplification/internal/Clearance.h",
+    ("clearance_test:Clearance_of_pieces.*",),
+    ("if (is_of_obstacle(id))", "if (false)", "an obstacle connects pieces"),
+    sources=("src/simplify/simplify_soup.cpp",),
+)
+group(
     "src/verify/clearance.cpp",
     ("clearance_test:Clearance_of_pieces.*",),
+    ("if (t == own)", "if (false)", "an obstacle connects pieces in the judge"),
     ("return exact() < exact_square(distance);", "return false;", "the judge is not exact"),
     ("return exact() < other.exact();", "return false;", "the judge does not compare exactly"),
 )
