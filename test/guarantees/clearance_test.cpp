@@ -133,7 +133,13 @@ TEST(Clearance_of_pieces, IsKeptBetweenPiecesThatShareVerticesWithAnObstacle)
       reduce_and_log(soup, with_clearance(options, distance), {}, false, obstacle);
   EXPECT_EQ(judged_pair(guarded.simplified).too_near(), 0u);
   EXPECT_GT(guarded.simplified.report.collapses, 100u);
-  EXPECT_TRUE(replay_text(soup, guarded.log).is_accepted());
+  Replay_options options_of_replay;
+  options_of_replay.obstacle = obstacle;
+  EXPECT_TRUE(replay_text(soup, guarded.log, options_of_replay).is_accepted());
+  options_of_replay.limits.emplace();
+  options_of_replay.limits->clearance = distance;
+  EXPECT_FALSE(replay_text(soup, reduce_and_log(soup, options, {}, false, obstacle).log, options_of_replay)
+                   .is_accepted());
 
   // The judge, too, has three pieces: the control brings the sheets too near to each other.
   const Prepared_soup prepared = prepare(soup, {}, obstacle);
