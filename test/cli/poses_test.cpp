@@ -222,9 +222,8 @@ TEST_F(Waving_sheets, MayBeAnObstacleThatMoves)
   const std::vector<std::string> arguments{"--obstacle", gltf, "--obstacle-animation", "all"};
   std::vector<std::string> one = arguments, two = arguments;
   one.insert(one.end(), {"--pose", folder / "below.obj", "--pose", folder / "farther.obj"});
-  std::vector<std::string> replayed{"replay", folder / "below.obj", folder / "x.log"};
+  std::vector<std::string> replayed{"replay", folder / "below.obj", log};
   replayed.insert(replayed.end(), one.begin(), one.end());
-  one.insert(one.end(), {"--log", folder / "x.log"});
   simplify(folder / "below.obj", folder / "x.obj", one);
   const App_result result = run_app(replayed);
   EXPECT_EQ(result.code, 0) << result.err;
