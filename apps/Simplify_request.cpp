@@ -85,13 +85,10 @@ void check_poses(const Simplify_request& request)
     throw Argument_error(std::string(option) + ": " + why +
                          "; leave it out, or the further poses (--pose, --morphs, --animation)");
   };
-  const char* const of_obstacle =
-      request.obstacle_poses.files.empty() ? "--obstacle-animation" : "--obstacle-pose";
+  check_obstacle_poses(request.obstacle_poses, request.obstacle, request.poses);
   if (request.poses.empty()) {
-    if (!request.obstacle_poses.empty() || !request.poses_output.empty() || request.are_key_poses_chosen)
-      throw Argument_error(std::string(!request.poses_output.empty()     ? "--poses-out"
-                                       : !request.obstacle_poses.empty() ? of_obstacle
-                                                                         : "--key-poses") +
+    if (!request.poses_output.empty() || request.are_key_poses_chosen)
+      throw Argument_error(std::string(request.poses_output.empty() ? "--key-poses" : "--poses-out") +
                            ": the mesh has no further poses; give them by --pose, --morphs or --animation");
     return;
   }
@@ -103,8 +100,6 @@ void check_poses(const Simplify_request& request)
     refuse_with("--sewn", "vertices that meet in one pose may be apart in others");
   if (request.options.placement == Placement::optimal)
     refuse_with("--placement optimal", "a new place is a place in one pose only");
-  if (!request.obstacle_poses.empty() && request.obstacle.empty())
-    throw Argument_error(std::string(of_obstacle) + ": there is no obstacle; give --obstacle FILE");
   const bool is_one_file = is_one_file_of_poses(request.poses_output);
   const auto require_mark = [&](std::string_view mark, const char* what) {
     if (!request.poses_output.empty() && request.poses_output.find(mark) == std::string::npos)
@@ -436,17 +431,7 @@ void add_options(CLI::App& command, Simplify_request& request)
       "Everything that holds in IN holds in each of them: no layers touch or pass through each "
       "other, limits are kept, and the cost is the mean of all. May be given several times.",
       poses);
-  add_poses_option(command, "--obstacle-pose", request.obstacle_poses.files,
-                   "Poses of the obstacle, as many as of IN and in the same order. Without them it stands "
-                   "still.")
-      ->group(poses);
-  command
-      .add_option(
-          "--obstacle-animation", request.obstacle_poses.animation,
-          "The keyframes of this animation of the obstacle (glTF), or of all of them, are poses of the "
-          "obstacle, one in so many as --every says.")
-      ->type_name("NAME|all")
-      ->group(poses);
+  add_obstacle_pose_options(command, request.obstacle_poses, "IN", poses);
   command
       .add_option(
           "--key-poses", request.are_key_poses_chosen,

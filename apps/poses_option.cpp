@@ -5,6 +5,7 @@
 
 #include "subcommands.h"
 
+#include <selvedge/Error.h>
 #include <selvedge/gltf_poses.h>
 #include <selvedge/poses.h>
 
@@ -50,6 +51,35 @@ void add_pose_options(CLI::App& command, Pose_sources& sources, const std::strin
       ->needs(animation)
       ->capture_default_str()
       ->group(group);
+}
+
+void add_obstacle_pose_options(CLI::App& command, Pose_sources& sources, const std::string& mesh,
+                               const std::string& group)
+{
+  add_poses_option(command, "--obstacle-pose", sources.files,
+                   "Poses of the obstacle, as many as of " + mesh +
+                       " and in the same order. Without them it stands still.")
+      ->group(group);
+  command
+      .add_option(
+          "--obstacle-animation", sources.animation,
+          "The keyframes of this animation of the obstacle (glTF), or of all of them, are poses of the "
+          "obstacle, one in so many as --every says.")
+      ->type_name("NAME|all")
+      ->group(group);
+}
+
+void check_obstacle_poses(const Pose_sources& of_obstacle, const std::string& obstacle,
+                          const Pose_sources& of_mesh)
+{
+  if (of_obstacle.empty())
+    return;
+  const std::string option = of_obstacle.files.empty() ? "--obstacle-animation" : "--obstacle-pose";
+  if (of_mesh.empty())
+    throw Argument_error(option +
+                         ": the mesh has no further poses; give them by --pose, --morphs or --animation");
+  if (obstacle.empty())
+    throw Argument_error(option + ": there is no obstacle; give --obstacle FILE");
 }
 
 void read_poses(const Pose_sources& sources, const std::string& mesh_file, Triangle_soup& mesh)

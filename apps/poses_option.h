@@ -34,6 +34,15 @@ CLI::Option* add_poses_option(CLI::App& command, const std::string& option, std:
 void add_pose_options(CLI::App& command, Pose_sources& sources, const std::string& mesh,
                       const std::string& description, const std::string& group);
 
+/// Declares --obstacle-pose and --obstacle-animation, in a group of the help. `mesh` says in the help of
+/// which file the others are.
+void add_obstacle_pose_options(CLI::App& command, Pose_sources& sources, const std::string& mesh,
+                               const std::string& group);
+
+/// Refuses poses of an obstacle where there is no obstacle, or where the mesh has none.
+void check_obstacle_poses(const Pose_sources& of_obstacle, const std::string& obstacle,
+                          const Pose_sources& of_mesh);
+
 /// Reads the further poses of a mesh that was read from a file.
 void read_poses(const Pose_sources& sources, const std::string& mesh_file, Triangle_soup& mesh);
 

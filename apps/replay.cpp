@@ -39,7 +39,8 @@ struct Replay_request
 {
   std::string original;
   std::string log;
-  Pose_sources poses;
+  std::string obstacle;
+  Pose_sources poses, obstacle_poses;
   std::string output;
   std::string scene;
   std::string limits;
@@ -117,6 +118,8 @@ void print_terms(const Replay_verdict& verdict)
     std::cout << "; " << counted(verdict.offending_pairs, "offending pair")
               << (verdict.header.may_pairs_descend ? ", from which others may descend"
                                                    : " that must stay as they are");
+  if (verdict.is_obstacle_judged)
+    std::cout << "\nobstacle: " << bound(verdict.is_obstacle_stated);
   std::cout << "\nresult: " << bound(verdict.is_result_stated) << '\n';
   if (verdict.snaps > 0)
     std::cout << "snaps: at most " << with_digits(verdict.largest_snap)
@@ -136,7 +139,12 @@ std::string summary_of_terms(const Replay_verdict& verdict)
   return std::string(has_limits ? "limits of the " : "no limits") +
          (has_limits ? name(verdict.limits_source) : "") +
          (verdict.is_input_stated ? ", input bound" : ", input NOT BOUND") +
-         (verdict.is_result_stated ? ", result bound" : ", result NOT BOUND") + permitted;
+         (verdict.is_result_stated ? ", result bound" : ", result NOT BOUND") +
+         (verdict.is_obstacle_stated   ? ", obstacle bound"
+          : verdict.is_obstacle_judged ? ", obstacle NOT BOUND"
+          : verdict.header.obstacle    ? ", obstacle NOT JUDGED"
+                                       : "") +
+         permitted;
 }
 
 void print(const Replay_request& request, const Replay_verdict& verdict)
@@ -230,11 +238,14 @@ Exit_code run(const Replay_request& request)
   std::vector<Named_file> put_out = written;
   if (request.is_json)
     put_out.push_back({"--json", "-"});
-  check_streams({{"ORIGINAL", request.original}, {"LOG", request.log}}, put_out, request.format);
+  check_streams({{"ORIGINAL", request.original}, {"LOG", request.log}, {"--obstacle", request.obstacle}},
+                put_out, request.format);
   std::optional<Mesh_format> format;
   if (!request.output.empty())
     format = format_of(request.output, request.format);
-  require_distinct(written, {{"ORIGINAL", request.original}, {"LOG", request.log}});
+  check_obstacle_poses(request.obstacle_poses, request.obstacle, request.poses);
+  require_distinct(written,
+                   {{"ORIGINAL", request.original}, {"LOG", request.log}, {"--obstacle", request.obstacle}});
   for (const Named_file& file : written)
     if (!file.path.empty())
       require_writable(file.path);
@@ -248,6 +259,14 @@ Exit_code run(const Replay_request& request)
   if (request.are_polygons_split)
     original.soup.polygons.clear();
   read_poses(request.poses, request.original, original.soup);
+  if (!request.obstacle.empty()) {
+    Mesh_input obstacle_input(request.obstacle, request.format);
+    options.obstacle = obstacle_input.read().soup;
+    Pose_sources poses = request.obstacle_poses;
+    poses.every = request.poses.every;
+    read_poses(poses, request.obstacle, *options.obstacle);
+    options.sha256_of_obstacle = obstacle_input.sha256();
+  }
 
   // A signal during the steps keeps the verdict until then. At any other time it ends the run without one.
   std::atomic<bool> is_kept = false;
@@ -297,6 +316,7 @@ Exit_code run(const Replay_request& request)
   Json report = new_report("replay");
   report["input"] = input_json(request.original, original);
   report["log"] = {{"path", request.log}};
+  report["obstacle"] = request.obstacle.empty() ? Json(nullptr) : Json{{"path", request.obstacle}};
   add_replay(report, verdict);
   Json poses = Json::array();
   for (std::size_t i = 0; i < in_poses.size(); ++i) {
@@ -329,7 +349,7 @@ Exit_code run(const Replay_request& request)
     if (verdict.header.is_rounded_to_float32)
       round_to_float32(original.soup);
     const Triangle_soup nothing;
-    Html_report html(original.soup, nothing);
+    Html_report html(original.soup, options.obstacle ? *options.obstacle : nothing);
     rewind(*stream);
     Log_reader log(*stream, input_name(request.log));
     html.add_replay(request.log, verdict, html.add_collapses(steps_taken(log, numbering, verdict)));
@@ -348,11 +368,19 @@ Action add_replay(CLI::App& command)
   const auto request = std::make_shared<Replay_request>();
   command.add_option("ORIGINAL", request->original, "Mesh that was reduced.")->required()->type_name("");
   command.add_option("LOG", request->log, "Log of the collapses that reduced it.")->required()->type_name("");
+  const char* const poses = "Poses (those of the log, in its order)";
   add_pose_options(
       command, request->poses, "ORIGINAL",
       "The further poses of the log, in its order, in each of which every step is judged, too: a "
       "mesh file, or a pattern in quotes. May be given several times.",
-      "Poses (those of the log, in its order)");
+      poses);
+  command
+      .add_option(
+          "--obstacle", request->obstacle,
+          "Mesh that the steps must keep clear of, too: the obstacle that the log names, or any other if "
+          "it names none.")
+      ->type_name("FILE");
+  add_obstacle_pose_options(command, request->obstacle_poses, "ORIGINAL", poses);
   command.add_option("-o,--output", request->output, "File for the mesh to which the steps lead.")
       ->type_name("FILE");
   CLI::Option* const limits =
@@ -380,6 +408,8 @@ Action add_replay(CLI::App& command)
       "Examples:\n"
       "  selvedge simplify jacket.obj -o small.obj --ratio 0.3 --log jacket.log\n"
       "  selvedge replay jacket.obj jacket.log -o again.obj && cmp small.obj again.obj\n"
+      "  selvedge replay jacket.obj jacket.log --obstacle body.obj    # judge its distance from the body, "
+      "too\n"
       "  selvedge replay jacket.obj jacket.log --limits seed    # the paper's limits, not the log's\n"
       "  selvedge replay jacket.obj of_my_own_program.log --no-limits --all\n"
       "  selvedge replay jacket.obj jacket.log --all --html jacket.html    # look at every step\n"

@@ -401,6 +401,8 @@ void add_replay(Json& report, const Replay_verdict& verdict)
                      {"declared", to_json(verdict.header.limits)},
                      {"input_bound", verdict.is_input_stated},
                      {"result_bound", verdict.is_result_stated},
+                     {"obstacle_judged", verdict.is_obstacle_judged},
+                     {"obstacle_bound", verdict.is_obstacle_stated},
                      {"rounding", verdict.header.is_rounded_to_float32 ? "float32" : "none"},
                      {"may_intersect", std::move(may_intersect)},
                      {"not_judged", std::move(open)}};

@@ -149,7 +149,7 @@ private:
       m_log_header.sha256 = input.sha256();
       m_log_header.is_rounded_to_float32 = is_rounded(file.soup);
       for (const Pose& pose : file.soup.poses)
-        m_log_header.poses.push_back({pose.name, digest_of(pose)});
+        m_log_header.poses.push_back({pose.name, digest_of(pose.points), {}});
     }
     Triangle_soup obstacle;
     if (!m_request.obstacle.empty()) {

@@ -234,10 +234,13 @@ py::tuple judge(const Points& points, const Triangles& triangles, const std::opt
                         bindings::report_of(verification, original.has_value()));
 }
 
-py::tuple repeat(const Points& points, const Triangles& triangles, const std::string& log, bool is_all_wanted)
+py::tuple repeat(const Points& points, const Triangles& triangles, const std::string& log,
+                 const std::optional<Mesh_arrays>& obstacle, bool is_all_wanted)
 {
   const Triangle_soup soup = soup_of(points, triangles);
   Replay_options options;
+  if (obstacle)
+    options.obstacle = soup_of(obstacle->first, obstacle->second);
   options.is_all_wanted = is_all_wanted;
   Replay_verdict verdict = Work().run([&] { return bindings::replay(soup, log, options); });
   const std::string report = bindings::report_of(verdict);

@@ -45,6 +45,8 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request)
   header.vertices = input.points.size();
   header.triangles = input.triangles.size();
   header.is_rounded_to_float32 = request.prepare.round_to_float32;
+  if (!request.obstacle.triangles.empty())
+    header.obstacle = {request.obstacle.points.size(), request.obstacle.triangles.size(), {}};
   m_prepared = prepare(std::move(input), request.prepare, request.obstacle);
 
   Simplify_options options = request.options;

@@ -12,14 +12,15 @@
 
 namespace selvedge {
 
-/// Writes the log of a reduction by `simplify_soup`, in the format of collapse_log.h. For an obstacle, the
-/// log only records that there was one.
+/// Writes the log of a reduction by `simplify_soup`, in the format of collapse_log.h.
 class Reduction_log
 {
 public:
   /// Writes the header, the snaps, and the groups of coincident vertices. `header` describes the input file,
   /// its rounding, and the file of the obstacle, if there is one. The limits are added from `options`; the
-  /// weld distance, and an obstacle and poses that `header` does not describe, are added from `prepared`.
+  /// weld distance, an obstacle and poses that `header` does not describe, and the digests of the obstacle in
+  /// the poses are added from `prepared`. (An obstacle has lost its triangles with two corners at one
+  /// position there.)
   ///
   /// **Preconditions** `stream`, `numbering` and `prepared` outlive the log.
   Reduction_log(std::ostream& stream, Log_header header, const Log_numbering& numbering,

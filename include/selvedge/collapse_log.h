@@ -33,7 +33,7 @@ namespace selvedge {
 ///     defects freeze|descend                 once at most; freeze where it is missing
 ///     may_intersect PART PART                any number of them
 ///     obstacle VERTICES TRIANGLES SHA256     once at most
-///     pose NAME SHA256                       any number of them
+///     pose NAME SHA256 [OBSTACLE]            any number of them
 ///     limit NAME NUMBER                      any number of them, each name once
 ///     s MOVED KEPT                           any number of them
 ///     w VERTEX VERTEX ...                    any number of them
@@ -59,12 +59,16 @@ namespace selvedge {
 ///   a group, object or material or by one of its words. Of names, blanks, control bytes, `%` and bytes from
 ///   127 on are written as `%` and two hexadecimal digits. No triangle of one part has, at the start, a
 ///   corner where a triangle of the other has one. Pairs between the two are not judged.
-/// - *obstacle*: a mesh that the writer kept clear of and did not change, described as in *input*. The line
-///   only records that there was one. The log does not hold its triangles, so they cannot be judged.
+/// - *obstacle*: a mesh that the writer kept clear of and did not change: the numbers of its vertices and
+///   triangles, as `read_mesh` finds them, and the SHA-256 of its file, as in *input*. The log does not hold
+///   its triangles; `replay` judges them when it is given the mesh (`Replay_options::obstacle`). It is not
+///   rounded.
 /// - *pose*: a further pose of the input, in which the steps are legal, too: every vertex has another place
 ///   there, and moves along its own segment. NAME is written as in *may_intersect*. The SHA-256 is of the
 ///   places of all vertices in their order, before rounding: for each its coordinates as 64-bit IEEE floats,
-///   the least significant byte first, −0 as 0. Snaps and new places (X Y Z) do not go together with poses.
+///   the least significant byte first, −0 as 0. OBSTACLE is the SHA-256 of the places of the obstacle's
+///   vertices in this pose, made alike; it may be missing, or `-` when unknown. Snaps and new places (X Y Z)
+///   do not go together with poses.
 /// - *limit*: a limit that the writer kept to, and by which it wants to be judged. NAME is a key of
 ///   `limit_descriptions` (`normal_change`, `aspect_ratio`, `border_turn`, `seam_turn`, `border_drift`,
 ///   `weld_distance`, `clearance`). NUMBER is at least 0; `Reduction_limits` has the units. The diagonal is
@@ -97,8 +101,8 @@ namespace selvedge {
 ///
 /// **Complexity** Logs are read and written line by line: memory does not grow with their length.
 
-/// Returns what a log says of a pose.
-std::string digest_of(const Pose& pose);
+/// Returns what a log says of a pose, by the places of all vertices in it.
+std::string digest_of(const std::vector<Point_3>& places);
 
 /// Converts between the vertices of a soup that was read from a file, and their numbers in a log. The two
 /// differ for STL alone.
@@ -147,7 +151,8 @@ struct Log_header
   struct Posed
   {
     std::string name;
-    std::string sha256; ///< of the places of its vertices; empty when unknown
+    std::string sha256;             ///< of the places of its vertices; empty when unknown
+    std::string sha256_of_obstacle; ///< of those of the obstacle; likewise
   };
   std::vector<Posed> poses;
 

@@ -51,7 +51,8 @@ struct Violation
   Index kept = 0;       ///< as in the log
 
   /// The triangles concerned, by their 0-based numbers in the original: those that move, or, when two meet,
-  /// the moving one and the one that it meets.
+  /// the moving one and the one that it meets. The triangles of an obstacle are numbered after those of the
+  /// original.
   std::vector<Index> triangles;
 
   std::string message; ///< one line for a person
@@ -78,6 +79,14 @@ struct Replay_options
   /// The SHA-256 of the file that the original was read from, as `sha256_of_file` returns it; empty when
   /// unknown. When the log names one, too, `replay` throws `Input_error` unless both are the same.
   std::string sha256_of_original;
+
+  /// The mesh that the steps must keep clear of, as `read_mesh` returns it: every motion is judged against
+  /// it, too. It has as many poses as the original, or none: then it stands still in all. Without one, only
+  /// the original is judged. The log need not name it. When the log does, `replay` throws `Input_error` if
+  /// this mesh has other counts or, where both are known, another SHA-256 of the file, or if it stands
+  /// elsewhere in the pose that is judged.
+  std::optional<Triangle_soup> obstacle;
+  std::string sha256_of_obstacle; ///< of its file; empty when unknown
 
   /// The further pose of the original in which the steps are judged, by its number in
   /// `Triangle_soup::poses`; the first one, `Triangle_soup::points`, when there is none. `replay` throws
@@ -119,9 +128,11 @@ struct Replay_verdict
   /// The limits that were judged. The weld distance is among them even when limits were not to be judged.
   Reduction_limits limits;
   Limits_source limits_source = Limits_source::log;
+  bool is_obstacle_judged = false; ///< there was one (`Replay_options::obstacle`)
+  bool is_obstacle_stated = false; ///< the log names its SHA-256 and, in a further pose, that of its places
   bool is_input_stated = false;    ///< the log names the SHA-256 of its input, and it is the original's
   bool is_result_stated = false;   ///< the log names a digest of its result, and it is that of `soup`
-  std::size_t offending_pairs = 0; ///< of the original
+  std::size_t offending_pairs = 0; ///< of the original, together with the obstacle
 
   double largest_snap = 0;         ///< the longest snap, in the unit of the coordinates
   double largest_way_of_snaps = 0; ///< how far a vertex was moved by all of its snaps together, at most
@@ -170,6 +181,9 @@ std::vector<Not_judged> not_judged(const Replay_verdict& verdict);
 /// 6. *Result*: `soup` is what the log states as its result. `is_result_stated` tells whether the log states
 ///    it to the last triangle, or in counts alone.
 ///
+/// Where there is an obstacle, its faces are among those of guarantees 1, 2 and 5, and it has stood still: no
+/// vertex at a position of one of its triangles has moved.
+///
 /// A mesh in several poses is judged in one of them at a time: call it again for each
 /// (`Replay_options::pose`). Guarantees 1 to 3 and 5 then hold in that pose.
 ///
@@ -190,8 +204,8 @@ std::vector<Not_judged> not_judged(const Replay_verdict& verdict);
 ///
 /// **Preconditions** The soup is what `read_mesh` returns for the file that the log names; `is_stl` tells
 /// whether that is an STL file. Checked (`Input_error`): the SHA-256, where both are known, and the counts in
-/// the log's `input` line; that the log has the format of collapse_log.h; that the vertices of each w-line
-/// are at one position; that parts that may intersect are there, and not joined.
+/// the log's `input` line, and likewise the obstacle; that the log has the format of collapse_log.h; that the
+/// vertices of each w-line are at one position; that parts that may intersect are there, and not joined.
 ///
 /// **Exactness** Contacts are decided exactly: by signs of CGAL's exact predicates, else in rational numbers.
 /// Limits are compared in floating point, with a tolerance of 1e-9 for programs that round otherwise; no

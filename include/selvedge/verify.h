@@ -62,7 +62,7 @@ struct Offending_pair
 /// million triangles of layered cloth take one thread a second, and 110 bytes each.
 /// **Threads.** As many as oneTBB grants: all cores, unless the caller runs in a `tbb::task_arena` or sets
 /// `tbb::global_control`. The answer does not depend on them. The same holds for everything in this header
-/// that takes long.
+/// that takes long. `verify` judges several poses at once, and has no more of them in memory than threads.
 /// **Reference.** Guigue and Devillers, *Fast and robust triangle-triangle overlap test using orientation
 /// predicates*, 2003 (CGAL's `do_intersect`).
 std::vector<Offending_pair> offending_pairs(const Triangle_soup& soup);
@@ -272,9 +272,9 @@ struct Verify_options
 
   /// A distance, in the unit of the coordinates, that pieces keep from each other in every pose: no two are
   /// nearer than this, or, where an original is given, than they are there. Pieces are connected by positions
-  /// in the original, or in the mesh itself, and the obstacle belongs to them; `Piece_matching` says which of
-  /// the result became of which. Positive and finite; not judged by default, and not together with parts that
-  /// may intersect.
+  /// in the original, or in the mesh itself; `Piece_matching` says which of the result became of which. An
+  /// obstacle has pieces of its own, and connects no others. Positive and finite; not judged by default, and
+  /// not together with parts that may intersect.
   std::optional<double> clearance;
 };
 

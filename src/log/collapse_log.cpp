@@ -53,10 +53,10 @@ std::string text_of_name(const std::string& name)
 
 } // namespace
 
-std::string digest_of(const Pose& pose)
+std::string digest_of(const std::vector<Point_3>& places)
 {
   Sha256 sha256;
-  for (const Point_3& point : pose.points) {
+  for (const Point_3& point : places) {
     std::array<char, 24> bytes;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double coordinate = point[int(axis)] + 0.0; // −0 becomes 0
@@ -100,7 +100,8 @@ Log_writer::Log_writer(std::ostream& stream, const Log_header& header) : m_strea
   if (header.obstacle)
     write_mesh("obstacle", *header.obstacle);
   for (const Log_header::Posed& pose : header.poses)
-    m_stream << "pose " << text_of_name(pose.name) << ' ' << text_of_digest(pose.sha256) << '\n';
+    m_stream << "pose " << text_of_name(pose.name) << ' ' << text_of_digest(pose.sha256)
+             << (pose.sha256_of_obstacle.empty() ? "" : " " + pose.sha256_of_obstacle) << '\n';
   for (const Limit_description& limit : limit_descriptions)
     if (const std::optional<double>& value = header.limits.*limit.value)
       m_stream << "limit " << limit.key << ' ' << text_of(*value) << '\n';
@@ -165,8 +166,8 @@ public:
         read_mesh(obstacle, "obstacle VERTICES TRIANGLES SHA256");
         header.obstacle = obstacle;
       } else if (m_words[0] == "pose") {
-        expect_words(3, 3, "pose NAME SHA256");
-        header.poses.push_back({part_name(1), digest(2)});
+        expect_words(3, 4, "pose NAME SHA256 [OBSTACLE]");
+        header.poses.push_back({part_name(1), digest(2), m_words.size() > 3 ? digest(3) : ""});
       } else if (m_words[0] == "limit") {
         read_limit();
       } else {

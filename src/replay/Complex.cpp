@@ -36,9 +36,9 @@ std::vector<Index> first_at_position(const std::vector<Point_3>& points)
   return result;
 }
 
-Complex::Complex(const Triangle_soup& soup)
-    : m_soup(soup), m_position_of_vertex(first_at_position(soup.points)), m_snapped_to(soup.points.size()),
-      m_faces_at(soup.points.size()), m_alive(soup.triangles.size())
+Complex::Complex(const Triangle_soup& soup, std::vector<std::array<Place, 3>> obstacle)
+    : m_soup(soup), m_obstacle(std::move(obstacle)), m_position_of_vertex(first_at_position(soup.points)),
+      m_snapped_to(soup.points.size()), m_faces_at(soup.points.size()), m_alive(soup.triangles.size())
 {
   std::iota(m_snapped_to.begin(), m_snapped_to.end(), Index(0));
   for (const Point_3& p : soup.points)
@@ -58,6 +58,14 @@ Complex::Complex(const Triangle_soup& soup)
 
 std::array<Place, 3> Complex::triangle(Index face) const
 {
+  if (is_of_obstacle(face)) {
+    std::array<Place, 3> corners = m_obstacle[face - m_faces.size()];
+    // After a bad step, what shared a position with the obstacle may have moved away.
+    for (Place& corner : corners)
+      if (corner.id < m_points.size() && m_points[corner.id] != corner.at)
+        corner.id = Index(-2) - Index(&corner - corners.data());
+    return corners;
+  }
   const Index_triple& p = m_faces[face].positions;
   return {place(p[0]), place(p[1]), place(p[2])};
 }
@@ -70,7 +78,11 @@ std::size_t Complex::slot(Index face, Index position) const
 
 bool Complex::has(Index face, Index position) const
 {
-  return slot(face, position) < 3;
+  if (!is_of_obstacle(face))
+    return slot(face, position) < 3;
+  const std::array<Place, 3> corners = triangle(face);
+  return std::any_of(corners.begin(), corners.end(),
+                     [&](const Place& corner) { return corner.id == position; });
 }
 
 std::array<Index, 2> Complex::opposite_side(Index face, Index position) const

@@ -18,6 +18,9 @@ namespace selvedge::reference {
 
 /// The mesh on which `replay` repeats a log: triangles over positions, and the faces at each position. It has
 /// no halfedges: borders, fans and seams are counted when they are asked for.
+///
+/// Faces of an obstacle may stand beside it. They are numbered after the others, and never move. The faces at
+/// a position, borders, fans and seams are those of the mesh alone.
 class Complex
 {
 public:
@@ -48,7 +51,9 @@ public:
     bool is_line() const { return is_seam || is_border(); }
   };
 
-  explicit Complex(const Triangle_soup& soup);
+  /// The corners of the obstacle have the numbers of the positions of `soup` where they share them, and
+  /// others elsewhere.
+  explicit Complex(const Triangle_soup& soup, std::vector<std::array<Place, 3>> obstacle = {});
 
   /// Returns the position of a vertex of the soup; for one that a collapse has removed, the position that it
   /// had.
@@ -64,7 +69,9 @@ public:
   std::array<Place, 3> triangle(Index face) const;
 
   std::size_t face_count() const { return m_alive; }
-  std::size_t size() const { return m_faces.size(); }
+  std::size_t size() const { return m_faces.size(); } // without those of the obstacle
+  std::size_t size_with_obstacle() const { return m_faces.size() + m_obstacle.size(); }
+  bool is_of_obstacle(Index face) const { return face >= m_faces.size(); }
 
   /// Sets faces aside that go with others from now on, the front of each. They are not alive any more, but
   /// count as faces as long as their fronts do. To be called after turns, and before `find_seams`.
@@ -137,6 +144,7 @@ private:
   void carry_passed(Index removed, Index kept, const std::array<Coordinates, 2>& before);
 
   const Triangle_soup& m_soup;
+  const std::vector<std::array<Place, 3>> m_obstacle;
   std::vector<Index> m_position_of_vertex; // at the start
   std::vector<Index> m_snapped_to;         // by position; itself where it has not snapped
   std::vector<Coordinates> m_points;       // by position

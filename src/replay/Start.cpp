@@ -5,6 +5,7 @@
 
 #include "Complex.h"
 
+#include "soup/obstacle.h"
 #include "soup/selection.h"
 #include "verify/triangles_of_part.h"
 #include <selvedge/Error.h>
@@ -60,6 +61,7 @@ void find_parts(Start& start, const Log_header& header)
           throw Input_error("the log lets the parts '" + a + "' and '" + b +
                             "' intersect, but they share the vertex " + std::to_string(v + 1) +
                             "; only parts that are not joined may intersect");
+    part_of.resize(start.numbers.size(), 0); // an obstacle belongs to no part
     start.parts.push_back(std::move(part_of));
   }
 }
@@ -69,7 +71,7 @@ void find_fronts(Start& start, const Log_header& header, const std::vector<Index
                  const std::vector<char>& is_frozen)
 {
   std::map<std::vector<Index>, Index> front_of; // by positions in ascending order, and by parts
-  std::vector<Index> times(start.soup.triangles.size(), 1);
+  std::vector<Index> times(start.numbers.size(), 1);
   for (Index t = 0; t < start.soup.triangles.size(); ++t) {
     start.fronts.push_back(t);
     const auto& [a, b, c] = start.soup.triangles[t];
@@ -83,16 +85,51 @@ void find_fronts(Start& start, const Log_header& header, const std::vector<Index
     start.fronts[t] = front_of.emplace(std::move(key), t).first->second;
     times[start.fronts[t]] += start.fronts[t] != t;
   }
+  for (Index t = Index(start.fronts.size()); t < start.numbers.size(); ++t)
+    start.fronts.push_back(t);
   start.offences.count_times(std::move(times));
+}
+
+// Leaves out the triangles of an obstacle that have two corners at one position, and puts the others beside
+// the soup.
+void add_obstacle(Start& start, Triangle_soup& obstacle, const std::vector<Index>& first_at,
+                  Index first_number)
+{
+  const Index own_vertices = Index(start.soup.points.size());
+  std::vector<Index_triple> kept;
+  for (Index t = 0; t < obstacle.triangles.size(); ++t) {
+    std::array<Place, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index v = obstacle.triangles[t][k];
+      const Point_3& point = obstacle.points[v];
+      corners[k] = {first_at[own_vertices + v], {point.x(), point.y(), point.z()}};
+    }
+    if (corners[0].id == corners[1].id || corners[1].id == corners[2].id || corners[2].id == corners[0].id)
+      continue;
+    kept.push_back(obstacle.triangles[t]);
+    start.obstacle.push_back(corners);
+    start.numbers.push_back(first_number + t);
+  }
+  obstacle.triangles = std::move(kept);
+}
+
+std::vector<Index> first_at_position_of_both(std::vector<Point_3> points, const std::vector<Point_3>& beside)
+{
+  points.insert(points.end(), beside.begin(), beside.end());
+  return first_at_position(points);
 }
 
 } // namespace
 
-Start start_of(const Triangle_soup& original, const Log_header& header, std::optional<std::size_t> pose)
+Start start_of(const Triangle_soup& original, const Triangle_soup& obstacle, const Log_header& header,
+               std::optional<std::size_t> pose)
 {
   Start start;
   start.soup = original;
   start.soup.poses.clear();
+  Triangle_soup beside;
+  beside.points = pose ? points_in_pose(obstacle, *pose) : obstacle.points;
+  beside.triangles = obstacle.triangles;
   if (pose) {
     Triangle_soup first = start.soup;
     if (header.is_rounded_to_float32)
@@ -105,28 +142,32 @@ Start start_of(const Triangle_soup& original, const Log_header& header, std::opt
   for (Index t = 0; t < original.triangles.size(); ++t)
     start.numbers.push_back(t);
   leave_out_needless(start);
-  const std::vector<Index> before = first_at_position(start.soup.points);
+  const std::vector<Index> before = first_at_position_of_both(start.soup.points, beside.points);
   if (header.is_rounded_to_float32) {
     round_to_float32(start.soup);
     leave_out_needless(start);
   }
+  const Index own_triangles = Index(start.soup.triangles.size());
+  const std::vector<Index> first = first_at_position_of_both(start.soup.points, beside.points);
+  add_obstacle(start, beside, first, Index(original.triangles.size()));
   find_parts(start, header);
-  const std::vector<Index> first = first_at_position(start.soup.points);
-  std::vector<char> is_frozen(start.soup.triangles.size(), false);
+  std::vector<char> is_frozen(start.numbers.size(), false);
   // Where rounding alone has made several positions one, the faces there are frozen.
   std::vector<char> is_merged(first.size(), false);
   for (Index v = 0; v < first.size(); ++v)
     if (before[v] != before[first[v]])
       is_merged[first[v]] = true;
-  for (Index t = 0; t < start.soup.triangles.size(); ++t)
+  for (Index t = 0; t < own_triangles; ++t)
     for (const Index v : start.soup.triangles[t])
       is_frozen[t] = is_frozen[t] || is_merged[first[v]];
-  const std::vector<Offending_pair> pairs = offending_pairs(start.soup);
+  const std::vector<Offending_pair> pairs = offending_pairs(geometry_with_obstacle(start.soup, beside));
   find_fronts(start, header, first, is_frozen);
   for (const Offending_pair& pair : pairs) {
     if (start.is_permitted(pair.first, pair.second))
       continue;
     ++start.offending_pairs;
+    if (pair.first >= own_triangles)
+      continue; // the obstacle stays as it is
     if (!header.may_pairs_descend)
       is_frozen[pair.first] = is_frozen[pair.second] = true;
     const Index f = start.fronts[pair.first], g = start.fronts[pair.second];
@@ -137,10 +178,13 @@ Start start_of(const Triangle_soup& original, const Log_header& header, std::opt
     start.offences.add(f, g);
   }
   start.is_locked.assign(first.size(), false);
-  for (Index t = 0; t < start.soup.triangles.size(); ++t) {
+  for (Index t = 0; t < own_triangles; ++t) {
     for (const Index v : start.soup.triangles[t])
       start.is_locked[first[v]] = start.is_locked[first[v]] || is_frozen[t];
   }
+  for (const std::array<Place, 3>& triangle : start.obstacle)
+    for (const Place& corner : triangle)
+      start.is_locked[corner.id] = true;
   return start;
 }
 

@@ -6,10 +6,12 @@
 
 #include "Lineage.h"
 #include "Offences.h"
+#include "contact.h"
 
 #include <selvedge/Triangle_soup.h>
 #include <selvedge/collapse_log.h>
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -18,13 +20,14 @@ namespace selvedge {
 namespace reference {
 
 /// The original as the writer of the log took it: rounded if the log says so, and without triangles that have
-/// two corners at one position.
+/// two corners at one position. In all that is by triangle, those of the obstacle follow those of `soup`.
 struct Start
 {
   Triangle_soup soup;
-  std::vector<Point_3> points_of_first_pose; // if `soup` is in a further one
-  std::vector<Index> numbers;                // of its triangles in the original
-  std::vector<char> is_locked;               // by position
+  std::vector<Point_3> points_of_first_pose;  // if `soup` is in a further one
+  std::vector<std::array<Place, 3>> obstacle; // its corners have positions of `soup`, or others
+  std::vector<Index> numbers;                 // of the triangles, in the original and the obstacle
+  std::vector<char> is_locked;                // by position
   Offences offences;
   Lineage lineage;
   std::size_t offending_pairs = 0;
@@ -46,9 +49,10 @@ struct Start
   }
 };
 
-/// Takes the original as the header of a log says, in the pose of a number, or in the first. Throws
-/// `Input_error` when parts that may intersect are not there, or have a position in common.
-Start start_of(const Triangle_soup& original, const Log_header& header, std::optional<std::size_t> pose);
+/// Takes the original as the header of a log says, and an obstacle as it is, in the pose of a number, or in
+/// the first. Throws `Input_error` when parts that may intersect are not there, or have a position in common.
+Start start_of(const Triangle_soup& original, const Triangle_soup& obstacle, const Log_header& header,
+               std::optional<std::size_t> pose);
 
 } // namespace reference
 } // namespace selvedge

@@ -37,11 +37,11 @@ std::vector<Not_judged> not_judged(const Replay_verdict& verdict)
     result.push_back({"poses", "the further poses that the log names (" +
                                    std::to_string(verdict.header.poses.size()) +
                                    "): each has a verdict of its own"});
-  if (verdict.header.obstacle)
-    result.push_back({"obstacle",
-                      "whether the steps keep clear of the obstacle that the log names: the log does "
-                      "not hold its triangles"});
-  if (verdict.header.obstacle && verdict.header.may_pairs_descend)
+  const bool is_obstacle_missing = verdict.header.obstacle && !verdict.is_obstacle_judged;
+  if (is_obstacle_missing)
+    result.push_back(
+        {"obstacle", "whether the steps keep clear of the obstacle that the log names: it was not given"});
+  if (is_obstacle_missing && verdict.header.may_pairs_descend)
     result.push_back({"pairs",
                       "whether there are ever more offending pairs than before a step: those with the "
                       "obstacle are not known"});

@@ -10,6 +10,7 @@
 #include "contact.h"
 #include "limits.h"
 #include "snap.h"
+#include "soup/obstacle.h"
 
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
@@ -83,19 +84,20 @@ class Replay
 public:
   Replay(const Triangle_soup& original, bool is_stl, Log_reader& log, const Replay_options& options)
       : m_numbering(original, is_stl), m_log(log), m_options(options),
-        m_start(start_of(original, log.header(), options.pose)), m_complex(m_start.soup),
-        m_limits(judged_limits(log.header(), options))
+        m_start(start_of(original, options.obstacle.value_or(Triangle_soup()), log.header(), options.pose)),
+        m_complex(m_start.soup, std::move(m_start.obstacle)), m_limits(judged_limits(log.header(), options))
   {
     const Log_header& header = log.header();
     m_verdict.header = header;
     m_verdict.is_in_first_pose = !options.pose;
+    m_verdict.is_obstacle_judged = options.obstacle.has_value();
     m_verdict.is_input_stated = !header.sha256.empty() && header.sha256 == options.sha256_of_original;
     m_verdict.offending_pairs = m_start.offending_pairs;
     m_verdict.limits = judged_limits(header, options);
     m_verdict.limits_source = !options.are_limits_judged ? Limits_source::none
                               : options.limits           ? Limits_source::judge
                                                          : Limits_source::log;
-    m_boxes.resize(m_complex.size());
+    m_boxes.resize(m_complex.size_with_obstacle());
     Cancellation_poll poll;
     for (Index f = 0; f < m_boxes.size(); ++f) {
       poll();
@@ -158,11 +160,13 @@ private:
   void build_tree()
   {
     std::vector<Index> faces;
-    for (Index f = 0; f < m_boxes.size(); ++f)
+    for (Index f = 0; f < m_complex.size(); ++f)
       if (m_complex.face(f).is_alive)
         faces.push_back(f);
-    m_tree.build(faces, m_boxes);
     m_faces_in_tree = faces.size();
+    for (Index f = Index(m_complex.size()); f < m_complex.size_with_obstacle(); ++f)
+      faces.push_back(f);
+    m_tree.build(faces, m_boxes);
   }
 
   void check_weld(const Log_step& step) const
@@ -247,13 +251,15 @@ private:
     }
     const std::size_t pairs_before = m_offences.count();
     apply(removed, kept, false, before);
-    // The pairs with an obstacle, which may have become fewer instead, are not known.
-    if (!m_verdict.header.obstacle && m_offences.count() > pairs_before)
+    // The pairs with an obstacle that is not given, which may have become fewer instead, are not known.
+    if (!is_obstacle_missing() && m_offences.count() > pairs_before)
       report(Violation_kind::intersection,
              "more pairs of triangles intersect afterwards than before, though all descend from pairs of the "
              "original",
              m_complex.faces_at(kept));
   }
+
+  bool is_obstacle_missing() const { return m_verdict.header.obstacle && !m_options.obstacle; }
 
   static constexpr Index no_position() { return Index(-1); }
 
@@ -346,11 +352,14 @@ private:
   void judge_lock(Index position, std::optional<Index> goal = {})
   {
     if (m_start.is_locked[position])
-      report(Violation_kind::locked,
-             m_step->kind == Log_step::Kind::snap
-                 ? "one of the two vertices belongs to an offending triangle of the original"
-                 : "the vertex that moves belongs to an offending triangle of the original",
-             m_complex.faces_at(position));
+      report(
+          Violation_kind::locked,
+          m_step->kind == Log_step::Kind::snap
+              ? "one of the two vertices belongs to an offending triangle of the original, or is at a "
+                "vertex of the obstacle"
+              : "the vertex that moves belongs to an offending triangle of the original, or is at a vertex "
+                "of the obstacle",
+          m_complex.faces_at(position));
     else if (m_step->kind == Log_step::Kind::collapse && !m_complex.is_one_fan(position) &&
              !(goal && m_complex.is_inside_line(position, *goal)))
       report(Violation_kind::locked, "the vertex that moves holds several sheets together",
@@ -543,7 +552,7 @@ private:
     const Index moving = m_complex.faces_at(motion.mover).front();
     m_standing.clear();
     m_tree.visit(box, [&](Index f) {
-      if (m_pieces[m_complex.face(f).positions[0]] != m_pieces[motion.mover])
+      if (m_complex.is_of_obstacle(f) || m_pieces[m_complex.face(f).positions[0]] != m_pieces[motion.mover])
         m_standing.push_back(f);
     });
     for (const Index f : m_standing) {
@@ -558,8 +567,13 @@ private:
   void report_meeting(Violation_kind kind, const Motion& motion, Index f, const std::array<Place, 3>& after,
                       Index g, const std::array<Place, 3>& other, const std::optional<std::string>& point)
   {
-    const std::string both = "triangles " + std::to_string(m_start.numbers[f] + 1) + " and " +
-                             std::to_string(m_start.numbers[g] + 1);
+    const auto name = [&](Index face) {
+      const std::size_t number = m_start.numbers[face] + 1;
+      return m_complex.is_of_obstacle(face)
+                 ? std::to_string(number - m_verdict.header.triangles) + " of the obstacle"
+                 : std::to_string(number);
+    };
+    const std::string both = "triangles " + name(f) + " and " + name(g);
     report(kind,
            both + (kind == Violation_kind::intersection ? " intersect afterwards"
                                                         : " are apart afterwards, but meet on the way"),
@@ -753,7 +767,9 @@ private:
 
 namespace {
 
-void require_pose(const Triangle_soup& original, const Log_header& header, std::size_t pose)
+// Returns what the log says of the pose of a number.
+const Log_header::Posed& stated_pose(const Triangle_soup& original, const Log_header& header,
+                                     std::size_t pose)
 {
   if (pose >= original.poses.size())
     throw Argument_error("there is no pose " + std::to_string(pose) + "; the mesh has " +
@@ -768,9 +784,38 @@ void require_pose(const Triangle_soup& original, const Log_header& header, std::
     throw Input_error("the log says nothing of the pose '" + name + "': it has " +
                       std::to_string(header.poses.size()) + " further poses; leave out the others");
   const Log_header::Posed& stated = header.poses[place];
-  if (!stated.sha256.empty() && stated.sha256 != digest_of(original.poses[pose]))
+  if (!stated.sha256.empty() && stated.sha256 != digest_of(original.poses[pose].points))
     throw Input_error("the pose '" + name + "' is not the pose '" + stated.name +
                       "' that the log has in its place; give the same poses in the same order");
+  return stated;
+}
+
+// Returns whether the log names the digests of the obstacle. `posed` is what it says of the pose in question.
+bool require_obstacle(const Replay_options& options, const Log_header& header, const Log_header::Posed* posed)
+{
+  const Triangle_soup& obstacle = *options.obstacle;
+  if (!header.obstacle)
+    return false;
+  const Log_header::Obstacle& stated = *header.obstacle;
+  if (!stated.sha256.empty() && !options.sha256_of_obstacle.empty() &&
+      stated.sha256 != options.sha256_of_obstacle)
+    throw Input_error("this is not the obstacle that the log names, which has another SHA-256; give the one "
+                      "that the log was made with");
+  if (stated.vertices != obstacle.points.size() || stated.triangles != obstacle.triangles.size())
+    throw Input_error("the log names an obstacle of " + std::to_string(stated.vertices) + " vertices and " +
+                      std::to_string(stated.triangles) + " triangles; this one has " +
+                      std::to_string(obstacle.points.size()) + " and " +
+                      std::to_string(obstacle.triangles.size()) +
+                      "; give the one that the log was made with");
+  const bool is_stated = !stated.sha256.empty() && !options.sha256_of_obstacle.empty();
+  if (!posed)
+    return is_stated;
+  if (!posed->sha256_of_obstacle.empty() &&
+      posed->sha256_of_obstacle != digest_of(points_in_pose(obstacle, *options.pose)))
+    throw Input_error("in the pose '" + posed->name +
+                      "', the obstacle is not where the log has it; give the "
+                      "poses of the obstacle that the log was made with, in the same order");
+  return is_stated && !posed->sha256_of_obstacle.empty();
 }
 
 } // namespace
@@ -789,12 +834,19 @@ Replay_verdict replay(const Triangle_soup& original, bool is_stl, Log_reader& lo
                       std::to_string(header.triangles) + " triangles; this one has " +
                       std::to_string(vertices) + " and " + std::to_string(original.triangles.size()) +
                       "; give the original that the log was made from");
-  if (options.pose)
-    require_pose(original, header, *options.pose);
+  if (options.obstacle && !options.obstacle->poses.empty() &&
+      options.obstacle->poses.size() != original.poses.size())
+    throw Argument_error("the obstacle has " + std::to_string(options.obstacle->poses.size()) +
+                         " further poses and the mesh " + std::to_string(original.poses.size()) +
+                         "; give as many, or none for an obstacle that stands still");
+  const Log_header::Posed* const posed =
+      options.pose ? &stated_pose(original, header, *options.pose) : nullptr;
+  const bool is_obstacle_stated = options.obstacle && require_obstacle(options, header, posed);
   const auto start = reference::Clock::now();
   reference::Replay run(original, is_stl, log, options);
   const double seconds_prepare = reference::seconds_since(start);
   Replay_verdict verdict = run.run();
+  verdict.is_obstacle_stated = is_obstacle_stated;
   verdict.seconds_prepare = seconds_prepare;
   return verdict;
 }

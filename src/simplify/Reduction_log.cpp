@@ -4,6 +4,7 @@
 #include <selvedge/Reduction_log.h>
 
 #include "guarded_poses.h"
+#include "soup/obstacle.h"
 
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Sha256.h>
@@ -49,11 +50,15 @@ Log_header completed(Log_header header, const Prepared_soup& prepared, const Sim
   if (prepared.snapping.distance > 0)
     header.limits.weld_distance = prepared.snapping.distance;
   const Triangle_soup& obstacle = prepared.obstacle;
+  const std::vector<std::size_t> guarded = guarded_poses(prepared.soup, options);
   if (header.poses.empty())
-    for (const std::size_t pose : guarded_poses(prepared.soup, options))
-      header.poses.push_back({prepared.soup.poses[pose].name, {}});
+    for (const std::size_t pose : guarded)
+      header.poses.push_back({prepared.soup.poses[pose].name, {}, {}});
   if (!header.obstacle && !obstacle.triangles.empty())
     header.obstacle = {obstacle.points.size(), obstacle.triangles.size(), {}};
+  if (header.obstacle && header.poses.size() == guarded.size())
+    for (std::size_t i = 0; i < guarded.size(); ++i)
+      header.poses[i].sha256_of_obstacle = digest_of(points_in_pose(obstacle, guarded[i]));
   return header;
 }
 

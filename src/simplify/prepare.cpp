@@ -10,6 +10,7 @@
 #include "soup/obstacle.h"
 #include "soup/selection.h"
 #include "soup/transforms_of_vertices.h"
+#include "verify/for_each_pose.h"
 #include "weld/snapping.h"
 
 #include <selvedge/Error.h>
@@ -334,9 +335,12 @@ private:
     m_all_pairs = offending_pairs(soup());
     m_prepared.offending_pairs = m_all_pairs;
     m_prepared.permitted_pairs = permit(m_prepared.offending_pairs);
+    m_prepared.offending_pairs_in_poses.resize(soup().poses.size());
+    internal::for_each_pose(soup().poses.size(), [&](std::size_t pose) {
+      m_prepared.offending_pairs_in_poses[pose] = offending_pairs(geometry_in_pose(soup(), {}, pose));
+    });
     for (std::size_t pose = 0; pose < soup().poses.size(); ++pose) {
-      std::vector<Offending_pair>& pairs = m_prepared.offending_pairs_in_poses.emplace_back(
-          offending_pairs(geometry_in_pose(soup(), {}, pose)));
+      std::vector<Offending_pair>& pairs = m_prepared.offending_pairs_in_poses[pose];
       permit(pairs);
       if (is_strict())
         refuse_if_any(pairs, own_triangles, " in the pose '" + soup().poses[pose].name + "'");

@@ -303,18 +303,23 @@ Clearance_verdict judge(double clearance, const Trees& result, const Trees* orig
   return verdict;
 }
 
-// Unites the triangles that have a position in common.
-void unite_by_position(const Triangle_soup& mesh, Disjoint_sets& triangles)
+// Unites the triangles that have a position in common: those of the mesh, and those of the obstacle, which
+// come last.
+void unite_by_position(const Triangle_soup& mesh, std::size_t obstacle_triangles, Disjoint_sets& triangles)
 {
   const std::vector<Index> positions = position_numbers(mesh.points);
+  const std::size_t own = mesh.triangles.size() - obstacle_triangles;
   std::vector<Index> first_at(mesh.points.size(), no_piece);
-  for (Index t = 0; t < mesh.triangles.size(); ++t)
+  for (Index t = 0; t < mesh.triangles.size(); ++t) {
+    if (t == own)
+      first_at.assign(first_at.size(), no_piece);
     for (const Index v : mesh.triangles[t]) {
       Index& first = first_at[positions[v]];
       if (first == no_piece)
         first = t;
       triangles.unite(first, t);
     }
+  }
 }
 
 } // namespace
@@ -322,7 +327,7 @@ void unite_by_position(const Triangle_soup& mesh, Disjoint_sets& triangles)
 std::vector<Index> pieces_by_position(const Triangle_soup& mesh)
 {
   Disjoint_sets sets(mesh.triangles.size());
-  unite_by_position(mesh, sets);
+  unite_by_position(mesh, 0, sets);
   std::vector<Index> pieces;
   for (Index t = 0; t < mesh.triangles.size(); ++t)
     pieces.push_back(Index(sets.find(t)));
@@ -337,7 +342,7 @@ Matched_pieces matched_pieces(const Triangle_soup& result, const Triangle_soup& 
   const Index beyond = Index(original.triangles.size());
   const std::size_t own = result.triangles.size() - obstacle_triangles;
   Disjoint_sets sets(beyond + pieces_of_result.size());
-  unite_by_position(original, sets);
+  unite_by_position(original, obstacle_triangles, sets);
   for (const Piece_match& match : matching.matches) {
     const Index first = matching.pieces_of_original[match.of_original.front()].first_triangle;
     for (const Index piece : match.of_original)

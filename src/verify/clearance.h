@@ -17,7 +17,7 @@ std::vector<Index> pieces_by_position(const Triangle_soup& mesh);
 /// Numbers the pieces of a result and of its original alike: those of the original by position, with those
 /// that a match joins made one, and those of the result by what they are matched with, or else by vertices.
 /// Where `triangles_of_original` is given, a triangle has the number of that which it was. The last triangles
-/// of both meshes are those of one obstacle.
+/// of both meshes are those of one obstacle, which connects no pieces.
 struct Matched_pieces
 {
   std::vector<Index> of_result, of_original; // by triangle

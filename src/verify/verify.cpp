@@ -6,6 +6,7 @@
 #include <selvedge/verify.h>
 
 #include "clearance.h"
+#include "for_each_pose.h"
 #include "rounded.h"
 #include "soup/obstacle.h"
 #include "triangles_of_part.h"
@@ -105,13 +106,14 @@ Verification verify(const Triangle_soup& mesh, const Verify_options& options)
         verification.pairs = offending_pairs(mesh);
         permit_of_result(mesh, nullptr, options, verification.pairs, verification.permitted);
         verification.new_pairs = verification.pairs;
-        for (std::size_t pose = 0; pose < mesh.poses.size(); ++pose) {
+        verification.poses.resize(mesh.poses.size());
+        internal::for_each_pose(mesh.poses.size(), [&](std::size_t pose) {
           std::vector<Permitted> permitted = begin_permitted(options);
           const Triangle_soup in_pose = geometry_in_pose(mesh, {}, pose);
           std::vector<Offending_pair> pairs = offending_pairs(in_pose);
           permit_of_result(mesh, nullptr, options, pairs, permitted);
-          verification.poses.push_back({mesh.poses[pose].name, pairs, 0, pairs, judge_clearance_of(in_pose)});
-        }
+          verification.poses[pose] = {mesh.poses[pose].name, pairs, 0, pairs, judge_clearance_of(in_pose)};
+        });
       }),
       Cancellation_scope::inherited([&] { verification.pieces = pieces(mesh); }));
   return verification;
@@ -154,20 +156,19 @@ Verification verify(const Triangle_soup& result, const Triangle_soup& original,
   if (result.poses.size() != original.poses.size())
     throw Argument_error("the result has " + std::to_string(result.poses.size()) +
                          " further poses and its original " + std::to_string(original.poses.size()));
-  const auto judge_poses = [&] {
-    for (std::size_t pose = 0; pose < result.poses.size(); ++pose) {
-      const Triangle_soup before = geometry_in_pose(original, obstacle, pose);
-      std::vector<Offending_pair> known = options.pairs_in_poses_of_original
-                                              ? (*options.pairs_in_poses_of_original)[pose]
-                                              : offending_pairs(before);
-      std::vector<Permitted> permitted = begin_permitted(options);
-      permit_of_original(original, known, permitted);
-      Verification::In_pose& in_pose = verification.poses.emplace_back();
-      in_pose.name = result.poses[pose].name;
-      in_pose.pairs_of_original = known.size();
-      find_pairs(geometry_in_pose(result, obstacle, pose), before, known, permitted, in_pose.pairs,
-                 in_pose.new_pairs);
-    }
+  verification.poses.resize(result.poses.size());
+  const auto judge_pose = [&](std::size_t pose) {
+    const Triangle_soup before = geometry_in_pose(original, obstacle, pose);
+    std::vector<Offending_pair> known = options.pairs_in_poses_of_original
+                                            ? (*options.pairs_in_poses_of_original)[pose]
+                                            : offending_pairs(before);
+    std::vector<Permitted> permitted = begin_permitted(options);
+    permit_of_original(original, known, permitted);
+    Verification::In_pose& in_pose = verification.poses[pose];
+    in_pose.name = result.poses[pose].name;
+    in_pose.pairs_of_original = known.size();
+    find_pairs(geometry_in_pose(result, obstacle, pose), before, known, permitted, in_pose.pairs,
+               in_pose.new_pairs);
   };
   tbb::parallel_invoke(
       Cancellation_scope::inherited([&] {
@@ -179,7 +180,7 @@ Verification verify(const Triangle_soup& result, const Triangle_soup& original,
           find_in_first(result, original);
         else
           find_in_first(geometry_with_obstacle(result, obstacle), geometry_with_obstacle(original, obstacle));
-        judge_poses();
+        internal::for_each_pose(result.poses.size(), judge_pose);
       }),
       Cancellation_scope::inherited([&] { verification.pieces = pieces(result); }),
       Cancellation_scope::inherited(
@@ -193,9 +194,10 @@ Verification verify(const Triangle_soup& result, const Triangle_soup& original,
     };
     verification.clearance = judge_clearance_of(geometry_with_obstacle(result, obstacle),
                                                 geometry_with_obstacle(original, obstacle));
-    for (std::size_t pose = 0; pose < result.poses.size(); ++pose)
+    internal::for_each_pose(result.poses.size(), [&](std::size_t pose) {
       verification.poses[pose].clearance = judge_clearance_of(geometry_in_pose(result, obstacle, pose),
                                                               geometry_in_pose(original, obstacle, pose));
+    });
   }
   verification.topology_differences =
       topology_differences(verification.pieces, verification.matching.pieces_of_original);

@@ -5,7 +5,8 @@
 
     poses.py SELVEDGE MESH... [--poses 1 2 5 10] [--ratio 0.1]
 
-MESH is an OBJ file of triangles, which is twisted and bent, or `skirt:N`, a generated skirt of N faces with its own poses. Each is
+MESH is an OBJ file of triangles, which is twisted and bent; or `skirt:N`, a generated skirt of N faces with its own poses; or a folder
+of OBJ files, the frames of a simulation in natural order, of which the first is the mesh, and poses are taken evenly from all. Each is
 reduced in its own pose alone by meshoptimizer (libmeshoptimizer.so) and by Selvedge, and by Selvedge in all poses. Pairs are those
 in the further poses together, as `selvedge verify --pose` counts them. Seconds are the CPU time of the whole program.
 """
@@ -17,6 +18,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import struct
 import subprocess
 import sys
@@ -96,6 +98,10 @@ class Mesh:
                 folder / "pose_{pose}.obj", "--quiet")
             self.points, self.faces = read_obj(folder / "rest.obj")
             self.poses = [read_obj(folder / f"pose_{i + 1}.obj")[0] for i in range(count)]
+        elif pathlib.Path(name).is_dir():
+            frames = sorted(pathlib.Path(name).glob("*.obj"), key=lambda f: [int(n) for n in re.findall(r"\d+", f.name)])
+            self.points, self.faces = read_obj(frames[0])
+            self.poses = [read_obj(frames[(i + 1) * (len(frames) - 1) // count])[0] for i in range(count)]
         else:
             self.points, self.faces = read_obj(name)
             self.poses = [bent_and_twisted(self.points, i, count) for i in range(count)]

@@ -82,6 +82,12 @@ class Simplify(unittest.TestCase):
         self.assertEqual(pairs_with_body(obstacle=(mesh.points, mesh.triangles[half:])), 0)
         self.assertGreater(pairs_with_body(), 0)
 
+        body, own = (mesh.points, mesh.triangles[half:]), (mesh.points, mesh.triangles[:half])
+        clear = selvedge.simplify(*own, ratio=0.1, obstacle=body, log=True).log
+        self.assertTrue(selvedge.replay(*own, clear, obstacle=body))
+        self.assertIn("obstacle", [part["key"] for part in selvedge.replay(*own, clear).report["terms"]["not_judged"]])
+        self.assertFalse(selvedge.replay(*own, selvedge.simplify(*own, ratio=0.1, log=True).log, obstacle=body))
+
     def test_poses_are_all_guarded(self):
         mesh = layers(2000, 2)
         bent = mesh.points + np.array([0, 0, 1]) * (3 * mesh.points[:, :1] ** 2)

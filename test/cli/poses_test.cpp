@@ -222,7 +222,14 @@ TEST_F(Waving_sheets, MayBeAnObstacleThatMoves)
   const std::vector<std::string> arguments{"--obstacle", gltf, "--obstacle-animation", "all"};
   std::vector<std::string> one = arguments, two = arguments;
   one.insert(one.end(), {"--pose", folder / "below.obj", "--pose", folder / "farther.obj"});
+  std::vector<std::string> replayed{"replay", folder / "below.obj", log};
+  replayed.insert(replayed.end(), one.begin(), one.end());
   simplify(folder / "below.obj", folder / "x.obj", one);
+  const App_result result = run_app(replayed);
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find(", obstacle bound\n"), std::string::npos) << result.out;
+  replayed.erase(replayed.begin() + 5, replayed.begin() + 7); // the obstacle stands still
+  EXPECT_EQ(run_app(replayed).code, 3);
   two.insert(two.end(), {"simplify", folder / "below.obj", "-o", folder / "x.obj", "--ratio", "0.5", "--pose",
                          folder / "farther.obj"});
   std::rotate(two.begin(), two.begin() + std::ptrdiff_t(arguments.size()), two.end());

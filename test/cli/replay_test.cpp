@@ -133,14 +133,27 @@ TEST(App_replay, AcceptsTheDefaultsByTheDefaults)
       << "simplify declares what default stands for";
 }
 
-TEST(App_replay, SaysThatTheObstacleWasNotJudged)
+TEST(App_replay, JudgesTheObstacleThatItIsGivenOrSaysThatItDidNot)
 {
   const Workspace folder;
-  const std::string obstacle = folder.generate("nested", "obstacle.obj", 200);
+  const std::string obstacle = folder.generate("nested", "obstacle.obj", 200),
+                    other = folder.generate("nested", "other.obj", 300);
   const Logged_run run({"--ratio", "0.6", "--obstacle", obstacle});
   EXPECT_NE(run.text.find("\nobstacle "), std::string::npos);
-  const App_result result = run_app({"replay", run.original, run.log});
+  App_result result = run_app({"replay", run.original, run.log});
+  EXPECT_EQ(result.code, 0);
   EXPECT_NE(result.out.find("\nnot judged: obstacle: "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find(", obstacle NOT JUDGED"), std::string::npos) << result.out;
+
+  result = run_app({"replay", run.original, run.log, "--obstacle", obstacle});
+  EXPECT_EQ(result.code, 0);
+  EXPECT_EQ(result.out.find("not judged: obstacle"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find(", obstacle bound\n"), std::string::npos) << result.out;
+
+  result = run_app({"replay", run.original, run.log, "--obstacle", other});
+  EXPECT_EQ(result.code, 3);
+  EXPECT_NE(result.err.find("this is not the obstacle that the log names"), std::string::npos) << result.err;
+  EXPECT_EQ(run_app({"replay", run.original, run.log, "--obstacle-pose", obstacle}).code, 2);
 }
 
 TEST(App_replay, GivesTheVerdictAsJson)

@@ -114,6 +114,41 @@ TEST(Clearance_of_pieces, IsKeptFromAnObstacle)
   EXPECT_EQ(result_of(with_clearance(options, 0.9 * layer_gap)), 0u);
 }
 
+// An obstacle has a corner at a vertex of either sheet. If it connected the two, they would be one piece,
+// which may come together as near as it likes.
+TEST(Clearance_of_pieces, IsKeptBetweenPiecesThatShareVerticesWithAnObstacle)
+{
+  const Triangle_soup soup = wavy_layers(1000);
+  const Point_3 &below = soup.points.front(), &above = soup.points[soup.points.size() / 2];
+  const Triangle_soup obstacle = test::soup(
+      {{below.x(), below.y(), below.z()}, {above.x(), above.y(), above.z()}, {below.x() - 1, below.y(), 0}},
+      {{0, 1, 2}});
+  const double distance = 0.9 * layer_gap;
+  const Simplify_options options = without_limits(to_ratio(0.2));
+  const auto judged_pair = [&](const Simplified_soup& result) { return judged(result.soup, soup, distance); };
+  const Simplified_soup control = reduce_and_log(soup, options, {}, false, obstacle).simplified;
+  EXPECT_EQ(judged_pair(control).too_near(), 1u) << "the control";
+
+  const Logged_reduction guarded =
+      reduce_and_log(soup, with_clearance(options, distance), {}, false, obstacle);
+  EXPECT_EQ(judged_pair(guarded.simplified).too_near(), 0u);
+  EXPECT_GT(guarded.simplified.report.collapses, 100u);
+  Replay_options options_of_replay;
+  options_of_replay.obstacle = obstacle;
+  EXPECT_TRUE(replay_text(soup, guarded.log, options_of_replay).is_accepted());
+  options_of_replay.limits.emplace();
+  options_of_replay.limits->clearance = distance;
+  EXPECT_FALSE(replay_text(soup, reduce_and_log(soup, options, {}, false, obstacle).log, options_of_replay)
+                   .is_accepted());
+
+  // The judge, too, has three pieces: the control brings the sheets too near to each other.
+  const Prepared_soup prepared = prepare(soup, {}, obstacle);
+  Simplified_soup by_control = control;
+  by_control.clearance = distance;
+  EXPECT_EQ(verify(by_control, prepared).clearance->too_near(), 1u);
+  EXPECT_EQ(verify(guarded.simplified, prepared).clearance->too_near(), 0u);
+}
+
 TEST(Clearance_of_pieces, IsJudgedByReplay)
 {
   const Triangle_soup soup = wavy_layers(600);

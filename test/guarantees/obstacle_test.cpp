@@ -165,7 +165,7 @@ Triangle_soup arched_strip(Index length)
 TEST(Obstacle, BordersAlongItAreBorders)
 {
   // Some border edges belong to a triangle of the obstacle, too, which is much larger than the strip. The
-  // replay, which knows no obstacle, holds the strip to the limits of its borders, by its own size.
+  // replay holds the strip to the limits of its borders, by its own size, with the obstacle and without.
   const Triangle_soup own = arched_strip(40);
   Triangle_soup obstacle;
   for (Index x = 0; x < 40; x += 4) {
@@ -189,8 +189,12 @@ TEST(Obstacle, BordersAlongItAreBorders)
   log.finish(result);
   EXPECT_GT(result.report.collapses, 20u);
   EXPECT_TRUE(verify(result, prepared).accepted());
-  const Replay_verdict verdict = replay_text(own, stream.str());
-  EXPECT_TRUE(verdict.is_accepted()) << verdict.violations.front().message;
+  Replay_options with_obstacle;
+  with_obstacle.obstacle = obstacle;
+  for (const Replay_options& terms : {Replay_options(), with_obstacle}) {
+    const Replay_verdict verdict = replay_text(own, stream.str(), terms);
+    EXPECT_TRUE(verdict.is_accepted()) << verdict.violations.front().message;
+  }
 }
 
 TEST(Obstacle, FarAwayChangesNothing)

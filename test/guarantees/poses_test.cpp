@@ -146,7 +146,7 @@ TEST(Poses, ReplayJudgesEach)
   EXPECT_THROW(replay_text(soup, log, options), Input_error) << "it says nothing of poses";
   log.insert(log.find("limit"), "pose twisted -\n");
   EXPECT_FALSE(replay_text(soup, log, options).is_accepted());
-  log.replace(log.find("twisted -"), 9, "twisted " + digest_of(soup.poses[1]));
+  log.replace(log.find("twisted -"), 9, "twisted " + digest_of(soup.poses[1].points));
   EXPECT_THROW(replay_text(soup, log, options), Input_error) << "another pose";
 }
 
@@ -244,6 +244,23 @@ TEST(Poses, AnObstacleHasItsOwn)
   };
   EXPECT_EQ(pairs(body), 0u);
   EXPECT_GT(pairs(still), 0u) << "the control";
+
+  const auto replayed = [&](const Triangle_soup& obstacle, const std::string& log) {
+    Replay_options options;
+    options.obstacle = obstacle;
+    options.pose = 0;
+    return replay_text(soup, log, options);
+  };
+  const auto log_beside = [&](const Triangle_soup& obstacle) {
+    return reduce_and_log(soup, without_limits(to_ratio(0.05)), {}, false, obstacle).log;
+  };
+  EXPECT_TRUE(replayed(body, log_beside(body)).is_accepted());
+  std::string of_still = log_beside(still);
+  EXPECT_TRUE(replayed(still, of_still).is_accepted());
+  EXPECT_THROW(replayed(body, of_still), Input_error) << "it stands elsewhere in the pose";
+  of_still.replace(of_still.find("arched - ") + 9, 64, "-");
+  EXPECT_FALSE(replayed(body, of_still).is_accepted()) << "the control";
+
   body.poses.push_back(body.poses.front());
   EXPECT_THROW(prepare(soup, {}, body), Argument_error);
 }

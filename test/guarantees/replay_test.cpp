@@ -447,6 +447,85 @@ TEST(Replay, SaysThatAnObstacleOrLimitsOfSnapsWereNotJudged)
             (std::vector<std::string>{"limits_of_snaps", "obstacle", "input", "attributes"}));
 }
 
+// A tent, whose top, vertex 12 at (2, 2, 1), goes down to its neighbour on the ground.
+Triangle_soup tent()
+{
+  Triangle_soup tent = sheet(4, 4);
+  tent.points[12] = Point_3(2, 2, 1);
+  return tent;
+}
+
+Replay_verdict verdict_beside(const Triangle_soup& obstacle, const std::string& limits = {})
+{
+  Replay_options options;
+  options.obstacle = obstacle;
+  return replay_text(tent(), head_of(tent(), limits) + "c 12 13\nresult 1 30 -\n", options);
+}
+
+TEST(Replay, RefusesAStepThatMeetsAnObstacle)
+{
+  const Triangle_soup under = soup({{1.9, 1.9, 0.2}, {2.1, 1.9, 0.2}, {2, 2.1, 0.2}}, {{0, 1, 2}}),
+                      through =
+                          soup({{9, 9, 9}, {9, 9, 8}, {9, 8, 9}, {2, 2, 0.2}, {1.9, 2, -1}, {2.1, 2, -1}},
+                               {{0, 1, 2}, {3, 4, 5}}),
+                      at_top = soup({{2, 2, 1}, {2, 3, 3}, {3, 2, 3}}, {{0, 1, 2}}),
+                      below = soup({{1.9, 1.9, -0.2}, {2.1, 1.9, -0.2}, {2, 2.1, -0.2}}, {{0, 1, 2}});
+  EXPECT_TRUE(replay_text(tent(), head_of(tent()) + "c 12 13\nresult 1 30 -\n").is_accepted())
+      << "the control, without an obstacle";
+  EXPECT_TRUE(verdict_beside(below).is_accepted());
+  EXPECT_TRUE(verdict_beside(below).is_obstacle_judged);
+
+  const auto kind_beside = [](const Triangle_soup& obstacle, const std::string& limits = {}) {
+    const Replay_verdict verdict = verdict_beside(obstacle, limits);
+    return verdict.is_accepted() ? Violation_kind::result : verdict.violations.front().kind;
+  };
+  EXPECT_EQ(kind_beside(under), Violation_kind::tunnelling);
+  EXPECT_EQ(kind_beside(through), Violation_kind::intersection);
+  EXPECT_EQ(kind_beside(at_top), Violation_kind::locked);
+  EXPECT_EQ(kind_beside(below, "limit clearance 0.3\n"), Violation_kind::clearance);
+  EXPECT_EQ(kind_beside(below, "limit clearance 0.1\n"), Violation_kind::result);
+
+  const Violation violation = verdict_beside(through).violations.front();
+  EXPECT_EQ(violation.triangles.back(), 33u) << "after the 32 of the mesh";
+  EXPECT_NE(violation.message.find(" and 2 of the obstacle intersect"), std::string::npos)
+      << violation.message;
+}
+
+TEST(Replay, JudgesPairsThatDescendFromThoseWithAnObstacle)
+{
+  const Triangle_soup cloth = sheet(12, 12),
+                      obstacle = soup({{5, 5, -1}, {8, 5, -1}, {6, 7, 1}}, {{0, 1, 2}});
+  std::string log = reduce_and_log(cloth, without_limits(to_ratio(0.2)), {}, false, obstacle).log;
+  Replay_options options;
+  options.obstacle = obstacle;
+  const Replay_verdict verdict = replay_text(cloth, log, options);
+  EXPECT_TRUE(verdict.is_accepted()) << verdict.violations.front().message;
+  EXPECT_GT(verdict.collapses, 50u);
+  EXPECT_GT(verdict.offending_pairs, 1u);
+  log.erase(log.find("defects descend\n"), 16);
+  EXPECT_FALSE(replay_text(cloth, log, options).is_accepted()) << "the control";
+}
+
+TEST(Replay, RefusesAnotherObstacleThanThatOfTheLog)
+{
+  const Triangle_soup obstacle = shifted(sheet(6, 3), 0, 0, -1);
+  Replay_options options;
+  options.obstacle = obstacle;
+  options.sha256_of_obstacle = std::string(64, 'a');
+  const auto replay_with = [&](const std::string& line) {
+    return replay_text(tent(), head_of(tent(), line) + "c 12 13\nresult 1 30 -\n", options);
+  };
+  const std::string counts = "obstacle 28 36 ";
+  EXPECT_TRUE(replay_with(counts + std::string(64, 'a') + "\n").is_obstacle_stated);
+  EXPECT_FALSE(replay_with(counts + "-\n").is_obstacle_stated);
+  EXPECT_TRUE(replay_with({}).is_obstacle_judged) << "the log need not name it";
+  EXPECT_THROW(replay_with(counts + std::string(64, 'b') + "\n"), Input_error);
+  EXPECT_THROW(replay_with("obstacle 28 35 -\n"), Input_error);
+  EXPECT_THROW(replay_with("obstacle 27 36 -\n"), Input_error);
+  options.obstacle->poses.push_back({"other", obstacle.points});
+  EXPECT_THROW(replay_with({}), Argument_error) << "the mesh has no pose";
+}
+
 TEST(Replay, RefusesWhatIsNoEdgeAFaceThatDegeneratesAndAWrongCount)
 {
   // Vertex 12 of a flat sheet, moved two edges away by way of a vertex that is none of its neighbours.
@@ -548,7 +627,7 @@ TEST(Log, WhatIsNoLogIsRefusedWithItsLine)
         head + "q\n", head + "result 0 32 zz\n", head + "limit speed 3\n",
         head + "limit seam_turn 3\nlimit seam_turn 3\n", head + "c 12 13\ns 1 2\n",
         head + "w 1 2\nresult 0 32 -\n", head + "result 0 32 -\nc 12 13\n", head + "obstacle 1 2\n",
-        head + "obstacle 3 1 -\nobstacle 3 1 -\nresult 0 32 -\n"}) {
+        head + "pose one - - -\nresult 0 32 -\n", head + "obstacle 3 1 -\nobstacle 3 1 -\nresult 0 32 -\n"}) {
     SCOPED_TRACE(text);
     EXPECT_THROW(replay_text(flat, text), Input_error);
   }
@@ -561,6 +640,7 @@ TEST(Log, WritesAndReadsEveryLimitOfTheTable)
   header.vertices = 3;
   header.triangles = 1;
   header.obstacle = {5, 2, std::string(64, 'c')};
+  header.poses = {{"one", std::string(64, 'd'), std::string(64, 'e')}, {"two", {}, {}}};
   double value = 0.125;
   for (const Limit_description& limit : limit_descriptions)
     header.limits.*limit.value = value++;
@@ -573,6 +653,9 @@ TEST(Log, WritesAndReadsEveryLimitOfTheTable)
   ASSERT_TRUE(reader.header().obstacle);
   EXPECT_EQ(reader.header().obstacle->vertices, 5u);
   EXPECT_EQ(reader.header().obstacle->sha256, std::string(64, 'c'));
+  ASSERT_EQ(reader.header().poses.size(), 2u);
+  EXPECT_EQ(reader.header().poses[0].sha256_of_obstacle, std::string(64, 'e'));
+  EXPECT_EQ(reader.header().poses[1].sha256_of_obstacle, "");
 }
 
 TEST(Log, LimitsAreReadFromAFileOfTheirLines)

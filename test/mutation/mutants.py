@@ -660,7 +660,7 @@ group(
     ("m_heritage = m_start.lineage.united(m_changing);", "m_heritage = m_start.lineage.united({m_changing.front()});",
      "one triangle alone hands on ancestors"),
     (": m_start.lineage.descends_from_one(other, m_rivals);", ": true;", "whatever has ancestors may offend with all others"),
-    ("if (!m_verdict.header.obstacle && m_off", "if (m_off", "pairs are counted without those with the obstacle"),
+    ("if (!is_obstacle_missing() && m_off", "if (m_off", "pairs are counted without those with the obstacle"),
     ("if (is_contracted && is_degenerate({m, a, b})) {", "if (false) {",
      "a degenerate face that is contracted is judged as a face with an area"),
     ("if (face.sweep.degenerates())", "if (!m_offences.has(face.face, face.face) && face.sweep.degenerates())",
@@ -809,8 +809,26 @@ group(
 group(
     "src/replay/replay.cpp",
     poses,
-    ("if (!stated.sha256.empty() && stated.sha256 != digest_of(original.poses[pose]))", "if (false)",
+    ("if (!stated.sha256.empty() && stated.sha256 != digest_of(original.poses[pose].points))", "if (false)",
      "the replay takes any pose for the one of the log"),
+    ("posed->sha256_of_obstacle != digest_of(points_in_pose(obstacle, *options.pose)))", "false)",
+     "the replay takes an obstacle wherever it stands"),
+)
+
+obstacles = ("replay_test:Replay.*Obstacle",)
+group(
+    "src/replay/replay.cpp",
+    obstacles,
+    ("    for (Index f = Index(m_complex.size()); f < m_complex.size_with_obstacle(); ++f)\n      faces.push_back(f);\n", "",
+     "the replay sees no obstacle"),
+    ("m_complex.is_of_obstacle(f) ||", "!m_complex.is_of_obstacle(f) &&", "the replay keeps no distance from an obstacle"),
+    ("      stated.sha256 != options.sha256_of_obstacle)", "      false)", "the replay takes any obstacle"),
+)
+group(
+    "src/replay/Start.cpp",
+    obstacles,
+    ("start.is_locked[corner.id] = true;", ";", "what is at a corner of an obstacle moves"),
+    ("offending_pairs(geometry_with_obstacle(start.soup, beside))", "offending_pairs(start.soup)", "nothing descends from pairs with an obstacle"),
 )
 
 progressive = ("progressive_test",)
@@ -887,14 +905,21 @@ group(
     sources=("src/simplify/simplify_soup.cpp",),
 )
 group(
+    headers + "Surface_mesh_simplification/internal/Clearance.h",
+    ("clearance_test:Clearance_of_pieces.*",),
+    ("if (is_of_obstacle(id))", "if (false)", "an obstacle connects pieces"),
+    sources=("src/simplify/simplify_soup.cpp",),
+)
+group(
     "src/verify/clearance.cpp",
     ("clearance_test:Clearance_of_pieces.*",),
+    ("if (t == own)", "if (false)", "an obstacle connects pieces in the judge"),
     ("return exact() < exact_square(distance);", "return false;", "the judge is not exact"),
     ("return exact() < other.exact();", "return false;", "the judge does not compare exactly"),
 )
 group(
     "src/replay/replay.cpp",
     ("clearance_test:Clearance_of_pieces.*",),
-    ("if (m_pieces[m_complex.face(f).positions[0]] != m_pieces[motion.mover])", "if (false)",
+    ("m_pieces[m_complex.face(f).positions[0]] != m_pieces[motion.mover])", "false)",
      "the replay knows no clearance"),
 )

@@ -32,6 +32,8 @@ inline Logged_reduction reduce_and_log(const Triangle_soup& soup, Simplify_optio
   header.vertices = numbering.size();
   header.triangles = soup.triangles.size();
   header.is_rounded_to_float32 = prepare_options.round_to_float32;
+  if (!obstacle.triangles.empty())
+    header.obstacle = {obstacle.points.size(), obstacle.triangles.size(), {}};
   const Prepared_soup prepared = prepare(soup, prepare_options, obstacle);
   std::ostringstream stream;
   Reduction_log log(stream, header, numbering, prepared, options);

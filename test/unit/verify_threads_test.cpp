@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -62,6 +63,36 @@ TEST(VerifyThreads, FirstOffenceStopsAll)
     EXPECT_FALSE(is_good(tangle(), threads));
     EXPECT_TRUE(is_good(garment(20'000), threads));
   }
+}
+
+TEST(VerifyThreads, PosesDoNotDependOnThemAndStayInOrder)
+{
+  Triangle_soup before = garment(2'000);
+  before.poses = moving_poses(before, 5);
+  Triangle_soup after = before; // in each pose, other vertices are pushed into the next layer
+  for (std::size_t pose = 0; pose < after.poses.size(); ++pose)
+    for (std::size_t v = pose; v < after.points.size(); v += 20) {
+      Point_3& p = after.poses[pose].points[v];
+      p = Point_3(p.x() * 1.01, p.y() * 1.01, p.z());
+    }
+  const auto judge = [&] {
+    const Verification verification = verify(after, before);
+    std::vector<std::tuple<std::string, std::vector<Offending_pair>, std::vector<Offending_pair>>> poses;
+    for (const Verification::In_pose& pose : verification.poses)
+      poses.emplace_back(pose.name, pose.pairs, pose.new_pairs);
+    return poses;
+  };
+  const auto alone = with_threads(1, judge);
+  ASSERT_EQ(alone.size(), 5u);
+  for (std::size_t pose = 0; pose < alone.size(); ++pose) {
+    Triangle_soup in_pose = after;
+    in_pose.points = after.poses[pose].points;
+    EXPECT_EQ(std::get<0>(alone[pose]), before.poses[pose].name);
+    EXPECT_EQ(std::get<1>(alone[pose]), offending_pairs(in_pose));
+    EXPECT_GT(std::get<2>(alone[pose]).size(), 0u);
+  }
+  for (const std::size_t threads : {2, 5})
+    EXPECT_EQ(with_threads(threads, judge), alone) << threads << " threads";
 }
 
 TEST(VerifyThreads, DistancesDoNotDependOnThemToTheLastBit)

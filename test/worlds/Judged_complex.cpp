@@ -513,10 +513,21 @@ bool Judged_complex::is_near(const Box& a, const Box& b) const
   return true;
 }
 
+// Own faces connect positions, and those of the obstacle connect nodes beside them.
+Index Judged_complex::node(const Face& face, Index position) const
+{
+  return face.is_own ? position : Index(m_points.size()) + position;
+}
+
+Index Judged_complex::piece_of(const Face& face) const
+{
+  return m_piece[node(face, face.positions[0])];
+}
+
 void Judged_complex::keep_clearance(double distance)
 {
   m_clearance = distance;
-  for (Index p = 0; p < m_points.size(); ++p)
+  for (Index p = 0; p < 2 * m_points.size(); ++p)
     m_piece.push_back(p);
   const auto root = [&](Index p) {
     while (m_piece[p] != p)
@@ -525,7 +536,7 @@ void Judged_complex::keep_clearance(double distance)
   };
   for (const Face& face : m_faces)
     for (const Index p : face.positions)
-      if (const Index a = root(face.positions[0]), b = root(p); a != b)
+      if (const Index a = root(node(face, face.positions[0])), b = root(node(face, p)); a != b)
         m_piece[std::max(a, b)] = std::min(a, b);
   for (Index& piece : m_piece)
     piece = root(piece);
@@ -536,7 +547,7 @@ void Judged_complex::keep_clearance(double distance)
   };
   for (Index f = 0; f < m_faces.size(); ++f)
     for (Index g = 0; g < f; ++g) {
-      const Index a = m_piece[m_faces[f].positions[0]], b = m_piece[m_faces[g].positions[0]];
+      const Index a = piece_of(m_faces[f]), b = piece_of(m_faces[g]);
       if (a == b || !is_near(m_faces[f].box, m_faces[g].box))
         continue;
       double& least = m_least.emplace(std::minmax(a, b), all).first->second;
@@ -561,7 +572,7 @@ std::optional<Broken_promise> Judged_complex::judge_clearance(Index moved, const
     add(box, t.at);
     for (Index g = 0; g < m_faces.size(); ++g) {
       const Face& other = m_faces[g];
-      const Index piece = m_piece[other.positions[0]];
+      const Index piece = piece_of(other);
       if (!other.is_alive || piece == m_piece[moved] || !is_near(box, other.box))
         continue;
       const auto found = m_least.find(std::minmax(piece, m_piece[moved]));

@@ -112,6 +112,8 @@ private:
   std::optional<Broken_promise> judge_motion(Index moved, const Place& target) const;
   std::optional<Broken_promise> judge_clearance(Index moved, const Place& target) const;
   bool is_near(const Box& a, const Box& b) const;
+  Index node(const Face& face, Index position) const;
+  Index piece_of(const Face& face) const;
   void begin_collapse(const std::vector<Index>& movers);
   std::optional<Broken_promise> end_collapse();
   bool is_permitted(Index f, Index g) const;
@@ -136,7 +138,7 @@ private:
 
   // What two pieces, by the numbers that positions have in common, must keep from each other: the square.
   std::optional<double> m_clearance;
-  std::vector<Index> m_piece; // by position
+  std::vector<Index> m_piece; // by position, first of own faces, then of those of the obstacle
   std::map<std::pair<Index, Index>, double> m_least;
 
   // Of the present collapse.

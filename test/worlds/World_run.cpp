@@ -53,9 +53,9 @@ const char* file_name(const World& world)
 
 } // namespace
 
-Verification verify_guarded(const World& world, const World_run& run)
+Verification verify_guarded(const World& world, const Simplified_soup& result, const Prepared_soup& prepared)
 {
-  Verification verification = verify(run.result, run.prepared);
+  Verification verification = verify(result, prepared);
   std::vector<Verification::In_pose>& poses = verification.poses;
   for (std::size_t pose = poses.size(); pose-- > 0;)
     if (!world.is_guarded(pose))
@@ -82,12 +82,14 @@ World_run run(const World& world)
   header.vertices = numbering.size();
   header.triangles = world.soup.triangles.size();
   header.is_rounded_to_float32 = prepare_options.round_to_float32;
+  if (!world.obstacle.triangles.empty())
+    header.obstacle = {world.obstacle.points.size(), world.obstacle.triangles.size(), {}};
   std::ostringstream stream;
   Reduction_log log(stream, header, numbering, run.prepared, world.options);
   reduce(world, run.prepared, &log, run);
   log.finish(run.result);
   run.log = stream.str();
-  run.verification = verify_guarded(world, run);
+  run.verification = verify_guarded(world, run.result, run.prepared);
 
   if (!run.result.soup.triangles.empty()) {
     const Temporary_folder folder;

@@ -44,7 +44,7 @@ World_run run_without_output(const World& world);
 World_run run_again(const World& world, const Prepared_soup& prepared);
 
 /// Judges the result of a run, in its own pose and in those that were guarded.
-Verification verify_guarded(const World& world, const World_run& run);
+Verification verify_guarded(const World& world, const Simplified_soup& result, const Prepared_soup& prepared);
 
 } // namespace selvedge::test
 

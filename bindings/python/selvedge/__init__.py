@@ -120,12 +120,15 @@ def verify(points, triangles, original=None):
     return Verdict(accepted, report, pairs=pairs, new_pairs=new_pairs)
 
 
-def replay(points, triangles, log, *, all=False):
+def replay(points, triangles, log, *, obstacle=None, all=False):
     """Repeats a log on the mesh that it was made of, and judges every step; with `all`, beyond the first bad one.
+
+    obstacle: (points, triangles) that the steps must keep clear of, too; that of the reduction, if it had one.
 
     Returns a `Verdict` with `mesh`, to which the steps lead. Throws InputError when the log cannot be read.
     """
-    accepted, mesh, report = _selvedge.replay(_points(points), _triangles(triangles), log, all)
+    beside = None if obstacle is None else (_points(obstacle[0]), _triangles(obstacle[1]))
+    accepted, mesh, report = _selvedge.replay(_points(points), _triangles(triangles), log, beside, all)
     return Verdict(accepted, report, mesh=Mesh(*mesh))
 
 

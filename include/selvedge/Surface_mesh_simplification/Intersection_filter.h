@@ -166,7 +166,9 @@ public:
   }
 
   /// Keeps pieces apart: no two come nearer to each other than `distance` or, if they are nearer already,
-  /// than they are. A piece is a set of faces that are connected by common positions.
+  /// than they are. A piece is a set of faces that are connected by common positions. The faces of an
+  /// `obstacle`, whose vertices are locked, connect nothing, and none of them belongs to a piece that moves:
+  /// all that moves keeps the distance from each of them.
   ///
   /// - G12 *Clearance*: after every collapse, and at every time on the way, the distance of any two pieces is
   ///   at least the lesser of `distance` and what it was at the start. This is so place by place: a moving
@@ -179,7 +181,10 @@ public:
   /// **Preconditions** No question has been asked yet. **Complexity** For each motion, one more query of the
   /// index, for a box that is larger by `distance` on all sides, and the time of `Clearance_test` for each
   /// face of another piece in it.
-  void keep_clearance(double distance) const { m_guard->keep_clearance(distance); }
+  void keep_clearance(double distance, const std::vector<Face>& obstacle = {}) const
+  {
+    m_guard->keep_clearance(distance, obstacle);
+  }
 
   Visitor visitor() const { return Visitor(m_guard); }
 

@@ -146,10 +146,10 @@ public:
   }
 
   /// As `Intersection_filter::keep_clearance`, in all poses; pieces are those of each pose.
-  void keep_clearance(double distance) const
+  void keep_clearance(double distance, const std::vector<Face>& obstacle = {}) const
   {
     for (const In_pose& filter : m_state->filters)
-      filter.keep_clearance(distance);
+      filter.keep_clearance(distance, obstacle);
   }
 
   Visitor visitor() const { return Visitor(m_state); }

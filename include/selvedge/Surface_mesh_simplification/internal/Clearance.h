@@ -8,9 +8,9 @@
 #include <selvedge/internal/inflated.h>
 
 #include <CGAL/Bbox_3.h>
-#include <CGAL/boost/graph/iterator.h>
 
 #include <cstddef>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -18,48 +18,46 @@ namespace selvedge {
 namespace internal {
 
 /// Keeps the distance that pieces of a mesh must have from each other, and knows the pieces: faces that are
-/// connected by common positions. A collapse neither joins nor parts pieces, so that they are found once.
+/// connected by common positions. An obstacle connects none of them, and each of its faces is of another
+/// piece than all that moves. A collapse neither joins nor parts pieces, so that they are found once.
 ///
-/// **Complexity** 4 bytes for each vertex, and nothing when no clearance is asked for.
-template <class TriangleMesh, class VertexTable, class GeomTraits>
+/// **Complexity** 4 bytes for each vertex, and 1 for each face if there is an obstacle; nothing when no
+/// clearance is asked for.
+template <class VertexTable, class GeomTraits>
 class Clearance
 {
   using Number = typename VertexTable::Number;
-  using Vertex = typename VertexTable::Vertex;
   using Point = typename VertexTable::Point;
 
 public:
   /// Throws `Argument_error` when the distance is not positive and finite.
-  void begin(const TriangleMesh& mesh, const VertexTable& table, double distance)
+  template <class FaceTable>
+  void begin(const VertexTable& vertices, const FaceTable& faces, double distance,
+             const std::vector<typename FaceTable::Face>& obstacle)
   {
     m_test.emplace(distance);
     m_distance = distance;
-    constexpr Number none = Number(-1);
-    m_pieces.assign(num_vertices(mesh), none);
-    std::vector<Vertex> found;
-    const auto find = [&](Vertex v, Number piece) {
-      if (m_pieces[table.number(v)] == none) {
-        m_pieces[table.number(v)] = piece;
-        found.push_back(v);
-      }
+    m_is_of_obstacle.assign(obstacle.empty() ? 0 : faces.size(), false);
+    for (const auto face : obstacle)
+      m_is_of_obstacle[faces.id(face)] = true;
+    m_pieces.resize(vertices.size());
+    std::iota(m_pieces.begin(), m_pieces.end(), Number(0));
+    const auto find = [&](Number v) {
+      while (m_pieces[v] != v)
+        v = m_pieces[v] = m_pieces[m_pieces[v]];
+      return v;
     };
-    Number pieces = 0;
-    for (const Vertex first : vertices(mesh)) {
-      find(first, pieces);
-      pieces += !found.empty();
-      while (!found.empty()) {
-        const Vertex v = found.back();
-        const Number piece = m_pieces[table.number(v)];
-        found.pop_back();
-        if (halfedge(v, mesh) == boost::graph_traits<TriangleMesh>::null_halfedge())
-          continue;
-        for (const auto h : CGAL::halfedges_around_target(halfedge(v, mesh), mesh))
-          find(source(h, mesh), piece);
-        if (table.is_coincident(table.number(v)))
-          for (const Vertex other : table.all_at(table.number(v)))
-            find(other, piece);
+    const auto unite = [&](Number a, Number b) { m_pieces[find(a)] = find(b); };
+    for (std::size_t id = 0; id < faces.size(); ++id)
+      for (const Number corner : faces.corners(id)) {
+        if (is_of_obstacle(id))
+          break;
+        unite(corner, faces.corners(id)[0]);
+        if (vertices.is_coincident(corner))
+          unite(corner, vertices.number(vertices.all_at(corner).front()));
       }
-    }
+    for (Number v = 0; v < m_pieces.size(); ++v)
+      m_pieces[v] = find(v);
   }
 
   bool is_asked() const { return m_test.has_value(); }
@@ -74,17 +72,20 @@ public:
     m_piece = m_pieces[mover];
   }
 
-  /// Whether a vertex belongs to the piece of the mover.
-  bool is_own(Number v) const { return m_pieces[v] == m_piece; }
+  /// Whether a face, of which `v` is a corner, belongs to the piece of the mover.
+  bool is_own(std::size_t face, Number v) const { return m_pieces[v] == m_piece && !is_of_obstacle(face); }
 
   /// Whether the motion keeps the clearance from a stationary face of another piece.
   bool is_kept(const Point& p, const Point& q, const Point& r) { return m_test->is_kept(p, q, r); }
 
 private:
+  bool is_of_obstacle(std::size_t face) const { return !m_is_of_obstacle.empty() && m_is_of_obstacle[face]; }
+
   std::optional<Clearance_test<GeomTraits>> m_test;
   double m_distance = 0;
-  std::vector<Number> m_pieces; // by vertex
-  Number m_piece = 0;           // of the mover
+  std::vector<Number> m_pieces;       // by vertex
+  std::vector<char> m_is_of_obstacle; // by face; empty when there is none
+  Number m_piece = 0;                 // of the mover
 };
 
 } // namespace internal

@@ -97,7 +97,7 @@ public:
   template <class MakeIndex>
   void build_index(const MakeIndex& make_index, const decltype(Constraints::multiplicities)& multiplicities,
                    const decltype(Constraints::may_intersect)& may_intersect,
-                   const std::optional<double>& clearance)
+                   const std::optional<double>& clearance, const std::vector<Face>& obstacle)
   {
     if (empty())
       return;
@@ -106,7 +106,7 @@ public:
       m_intersection->exempt(i, m_offending_pairs[i], multiplicities);
     m_intersection->let_intersect(may_intersect);
     if (clearance)
-      m_intersection->keep_clearance(*clearance);
+      m_intersection->keep_clearance(*clearance, obstacle);
   }
 
   /// Whether the limits allow a collapse in every pose.

@@ -100,8 +100,11 @@ public:
       m_star.keep_faces();
   }
 
-  /// Keeps a distance between pieces. Call it before the first question.
-  void keep_clearance(double distance) { m_clearance.begin(m_mesh, m_vertices, distance); }
+  /// Keeps a distance between pieces, and from the faces of an obstacle. Call it before the first question.
+  void keep_clearance(double distance, const std::vector<Face>& obstacle)
+  {
+    m_clearance.begin(m_vertices, m_faces, distance, obstacle);
+  }
 
   Intersection_guard(const Intersection_guard&) = delete; // its parts refer to each other
   Intersection_guard& operator=(const Intersection_guard&) = delete;
@@ -529,7 +532,7 @@ private:
     m_clearance.begin_motion(m_star.exact(), mover);
     for (const Id id : m_near) {
       const auto& [a, b, c] = m_faces.corners(id);
-      if (m_clearance.is_own(a) || (m_is_descent_asked && m_descent.is_exempt(id)) ||
+      if (m_clearance.is_own(id, a) || (m_is_descent_asked && m_descent.is_exempt(id)) ||
           (m_permitted.is_any() && m_permitted.has_some(id)))
         continue;
       if (!m_clearance.is_kept(m_vertices.point(a), m_vertices.point(b), m_vertices.point(c))) {
@@ -567,7 +570,7 @@ private:
   std::size_t m_others_left = 0; // collapses that go along with the last one, and have not been done
   Descent m_descent;
   Permitted_pairs<Id> m_permitted;
-  Clearance<TriangleMesh, Vertices, GeomTraits> m_clearance;
+  Clearance<Vertices, GeomTraits> m_clearance;
   bool m_is_clearance_lacking = false;
   bool m_is_descent_asked = false; // whether faces of the collapse in question have offending ancestors
   bool m_has_degenerate = false;   // whether a face of it is degenerate, and so contracted

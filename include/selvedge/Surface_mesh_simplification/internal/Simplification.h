@@ -249,7 +249,7 @@ public:
         m_poses(mesh, options, constraints, m_diagonal, max_error(), {&mesh, m_rule},
                 [&](const auto& of_pose) { return make_rule(constraints, of_pose); }),
         m_offending_pairs(constraints.offending_pairs), m_multiplicities(constraints.multiplicities),
-        m_may_intersect(constraints.may_intersect)
+        m_may_intersect(constraints.may_intersect), m_obstacle(constraints.uncounted_faces)
   {
     refuse_out_of_range();
     if (!m_poses.empty() && options.placement == Placement::optimal)
@@ -594,9 +594,9 @@ private:
       m_intersection->exempt(m_offending_pairs, m_multiplicities);
       m_intersection->let_intersect(m_may_intersect);
       if (m_options.clearance)
-        m_intersection->keep_clearance(*m_options.clearance);
+        m_intersection->keep_clearance(*m_options.clearance, m_obstacle);
       m_poses.build_index([this] { return empty_index(); }, m_multiplicities, m_may_intersect,
-                          m_options.clearance);
+                          m_options.clearance, m_obstacle);
     }
     Cancellation_scope::check();
     m_report.seconds_index = seconds_since(start);
@@ -1022,6 +1022,7 @@ private:
   std::vector<std::pair<typename Intersection::Face, typename Intersection::Face>> m_offending_pairs;
   decltype(Simplify_constraints<TriangleMesh>::multiplicities) m_multiplicities;
   decltype(Simplify_constraints<TriangleMesh>::may_intersect) m_may_intersect;
+  decltype(Simplify_constraints<TriangleMesh>::uncounted_faces) m_obstacle;
   std::optional<Intersection> m_intersection;
   Simplify_report m_report;
   std::size_t m_accepted = 0;

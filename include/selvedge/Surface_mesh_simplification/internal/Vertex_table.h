@@ -50,6 +50,9 @@ public:
     find_coincident(mesh);
   }
 
+  /// How many vertices there are, or were before the first collapse.
+  std::size_t size() const { return m_records.size(); }
+
   Number number(Vertex v) const { return get(m_numbers, v); }
   const Point& point(Number v) const { return m_records[v].point; }
 
