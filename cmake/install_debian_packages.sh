@@ -8,7 +8,7 @@
 # works through folders of meshes, with "package" what makes packages, with "clean" what their test needs, with "blender" what the
 # test of the add-on for Blender needs. The argument "benchmark" asks for the peers that the benchmark programs measure, which are
 # among those of the tests. Several arguments may be given.
-# With the first argument "build" it leaves out what only tests need: most of the packages, because OpenMesh depends on 200 others.
+# With the first argument "build" it leaves out what only tests need: more than half of the packages, because OpenMesh depends on 160.
 # With "list" it installs nothing, and prints a table: package, what it is needed for, why, and which version of it is here.
 set -euo pipefail
 
