@@ -1,5 +1,5 @@
-# Makes packages of Debian: `cmake --build --preset release --target package` makes selvedge, libselvedge-dev and python3-selvedge in
-# build/release. test/install/packages.sh tests them.
+# What the packages of Debian consist of: selvedge, libselvedge-dev and python3-selvedge, which `./packages` makes.
+# test/install/packages.sh tests them.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_PACKAGE_CONTACT "The Selvedge authors <selvedge@localhost>")

@@ -5,9 +5,10 @@
 # Installs what Selvedge is built from, on Debian 12 or later; does nothing where all of it is there already.
 # With the argument "fuzz" also clang and its run-time libraries, of which libFuzzer is one, with "manual" Doxygen, with "python"
 # what the Python package and its tests need, with "html" Chromium, in which the pages of --html are tested, with "many" what
-# works through folders of meshes, with "package" what the test of the packages needs, with "blender" what the test of the add-on
-# for Blender needs. The argument "benchmark" asks for the peers that the benchmark programs measure, which are among the packages
-# of every build.
+# works through folders of meshes, with "package" what makes packages, with "clean" what their test needs, with "blender" what the
+# test of the add-on for Blender needs. The argument "benchmark" asks for the peers that the benchmark programs measure, which are
+# among those of the tests. Several arguments may be given.
+# With the first argument "build" it leaves out what only tests need: more than half of the packages, because OpenMesh depends on 160.
 # With "list" it installs nothing, and prints a table: package, what it is needed for, why, and which version of it is here.
 set -euo pipefail
 
@@ -29,10 +30,10 @@ libtinygltf-dev      always  library           glTF documents
 nlohmann-json3-dev   always  library,program   glTF documents, reports
 esbuild              always  program           bundles the page of --html; may be left out
 libjs-three          always  program           draws the page of --html; may be left out
-libgtest-dev         always  tests             every test
-python3              always  tests             whether includes go one way
-libopenmesh-dev      always  tests             a mesh of floats, through CGAL's adaptor
-libeigen3-dev        always  tests             the Garland-Heckbert policies of CGAL, beside which ours must work
+libgtest-dev         tests   tests             every test
+python3              tests   tests             whether includes go one way
+libopenmesh-dev      tests   tests             a mesh of floats, through CGAL's adaptor
+libeigen3-dev        tests   tests             the Garland-Heckbert policies of CGAL, beside which ours must work
 clang                fuzz    tests             fuzzing
 libclang-rt-dev      fuzz    tests             sanitizers and libFuzzer
 python3-dev          python  python            headers of Python
@@ -46,8 +47,8 @@ blender              blender tests             the add-on for Blender
 xvfb                 blender tests             a display for Blender's window
 xauth                blender tests             a display for Blender's window
 libgl1-mesa-dri      blender tests             OpenGL without a graphics card
-dpkg-dev             package tests             the dependencies of the packages
-mmdebstrap           package tests             a clean system, in which the packages are tested
+dpkg-dev             package packages          their dependencies
+mmdebstrap           clean   tests             a clean system, in which the packages are tested
 TABLE
 }
 
@@ -59,7 +60,11 @@ if [[ "${1:-}" == list ]]; then
   done < <(table)
   exit
 fi
-mapfile -t packages < <(table | awk -v wanted="${1:-always}" '$2 == "always" || $2 == wanted { print $1 }')
+for_tests=tests
+if [[ "${1:-}" == build ]]; then
+  for_tests=
+fi
+mapfile -t packages < <(table | awk -v wanted=" always $for_tests $* " 'index(wanted, " " $2 " ") { print $1 }')
 
 is_installed() { [[ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" == installed ]]; }
 

@@ -5,16 +5,12 @@
 # Tests the packages of Debian as a person gets them: makes them, installs each with apt in a clean Debian 12 that has nothing
 # else, and uses it there. On demand; as root, since the clean system is a chroot.
 #
-#   test/install/packages.sh [BUILD_FOLDER]      build/release, with program, libraries and Python package built
+#   test/install/packages.sh
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-build=$(realpath "${1:-build/release}")
-cmake/install_debian_packages.sh package
-
-cmake --build "$build" --target selvedge_app selvedge_library selvedge_c selvedge_python
-rm -f "$build"/*.deb
-(cd "$build" && cpack -G DEB)
-ls -l "$build"/*.deb
+cmake/install_debian_packages.sh clean
+./packages
+build=$PWD/build/packages
 
 root=$(mktemp -d)
 trap 'rm -rf "$root"' EXIT
