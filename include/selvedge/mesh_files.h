@@ -68,9 +68,11 @@ namespace selvedge {
 /// When a scene is written to glTF again, every vertex that is not at a new place keeps its rows of all
 /// accessors, morph targets included, bit for bit, and so its world position. Only NORMAL is what the soup
 /// says: the row of a vertex of the file that has this normal, where there is one, else the normal turned
-/// back into its node; without normals, the file gets neither NORMAL nor TANGENT. The rest of the document
-/// stays as it is: images byte for byte, addresses of files, numbers of accessors and buffer views.
-/// Exceptions: a mesh that stands in several places (nodes or instances) becomes several, one for all places
+/// back into its node, and rounded to what the file can hold where it has them quantised; without normals,
+/// the file gets neither NORMAL nor TANGENT. The rest of the document stays as it is: images byte for byte,
+/// addresses of files, numbers of accessors and buffer views. Accessors that were quantised or compressed are
+/// so again, where reading them gives the same numbers. Exceptions: a mesh that stands in several places
+/// (nodes or instances) becomes several, one for all places
 /// in which it has the same triangles of the same vertices, with the normals of the first of them; instances
 /// that have come to differ become nodes, without the extension's own attributes; accessors of triangles are
 /// written without gaps, and in full unless the file has nothing but sparse values for them, buffers become
@@ -171,7 +173,7 @@ struct Read_options
 ///   primitives without indices, vertices that agree in every attribute become one. Buffers are in the file,
 ///   data addresses, or files beside it. Of levels of detail (MSFT_lod) in nodes one is read, and the others
 ///   are left out. What EXT_meshopt_compression, KHR_draco_mesh_compression (2.2) and
-///   KHR_mesh_quantization pack is decoded and written plain. Refused: other required extensions.
+///   KHR_mesh_quantization pack is decoded. Refused: other required extensions.
 ///
 /// In OBJ, OFF and PLY files of at least 100 triangles, or of quads, in which no two faces share a vertex,
 /// corners at one position with the same vertex attributes refer to the first of their vertices, as in STL;

@@ -5,6 +5,7 @@
 
 #include "files/gltf_decoding.h"
 #include "files/gltf_encoding.h"
+#include "files/gltf_quantization.h"
 
 #include <selvedge/Error.h>
 #include <selvedge/internal/base64.h>
@@ -96,9 +97,9 @@ Gltf_output::Gltf_output(const Gltf_scene& scene, bool may_rotate, bool may_shar
       m_free_accessors(scene.free_accessors.rbegin(), scene.free_accessors.rend()),
       m_free_views(scene.free_views.rbegin(), scene.free_views.rend())
 {
-  for (const auto& [view, row_size] : scene.meshopt_views)
-    if (row_size > 0)
-      m_row_sizes[view] = {row_size, false};
+  for (const auto& [number, view] : scene.meshopt_views)
+    if (!std::binary_search(scene.free_views.begin(), scene.free_views.end(), number))
+      m_kept_views.emplace(number, view);
 }
 
 std::size_t Gltf_output::put_accessor(const Column& column, std::size_t count, Target target)
@@ -136,6 +137,7 @@ void Gltf_output::write(Byte_writer& out, Mesh_format format)
 {
   if (!m_compressed_primitives.empty())
     require(draco_extension);
+  remove_needless_quantization(document);
   fill_free();
   std::string bytes = put_buffer();
   if (format == Mesh_format::gltf) {
@@ -221,7 +223,6 @@ std::size_t Gltf_output::put_view(const Column& column, std::string bytes, Targe
   views[number] = std::move(view);
   m_views.resize(views.size());
   m_views[number] = std::move(bytes);
-  m_row_sizes.erase(Index(number));
   if (target != Target::none)
     m_row_sizes[Index(number)] = {target == Target::indices ? column.row_size : stride_of(column, target),
                                   target == Target::indices};
@@ -257,26 +258,20 @@ std::string Gltf_output::put_buffer()
     begin_view(begin);
     bytes.resize(begin, '\0');
     Json& view = document["bufferViews"][i];
-    const std::optional<std::string> encoded = compressed_view(i);
+    std::optional<Gltf_scene::Meshopt_view> encoded = compressed_view(i);
     if (encoded) {
-      const auto& [row_size, are_triangles] = m_row_sizes.at(Index(i));
       begin_view(decoded);
       view["buffer"] = 1;
       view["byteOffset"] = decoded;
-      view["extensions"][meshopt_extension] = {{"buffer", 0},
-                                               {"byteOffset", begin},
-                                               {"byteLength", encoded->size()},
-                                               {"byteStride", row_size},
-                                               {"count", m_views[i].size() / row_size},
-                                               {"mode", !are_triangles ? "ATTRIBUTES"
-                                                        : m_may_rotate ? "TRIANGLES"
-                                                                       : "INDICES"}};
+      encoded->extension["buffer"] = 0;
+      encoded->extension["byteOffset"] = begin;
+      view["extensions"][meshopt_extension] = std::move(encoded->extension);
       decoded += m_views[i].size();
     } else {
       view["buffer"] = 0;
       view["byteOffset"] = begin;
     }
-    bytes += encoded ? *encoded : m_views[i];
+    bytes += encoded ? encoded->bytes : m_views[i];
   }
   Json buffer = document.contains("buffers") ? document["buffers"][0] : Json::object();
   buffer.erase("uri");
@@ -290,12 +285,14 @@ std::string Gltf_output::put_buffer()
   return bytes;
 }
 
-// Returns a view compressed as others of the file were, unless it was plain there.
-std::optional<std::string> Gltf_output::compressed_view(std::size_t view) const
+// Returns a view as it was compressed in the file or, if it is new, compressed as others were there.
+std::optional<Gltf_scene::Meshopt_view> Gltf_output::compressed_view(std::size_t view) const
 {
+  if (const auto kept = m_kept_views.find(Index(view)); kept != m_kept_views.end())
+    return kept->second;
   const auto found = m_row_sizes.find(Index(view));
   return !m_is_compressed || found == m_row_sizes.end()
-             ? std::nullopt
+             ? std::optional<Gltf_scene::Meshopt_view>()
              : encoded_by_meshopt(m_views[view], found->second.first, found->second.second, m_may_rotate);
 }
 

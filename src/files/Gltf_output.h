@@ -69,12 +69,13 @@ private:
   void require(const char* extension);
   void fill_free();
   std::string put_buffer();
-  std::optional<std::string> compressed_view(std::size_t view) const;
+  std::optional<Gltf_scene::Meshopt_view> compressed_view(std::size_t view) const;
 
   bool m_is_compressed, m_may_rotate, m_may_share_rows;
   std::vector<std::string> m_views;
+  std::map<Index, Gltf_scene::Meshopt_view> m_kept_views;    // as the file had them
   std::vector<Index> m_free_accessors, m_free_views;         // the first at the back
-  std::map<Index, std::pair<std::size_t, bool>> m_row_sizes; // of views of attributes and of triangles
+  std::map<Index, std::pair<std::size_t, bool>> m_row_sizes; // of new views of attributes and of triangles
   std::unordered_multimap<std::size_t, Written> m_written;   // by the hash of the bytes
   std::multimap<std::string, std::size_t> m_views_by_first_row;
   std::map<std::string, Json> m_compressed_primitives;

@@ -124,16 +124,4 @@ void Gltf_column_reader::put_sparse_values(const tinygltf::Accessor& accessor, C
   }
 }
 
-double normalised(const Gltf_scene::Column& column, std::size_t row, std::size_t place)
-{
-  const double number = component(column, row, place);
-  if (!column.is_normalized())
-    return number;
-  const double most = column.component_type == type_int8    ? 127
-                      : column.component_type == type_uint8 ? 255
-                      : column.component_type == type_int16 ? 32767
-                                                            : 65535;
-  return std::max(number / most, -1.0);
-}
-
 } // namespace selvedge::files

@@ -38,9 +38,6 @@ private:
   std::string m_place;
 };
 
-/// Returns what a component of a column stands for: normalised integers are fractions.
-double normalised(const Gltf_scene::Column& column, std::size_t row, std::size_t place);
-
 } // namespace selvedge::files
 
 #endif // SELVEDGE_SRC_FILES_GLTF_COLUMN_READER_H

@@ -387,8 +387,7 @@ void decode_views(Gltf_document& document)
     view.buffer = whole.buffer;
     view.byteOffset = 0;
     view.byteStride = stride;
-    document.meshopt_views[Index(i)] =
-        extension->value("mode", "") == "ATTRIBUTES" ? number_in(document, *extension, "byteStride") : 0;
+    document.meshopt_views[Index(i)] = {*extension, std::string(bytes_in_buffer(document, *extension))};
     remove_extension_of(json, meshopt_extension);
   }
   if (document.meshopt_views.empty())

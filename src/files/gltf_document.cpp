@@ -7,6 +7,7 @@
 #include "files/gltf_column_reader.h"
 #include "files/gltf_decoding.h"
 #include "files/gltf_levels.h"
+#include "files/gltf_quantization.h"
 
 #include <selvedge/Error.h>
 
@@ -84,7 +85,7 @@ void parse(std::string_view json, Gltf_document& document)
 bool is_understood(const std::string& extension)
 {
   return extension == "EXT_meshopt_compression" || extension == "KHR_draco_mesh_compression" ||
-         extension == "KHR_mesh_quantization" || extension == instancing_extension ||
+         extension == quantization_extension || extension == instancing_extension ||
          extension == levels_extension;
 }
 

@@ -37,8 +37,8 @@ struct Gltf_document
   };
   std::map<std::size_t, std::vector<Instance>> instances; ///< of nodes that are in the scene
   std::map<int, Gltf_scene::Compression> compressions;    ///< of accessors that Draco held
-  std::map<Index, std::size_t> meshopt_views;             ///< `Gltf_scene::meshopt_views`
-  std::map<std::string, std::size_t> remarks;             ///< for `Read_notes`
+  std::map<Index, Gltf_scene::Meshopt_view> meshopt_views;
+  std::map<std::string, std::size_t> remarks; ///< for `Read_notes`
 
   /// Throws an `Input_error` that names the file.
   [[noreturn]] void fail(const std::string& message) const;

@@ -3,12 +3,15 @@
 
 #include "files/gltf_encoding.h"
 
+#include "soup/with_number.h"
+
 #include <selvedge/Cancellation_scope.h>
 
 #ifdef SELVEDGE_HAS_MESHOPTIMIZER
 #include <meshoptimizer.h>
 #endif
 #ifdef SELVEDGE_HAS_DRACO
+#include <draco/compression/attributes/normal_compression_utils.h>
 #include <draco/compression/decode.h>
 #include <draco/compression/expert_encode.h>
 #endif
@@ -19,8 +22,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
+#include <map>
 #include <memory>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 
 namespace selvedge::files {
@@ -30,15 +36,17 @@ namespace {
 
 using Column = Gltf_scene::Column;
 
-/// Draco quantises normals as directions, others in a box.
+/// Draco quantises normals as directions, others in a box. Whole numbers it takes for such directions
+/// already.
 draco::GeometryAttribute::Type draco_type(const Column& column, bool is_of_steps)
 {
   const auto is_of = [&](const char* name) { return column.name.compare(0, std::strlen(name), name) == 0; };
-  return is_of("POSITION")                 ? draco::GeometryAttribute::POSITION
-         : is_of("NORMAL") && !is_of_steps ? draco::GeometryAttribute::NORMAL
-         : is_of("TEXCOORD")               ? draco::GeometryAttribute::TEX_COORD
-         : is_of("COLOR")                  ? draco::GeometryAttribute::COLOR
-                                           : draco::GeometryAttribute::GENERIC;
+  const bool is_direction = is_of("NORMAL") && column.component_type == type_float32 && !is_of_steps;
+  return is_of("POSITION")   ? draco::GeometryAttribute::POSITION
+         : is_direction      ? draco::GeometryAttribute::NORMAL
+         : is_of("TEXCOORD") ? draco::GeometryAttribute::TEX_COORD
+         : is_of("COLOR")    ? draco::GeometryAttribute::COLOR
+                             : draco::GeometryAttribute::GENERIC;
 }
 
 draco::DataType draco_type(int component_type)
@@ -100,6 +108,20 @@ struct Packed_column
   bool is_of_steps() const { return quantisation && !quantisation->origin.empty(); }
 };
 
+/// Returns for every row how many before it are the same in all columns.
+std::vector<std::uint32_t> earlier_copies(const std::vector<Packed_column>& columns, std::uint32_t rows)
+{
+  std::unordered_map<std::string, std::uint32_t> copies;
+  std::vector<std::uint32_t> result;
+  for (std::uint32_t row = 0; row < rows; ++row) {
+    std::string whole;
+    for (const Packed_column& column : columns)
+      whole += row_of(*column.column, row);
+    result.push_back(copies[whole]++);
+  }
+  return result;
+}
+
 /// Returns a primitive as Draco has it. Its attributes are the columns, in their order; those that were
 /// quantised in a box count its steps.
 std::unique_ptr<draco::Mesh> draco_mesh(const std::vector<Packed_column>& columns,
@@ -112,20 +134,39 @@ std::unique_ptr<draco::Mesh> draco_mesh(const std::vector<Packed_column>& column
     mesh->SetFace(draco::FaceIndex(std::uint32_t(i / 3)),
                   {{draco::PointIndex(corners[i]), draco::PointIndex(corners[i + 1]),
                     draco::PointIndex(corners[i + 2])}});
+  const std::vector<std::uint32_t> copies = earlier_copies(columns, rows);
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const Column& column = *columns[i].column;
     draco::GeometryAttribute attribute;
     attribute.Init(draco_type(column, columns[i].is_of_steps()), nullptr, std::uint8_t(column.components),
                    draco_type(column.component_type), column.is_normalized(), std::int64_t(column.row_size),
                    0);
-    draco::PointAttribute* const added = mesh->attribute(mesh->AddAttribute(attribute, true, rows));
     const std::vector<float> steps = columns[i].is_of_steps()
                                          ? steps_of(column, *columns[i].quantisation, placeholder(i))
                                          : std::vector<float>();
+    const auto value = [&](std::uint32_t row) {
+      return steps.empty() ? row_of(column, row)
+                           : std::string_view(reinterpret_cast<const char*>(&steps[row * column.components]),
+                                              column.row_size);
+    };
+    // Vertices that differ in other columns alone have one value, by which Draco sees that they are
+    // neighbours. Those that differ in nothing have several, or it would make them one.
+    std::map<std::pair<std::uint32_t, std::string_view>, std::uint32_t> numbers;
+    std::vector<std::uint32_t> firsts;
+    std::vector<draco::AttributeValueIndex> of_row;
+    for (std::uint32_t row = 0; row < rows; ++row) {
+      const auto [number, is_new] =
+          numbers.emplace(std::make_pair(copies[row], value(row)), std::uint32_t(firsts.size()));
+      if (is_new)
+        firsts.push_back(row);
+      of_row.emplace_back(number->second);
+    }
+    draco::PointAttribute* const added =
+        mesh->attribute(mesh->AddAttribute(attribute, false, std::uint32_t(firsts.size())));
+    for (std::uint32_t number = 0; number < firsts.size(); ++number)
+      added->SetAttributeValue(draco::AttributeValueIndex(number), value(firsts[number]).data());
     for (std::uint32_t row = 0; row < rows; ++row)
-      added->SetAttributeValue(draco::AttributeValueIndex(row),
-                               steps.empty() ? static_cast<const void*>(row_of(column, row).data())
-                                             : &steps[row * column.components]);
+      added->SetPointMapEntry(draco::PointIndex(row), of_row[row]);
   }
   return mesh;
 }
@@ -287,6 +328,33 @@ std::optional<Draco_primitive> encoded_by_draco(const std::vector<Column>& colum
 #endif
 }
 
+std::optional<std::array<double, 3>> quantised_normal(const Gltf_scene::Column& column,
+                                                      const std::array<double, 3>& normal)
+{
+  if (column.quantised_accessor && column.quantised_accessor->value("normalized", false))
+    return with_number(attribute_type((*column.quantised_accessor)["componentType"]), [&](auto zero) {
+      constexpr double one = double(std::numeric_limits<decltype(zero)>::max());
+      std::array<double, 3> result;
+      for (std::size_t k = 0; k < 3; ++k)
+        result[k] = float(std::round(normal[k] * one) / one + 0.); // -0 is no whole number
+      return result;
+    });
+#ifdef SELVEDGE_HAS_DRACO
+  if (column.compression && column.compression->quantisation &&
+      column.compression->quantisation->origin.empty()) {
+    draco::OctahedronToolBox directions;
+    std::int32_t s, t;
+    std::array<float, 3> result;
+    if (directions.SetQuantizationBits(column.compression->quantisation->bits)) {
+      directions.FloatVectorToQuantizedOctahedralCoords(normal.data(), &s, &t);
+      directions.QuantizedOctahedralCoordsToUnitVector(s, t, result.data());
+      return std::array<double, 3>{result[0], result[1], result[2]};
+    }
+  }
+#endif
+  return std::nullopt;
+}
+
 #ifdef SELVEDGE_HAS_MESHOPTIMIZER
 namespace {
 
@@ -316,23 +384,82 @@ std::optional<std::string> encoded_indices(const std::string& bytes, bool may_ro
   return again == plain ? std::optional(result) : std::nullopt;
 }
 
-std::optional<std::string> encoded_rows(const std::string& bytes, std::size_t row_size)
+std::string encoded_rows(const std::string& bytes, std::size_t row_size)
 {
   const std::size_t rows = bytes.size() / row_size;
   std::string result(meshopt_encodeVertexBufferBound(rows, row_size), '\0');
   auto* const data = reinterpret_cast<unsigned char*>(result.data());
   result.resize(meshopt_encodeVertexBuffer(data, result.size(), bytes.data(), rows, row_size));
-  std::string again(bytes.size(), '\0');
-  if (meshopt_decodeVertexBuffer(again.data(), rows, row_size, data, result.size()) != 0 || again != bytes)
+  return result;
+}
+
+/// Returns numbers that the filter of directions, with so many bits, makes to those of a row. Empty if there
+/// are none.
+template <class Number>
+std::optional<std::array<Number, 4>> filtered(const std::array<Number, 4>& row, int bits)
+{
+  const double x = row[0], y = row[1], z = row[2], sum = std::abs(x) + std::abs(y) + std::abs(z);
+  if (sum == 0)
     return std::nullopt;
+  const auto unfolded = [&](double at, double other) {
+    return z >= 0 ? at / sum : std::copysign(1 - std::abs(other) / sum, at);
+  };
+  const int one = (1 << (bits - 1)) - 1;
+  constexpr std::array<int, 3> steps = {0, -1, 1}; // rounding may have moved it
+  std::array<std::array<Number, 4>, steps.size() * steps.size()> candidates;
+  const auto coordinate = [&](double place, int step) {
+    return Number(std::clamp(int(std::lround(place * one)) + step, -one, one));
+  };
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    candidates[i] = {coordinate(unfolded(x, y), steps[i / steps.size()]),
+                     coordinate(unfolded(y, x), steps[i % steps.size()]), Number(one), row[3]};
+  auto decoded = candidates;
+  meshopt_decodeFilterOct(decoded.data(), decoded.size(), sizeof row);
+  const auto found = std::find(decoded.begin(), decoded.end(), row);
+  return found == decoded.end() ? std::nullopt
+                                : std::optional(candidates[std::size_t(found - decoded.begin())]);
+}
+
+/// Returns rows from which the filter of directions makes these, with as few bits as possible.
+template <class Number>
+std::optional<std::string> filtered(const std::string& bytes)
+{
+  constexpr int most_bits = 8 * sizeof(Number);
+  for (int bits = 4; bits <= most_bits; ++bits) {
+    Cancellation_scope::check();
+    std::string result;
+    for (std::size_t at = 0; at < bytes.size(); at += 4 * sizeof(Number)) {
+      std::array<Number, 4> row;
+      std::memcpy(row.data(), bytes.data() + at, sizeof row);
+      const std::optional<std::array<Number, 4>> encoded = filtered(row, bits);
+      if (!encoded)
+        break;
+      result.append(reinterpret_cast<const char*>(encoded->data()), sizeof row);
+    }
+    if (result.size() == bytes.size())
+      return result;
+  }
+  return std::nullopt;
+}
+
+/// Returns what rows decode to; nothing if they do not.
+std::optional<std::string> decoded_rows(const std::string& encoded, std::size_t size, std::size_t row_size,
+                                        bool is_filtered)
+{
+  std::string result(size, '\0');
+  if (meshopt_decodeVertexBuffer(result.data(), size / row_size, row_size,
+                                 reinterpret_cast<const unsigned char*>(encoded.data()), encoded.size()) != 0)
+    return std::nullopt;
+  if (is_filtered)
+    meshopt_decodeFilterOct(result.data(), size / row_size, row_size);
   return result;
 }
 
 } // namespace
 #endif
 
-std::optional<std::string> encoded_by_meshopt(const std::string& bytes, std::size_t row_size,
-                                              bool are_triangles, bool may_rotate)
+std::optional<Gltf_scene::Meshopt_view> encoded_by_meshopt(const std::string& bytes, std::size_t row_size,
+                                                           bool are_triangles, bool may_rotate)
 {
 #ifdef SELVEDGE_HAS_MESHOPTIMIZER
   const bool is_possible =
@@ -340,11 +467,39 @@ std::optional<std::string> encoded_by_meshopt(const std::string& bytes, std::siz
       (are_triangles ? row_size == 2 || row_size == 4 : row_size % 4 == 0 && row_size <= 256);
   if (!is_possible || (are_triangles && bytes.size() / row_size % 3 != 0))
     return std::nullopt;
-  const std::optional<std::string> result = !are_triangles ? encoded_rows(bytes, row_size)
-                                            : row_size == 2
-                                                ? encoded_indices<std::uint16_t>(bytes, may_rotate)
-                                                : encoded_indices<std::uint32_t>(bytes, may_rotate);
-  return result && result->size() < bytes.size() ? result : std::nullopt;
+  Gltf_scene::Meshopt_view result;
+  const char* filter = nullptr;
+  if (are_triangles) {
+    const std::optional<std::string> encoded = row_size == 2
+                                                   ? encoded_indices<std::uint16_t>(bytes, may_rotate)
+                                                   : encoded_indices<std::uint32_t>(bytes, may_rotate);
+    if (!encoded)
+      return std::nullopt;
+    result.bytes = *encoded;
+  } else {
+    result.bytes = encoded_rows(bytes, row_size);
+    const std::optional<std::string> rows = row_size == 4   ? filtered<std::int8_t>(bytes)
+                                            : row_size == 8 ? filtered<std::int16_t>(bytes)
+                                                            : std::nullopt;
+    std::string encoded = rows ? encoded_rows(*rows, row_size) : std::string();
+    if (rows && encoded.size() < result.bytes.size()) {
+      result.bytes = std::move(encoded);
+      filter = "OCTAHEDRAL";
+    }
+    if (decoded_rows(result.bytes, bytes.size(), row_size, filter != nullptr) != bytes)
+      return std::nullopt;
+  }
+  if (result.bytes.size() >= bytes.size())
+    return std::nullopt;
+  result.extension = {{"byteLength", result.bytes.size()},
+                      {"byteStride", row_size},
+                      {"count", bytes.size() / row_size},
+                      {"mode", !are_triangles ? "ATTRIBUTES"
+                               : may_rotate   ? "TRIANGLES"
+                                              : "INDICES"}};
+  if (filter)
+    result.extension["filter"] = filter;
+  return result;
 #else
   static_cast<void>(bytes);
   static_cast<void>(row_size);

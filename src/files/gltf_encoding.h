@@ -8,6 +8,7 @@
 
 #include <selvedge/Triangle_soup.h>
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -31,14 +32,21 @@ struct Draco_primitive
 std::optional<Draco_primitive> encoded_by_draco(const std::vector<Gltf_scene::Column>& columns,
                                                 const std::vector<Index>& corners, bool may_reorder);
 
+/// Returns the normal nearest to another one among those that its column could give in the file: of whole
+/// numbers by KHR_mesh_quantization, or quantised by Draco. Nothing where the column held floats.
+std::optional<std::array<double, 3>> quantised_normal(const Gltf_scene::Column& column,
+                                                      const std::array<double, 3>& normal);
+
 /// Compresses the bytes of a buffer view as EXT_meshopt_compression has it: rows of so many bytes, or
 /// triangles of indices of so many bytes. Decoding gives the same bytes; where `may_rotate` is given, the
 /// corners of triangles may be rotated, which takes less space.
 ///
+/// Rows of directions in whole numbers are filtered as the extension has it, where that takes less space.
+///
 /// Returns nothing where the result would not be smaller, rows are none that the extension takes, or there is
-/// no meshoptimizer. Linear.
-std::optional<std::string> encoded_by_meshopt(const std::string& bytes, std::size_t row_size,
-                                              bool are_triangles, bool may_rotate);
+/// no meshoptimizer. Linear. What the extension says is without the place of the bytes.
+std::optional<Gltf_scene::Meshopt_view> encoded_by_meshopt(const std::string& bytes, std::size_t row_size,
+                                                           bool are_triangles, bool may_rotate);
 
 } // namespace selvedge::files
 

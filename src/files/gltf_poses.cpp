@@ -326,7 +326,7 @@ private:
     result.numbers.reserve(count * column.components);
     for (std::size_t i = 0; i < count; ++i)
       for (std::size_t k = 0; k < column.components; ++k) {
-        result.numbers.push_back(files::normalised(column, i, k));
+        result.numbers.push_back(normalised(column, i, k));
         if (!std::isfinite(result.numbers.back()))
           fail(place + " has a number that is not finite; export the file again");
       }
@@ -482,7 +482,7 @@ private:
       for (Index v = 0; v < block.size; ++v) {
         poll();
         for (std::size_t k = 0; k < 4; ++k)
-          if (const double weight = files::normalised(*weights, v, k); weight != 0) {
+          if (const double weight = normalised(*weights, v, k); weight != 0) {
             const double joint = component(*joints, v, k);
             if (joint < 0 || joint >= double(skin.joints.size()))
               fail(place + ": vertex " + std::to_string(v) + " of its mesh names joint " +
@@ -589,7 +589,7 @@ private:
           fail("a morph target displaces by other than three numbers; export the file again");
         for (Index v = 0; v < block.size; ++v)
           for (std::size_t k = 0; k < 3; ++k)
-            result[v][k] += weights[target] * files::normalised(column, v, k);
+            result[v][k] += weights[target] * normalised(column, v, k);
       }
     return result;
   }

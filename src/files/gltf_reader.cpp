@@ -5,6 +5,7 @@
 #include "files/gltf_column_reader.h"
 #include "files/gltf_decoding.h"
 #include "files/gltf_levels.h"
+#include "files/gltf_quantization.h"
 #include "files/row_unlike.h"
 
 #include "soup/selection.h"
@@ -45,14 +46,13 @@ public:
     m_file.notes.remarks = m_document.remarks;
     const Json& extensions = member(json(), "extensionsUsed");
     m_may_be_quantised =
-        std::find(extensions.begin(), extensions.end(), "KHR_mesh_quantization") != extensions.end();
+        std::find(extensions.begin(), extensions.end(), quantization_extension) != extensions.end();
   }
 
   Mesh_file read()
   {
     find_parts();
     fill_soup();
-    close_quantization();
     set_free();
     forget_progression();
     if (soup().triangles.empty())
@@ -309,56 +309,14 @@ private:
     return result;
   }
 
-  // Whether only KHR_mesh_quantization allows this type for an attribute of this name.
-  static bool is_quantised(const std::string& name, int component_type, bool is_normalized)
-  {
-    if (component_type == type_float32 || component_type == type_uint32)
-      return false;
-    if (name == "POSITION" || name == "NORMAL" || name == "TANGENT")
-      return true;
-    const bool is_plain_uv = is_normalized && (component_type == type_uint8 || component_type == type_uint16);
-    return name.compare(0, 9, "TEXCOORD_") == 0 && !is_plain_uv;
-  }
-
-  // Reads a column, and makes 32-bit floats of quantised numbers: each the one nearest to what it stands for.
+  // Reads a column. Floats take the place of quantised numbers.
   Column read_plain_column(int accessor, const std::string& name, std::size_t count, const std::string& place)
   {
-    const Column quantised = read_column(accessor, name, count, place);
-    if (!m_may_be_quantised || !is_quantised(name, quantised.component_type, quantised.is_normalized()))
-      return quantised;
-    Column plain = {name, quantised.accessor, type_float32, quantised.components, 4 * quantised.components,
-                    {},   quantised.is_sparse};
-    plain.accessor["componentType"] = int(type_float32);
-    for (const char* key : {"normalized", "min", "max"})
-      plain.accessor.erase(key);
-    plain.rows.reserve(count * plain.row_size);
-    for (std::size_t i = 0; i < count; ++i) {
-      m_poll();
-      for (std::size_t k = 0; k < plain.components; ++k)
-        append_little_endian(plain.rows, float(normalised(quantised, i, k)));
-    }
-    remark("attributes quantised by KHR_mesh_quantization, from now on 32-bit floats");
-    return plain;
-  }
-
-  // The extension is named no longer, unless what is kept as it is still needs it.
-  void close_quantization()
-  {
-    bool is_needed = false;
-    const auto look_at = [&](const std::map<std::string, int>& attributes) {
-      for (const auto& [name, number] : attributes)
-        if (m_kept_accessors.count(number) != 0 && number >= 0 && number < int(model().accessors.size()))
-          is_needed = is_needed || is_quantised(name, model().accessors[number].componentType,
-                                                model().accessors[number].normalized);
-    };
-    for (const tinygltf::Mesh& mesh : model().meshes)
-      for (const tinygltf::Primitive& primitive : mesh.primitives) {
-        look_at(primitive.attributes);
-        for (const auto& target : primitive.targets)
-          look_at(target);
-      }
-    if (!is_needed)
-      remove_extension(json(), "KHR_mesh_quantization");
+    const Column column = read_column(accessor, name, count, place);
+    if (!m_may_be_quantised || !is_quantised(name, column.accessor))
+      return column;
+    remark("attributes decoded from KHR_mesh_quantization; glTF output has it where it loses nothing");
+    return dequantised(column);
   }
 
   // Whether all that may refer to accessors and buffer views is known here.
@@ -367,7 +325,7 @@ private:
     for (const Json& extension : member(json(), "extensionsUsed")) {
       const std::string name = extension.is_string() ? extension.get<std::string>() : "";
       // What is left of MSFT_lod is of materials.
-      if (!is_apart_from_meshes(name) && name != "KHR_mesh_quantization" && name != instancing_extension &&
+      if (!is_apart_from_meshes(name) && name != quantization_extension && name != instancing_extension &&
           name != levels_extension)
         return false;
     }
@@ -426,7 +384,7 @@ private:
         remark("images in files of their own, whose addresses are kept");
     }
     m_scene->views.resize(model().bufferViews.size());
-    m_scene->meshopt_views = m_document.meshopt_views;
+    m_scene->meshopt_views = std::move(m_document.meshopt_views);
     for (int i = 0; i < int(model().bufferViews.size()); ++i)
       if ((freed.count(i) != 0 || may_drop) && kept.count(i) == 0)
         m_scene->free_views.push_back(Index(i));

@@ -6,6 +6,7 @@
 #include "files/gltf_decoding.h"
 #include "files/gltf_encoding.h"
 #include "files/gltf_nodes.h"
+#include "files/gltf_quantization.h"
 #include "files/united_levels.h"
 #include "soup/Gltf_scene.h"
 #include "soup/flat_shading.h"
@@ -21,6 +22,7 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <unordered_set>
 #include <utility>
 
 namespace selvedge::files {
@@ -34,14 +36,17 @@ using Column = Gltf_scene::Column;
 class Gltf_writer
 {
 public:
-  /// The scene may hold normals though the soup has none, if it was made for this soup. `coarsest` says for
-  /// every vertex of the scene what the last level is that has it.
-  Gltf_writer(const Triangle_soup& soup, bool is_scene_made, bool is_further_level,
+  /// The scene may hold normals though the soup has none, if it was made for this soup. `may_reorder` says
+  /// whether vertices go into the order in which triangles come to them, and `coarsest`, for every vertex of
+  /// the scene, what the last level is that has it.
+  Gltf_writer(const Triangle_soup& soup, bool is_scene_made, bool is_further_level, bool may_reorder,
               const std::vector<Index>& coarsest, Gltf_output& output)
-      : m_is_scene_made(is_scene_made), m_soup(soup), m_scene(*soup.scene), m_split(vertices_by_normal(soup)),
-        m_coarsest(coarsest), m_output(output)
+      : m_is_scene_made(is_scene_made), m_may_reorder(may_reorder), m_soup(soup), m_scene(*soup.scene),
+        m_normals(soup.normals), m_coarsest(coarsest), m_output(output)
   {
     check();
+    quantise_new_normals();
+    m_split = vertices_by_normal(soup, m_normals);
     if (!is_further_level)
       return;
     m_first_mesh = Index(meshes().size());
@@ -138,6 +143,54 @@ private:
     return bytes;
   }
 
+  static std::string bits_of(const std::array<double, 3>& numbers)
+  {
+    return std::string(reinterpret_cast<const char*>(numbers.data()), sizeof numbers);
+  }
+
+  static std::array<double, 3> world_normal_of(const Gltf_scene::Instance& instance, const Column& normals,
+                                               std::size_t row)
+  {
+    return world_normal(instance,
+                        {component(normals, row, 0), component(normals, row, 1), component(normals, row, 2)});
+  }
+
+  // Gives normals that are new to a mesh the precision of those that it has in the file, before vertices are
+  // split by their normals: so that none are split that have the same normal in the file.
+  void quantise_new_normals()
+  {
+    std::vector<const Column*> columns; // by instance: of normals that are quantised
+    std::vector<std::unordered_set<std::string>> known;
+    for (const Gltf_scene::Instance& instance : m_scene.instances) {
+      const std::vector<Column>& attributes = block(instance).attributes;
+      const auto column = std::find_if(attributes.begin(), attributes.end(), [](const Column& c) {
+        return c.name == "NORMAL" && c.components == 3 && quantised_normal(c, {0, 0, 1});
+      });
+      columns.push_back(column == attributes.end() || m_normals.empty() ? nullptr : &*column);
+      known.emplace_back();
+      for (Index row = 0; row < block(instance).size && columns.back(); ++row)
+        known.back().insert(bits_of(world_normal_of(instance, *columns.back(), row)));
+    }
+    std::map<std::pair<Index, Index>, Index> numbers; // by instance and number of the normal
+    Cancellation_poll poll;
+    for (std::size_t t = 0; t < m_normals.of_triangle.size(); ++t)
+      for (Index& corner : m_normals.of_triangle[t]) {
+        poll();
+        const Index i = m_scene.parts[m_soup.groups.of_triangle[t]].instance;
+        if (!columns[i] || corner == m_normals.missing)
+          continue;
+        const auto [number, is_new] = numbers.try_emplace({i, corner}, corner);
+        const std::array<double, 3> normal = m_normals.values[corner];
+        if (is_new && known[i].count(bits_of(normal)) == 0) {
+          const Gltf_scene::Instance& own = m_scene.instances[i];
+          number->second = Index(m_normals.values.size());
+          m_normals.values.push_back(
+              world_normal(own, *quantised_normal(*columns[i], local_normal(own, normal))));
+        }
+        corner = number->second;
+      }
+  }
+
   // Returns the bytes of the normal that a vertex has in its node: those of its row where that is its normal,
   // else those of another row of the instance with this normal, at this position if there is one, or else new
   // ones.
@@ -146,18 +199,12 @@ private:
     const Index scene_vertex = m_soup.scene_vertices[v.vertex];
     const std::size_t number = m_scene.instance_of(scene_vertex);
     const Gltf_scene::Instance& own = m_scene.instances[number];
-    const std::array<double, 3>& normal = m_soup.normals.values[v.normal];
+    const std::array<double, 3>& normal = m_normals.values[v.normal];
     const auto row_of = [](const Column& of, std::size_t row) {
       return std::string_view(of.rows).substr(row * of.row_size, of.row_size);
     };
-    const auto bits_of = [](const std::array<double, 3>& numbers) {
-      return std::string(reinterpret_cast<const char*>(numbers.data()), sizeof numbers);
-    };
-    const auto normal_of = [&](std::size_t row) {
-      return world_normal(own,
-                          {component(column, row, 0), component(column, row, 1), component(column, row, 2)});
-    };
-    if (v.normal == m_soup.normals.missing || column.component_type != type_float32 ||
+    const auto normal_of = [&](std::size_t row) { return world_normal_of(own, column, row); };
+    if (v.normal == m_normals.missing || column.component_type != type_float32 ||
         have_same_bits(normal_of(scene_vertex - own.first), normal))
       return std::string(row_of(column, scene_vertex - own.first));
     const Column& positions = block(own).attributes.front();
@@ -170,8 +217,9 @@ private:
       row = rows->second.lower_bound(bits_of(normal));
     if (row != rows->second.end() && row->first.compare(0, sizeof normal, bits_of(normal)) == 0)
       return std::string(row_of(column, row->second));
+    const std::array<double, 3> local = local_normal(own, normal);
     std::string result;
-    for (const double coordinate : local_normal(own, normal))
+    for (const double coordinate : quantised_normal(column, local).value_or(local))
       append_little_endian(result, static_cast<float>(coordinate));
     return result;
   }
@@ -238,14 +286,31 @@ private:
     return m_coarsest[m_soup.scene_vertices[m_split.vertices[vertex].vertex]];
   }
 
+  // Returns the vertices of `m_split`: as they were, or as triangles come to them, which meshopt compresses
+  // best.
+  std::vector<Index> vertices_in_order() const
+  {
+    std::vector<Index> result(m_split.vertices.size());
+    std::iota(result.begin(), result.end(), Index(0));
+    if (!m_may_reorder)
+      return result;
+    std::vector<std::size_t> first_use(result.size(), 0);
+    std::size_t corner = 0;
+    for (const Index_triple& triangle : m_split.triangles)
+      for (const Index v : triangle)
+        if (++corner; first_use[v] == 0)
+          first_use[v] = corner;
+    std::sort(result.begin(), result.end(), [&](Index a, Index b) { return first_use[a] < first_use[b]; });
+    return result;
+  }
+
   void put_vertices()
   {
     std::vector<char> is_instance_put(m_scene.instances.size(), false);
     for (const Gltf_scene::Part& part : m_scene.parts)
       is_instance_put[part.instance] |= is_put(part);
     std::vector<std::vector<Vertices_by_normal::Vertex>> vertices(m_scene.instances.size());
-    std::vector<Index> order(m_split.vertices.size());
-    std::iota(order.begin(), order.end(), Index(0));
+    std::vector<Index> order = vertices_in_order();
     std::stable_sort(order.begin(), order.end(),
                      [this](Index a, Index b) { return coarsest(a) > coarsest(b); });
     m_numbers.resize(order.size());
@@ -267,15 +332,17 @@ private:
         continue;
       const Gltf_scene::Instance& instance = m_scene.instances[i];
       const auto put = [&](const Column& column, const auto& bytes_of) {
-        Column left = {column.name,       column.accessor,   column.component_type,
-                       column.components, column.row_size,   {},
-                       column.is_sparse,  column.compression};
+        Column left = {column.name,       column.accessor,    column.component_type,
+                       column.components, column.row_size,    {},
+                       column.is_sparse,  column.compression, column.quantised_accessor};
         left.rows.reserve(vertices[i].size() * column.row_size);
         Cancellation_poll poll;
         for (const Vertices_by_normal::Vertex& v : vertices[i]) {
           poll();
           left.rows += bytes_of(v);
         }
+        if (std::optional<Column> quantised = quantised_again(left))
+          left = std::move(*quantised);
         if (left.compression) { // is put with the triangles
           m_compressible[i].push_back(std::move(left));
           return std::size_t(0);
@@ -416,10 +483,11 @@ private:
     return result;
   }
 
-  bool m_is_scene_made;
+  bool m_is_scene_made, m_may_reorder;
   const Triangle_soup& m_soup;
   const Gltf_scene& m_scene;
-  Vertices_by_normal m_split;
+  Corner_values<3> m_normals; // of the soup, as precise as the file can have them
+  Vertices_by_normal m_split; // by these
   const std::vector<Index>& m_coarsest;
   Gltf_output& m_output;
   Index m_first_mesh = 0;         // in the document, of those of this soup
@@ -500,10 +568,13 @@ void write_gltf(Byte_writer& out, const std::vector<const Triangle_soup*>& level
         if (v < soup.scene_vertices.size() && soup.scene_vertices[v] < coarsest.size())
           coarsest[soup.scene_vertices[v]] = Index(level); // others are refused
   }
+  // Levels have rows in common, in one order.
+  const bool is_any_order_right = may_reorder && levels.size() == 1 && !scene.meshopt_views.empty();
   Gltf_output output(scene, may_reorder, levels.size() > 1);
   std::vector<Gltf_level> put;
   for (const Triangle_soup* const soup : all.levels)
-    put.push_back(Gltf_writer(*soup, all.is_scene_made, !put.empty(), coarsest, output).put());
+    put.push_back(
+        Gltf_writer(*soup, all.is_scene_made, !put.empty(), is_any_order_right, coarsest, output).put());
   put_meshes_in_nodes(output.document, scene.instanced_nodes, std::move(put));
   output.write(out, format);
 }

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <map>
 
 // What all who handle vertices of a glTF scene share: the numbers in columns, and positions in world space.
@@ -110,6 +111,16 @@ double component(const Gltf_scene::Column& column, std::size_t row, std::size_t 
   return with_number(attribute_type(column.component_type), [&](auto number) {
     std::memcpy(&number, column.rows.data() + row * column.row_size + place * sizeof number, sizeof number);
     return double(number);
+  });
+}
+
+double normalised(const Gltf_scene::Column& column, std::size_t row, std::size_t place)
+{
+  const double number = component(column, row, place);
+  if (!column.is_normalized() || column.component_type == type_float32)
+    return number;
+  return with_number(attribute_type(column.component_type), [&](auto zero) {
+    return std::max(number / double(std::numeric_limits<decltype(zero)>::max()), -1.0);
   });
 }
 

@@ -52,8 +52,17 @@ struct Gltf_scene
     std::string rows;
     bool is_sparse = false;                                ///< the file holds only rows that are not zero
     std::optional<Compression> compression = std::nullopt; ///< none where the file held it plain
+    /// Of floats that the file holds as whole numbers by KHR_mesh_quantization: what it says about those.
+    std::optional<Json> quantised_accessor = std::nullopt;
 
     bool is_normalized() const { return accessor.value("normalized", false); }
+  };
+
+  /// A buffer view as EXT_meshopt_compression held it.
+  struct Meshopt_view
+  {
+    Json extension;
+    std::string bytes;
   };
 
   /// Vertices that several primitives of a mesh may share. The first of the attributes is the position.
@@ -106,11 +115,10 @@ struct Gltf_scene
   std::size_t instance_of(Index scene_vertex) const;
 
   Json document;
-  std::vector<std::string> views; ///< the bytes of every buffer view, unless it is free
-  /// By view: bytes of a row, of those that EXT_meshopt_compression held; 0 for indices.
-  std::map<Index, std::size_t> meshopt_views;
-  std::vector<Index> free_views;     ///< numbers that nothing refers to any more
-  std::vector<Index> free_accessors; ///< likewise
+  std::vector<std::string> views;              ///< the bytes of every buffer view, unless it is free
+  std::map<Index, Meshopt_view> meshopt_views; ///< those that EXT_meshopt_compression held
+  std::vector<Index> free_views;               ///< numbers that nothing refers to any more
+  std::vector<Index> free_accessors;           ///< likewise
   std::vector<Block> blocks;
   std::vector<Instance> instances;
   std::vector<Part> parts; ///< those of one mesh follow each other
@@ -154,6 +162,9 @@ void append_little_endian(std::string& rows, Number number)
 
 /// Returns a component as a number; normalised integers are not divided.
 double component(const Gltf_scene::Column& column, std::size_t row, std::size_t place);
+
+/// Returns what a component stands for: normalised integers are fractions of the largest one, -1 at least.
+double normalised(const Gltf_scene::Column& column, std::size_t row, std::size_t place);
 
 /// Returns what a component stands for as a texture coordinate: integers are fractions of their largest
 /// value.

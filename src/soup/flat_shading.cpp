@@ -125,14 +125,13 @@ std::size_t share_flat_vertices(Triangle_soup& soup)
   return joined;
 }
 
-Vertices_by_normal vertices_by_normal(const Triangle_soup& soup)
+Vertices_by_normal vertices_by_normal(const Triangle_soup& soup, const Corner_values<3>& normals)
 {
   struct Entry
   {
     Vertices_by_normal::Vertex vertex;
     Index next; // of the same vertex
   };
-  const Corner_values<3>& normals = soup.normals;
   std::vector<Entry> entries;
   std::vector<Index> first(soup.points.size(), s_no_number);
   Vertices_by_normal result;
@@ -183,7 +182,7 @@ Vertices_by_normal vertices_by_normal(const Triangle_soup& soup)
 
 Triangle_soup split_by_normals(const Triangle_soup& soup)
 {
-  const Vertices_by_normal split = vertices_by_normal(soup);
+  const Vertices_by_normal split = vertices_by_normal(soup, soup.normals);
   const bool are_uvs_split = are_numbered_like_vertices(soup.uvs, soup);
   Triangle_soup result = soup;
   result.points.clear();

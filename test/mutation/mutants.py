@@ -784,6 +784,20 @@ group(
     draco,
     ("m_soup.poses.empty() && of_part.targets.empty()", "of_part.targets.empty()",
      "Draco reorders a mesh with poses"),
+    ("m_split = vertices_by_normal(soup, m_normals);", "m_split = vertices_by_normal(soup, soup.normals);",
+     "vertices are split whose new normals are one in the file"),
+)
+group(
+    "src/files/gltf_encoding.cpp",
+    draco,
+    ("std::make_pair(copies[row], value(row))", "std::make_pair(0u, value(row))",
+     "Draco makes one vertex of those that differ in nothing"),
+)
+group(
+    "src/files/gltf_quantization.cpp",
+    draco,
+    ("is_exact && dequantised(result).rows == column.rows", "is_exact", "floats become whole numbers near them"),
+    ("  remove_extension(document, quantization_extension);", "", "the extension is named without need"),
 )
 
 poses = ("poses_test",)

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// glTF files that are compressed or quantised are decoded on the way in and written plain.
+// glTF files that are compressed or quantised are decoded on the way in, and written as they came.
 
 #include "support/Temporary_folder.h"
 
@@ -182,14 +182,16 @@ std::string expect_written_plain(const Mesh_file& file)
   return glb;
 }
 
-/// Writes a mesh, and expects a file that needs this extension alone and reads as the same.
-std::string expect_written_by(const Mesh_file& file, const char* extension)
+using Names = std::set<std::string>;
+
+/// Writes a mesh, and expects a file that needs these extensions alone and reads as the same.
+std::string expect_written_by(const Mesh_file& file, const Names& extensions)
 {
   const Temporary_folder folder;
   write_mesh(folder / "m.glb", file.soup);
   const std::string glb = read_file(folder / "m.glb");
-  EXPECT_EQ(json_of(glb)["extensionsUsed"], Json::array({extension}));
-  EXPECT_EQ(json_of(glb)["extensionsRequired"], Json::array({extension}));
+  EXPECT_EQ(json_of(glb)["extensionsUsed"].get<Names>(), extensions);
+  EXPECT_EQ(json_of(glb)["extensionsRequired"].get<Names>(), extensions);
   const Mesh_file again = read_mesh(folder / "m.glb");
   EXPECT_EQ(triangles_of(again.soup), triangles_of(file.soup));
   EXPECT_EQ(std::set(again.soup.normals.values.begin(), again.soup.normals.values.end()),
@@ -199,7 +201,7 @@ std::string expect_written_by(const Mesh_file& file, const char* extension)
 
 /// Writes the mesh, half of it and this half again as levels of one file, and expects each to be compressed
 /// once and to read as it was.
-void expect_levels_written_by(const Mesh_file& file, const char* extension)
+void expect_levels_written_by(const Mesh_file& file, Names extensions)
 {
   const Temporary_folder folder;
   Triangle_soup half = file.soup;
@@ -209,8 +211,9 @@ void expect_levels_written_by(const Mesh_file& file, const char* extension)
   const std::vector<Triangle_soup> levels = {file.soup, half, half};
   write_levels_of_detail(folder / "m.glb", levels);
   const Json json = json_of(read_file(folder / "m.glb"));
-  EXPECT_EQ(json["extensionsUsed"], Json::array({"MSFT_lod", extension}));
-  EXPECT_EQ(json["extensionsRequired"], Json::array({extension}));
+  EXPECT_EQ(json["extensionsRequired"].get<Names>(), extensions);
+  extensions.insert("MSFT_lod");
+  EXPECT_EQ(json["extensionsUsed"].get<Names>(), extensions);
   ASSERT_EQ(json["meshes"].size(), 3u);
   EXPECT_NE(json["meshes"][0], json["meshes"][1]);
   EXPECT_EQ(json["meshes"][1], json["meshes"][2]);
@@ -265,12 +268,14 @@ TEST(Gltf_dead_views, AreNotWrittenUnlessSomethingUnknownMayReferToThem)
   EXPECT_GT(read_file(folder / "unknown.glb").size(), size + 140'000);
 }
 
-TEST(Gltf_quantised, BecomesFloatsOfTheSameValues)
+/// A sheet of whole numbers: positions and normals that are fractions, texture coordinates that are not, and
+/// one morph target.
+Document_of_sheet quantised_sheet()
 {
   const Sheet sheet;
   Document_of_sheet document;
   std::vector<std::int16_t> positions;
-  std::vector<std::int8_t> normals;
+  std::vector<std::int8_t> normals, displacements;
   std::vector<std::uint16_t> uvs;
   for (std::uint32_t i = 0; i < s_vertices; ++i) {
     for (int k = 0; k < 3; ++k)
@@ -278,28 +283,50 @@ TEST(Gltf_quantised, BecomesFloatsOfTheSameValues)
     positions.push_back(0); // rows begin at multiples of four bytes
     for (const int number : {76, 0, 102, 0})
       normals.push_back(std::int8_t(number));
+    for (const int number : {0, 0, int(i % 5) - 2, 0})
+      displacements.push_back(std::int8_t(number));
     uvs.push_back(std::uint16_t(i % s_side));
     uvs.push_back(std::uint16_t(i / s_side));
   }
   positions[0] = -32768;
   Json& attributes = document.primitive()["attributes"];
-  const auto add = [&](const char* name, const std::string& bytes, int component_type, const char* type,
-                       bool is_normalized) {
+  const auto add = [&](const std::string& bytes, int component_type, const char* type, bool is_normalized) {
     const std::size_t view = document.add_view(bytes);
     document.json["bufferViews"][view]["byteStride"] = bytes.size() / s_vertices;
-    attributes[name] = document.add_accessor(view, s_vertices, component_type, type);
-    document.json["accessors"].back()["normalized"] = is_normalized;
+    const std::size_t accessor = document.add_accessor(view, s_vertices, component_type, type);
+    document.json["accessors"][accessor]["normalized"] = is_normalized;
+    return accessor;
   };
-  add("POSITION", bytes_of(positions), 5122, "VEC3", true);
-  add("NORMAL", bytes_of(normals), 5120, "VEC3", true);
-  add("TEXCOORD_0", bytes_of(uvs), 5123, "VEC2", false);
+  attributes["POSITION"] = add(bytes_of(positions), 5122, "VEC3", true);
+  attributes["NORMAL"] = add(bytes_of(normals), 5120, "VEC3", true);
+  attributes["TEXCOORD_0"] = add(bytes_of(uvs), 5123, "VEC2", false);
+  document.primitive()["targets"][0]["POSITION"] = add(bytes_of(displacements), 5120, "VEC3", true);
   document.json["accessors"][0]["min"] = {-32768, 0, -1000};
   document.json["accessors"][0]["max"] = {32767, 32767, 1000};
   document.primitive()["indices"] =
       document.add_accessor(document.add_view(bytes_of(sheet.indices)), sheet.indices.size(), 5123, "SCALAR");
   document.json["nodes"][0]["scale"] = {2, 2, 2};
   document.use("KHR_mesh_quantization");
+  return document;
+}
 
+/// Returns the accessors of the only primitive, by the names of its attributes; that of its target is
+/// "target".
+Json accessors_of(const Json& json)
+{
+  const Json& primitive = json["meshes"][0]["primitives"][0];
+  Json result;
+  for (const auto& [name, accessor] : primitive["attributes"].items())
+    result[name] = json["accessors"][accessor.get<std::size_t>()];
+  result["target"] = json["accessors"][primitive["targets"][0]["POSITION"].get<std::size_t>()];
+  return result;
+}
+
+TEST(Gltf_quantised, IsReadAsFloatsOfTheSameValues)
+{
+  const Document_of_sheet document = quantised_sheet();
+  std::vector<std::int16_t> positions(4 * s_vertices);
+  std::memcpy(positions.data(), document.bytes.data(), 2 * positions.size());
   const Mesh_file file = read(document);
   EXPECT_TRUE(has_remark(file, "KHR_mesh_quantization"));
   EXPECT_EQ(file.soup.points[0].x(), -2);
@@ -307,15 +334,79 @@ TEST(Gltf_quantised, BecomesFloatsOfTheSameValues)
     EXPECT_EQ(file.soup.points[i].x(), 2 * double(float(positions[4 * i] / 32767.0)));
   EXPECT_EQ(file.soup.uvs.values[s_vertices - 1],
             (std::array<double, 2>{s_side - 1.0, 1.0 - (s_side - 1.0)}));
-  const Json json = json_of(expect_written_plain(file));
-  for (const auto& [name, accessor] : json["meshes"][0]["primitives"][0]["attributes"].items()) {
-    EXPECT_EQ(json["accessors"][accessor.get<int>()]["componentType"], 5126) << name;
-    EXPECT_FALSE(json["accessors"][accessor.get<int>()].contains("normalized")) << name;
+}
+
+TEST(Gltf_quantised, IsWrittenInTheNumbersThatItCameIn)
+{
+  const Document_of_sheet document = quantised_sheet();
+  const Mesh_file file = read(document);
+  const std::string glb = expect_written_by(file, {"KHR_mesh_quantization"});
+  EXPECT_LE(glb.size(), document.glb().size() + 100);
+  const Json json = json_of(glb), before = accessors_of(document.json), after = accessors_of(json);
+  for (const auto& [name, accessor] : after.items()) {
+    for (const char* key : {"componentType", "normalized", "type"})
+      EXPECT_EQ(accessor[key], before[name][key]) << name;
+    EXPECT_EQ(json["bufferViews"][accessor["bufferView"].get<std::size_t>()].value("byteStride", 4u) % 4, 0u)
+        << name;
   }
+  EXPECT_EQ(after["POSITION"]["max"], Json({27143, 27143, 991}));
+  EXPECT_EQ(read_mesh(glb, Mesh_format::glb, "again").soup.uvs.values, file.soup.uvs.values);
+}
+
+TEST(Gltf_quantised, BecomesFloatsInAColumnThatHasANewNumber)
+{
+  Mesh_file file = read(quantised_sheet());
+  file.soup.points[5] = Point_3(0.5, 0.25, 0.125);
+  const Temporary_folder folder;
+  write_mesh(folder / "m.glb", file.soup);
+  EXPECT_EQ(read_mesh(folder / "m.glb").soup.points, file.soup.points);
+  const Json accessors = accessors_of(json_of(read_file(folder / "m.glb")));
+  EXPECT_EQ(accessors["POSITION"]["componentType"], 5126);
+  EXPECT_FALSE(accessors["POSITION"].contains("normalized"));
+  EXPECT_EQ(accessors["NORMAL"]["componentType"], 5120);
+  EXPECT_EQ(accessors["TEXCOORD_0"]["componentType"], 5123);
+}
+
+// Vertices whose new normals are the same in the file are one vertex there.
+TEST(Gltf_quantised, HasNewNormalsAsTheFileCanHoldThem)
+{
+  const std::array<double, 3> made = {0.6, float(0.001), 0.8}, near = {0.6, float(-0.001), 0.8};
+  const auto written = [&](const Document_of_sheet& document) {
+    Mesh_file file = read(document);
+    Corner_values<3>& normals = file.soup.normals;
+    for (std::size_t t = 0; t < 100; ++t)
+      normals.of_triangle[t].fill(Index(normals.values.size() + t % 2));
+    normals.values.insert(normals.values.end(), {made, near});
+    const Temporary_folder folder;
+    write_mesh(folder / "m.glb", file.soup);
+    return read_file(folder / "m.glb");
+  };
+  const Json quantised = accessors_of(json_of(written(quantised_sheet())))["NORMAL"];
+  EXPECT_EQ(quantised["componentType"], 5120);
+  EXPECT_LT(quantised["count"], s_vertices + 30);
+  // A file of floats has them as they are.
+  const Triangle_soup plain = read_mesh(written(plain_sheet()), Mesh_format::glb, "plain").soup;
+  EXPECT_GT(plain.points.size(), s_vertices + 30);
+  EXPECT_NE(std::find(plain.normals.values.begin(), plain.normals.values.end(),
+                      std::array<double, 3>{float(0.6), float(0.001), float(0.8)}),
+            plain.normals.values.end());
+}
+
+TEST(Gltf_quantised, NeedsNoExtensionWhereNothingIsQuantisedAnyMore)
+{
+  Document_of_sheet document = quantised_sheet();
+  document.primitive().erase("targets");
+  document.primitive()["attributes"].erase("TEXCOORD_0");
+  document.primitive()["attributes"].erase("NORMAL");
+  Mesh_file file = read(document);
+  file.soup.points[5] = Point_3(0.5, 0.25, 0.125);
+  expect_written_plain(file);
   // What is kept as it is keeps the extension.
   document.json["meshes"].push_back(document.json["meshes"][0]);
+  Mesh_file kept = read(document);
+  kept.soup.points[5] = Point_3(0.5, 0.25, 0.125);
   const Temporary_folder folder;
-  write_mesh(folder / "kept.glb", read(document).soup);
+  write_mesh(folder / "kept.glb", kept.soup);
   EXPECT_EQ(json_of(read_file(folder / "kept.glb"))["extensionsRequired"], Json({"KHR_mesh_quantization"}));
 }
 
@@ -397,7 +488,8 @@ TEST(Gltf_meshopt, IsReadAsThePlainFileAndWrittenAsItCame)
     EXPECT_EQ(file.soup.points, plain.soup.points);
     EXPECT_EQ(file.soup.normals.values, plain.soup.normals.values);
     EXPECT_EQ(triangles_of(file.soup), triangles_of(plain.soup));
-    EXPECT_LE(expect_written_by(file, "EXT_meshopt_compression").size(), plain_sheet().glb().size() * 3 / 4);
+    EXPECT_LE(expect_written_by(file, {"EXT_meshopt_compression"}).size(),
+              plain_sheet().glb().size() * 3 / 4);
   }
   const Mesh_file filtered = read(meshopt_sheet("INDICES", true));
   EXPECT_EQ(filtered.soup.points, plain.soup.points);
@@ -405,8 +497,8 @@ TEST(Gltf_meshopt, IsReadAsThePlainFileAndWrittenAsItCame)
     EXPECT_NEAR(normal[0], 0.6, 0.02);
     EXPECT_NEAR(normal[2], 0.8, 0.02);
   }
-  expect_written_by(filtered, "EXT_meshopt_compression");
-  expect_levels_written_by(filtered, "EXT_meshopt_compression");
+  expect_written_by(filtered, {"EXT_meshopt_compression", "KHR_mesh_quantization"});
+  expect_levels_written_by(filtered, {"EXT_meshopt_compression", "KHR_mesh_quantization"});
 }
 
 TEST(Gltf_meshopt, IsRefusedWhereItIsBroken)
@@ -502,24 +594,45 @@ TEST(Gltf_draco, IsWrittenAsItCameBitForBit)
 {
   for (const bool is_quantised : {false, true}) {
     const Document_of_sheet document = draco_sheet(true, is_quantised);
-    EXPECT_LE(expect_written_by(read(document), s_draco).size(),
+    EXPECT_LE(expect_written_by(read(document), {s_draco}).size(),
               document.glb().size() + (is_quantised ? 100 : 1500));
-    expect_levels_written_by(read(document), s_draco);
+    expect_levels_written_by(read(document), {s_draco});
   }
+}
+
+TEST(Gltf_draco, KeepsVerticesApartThatDifferInNothing)
+{
+  Mesh_file file = read(draco_sheet(true));
+  const std::size_t triangles = file.soup.triangles.size() / 2;
+  std::vector<Index> twin(file.soup.points.size());
+  for (Index v = 0; v < twin.size(); ++v) {
+    twin[v] = Index(file.soup.points.size());
+    file.soup.points.push_back(Point_3(file.soup.points[v]));
+    file.soup.scene_vertices.push_back(file.soup.scene_vertices[v]);
+  }
+  for (std::size_t t = triangles; t < file.soup.triangles.size(); ++t)
+    for (Index& corner : file.soup.triangles[t])
+      corner = twin[corner];
+  std::set<Index> used;
+  for (const Index_triple& triangle : file.soup.triangles)
+    used.insert(triangle.begin(), triangle.end());
+  EXPECT_GT(used.size(), s_vertices);
+  const Triangle_soup again = read_mesh(expect_written_by(file, {s_draco}), Mesh_format::glb, "again").soup;
+  EXPECT_EQ(again.points.size(), used.size());
 }
 
 TEST(Gltf_draco, KeepsPlacesThatItsQuantisationDoesNotHave)
 {
   Mesh_file file = read(draco_sheet(true, true));
   file.soup.points[7] = Point_3(0.3f, 0.71f, 0.0123f);
-  expect_written_by(file, s_draco);
+  expect_written_by(file, {s_draco});
 }
 
 TEST(Gltf_draco, KeepsTheOrderOfAMeshInSeveralPoses)
 {
   Mesh_file file = read(draco_sheet(true, true));
   file.soup.poses = {{"raised", file.soup.points, 0}};
-  const Triangle_soup again = read_mesh(expect_written_by(file, s_draco), Mesh_format::glb, "again").soup;
+  const Triangle_soup again = read_mesh(expect_written_by(file, {s_draco}), Mesh_format::glb, "again").soup;
   EXPECT_EQ(again.points, file.soup.points);
   EXPECT_EQ(again.triangles, file.soup.triangles);
 }
