@@ -814,7 +814,7 @@ group(
      "the replay takes an obstacle wherever it stands"),
 )
 
-obstacles = ("replay_test:Replay.*Obstacle",)
+obstacles = ("replay_test:Replay.*Obstacle*",)
 group(
     "src/replay/replay.cpp",
     obstacles,
@@ -894,7 +894,7 @@ group(
     ("clearance_decision_test",),
     ("CGAL::certainly(is_attained) ? (std::min)(least.sup(), squared.sup()) : least.sup()",
      "(std::min)(least.sup(), squared.sup())", "what may not be attained counts as attained"),
-    ("(at_u + at_v <= length) & ", "", "a facet reaches beyond its third edge"),
+    ("both(at_u + at_v <= length, length > 0)", "length > 0", "a facet reaches beyond its third edge"),
 )
 group(
     headers + "Surface_mesh_simplification/internal/Intersection_guard.h",
