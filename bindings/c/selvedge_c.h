@@ -211,8 +211,9 @@ SELVEDGE_C_API const char* selvedge_result_report(selvedge_result* result);
 SELVEDGE_C_API int selvedge_verify(const selvedge_mesh* mesh, const selvedge_mesh* original, size_t* pairs,
                                    size_t* new_pairs);
 
-/* Repeats a log on the mesh that it was made of, and judges every step. Returns 1 when all are accepted, 0
-   when not, in which case selvedge_last_error() returns the first violation, and -1 when it fails. */
+/* Repeats a log on the mesh that it was made of, and judges every step, but not against an obstacle. Returns
+   1 when all are accepted, 0 when not, in which case selvedge_last_error() returns the first violation, and
+   -1 when it fails. */
 SELVEDGE_C_API int selvedge_replay(const selvedge_mesh* original, const char* log);
 
 #ifdef __cplusplus

@@ -81,10 +81,10 @@ struct Replay_options
   std::string sha256_of_original;
 
   /// The mesh that the steps must keep clear of, as `read_mesh` returns it: every motion is judged against
-  /// it, too. It has as many poses as the original, or none: then it stands still in all. Without one, only
-  /// the original is judged. The log need not name it. When the log does, `replay` throws `Input_error` if
-  /// this mesh has other counts or, where both are known, another SHA-256 of the file, or if it stands
-  /// elsewhere in the pose that is judged.
+  /// it, too. It has as many poses as the original, or none if it stands still (`Argument_error` otherwise).
+  /// The log need not name it. When the log does, `replay` throws `Input_error` if this mesh has other counts
+  /// or, where both are known, another SHA-256 of the file, or if it stands elsewhere in the pose that is
+  /// judged.
   std::optional<Triangle_soup> obstacle;
   std::string sha256_of_obstacle; ///< of its file; empty when unknown
 

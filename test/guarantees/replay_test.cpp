@@ -485,7 +485,9 @@ TEST(Replay, RefusesAStepThatMeetsAnObstacle)
   EXPECT_EQ(kind_beside(below, "limit clearance 0.3\n"), Violation_kind::clearance);
   EXPECT_EQ(kind_beside(below, "limit clearance 0.1\n"), Violation_kind::result);
 
-  const Violation violation = verdict_beside(through).violations.front();
+  const Replay_verdict refused = verdict_beside(through);
+  ASSERT_EQ(refused.violations.size(), 1u);
+  const Violation& violation = refused.violations.front();
   EXPECT_EQ(violation.triangles.back(), 33u) << "after the 32 of the mesh";
   EXPECT_NE(violation.message.find(" and 2 of the obstacle intersect"), std::string::npos)
       << violation.message;

@@ -829,7 +829,7 @@ group(
      "the replay takes an obstacle wherever it stands"),
 )
 
-obstacles = ("replay_test:Replay.*Obstacle",)
+obstacles = ("replay_test:Replay.*Obstacle*",)
 group(
     "src/replay/replay.cpp",
     obstacles,
