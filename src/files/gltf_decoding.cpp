@@ -352,9 +352,13 @@ std::string missing_decoder(const std::string& extension)
 void prepare_for_decoding(const Json& document, Json& reduced)
 {
   const Json& buffers = member(document, "buffers");
-  for (std::size_t i = 0; i < buffers.size() && buffers.is_array(); ++i)
+  const Json& used = member(document, "extensionsUsed");
+  const bool is_compressed = std::find(used.begin(), used.end(), meshopt_extension) != used.end();
+  // A buffer without an address is that of a GLB, which is the first, or stands for what is decoded.
+  for (std::size_t i = 0; i < buffers.size() && buffers.is_array() && is_compressed; ++i)
     if (const Json* const extension = extension_of(buffers[i], meshopt_extension);
-        extension && extension->value("fallback", false) && !buffers[i].contains("uri"))
+        buffers[i].is_object() && !buffers[i].contains("uri") &&
+        (i > 0 || (extension && extension->value("fallback", false))))
       reduced["buffers"][i] = {{"byteLength", 1}, {"uri", "data:application/octet-stream;base64,AA=="}};
   const Json& accessors = member(document, "accessors");
   for (const Json& mesh : member(document, "meshes"))

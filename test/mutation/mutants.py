@@ -794,6 +794,11 @@ group(
      "Draco makes one vertex of those that differ in nothing"),
 )
 group(
+    "src/files/Gltf_output.cpp",
+    draco,
+    ("    return kept->second;", "    return std::nullopt;", "compressed views that are kept become plain"),
+)
+group(
     "src/files/gltf_quantization.cpp",
     draco,
     ("is_exact && dequantised(result).rows == column.rows", "is_exact", "floats become whole numbers near them"),

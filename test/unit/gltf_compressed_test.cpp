@@ -449,8 +449,10 @@ Document_of_sheet meshopt_sheet(const char* mode_of_indices, bool is_filtered)
                             s_vertices, 5126, "VEC3");
   if (is_filtered) {
     std::vector<float> four;
-    for (std::uint32_t i = 0; i < s_vertices; ++i)
-      four.insert(four.end(), {0.6f, 0, 0.8f, 0});
+    for (std::uint32_t i = 0; i < s_vertices; ++i) { // by turns of up to 10 degrees
+      const float angle = std::atan2(0.6f, 0.8f) + std::sin(float(7 * i)) / 6;
+      four.insert(four.end(), {std::sin(angle), 0, std::cos(angle), 0});
+    }
     std::vector<std::int8_t> rows(4 * s_vertices);
     meshopt_encodeFilterOct(rows.data(), s_vertices, 4, 8, four.data());
     attributes["NORMAL"] = document.add_accessor(
@@ -488,17 +490,37 @@ TEST(Gltf_meshopt, IsReadAsThePlainFileAndWrittenAsItCame)
     EXPECT_EQ(file.soup.points, plain.soup.points);
     EXPECT_EQ(file.soup.normals.values, plain.soup.normals.values);
     EXPECT_EQ(triangles_of(file.soup), triangles_of(plain.soup));
+    Document_of_sheet without_fallback = meshopt_sheet(mode, false);
+    without_fallback.json["buffers"][1].erase("extensions");
+    EXPECT_EQ(read(without_fallback).soup.points, plain.soup.points);
     EXPECT_LE(expect_written_by(file, {"EXT_meshopt_compression"}).size(),
               plain_sheet().glb().size() * 3 / 4);
   }
   const Mesh_file filtered = read(meshopt_sheet("INDICES", true));
   EXPECT_EQ(filtered.soup.points, plain.soup.points);
   for (const auto& normal : filtered.soup.normals.values) {
-    EXPECT_NEAR(normal[0], 0.6, 0.02);
-    EXPECT_NEAR(normal[2], 0.8, 0.02);
+    EXPECT_NEAR(normal[0], 0.6, 0.2);
+    EXPECT_NEAR(normal[2], 0.8, 0.2);
   }
-  expect_written_by(filtered, {"EXT_meshopt_compression", "KHR_mesh_quantization"});
+  const std::string glb = expect_written_by(filtered, {"EXT_meshopt_compression", "KHR_mesh_quantization"});
+  EXPECT_NE(glb.find("OCTAHEDRAL"), std::string::npos);
   expect_levels_written_by(filtered, {"EXT_meshopt_compression", "KHR_mesh_quantization"});
+}
+
+TEST(Gltf_meshopt, KeepsTheBytesOfWhatIsKept)
+{
+  Document_of_sheet document = meshopt_sheet("TRIANGLES", true);
+  document.json["meshes"].push_back(document.json["meshes"][0]); // outside the scene
+  const Temporary_folder folder;
+  write_mesh(folder / "m.glb", read(document).soup);
+  const std::string glb = read_file(folder / "m.glb");
+  for (const std::size_t view : {0, 1, 2}) {
+    const Json before = document.json["bufferViews"][view]["extensions"]["EXT_meshopt_compression"];
+    Json after = json_of(glb)["bufferViews"][view]["extensions"]["EXT_meshopt_compression"];
+    after["byteOffset"] = before["byteOffset"];
+    EXPECT_EQ(after, before);
+    EXPECT_NE(glb.find(document.bytes.substr(before["byteOffset"], before["byteLength"])), std::string::npos);
+  }
 }
 
 TEST(Gltf_meshopt, IsRefusedWhereItIsBroken)
