@@ -32,6 +32,16 @@ class Simplify(unittest.TestCase):
         self.assertFalse(control.accepted)
         self.assertGreater(len(selvedge.verify(*control).pairs), 0)
 
+    def test_results_print_what_they_are(self):
+        mesh = layers()
+        result = selvedge.simplify(*mesh, ratio=0.3)
+        counts = f"{len(result.points)} points, {len(result.triangles)} triangles"
+        self.assertEqual(repr(result), f"<Result: {counts}, accepted, target reached>")
+        control = selvedge.simplify(*mesh, ratio=0.1, intersection_check=False)
+        self.assertIn("NOT accepted", repr(control))
+        self.assertEqual(repr(selvedge.verify(*result)), "<Verdict: accepted>")
+        self.assertEqual(repr(selvedge.verify(*control)), "<Verdict: NOT accepted>")
+
     def test_takes_floats_and_arrays_in_any_order(self):
         mesh = layers()
         floats = mesh.points.astype(np.float32)

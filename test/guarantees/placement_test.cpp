@@ -132,7 +132,7 @@ TEST(Placement, UnguardedPlacesAreRefusedByTheReplay)
 
 TEST(Placement, MeshOfTheCallerIsEmbeddedAfterEveryCollapse)
 {
-  struct Judging_observer : No_observer
+  struct Placement_observer : No_observer
   {
     const Mesh* mesh;
     std::size_t placed = 0, violations = 0;
@@ -144,7 +144,7 @@ TEST(Placement, MeshOfTheCallerIsEmbeddedAfterEveryCollapse)
     }
   };
   Mesh mesh = mesh_of(nested_spheres(700, 2, 1e-2));
-  Judging_observer observer;
+  Placement_observer observer;
   observer.mesh = &mesh;
   const Simplify_report report = simplify_mesh(mesh, optimal(to_ratio(0.2)), {}, observer);
   EXPECT_EQ(observer.violations, 0u);

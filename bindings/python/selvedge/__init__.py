@@ -29,6 +29,9 @@ class Mesh:
     def __iter__(self):
         return iter((self.points, self.triangles))
 
+    def __repr__(self):
+        return f"<{type(self).__name__}: {len(self.points)} points, {len(self.triangles)} triangles>"
+
 
 class Result(Mesh):
     """A reduced mesh.
@@ -51,6 +54,10 @@ class Result(Mesh):
         self.log = run.log()
         self.collapses = run.collapses()
 
+    def __repr__(self):
+        words = ["accepted" if self.accepted else "NOT accepted", "target reached" if self.reached else "target not reached"]
+        return f"{super().__repr__()[:-1]}, {', '.join(words)}>"
+
     @property
     def report(self):
         """The report of the run, as `selvedge simplify --report` writes it, without what is about files (docs/report.md)."""
@@ -67,6 +74,9 @@ class Verdict:
 
     def __bool__(self):
         return self.accepted
+
+    def __repr__(self):
+        return f"<Verdict: {'accepted' if self.accepted else 'NOT accepted'}>"
 
 
 def option_names():
