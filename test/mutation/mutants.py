@@ -778,6 +778,8 @@ group(
     draco,
     ("packed[i].quantisation.reset();\n      is_same = false;", ";", "Draco's quantisation moves vertices"),
     ("bytes.replace(place, steps.size(), box(origin, range));", ";", "the box of the quantisation is not put back"),
+    ("std::make_pair(copies[row], value(row))", "std::make_pair(0u, value(row))",
+     "Draco makes one vertex of those that differ in nothing"),
 )
 group(
     "src/files/gltf_writer.cpp",
@@ -786,12 +788,6 @@ group(
      "Draco reorders a mesh with poses"),
     ("m_split = vertices_by_normal(soup, m_normals);", "m_split = vertices_by_normal(soup, soup.normals);",
      "vertices are split whose new normals are one in the file"),
-)
-group(
-    "src/files/gltf_encoding.cpp",
-    draco,
-    ("std::make_pair(copies[row], value(row))", "std::make_pair(0u, value(row))",
-     "Draco makes one vertex of those that differ in nothing"),
 )
 group(
     "src/files/Gltf_output.cpp",
