@@ -139,6 +139,12 @@ private:
     m_report["input"] = input_json(m_request.input, file);
     read_poses(m_request.poses, m_request.input, file.soup);
     check_pose_outputs(file.soup.poses);
+    if (are_levels_in_one_file(m_request) && m_request.options.placement == Placement::optimal &&
+        file.soup.scene)
+      throw Argument_error(
+          "--lods: levels with vertices at new places (--placement optimal) cannot share the "
+          "scene of a glTF file; write each to a file of its own, as with -o "
+          "'jacket_{lod}.glb', or leave out --placement optimal");
     if (m_request.are_polygons_split)
       file.soup.polygons.clear();
     m_polygons = file.soup.polygons.size();

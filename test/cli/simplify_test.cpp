@@ -183,6 +183,10 @@ TEST(App_simplify, PutsAllLevelsIntoOneFileAndReadsEach)
   EXPECT_EQ(folder.files(), 3u);
   // A reduction of such a file is one of its finest level.
   EXPECT_EQ(run_app({"simplify", out, "-o", folder / "one.glb", "--ratio", "0.5"}).code, 0);
+  const App_result refused = run_app(
+      {"simplify", folder / "one.glb", "-o", folder / "no.glb", "--lods", "1,0.5", "--placement", "optimal"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("cannot share the scene"), std::string::npos) << refused.err;
   EXPECT_EQ(run_app({"info", folder / "one.glb", "--lod", "2"}).code, 3);
 }
 

@@ -832,6 +832,12 @@ std::vector<std::string> sorted_triangles(const Triangle_soup& soup, bool with_n
     const auto add = [&bytes](const void* data, std::size_t size) {
       bytes.append(static_cast<const char*>(data), size);
     };
+    const auto add_numbers = [&](const auto& numbers) { // zeros of either sign are one
+      for (double number : numbers) {
+        number += 0.0;
+        add(&number, sizeof number);
+      }
+    };
     for (std::size_t k = 0; k < 3; ++k) {
       const Index v = soup.triangles[t][k];
       for (int axis = 0; axis < 3; ++axis) {
@@ -839,9 +845,9 @@ std::vector<std::string> sorted_triangles(const Triangle_soup& soup, bool with_n
         add(&coordinate, sizeof coordinate);
       }
       if (!soup.uvs.empty())
-        add(&soup.uvs.values[soup.uvs.of_triangle[t][k]], sizeof soup.uvs.values[0]);
+        add_numbers(soup.uvs.values[soup.uvs.of_triangle[t][k]]);
       if (with_normals && !soup.normals.empty())
-        add(&soup.normals.values[soup.normals.of_triangle[t][k]], sizeof soup.normals.values[0]);
+        add_numbers(soup.normals.values[soup.normals.of_triangle[t][k]]);
       for (const Attribute& attribute : soup.vertex_attributes)
         add(attribute.rows.data() + v * row_size(attribute), row_size(attribute));
     }
@@ -1179,9 +1185,14 @@ Verdict judge_file_of_levels(const World& world, const std::vector<Simplified_so
   for (const Simplified_soup& level : levels)
     soups.push_back(world.is_sewn ? merged_at_positions(level.soup) : level.soup);
   const bool is_gltf = world.output_format == Mesh_format::glb || world.output_format == Mesh_format::gltf;
-  if (!is_gltf || std::any_of(soups.begin(), soups.end(),
-                              [](const Triangle_soup& soup) { return soup.triangles.empty(); }))
+  if (!is_gltf || std::any_of(soups.begin(), soups.end(), [&](const Triangle_soup& soup) {
+        return soup.triangles.empty() ||
+               soup.scene != soups.front().scene; // new places are in scenes of their own
+      }))
     return std::nullopt;
+  std::stable_sort(soups.begin(), soups.end(), [](const Triangle_soup& a, const Triangle_soup& b) {
+    return a.triangles.size() > b.triangles.size();
+  });
   const Temporary_folder folder;
   write_levels_of_detail(folder / "levels.glb", soups);
   for (std::size_t i = 0; i < soups.size(); ++i) {
