@@ -48,7 +48,7 @@ public:
       return v;
     };
     const auto unite = [&](Number a, Number b) { m_pieces[find(a)] = find(b); };
-    for (std::size_t id = 0; id < faces.size(); ++id)
+    for (typename FaceTable::Id id = 0; id < faces.size(); ++id)
       for (const Number corner : faces.corners(id)) {
         if (is_of_obstacle(id))
           break;
