@@ -90,7 +90,10 @@ private:
             return level.meshes[m] && meshes[*level.meshes[m]] == meshes[*finest];
           }))
         alike.push_back(m);
-    if (alike.size() < m_levels.front().meshes.size())
+    const auto& finest = m_levels.front().meshes;
+    const auto all =
+        std::count_if(finest.begin(), finest.end(), [](const auto& mesh) { return mesh.has_value(); });
+    if (alike.size() < std::size_t(all))
       for (const std::size_t m : alike)
         for (Gltf_level& level : m_levels)
           level.meshes[m] = m_levels.front().meshes[m];
