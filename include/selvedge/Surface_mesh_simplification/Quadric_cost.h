@@ -60,6 +60,7 @@ struct No_line_map
 ///
 /// **Preconditions** The mesh outlives the policy. `EdgeIsLineMap` is a readable property map from edges to
 /// `bool`: true for the edges inside the mesh that the cost is to keep as it keeps borders.
+/// Once the quadrics are computed, no edge becomes a line unless it takes the place of one in a collapse.
 ///
 /// **Exactness** Floating point. The cost orders the collapses, and its error can limit their quality; no
 /// statement about intersections depends on it. Coordinates are taken relative to the centre of the mesh, so
