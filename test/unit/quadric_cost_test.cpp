@@ -140,6 +140,42 @@ TEST(QuadricCost, WithoutMemoryIsThatOfTheMeshAsItIs)
   EXPECT_GT(more, of / 2) << "what has accumulated counts";
 }
 
+TEST(QuadricCost, RecomputedOnceIsWhatUpdatesAfterEachCollapseMakeIt)
+{
+  for (const double memory : {0., 0.5, 1.}) {
+    const Kernel traits;
+    Mesh mesh = mesh_of(sheet(8, 8));
+    const auto points = get(CGAL::vertex_point, mesh);
+    const Quadric_cost<Mesh> updated(mesh, with_memory(memory)), recomputed(mesh, with_memory(memory));
+    for (const auto& cost : {updated, recomputed})
+      cost.initialize(mesh, points, traits);
+    const auto profile = [&](Mesh::Halfedge_index h) {
+      return internal::Lazy_edge_profile<Mesh, decltype(points), Kernel>(h, mesh, points, traits);
+    };
+    int collapses = 0;
+    for (const auto e : mesh.edges()) {
+      if (mesh.is_removed(e) || !CGAL::Euler::does_satisfy_link_condition(e, mesh))
+        continue;
+      const auto edge = profile(mesh.halfedge(e));
+      const auto kept = CGAL::Euler::collapse_edge(e, mesh);
+      updated.update_after_collapse(edge, kept);
+      recomputed.accumulate(edge, kept);
+      if (++collapses == 20)
+        break;
+    }
+    EXPECT_EQ(collapses, 20);
+    const auto differing = [&] {
+      std::size_t count = 0;
+      for (const auto h : mesh.halfedges())
+        count += *updated.cost_along(profile(h), h) != *recomputed.cost_along(profile(h), h);
+      return count;
+    };
+    EXPECT_GT(differing(), 0u) << "not recomputed yet";
+    recomputed.recompute(mesh, points);
+    EXPECT_EQ(differing(), 0u);
+  }
+}
+
 TEST(QuadricCost, PlacesKeepTheVolume)
 {
   const auto volume = [](const Mesh& mesh) {

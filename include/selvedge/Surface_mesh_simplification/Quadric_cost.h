@@ -302,17 +302,41 @@ public:
       for (const Halfedge h : CGAL::halfedges_around_target(kept, mesh))
         if (!CGAL::is_border(h, mesh))
           compute_plane(face(h, mesh), mesh, points);
+    accumulate(profile, kept);
+    change(m_state->quadrics, kept,
+           [&](Vertex_quadric& merged) { compute_quadric(kept, mesh, points, memory, merged); });
+    if (memory < 1)
+      for (const Vertex v : CGAL::vertices_around_target(halfedge(kept, mesh), mesh))
+        change(m_state->quadrics, v,
+               [&](Vertex_quadric& of_vertex) { compute_quadric(v, mesh, points, memory, of_vertex); });
+  }
+
+  /// Gives the merged vertex what both have accumulated. Between the first of many collapses of which nobody
+  /// asks for a cost and the call of `recompute`, it takes the place of `update_after_collapse`.
+  template <class Profile>
+  void accumulate(const Profile& profile, Vertex kept) const
+  {
     const Vertex_quadric& gone = get(m_state->quadrics, kept == profile.v0() ? profile.v1() : profile.v0());
     change(m_state->quadrics, kept, [&](Vertex_quadric& merged) {
       merged.accumulated += gone.accumulated;
       merged.weight = (std::max)(merged.weight, gone.weight);
       merged.has_lines |= gone.has_lines;
-      compute_quadric(kept, mesh, points, memory, merged);
     });
-    if (memory < 1)
-      for (const Vertex v : CGAL::vertices_around_target(halfedge(kept, mesh), mesh))
-        change(m_state->quadrics, v,
-               [&](Vertex_quadric& of_vertex) { compute_quadric(v, mesh, points, memory, of_vertex); });
+  }
+
+  /// Computes for the whole mesh what there is around each vertex.
+  template <class VertexPointMap>
+  void recompute(const TriangleMesh& mesh, const VertexPointMap& points) const
+  {
+    Cancellation_poll poll;
+    for (const auto face : faces(mesh))
+      compute_plane(face, mesh, points);
+    for (const Vertex v : vertices(mesh)) {
+      poll();
+      change(m_state->quadrics, v, [&](Vertex_quadric& of_vertex) {
+        compute_quadric(v, mesh, points, m_state->options.memory, of_vertex);
+      });
+    }
   }
 
 private:

@@ -284,7 +284,8 @@ public:
     using Collapse_of_edge = Collapse<decltype(profile)>;
     perform_collapse(m_mesh, m_points, No_constrained_edges(),
                      place ? Collapse_of_edge(profile, *place) : Collapse_of_edge::along(profile, moving),
-                     visitor, m_quadrics);
+                     visitor, Accumulation{m_quadrics});
+    m_are_quadrics_outdated = true;
   }
 
   double diagonal() const { return m_diagonal; }
@@ -331,6 +332,8 @@ public:
       m_levels.push_back(m_targets.share(0).at_ratio(ratio));
     m_on_level = on_level;
     build_index();
+    if (std::exchange(m_are_quadrics_outdated, false))
+      m_quadrics.recompute(m_mesh, m_points);
     pass_levels();
 
     // The observer's weights of faces are relative to the area 1, those of the quadrics to that of the
@@ -647,6 +650,20 @@ private:
       return m_report.is_stopped;
     });
   }
+
+  // Takes the place of the quadrics during collapses between which nobody asks for a cost.
+  struct Accumulation
+  {
+    using Update_tag = CGAL::Tag_true;
+
+    template <class Profile, class Vertex>
+    void update_after_collapse(const Profile& profile, const Vertex& kept) const
+    {
+      quadrics.accumulate(profile, kept);
+    }
+
+    const Quadrics& quadrics;
+  };
 
   struct Visitor : No_visitor
   {
@@ -1008,6 +1025,7 @@ private:
   Rule m_rule;
   Targets m_targets;
   Quadrics m_quadrics;
+  bool m_are_quadrics_outdated = false;
   Border_partners<TriangleMesh> m_partners;
   Line m_line;
   Pieces m_pieces;
