@@ -322,7 +322,7 @@ group(
 group(
     loop + "Edge_queue.h",
     ("loop_test",),
-    ("if (i > 0 && entry < m_heap[parent(i)])", "if (false)", "what became cheaper does not rise"),
+    ("if (i > 0 && entry < entries[parent(i)])", "if (false)", "what became cheaper does not rise"),
 )
 
 group(
@@ -671,9 +671,11 @@ group(
 group(
     headers + "Surface_mesh_simplification/internal/Edge_queue.h",
     ("edge_queue_test",),
-    ("Id(bits >> 48)", "Id(bits >> 50)", "costs of a class differ by a quarter"),
-    ("edge >> 14 : 0", "0 : 0", "no tiles"),
-    ("if (i > 0 && entry < m_heap[parent(i)])", "if (false)", "an edge that gets cheaper stays where it is"),
+    ("Id(bits >> 49)", "Id(bits >> 50)", "costs of a class differ by a quarter"),
+    ("m_tile_bits(is_relaxed ? s_tile_bits : 31)", "m_tile_bits(31)", "no tiles"),
+    ("if (i > 0 && entry < entries[parent(i)])", "if (false)", "an edge that gets cheaper stays where it is"),
+    ("key = (std::min)(m_keys[2 * node], m_keys[2 * node + 1])", "key = (std::min)(key, m_keys[node / 2])",
+     "a tile whose first edge has left stays the winner"),
 )
 group(
     "src/soup/check_soup.cpp",

@@ -29,14 +29,14 @@ std::vector<std::uint32_t> popped(Queue& queue)
   return edges;
 }
 
-// The number of the sixteenth of a power of two in which a cost lies.
+// The number of the eighth of a power of two in which a cost lies.
 double class_of(double cost)
 {
   if (!(cost > 0))
     return -std::numeric_limits<double>::infinity();
   int exponent = 0;
   const double mantissa = std::frexp(cost, &exponent); // from 1/2 to 1
-  return 16 * exponent + std::floor(32 * mantissa);
+  return 8 * exponent + std::floor(16 * mantissa);
 }
 
 TEST(Edge_queue, TakesEdgesInEitherOrder)

@@ -63,9 +63,9 @@ int collapse_edges(TriangleMesh& mesh, const Stop& stop, const GeomTraits& trait
 ///    same order where no two edges cost the same, none has length zero, and `second` and `blockers` are not
 ///    in use. Where costs tie, CGAL's order depends on its heap, and the counts of edges removed may differ.
 ///    In relaxed order, edges are considered by (class of cost, tile, cost, edge number). Costs of one class
-///    differ by at most a sixteenth; a tile is 16,384 edges with consecutive numbers. A large mesh in which
+///    differ by at most an eighth; a tile is 16,384 edges with consecutive numbers. A large mesh in which
 ///    near edges have near numbers is reduced in a third less time, since what is needed next is in the
-///    cache. A stop by cost may leave edges that cost up to a sixteenth less than the one at which it stops.
+///    cache. A stop by cost may leave edges that cost up to an eighth less than the one at which it stops.
 /// 2. *Completeness*: when the loop ends without a stop, every edge that is not constrained and has a cost
 ///    has been refused since the last collapse at one of its ends or at a neighbour of one, and since the
 ///    last change of a face that was named as its blocker.

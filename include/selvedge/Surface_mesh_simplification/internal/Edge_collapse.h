@@ -155,7 +155,6 @@ public:
 private:
   void collect()
   {
-    m_queue.reserve(num_edges(m_mesh));
     for (const Vertex v : vertices(m_mesh))
       put(m_has_stale_edges, v, false);
     Cancellation_poll poll;

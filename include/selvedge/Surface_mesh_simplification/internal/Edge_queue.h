@@ -20,13 +20,15 @@ namespace internal {
 /// A priority queue of numbered edges by (cost, number): the cheapest edge comes first, and of equally cheap
 /// ones that with the lowest number, so that the order depends on the costs alone.
 ///
-/// In relaxed order, edges come by (class, tile, cost, number). There are sixteen classes of costs from each
+/// In relaxed order, edges come by (class, tile, cost, number). There are eight classes of costs from each
 /// power of two to the next; costs that are not positive are one class. A tile is 16,384 edges with
 /// consecutive numbers. Where neighbours have near numbers, edges that come one after another are then near
 /// each other, also in memory.
 ///
-/// It exists because costs change while edges are in the queue: each edge knows its place in the heap. Every
-/// node of the heap has four children and holds its cost, so that a comparison reads no other memory.
+/// It exists because costs change while edges are in the queue: each edge knows its place in the heap of its
+/// tile. Every node of a heap has four children and holds its cost, so that a comparison reads no other
+/// memory. A change reads and writes one heap, which is as near in memory as its edges are. The tile of the
+/// first edge is the winner of a tournament. Without relaxed order, all edges are one tile.
 ///
 /// **Complexity** O(log n) for each change, O(n) for `sort`.
 template <class FT>
@@ -37,49 +39,62 @@ public:
 
   /// Makes an empty queue for edges numbered 0 … edges−1, of which there are less than 2^31.
   explicit Edge_queue(std::size_t edges, bool is_relaxed = false)
-      : m_places(edges, s_nowhere), m_is_relaxed(is_relaxed)
+      : m_tile_bits(is_relaxed ? s_tile_bits : 31), m_entries(edges), m_places(edges, s_nowhere),
+        m_sizes((edges >> m_tile_bits) + 1, 0)
   {
+    while (m_leaves < m_sizes.size())
+      m_leaves *= 2;
+    m_keys.assign(2 * m_leaves, s_nowhere);
   }
 
-  bool is_empty() const { return m_heap.empty(); }
+  bool is_empty() const { return m_keys[1] == s_nowhere; }
   bool contains(Id edge) const { return m_places[edge] != s_nowhere; }
 
-  /// Puts an edge that is not in the queue behind all others. Once edges were appended, `sort` must be called
-  /// before any other function.
-  void append(Id edge, const FT& cost) { m_heap.push_back(entry(edge, cost)); }
-  void reserve(std::size_t edges) { m_heap.reserve(edges); }
+  /// Puts an edge that is not in the queue behind all others of its tile. Once edges were appended, `sort`
+  /// must be called before any other function.
+  void append(Id edge, const FT& cost)
+  {
+    Heap heap = heap_of(edge);
+    heap.put(heap.size++, {cost, edge});
+  }
   void sort()
   {
-    for (std::size_t i = 0; i < m_heap.size(); ++i)
-      m_places[m_heap[i].edge] = Id(i);
-    for (std::size_t i = parent(m_heap.size()) + 1; i-- > 0 && !m_heap.empty();)
-      sink(i, Entry(m_heap[i]));
+    for (std::size_t tile = 0; tile < m_sizes.size(); ++tile) {
+      Heap heap = heap_at(tile);
+      for (Id i = parent(heap.size) + 1; i-- > 0 && heap.size > 0;)
+        heap.sink(i, Entry(heap.entries[i]));
+      update_key(tile);
+    }
   }
 
   /// Inserts an edge, or changes the cost of one that is in the queue.
   void set(Id edge, const FT& cost)
   {
-    const Entry changed = entry(edge, cost);
-    if (!contains(edge)) {
-      m_heap.push_back(changed);
-      rise(m_heap.size() - 1, changed);
-    } else {
-      replace(m_places[edge], changed);
-    }
+    Heap heap = heap_of(edge);
+    if (contains(edge))
+      heap.replace(m_places[edge], {cost, edge});
+    else
+      heap.rise(heap.size++, {cost, edge});
+    update_key(edge >> m_tile_bits);
   }
 
   /// Removes an edge if it is in the queue.
   void erase(Id edge)
   {
-    if (contains(edge))
-      erase_at(m_places[edge]);
+    if (!contains(edge))
+      return;
+    heap_of(edge).erase_at(m_places[edge]);
+    update_key(edge >> m_tile_bits);
   }
 
   /// Removes the first edge and returns it with its cost. The queue must not be empty.
   std::pair<FT, Id> pop()
   {
-    const Entry first = m_heap.front();
-    erase_at(0);
+    const std::size_t tile = m_keys[1] & ((Id(1) << s_bits_of_tiles) - 1);
+    Heap heap = heap_at(tile);
+    const Entry first = heap.entries[0];
+    heap.erase_at(0);
+    update_key(tile);
     return {first.cost, first.edge};
   }
 
@@ -88,89 +103,115 @@ private:
   {
     FT cost;
     Id edge;
-    Id key; // class and tile, or 0
 
     friend bool operator<(const Entry& a, const Entry& b)
     {
-      if (a.key != b.key)
-        return a.key < b.key;
       return a.cost < b.cost || (a.cost == b.cost && a.edge < b.edge);
     }
   };
 
-  Entry entry(Id edge, const FT& cost) const
-  {
-    constexpr int tile_bits = 17; // 2^31 edges in tiles of 2^14
-    const Id key = m_is_relaxed ? class_of(CGAL::to_double(cost)) << tile_bits | edge >> 14 : 0;
-    return {cost, edge, key};
-  }
+  static constexpr Id s_nowhere = (std::numeric_limits<Id>::max)();
+  static constexpr Id s_children = 4;
+  static constexpr int s_tile_bits = 14;
+  static constexpr int s_bits_of_tiles = 31 - s_tile_bits;
 
-  // Returns the first bits of the representation of a number: its exponent, and four bits of the mantissa.
+  static Id parent(Id i) { return i == 0 ? 0 : (i - 1) / s_children; }
+
+  // The edges of a tile that are in the queue.
+  struct Heap
+  {
+    Entry* entries;
+    Id& size;
+    std::vector<Id>& places;
+
+    void put(Id i, const Entry& entry)
+    {
+      entries[i] = entry;
+      places[entry.edge] = i;
+    }
+
+    void erase_at(Id i)
+    {
+      places[entries[i].edge] = s_nowhere;
+      const Entry last = entries[--size];
+      if (i < size)
+        replace(i, last);
+    }
+
+    void replace(Id i, const Entry& entry)
+    {
+      if (i > 0 && entry < entries[parent(i)])
+        rise(i, entry);
+      else
+        sink(i, entry);
+    }
+
+    void rise(Id i, const Entry& entry)
+    {
+      for (; i > 0 && entry < entries[parent(i)]; i = parent(i))
+        put(i, entries[parent(i)]);
+      put(i, entry);
+    }
+
+    void sink(Id i, const Entry& entry)
+    {
+      for (;;) {
+        const Id first = s_children * i + 1;
+        if (first >= size)
+          break;
+        const Id beyond = (std::min)(first + s_children, size);
+        Id least = first;
+        for (Id child = first + 1; child < beyond; ++child)
+          if (entries[child] < entries[least])
+            least = child;
+        if (!(entries[least] < entry))
+          break;
+        put(i, entries[least]);
+        i = least;
+      }
+      put(i, entry);
+    }
+  };
+
+  Heap heap_at(std::size_t tile)
+  {
+    return {m_entries.data() + (tile << m_tile_bits), m_sizes[tile], m_places};
+  }
+  Heap heap_of(Id edge) { return heap_at(edge >> m_tile_bits); }
+
+  // Returns the first bits of the representation of a number: its exponent, and three bits of the mantissa.
   static Id class_of(double cost)
   {
     std::uint64_t bits = 0;
     if (cost > 0)
       std::memcpy(&bits, &cost, sizeof bits);
-    return Id(bits >> 48);
+    return Id(bits >> 49);
   }
 
-  static constexpr Id s_nowhere = (std::numeric_limits<Id>::max)();
-  static constexpr std::size_t s_children = 4;
-
-  static std::size_t parent(std::size_t i) { return i == 0 ? 0 : (i - 1) / s_children; }
-
-  void put(std::size_t i, const Entry& entry)
+  // Tells the tournament which class the first edge of a tile has now.
+  void update_key(std::size_t tile)
   {
-    m_heap[i] = entry;
-    m_places[entry.edge] = Id(i);
-  }
-
-  void erase_at(std::size_t i)
-  {
-    m_places[m_heap[i].edge] = s_nowhere;
-    const Entry last = m_heap.back();
-    m_heap.pop_back();
-    if (i < m_heap.size())
-      replace(i, last);
-  }
-
-  void replace(std::size_t i, const Entry& entry)
-  {
-    if (i > 0 && entry < m_heap[parent(i)])
-      rise(i, entry);
-    else
-      sink(i, entry);
-  }
-
-  void rise(std::size_t i, const Entry& entry)
-  {
-    for (; i > 0 && entry < m_heap[parent(i)]; i = parent(i))
-      put(i, m_heap[parent(i)]);
-    put(i, entry);
-  }
-
-  void sink(std::size_t i, const Entry& entry)
-  {
-    for (;;) {
-      const std::size_t first = s_children * i + 1;
-      if (first >= m_heap.size())
+    Id key = s_nowhere;
+    if (m_sizes[tile] > 0)
+      key = class_of(CGAL::to_double(m_entries[tile << m_tile_bits].cost)) << s_bits_of_tiles | Id(tile);
+    std::size_t node = m_leaves + tile;
+    while (m_keys[node] != key) {
+      m_keys[node] = key;
+      if (node == 1)
         break;
-      const std::size_t beyond = (std::min)(first + s_children, m_heap.size());
-      std::size_t least = first;
-      for (std::size_t child = first + 1; child < beyond; ++child)
-        if (m_heap[child] < m_heap[least])
-          least = child;
-      if (!(m_heap[least] < entry))
-        break;
-      put(i, m_heap[least]);
-      i = least;
+      node /= 2;
+      key = (std::min)(m_keys[2 * node], m_keys[2 * node + 1]);
     }
-    put(i, entry);
   }
 
-  std::vector<Entry> m_heap;
-  std::vector<Id> m_places; // by edge
-  bool m_is_relaxed;
+  int m_tile_bits;
+  std::vector<Entry> m_entries; // the heap of each tile at the number of its first edge
+  std::vector<Id> m_places;     // in the heap, by edge
+  std::vector<Id> m_sizes;      // of the heaps, by tile
+  // The tournament: the class of the first edge of a tile, and the tile. The tiles follow each other from
+  // `m_leaves` on, which is a power of two; the winner of nodes 2i and 2i + 1 is at i.
+  std::vector<Id> m_keys;
+  std::size_t m_leaves = 1;
 };
 
 } // namespace internal
