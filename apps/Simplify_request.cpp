@@ -26,6 +26,8 @@ namespace {
 
 // Large enough that few vertices lie on cell walls, small enough that a cell stays in a processor's cache.
 constexpr std::size_t faces_per_cell = 50'000;
+// Cells cost a little of the order, and small meshes are done soon without them.
+constexpr std::size_t faces_for_cells = 500'000;
 
 constexpr std::string_view level_mark = "{lod}", pose_mark = "{pose}";
 
@@ -92,7 +94,7 @@ void check_poses(const Simplify_request& request)
                            ": the mesh has no further poses; give them by --pose, --morphs or --animation");
     return;
   }
-  if (request.is_in_cells)
+  if (request.is_in_cells == true)
     refuse_with("--cells", "a mesh in several poses is not reduced in cells");
   if (!request.weld.empty())
     refuse_with("--weld", "gaps are closed in one pose only");
@@ -127,7 +129,7 @@ void check_progressive(const Simplify_request& request)
            "one of the two");
   if (request.is_unguarded)
     refuse("every step in the file has been judged; leave out --no-intersection-check");
-  if (!request.lods.empty() && (request.is_in_cells || !request.intent.ratios.empty()))
+  if (!request.lods.empty() && (request.is_in_cells == true || !request.intent.ratios.empty()))
     refuse(
         "with --cells, or with ratios of parts, each of --lods is a reduction of its own, and the file holds "
         "one; leave out --lods");
@@ -142,7 +144,7 @@ void check_clearance(const Simplify_request& request)
   };
   if (request.is_unguarded)
     refuse_with("--no-intersection-check", "a distance is kept only where intersections are checked");
-  if (request.is_in_cells)
+  if (request.is_in_cells == true)
     refuse_with("--cells", "cells do not know how near the pieces beside them are");
   if (!request.weld.empty())
     refuse_with("--weld", "closing gaps brings pieces nearer to each other");
@@ -161,10 +163,10 @@ void check(const Simplify_request& request)
     throw Argument_error("--lods already says how far to reduce the mesh; leave out --ratio R and --faces");
   if (request.is_strict && request.defects.value_or(Defects::refuse) != Defects::refuse)
     throw Argument_error("--strict refuses what --defects would accept; leave out one of the two");
-  if (request.is_in_cells && !request.intent.ratios.empty())
+  if (request.is_in_cells == true && !request.intent.ratios.empty())
     throw Argument_error(
         "--cells: parts cannot have ratios of their own; leave out --cells or --ratio PART=R");
-  if (request.is_in_cells && !request.may_intersect.empty())
+  if (request.is_in_cells == true && !request.may_intersect.empty())
     throw Argument_error(
         "--cells: no parts may intersect each other there; leave out --cells or --may-intersect");
   if (!request.log.empty() && !request.lods.empty())
@@ -289,9 +291,18 @@ Json options_json(const Simplify_request& request)
           {"orient", request.are_faces_oriented ? "auto" : "keep"},
           {"polygons", request.are_polygons_split ? "split" : "keep"},
           {"threads", optional(request.threads)},
-          {"cells", request.is_in_cells},
+          {"cells", optional(request.is_in_cells)},
           {"defects", name_of(defects_of(request))},
           {"strict", defects_of(request) == Defects::refuse}};
+}
+
+std::size_t faces_per_cell_of(const Simplify_request& request, std::size_t faces)
+{
+  const bool is_one_sequence_wanted = !request.lods.empty() || !request.progressive.empty();
+  const bool are_cells_refused = !request.intent.ratios.empty() || !request.may_intersect.empty() ||
+                                 !request.poses.empty() || request.options.clearance;
+  const bool is_default = faces >= faces_for_cells && !is_one_sequence_wanted && !are_cells_refused;
+  return request.is_in_cells.value_or(is_default) ? faces_per_cell : 0;
 }
 
 Defects defects_of(const Simplify_request& request)
@@ -305,7 +316,6 @@ void complete(Simplify_request& request)
   if (are_levels_in_one_file(request)) // from fine to coarse
     std::sort(request.lods.begin(), request.lods.end(), std::greater<>());
   request.options.check_intersections = !request.is_unguarded;
-  request.options.faces_per_cell = request.is_in_cells ? faces_per_cell : 0;
   read_ratios(request);
   read_error(request);
   read_weld(request);
@@ -620,10 +630,19 @@ void add_options(CLI::App& command, Simplify_request& request)
                 "End with exit code 1 when the target is missed.")
       ->group(conduct);
   Thread_limit::add_option(command, request.threads)->group(conduct);
+  CLI::Option* const cells =
+      command
+          .add_flag_callback(
+              "--cells", [&request] { request.is_in_cells = true; },
+              "First reduce boxes of space at once, on all threads, then the whole. This changes the result, "
+              "but the number of threads does not. It is the default from 500,000 faces on, where no other "
+              "option is against it.")
+          ->group(conduct);
   command
-      .add_flag("--cells", request.is_in_cells,
-                "For large meshes: first reduce boxes of space at once, on all threads, then the whole. This "
-                "changes the result, but the number of threads does not.")
+      .add_flag_callback(
+          "--no-cells", [&request] { request.is_in_cells = false; },
+          "Reduce the whole as one sequence of collapses, cheapest first, on one thread.")
+      ->excludes(cells)
       ->group(conduct);
   command.add_option("--report", request.report, "Write a JSON report of the run.")
       ->type_name("FILE")

@@ -222,6 +222,7 @@ private:
   {
     m_bar.begin("sewing and indexing");
     Simplify_options options = m_request.options;
+    options.faces_per_cell = faces_per_cell_of(m_request, prepared.soup.triangles.size());
     if (m_guarded_poses.size() < prepared.soup.poses.size())
       options.guarded_poses = m_guarded_poses;
     options.is_progression_recorded = !m_request.progressive.empty();
@@ -472,7 +473,7 @@ private:
     html.add_input(prepared, still);
     // Levels are states of one reduction, or each has its own: then the collapses of one follow those of
     // another. The levels after one that was stopped are the same as that.
-    const bool is_one = m_request.intent.ratios.empty() && !m_request.is_in_cells;
+    const bool is_one = m_request.intent.ratios.empty() && m_request.is_in_cells != true;
     auto begin = m_collapses.begin();
     std::size_t number = 0;
     bool is_stopped = false;

@@ -4,6 +4,7 @@
 #include "reduce_in_cells.h"
 
 #include <selvedge/Cancellation_scope.h>
+#include <selvedge/Surface_mesh_simplification/internal/Edge_queue.h>
 #include <selvedge/Surface_mesh_simplification/internal/Simplification.h>
 
 #include <oneapi/tbb/parallel_for.h>
@@ -12,10 +13,12 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <mutex>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace selvedge {
@@ -264,6 +267,29 @@ double common_cost(const std::vector<Cell_run>& runs)
   return s_infinity;
 }
 
+// Returns the collapses that cost at most `limit`, of each cell until the first that costs more. Those of a
+// cell keep their order; those of different cells come by the class of the highest cost in their cell until
+// then. So the states on the way are those of one reduction, more or less, and cells that are done to the
+// whole only in part are so evenly.
+std::vector<Cell_collapse> by_cost(std::vector<Cell_run>& runs, double limit)
+{
+  std::vector<std::tuple<std::uint32_t, std::size_t, std::size_t>> order; // class, cell, number
+  for (std::size_t cell = 0; cell < runs.size(); ++cell) {
+    std::uint32_t highest = 0;
+    const std::vector<Cell_collapse>& collapses = runs[cell].collapses;
+    for (std::size_t i = 0; i < collapses.size() && !(collapses[i].cost > limit); ++i) {
+      highest = std::max(highest, internal::class_of_cost(collapses[i].cost));
+      order.push_back({highest, cell, i});
+    }
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<Cell_collapse> result;
+  result.reserve(order.size());
+  for (const auto& [cost_class, cell, number] : order)
+    result.push_back(std::move(runs[cell].collapses[number]));
+  return result;
+}
+
 } // namespace
 
 Cell_collapses reduce_in_cells(const Cell_context& whole)
@@ -308,12 +334,7 @@ Cell_collapses reduce_in_cells(const Cell_context& whole)
                     tbb::simple_partitioner());
   result.is_stopped = stop.is_stopped();
   const double limit = result.is_stopped ? s_infinity : common_cost(runs);
-  for (const Cell_run& run : runs)
-    for (const Cell_collapse& found : run.collapses) {
-      if (found.cost > limit)
-        break;
-      result.collapses.push_back(found);
-    }
+  result.collapses = by_cost(runs, limit);
   return result;
 }
 

@@ -17,13 +17,23 @@
 namespace selvedge {
 namespace internal {
 
+/// Returns the class of a cost that is not NaN. There are eight classes from each power of two to the next;
+/// costs that are not positive are one class. It is the first bits of the representation of the number: its
+/// exponent, and three bits of the mantissa.
+inline std::uint32_t class_of_cost(double cost)
+{
+  std::uint64_t bits = 0;
+  if (cost > 0)
+    std::memcpy(&bits, &cost, sizeof bits);
+  return std::uint32_t(bits >> 49);
+}
+
 /// A priority queue of numbered edges by (cost, number): the cheapest edge comes first, and of equally cheap
 /// ones that with the lowest number, so that the order depends on the costs alone.
 ///
-/// In relaxed order, edges come by (class, tile, cost, number). There are eight classes of costs from each
-/// power of two to the next; costs that are not positive are one class. A tile is 16,384 edges with
-/// consecutive numbers. Where neighbours have near numbers, edges that come one after another are then near
-/// each other, also in memory.
+/// In relaxed order, edges come by (class, tile, cost, number), with the classes of `class_of_cost`. A tile
+/// is 16,384 edges with consecutive numbers. Where neighbours have near numbers, edges that come one after
+/// another are then near each other, also in memory.
 ///
 /// It exists because costs change while edges are in the queue: each edge knows its place in the heap of its
 /// tile. Every node of a heap has four children and holds its cost, so that a comparison reads no other
@@ -179,21 +189,12 @@ private:
   }
   Heap heap_of(Id edge) { return heap_at(edge >> m_tile_bits); }
 
-  // Returns the first bits of the representation of a number: its exponent, and three bits of the mantissa.
-  static Id class_of(double cost)
-  {
-    std::uint64_t bits = 0;
-    if (cost > 0)
-      std::memcpy(&bits, &cost, sizeof bits);
-    return Id(bits >> 49);
-  }
-
   // Tells the tournament which class the first edge of a tile has now.
   void update_key(std::size_t tile)
   {
     Id key = s_nowhere;
     if (m_sizes[tile] > 0)
-      key = class_of(CGAL::to_double(m_entries[tile << m_tile_bits].cost)) << s_bits_of_tiles | Id(tile);
+      key = class_of_cost(CGAL::to_double(m_entries[tile << m_tile_bits].cost)) << s_bits_of_tiles | Id(tile);
     std::size_t node = m_leaves + tile;
     while (m_keys[node] != key) {
       m_keys[node] = key;
