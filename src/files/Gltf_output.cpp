@@ -32,12 +32,13 @@ std::size_t next(std::vector<Index>& free, std::size_t size)
   return number;
 }
 
-void put_bounds(Json& accessor, const Gltf_scene::Column& column, std::size_t count)
+void put_bounds(Json& accessor, const Gltf_scene::Column& column)
 {
+  const std::size_t rows = column.rows.size() / column.row_size;
   Json least = Json::array(), largest = Json::array();
   for (std::size_t k = 0; k < column.components; ++k) {
     double low = component(column, 0, k), high = low;
-    for (std::size_t i = 1; i < count; ++i) {
+    for (std::size_t i = 1; i < rows; ++i) {
       low = std::min(low, component(column, i, k));
       high = std::max(high, component(column, i, k));
     }
@@ -58,8 +59,12 @@ Json description(const Gltf_scene::Column& column, std::size_t count)
 {
   Json result = column.accessor;
   result["count"] = count;
-  if (!column.rows.empty() && (column.name == "POSITION" || result.contains("min") || result.contains("max")))
-    put_bounds(result, column, count);
+  if (column.name != "POSITION" && !result.contains("min") && !result.contains("max"))
+    return result;
+  result.erase("min");
+  result.erase("max");
+  if (!column.rows.empty()) // those of indices that Draco holds are not known here
+    put_bounds(result, column);
   return result;
 }
 
@@ -236,9 +241,21 @@ void Gltf_output::require(const char* extension)
     document[key].push_back(extension);
 }
 
-// Puts the smallest valid accessor or buffer view where a removed primitive has left a number.
+// Removes the free accessors and buffer views at the end, and puts the smallest valid ones where others have
+// left a number.
 void Gltf_output::fill_free()
 {
+  const auto shorten = [](Json& elements, std::vector<Index>& free) {
+    while (!free.empty() && free.front() + 1 == elements.size()) {
+      elements.erase(elements.size() - 1);
+      free.erase(free.begin());
+    }
+  };
+  if (!m_free_accessors.empty())
+    shorten(document["accessors"], m_free_accessors);
+  if (!m_free_views.empty())
+    shorten(document["bufferViews"], m_free_views);
+  m_views.resize(document["bufferViews"].size());
   for (const Index number : m_free_accessors)
     document["accessors"][number] = {{"componentType", int(type_uint8)}, {"count", 1}, {"type", "SCALAR"}};
   for (const Index number : m_free_views) {

@@ -394,16 +394,9 @@ private:
         continue;
       }
       Json& primitive = meshes()[m_first_mesh + part.mesh]["primitives"][part.primitive];
-      // glTF does not allow the largest value of a type as an index.
-      const std::size_t size = m_sizes[part.instance];
-      const int type = part.index_type != 0 ? part.index_type
-                       : size < 0xffff      ? int(type_uint16)
-                                            : int(type_uint32);
-      Column column = {"indices", part.index_json, type, 1, component_size(type), {}};
-      column.accessor["type"] = "SCALAR";
-      column.accessor["componentType"] = type;
       primitive.erase("mode");
-      if (!put_compressible(part, corners[i], column, primitive)) {
+      if (!put_compressible(part, corners[i], primitive)) {
+        Column column = indices_of(part, m_sizes[part.instance]);
         column.rows.reserve(corners[i].size() * column.row_size);
         for (const Index corner : corners[i])
           append_index(column, corner);
@@ -415,10 +408,26 @@ private:
     }
   }
 
+  // Returns a column for the indices of so many vertices, without rows: of the type that the file has for
+  // them, where that is large enough.
+  static Column indices_of(const Gltf_scene::Part& part, std::size_t vertices)
+  {
+    const auto holds_all = [&](int type) {
+      // glTF does not allow the largest value of a type as an index.
+      return type != 0 && vertices < std::uint64_t(1) << 8 * component_size(type);
+    };
+    const int type = holds_all(part.index_type) ? part.index_type
+                     : holds_all(type_uint16)   ? int(type_uint16)
+                                                : int(type_uint32);
+    Column result = {"indices", part.index_json, type, 1, component_size(type), {}};
+    result.accessor["type"] = "SCALAR";
+    result.accessor["componentType"] = type;
+    return result;
+  }
+
   // Puts the columns that were compressed in the file: compressed again, with the corners, if no other
   // primitive has them, and plain otherwise. Returns whether they are compressed.
-  bool put_compressible(const Gltf_scene::Part& part, const std::vector<Index>& corners,
-                        const Column& indices, Json& primitive)
+  bool put_compressible(const Gltf_scene::Part& part, const std::vector<Index>& corners, Json& primitive)
   {
     const std::vector<Column> columns = std::exchange(m_compressible[part.instance], {});
     if (columns.empty())
@@ -441,9 +450,9 @@ private:
     }
     Json& put = m_output.compressed_primitive(encoded->bytes);
     if (put.is_null()) { // otherwise another level of detail has the same
-      put["indices"] = m_output.put_decoded_accessor(indices, corners.size());
+      put["indices"] = m_output.put_decoded_accessor(indices_of(part, encoded->vertices), corners.size());
       for (const Column& column : columns)
-        put["attributes"][column.name] = m_output.put_decoded_accessor(column, size);
+        put["attributes"][column.name] = m_output.put_decoded_accessor(column, encoded->vertices);
       put["extension"] = {{"bufferView", m_output.put_bytes(encoded->bytes)},
                           {"attributes", encoded->attributes}};
     }

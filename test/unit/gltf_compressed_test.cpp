@@ -247,6 +247,34 @@ bool has_remark(const Mesh_file& file, const std::string& what)
                      [&](const auto& remark) { return remark.first.find(what) != std::string::npos; });
 }
 
+TEST(Gltf_indices, AreOfALargerTypeWhereVerticesSplitByTheirNormalsAreTooMany)
+{
+  const Sheet sheet;
+  constexpr std::size_t vertices = 12 * s_side, corners = 11 * (s_side - 1) * 6;
+  Document_of_sheet document;
+  Json& attributes = document.primitive()["attributes"];
+  for (const auto& [name, rows] : {std::pair("POSITION", sheet.positions), {"NORMAL", sheet.normals}})
+    attributes[name] = document.add_accessor(
+        document.add_view(bytes_of(std::vector(rows.begin(), rows.begin() + 3 * vertices))), vertices, 5126,
+        "VEC3");
+  const std::vector<std::uint8_t> indices(sheet.indices.begin(), sheet.indices.begin() + corners);
+  document.primitive()["indices"] =
+      document.add_accessor(document.add_view(bytes_of(indices)), corners, 5121, "SCALAR");
+  Mesh_file file = read(document);
+  const auto type_written = [&] {
+    const Json json = json_of(expect_written_plain(file));
+    const std::size_t number = json["meshes"][0]["primitives"][0]["indices"];
+    return json["accessors"][number]["componentType"];
+  };
+  EXPECT_EQ(type_written(), 5121);
+  file.soup.normals = {};
+  for (std::size_t t = 0; t < file.soup.triangles.size(); ++t) {
+    file.soup.normals.values.push_back({std::sin(double(t)), std::cos(double(t)), 0});
+    file.soup.normals.of_triangle.push_back({Index(t), Index(t), Index(t)});
+  }
+  EXPECT_EQ(type_written(), 5123);
+}
+
 TEST(Gltf_dead_views, AreNotWrittenUnlessSomethingUnknownMayReferToThem)
 {
   const Temporary_folder folder;
@@ -617,9 +645,45 @@ TEST(Gltf_draco, IsWrittenAsItCameBitForBit)
   for (const bool is_quantised : {false, true}) {
     const Document_of_sheet document = draco_sheet(true, is_quantised);
     EXPECT_LE(expect_written_by(read(document), {s_draco}).size(),
-              document.glb().size() + (is_quantised ? 100 : 1500));
+              document.glb().size() + 120); // the bounds of positions are new
     expect_levels_written_by(read(document), {s_draco});
   }
+}
+
+TEST(Gltf_draco, HasItsOwnOrderAlsoWhereFansOfFacesMeet)
+{
+  Mesh_file file = read(draco_sheet(true));
+  // Of two squares that touch at a vertex.
+  const auto is_of_squares = [&](const Index_triple& triangle) {
+    double x = 0, y = 0;
+    for (const Index v : triangle) {
+      x += file.soup.points[v].x() * 7 / 3;
+      y += file.soup.points[v].y() * 7 / 3;
+    }
+    return (x < 10) == (y < 10);
+  };
+  std::vector<Index> kept;
+  for (std::size_t t = 0; t < file.soup.triangles.size(); ++t)
+    if (is_of_squares(file.soup.triangles[t]))
+      kept.push_back(Index(t));
+  keep_triangles(file.soup, kept);
+  std::set<Index> used;
+  for (const Index_triple& triangle : file.soup.triangles)
+    used.insert(triangle.begin(), triangle.end());
+  const std::string glb = expect_written_by(file, {s_draco});
+  const Triangle_soup again = read_mesh(glb, Mesh_format::glb, "again").soup;
+  EXPECT_EQ(again.points.size(), used.size() + 1);
+  const Json json = json_of(glb);
+  const Json& attributes = json["meshes"][0]["primitives"][0]["attributes"];
+  EXPECT_EQ(json["accessors"][attributes["POSITION"].get<int>()]["count"], again.points.size());
+  constexpr std::size_t method = 8; // in the head of Draco's bytes; 1 stands for edgebreaker
+  EXPECT_EQ(glb[glb.find("DRACO") + method], 1);
+
+  // In the order of the vertices, none is split.
+  file.soup.poses = {{"raised", file.soup.points, 0}};
+  const std::string in_order = expect_written_by(file, {s_draco});
+  EXPECT_EQ(in_order[in_order.find("DRACO") + method], 0);
+  EXPECT_EQ(read_mesh(in_order, Mesh_format::glb, "again").soup.points.size(), used.size());
 }
 
 TEST(Gltf_draco, KeepsVerticesApartThatDifferInNothing)
