@@ -332,9 +332,9 @@ private:
         continue;
       const Gltf_scene::Instance& instance = m_scene.instances[i];
       const auto put = [&](const Column& column, const auto& bytes_of) {
-        Column left = {column.name,       column.accessor,    column.component_type,
-                       column.components, column.row_size,    {},
-                       column.is_sparse,  column.compression, column.quantised_accessor};
+        Column left = {
+            column.name, column.accessor,  column.component_type, column.components,         column.row_size,
+            {},          column.is_sparse, column.compression,    column.quantised_accessor, column.place};
         left.rows.reserve(vertices[i].size() * column.row_size);
         Cancellation_poll poll;
         for (const Vertices_by_normal::Vertex& v : vertices[i]) {
@@ -347,7 +347,7 @@ private:
           m_compressible[i].push_back(std::move(left));
           return std::size_t(0);
         }
-        return m_output.put_accessor(left, vertices[i].size(), Gltf_output::Target::vertices);
+        return m_output.put_accessor(left, vertices[i].size(), Gltf_output::Target::vertices, i);
       };
       const auto put_rows = [&](const Column& column) {
         return put(column, [&](const Vertices_by_normal::Vertex& v) {
@@ -422,6 +422,7 @@ private:
     Column result = {"indices", part.index_json, type, 1, component_size(type), {}};
     result.accessor["type"] = "SCALAR";
     result.accessor["componentType"] = type;
+    result.place = part.index_place;
     return result;
   }
 
@@ -445,7 +446,7 @@ private:
     if (!encoded) {
       for (const Column& column : columns)
         m_attributes[part.instance][column.name] =
-            m_output.put_accessor(column, size, Gltf_output::Target::vertices);
+            m_output.put_accessor(column, size, Gltf_output::Target::vertices, part.instance);
       return false;
     }
     Json& put = m_output.compressed_primitive(encoded->bytes);

@@ -275,6 +275,97 @@ TEST(Gltf_indices, AreOfALargerTypeWhereVerticesSplitByTheirNormalsAreTooMany)
   EXPECT_EQ(type_written(), 5123);
 }
 
+/// Two sheets, one above the other, in two buffer views: one of positions and normals, one of indices.
+Document_of_sheet sheets_in_two_views()
+{
+  const Sheet sheet;
+  Document_of_sheet document;
+  std::vector<float> rows;
+  for (const float height : {0.f, 1.f})
+    for (std::size_t i = 0; i < sheet.positions.size(); i += 3) {
+      rows.insert(rows.end(), &sheet.positions[i], &sheet.positions[i] + 3);
+      rows.back() += height;
+      rows.insert(rows.end(), &sheet.normals[i], &sheet.normals[i] + 3);
+      rows[rows.size() - 2] = height; // so that no column is the same in both
+    }
+  std::vector<std::uint16_t> indices = sheet.indices;
+  indices.insert(indices.end(), sheet.indices.begin(), sheet.indices.end());
+  const std::size_t vertices = document.add_view(bytes_of(rows)),
+                    corners = document.add_view(bytes_of(indices));
+  document.json["bufferViews"][vertices]["byteStride"] = 24;
+  const auto add = [&](std::size_t view, std::size_t offset, std::size_t count, int type, const char* name) {
+    const std::size_t accessor = document.add_accessor(view, count, type, name);
+    document.json["accessors"][accessor]["byteOffset"] = offset;
+    return accessor;
+  };
+  document.json["meshes"][0]["primitives"].push_back(document.primitive());
+  for (const std::size_t i : {0, 1}) {
+    Json& primitive = document.json["meshes"][0]["primitives"][i];
+    primitive["attributes"] = {{"POSITION", add(vertices, 24 * i * s_vertices, s_vertices, 5126, "VEC3")},
+                               {"NORMAL", add(vertices, 24 * i * s_vertices + 12, s_vertices, 5126, "VEC3")}};
+    primitive["indices"] = add(corners, 2 * i * sheet.indices.size(), sheet.indices.size(), 5123, "SCALAR");
+  }
+  return document;
+}
+
+/// Returns the buffer view of an attribute of a primitive.
+std::size_t view_of(const Json& json, std::size_t mesh, std::size_t primitive, const char* attribute)
+{
+  const Json& attributes = json["meshes"][mesh]["primitives"][primitive]["attributes"];
+  return json["accessors"][attributes[attribute].get<std::size_t>()]["bufferView"];
+}
+
+TEST(Gltf_views, AreSharedByTheColumnsThatSharedThemInTheFile)
+{
+  Mesh_file file = read(sheets_in_two_views());
+  for (const bool is_half : {false, true}) {
+    if (is_half) {
+      std::vector<Index> half;
+      for (Index t = 0; t < file.soup.triangles.size(); t += 2)
+        half.push_back(t);
+      keep_triangles(file.soup, half);
+    }
+    const Json json = json_of(expect_written_plain(file));
+    EXPECT_EQ(json["bufferViews"].size(), 2u);
+    for (const std::size_t i : {0, 1})
+      for (const char* attribute : {"POSITION", "NORMAL"})
+        EXPECT_EQ(view_of(json, 0, i, attribute), view_of(json, 0, 0, "POSITION"));
+    EXPECT_EQ(json["bufferViews"][view_of(json, 0, 0, "POSITION")]["byteStride"], 24);
+  }
+  Document_of_sheet apart = plain_sheet();
+  EXPECT_EQ(json_of(expect_written_plain(read(apart)))["bufferViews"].size(), 3u);
+}
+
+TEST(Gltf_views, AreNotInterleavedWhereLevelsOfDetailShareTheFirstRows)
+{
+  const Mesh_file file = read(sheets_in_two_views());
+  Triangle_soup half = file.soup;
+  std::vector<Index> first_half(half.triangles.size() / 2);
+  std::iota(first_half.begin(), first_half.end(), Index(0));
+  keep_triangles(half, first_half);
+  for (Index_triple& triple : half.normals.of_triangle)
+    triple.fill(Index(half.normals.values.size()));
+  half.normals.values.push_back({1, 0, 0});
+  const std::vector<Triangle_soup> levels = {file.soup, half};
+  const Temporary_folder folder;
+  write_levels_of_detail(folder / "m.glb", levels);
+  const Json json = json_of(read_file(folder / "m.glb"));
+  EXPECT_EQ(view_of(json, 1, 0, "POSITION"), view_of(json, 0, 0, "POSITION"));
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    Read_options options;
+    options.level_of_detail = level;
+    const Triangle_soup again = read_mesh(folder / "m.glb", options).soup;
+    EXPECT_EQ(triangles_of(again), triangles_of(levels[level]));
+    const auto normals_of = [](const Triangle_soup& soup) {
+      std::vector<std::array<double, 3>> result;
+      for (const Index_triple& triple : soup.normals.of_triangle)
+        result.push_back(soup.normals.values[triple[0]]);
+      return result;
+    };
+    EXPECT_TRUE(normals_of(again) == normals_of(levels[level]));
+  }
+}
+
 TEST(Gltf_dead_views, AreNotWrittenUnlessSomethingUnknownMayReferToThem)
 {
   const Temporary_folder folder;
