@@ -26,7 +26,8 @@ namespace selvedge {
 /// 2. *Written* (G3): `read_mesh(p)` after `write_mesh(p, soup)` gives the same coordinates bit for bit, the
 ///    same triangles in the same order, and the same number of every vertex. STL, which has no vertex
 ///    numbers, gives the same triangles up to those numbers (and the sign of zeros); so do PLY and glTF where
-///    vertices are split (**Flat shading**).
+///    vertices are split (**Flat shading**), and glTF where they are compressed as in the file, which may
+///    change their order and that of the triangles.
 /// 3. *Refusal* (G9): a file that is not a mesh with at least one triangle and finite coordinates is refused
 ///    with an `Input_error` of one line, which names the file, the line (in text), the element, and how to
 ///    mend it. Whatever a file contains, however damaged it is, it is either read or refused in this way.
@@ -206,6 +207,10 @@ struct Write_options
   std::optional<Mesh_format> format = std::nullopt;
 };
 
+/// What a file got otherwise than the one that its mesh was read from, and how often: all that may make it
+/// the larger of the two. Empty but for glTF.
+using Write_notes = std::map<std::string, std::size_t>;
+
 /// Writes a mesh. The path's extension says the format.
 ///
 /// The whole file is written to a new file in the same folder, brought to the disk, and only then renamed to
@@ -237,8 +242,8 @@ struct Write_options
 /// each of its positions is that of some vertex of the file under the same transform. Labels in an OBJ file
 /// are one line, neither begin nor end with a blank, and do not end in a backslash. Names of attributes in a
 /// PLY file hold no blanks and do not end in a backslash.
-void write_mesh(const std::filesystem::path& path, const Triangle_soup& soup,
-                const Write_options& options = {});
+Write_notes write_mesh(const std::filesystem::path& path, const Triangle_soup& soup,
+                       const Write_options& options = {});
 
 /// Writes one mesh in all of its levels of detail, from fine to coarse, to one glTF file with the extension
 /// MSFT_lod: reading each of them (`Read_options::level_of_detail`) gives what reading it from a file of its
@@ -256,8 +261,9 @@ void write_mesh(const std::filesystem::path& path, const Triangle_soup& soup,
 ///
 /// **Not promised** Levels of different nodes side by side: a program may show one node at one level and its
 /// neighbour at another, which no judge of a level has seen.
-void write_levels_of_detail(const std::filesystem::path& path, const std::vector<Triangle_soup>& levels,
-                            const Write_options& options = {});
+Write_notes write_levels_of_detail(const std::filesystem::path& path,
+                                   const std::vector<Triangle_soup>& levels,
+                                   const Write_options& options = {});
 
 /// Returns the names of what this soup holds and a file of that format does not; empty when it holds all.
 std::vector<std::string> not_carried(const Triangle_soup& soup, Mesh_format format);

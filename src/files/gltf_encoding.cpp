@@ -329,9 +329,11 @@ std::optional<Draco_primitive> encoded_by_draco(const std::vector<Column>& colum
   }
   if (bytes.size() >= size)
     return std::nullopt;
-  Draco_primitive result = {std::move(bytes), Gltf_scene::Json::object(), points};
-  for (std::size_t i = 0; i < columns.size(); ++i)
+  Draco_primitive result = {std::move(bytes), Gltf_scene::Json::object(), points, 0};
+  for (std::size_t i = 0; i < columns.size(); ++i) {
     result.attributes[columns[i].name] = mesh->attribute(int(i))->unique_id();
+    result.unquantised += columns[i].compression->quantisation && !packed[i].quantisation;
+  }
   return result;
 #else
   static_cast<void>(columns);

@@ -22,6 +22,7 @@ struct Draco_primitive
   std::string bytes;
   Gltf_scene::Json attributes; ///< numbers in the bytes, by name
   std::size_t vertices;        ///< that decoding gives
+  std::size_t unquantised;     ///< columns that are not quantised any more
 };
 
 /// Compresses a primitive by Draco, such that decoding gives the very same bits: columns are quantised as

@@ -787,6 +787,8 @@ group(
     draco,
     ("m_soup.poses.empty() && of_part.targets.empty()", "of_part.targets.empty()",
      "Draco reorders a mesh with poses"),
+    ("else if (left.quantised_accessor)", "else if (false)", "floats in place of whole numbers are not noted"),
+    ("holds_all(part.index_type) ?", "part.index_type != 0 ?", "indices are cut off"),
     ("m_split = vertices_by_normal(soup, m_normals);", "m_split = vertices_by_normal(soup, soup.normals);",
      "vertices are split whose new normals are one in the file"),
 )

@@ -273,6 +273,11 @@ TEST(Gltf_indices, AreOfALargerTypeWhereVerticesSplitByTheirNormalsAreTooMany)
     file.soup.normals.of_triangle.push_back({Index(t), Index(t), Index(t)});
   }
   EXPECT_EQ(type_written(), 5123);
+  const Temporary_folder folder;
+  const Write_notes notes = write_mesh(folder / "m.glb", file.soup);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes.begin()->first.find("vertices beyond those of the input"), 0u);
+  EXPECT_EQ(notes.begin()->second, read_mesh(folder / "m.glb").soup.points.size() - vertices);
 }
 
 /// Two sheets, one above the other, in two buffer views: one of positions and normals, one of indices.
@@ -477,7 +482,11 @@ TEST(Gltf_quantised, BecomesFloatsInAColumnThatHasANewNumber)
   Mesh_file file = read(quantised_sheet());
   file.soup.points[5] = Point_3(0.5, 0.25, 0.125);
   const Temporary_folder folder;
-  write_mesh(folder / "m.glb", file.soup);
+  EXPECT_TRUE(write_mesh(folder / "m.glb", read(quantised_sheet()).soup).empty());
+  const Write_notes notes = write_mesh(folder / "m.glb", file.soup);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes.begin()->first.find("attributes that are floats now"), 0u);
+  EXPECT_EQ(notes.begin()->second, 1u);
   EXPECT_EQ(read_mesh(folder / "m.glb").soup.points, file.soup.points);
   const Json accessors = accessors_of(json_of(read_file(folder / "m.glb")));
   EXPECT_EQ(accessors["POSITION"]["componentType"], 5126);
@@ -803,6 +812,11 @@ TEST(Gltf_draco, KeepsPlacesThatItsQuantisationDoesNotHave)
   Mesh_file file = read(draco_sheet(true, true));
   file.soup.points[7] = Point_3(0.3f, 0.71f, 0.0123f);
   expect_written_by(file, {s_draco});
+  const Temporary_folder folder;
+  const Write_notes notes = write_mesh(folder / "m.glb", file.soup);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes.begin()->first.find("attributes that Draco holds as floats"), 0u);
+  EXPECT_EQ(notes.begin()->second, 1u);
 }
 
 TEST(Gltf_draco, KeepsTheOrderOfAMeshInSeveralPoses)
@@ -812,6 +826,10 @@ TEST(Gltf_draco, KeepsTheOrderOfAMeshInSeveralPoses)
   const Triangle_soup again = read_mesh(expect_written_by(file, {s_draco}), Mesh_format::glb, "again").soup;
   EXPECT_EQ(again.points, file.soup.points);
   EXPECT_EQ(again.triangles, file.soup.triangles);
+  const Temporary_folder folder;
+  const Write_notes notes = write_mesh(folder / "m.glb", file.soup);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes.begin()->first.find("primitives that Draco holds in the order of their vertices"), 0u);
 }
 
 TEST(Gltf_draco, IsReadAsThePlainFile)
