@@ -215,15 +215,13 @@ std::string encoded(const draco::Mesh& mesh, const std::vector<Packed_column>& c
   return bytes;
 }
 
-/// Returns what bytes stand for; null if they have fewer vertices than `mesh`, another number of faces, or
-/// other attributes. Edgebreaker makes several vertices of one at which fans of faces meet.
+/// Returns what bytes stand for; null if they have another number of faces than `mesh`, or other attributes.
 std::unique_ptr<draco::Mesh> decoded(const std::string& bytes, const draco::Mesh& mesh)
 {
   draco::DecoderBuffer buffer;
   buffer.Init(bytes.data(), bytes.size());
   auto result = draco::Decoder().DecodeMeshFromBuffer(&buffer);
-  if (bytes.empty() || !result.ok() || result.value()->num_points() < mesh.num_points() ||
-      result.value()->num_faces() != mesh.num_faces())
+  if (bytes.empty() || !result.ok() || result.value()->num_faces() != mesh.num_faces())
     return nullptr;
   for (int i = 0; i < mesh.num_attributes(); ++i) {
     const draco::PointAttribute* const attribute =
@@ -242,21 +240,40 @@ std::string_view row_of(const draco::Mesh& mesh, std::uint32_t id, std::uint32_t
           std::size_t(attribute.byte_stride())};
 }
 
-/// Returns the triangles as the bytes of their corners, from the least corner on, in ascending order.
-template <class Row_of>
-std::vector<std::string> triangles_of(const draco::Mesh& mesh, std::size_t columns, const Row_of& row)
+/// What a mesh holds, whatever the order of its vertices and triangles: their bytes, in ascending order.
+/// Those of a triangle are from its least corner on.
+struct Contents
 {
-  std::vector<std::string> result;
-  for (draco::FaceIndex i(0); i < mesh.num_faces(); ++i) {
-    std::array<std::string, 3> corners;
-    for (std::size_t k = 0; k < 3; ++k)
-      for (std::size_t column = 0; column < columns; ++column)
-        corners[k] += row(column, mesh.face(i)[k].value());
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-    result.push_back(corners[0] + corners[1] + corners[2]);
+  std::vector<std::string> vertices, triangles;
+};
+
+template <class Row_of>
+Contents contents_of(const draco::Mesh& mesh, std::size_t columns, const Row_of& row)
+{
+  Contents result;
+  for (std::uint32_t vertex = 0; vertex < mesh.num_points(); ++vertex) {
+    std::string& bytes = result.vertices.emplace_back();
+    for (std::size_t column = 0; column < columns; ++column)
+      bytes += row(column, vertex);
   }
-  std::sort(result.begin(), result.end());
+  for (draco::FaceIndex i(0); i < mesh.num_faces(); ++i) {
+    std::array<std::string_view, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k)
+      corners[k] = result.vertices[mesh.face(i)[k].value()];
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    result.triangles.push_back(std::string(corners[0]).append(corners[1]).append(corners[2]));
+  }
+  std::sort(result.vertices.begin(), result.vertices.end());
+  std::sort(result.triangles.begin(), result.triangles.end());
   return result;
+}
+
+/// Whether the triangles are the same, and no vertices have become one.
+bool is_same_but_split(const Contents& contents, const Contents& again)
+{
+  return again.triangles == contents.triangles &&
+         std::includes(again.vertices.begin(), again.vertices.end(), contents.vertices.begin(),
+                       contents.vertices.end());
 }
 
 } // namespace
@@ -309,20 +326,22 @@ std::optional<Draco_primitive> encoded_by_draco(const std::vector<Column>& colum
   const bool are_all_different =
       std::all_of(copies.begin(), copies.end(), [](std::uint32_t copy) { return copy == 0; });
   const std::size_t choices = !may_reorder ? 0 : are_all_different ? 1 : columns.size();
-  std::vector<std::string> triangles;
+  std::optional<Contents> contents;
   for (std::size_t apart = 0; apart < choices; ++apart) {
     Cancellation_scope::check();
     mesh = draco_mesh(packed, corners, copies, apart);
     std::string reordered = encoded(*mesh, packed, draco::MESH_EDGEBREAKER_ENCODING);
     if (reordered.size() >= bytes.size())
       continue;
-    if (triangles.empty())
-      triangles = triangles_of(*mesh, columns.size(),
-                               [&](std::size_t i, std::uint32_t row) { return row_of(columns[i], row); });
+    if (!contents)
+      contents = contents_of(*mesh, columns.size(),
+                             [&](std::size_t i, std::uint32_t row) { return row_of(columns[i], row); });
+    // Edgebreaker makes several vertices of one at which fans of faces meet.
     const std::unique_ptr<draco::Mesh> again = decoded(reordered, *mesh);
-    if (!again || triangles != triangles_of(*again, columns.size(), [&](std::size_t i, std::uint32_t row) {
-                    return row_of(*again, mesh->attribute(int(i))->unique_id(), row);
-                  }))
+    if (!again || !is_same_but_split(
+                      *contents, contents_of(*again, columns.size(), [&](std::size_t i, std::uint32_t row) {
+                        return row_of(*again, mesh->attribute(int(i))->unique_id(), row);
+                      })))
       continue;
     bytes = std::move(reordered);
     points = again->num_points();
