@@ -778,8 +778,8 @@ group(
     draco,
     ("packed[i].quantisation.reset();\n      is_same = false;", ";", "Draco's quantisation moves vertices"),
     ("bytes.replace(place, steps.size(), box(origin, range));", ";", "the box of the quantisation is not put back"),
-    ("i == apart ? copies[row] : 0", "0",
-     "Draco makes one vertex of those that differ in nothing"),
+    ("i == apart ? copies[row] : 0", "std::uint32_t(apart * 0)",
+     "Draco would make one vertex of those that differ in nothing, so that it may not reorder them"),
     ("points = again->num_points();", ";", "accessors have too few vertices where Draco splits some"),
 )
 group(
