@@ -590,8 +590,8 @@ group(
 group(
     "src/files/Gltf_output.cpp",
     ("gltf_test:Gltf_levels.*",),
-    ("m_views[view].compare(0, bytes.size(), bytes) == 0", "true", "rows that begin alike are taken for the same"),
-    ("[\"byteStride\"] = stride; // must", "; // must", "several accessors of a view without a stride"),
+    ("m_rows[range.first->second].bytes.compare(0, bytes.size(), bytes) == 0", "true", "rows that begin alike are taken for the same"),
+    ("[\"byteStride\"] = rows.stride; // must", "; // must", "several accessors of a view without a stride"),
 )
 group(
     "src/files/united_levels.cpp",
