@@ -798,7 +798,7 @@ group(
     ("    return kept->second;", "    return std::nullopt;", "compressed views that are kept become plain"),
     ("  if (!m_may_share_rows)\n    interleave();", "", "columns that were interleaved are not any more"),
     ("  if (!m_may_share_rows)\n    interleave();", "  interleave();", "levels of detail share no rows of interleaved columns"),
-    ("json[\"byteOffset\"] = offset;", ";", "columns begin where their view does"),
+    ("json[\"byteOffset\"] = offset;", "json[\"byteOffset\"] = 0;", "columns begin where their view does"),
 )
 group(
     "src/files/gltf_quantization.cpp",

@@ -344,14 +344,14 @@ TEST(Gltf_views, AreSharedByTheColumnsThatSharedThemInTheFile)
 TEST(Gltf_views, AreNotInterleavedWhereLevelsOfDetailShareTheFirstRows)
 {
   const Mesh_file file = read(sheets_in_two_views());
-  Triangle_soup half = file.soup;
-  std::vector<Index> first_half(half.triangles.size() / 2);
-  std::iota(first_half.begin(), first_half.end(), Index(0));
-  keep_triangles(half, first_half);
-  for (Index_triple& triple : half.normals.of_triangle)
-    triple.fill(Index(half.normals.values.size()));
-  half.normals.values.push_back({1, 0, 0});
-  const std::vector<Triangle_soup> levels = {file.soup, half};
+  Triangle_soup coarse = file.soup;
+  std::vector<Index> first_quarter(coarse.triangles.size() / 4);
+  std::iota(first_quarter.begin(), first_quarter.end(), Index(0));
+  keep_triangles(coarse, first_quarter);
+  for (Index_triple& triple : coarse.normals.of_triangle)
+    triple.fill(Index(coarse.normals.values.size()));
+  coarse.normals.values.push_back({1, 0, 0});
+  const std::vector<Triangle_soup> levels = {file.soup, coarse};
   const Temporary_folder folder;
   write_levels_of_detail(folder / "m.glb", levels);
   const Json json = json_of(read_file(folder / "m.glb"));
