@@ -124,12 +124,21 @@ CLI::Option* add_polygons_option(CLI::App& command, bool& are_split)
       ->default_str("keep");
 }
 
-void write_output(const fs::path& name, const Triangle_soup& soup, Mesh_format format, bool is_ascii)
+std::uintmax_t size_of_file(const fs::path& path)
 {
+  std::error_code error;
+  const std::uintmax_t size = fs::is_regular_file(path, error) ? fs::file_size(path, error) : 0;
+  return error ? 0 : size;
+}
+
+Write_notes write_output(const fs::path& name, const Triangle_soup& soup, Mesh_format format, bool is_ascii)
+{
+  Write_notes notes;
   Write_options options;
   options.format = format;
   options.encoding = is_ascii ? Encoding::ascii : Encoding::binary;
-  write_as_output(name, [&](const fs::path& path) { write_mesh(path, soup, options); });
+  write_as_output(name, [&](const fs::path& path) { notes = write_mesh(path, soup, options); });
+  return notes;
 }
 
 void write_output(const fs::path& name, const std::vector<Triangle_soup>& levels, Mesh_format format)

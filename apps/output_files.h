@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -44,10 +45,13 @@ bool is_standard_output(const std::filesystem::path& name);
 /// Adds `--polygons`; `are_split` says that triangles are wanted.
 CLI::Option* add_polygons_option(CLI::App& command, bool& are_split);
 
+/// Returns the size of a file in bytes; 0 where there is none, or something else (a pipe).
+std::uintmax_t size_of_file(const std::filesystem::path& path);
+
 /// Writes a mesh as `write_mesh` does, but throws `Output_error` when the format cannot hold it: the command
 /// line is not at fault then.
-void write_output(const std::filesystem::path& name, const Triangle_soup& soup, Mesh_format format,
-                  bool is_ascii);
+Write_notes write_output(const std::filesystem::path& name, const Triangle_soup& soup, Mesh_format format,
+                         bool is_ascii);
 
 /// Does the same for several levels of detail in one file, as `write_levels_of_detail` does.
 void write_output(const std::filesystem::path& name, const std::vector<Triangle_soup>& levels,

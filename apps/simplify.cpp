@@ -343,11 +343,15 @@ private:
         {"not_carried", dropped}};
   }
 
-  void write(const Prepared_soup& prepared, const std::vector<Level>& levels)
+  void write(const Prepared_soup& prepared, std::vector<Level>& levels)
   {
     const Clock::time_point start = Clock::now();
     if (m_outcome.is_written()) {
       m_bar.begin("writing");
+      const bool is_of_same_format = format_of(m_request.input, m_request.format) == output_format() &&
+                                     is_gzip(m_request.input) == is_gzip(m_request.output);
+      // The output may take the place of the input.
+      const std::uintmax_t size_before = is_of_same_format ? size_of_file(m_request.input) : 0;
       // Merging changes nothing but vertex numbers: the verdict on positions stands.
       if (are_levels_in_one_file(m_request)) {
         std::vector<Triangle_soup> soups;
@@ -356,10 +360,14 @@ private:
         write_output(m_request.output, soups, output_format());
         m_files_written.push_back(m_request.output);
       }
-      for (const Level& level : levels) {
+      for (Level& level : levels) {
         if (level.number == 0) {
-          write_output(level.output, written(level.result), output_format(), m_request.is_ascii);
+          level.notes =
+              write_output(level.output, written(level.result), output_format(), m_request.is_ascii);
           m_files_written.push_back(level.output);
+          const std::uintmax_t size = size_of_file(output_path(level.output));
+          if (size > size_before && size_before > 0)
+            level.bytes_more = size - size_before;
         }
         write_poses(level.result.soup, std::size_t(&level - levels.data()) + 1);
       }
@@ -407,13 +415,15 @@ private:
       return;
     double seconds_parts = 0;
     const auto add_level = [&](Json& json, const Level& level) {
-      json["output"] = {{"path", level.output},
-                        {"written", m_outcome.is_written()},
-                        {"level", level.number == 0 ? Json(nullptr) : Json(level.number)},
-                        {"polygons", level.polygons.output},
-                        {"not_carried", dropped},
-                        {"references", m_references},
-                        {"normals", name_of(prepared.normals)}};
+      json["output"] = {
+          {"path", level.output},
+          {"written", m_outcome.is_written()},
+          {"level", level.number == 0 ? Json(nullptr) : Json(level.number)},
+          {"polygons", level.polygons.output},
+          {"larger", level.bytes_more == 0 ? Json(nullptr) : Json(enlargement(m_request, level))},
+          {"not_carried", dropped},
+          {"references", m_references},
+          {"normals", name_of(prepared.normals)}};
       if (&json == &m_report)
         json["options"] = options_json(m_request);
       add_reduction(json, prepared, level.result);

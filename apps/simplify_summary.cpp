@@ -273,7 +273,7 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
 void print_summary(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
                    const Level& level, const Outcome& outcome)
 {
-  const auto& [output, result, verification, guarded, polygons, number] = level;
+  const auto& [output, result, verification, guarded, polygons, number, notes, bytes_more] = level;
   const Simplify_report& done = result.report;
   const std::size_t faces = result.soup.triangles.size();
   const Distance& distance = verification.distances->original_to_result;
@@ -345,11 +345,32 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
     stream << "worst deviation " << percent(distance.maximum) << " of the size, "
            << place_of(distance.farthest, prepared.soup) << '\n';
   stream << (outcome.is_written() ? "written: " : "NOT written: ") << name_of(level) << std::endl;
+  if (const std::string sentence = enlargement(request, level); !sentence.empty())
+    stream << sentence << std::endl;
+}
+
+std::string enlargement(const Simplify_request& request, const Level& level)
+{
+  if (level.bytes_more == 0)
+    return "";
+  std::string why;
+  if (level.polygons.output < level.polygons.input)
+    why = with_commas(level.polygons.input - level.polygons.output) +
+          " faces of more than three corners are triangles now";
+  for (const auto& [what, count] : level.notes)
+    why += (why.empty() ? "" : "; ") + with_commas(count) + " " + what;
+  if (why.empty() && request.is_ascii)
+    why = "--ascii writes numbers as text";
+  if (why.empty() && format_of(request.output, request.format) == Mesh_format::gltf)
+    why = "a .gltf file has its buffers in it as text, which takes a third more than a .glb file";
+  return "larger than the input by " + counted(level.bytes_more, "byte") + ": " +
+         (why.empty() ? "the input was packed more tightly than is known here" : why);
 }
 
 std::string complaint(const Simplify_request& request, const Level& level, const Outcome& outcome)
 {
-  const auto& [output, result, verification, guarded, polygons, number] = level;
+  const Simplified_soup& result = level.result;
+  const Verification& verification = level.verification;
   const std::string where = request.lods.empty() ? "" : name_of(level) + ": ";
   if (!outcome.is_written()) {
     if (verification.accepted() && verification.same_topology())

@@ -7,9 +7,11 @@
 #include "Outcome.h"
 #include "Simplify_request.h"
 
+#include <selvedge/mesh_files.h>
 #include <selvedge/simplify.h>
 #include <selvedge/verify.h>
 
+#include <cstdint>
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -31,7 +33,13 @@ struct Level
   } polygons;
 
   std::size_t number = 0; ///< among the levels in the file, from 1; 0 where it is alone there
+
+  Write_notes notes = {};        ///< on the file, where it is alone there
+  std::uintmax_t bytes_more = 0; ///< than the input has, where this is of the same format
 };
+
+/// Says in a sentence that the file is larger than the input, and why; empty where it is not.
+std::string enlargement(const Simplify_request& request, const Level& level);
 
 /// Returns the name of the file, and which of its levels this is where it holds several.
 std::string name_of(const Level& level);

@@ -26,7 +26,8 @@ namespace selvedge {
 /// 2. *Written* (G3): `read_mesh(p)` after `write_mesh(p, soup)` gives the same coordinates bit for bit, the
 ///    same triangles in the same order, and the same number of every vertex. STL, which has no vertex
 ///    numbers, gives the same triangles up to those numbers (and the sign of zeros); so do PLY and glTF where
-///    vertices are split (**Flat shading**).
+///    vertices are split (**Flat shading**), and glTF where they are compressed as in the file, which may
+///    change their order and that of the triangles.
 /// 3. *Refusal* (G9): a file that is not a mesh with at least one triangle and finite coordinates is refused
 ///    with an `Input_error` of one line, which names the file, the line (in text), the element, and how to
 ///    mend it. Whatever a file contains, however damaged it is, it is either read or refused in this way.
@@ -71,13 +72,15 @@ namespace selvedge {
 /// back into its node, and rounded to what the file can hold where it has them quantised; without normals,
 /// the file gets neither NORMAL nor TANGENT. The rest of the document stays as it is: images byte for byte,
 /// addresses of files, numbers of accessors and buffer views. Accessors that were quantised or compressed are
-/// so again, where reading them gives the same numbers. Exceptions: a mesh that stands in several places
-/// (nodes or instances) becomes several, one for all places
-/// in which it has the same triangles of the same vertices, with the normals of the first of them; instances
-/// that have come to differ become nodes, without the extension's own attributes; accessors of triangles are
-/// written without gaps, and in full unless the file has nothing but sparse values for them, buffers become
-/// one, and bytes that nothing can refer to go. Primitives of points or lines, and meshes outside the scene,
-/// stay as they are. Those without a triangle left are removed.
+/// so again, where reading them gives the same numbers; of a vertex at which fans of faces meet, Draco may
+/// make one for each fan. Exceptions: a mesh that stands in several places (nodes or instances) becomes
+/// several, one for all places in which it has the same triangles of the same vertices, with the normals of
+/// the first of them; instances that have come to differ become nodes, without the extension's own
+/// attributes; accessors of triangles are written without gaps, and in full unless the file has nothing but
+/// sparse values for them; those that shared a buffer view share one again, one behind the other or, if one
+/// level of detail is written, interleaved as they were; buffers become one, and bytes that nothing can refer
+/// to go, as do accessors and buffer views at the end of their lists. Primitives of points or lines, and
+/// meshes outside the scene, stay as they are. Those without a triangle left are removed.
 ///
 /// **Flat shading.** PLY and glTF hold one normal for each vertex, so that a file with a normal for each face
 /// has several vertices at every corner of its mesh. Where the normals are flat (normals.h), triangles name
@@ -204,6 +207,10 @@ struct Write_options
   std::optional<Mesh_format> format = std::nullopt;
 };
 
+/// What a file got otherwise than the one that its mesh was read from, and how often: all that may make it
+/// the larger of the two. Empty but for glTF.
+using Write_notes = std::map<std::string, std::size_t>;
+
 /// Writes a mesh. The path's extension says the format.
 ///
 /// The whole file is written to a new file in the same folder, brought to the disk, and only then renamed to
@@ -235,8 +242,8 @@ struct Write_options
 /// each of its positions is that of some vertex of the file under the same transform. Labels in an OBJ file
 /// are one line, neither begin nor end with a blank, and do not end in a backslash. Names of attributes in a
 /// PLY file hold no blanks and do not end in a backslash.
-void write_mesh(const std::filesystem::path& path, const Triangle_soup& soup,
-                const Write_options& options = {});
+Write_notes write_mesh(const std::filesystem::path& path, const Triangle_soup& soup,
+                       const Write_options& options = {});
 
 /// Writes one mesh in all of its levels of detail, from fine to coarse, to one glTF file with the extension
 /// MSFT_lod: reading each of them (`Read_options::level_of_detail`) gives what reading it from a file of its
@@ -254,8 +261,9 @@ void write_mesh(const std::filesystem::path& path, const Triangle_soup& soup,
 ///
 /// **Not promised** Levels of different nodes side by side: a program may show one node at one level and its
 /// neighbour at another, which no judge of a level has seen.
-void write_levels_of_detail(const std::filesystem::path& path, const std::vector<Triangle_soup>& levels,
-                            const Write_options& options = {});
+Write_notes write_levels_of_detail(const std::filesystem::path& path,
+                                   const std::vector<Triangle_soup>& levels,
+                                   const Write_options& options = {});
 
 /// Returns the names of what this soup holds and a file of that format does not; empty when it holds all.
 std::vector<std::string> not_carried(const Triangle_soup& soup, Mesh_format format);

@@ -14,6 +14,7 @@
 #include <functional>
 #include <limits>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 namespace selvedge::files {
@@ -32,12 +33,13 @@ std::size_t next(std::vector<Index>& free, std::size_t size)
   return number;
 }
 
-void put_bounds(Json& accessor, const Gltf_scene::Column& column, std::size_t count)
+void put_bounds(Json& accessor, const Gltf_scene::Column& column)
 {
+  const std::size_t rows = column.rows.size() / column.row_size;
   Json least = Json::array(), largest = Json::array();
   for (std::size_t k = 0; k < column.components; ++k) {
     double low = component(column, 0, k), high = low;
-    for (std::size_t i = 1; i < count; ++i) {
+    for (std::size_t i = 1; i < rows; ++i) {
       low = std::min(low, component(column, i, k));
       high = std::max(high, component(column, i, k));
     }
@@ -58,8 +60,12 @@ Json description(const Gltf_scene::Column& column, std::size_t count)
 {
   Json result = column.accessor;
   result["count"] = count;
-  if (!column.rows.empty() && (column.name == "POSITION" || result.contains("min") || result.contains("max")))
-    put_bounds(result, column, count);
+  if (column.name != "POSITION" && !result.contains("min") && !result.contains("max"))
+    return result;
+  result.erase("min");
+  result.erase("max");
+  if (!column.rows.empty()) // those of indices that Draco holds are not known here
+    put_bounds(result, column);
   return result;
 }
 
@@ -102,7 +108,8 @@ Gltf_output::Gltf_output(const Gltf_scene& scene, bool may_rotate, bool may_shar
       m_kept_views.emplace(number, view);
 }
 
-std::size_t Gltf_output::put_accessor(const Column& column, std::size_t count, Target target)
+std::size_t Gltf_output::put_accessor(const Column& column, std::size_t count, Target target,
+                                      std::size_t block)
 {
   const Json rest = description(column, count);
   std::string bytes = column.is_sparse ? column.rows : bytes_of_view(column, count, target);
@@ -110,7 +117,7 @@ std::size_t Gltf_output::put_accessor(const Column& column, std::size_t count, T
   for (auto range = m_written.equal_range(hash); range.first != range.second; ++range.first) {
     const Written& known = range.first->second;
     if (known.target == target && known.is_sparse == column.is_sparse && known.rest == rest &&
-        (known.is_sparse ? known.sparse_rows : m_views[known.view]).compare(0, bytes.size(), bytes) == 0)
+        (known.is_sparse ? known.sparse_rows : m_rows[known.rows].bytes).compare(0, bytes.size(), bytes) == 0)
       return known.accessor;
   }
   Written& written = m_written.emplace(hash, Written{rest, target, column.is_sparse, {}, 0, 0})->second;
@@ -118,9 +125,13 @@ std::size_t Gltf_output::put_accessor(const Column& column, std::size_t count, T
   if (column.is_sparse)
     written.sparse_rows = std::exchange(bytes, bytes_of_view(column, count, target));
   if (!column.is_sparse || !put_sparse(accessor, column, count))
-    accessor["bufferView"] = written.view = put_rows(column, std::move(bytes), target);
+    accessor["bufferView"] = written.rows = put_rows(column, std::move(bytes), target, block);
   accessor.update(rest);
-  return written.accessor = add_accessor(std::move(accessor));
+  const bool has_rows = accessor.contains("bufferView"); // the number of the view comes later
+  written.accessor = add_accessor(std::move(accessor));
+  if (has_rows)
+    m_rows[written.rows].accessors.emplace_back(written.accessor, 0);
+  return written.accessor;
 }
 
 std::size_t Gltf_output::put_decoded_accessor(const Column& column, std::size_t count)
@@ -130,7 +141,7 @@ std::size_t Gltf_output::put_decoded_accessor(const Column& column, std::size_t 
 
 std::size_t Gltf_output::put_bytes(std::string bytes)
 {
-  return put_view({}, std::move(bytes), Target::none);
+  return put_view(std::move(bytes));
 }
 
 void Gltf_output::write(Byte_writer& out, Mesh_format format)
@@ -138,6 +149,7 @@ void Gltf_output::write(Byte_writer& out, Mesh_format format)
   if (!m_compressed_primitives.empty())
     require(draco_extension);
   remove_needless_quantization(document);
+  put_views();
   fill_free();
   std::string bytes = put_buffer();
   if (format == Mesh_format::gltf) {
@@ -187,45 +199,102 @@ bool Gltf_output::put_sparse(Json& accessor, const Column& column, std::size_t c
   if (indices.rows.size() + values.rows.size() >= column.rows.size())
     return false;
   if (size > 0)
-    accessor["sparse"] = {
-        {"count", size},
-        {"indices", {{"bufferView", put_view(indices, indices.rows, Target::none)}, {"componentType", type}}},
-        {"values", {{"bufferView", put_view(values, values.rows, Target::none)}}}};
+    accessor["sparse"] = {{"count", size},
+                          {"indices", {{"bufferView", put_view(indices.rows)}, {"componentType", type}}},
+                          {"values", {{"bufferView", put_view(values.rows)}}}};
   return true;
 }
 
-// Puts a buffer view, or returns one that begins with the same rows.
-std::size_t Gltf_output::put_rows(const Column& column, std::string bytes, Target target)
+// Keeps rows, or returns the number of others that begin with the same.
+std::size_t Gltf_output::put_rows(const Column& column, std::string bytes, Target target, std::size_t block)
 {
-  if (target != Target::vertices || !m_may_share_rows)
-    return put_view(column, std::move(bytes), target);
   const std::size_t stride = stride_of(column, target);
+  const bool may_share = target == Target::vertices && m_may_share_rows;
   const std::string first_row = bytes.substr(0, stride);
-  for (auto range = m_views_by_first_row.equal_range(first_row); range.first != range.second; ++range.first)
-    if (const std::size_t view = range.first->second; m_views[view].compare(0, bytes.size(), bytes) == 0) {
-      document["bufferViews"][view]["byteStride"] = stride; // must be there for several accessors
-      return view;
-    }
-  const std::size_t view = put_view(column, std::move(bytes), target);
-  m_views_by_first_row.emplace(first_row, view);
-  return view;
+  for (auto range = m_rows_by_first.equal_range(first_row); may_share && range.first != range.second;
+       ++range.first)
+    if (m_rows[range.first->second].bytes.compare(0, bytes.size(), bytes) == 0)
+      return range.first->second;
+  if (may_share)
+    m_rows_by_first.emplace(first_row, m_rows.size());
+  m_rows.push_back({std::move(bytes), stride, stride != column.row_size, target, column.place, block, {}});
+  return m_rows.size() - 1;
 }
 
-std::size_t Gltf_output::put_view(const Column& column, std::string bytes, Target target)
+// Makes one of rows that were interleaved in the file.
+void Gltf_output::interleave()
 {
-  Json view = {{"buffer", 0}, {"byteOffset", 0}, {"byteLength", bytes.size()}};
-  if (const std::size_t stride = stride_of(column, target); stride != column.row_size)
-    view["byteStride"] = stride;
-  if (target != Target::none)
-    view["target"] = int(target);
+  std::map<std::tuple<std::size_t, Index, std::size_t>, std::vector<Rows*>> groups;
+  for (Rows& rows : m_rows)
+    if (rows.target == Target::vertices && rows.place && rows.place->stride > rows.stride)
+      groups[{rows.block, rows.place->view, rows.place->offset / rows.place->stride}].push_back(&rows);
+  for (auto& [key, group] : groups) {
+    std::sort(group.begin(), group.end(),
+              [](const Rows* a, const Rows* b) { return a->place->offset < b->place->offset; });
+    std::size_t stride = 0;
+    for (const Rows* const rows : group)
+      stride += rows->stride;
+    constexpr std::size_t longest_stride = 252; // in glTF
+    if (group.size() == 1 || stride > longest_stride)
+      continue;
+    Rows& first = *group.front();
+    Rows whole = {{}, stride, true, Target::vertices, first.place, first.block, {}};
+    for (std::size_t i = 0; i < first.bytes.size() / first.stride; ++i)
+      for (const Rows* const rows : group)
+        whole.bytes.append(rows->bytes, i * rows->stride, rows->stride);
+    std::size_t offset = 0;
+    for (Rows* const rows : group) {
+      for (const auto& accessor : std::exchange(rows->accessors, {}))
+        whole.accessors.emplace_back(accessor.first, offset);
+      offset += rows->stride;
+    }
+    first = std::move(whole);
+  }
+}
+
+// Puts all rows into buffer views, those that shared one in the file into one.
+void Gltf_output::put_views()
+{
+  if (!m_may_share_rows)
+    interleave();
+  std::map<std::tuple<Index, Target, std::size_t>, Rows*> views;
+  for (Rows& rows : m_rows) {
+    if (!rows.place || rows.accessors.empty())
+      continue;
+    Rows& whole =
+        *views.emplace(std::make_tuple(rows.place->view, rows.target, rows.stride), &rows).first->second;
+    if (&whole == &rows)
+      continue;
+    for (const auto& [accessor, offset] : std::exchange(rows.accessors, {}))
+      whole.accessors.emplace_back(accessor, whole.bytes.size() + offset);
+    whole.bytes += std::exchange(rows.bytes, {});
+  }
+  for (Rows& rows : m_rows) {
+    if (rows.accessors.empty())
+      continue;
+    Json view = {{"target", int(rows.target)}};
+    if (rows.target == Target::vertices && (rows.has_gaps || rows.accessors.size() > 1))
+      view["byteStride"] = rows.stride; // must be there for several accessors
+    const std::size_t number = put_view(std::move(rows.bytes), std::move(view));
+    m_row_sizes[Index(number)] = {rows.stride, rows.target == Target::indices};
+    for (const auto& [accessor, offset] : rows.accessors) {
+      Json& json = document["accessors"][accessor];
+      json["bufferView"] = number;
+      if (offset > 0)
+        json["byteOffset"] = offset;
+    }
+  }
+}
+
+// Puts a buffer view of which this is known already.
+std::size_t Gltf_output::put_view(std::string bytes, Json view)
+{
+  view.update({{"buffer", 0}, {"byteOffset", 0}, {"byteLength", bytes.size()}});
   Json& views = document["bufferViews"];
   const std::size_t number = next(m_free_views, views.size());
   views[number] = std::move(view);
   m_views.resize(views.size());
   m_views[number] = std::move(bytes);
-  if (target != Target::none)
-    m_row_sizes[Index(number)] = {target == Target::indices ? column.row_size : stride_of(column, target),
-                                  target == Target::indices};
   return number;
 }
 
@@ -236,9 +305,21 @@ void Gltf_output::require(const char* extension)
     document[key].push_back(extension);
 }
 
-// Puts the smallest valid accessor or buffer view where a removed primitive has left a number.
+// Removes the free accessors and buffer views at the end, and puts the smallest valid ones where others have
+// left a number.
 void Gltf_output::fill_free()
 {
+  const auto shorten = [](Json& elements, std::vector<Index>& free) {
+    while (!free.empty() && free.front() + 1 == elements.size()) {
+      elements.erase(elements.size() - 1);
+      free.erase(free.begin());
+    }
+  };
+  if (!m_free_accessors.empty())
+    shorten(document["accessors"], m_free_accessors);
+  if (!m_free_views.empty())
+    shorten(document["bufferViews"], m_free_views);
+  m_views.resize(document["bufferViews"].size());
   for (const Index number : m_free_accessors)
     document["accessors"][number] = {{"componentType", int(type_uint8)}, {"count", 1}, {"type", "SCALAR"}};
   for (const Index number : m_free_views) {

@@ -30,15 +30,17 @@ public:
   enum class Target { none = 0, vertices = 34962, indices = 34963 }; ///< of a buffer view
 
   /// `may_rotate` says whether the corners of triangles may be rotated where that compresses better, and
-  /// `may_share_rows` whether columns that are the first rows of others are to be sought.
+  /// `may_share_rows` whether columns that are the first rows of others are to be sought. Then none are
+  /// interleaved.
   Gltf_output(const Gltf_scene& scene, bool may_rotate, bool may_share_rows);
 
   Json document; ///< references into it end when it gets a new key
 
   /// Puts a column of so many rows, and returns the number of its accessor. Accessors that say the same of
-  /// the same bytes become one, as in files that share them.
+  /// the same bytes become one, as in files that share them. Columns that shared a buffer view in the file
+  /// share one again: one behind the other or, of the same `block` of vertices, interleaved if they were.
   /// A column of vertices that is the first rows of an earlier one gets its buffer view.
-  std::size_t put_accessor(const Column& column, std::size_t count, Target target);
+  std::size_t put_accessor(const Column& column, std::size_t count, Target target, std::size_t block = 0);
 
   /// Puts an accessor whose bytes are compressed.
   std::size_t put_decoded_accessor(const Column& column, std::size_t count);
@@ -59,13 +61,27 @@ private:
     Target target;
     bool is_sparse;
     std::string sparse_rows; // in full
-    std::size_t view, accessor;
+    std::size_t rows, accessor;
+  };
+
+  /// Rows of vertices or indices, which get a buffer view at the end.
+  struct Rows
+  {
+    std::string bytes;
+    std::size_t stride;
+    bool has_gaps;
+    Target target;
+    std::optional<Gltf_scene::Place_in_view> place;
+    std::size_t block;
+    std::vector<std::pair<std::size_t, std::size_t>> accessors; // numbers and offsets
   };
 
   std::size_t add_accessor(Json accessor);
   bool put_sparse(Json& accessor, const Column& column, std::size_t count);
-  std::size_t put_rows(const Column& column, std::string bytes, Target target);
-  std::size_t put_view(const Column& column, std::string bytes, Target target);
+  std::size_t put_rows(const Column& column, std::string bytes, Target target, std::size_t block);
+  void interleave();
+  void put_views();
+  std::size_t put_view(std::string bytes, Json view = Json::object());
   void require(const char* extension);
   void fill_free();
   std::string put_buffer();
@@ -77,7 +93,8 @@ private:
   std::vector<Index> m_free_accessors, m_free_views;         // the first at the back
   std::map<Index, std::pair<std::size_t, bool>> m_row_sizes; // of new views of attributes and of triangles
   std::unordered_multimap<std::size_t, Written> m_written;   // by the hash of the bytes
-  std::multimap<std::string, std::size_t> m_views_by_first_row;
+  std::vector<Rows> m_rows;
+  std::multimap<std::string, std::size_t> m_rows_by_first;
   std::map<std::string, Json> m_compressed_primitives;
 };
 

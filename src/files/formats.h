@@ -29,8 +29,8 @@ void write_stl(Byte_writer& out, const Triangle_soup& soup, const Write_options&
 
 /// Writes one mesh in all of its levels of detail, from fine to coarse. There is one at least. `has_poses` is
 /// that of `with_gltf_scene`, for soups without a scene.
-void write_gltf(Byte_writer& out, const std::vector<const Triangle_soup*>& levels, Mesh_format format,
-                bool has_poses = false);
+Write_notes write_gltf(Byte_writer& out, const std::vector<const Triangle_soup*>& levels, Mesh_format format,
+                       bool has_poses = false);
 
 /// Names what only glTF files hold of this scene.
 const std::vector<std::string>& only_in_gltf(const Gltf_scene& scene);

@@ -46,9 +46,11 @@ Gltf_scene::Column Gltf_column_reader::read(int number, const std::string& name,
   column.accessor = m_document.json["accessors"][number];
   for (const char* key : {"bufferView", "byteOffset", "sparse", "count"})
     column.accessor.erase(key);
-  if (accessor.bufferView >= 0)
+  if (accessor.bufferView >= 0) {
     column.rows = rows(accessor.bufferView, accessor.byteOffset, column.row_size, count, true);
-  else
+    const std::size_t stride = m_document.model.bufferViews[accessor.bufferView].byteStride;
+    column.place = {Index(accessor.bufferView), accessor.byteOffset, stride == 0 ? column.row_size : stride};
+  } else
     column.rows.assign(count * column.row_size, '\0');
   if (accessor.sparse.isSparse)
     put_sparse_values(accessor, column, count);

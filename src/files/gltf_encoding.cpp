@@ -123,10 +123,13 @@ std::vector<std::uint32_t> earlier_copies(const std::vector<Packed_column>& colu
 }
 
 /// Returns a primitive as Draco has it. Its attributes are the columns, in their order; those that were
-/// quantised in a box count its steps.
+/// quantised in a box count its steps. Vertices that differ in nothing, the later ones being `copies`, are
+/// told apart by the column `apart`.
 std::unique_ptr<draco::Mesh> draco_mesh(const std::vector<Packed_column>& columns,
-                                        const std::vector<Index>& corners, std::uint32_t rows)
+                                        const std::vector<Index>& corners,
+                                        const std::vector<std::uint32_t>& copies, std::size_t apart)
 {
+  const auto rows = std::uint32_t(copies.size());
   auto mesh = std::make_unique<draco::Mesh>();
   mesh->set_num_points(rows);
   mesh->SetNumFaces(corners.size() / 3);
@@ -134,7 +137,6 @@ std::unique_ptr<draco::Mesh> draco_mesh(const std::vector<Packed_column>& column
     mesh->SetFace(draco::FaceIndex(std::uint32_t(i / 3)),
                   {{draco::PointIndex(corners[i]), draco::PointIndex(corners[i + 1]),
                     draco::PointIndex(corners[i + 2])}});
-  const std::vector<std::uint32_t> copies = earlier_copies(columns, rows);
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const Column& column = *columns[i].column;
     draco::GeometryAttribute attribute;
@@ -150,13 +152,13 @@ std::unique_ptr<draco::Mesh> draco_mesh(const std::vector<Packed_column>& column
                                               column.row_size);
     };
     // Vertices that differ in other columns alone have one value, by which Draco sees that they are
-    // neighbours. Those that differ in nothing have several, or it would make them one.
+    // neighbours. Those that differ in nothing have several in a column, or it would make them one.
     std::map<std::pair<std::uint32_t, std::string_view>, std::uint32_t> numbers;
     std::vector<std::uint32_t> firsts;
     std::vector<draco::AttributeValueIndex> of_row;
     for (std::uint32_t row = 0; row < rows; ++row) {
-      const auto [number, is_new] =
-          numbers.emplace(std::make_pair(copies[row], value(row)), std::uint32_t(firsts.size()));
+      const auto [number, is_new] = numbers.emplace(std::make_pair(i == apart ? copies[row] : 0, value(row)),
+                                                    std::uint32_t(firsts.size()));
       if (is_new)
         firsts.push_back(row);
       of_row.emplace_back(number->second);
@@ -213,15 +215,13 @@ std::string encoded(const draco::Mesh& mesh, const std::vector<Packed_column>& c
   return bytes;
 }
 
-/// Returns what bytes stand for; null if they have other numbers of vertices or faces than `mesh`, or other
-/// attributes.
+/// Returns what bytes stand for; null if they have another number of faces than `mesh`, or other attributes.
 std::unique_ptr<draco::Mesh> decoded(const std::string& bytes, const draco::Mesh& mesh)
 {
   draco::DecoderBuffer buffer;
   buffer.Init(bytes.data(), bytes.size());
   auto result = draco::Decoder().DecodeMeshFromBuffer(&buffer);
-  if (bytes.empty() || !result.ok() || result.value()->num_points() != mesh.num_points() ||
-      result.value()->num_faces() != mesh.num_faces())
+  if (bytes.empty() || !result.ok() || result.value()->num_faces() != mesh.num_faces())
     return nullptr;
   for (int i = 0; i < mesh.num_attributes(); ++i) {
     const draco::PointAttribute* const attribute =
@@ -240,21 +240,40 @@ std::string_view row_of(const draco::Mesh& mesh, std::uint32_t id, std::uint32_t
           std::size_t(attribute.byte_stride())};
 }
 
-/// Returns the triangles as the bytes of their corners, from the least corner on, in ascending order.
-template <class Row_of>
-std::vector<std::string> triangles_of(const draco::Mesh& mesh, std::size_t columns, const Row_of& row)
+/// What a mesh holds, whatever the order of its vertices and triangles: their bytes, in ascending order.
+/// Those of a triangle are from its least corner on.
+struct Contents
 {
-  std::vector<std::string> result;
-  for (draco::FaceIndex i(0); i < mesh.num_faces(); ++i) {
-    std::array<std::string, 3> corners;
-    for (std::size_t k = 0; k < 3; ++k)
-      for (std::size_t column = 0; column < columns; ++column)
-        corners[k] += row(column, mesh.face(i)[k].value());
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-    result.push_back(corners[0] + corners[1] + corners[2]);
+  std::vector<std::string> vertices, triangles;
+};
+
+template <class Row_of>
+Contents contents_of(const draco::Mesh& mesh, std::size_t columns, const Row_of& row)
+{
+  Contents result;
+  for (std::uint32_t vertex = 0; vertex < mesh.num_points(); ++vertex) {
+    std::string& bytes = result.vertices.emplace_back();
+    for (std::size_t column = 0; column < columns; ++column)
+      bytes += row(column, vertex);
   }
-  std::sort(result.begin(), result.end());
+  for (draco::FaceIndex i(0); i < mesh.num_faces(); ++i) {
+    std::array<std::string_view, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k)
+      corners[k] = result.vertices[mesh.face(i)[k].value()];
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    result.triangles.push_back(std::string(corners[0]).append(corners[1]).append(corners[2]));
+  }
+  std::sort(result.vertices.begin(), result.vertices.end());
+  std::sort(result.triangles.begin(), result.triangles.end());
   return result;
+}
+
+/// Whether the triangles are the same, and no vertices have become one.
+bool is_same_but_split(const Contents& contents, const Contents& again)
+{
+  return again.triangles == contents.triangles &&
+         std::includes(again.vertices.begin(), again.vertices.end(), contents.vertices.begin(),
+                       contents.vertices.end());
 }
 
 } // namespace
@@ -274,15 +293,16 @@ std::optional<Draco_primitive> encoded_by_draco(const std::vector<Column>& colum
         (column.component_type != type_float32 || !is_exact_in_float(column.compression->quantisation->bits)))
       packed.back().quantisation.reset();
   }
+  const std::vector<std::uint32_t> copies = earlier_copies(packed, rows);
   std::unique_ptr<draco::Mesh> mesh;
   std::string bytes;
   // In the same order: what quantisation does not give back as it was is kept without it.
   for (bool is_same = false; !is_same;) {
     Cancellation_scope::check();
-    mesh = draco_mesh(packed, corners, rows);
+    mesh = draco_mesh(packed, corners, copies, 0);
     bytes = encoded(*mesh, packed, draco::MESH_SEQUENTIAL_ENCODING);
     const std::unique_ptr<draco::Mesh> again = decoded(bytes, *mesh);
-    if (!again)
+    if (!again || again->num_points() != rows)
       return std::nullopt;
     for (draco::FaceIndex i(0); i < mesh->num_faces(); ++i)
       if (again->face(i) != mesh->face(i))
@@ -301,24 +321,38 @@ std::optional<Draco_primitive> encoded_by_draco(const std::vector<Column>& colum
       is_same = false;
     }
   }
-  // In Draco's order, which takes less space.
-  if (may_reorder) {
+  std::size_t points = rows;
+  // In Draco's order, which takes less space. How much depends on the column that tells vertices apart.
+  const bool are_all_different =
+      std::all_of(copies.begin(), copies.end(), [](std::uint32_t copy) { return copy == 0; });
+  const std::size_t choices = !may_reorder ? 0 : are_all_different ? 1 : columns.size();
+  std::optional<Contents> contents;
+  for (std::size_t apart = 0; apart < choices; ++apart) {
     Cancellation_scope::check();
+    mesh = draco_mesh(packed, corners, copies, apart);
     std::string reordered = encoded(*mesh, packed, draco::MESH_EDGEBREAKER_ENCODING);
+    if (reordered.size() >= bytes.size())
+      continue;
+    if (!contents)
+      contents = contents_of(*mesh, columns.size(),
+                             [&](std::size_t i, std::uint32_t row) { return row_of(columns[i], row); });
+    // Edgebreaker makes several vertices of one at which fans of faces meet.
     const std::unique_ptr<draco::Mesh> again = decoded(reordered, *mesh);
-    if (again && reordered.size() < bytes.size() &&
-        triangles_of(*mesh, columns.size(), [&](std::size_t i, std::uint32_t row) {
-          return row_of(columns[i], row);
-        }) == triangles_of(*again, columns.size(), [&](std::size_t i, std::uint32_t row) {
-          return row_of(*again, mesh->attribute(int(i))->unique_id(), row);
-        }))
-      bytes = std::move(reordered);
+    if (!again || !is_same_but_split(
+                      *contents, contents_of(*again, columns.size(), [&](std::size_t i, std::uint32_t row) {
+                        return row_of(*again, mesh->attribute(int(i))->unique_id(), row);
+                      })))
+      continue;
+    bytes = std::move(reordered);
+    points = again->num_points();
   }
   if (bytes.size() >= size)
     return std::nullopt;
-  Draco_primitive result = {std::move(bytes), Gltf_scene::Json::object()};
-  for (std::size_t i = 0; i < columns.size(); ++i)
+  Draco_primitive result = {std::move(bytes), Gltf_scene::Json::object(), points, 0};
+  for (std::size_t i = 0; i < columns.size(); ++i) {
     result.attributes[columns[i].name] = mesh->attribute(int(i))->unique_id();
+    result.unquantised += columns[i].compression->quantisation && !packed[i].quantisation;
+  }
   return result;
 #else
   static_cast<void>(columns);

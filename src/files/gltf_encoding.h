@@ -21,11 +21,14 @@ struct Draco_primitive
 {
   std::string bytes;
   Gltf_scene::Json attributes; ///< numbers in the bytes, by name
+  std::size_t vertices;        ///< that decoding gives
+  std::size_t unquantised;     ///< columns that are not quantised any more
 };
 
 /// Compresses a primitive by Draco, such that decoding gives the very same bits: columns are quantised as
 /// they were in the file if that loses nothing, and are kept as they are otherwise. Vertices and triangles
-/// stay in their order unless they may be reordered, which takes about a third of the space.
+/// stay in their order unless they may be reordered, which takes about a third of the space. Then a vertex at
+/// which fans of faces meet may become several that differ in nothing, one for each fan.
 ///
 /// The columns have one row for each vertex; there is one at least. `corners`, three for each triangle,
 /// counts the rows. Returns nothing where the result would not be smaller, or there is no Draco. O(n log n).

@@ -22,9 +22,16 @@ using Column = Gltf_scene::Column;
 Column of_type(const Column& from, Json accessor)
 {
   const int type = accessor["componentType"];
-  return {
-      from.name,      std::move(accessor), type, from.components, from.components * component_size(type), {},
-      from.is_sparse, from.compression};
+  return {from.name,
+          std::move(accessor),
+          type,
+          from.components,
+          from.components * component_size(type),
+          {},
+          from.is_sparse,
+          from.compression,
+          std::nullopt,
+          from.place};
 }
 
 bool needs_quantization(const Json& attributes, const Json& accessors)

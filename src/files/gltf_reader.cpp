@@ -472,6 +472,7 @@ private:
              " does not hold indices; export the file again");
       part.index_type = indices.component_type;
       part.index_json = indices.accessor;
+      part.index_place = indices.place;
       const std::size_t count = indices.rows.size() / indices.row_size;
       for (std::size_t i = 0; i < count; ++i) {
         m_poll();

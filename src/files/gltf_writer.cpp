@@ -40,9 +40,9 @@ public:
   /// whether vertices go into the order in which triangles come to them, and `coarsest`, for every vertex of
   /// the scene, what the last level is that has it.
   Gltf_writer(const Triangle_soup& soup, bool is_scene_made, bool is_further_level, bool may_reorder,
-              const std::vector<Index>& coarsest, Gltf_output& output)
+              const std::vector<Index>& coarsest, Gltf_output& output, Write_notes& notes)
       : m_is_scene_made(is_scene_made), m_may_reorder(may_reorder), m_soup(soup), m_scene(*soup.scene),
-        m_normals(soup.normals), m_coarsest(coarsest), m_output(output)
+        m_normals(soup.normals), m_coarsest(coarsest), m_output(output), m_notes(notes)
   {
     check();
     quantise_new_normals();
@@ -264,11 +264,16 @@ private:
         append_little_endian(all, std::uint32_t(contents[i].size()));
         all += contents[i];
       }
-      if (is_shared(part))
-        m_same_as[part.mesh] =
-            first.emplace(std::make_pair(part.mesh_of_file, std::move(all)), part.mesh).first->second;
+      if (!is_shared(part))
+        continue;
+      const auto [same, is_new] = first.emplace(std::make_pair(part.mesh_of_file, std::move(all)), part.mesh);
+      m_same_as[part.mesh] = same->second;
+      if (is_new && part.mesh != part.mesh_of_file)
+        note("meshes more than in the input, because some are not the same in all places");
     }
   }
+
+  void note(const char* what, std::size_t count = 1) { m_notes[what] += count; }
 
   bool is_put(const Gltf_scene::Part& part) const { return m_same_as[part.mesh] == part.mesh; }
 
@@ -331,10 +336,13 @@ private:
       if (vertices[i].empty())
         continue;
       const Gltf_scene::Instance& instance = m_scene.instances[i];
+      if (m_sizes[i] > block(instance).size)
+        note("vertices beyond those of the input, because new normals differ on faces that had one in common",
+             m_sizes[i] - block(instance).size);
       const auto put = [&](const Column& column, const auto& bytes_of) {
-        Column left = {column.name,       column.accessor,    column.component_type,
-                       column.components, column.row_size,    {},
-                       column.is_sparse,  column.compression, column.quantised_accessor};
+        Column left = {
+            column.name, column.accessor,  column.component_type, column.components,         column.row_size,
+            {},          column.is_sparse, column.compression,    column.quantised_accessor, column.place};
         left.rows.reserve(vertices[i].size() * column.row_size);
         Cancellation_poll poll;
         for (const Vertices_by_normal::Vertex& v : vertices[i]) {
@@ -343,11 +351,14 @@ private:
         }
         if (std::optional<Column> quantised = quantised_again(left))
           left = std::move(*quantised);
+        else if (left.quantised_accessor)
+          note("attributes that are floats now, because a new value is none of the whole numbers of the "
+               "input");
         if (left.compression) { // is put with the triangles
           m_compressible[i].push_back(std::move(left));
           return std::size_t(0);
         }
-        return m_output.put_accessor(left, vertices[i].size(), Gltf_output::Target::vertices);
+        return m_output.put_accessor(left, vertices[i].size(), Gltf_output::Target::vertices, i);
       };
       const auto put_rows = [&](const Column& column) {
         return put(column, [&](const Vertices_by_normal::Vertex& v) {
@@ -394,16 +405,9 @@ private:
         continue;
       }
       Json& primitive = meshes()[m_first_mesh + part.mesh]["primitives"][part.primitive];
-      // glTF does not allow the largest value of a type as an index.
-      const std::size_t size = m_sizes[part.instance];
-      const int type = part.index_type != 0 ? part.index_type
-                       : size < 0xffff      ? int(type_uint16)
-                                            : int(type_uint32);
-      Column column = {"indices", part.index_json, type, 1, component_size(type), {}};
-      column.accessor["type"] = "SCALAR";
-      column.accessor["componentType"] = type;
       primitive.erase("mode");
-      if (!put_compressible(part, corners[i], column, primitive)) {
+      if (!put_compressible(part, corners[i], primitive)) {
+        Column column = indices_of(part, m_sizes[part.instance]);
         column.rows.reserve(corners[i].size() * column.row_size);
         for (const Index corner : corners[i])
           append_index(column, corner);
@@ -415,10 +419,27 @@ private:
     }
   }
 
+  // Returns a column for the indices of so many vertices, without rows: of the type that the file has for
+  // them, where that is large enough.
+  static Column indices_of(const Gltf_scene::Part& part, std::size_t vertices)
+  {
+    const auto holds_all = [&](int type) {
+      // glTF does not allow the largest value of a type as an index.
+      return type != 0 && vertices < std::uint64_t(1) << 8 * component_size(type);
+    };
+    const int type = holds_all(part.index_type) ? part.index_type
+                     : holds_all(type_uint16)   ? int(type_uint16)
+                                                : int(type_uint32);
+    Column result = {"indices", part.index_json, type, 1, component_size(type), {}};
+    result.accessor["type"] = "SCALAR";
+    result.accessor["componentType"] = type;
+    result.place = part.index_place;
+    return result;
+  }
+
   // Puts the columns that were compressed in the file: compressed again, with the corners, if no other
   // primitive has them, and plain otherwise. Returns whether they are compressed.
-  bool put_compressible(const Gltf_scene::Part& part, const std::vector<Index>& corners,
-                        const Column& indices, Json& primitive)
+  bool put_compressible(const Gltf_scene::Part& part, const std::vector<Index>& corners, Json& primitive)
   {
     const std::vector<Column> columns = std::exchange(m_compressible[part.instance], {});
     if (columns.empty())
@@ -432,18 +453,26 @@ private:
                              columns.size() == m_attributes[part.instance].size();
     const std::optional<Draco_primitive> encoded =
         is_alone ? encoded_by_draco(columns, corners, may_reorder) : std::nullopt;
+    if (!encoded)
+      note("primitives that are not in Draco any more, because they share vertices or are no smaller there");
+    else if (encoded->unquantised > 0)
+      note("attributes that Draco holds as floats, because a new value is none of its whole numbers",
+           encoded->unquantised);
+    if (encoded && !may_reorder)
+      note("primitives that Draco holds in the order of their vertices, because poses or morph targets have "
+           "it");
     const std::size_t size = m_sizes[part.instance];
     if (!encoded) {
       for (const Column& column : columns)
         m_attributes[part.instance][column.name] =
-            m_output.put_accessor(column, size, Gltf_output::Target::vertices);
+            m_output.put_accessor(column, size, Gltf_output::Target::vertices, part.instance);
       return false;
     }
     Json& put = m_output.compressed_primitive(encoded->bytes);
     if (put.is_null()) { // otherwise another level of detail has the same
-      put["indices"] = m_output.put_decoded_accessor(indices, corners.size());
+      put["indices"] = m_output.put_decoded_accessor(indices_of(part, encoded->vertices), corners.size());
       for (const Column& column : columns)
-        put["attributes"][column.name] = m_output.put_decoded_accessor(column, size);
+        put["attributes"][column.name] = m_output.put_decoded_accessor(column, encoded->vertices);
       put["extension"] = {{"bufferView", m_output.put_bytes(encoded->bytes)},
                           {"attributes", encoded->attributes}};
     }
@@ -490,6 +519,7 @@ private:
   Vertices_by_normal m_split; // by these
   const std::vector<Index>& m_coarsest;
   Gltf_output& m_output;
+  Write_notes& m_notes;
   Index m_first_mesh = 0;         // in the document, of those of this soup
   std::vector<Index> m_same_as;   // by mesh: the first copy that is alike, or the mesh itself
   std::vector<Index> m_numbers;   // by vertex of `m_split`, in its instance
@@ -552,8 +582,8 @@ Levels_of_scene with_scene(const std::vector<const Triangle_soup*>& levels, bool
 
 } // namespace
 
-void write_gltf(Byte_writer& out, const std::vector<const Triangle_soup*>& levels, Mesh_format format,
-                bool has_poses)
+Write_notes write_gltf(Byte_writer& out, const std::vector<const Triangle_soup*>& levels, Mesh_format format,
+                       bool has_poses)
 {
   const Levels_of_scene all = with_scene(levels, has_poses);
   const Gltf_scene& scene = *all.levels.front()->scene;
@@ -572,11 +602,14 @@ void write_gltf(Byte_writer& out, const std::vector<const Triangle_soup*>& level
   const bool is_any_order_right = may_reorder && levels.size() == 1 && !scene.meshopt_views.empty();
   Gltf_output output(scene, may_reorder, levels.size() > 1);
   std::vector<Gltf_level> put;
+  Write_notes notes;
   for (const Triangle_soup* const soup : all.levels)
     put.push_back(
-        Gltf_writer(*soup, all.is_scene_made, !put.empty(), is_any_order_right, coarsest, output).put());
+        Gltf_writer(*soup, all.is_scene_made, !put.empty(), is_any_order_right, coarsest, output, notes)
+            .put());
   put_meshes_in_nodes(output.document, scene.instanced_nodes, std::move(put));
   output.write(out, format);
+  return notes;
 }
 
 } // namespace selvedge::files

@@ -255,28 +255,34 @@ Mesh_file read_mesh(std::string_view contents, Mesh_format format, const std::st
   return read_contents(contents, format, name, nullptr, options);
 }
 
-void write_mesh(const std::filesystem::path& path, const Triangle_soup& soup, const Write_options& options)
+Write_notes write_mesh(const std::filesystem::path& path, const Triangle_soup& soup,
+                       const Write_options& options)
 {
   const Mesh_format format = options.format ? *options.format : mesh_format(path);
   check_writable(soup, format, options);
   files::Byte_writer out(path);
   switch (format) {
   case Mesh_format::obj:
-    return files::write_obj(out, soup, options);
+    files::write_obj(out, soup, options);
+    break;
   case Mesh_format::off:
-    return files::write_off(out, soup, options);
+    files::write_off(out, soup, options);
+    break;
   case Mesh_format::ply:
-    return files::write_ply(out, soup, options);
+    files::write_ply(out, soup, options);
+    break;
   case Mesh_format::stl:
-    return files::write_stl(out, soup, options);
+    files::write_stl(out, soup, options);
+    break;
   case Mesh_format::glb:
   case Mesh_format::gltf:
     return files::write_gltf(out, {&soup}, format);
   }
+  return {};
 }
 
-void write_levels_of_detail(const std::filesystem::path& path, const std::vector<Triangle_soup>& levels,
-                            const Write_options& options)
+Write_notes write_levels_of_detail(const std::filesystem::path& path,
+                                   const std::vector<Triangle_soup>& levels, const Write_options& options)
 {
   const Mesh_format format = options.format ? *options.format : mesh_format(path);
   if (!is_gltf(format))
@@ -289,7 +295,7 @@ void write_levels_of_detail(const std::filesystem::path& path, const std::vector
     soups.push_back(&level);
   }
   files::Byte_writer out(path);
-  files::write_gltf(out, soups, format);
+  return files::write_gltf(out, soups, format);
 }
 
 std::vector<std::string> not_carried(const Triangle_soup& soup, Mesh_format format)

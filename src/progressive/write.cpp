@@ -186,8 +186,8 @@ private:
     std::iota(soup.scene_vertices.begin(), soup.scene_vertices.end(), Index(0));
   }
 
-  // Gives every instance a block of its own, with the rows of its wedges. They are written plain: compressors
-  // may put vertices into another order.
+  // Gives every instance a block of its own, with the rows of its wedges. They are written plain, each
+  // accessor in a buffer view of its own: compressors may put vertices into another order.
   void put_blocks()
   {
     const Gltf_scene& before = *scene_soup().scene;
@@ -207,6 +207,7 @@ private:
           selected.append(column.rows, row * column.row_size, column.row_size);
         column.rows = std::move(selected);
         column.compression.reset();
+        column.place.reset();
       };
       std::for_each(block.attributes.begin(), block.attributes.end(), select);
       for (std::vector<Gltf_scene::Column>& target : block.targets)
@@ -218,6 +219,8 @@ private:
       m_scene->instances[i].first = m_firsts[i];
     }
     m_scene->blocks = std::move(blocks);
+    for (Gltf_scene::Part& part : m_scene->parts)
+      part.index_place.reset();
     m_scene->meshopt_views.clear();
     for (Gltf_scene::Part& part : m_scene->parts) // there may be more vertices than its indices can count
       part.index_type = 0;

@@ -41,6 +41,13 @@ struct Gltf_scene
     std::optional<Quantisation> quantisation; ///< none where no bit was lost
   };
 
+  /// Where the first row of an accessor is in a buffer view of the file, and how far its rows are apart.
+  struct Place_in_view
+  {
+    Index view = 0;
+    std::size_t offset = 0, stride = 0;
+  };
+
   /// The rows of an accessor, without gaps and with its sparse values in place.
   struct Column
   {
@@ -54,6 +61,7 @@ struct Gltf_scene
     std::optional<Compression> compression = std::nullopt; ///< none where the file held it plain
     /// Of floats that the file holds as whole numbers by KHR_mesh_quantization: what it says about those.
     std::optional<Json> quantised_accessor = std::nullopt;
+    std::optional<Place_in_view> place = std::nullopt; ///< none where it is in no view, or in one of its own
 
     bool is_normalized() const { return accessor.value("normalized", false); }
   };
@@ -94,6 +102,7 @@ struct Gltf_scene
     Index instance = 0;
     int index_type = 0;               ///< component type of the indices, 0 when there are none
     Json index_json = Json::object(); ///< what the document says about their accessor, likewise
+    std::optional<Place_in_view> index_place = std::nullopt;
   };
 
   /// A node with EXT_mesh_gpu_instancing, and a node for each of its instances, which would be its child. The

@@ -116,6 +116,22 @@ TEST(App_report, SaysWhatHeldBack)
   EXPECT_GT(report["refused"]["normal_change"], 0);
 }
 
+TEST(App_report, SaysWhyTheOutputIsLargerThanTheInput)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("skirt", "in.ply", 600);
+  const Json larger = report_of(folder, in, folder / "out.ply", {"--ratio", "0.99", "--ascii"});
+  const std::string sentence = larger["output"]["larger"];
+  EXPECT_EQ(sentence.find("larger than the input by "), 0u);
+  EXPECT_NE(sentence.find(" bytes: --ascii writes numbers as text"), std::string::npos);
+  const App_result run = run_app({"simplify", in, "-o", folder / "out.ply", "--ratio", "0.99", "--ascii"});
+  EXPECT_NE(run.out.find(sentence), std::string::npos);
+  const Json smaller = report_of(folder, in, folder / "out.ply", {"--ratio", "0.5"});
+  EXPECT_TRUE(smaller["output"]["larger"].is_null());
+  const Json of_other_format = report_of(folder, in, folder / "out.obj", {"--ratio", "0.99"});
+  EXPECT_TRUE(of_other_format["output"]["larger"].is_null());
+}
+
 TEST(App_report, CountsPairsOfAnUncheckedRun)
 {
   const Workspace folder;

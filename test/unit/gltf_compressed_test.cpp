@@ -247,6 +247,130 @@ bool has_remark(const Mesh_file& file, const std::string& what)
                      [&](const auto& remark) { return remark.first.find(what) != std::string::npos; });
 }
 
+TEST(Gltf_indices, AreOfALargerTypeWhereVerticesSplitByTheirNormalsAreTooMany)
+{
+  const Sheet sheet;
+  constexpr std::size_t vertices = 12 * s_side, corners = 11 * (s_side - 1) * 6;
+  Document_of_sheet document;
+  Json& attributes = document.primitive()["attributes"];
+  for (const auto& [name, rows] : {std::pair("POSITION", sheet.positions), {"NORMAL", sheet.normals}})
+    attributes[name] = document.add_accessor(
+        document.add_view(bytes_of(std::vector(rows.begin(), rows.begin() + 3 * vertices))), vertices, 5126,
+        "VEC3");
+  const std::vector<std::uint8_t> indices(sheet.indices.begin(), sheet.indices.begin() + corners);
+  document.primitive()["indices"] =
+      document.add_accessor(document.add_view(bytes_of(indices)), corners, 5121, "SCALAR");
+  Mesh_file file = read(document);
+  const auto type_written = [&] {
+    const Json json = json_of(expect_written_plain(file));
+    const std::size_t number = json["meshes"][0]["primitives"][0]["indices"];
+    return json["accessors"][number]["componentType"];
+  };
+  EXPECT_EQ(type_written(), 5121);
+  file.soup.normals = {};
+  for (std::size_t t = 0; t < file.soup.triangles.size(); ++t) {
+    file.soup.normals.values.push_back({std::sin(double(t)), std::cos(double(t)), 0});
+    file.soup.normals.of_triangle.push_back({Index(t), Index(t), Index(t)});
+  }
+  EXPECT_EQ(type_written(), 5123);
+  const Temporary_folder folder;
+  const Write_notes notes = write_mesh(folder / "m.glb", file.soup);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes.begin()->first.find("vertices beyond those of the input"), 0u);
+  EXPECT_EQ(notes.begin()->second, read_mesh(folder / "m.glb").soup.points.size() - vertices);
+}
+
+/// Two sheets, one above the other, in two buffer views: one of positions and normals, one of indices.
+Document_of_sheet sheets_in_two_views()
+{
+  const Sheet sheet;
+  Document_of_sheet document;
+  std::vector<float> rows;
+  for (const float height : {0.f, 1.f})
+    for (std::size_t i = 0; i < sheet.positions.size(); i += 3) {
+      rows.insert(rows.end(), &sheet.positions[i], &sheet.positions[i] + 3);
+      rows.back() += height;
+      rows.insert(rows.end(), &sheet.normals[i], &sheet.normals[i] + 3);
+      rows[rows.size() - 2] = height; // so that no column is the same in both
+    }
+  std::vector<std::uint16_t> indices = sheet.indices;
+  indices.insert(indices.end(), sheet.indices.begin(), sheet.indices.end());
+  const std::size_t vertices = document.add_view(bytes_of(rows)),
+                    corners = document.add_view(bytes_of(indices));
+  document.json["bufferViews"][vertices]["byteStride"] = 24;
+  const auto add = [&](std::size_t view, std::size_t offset, std::size_t count, int type, const char* name) {
+    const std::size_t accessor = document.add_accessor(view, count, type, name);
+    document.json["accessors"][accessor]["byteOffset"] = offset;
+    return accessor;
+  };
+  document.json["meshes"][0]["primitives"].push_back(document.primitive());
+  for (const std::size_t i : {0, 1}) {
+    Json& primitive = document.json["meshes"][0]["primitives"][i];
+    primitive["attributes"] = {{"POSITION", add(vertices, 24 * i * s_vertices, s_vertices, 5126, "VEC3")},
+                               {"NORMAL", add(vertices, 24 * i * s_vertices + 12, s_vertices, 5126, "VEC3")}};
+    primitive["indices"] = add(corners, 2 * i * sheet.indices.size(), sheet.indices.size(), 5123, "SCALAR");
+  }
+  return document;
+}
+
+/// Returns the buffer view of an attribute of a primitive.
+std::size_t view_of(const Json& json, std::size_t mesh, std::size_t primitive, const char* attribute)
+{
+  const Json& attributes = json["meshes"][mesh]["primitives"][primitive]["attributes"];
+  return json["accessors"][attributes[attribute].get<std::size_t>()]["bufferView"];
+}
+
+TEST(Gltf_views, AreSharedByTheColumnsThatSharedThemInTheFile)
+{
+  Mesh_file file = read(sheets_in_two_views());
+  for (const bool is_half : {false, true}) {
+    if (is_half) {
+      std::vector<Index> half;
+      for (Index t = 0; t < file.soup.triangles.size(); t += 2)
+        half.push_back(t);
+      keep_triangles(file.soup, half);
+    }
+    const Json json = json_of(expect_written_plain(file));
+    EXPECT_EQ(json["bufferViews"].size(), 2u);
+    for (const std::size_t i : {0, 1})
+      for (const char* attribute : {"POSITION", "NORMAL"})
+        EXPECT_EQ(view_of(json, 0, i, attribute), view_of(json, 0, 0, "POSITION"));
+    EXPECT_EQ(json["bufferViews"][view_of(json, 0, 0, "POSITION")]["byteStride"], 24);
+  }
+  Document_of_sheet apart = plain_sheet();
+  EXPECT_EQ(json_of(expect_written_plain(read(apart)))["bufferViews"].size(), 3u);
+}
+
+TEST(Gltf_views, AreNotInterleavedWhereLevelsOfDetailShareTheFirstRows)
+{
+  const Mesh_file file = read(sheets_in_two_views());
+  Triangle_soup coarse = file.soup;
+  std::vector<Index> first_quarter(coarse.triangles.size() / 4);
+  std::iota(first_quarter.begin(), first_quarter.end(), Index(0));
+  keep_triangles(coarse, first_quarter);
+  for (Index_triple& triple : coarse.normals.of_triangle)
+    triple.fill(Index(coarse.normals.values.size()));
+  coarse.normals.values.push_back({1, 0, 0});
+  const std::vector<Triangle_soup> levels = {file.soup, coarse};
+  const Temporary_folder folder;
+  write_levels_of_detail(folder / "m.glb", levels);
+  const Json json = json_of(read_file(folder / "m.glb"));
+  EXPECT_EQ(view_of(json, 1, 0, "POSITION"), view_of(json, 0, 0, "POSITION"));
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    Read_options options;
+    options.level_of_detail = level;
+    const Triangle_soup again = read_mesh(folder / "m.glb", options).soup;
+    EXPECT_EQ(triangles_of(again), triangles_of(levels[level]));
+    const auto normals_of = [](const Triangle_soup& soup) {
+      std::vector<std::array<double, 3>> result;
+      for (const Index_triple& triple : soup.normals.of_triangle)
+        result.push_back(soup.normals.values[triple[0]]);
+      return result;
+    };
+    EXPECT_TRUE(normals_of(again) == normals_of(levels[level]));
+  }
+}
+
 TEST(Gltf_dead_views, AreNotWrittenUnlessSomethingUnknownMayReferToThem)
 {
   const Temporary_folder folder;
@@ -358,7 +482,11 @@ TEST(Gltf_quantised, BecomesFloatsInAColumnThatHasANewNumber)
   Mesh_file file = read(quantised_sheet());
   file.soup.points[5] = Point_3(0.5, 0.25, 0.125);
   const Temporary_folder folder;
-  write_mesh(folder / "m.glb", file.soup);
+  EXPECT_TRUE(write_mesh(folder / "m.glb", read(quantised_sheet()).soup).empty());
+  const Write_notes notes = write_mesh(folder / "m.glb", file.soup);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes.begin()->first.find("attributes that are floats now"), 0u);
+  EXPECT_EQ(notes.begin()->second, 1u);
   EXPECT_EQ(read_mesh(folder / "m.glb").soup.points, file.soup.points);
   const Json accessors = accessors_of(json_of(read_file(folder / "m.glb")));
   EXPECT_EQ(accessors["POSITION"]["componentType"], 5126);
@@ -617,9 +745,50 @@ TEST(Gltf_draco, IsWrittenAsItCameBitForBit)
   for (const bool is_quantised : {false, true}) {
     const Document_of_sheet document = draco_sheet(true, is_quantised);
     EXPECT_LE(expect_written_by(read(document), {s_draco}).size(),
-              document.glb().size() + (is_quantised ? 100 : 1500));
+              document.glb().size() + 120); // the bounds of positions are new
     expect_levels_written_by(read(document), {s_draco});
   }
+}
+
+/// Returns how Draco has put the first primitive of a file: 1 stands for edgebreaker, 0 for the order given.
+int draco_method(const std::string& glb)
+{
+  return glb.at(glb.find("DRACO") + 8);
+}
+
+TEST(Gltf_draco, HasItsOwnOrderAlsoWhereFansOfFacesMeet)
+{
+  Mesh_file file = read(draco_sheet(true));
+  // Of two squares that touch at a vertex.
+  const auto is_of_squares = [&](const Index_triple& triangle) {
+    double x = 0, y = 0;
+    for (const Index v : triangle) {
+      x += file.soup.points[v].x() * 7 / 3;
+      y += file.soup.points[v].y() * 7 / 3;
+    }
+    return (x < 10) == (y < 10);
+  };
+  std::vector<Index> kept;
+  for (std::size_t t = 0; t < file.soup.triangles.size(); ++t)
+    if (is_of_squares(file.soup.triangles[t]))
+      kept.push_back(Index(t));
+  keep_triangles(file.soup, kept);
+  std::set<Index> used;
+  for (const Index_triple& triangle : file.soup.triangles)
+    used.insert(triangle.begin(), triangle.end());
+  const std::string glb = expect_written_by(file, {s_draco});
+  const Triangle_soup again = read_mesh(glb, Mesh_format::glb, "again").soup;
+  EXPECT_EQ(again.points.size(), used.size() + 1);
+  const Json json = json_of(glb);
+  const Json& attributes = json["meshes"][0]["primitives"][0]["attributes"];
+  EXPECT_EQ(json["accessors"][attributes["POSITION"].get<int>()]["count"], again.points.size());
+  EXPECT_EQ(draco_method(glb), 1);
+
+  // In the order of the vertices, none is split.
+  file.soup.poses = {{"raised", file.soup.points, 0}};
+  const std::string in_order = expect_written_by(file, {s_draco});
+  EXPECT_EQ(draco_method(in_order), 0);
+  EXPECT_EQ(read_mesh(in_order, Mesh_format::glb, "again").soup.points.size(), used.size());
 }
 
 TEST(Gltf_draco, KeepsVerticesApartThatDifferInNothing)
@@ -639,8 +808,9 @@ TEST(Gltf_draco, KeepsVerticesApartThatDifferInNothing)
   for (const Index_triple& triangle : file.soup.triangles)
     used.insert(triangle.begin(), triangle.end());
   EXPECT_GT(used.size(), s_vertices);
-  const Triangle_soup again = read_mesh(expect_written_by(file, {s_draco}), Mesh_format::glb, "again").soup;
-  EXPECT_EQ(again.points.size(), used.size());
+  const std::string glb = expect_written_by(file, {s_draco});
+  EXPECT_EQ(draco_method(glb), 1);
+  EXPECT_EQ(read_mesh(glb, Mesh_format::glb, "again").soup.points.size(), used.size());
 }
 
 TEST(Gltf_draco, KeepsPlacesThatItsQuantisationDoesNotHave)
@@ -648,6 +818,11 @@ TEST(Gltf_draco, KeepsPlacesThatItsQuantisationDoesNotHave)
   Mesh_file file = read(draco_sheet(true, true));
   file.soup.points[7] = Point_3(0.3f, 0.71f, 0.0123f);
   expect_written_by(file, {s_draco});
+  const Temporary_folder folder;
+  const Write_notes notes = write_mesh(folder / "m.glb", file.soup);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes.begin()->first.find("attributes that Draco holds as floats"), 0u);
+  EXPECT_EQ(notes.begin()->second, 1u);
 }
 
 TEST(Gltf_draco, KeepsTheOrderOfAMeshInSeveralPoses)
@@ -657,6 +832,10 @@ TEST(Gltf_draco, KeepsTheOrderOfAMeshInSeveralPoses)
   const Triangle_soup again = read_mesh(expect_written_by(file, {s_draco}), Mesh_format::glb, "again").soup;
   EXPECT_EQ(again.points, file.soup.points);
   EXPECT_EQ(again.triangles, file.soup.triangles);
+  const Temporary_folder folder;
+  const Write_notes notes = write_mesh(folder / "m.glb", file.soup);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes.begin()->first.find("primitives that Draco holds in the order of their vertices"), 0u);
 }
 
 TEST(Gltf_draco, IsReadAsThePlainFile)

@@ -1,0 +1,99 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Instances (EXT_mesh_gpu_instancing): where they are, and when they stay instances.
+
+#include "support/Gltf_document.h"
+#include "support/Temporary_folder.h"
+
+#include "soup/selection.h"
+#include <selvedge/mesh_files.h>
+#include <selvedge/simplify.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <vector>
+
+namespace selvedge::test {
+namespace {
+
+TEST(Gltf, InstancesArePlacedLikeChildren)
+{
+  const Document instanced = waves_in_places();
+  Document nodes = instanced;
+  Json& list = nodes.json["nodes"];
+  list[0].erase("extensions");
+  list[0].erase("mesh");
+  list[0]["children"] = {2, 3};
+  for (const double i : {0., 1.})
+    list.push_back({{"mesh", 0},
+                    {"translation", {3 * i, 0.25, 0.25}},
+                    {"rotation", {0., 0., 19660 * i / 32767, (32767 - 6553 * i) / 32767}},
+                    {"scale", {1., 1., i == 0 ? 1. : 0.25}}});
+  nodes.json.erase("extensionsRequired");
+  const auto sorted = [](Triangle_soup soup) {
+    std::sort(soup.points.begin(), soup.points.end());
+    return soup.points;
+  };
+  const Triangle_soup soup = read_glb(instanced).soup;
+  EXPECT_EQ(sorted(soup), sorted(read_glb(nodes).soup));
+  EXPECT_EQ(soup.groups.names.size(), 3u);
+}
+
+TEST(Gltf, InstancesStayInstancesWhereTheyAreShared)
+{
+  const Temporary_folder folder;
+  const Document before = waves_in_places();
+  const Triangle_soup soup = read_glb(before).soup;
+  for (const Instances instances : {Instances::shared, Instances::apart}) {
+    const Simplified_soup reduced = reduce(soup, 0.2, Placement::vertices, instances);
+    write_mesh(folder / "a.glb", reduced.soup);
+    const Document after = from_glb(contents(folder / "a.glb"));
+    const Triangle_soup again = read_mesh(folder / "a.glb").soup;
+    EXPECT_EQ(again.triangles.size(), reduced.soup.triangles.size());
+    EXPECT_EQ(again.groups.names.size(), 3u);
+    if (instances == Instances::shared) {
+      EXPECT_EQ(reduced.shared_places, 3u);
+      EXPECT_EQ(after.json["nodes"], before.json["nodes"]);
+      EXPECT_EQ(after.json["extensionsRequired"], before.json["extensionsRequired"]);
+      EXPECT_EQ(after.json["meshes"].size(), 1u);
+      for (const auto& [name, accessor] :
+           before.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"].items())
+        EXPECT_EQ(rows_of(after, accessor), rows_of(before, accessor)) << name;
+      EXPECT_LT(4 * after.bytes.size(), before.bytes.size());
+    } else { // nodes stand for the instances
+      EXPECT_EQ(reduced.shared_places, 0u);
+      EXPECT_EQ(after.json["nodes"].size(), before.json["nodes"].size() + 2);
+      EXPECT_FALSE(after.json.contains("extensionsRequired"));
+      EXPECT_EQ(after.json["meshes"].size(), 3u);
+    }
+  }
+}
+
+TEST(Gltf, InstancesThatDifferInOneTriangleAreTwoMeshes)
+{
+  const Temporary_folder folder;
+  Triangle_soup soup = read_glb(waves_in_places()).soup;
+  const Index in_each = Index(soup.triangles.size() / 3);
+  std::vector<Index> kept;
+  for (Index t = 0; t < soup.triangles.size(); ++t)
+    if (t != 0 && t != in_each + 1 && t != 2 * in_each) // as many are left in every place
+      kept.push_back(t);
+  keep_triangles(soup, kept);
+  write_mesh(folder / "a.glb", soup);
+  EXPECT_EQ(from_glb(contents(folder / "a.glb")).json["meshes"].size(), 2u);
+  const Triangle_soup again = read_mesh(folder / "a.glb").soup;
+  const auto points_of = [](const Triangle_soup& of) {
+    std::multiset<std::array<Point_3, 3>> points;
+    for (const Index_triple& t : of.triangles)
+      points.insert({of.points[t[0]], of.points[t[1]], of.points[t[2]]});
+    return points;
+  };
+  EXPECT_TRUE(points_of(again) == points_of(soup));
+}
+
+} // namespace
+} // namespace selvedge::test

@@ -1,0 +1,96 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// glTF files of meshes from other formats, and the other way round.
+
+#include "support/Gltf_document.h"
+#include "support/Temporary_folder.h"
+
+#include <selvedge/Error.h>
+#include <selvedge/mesh_files.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace selvedge::test {
+namespace {
+
+TEST(Gltf, NewFileFromAnotherFormat)
+{
+  const Temporary_folder folder;
+  const std::string obj =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.5\nvt 0 0\nvt 1 0\nvt 0.25 1\nvt 0.5 0.75\nvn 0 0 1\n"
+      "g body\nusemtl denim\nf 1/1/1 2/2/1 3/3/1\nusemtl silk\nf 3/4/1 2/2/1 4/1/1\n"
+      "g sleeve\nf 1 4 2\n";
+  const Mesh_file file = read_mesh(obj, Mesh_format::obj, "test");
+  EXPECT_TRUE(needs_float32(file.soup, Mesh_format::glb));
+  write_mesh(folder / "a.glb", file.soup);
+  const Mesh_file again = read_mesh(folder / "a.glb");
+  ASSERT_EQ(again.soup.triangles.size(), 3u);
+  EXPECT_EQ(again.soup.groups.names, (std::vector<std::string>{"body/0", "body/1", "sleeve"}));
+  EXPECT_EQ(again.soup.materials.names, (std::vector<std::string>{"denim", "silk"}));
+  for (std::size_t t = 0; t < 3; ++t) {
+    EXPECT_EQ(again.soup.materials.names[again.soup.materials.of_triangle[t]],
+              file.soup.materials.names[file.soup.materials.of_triangle[t]]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(again.soup.points[again.soup.triangles[t][k]], file.soup.points[file.soup.triangles[t][k]]);
+      if (t < 2) {
+        EXPECT_EQ(again.soup.uvs.values[again.soup.uvs.of_triangle[t][k]],
+                  file.soup.uvs.values[file.soup.uvs.of_triangle[t][k]]);
+        EXPECT_EQ(again.soup.normals.values[again.soup.normals.of_triangle[t][k]],
+                  (std::array<double, 3>{0, 0, 1}));
+      } else {
+        EXPECT_EQ(again.soup.uvs.of_triangle[t][k], again.soup.uvs.missing);
+      }
+    }
+  }
+  Triangle_soup fine = file.soup;
+  fine.points[0] = Point_3(0.1, 0, 0);
+  EXPECT_THROW(write_mesh(folder / "b.glb", fine), Argument_error);
+  EXPECT_FALSE(std::filesystem::exists(folder / "b.glb"));
+}
+
+TEST(Gltf, AMeshWithoutTrianglesIsRefused)
+{
+  const Temporary_folder folder;
+  EXPECT_THROW(write_mesh(folder / "a.glb", Triangle_soup()), Argument_error);
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.glb"));
+}
+
+TEST(Gltf, NewFileSplitsVerticesOnlyWhereCornersDiffer)
+{
+  // Some exporters write texture coordinates for every corner, the same ones again and again.
+  const Temporary_folder folder;
+  const std::string obj =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.5\nvt 0 0\nvt 1 0\nvt 0 1\nvt 0 1\nvt 1 0\nvt 1 1\nvt 0.5 0.5\n";
+  write_mesh(folder / "a.glb",
+             read_mesh(obj + "f 1/1 2/2 3/3\nf 3/4 2/5 4/6\n", Mesh_format::obj, "test").soup);
+  EXPECT_EQ(read_mesh(folder / "a.glb").soup.points.size(), 4u);
+  write_mesh(folder / "a.glb",
+             read_mesh(obj + "f 1/1 2/2 3/3\nf 3/7 2/5 4/6\n", Mesh_format::obj, "test").soup);
+  EXPECT_EQ(read_mesh(folder / "a.glb").soup.points.size(), 5u);
+}
+
+TEST(Gltf, OtherFormatsHoldWorldPositions)
+{
+  const Temporary_folder folder;
+  const Mesh_file file = read_glb(everything());
+  for (const char* name : {"a.obj", "a.ply"}) {
+    write_mesh(folder / name, file.soup);
+    const Mesh_file again = read_mesh(folder / name);
+    EXPECT_EQ(again.soup.points, file.soup.points) << name;
+    EXPECT_EQ(again.soup.triangles, file.soup.triangles) << name;
+    EXPECT_FALSE(again.soup.uvs.empty()) << name;
+    const std::vector<std::string> lost = not_carried(file.soup, mesh_format(name));
+    for (const char* what : {"skins", "morph targets", "animations", "images", "nodes and their transforms"})
+      EXPECT_EQ(std::count(lost.begin(), lost.end(), what), 1) << what;
+  }
+}
+
+} // namespace
+} // namespace selvedge::test

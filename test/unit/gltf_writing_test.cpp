@@ -1,0 +1,346 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// glTF files as they are written back: what is carried, bit for bit, and new places.
+
+#include "support/Gltf_document.h"
+#include "support/Temporary_folder.h"
+
+#include "soup/selection.h"
+#include "soup/transforms_of_vertices.h"
+#include <selvedge/Error.h>
+#include <selvedge/mesh_files.h>
+#include <selvedge/simplify.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace selvedge::test {
+namespace {
+
+std::vector<std::size_t> indices_of(const Document& document, const Json& primitive)
+{
+  std::vector<std::size_t> result;
+  for (const std::string& row : rows_of(document, primitive["indices"])) {
+    std::size_t index = 0;
+    for (std::size_t k = 0; k < row.size(); ++k)
+      index |= std::size_t(static_cast<unsigned char>(row[k])) << 8 * k;
+    result.push_back(index);
+  }
+  return result;
+}
+
+/// Every vertex of a primitive has, in every attribute and target, the bits of the vertex of the same _ID in
+/// the other.
+void expect_rows_of(const Document& after, const Json& primitive, const Document& before,
+                    const Json& original)
+{
+  ASSERT_EQ(primitive["attributes"].size(), original["attributes"].size());
+  const std::vector<std::string> ids = rows_of(after, primitive["attributes"]["_ID"]);
+  const auto expect_same = [&](std::size_t accessor, std::size_t from) {
+    for (const char* key : {"componentType", "type", "normalized", "name", "extras"})
+      ASSERT_EQ(after.json["accessors"][accessor].value(key, Json()),
+                before.json["accessors"][from].value(key, Json()));
+    const std::vector<std::string> rows = rows_of(after, accessor), expected = rows_of(before, from);
+    ASSERT_EQ(rows.size(), ids.size());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      ASSERT_EQ(rows[i], expected.at(std::size_t(get<float>(ids[i], 0)))) << "row " << i;
+  };
+  for (const auto& [name, accessor] : original["attributes"].items())
+    expect_same(primitive["attributes"][name], accessor);
+  ASSERT_EQ(primitive.value("targets", Json()).size(), original.value("targets", Json()).size());
+  for (std::size_t k = 0; k < original.value("targets", Json()).size(); ++k)
+    for (const auto& [name, accessor] : original["targets"][k].items())
+      expect_same(primitive["targets"][k][name], accessor);
+  for (const std::size_t index : indices_of(after, primitive))
+    ASSERT_LT(index, ids.size());
+}
+
+/// What is not about vertices and triangles says the same.
+void expect_same_rest(const Document& after, const Document& before, bool is_reduced)
+{
+  for (const char* key :
+       {"asset", "scene", "scenes", "extras", "materials", "images", "textures", "skins", "animations"})
+    EXPECT_EQ(after.json[key], before.json[key]) << key;
+  const auto view = [](const Document& document, std::size_t number) {
+    const Json& json = document.json["bufferViews"][number];
+    return document.bytes.substr(json["byteOffset"], json["byteLength"]);
+  };
+  const std::size_t image = before.json["images"][0]["bufferView"];
+  EXPECT_EQ(view(after, image), view(before, image));
+  for (const std::size_t accessor :
+       {before.json["skins"][0]["inverseBindMatrices"], before.json["animations"][0]["samplers"][0]["input"],
+        before.json["animations"][0]["samplers"][0]["output"]})
+    EXPECT_EQ(rows_of(after, accessor), rows_of(before, accessor));
+  // Where it has been reduced otherwise, the node that shared its mesh has its own now.
+  Json nodes = after.json["nodes"];
+  if (is_reduced) {
+    EXPECT_EQ(nodes[2]["mesh"], 3);
+    nodes[2]["mesh"] = 0;
+  }
+  EXPECT_EQ(nodes, before.json["nodes"]);
+  ASSERT_EQ(after.json["meshes"].size(), is_reduced ? 4u : 3u);
+  // Points are as they were.
+  EXPECT_EQ(after.json["meshes"][2], before.json["meshes"][2]);
+  const std::size_t marks = before.json["meshes"][2]["primitives"][0]["attributes"]["POSITION"];
+  EXPECT_EQ(rows_of(after, marks), rows_of(before, marks));
+}
+
+void expect_everything_kept(const Document& after, const Document& before, bool is_reduced = true)
+{
+  expect_same_rest(after, before, is_reduced);
+  std::map<std::size_t, std::size_t> from = {{0, 0}, {1, 1}};
+  if (is_reduced)
+    from[3] = 0;
+  for (const auto& [mesh, original] : from) {
+    Json rest = after.json["meshes"][mesh], rest_before = before.json["meshes"][original];
+    for (std::size_t p = 0; p < rest["primitives"].size(); ++p) {
+      if (rest["primitives"][p].contains("indices"))
+        expect_rows_of(after, rest["primitives"][p], before, rest_before["primitives"][p]);
+      for (const char* key : {"attributes", "indices", "targets"}) {
+        rest["primitives"][p].erase(key);
+        rest_before["primitives"][p].erase(key);
+      }
+    }
+    EXPECT_EQ(rest, rest_before);
+  }
+}
+
+/// The numbers of a row of floats, or of other numbers.
+template <class Number = float>
+std::vector<double> numbers(const std::string& row)
+{
+  std::vector<double> result;
+  for (std::size_t at = 0; at < row.size(); at += sizeof(Number))
+    result.push_back(get<Number>(row, at));
+  return result;
+}
+
+template <class Weight>
+void expect_interpolated(int weight_type)
+{
+  const Temporary_folder folder;
+  const Document before = waves<Weight>(weight_type);
+  const Simplified_soup reduced =
+      reduce(read_mesh(to_glb(before), Mesh_format::glb, "waves").soup, 0.3, Placement::optimal);
+  write_mesh(folder / "a.glb", reduced.soup);
+  const Document after = from_glb(contents(folder / "a.glb"));
+  const Json& primitive = after.json["meshes"][0]["primitives"][0];
+  const auto rows = [&](const char* name) { return rows_of(after, primitive["attributes"][name]); };
+  const auto points = rows("POSITION"), normals = rows("NORMAL"), tangents = rows("TANGENT"),
+             uvs = rows("TEXCOORD_0"), joints = rows("JOINTS_0"), weights = rows("WEIGHTS_0"),
+             shifts = rows_of(after, primitive["targets"][0]["POSITION"]);
+  const auto known = rows_of(before, before.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"]);
+  const double whole = weight_type == 5126 ? 1 : double(std::numeric_limits<Weight>::max());
+  std::size_t placed = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (std::find(known.begin(), known.end(), points[i]) != known.end())
+      continue;
+    ++placed;
+    const std::vector<double> p = numbers(points[i]), uv = numbers<std::uint16_t>(uvs[i]),
+                              normal = numbers(normals[i]), tangent = numbers(tangents[i]),
+                              joint = numbers<std::uint8_t>(joints[i]), weight = numbers<Weight>(weights[i]),
+                              shift = numbers(shifts[i]);
+    EXPECT_NEAR(uv[0] / 65535, p[0], 0.02);
+    EXPECT_NEAR(uv[1] / 65535, p[1], 0.02);
+    EXPECT_NEAR(std::hypot(normal[0], normal[1], normal[2]), 1, 1e-6);
+    EXPECT_NEAR(std::hypot(tangent[0], tangent[1], tangent[2]), 1, 1e-6);
+    EXPECT_EQ(std::abs(tangent[3]), 1); // which is a side, and not mixed
+    EXPECT_NEAR(shift[0], 0.5 * p[0], 0.02);
+    EXPECT_NEAR(shift[2], -0.25 * p[1], 0.02);
+    ASSERT_EQ(joint[0] + joint[1], 7);
+    EXPECT_NEAR(weight[joint[0] == 3 ? 0 : 1] / whole, p[0], 0.02);
+    EXPECT_EQ(joint[2] + joint[3] + weight[2] + weight[3], 0);
+    EXPECT_NEAR(weight[0] + weight[1], whole, whole == 1 ? 1e-6 : 0);
+  }
+  EXPECT_EQ(placed, reduced.placed_vertices);
+  EXPECT_GT(placed, 50u);
+}
+
+TEST(Gltf, RoundTripKeepsEverything)
+{
+  const Temporary_folder folder;
+  const Document before = everything();
+  const Mesh_file file = read_glb(before);
+  EXPECT_EQ(file.soup.triangles.size(), 3u * 2 * (side - 1) * (side - 1));
+  write_mesh(folder / "a.glb", file.soup);
+  const Document after = from_glb(contents(folder / "a.glb"));
+  expect_everything_kept(after, before, false);
+  EXPECT_EQ(after.json["accessors"].size(), before.json["accessors"].size() + 1)
+      << "what was shared is no more; only the positions that points use as well stay beside those written";
+  const Json& target =
+      after.json["accessors"]
+                [after.json["meshes"][0]["primitives"][0]["targets"][0]["POSITION"].get<std::size_t>()];
+  EXPECT_TRUE(target.contains("sparse"));
+  EXPECT_FALSE(target.contains("bufferView")) << "a sparse target became a full one";
+  for (std::size_t p = 0; p < 2; ++p)
+    EXPECT_EQ(indices_of(after, after.json["meshes"][0]["primitives"][p]).size(),
+              indices_of(before, before.json["meshes"][0]["primitives"][p]).size());
+  const Mesh_file again = read_mesh(folder / "a.glb");
+  EXPECT_EQ(again.soup.triangles.size(), file.soup.triangles.size());
+  EXPECT_EQ(again.soup.groups.names, file.soup.groups.names);
+  EXPECT_EQ(again.soup.materials.of_triangle, file.soup.materials.of_triangle);
+  for (std::size_t t = 0; t < file.soup.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      ASSERT_EQ(again.soup.points[again.soup.triangles[t][k]], file.soup.points[file.soup.triangles[t][k]]);
+  write_mesh(folder / "b.glb", again.soup);
+  EXPECT_EQ(contents(folder / "a.glb"), contents(folder / "b.glb"));
+}
+
+TEST(Gltf, ReducedKeepsTheBitsOfEverySurvivingVertex)
+{
+  const Temporary_folder folder;
+  const Document before = everything();
+  const Mesh_file file = read_glb(before);
+  for (const Instances instances : {Instances::shared, Instances::apart}) {
+    const Simplified_soup reduced = reduce(file.soup, 0.4, Placement::vertices, instances);
+    ASSERT_LT(reduced.soup.triangles.size(), file.soup.triangles.size() / 2);
+    EXPECT_FALSE(needs_float32(reduced.soup, Mesh_format::glb));
+    EXPECT_TRUE(needs_float32(reduced.soup, Mesh_format::stl));
+    write_mesh(folder / "a.glb", reduced.soup);
+    const Document after = from_glb(contents(folder / "a.glb"));
+    expect_everything_kept(after, before, instances == Instances::apart);
+    // What was judged is what stands in the file.
+    const Mesh_file again = read_mesh(folder / "a.glb");
+    ASSERT_EQ(again.soup.triangles.size(), reduced.soup.triangles.size());
+    std::multiset<std::array<Point_3, 3>> judged, written;
+    for (const Index_triple& t : reduced.soup.triangles)
+      judged.insert({reduced.soup.points[t[0]], reduced.soup.points[t[1]], reduced.soup.points[t[2]]});
+    for (const Index_triple& t : again.soup.triangles)
+      written.insert({again.soup.points[t[0]], again.soup.points[t[1]], again.soup.points[t[2]]});
+    EXPECT_TRUE(judged == written);
+    EXPECT_TRUE(not_carried(reduced.soup, Mesh_format::glb).empty());
+    write_mesh(folder / "all.glb", file.soup);
+    EXPECT_LT(after.bytes.size(), from_glb(contents(folder / "all.glb")).bytes.size())
+        << "vertices that are gone are still in the file";
+  }
+}
+
+TEST(Gltf, TextFormHoldsTheSame)
+{
+  const Temporary_folder folder;
+  const Document before = everything();
+  const Mesh_file file = read_glb(before);
+  write_mesh(folder / "a.gltf", file.soup);
+  const Mesh_file again = read_mesh(folder / "a.gltf");
+  EXPECT_EQ(again.soup.points, file.soup.points);
+  EXPECT_EQ(again.soup.triangles, file.soup.triangles);
+  write_mesh(folder / "a.glb", again.soup);
+  expect_everything_kept(from_glb(contents(folder / "a.glb")), before, false);
+}
+
+TEST(Gltf, PrimitivesThatAreGoneLeaveAValidFile)
+{
+  const Temporary_folder folder;
+  const Mesh_file file = read_glb(everything());
+  std::vector<Index> triangles;
+  std::vector<Index_triple> corners;
+  for (Index t = 0; t < file.soup.triangles.size(); ++t)
+    if (file.soup.groups.of_triangle[t] == 0) {
+      triangles.push_back(t);
+      corners.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    }
+  write_mesh(folder / "a.glb", selected(file.soup, triangles, corners));
+  const Mesh_file again = read_mesh(folder / "a.glb");
+  EXPECT_EQ(again.soup.triangles.size(), triangles.size());
+  const Document after = from_glb(contents(folder / "a.glb"));
+  EXPECT_FALSE(after.json["nodes"][3].contains("mesh"));
+  EXPECT_FALSE(after.json["nodes"][3].contains("skin"));
+  EXPECT_FALSE(after.json["nodes"][2].contains("mesh"));
+  EXPECT_EQ(after.json["nodes"][6]["mesh"], 1) << "the points have moved up";
+}
+
+TEST(Gltf, PositionsThatTheFileDoesNotHaveAreRefused)
+{
+  const Temporary_folder folder;
+  Triangle_soup soup = read_glb(everything()).soup;
+  const Point_3 own = soup.points[5], other = soup.points[6], mirrored = soup.points[side * side + 6];
+  soup.points[5] = other; // of the same node: its local coordinates are known
+  write_mesh(folder / "a.glb", soup);
+  EXPECT_EQ(read_mesh(folder / "a.glb").soup.points[5], other);
+  const std::vector<Index> transforms = transforms_of_vertices(soup);
+  EXPECT_EQ(transforms[5], transforms[6]);
+  EXPECT_NE(transforms[5], transforms[side * side + 6]);
+  soup.points[5] = mirrored; // of another node
+  EXPECT_THROW(write_mesh(folder / "a.glb", soup), Argument_error);
+  soup.points[5] = Point_3(own.x() + 1, own.y(), own.z());
+  EXPECT_THROW(write_mesh(folder / "a.glb", soup), Argument_error);
+}
+
+TEST(Gltf, ValuesAtNewPlacesAreInterpolated)
+{
+  expect_interpolated<float>(5126);
+  expect_interpolated<std::uint8_t>(5121);
+  expect_interpolated<std::uint16_t>(5123);
+}
+
+// In nodes that share a mesh, under transforms that round.
+TEST(Gltf, NewPlacesAreWrittenAsTheyWereJudged)
+{
+  const Temporary_folder folder;
+  const Document before = everything();
+  const Triangle_soup soup = read_glb(before).soup;
+  const Simplified_soup reduced = reduce(soup, 0.3, Placement::optimal);
+  EXPECT_TRUE(verify(reduced, prepare(soup)).accepted());
+  write_mesh(folder / "a.glb", reduced.soup);
+  const Triangle_soup again = read_mesh(folder / "a.glb").soup;
+  ASSERT_EQ(again.triangles.size(), reduced.soup.triangles.size());
+  const auto expect_same_values = [](const auto& read, const auto& written, std::size_t t, std::size_t k) {
+    const Index number = read.of_triangle[t][k], expected = written.of_triangle[t][k];
+    ASSERT_EQ(number == read.missing, expected == written.missing);
+    if (number != read.missing) {
+      ASSERT_EQ(read.values[number], written.values[expected]);
+    }
+  };
+  for (std::size_t t = 0; t < again.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      ASSERT_EQ(again.points[again.triangles[t][k]], reduced.soup.points[reduced.soup.triangles[t][k]]);
+      expect_same_values(again.uvs, reduced.soup.uvs, t, k);
+      expect_same_values(again.normals, reduced.soup.normals, t, k);
+    }
+
+  // Rows of vertices in the places of the input are the input's, bit for bit.
+  const Document after = from_glb(contents(folder / "a.glb"));
+  expect_same_rest(after, before, true);
+  std::size_t kept = 0, placed = 0;
+  std::set<std::size_t> accessors; // which primitives of a mesh share
+  for (const auto& [mesh, original] : std::map<std::size_t, std::size_t>{{0, 0}, {1, 1}, {3, 0}})
+    for (std::size_t p = 0; p < before.json["meshes"][original]["primitives"].size(); ++p) {
+      const Json &now = after.json["meshes"][mesh]["primitives"][p],
+                 &then = before.json["meshes"][original]["primitives"][p];
+      if (!accessors.insert(now["attributes"]["POSITION"].get<std::size_t>()).second)
+        continue;
+      const auto known = rows_of(before, then["attributes"]["POSITION"]);
+      const auto points = rows_of(after, now["attributes"]["POSITION"]);
+      const auto expect_same_row = [&](std::size_t accessor, std::size_t from, std::size_t i,
+                                       std::size_t row) {
+        ASSERT_EQ(rows_of(after, accessor)[i], rows_of(before, from)[row]);
+      };
+      std::size_t placed_here = 0;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const std::size_t row = std::size_t(std::find(known.begin(), known.end(), points[i]) - known.begin());
+        ++(row == known.size() ? placed_here : kept);
+        if (row == known.size())
+          continue;
+        for (const auto& [name, accessor] : then["attributes"].items())
+          expect_same_row(now["attributes"][name], accessor, i, row);
+        for (std::size_t k = 0; k < then.value("targets", Json()).size(); ++k)
+          expect_same_row(now["targets"][k]["POSITION"], then["targets"][k]["POSITION"], i, row);
+      }
+      EXPECT_GT(placed_here, 10u) << "mesh " << mesh;
+      placed += placed_here;
+    }
+  EXPECT_EQ(placed, reduced.placed_vertices);
+  EXPECT_EQ(placed + kept, reduced.soup.points.size());
+}
+
+} // namespace
+} // namespace selvedge::test
