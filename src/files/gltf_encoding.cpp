@@ -260,7 +260,7 @@ std::vector<std::string> triangles_of(const draco::Mesh& mesh, std::size_t colum
 } // namespace
 #endif
 
-std::optional<Draco_primitive> encoded_by_draco(const std::vector<Column>& columns,
+std::optional<Draco_primitive> encoded_by_draco(const std::vector<Gltf_scene::Column>& columns,
                                                 const std::vector<Index>& corners, bool may_reorder)
 {
 #ifdef SELVEDGE_HAS_DRACO
