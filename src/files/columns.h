@@ -27,7 +27,7 @@ void append_number(std::vector<unsigned char>& rows, Number number)
 }
 
 /// One component of an attribute, row by row.
-struct Column
+struct Attribute_component
 {
   const Attribute* attribute = nullptr;
   std::size_t component = 0;
@@ -57,20 +57,21 @@ struct Column
 };
 
 /// Returns the attribute of one component that has this name.
-inline std::optional<Column> find_column(const std::vector<Attribute>& attributes, std::string_view name)
+inline std::optional<Attribute_component> find_column(const std::vector<Attribute>& attributes,
+                                                      std::string_view name)
 {
   for (const Attribute& attribute : attributes)
     if (attribute.name == name && attribute.components == 1)
-      return Column{&attribute, 0};
+      return Attribute_component{&attribute, 0};
   return std::nullopt;
 }
 
 /// Returns red, green, blue and, where there is one, alpha; nothing when the vertices have no colours.
-inline std::vector<Column> find_colours(const std::vector<Attribute>& attributes)
+inline std::vector<Attribute_component> find_colours(const std::vector<Attribute>& attributes)
 {
-  std::vector<Column> columns;
+  std::vector<Attribute_component> columns;
   for (const char* name : {"red", "green", "blue", "alpha"})
-    if (const std::optional<Column> column = find_column(attributes, name))
+    if (const std::optional<Attribute_component> column = find_column(attributes, name))
       columns.push_back(*column);
     else if (columns.size() < 3)
       return {};

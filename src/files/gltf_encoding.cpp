@@ -279,7 +279,7 @@ bool is_same_but_split(const Contents& contents, const Contents& again)
 } // namespace
 #endif
 
-std::optional<Draco_primitive> encoded_by_draco(const std::vector<Column>& columns,
+std::optional<Draco_primitive> encoded_by_draco(const std::vector<Gltf_scene::Column>& columns,
                                                 const std::vector<Index>& corners, bool may_reorder)
 {
 #ifdef SELVEDGE_HAS_DRACO

@@ -181,7 +181,7 @@ private:
   int colour_type() const
   {
     const auto are_all = [this](Attribute::Type type) {
-      return std::all_of(m_colours.begin(), m_colours.end(), [type](const Column& colour) {
+      return std::all_of(m_colours.begin(), m_colours.end(), [type](const Attribute_component& colour) {
         return colour.attribute->type == type && colour.attribute->is_normalized;
       });
     };
@@ -209,7 +209,7 @@ private:
       std::apply(put, m_normals.rows[v.normal]);
     if (v.kind.has_uvs)
       std::apply(put, m_uvs.rows[v.uv]);
-    for (const Column& colour : m_colours)
+    for (const Attribute_component& colour : m_colours)
       if (next->component_type == type_float32)
         // Vertices without a colour are white, like a mesh without colours.
         append_little_endian(
@@ -357,7 +357,7 @@ private:
   std::shared_ptr<Gltf_scene> m_scene;
   Triangle_soup m_result;
   std::vector<Kind> m_kinds; // of instances, in order
-  std::vector<Column> m_colours;
+  std::vector<Attribute_component> m_colours;
   std::vector<std::vector<std::array<float, 3>>> m_displacements; // of vertices, by target
   std::vector<std::string> m_target_names;
   std::vector<std::vector<std::size_t>> m_keys; // targets of each pose

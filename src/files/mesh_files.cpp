@@ -119,7 +119,7 @@ std::vector<std::string> not_carried_by_gltf(const Triangle_soup& soup)
     names.push_back("smoothing groups");
   if (!soup.material_libraries.empty())
     names.push_back("material libraries");
-  const std::vector<files::Column> colours = files::find_colours(soup.vertex_attributes);
+  const std::vector<files::Attribute_component> colours = files::find_colours(soup.vertex_attributes);
   for (const Attribute& attribute : soup.vertex_attributes)
     if (std::none_of(colours.begin(), colours.end(),
                      [&](const auto& colour) { return colour.attribute == &attribute; }))

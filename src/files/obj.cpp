@@ -275,13 +275,13 @@ void check_text(const std::string& text, const std::string& kind)
 
 void write_points(Byte_writer& out, const Triangle_soup& soup)
 {
-  const std::vector<Column> colours = find_colours(soup.vertex_attributes);
-  const std::optional<Column> weight = find_column(soup.vertex_attributes, "w");
+  const std::vector<Attribute_component> colours = find_colours(soup.vertex_attributes);
+  const std::optional<Attribute_component> weight = find_column(soup.vertex_attributes, "w");
   for (std::size_t i = 0; i < soup.points.size(); ++i) {
     const Point_3& p = soup.points[i];
     out << "v " << p.x() << ' ' << p.y() << ' ' << p.z();
     if (!colours.empty() && !std::isnan(colours[0].real(i))) {
-      for (const Column& colour : colours)
+      for (const Attribute_component& colour : colours)
         if (const double value = colour.real(i); !std::isnan(value))
           out << ' ' << value;
     } else if (weight && !std::isnan(weight->real(i))) {
@@ -363,11 +363,11 @@ Mesh_file read_obj(std::string_view contents, const std::string& name)
 
 bool is_in_obj(const Triangle_soup& soup, const Attribute& attribute)
 {
-  const std::vector<Column> colours = find_colours(soup.vertex_attributes);
+  const std::vector<Attribute_component> colours = find_colours(soup.vertex_attributes);
   if (std::any_of(colours.begin(), colours.end(),
-                  [&](const Column& column) { return column.attribute == &attribute; }))
+                  [&](const Attribute_component& column) { return column.attribute == &attribute; }))
     return true;
-  const std::optional<Column> weight = find_column(soup.vertex_attributes, "w");
+  const std::optional<Attribute_component> weight = find_column(soup.vertex_attributes, "w");
   if (!weight || weight->attribute != &attribute)
     return false;
   for (std::size_t i = 0; i < soup.points.size() && !colours.empty(); ++i)

@@ -79,7 +79,7 @@ bool are_float32(const Rows& rows, std::size_t dimension)
 struct Named_column
 {
   std::string name;
-  Column column;
+  Attribute_component column;
 };
 
 /// Whether a property of this name is read back with the same name.

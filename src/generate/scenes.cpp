@@ -197,7 +197,7 @@ Triangle_soup internal::seams(const Generate_options& options)
   const std::size_t columns = total / 6;
   const std::size_t upright = total - 5 * columns;
 
-  struct Piece
+  struct Patch
   {
     const char* name;
     std::size_t columns, rows;
@@ -205,13 +205,13 @@ Triangle_soup internal::seams(const Generate_options& options)
     double x;
     Vector right;
   };
-  const Piece pieces[] = {
+  const Patch pieces[] = {
       {"left", columns, 2 * half, 0, 0, Vector(1, 0, 0)}, {"lower", columns, half, 0, 1, Vector(1, 0, 0)},
       {"upper", columns, half, half, 1, Vector(1, 0, 0)}, {"upright", upright, half, 0, 1, Vector(0, 0, 1)},
       {"turned", columns, half, 0, 3, Vector(-1, 0, 0)},
   };
   Soup_builder builder(std::size(pieces), options.faces);
-  for (const Piece& piece : pieces) {
+  for (const Patch& piece : pieces) {
     Lattice lattice(piece.columns, piece.rows, false);
     lattice.disturb(random);
     for (std::size_t j = 0; j <= piece.rows; ++j)

@@ -25,7 +25,7 @@
 namespace selvedge {
 namespace {
 
-constexpr Index s_none = std::numeric_limits<Index>::max();
+constexpr Index s_no_place = std::numeric_limits<Index>::max();
 
 /// Why two partners are not snapped together.
 enum class Obstacle { rival, frozen, foreign, unmanifold, folding, blocked };
@@ -38,7 +38,7 @@ public:
   Border_snapping(const Triangle_soup& soup, const std::vector<Index>& positions,
                   const std::vector<char>& is_frozen, double distance, const std::vector<Index>& transforms,
                   std::size_t obstacle_triangles, const Scale& scale)
-      : m_distance(distance), m_moved_to(soup.points.size(), s_none)
+      : m_distance(distance), m_moved_to(soup.points.size(), s_no_place)
   {
     m_points.reserve(soup.points.size());
     for (const Point_3& point : soup.points)
@@ -117,7 +117,7 @@ public:
   /// Returns the position at which the vertices of a position are now.
   Index place_of(Index position) const
   {
-    while (m_moved_to[position] != s_none)
+    while (m_moved_to[position] != s_no_place)
       position = m_moved_to[position];
     return position;
   }
@@ -187,11 +187,11 @@ private:
     Cancellation_scope::check();
     m_sides.shrink_to_fit();
 
-    m_site_at.assign(m_points.size(), s_none);
+    m_site_at.assign(m_points.size(), s_no_place);
     for (const Side& side : m_sides)
       m_site_at[side[0]] = m_site_at[side[1]] = 0;
     for (Index position = 0; position < m_site_at.size(); ++position)
-      if (m_site_at[position] != s_none) {
+      if (m_site_at[position] != s_no_place) {
         m_site_at[position] = Index(m_sites.size());
         m_sites.emplace_back().position = position;
       }
@@ -202,7 +202,7 @@ private:
     Cancellation_poll poll;
     for (Index face = 0; face < m_triangles.size(); ++face)
       for (const Index position : m_triangles[face])
-        if (poll(); m_site_at[position] != s_none) {
+        if (poll(); m_site_at[position] != s_no_place) {
           Site& site = m_sites[m_site_at[position]];
           site.faces.push_back(face);
           site.is_frozen |= is_frozen[face] != 0;
@@ -282,7 +282,7 @@ private:
   {
     std::vector<Index> on_border;
     const FaceIndex index = index_borders(on_border);
-    std::vector<Pair> nearest(m_sites.size(), {0, s_none, s_none});
+    std::vector<Pair> nearest(m_sites.size(), {0, s_no_place, s_no_place});
     Cancellation_poll poll;
     for (const Index i : on_border) {
       Site& site = m_sites[i];
@@ -300,10 +300,10 @@ private:
           return;
         }
         const Pair pair{distance(site, m_sites[j]), (std::min)(i, j), (std::max)(i, j)};
-        if (nearest[i].low == s_none || pair < nearest[i])
+        if (nearest[i].low == s_no_place || pair < nearest[i])
           nearest[i] = pair;
       });
-      if (nearest[i].low != s_none &&
+      if (nearest[i].low != s_no_place &&
           (site.obstacle == Obstacle::frozen || site.obstacle == Obstacle::foreign))
         site.obstacle = Obstacle::rival;
     }
@@ -609,12 +609,12 @@ Snapping_notes snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
   notes.largest_distance = scale.undone(notes.largest_distance);
 
   const std::vector<Point_3> points = soup.points;
-  std::vector<Index> first_at(points.size(), s_none);
+  std::vector<Index> first_at(points.size(), s_no_place);
   for (Index v = 0; v < points.size(); ++v) {
     const Index place = snapping.place_of(positions[v]);
     if (place != positions[v])
       soup.points[v] = points[place];
-    if (first_at[place] == s_none)
+    if (first_at[place] == s_no_place)
       first_at[place] = v;
     positions[v] = first_at[place];
   }
