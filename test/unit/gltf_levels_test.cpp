@@ -6,6 +6,7 @@
 #include "support/Gltf_document.h"
 #include "support/Temporary_folder.h"
 
+#include "soup/selection.h"
 #include <selvedge/Error.h>
 #include <selvedge/gltf_poses.h>
 #include <selvedge/mesh_files.h>
