@@ -130,6 +130,26 @@ TEST(Cells, AllStopAtTheCostThatHalfOfThemHaveReached)
   EXPECT_EQ(std::size_t(std::count_if(left.begin(), left.end(), is_rough)), rough.triangles.size());
 }
 
+// A rough sheet in two cells: both go on together, and not one after the other.
+TEST(Cells, TakeTurnsByTheClassOfTheirCosts)
+{
+  const Triangle_soup rough = mapped(
+      sheet(40, 20), [](const Point_3& p) { return Point_3(p.x(), p.y(), std::sin(5 * p.x() + 7 * p.y())); });
+  Simplify_options options = in_cells(to_ratio(0.5), rough.triangles.size() - 100);
+  std::vector<bool> is_in_first_cell;
+  options.on_collapse = [&](const Soup_collapse& collapse) {
+    is_in_first_cell.push_back(rough.points[collapse.removed].x() < 20);
+  };
+  const Reduction reduction = reduce(rough, options);
+  EXPECT_EQ(reduction.simplified.report.cells, 2u);
+  const std::size_t half = reduction.simplified.report.collapses_in_cells / 2;
+  EXPECT_GT(half, 50u);
+  const auto count = std::size_t(
+      std::count(is_in_first_cell.begin(), is_in_first_cell.begin() + std::ptrdiff_t(half), true));
+  EXPECT_GT(count, half / 3);
+  EXPECT_LT(count, half - half / 3);
+}
+
 // The control of the replay: what has no cells but layers, each reduced as if the other were not there, is
 // not legal when put together.
 TEST(Cells, WouldNotBeLegalIfTheyWereNotConvex)

@@ -332,7 +332,8 @@ group(
     ("if (!is_locked[v] && (is_bound[a] || is_bound[b]))", "if (!is_locked[v] && is_bound[v])", "neighbours of the wall move"),
     ("if (low <= plane)", "if (low < plane)", "faces that touch the wall are not in the cell below",
      "what moves in a cell is with its neighbours inside the wall, which such a face does not come into"),
-    ("if (found.cost > limit)", "if (false)", "every cell goes to its own cost"),
+    (" && !(collapses[i].cost > limit)", "", "every cell goes to its own cost"),
+    ("  std::sort(order.begin(), order.end());\n", "", "cells are done to the whole one after the other"),
     ("working.constraints().diagonal = whole.diagonal;", "", "drift as a share of the cell"),
 )
 group(
@@ -671,7 +672,7 @@ group(
 group(
     headers + "Surface_mesh_simplification/internal/Edge_queue.h",
     ("edge_queue_test",),
-    ("Id(bits >> 49)", "Id(bits >> 50)", "costs of a class differ by a quarter"),
+    ("std::uint32_t(bits >> 49)", "std::uint32_t(bits >> 50)", "costs of a class differ by a quarter"),
     ("m_tile_bits(is_relaxed ? s_tile_bits : 31)", "m_tile_bits(31)", "no tiles"),
     ("if (i > 0 && entry < entries[parent(i)])", "if (false)", "an edge that gets cheaper stays where it is"),
     ("key = (std::min)(m_keys[2 * node], m_keys[2 * node + 1])", "key = (std::min)(key, m_keys[node / 2])",
