@@ -25,9 +25,6 @@ namespace selvedge::app {
 namespace {
 
 // Large enough that few vertices lie on cell walls, small enough that a cell stays in a processor's cache.
-constexpr std::size_t faces_per_cell = 50'000;
-// Cells cost a little of the order, and small meshes are done soon without them.
-constexpr std::size_t faces_for_cells = 500'000;
 
 constexpr std::string_view level_mark = "{lod}", pose_mark = "{pose}";
 
@@ -294,15 +291,6 @@ Json options_json(const Simplify_request& request)
           {"cells", optional(request.is_in_cells)},
           {"defects", name_of(defects_of(request))},
           {"strict", defects_of(request) == Defects::refuse}};
-}
-
-std::size_t faces_per_cell_of(const Simplify_request& request, std::size_t faces)
-{
-  const bool is_one_sequence_wanted = !request.lods.empty() || !request.progressive.empty();
-  const bool are_cells_refused = !request.intent.ratios.empty() || !request.may_intersect.empty() ||
-                                 !request.poses.empty() || request.options.clearance;
-  const bool is_default = faces >= faces_for_cells && !is_one_sequence_wanted && !are_cells_refused;
-  return request.is_in_cells.value_or(is_default) ? faces_per_cell : 0;
 }
 
 Defects defects_of(const Simplify_request& request)

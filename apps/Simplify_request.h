@@ -39,7 +39,7 @@ struct Simplify_request
   Simplify_options options;
   Simplify_intent intent;
   bool is_unguarded = false;
-  std::optional<bool> is_in_cells; ///< none: see `faces_per_cell_of`
+  std::optional<bool> is_in_cells; ///< none: `faces_per_cell_for` decides
   std::string weld;         // "EPS", "auto", or empty
   double weld_distance = 0; // 0 for auto
   Normals_choice normals = Normals_choice::automatic;
@@ -80,10 +80,6 @@ std::string pose_output(const Simplify_request& request, std::size_t level, cons
 
 /// Returns whether the request asks for a mesh, report or log on this program's standard output.
 bool has_standard_output(const Simplify_request& request);
-
-/// Returns the `Simplify_options::faces_per_cell` for a mesh of `faces` faces: by default, large meshes are
-/// reduced in cells, unless an option needs one sequence of collapses or excludes cells.
-std::size_t faces_per_cell_of(const Simplify_request& request, std::size_t faces);
 
 /// Returns what becomes of offending pairs of the input.
 Defects defects_of(const Simplify_request& request);

@@ -20,6 +20,7 @@
 #include <selvedge/Error.h>
 #include <selvedge/Reduction_log.h>
 #include <selvedge/Sha256.h>
+#include <selvedge/automatic_cells.h>
 #include <selvedge/collapse_log.h>
 #include <selvedge/key_poses.h>
 #include <selvedge/merge.h>
@@ -222,10 +223,13 @@ private:
   {
     m_bar.begin("sewing and indexing");
     Simplify_options options = m_request.options;
-    options.faces_per_cell = faces_per_cell_of(m_request, prepared.soup.triangles.size());
     if (m_guarded_poses.size() < prepared.soup.poses.size())
       options.guarded_poses = m_guarded_poses;
     options.is_progression_recorded = !m_request.progressive.empty();
+    // In cells, each level would be a reduction of its own.
+    const std::optional<bool> is_in_cells =
+        m_request.lods.empty() ? m_request.is_in_cells : m_request.is_in_cells.value_or(false);
+    options.faces_per_cell = faces_per_cell_for(prepared, options, m_request.intent, is_in_cells);
     m_log.str({});
     m_collapses.clear();
     m_progression = {};
