@@ -24,8 +24,6 @@
 namespace selvedge::app {
 namespace {
 
-// Large enough that few vertices lie on cell walls, small enough that a cell stays in a processor's cache.
-
 constexpr std::string_view level_mark = "{lod}", pose_mark = "{pose}";
 
 // As far off as a shape may be by default. Beyond it, ears become slabs, and a hat becomes a tent.

@@ -26,7 +26,9 @@ namespace selvedge {
 inline std::size_t faces_per_cell_for(const Prepared_soup& prepared, const Simplify_options& options,
                                       const Simplify_intent& intent, std::optional<bool> is_in_cells)
 {
-  constexpr std::size_t faces_per_cell = 50'000, faces_for_cells = 500'000;
+  // Large enough that few vertices lie on cell walls, small enough that a cell stays in a processor's cache.
+  constexpr std::size_t faces_per_cell = 50'000;
+  constexpr std::size_t faces_for_cells = 500'000;
   const bool are_cells_excluded = options.clearance || options.is_progression_recorded ||
                                   !intent.ratios.empty() || !prepared.may_intersect.empty() ||
                                   !prepared.soup.poses.empty();

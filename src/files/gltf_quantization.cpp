@@ -22,16 +22,12 @@ using Column = Gltf_scene::Column;
 Column of_type(const Column& from, Json accessor)
 {
   const int type = accessor["componentType"];
-  return {from.name,
-          std::move(accessor),
-          type,
-          from.components,
-          from.components * component_size(type),
-          {},
-          from.is_sparse,
-          from.compression,
-          std::nullopt,
-          from.place};
+  Column result = from.without_rows();
+  result.accessor = std::move(accessor);
+  result.component_type = type;
+  result.row_size = from.components * component_size(type);
+  result.quantised_accessor.reset();
+  return result;
 }
 
 bool needs_quantization(const Json& attributes, const Json& accessors)

@@ -340,9 +340,7 @@ private:
         note("vertices beyond those of the input, because new normals differ on faces that had one in common",
              m_sizes[i] - block(instance).size);
       const auto put = [&](const Column& column, const auto& bytes_of) {
-        Column left = {
-            column.name, column.accessor,  column.component_type, column.components,         column.row_size,
-            {},          column.is_sparse, column.compression,    column.quantised_accessor, column.place};
+        Column left = column.without_rows();
         left.rows.reserve(vertices[i].size() * column.row_size);
         Cancellation_poll poll;
         for (const Vertices_by_normal::Vertex& v : vertices[i]) {

@@ -64,6 +64,13 @@ struct Gltf_scene
     std::optional<Place_in_view> place = std::nullopt; ///< none where it is in no view, or in one of its own
 
     bool is_normalized() const { return accessor.value("normalized", false); }
+
+    /// Returns the same column without its rows.
+    Column without_rows() const
+    {
+      return {name, accessor,  component_type, components,         row_size,
+              {},   is_sparse, compression,    quantised_accessor, place};
+    }
   };
 
   /// A buffer view as EXT_meshopt_compression held it.

@@ -172,9 +172,8 @@ public:
       m_state->diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
     if (!(m_state->diagonal > 0))
       m_state->diagonal = 1; // all points are one
+    compute_planes(mesh, points);
     Cancellation_poll poll;
-    for (const auto face : faces(mesh))
-      compute_plane(face, mesh, points);
     auto weight = m_state->weights.begin();
     for (const Vertex v : vertices(mesh)) {
       poll();
@@ -328,9 +327,8 @@ public:
   template <class VertexPointMap>
   void recompute(const TriangleMesh& mesh, const VertexPointMap& points) const
   {
+    compute_planes(mesh, points);
     Cancellation_poll poll;
-    for (const auto face : faces(mesh))
-      compute_plane(face, mesh, points);
     for (const Vertex v : vertices(mesh)) {
       poll();
       change(m_state->quadrics, v, [&](Vertex_quadric& of_vertex) {
@@ -430,6 +428,13 @@ private:
     plane.doubled_area = normalise(plane.normal);
     plane.weight = weight_of_area(0.5 * plane.doubled_area);
     put(m_state->planes, face, plane);
+  }
+
+  template <class VertexPointMap>
+  void compute_planes(const TriangleMesh& mesh, const VertexPointMap& points) const
+  {
+    for (const auto face : faces(mesh))
+      compute_plane(face, mesh, points);
   }
 
   template <class Profile>

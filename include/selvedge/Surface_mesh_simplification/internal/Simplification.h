@@ -285,7 +285,6 @@ public:
     perform_collapse(m_mesh, m_points, No_constrained_edges(),
                      place ? Collapse_of_edge(profile, *place) : Collapse_of_edge::along(profile, moving),
                      visitor, Accumulation{m_quadrics});
-    m_are_quadrics_outdated = true;
   }
 
   double diagonal() const { return m_diagonal; }
@@ -332,7 +331,7 @@ public:
       m_levels.push_back(m_targets.share(0).at_ratio(ratio));
     m_on_level = on_level;
     build_index();
-    if (std::exchange(m_are_quadrics_outdated, false))
+    if (m_report.collapses > 0) // found in cells
       m_quadrics.recompute(m_mesh, m_points);
     pass_levels();
 
@@ -1025,7 +1024,6 @@ private:
   Rule m_rule;
   Targets m_targets;
   Quadrics m_quadrics;
-  bool m_are_quadrics_outdated = false;
   Border_partners<TriangleMesh> m_partners;
   Line m_line;
   Pieces m_pieces;
