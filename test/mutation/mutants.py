@@ -674,6 +674,8 @@ group(
     ("edge_queue_test",),
     ("std::uint32_t(bits >> 49)", "std::uint32_t(bits >> 50)", "costs of a class differ by a quarter"),
     ("m_tile_bits(is_relaxed ? s_tile_bits : 31)", "m_tile_bits(31)", "no tiles"),
+    ("(std::max)(m_merged_class, class_of(", "(std::max)(Id(0), class_of(", "no classes are merged"),
+    ("m_merged_class = *last;", "m_merged_class = *(classes.end() - 1);", "all classes are merged"),
     ("if (i > 0 && entry < entries[parent(i)])", "if (false)", "an edge that gets cheaper stays where it is"),
     ("key = (std::min)(m_keys[2 * node], m_keys[2 * node + 1])", "key = (std::min)(key, m_keys[node / 2])",
      "a tile whose first edge has left stays the winner"),

@@ -41,7 +41,7 @@ double class_of(double cost)
 
 TEST(Edge_queue, TakesEdgesInEitherOrder)
 {
-  constexpr std::uint32_t edges = 60000; // four tiles
+  constexpr std::uint32_t edges = 60000; // eight tiles
   for (const bool is_relaxed : {false, true}) {
     SCOPED_TRACE(is_relaxed);
     std::mt19937 random(7);
@@ -65,13 +65,66 @@ TEST(Edge_queue, TakesEdgesInEitherOrder)
     }
     std::vector<std::tuple<double, std::uint32_t, double, std::uint32_t>> keys;
     for (const auto& [edge, c] : costs)
-      keys.emplace_back(is_relaxed ? class_of(c) : 0, is_relaxed ? edge / 16384 : 0, c, edge);
+      keys.emplace_back(is_relaxed ? class_of(c) : 0, is_relaxed ? edge / 8192 : 0, c, edge);
     std::sort(keys.begin(), keys.end());
     std::vector<std::uint32_t> expected;
     for (const auto& key : keys)
       expected.push_back(std::get<3>(key));
     EXPECT_EQ(popped(queue), expected);
   }
+}
+
+TEST(Edge_queue, TakesTheCheapestEdgesTileByTileWhenTheirClassesAreMerged)
+{
+  constexpr std::uint32_t edges = 60000; // eight tiles
+  std::mt19937 random(11);
+  std::vector<double> costs(edges);
+  Queue queue(edges, true);
+  for (std::uint32_t edge = 0; edge < edges; ++edge)
+    queue.append(edge, costs[edge] = std::ldexp(1 + random() % 99, -int(random() % 16)));
+  queue.sort();
+
+  double highest = 0; // of the classes merged before
+  for (const std::size_t count : {20000, 10000, 5000}) {
+    SCOPED_TRACE(count);
+    ASSERT_TRUE(queue.are_merged_classes_gone());
+    ASSERT_TRUE(queue.merge_classes(count));
+    std::vector<std::uint32_t> merged;
+    while (!queue.are_merged_classes_gone())
+      merged.push_back(queue.pop().second);
+    EXPECT_GT(merged.size(), count * 9 / 10);
+    EXPECT_LT(merged.size(), count * 11 / 10 + edges / 50) << "the last class is merged as a whole";
+    EXPECT_TRUE(std::is_sorted(merged.begin(), merged.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return std::tuple(a / 8192, costs[a], a) < std::tuple(b / 8192, costs[b], b);
+    }));
+    const auto [least, most] = std::minmax_element(
+        merged.begin(), merged.end(), [&](std::uint32_t a, std::uint32_t b) { return costs[a] < costs[b]; });
+    EXPECT_GT(costs[*least], highest);
+    highest = costs[*most];
+  }
+
+  // An edge that has become as cheap comes first, and alone.
+  const std::uint32_t again = queue.pop().second;
+  queue.set(again, 0);
+  EXPECT_FALSE(queue.are_merged_classes_gone());
+  EXPECT_EQ(queue.pop().second, again);
+  EXPECT_TRUE(queue.are_merged_classes_gone());
+
+  EXPECT_FALSE(queue.merge_classes(16 * 8 - 1)) << "less than 16 edges in a tile";
+  const std::vector<std::uint32_t> rest = popped(queue);
+  EXPECT_TRUE(std::is_sorted(rest.begin(), rest.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return class_of(costs[a]) < class_of(costs[b]);
+  }));
+}
+
+TEST(Edge_queue, MergesNothingInStrictOrder)
+{
+  Queue queue(100, false);
+  for (std::uint32_t edge = 0; edge < 100; ++edge)
+    queue.append(edge, 100 - edge);
+  queue.sort();
+  EXPECT_FALSE(queue.merge_classes(50));
+  EXPECT_EQ(queue.pop().second, 99u);
 }
 
 } // namespace

@@ -287,7 +287,7 @@ TEST(Edge_collapse, KnowsEveryNamedParameterThatItIsGiven)
 TEST(Edge_collapse, TakesEdgesOfATileTogetherInRelaxedOrder)
 {
   const auto points_after = [](const auto& is_relaxed) {
-    Mesh mesh = mesh_of(skirt(20000, 1)); // two tiles
+    Mesh mesh = mesh_of(skirt(20000, 1)); // four tiles
     const auto parameters = CGAL::parameters::get_cost(Deducing_cost())
                                 .get_placement(Deducing_placement())
                                 .use_relaxed_order(is_relaxed);
@@ -296,6 +296,39 @@ TEST(Edge_collapse, TakesEdgesOfATileTogetherInRelaxedOrder)
   };
   EXPECT_EQ(points_after(true), points_after(CGAL::Tag_true()));
   EXPECT_NE(points_after(true), points_after(CGAL::Tag_false()));
+}
+
+// Remembers the highest cost at which it was asked.
+struct Remembering_stop
+{
+  template <class FT, class TM, class VPM, class GT, class Size>
+  bool operator()(const FT& cost, const SMS::Edge_profile<TM, VPM, GT>&, Size initial, Size current) const
+  {
+    *highest = std::max(*highest, cost);
+    return 2 * current < initial;
+  }
+  double* highest;
+};
+
+TEST(Edge_collapse, GoesEquallyFarInAllTilesWhenItsCollapsesAreExpected)
+{
+  const auto points_and_cost_after = [](std::size_t expected_collapses, bool is_relaxed) {
+    Mesh mesh = mesh_of(skirt(20000, 1)); // four tiles
+    double highest = 0;
+    const auto parameters = parameters::expected_collapses(
+        expected_collapses, CGAL::parameters::get_cost(Deducing_cost())
+                                .get_placement(Deducing_placement())
+                                .use_relaxed_order(is_relaxed));
+    selvedge::edge_collapse(mesh, Remembering_stop{&highest}, parameters);
+    return std::pair(soup_of(mesh).points, highest);
+  };
+  const std::size_t collapses = 5000; // of which each removes three of 30,000 edges
+  const auto relaxed = points_and_cost_after(0, true), expected = points_and_cost_after(collapses, true);
+  EXPECT_NE(expected.first, relaxed.first);
+  EXPECT_LT(expected.second, 1.1 * relaxed.second);
+  EXPECT_GT(points_and_cost_after(4 * collapses, true).second, 1.1 * relaxed.second)
+      << "who expects too much makes some tiles coarser";
+  EXPECT_EQ(points_and_cost_after(collapses, false), points_and_cost_after(0, false));
 }
 
 TEST(Edge_collapse, MakesNoMorePairsThanCgalsLoopDoesByDefault)

@@ -16,6 +16,9 @@ namespace internal {
 struct Geometric_test_t
 {
 };
+struct Expected_collapses_t
+{
+};
 struct Face_index_t
 {
 };
@@ -57,6 +60,17 @@ auto geometric_test(bool is_made, const NamedParameters& parameters = CGAL::para
 {
   return CGAL::Named_function_parameters<bool, internal::Geometric_test_t, NamedParameters>(is_made,
                                                                                             parameters);
+}
+
+/// Tells `selvedge::edge_collapse` about how many collapses it will make until its stop predicate ends it.
+/// With `use_relaxed_order(true)`, this relaxes the order further; without it, it has no effect. If there are
+/// fewer in the end, some tiles of the mesh are coarser than others.
+template <class NamedParameters = CGAL::parameters::Default_named_parameters>
+auto expected_collapses(std::size_t count,
+                        const NamedParameters& parameters = CGAL::parameters::default_values())
+{
+  return CGAL::Named_function_parameters<std::size_t, internal::Expected_collapses_t, NamedParameters>(
+      count, parameters);
 }
 
 /// Gives `intersection_filter` the type of its index, and the arguments with which an empty one is made:

@@ -130,11 +130,11 @@ public:
   Edge_collapse(TriangleMesh& mesh, const GeomTraits& traits, const Stop& stop, const VertexPointMap& points,
                 const HalfedgeIndexMap& numbers, const EdgeIsConstrainedMap& is_constrained, const Cost& cost,
                 const Placement& placement, const Filter& filter, const Visitor& visitor,
-                bool is_geometry_tested, bool is_order_relaxed)
+                bool is_geometry_tested, bool is_order_relaxed, std::size_t expected_collapses)
       : m_mesh(mesh), m_traits(traits), m_stop(stop), m_points(points), m_numbers(numbers),
         m_is_constrained(is_constrained), m_cost(cost), m_placement(placement), m_filter(filter),
-        m_visitor(visitor), m_is_geometry_tested(is_geometry_tested), m_halfedges(num_edges(mesh)),
-        m_records(num_edges(mesh)), m_queue(num_edges(mesh), is_order_relaxed), m_waiting(mesh),
+        m_visitor(visitor), m_is_geometry_tested(is_geometry_tested),
+        m_expected_collapses(expected_collapses), m_halfedges(num_edges(mesh)), m_records(num_edges(mesh)), m_queue(num_edges(mesh), is_order_relaxed), m_waiting(mesh),
         m_has_stale_edges(get(CGAL::dynamic_vertex_property_t<unsigned char>(), mesh))
   {
   }
@@ -181,6 +181,8 @@ private:
   // Takes the cheapest edge from the queue and collapses it if allowed. Returns whether the loop goes on.
   bool try_cheapest()
   {
+    if (m_expected_collapses > 0 && m_queue.are_merged_classes_gone())
+      merge_classes();
     const auto [cost, edge_id] = m_queue.pop();
     const Profile of_edge = profile(m_halfedges[edge_id]);
     const Optional_cost selected_at(cost);
@@ -220,6 +222,14 @@ private:
         m_queue.set(edge_id, *next);
     }
     return true;
+  }
+
+  // Lets the cheapest edges come tile by tile, half as many as collapses are expected. So there are collapses
+  // to come when they are gone: tiles differ on the way, but not in the end.
+  void merge_classes()
+  {
+    if (!m_queue.merge_classes(m_expected_collapses / 2))
+      m_expected_collapses = 0;
   }
 
   // Moves the source of `moving` onto its target if allowed. Otherwise its edge stays as it is in the queue.
@@ -270,6 +280,7 @@ private:
         m_waiting.release_around(of_edge.v1());
     }
     const Vertex kept = perform_collapse(m_mesh, m_points, m_is_constrained, collapse, m_visitor, m_cost);
+    m_expected_collapses -= m_expected_collapses > 0;
     refresh_around(kept);
     if constexpr (Has_companions<Visitor>::value)
       perform_companions(kept);
@@ -401,6 +412,7 @@ private:
   const Filter& m_filter;
   Visitor m_visitor;
   bool m_is_geometry_tested;
+  std::size_t m_expected_collapses; // still to come; 0 when this is not known, or no longer of use
 
   std::vector<Halfedge> m_halfedges;  // by edge
   std::vector<Edge_record> m_records; // by edge

@@ -32,8 +32,9 @@ inline std::uint32_t class_of_cost(double cost)
 /// ones that with the lowest number, so that the order depends on the costs alone.
 ///
 /// In relaxed order, edges come by (class, tile, cost, number), with the classes of `class_of_cost`. A tile
-/// is 16,384 edges with consecutive numbers. Where neighbours have near numbers, edges that come one after
-/// another are then near each other, also in memory.
+/// is 8,192 edges with consecutive numbers. Where neighbours have near numbers, edges that come one after
+/// another are then near each other, also in memory. `merge_classes` makes one class of the cheapest edges, so
+/// that more of them come one after another.
 ///
 /// It exists because costs change while edges are in the queue: each edge knows its place in the heap of its
 /// tile. Every node of a heap has four children and holds its cost, so that a comparison reads no other
@@ -97,6 +98,36 @@ public:
     update_key(edge >> m_tile_bits);
   }
 
+  /// Whether no edge is left of the classes that have been merged.
+  bool are_merged_classes_gone() const { return m_keys[1] >> s_bits_of_tiles > m_merged_class; }
+
+  /// Makes one class of the classes of about the `count` cheapest edges, as a sample of the queue tells.
+  /// Returns false, and does nothing, where so few edges lie in many tiles, or in one. Call it when the merged
+  /// classes are gone, and the queue is not empty.
+  bool merge_classes(std::size_t count)
+  {
+    constexpr std::size_t least_per_tile = 16;
+    if (m_sizes.size() == 1 || count < least_per_tile * m_sizes.size())
+      return false;
+    constexpr Id sampled = 8; // one entry of so many
+    std::size_t edges = 0;
+    std::vector<Id> classes;
+    for (std::size_t tile = 0; tile < m_sizes.size(); ++tile) {
+      const Heap heap = heap_at(tile);
+      edges += heap.size;
+      for (Id i = 0; i < heap.size; i += sampled)
+        classes.push_back(class_of(heap.entries[i]));
+    }
+    const std::size_t rank =
+        (std::min)(classes.size() - 1, std::size_t(double(count) * double(classes.size()) / double(edges)));
+    const auto last = classes.begin() + std::ptrdiff_t(rank);
+    std::nth_element(classes.begin(), last, classes.end());
+    m_merged_class = *last;
+    for (std::size_t tile = 0; tile < m_sizes.size(); ++tile)
+      update_key(tile);
+    return true;
+  }
+
   /// Removes the first edge and returns it with its cost. The queue must not be empty.
   std::pair<FT, Id> pop()
   {
@@ -122,8 +153,10 @@ private:
 
   static constexpr Id s_nowhere = (std::numeric_limits<Id>::max)();
   static constexpr Id s_children = 4;
-  static constexpr int s_tile_bits = 14;
+  static constexpr int s_tile_bits = 13;
   static constexpr int s_bits_of_tiles = 31 - s_tile_bits;
+
+  static Id class_of(const Entry& entry) { return class_of_cost(CGAL::to_double(entry.cost)); }
 
   static Id parent(Id i) { return i == 0 ? 0 : (i - 1) / s_children; }
 
@@ -194,7 +227,7 @@ private:
   {
     Id key = s_nowhere;
     if (m_sizes[tile] > 0)
-      key = class_of_cost(CGAL::to_double(m_entries[tile << m_tile_bits].cost)) << s_bits_of_tiles | Id(tile);
+      key = (std::max)(m_merged_class, class_of(m_entries[tile << m_tile_bits])) << s_bits_of_tiles | Id(tile);
     std::size_t node = m_leaves + tile;
     while (m_keys[node] != key) {
       m_keys[node] = key;
@@ -206,6 +239,7 @@ private:
   }
 
   int m_tile_bits;
+  Id m_merged_class = 0; // the classes up to this one are one
   std::vector<Entry> m_entries; // the heap of each tile at the number of its first edge
   std::vector<Id> m_places;     // in the heap, by edge
   std::vector<Id> m_sizes;      // of the heaps, by tile
