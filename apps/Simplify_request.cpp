@@ -24,6 +24,9 @@
 namespace selvedge::app {
 namespace {
 
+// Large enough that few vertices lie on cell walls, small enough that a cell stays in a processor's cache.
+constexpr std::size_t faces_per_cell = 50'000;
+
 constexpr std::string_view level_mark = "{lod}", pose_mark = "{pose}";
 
 // As far off as a shape may be by default. Beyond it, ears become slabs, and a hat becomes a tent.
@@ -89,7 +92,7 @@ void check_poses(const Simplify_request& request)
                            ": the mesh has no further poses; give them by --pose, --morphs or --animation");
     return;
   }
-  if (request.is_in_cells == true)
+  if (request.is_in_cells)
     refuse_with("--cells", "a mesh in several poses is not reduced in cells");
   if (!request.weld.empty())
     refuse_with("--weld", "gaps are closed in one pose only");
@@ -124,7 +127,7 @@ void check_progressive(const Simplify_request& request)
            "one of the two");
   if (request.is_unguarded)
     refuse("every step in the file has been judged; leave out --no-intersection-check");
-  if (!request.lods.empty() && (request.is_in_cells == true || !request.intent.ratios.empty()))
+  if (!request.lods.empty() && (request.is_in_cells || !request.intent.ratios.empty()))
     refuse(
         "with --cells, or with ratios of parts, each of --lods is a reduction of its own, and the file holds "
         "one; leave out --lods");
@@ -139,7 +142,7 @@ void check_clearance(const Simplify_request& request)
   };
   if (request.is_unguarded)
     refuse_with("--no-intersection-check", "a distance is kept only where intersections are checked");
-  if (request.is_in_cells == true)
+  if (request.is_in_cells)
     refuse_with("--cells", "cells do not know how near the pieces beside them are");
   if (!request.weld.empty())
     refuse_with("--weld", "closing gaps brings pieces nearer to each other");
@@ -158,10 +161,10 @@ void check(const Simplify_request& request)
     throw Argument_error("--lods already says how far to reduce the mesh; leave out --ratio R and --faces");
   if (request.is_strict && request.defects.value_or(Defects::refuse) != Defects::refuse)
     throw Argument_error("--strict refuses what --defects would accept; leave out one of the two");
-  if (request.is_in_cells == true && !request.intent.ratios.empty())
+  if (request.is_in_cells && !request.intent.ratios.empty())
     throw Argument_error(
         "--cells: parts cannot have ratios of their own; leave out --cells or --ratio PART=R");
-  if (request.is_in_cells == true && !request.may_intersect.empty())
+  if (request.is_in_cells && !request.may_intersect.empty())
     throw Argument_error(
         "--cells: no parts may intersect each other there; leave out --cells or --may-intersect");
   if (!request.log.empty() && !request.lods.empty())
@@ -286,7 +289,7 @@ Json options_json(const Simplify_request& request)
           {"orient", request.are_faces_oriented ? "auto" : "keep"},
           {"polygons", request.are_polygons_split ? "split" : "keep"},
           {"threads", optional(request.threads)},
-          {"cells", optional(request.is_in_cells)},
+          {"cells", request.is_in_cells},
           {"defects", name_of(defects_of(request))},
           {"strict", defects_of(request) == Defects::refuse}};
 }
@@ -302,6 +305,7 @@ void complete(Simplify_request& request)
   if (are_levels_in_one_file(request)) // from fine to coarse
     std::sort(request.lods.begin(), request.lods.end(), std::greater<>());
   request.options.check_intersections = !request.is_unguarded;
+  request.options.faces_per_cell = request.is_in_cells ? faces_per_cell : 0;
   read_ratios(request);
   read_error(request);
   read_weld(request);
@@ -616,19 +620,10 @@ void add_options(CLI::App& command, Simplify_request& request)
                 "End with exit code 1 when the target is missed.")
       ->group(conduct);
   Thread_limit::add_option(command, request.threads)->group(conduct);
-  CLI::Option* const cells =
-      command
-          .add_flag_callback(
-              "--cells", [&request] { request.is_in_cells = true; },
-              "First reduce boxes of space at once, on all threads, then the whole. This changes the result, "
-              "but the number of threads does not. It is the default from 500,000 faces on, where no other "
-              "option is against it.")
-          ->group(conduct);
   command
-      .add_flag_callback(
-          "--no-cells", [&request] { request.is_in_cells = false; },
-          "Reduce the whole as one sequence of collapses, cheapest first, on one thread.")
-      ->excludes(cells)
+      .add_flag("--cells", request.is_in_cells,
+                "For large meshes: first reduce boxes of space at once, on all threads, then the whole. This "
+                "changes the result, but the number of threads does not.")
       ->group(conduct);
   command.add_option("--report", request.report, "Write a JSON report of the run.")
       ->type_name("FILE")

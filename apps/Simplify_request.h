@@ -39,7 +39,7 @@ struct Simplify_request
   Simplify_options options;
   Simplify_intent intent;
   bool is_unguarded = false;
-  std::optional<bool> is_in_cells; ///< none: `faces_per_cell_for` decides
+  bool is_in_cells = false;
   std::string weld;         // "EPS", "auto", or empty
   double weld_distance = 0; // 0 for auto
   Normals_choice normals = Normals_choice::automatic;

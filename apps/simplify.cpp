@@ -20,7 +20,6 @@
 #include <selvedge/Error.h>
 #include <selvedge/Reduction_log.h>
 #include <selvedge/Sha256.h>
-#include <selvedge/automatic_cells.h>
 #include <selvedge/collapse_log.h>
 #include <selvedge/key_poses.h>
 #include <selvedge/merge.h>
@@ -226,10 +225,6 @@ private:
     if (m_guarded_poses.size() < prepared.soup.poses.size())
       options.guarded_poses = m_guarded_poses;
     options.is_progression_recorded = !m_request.progressive.empty();
-    // In cells, each level would be a reduction of its own.
-    const std::optional<bool> is_in_cells =
-        m_request.lods.empty() ? m_request.is_in_cells : m_request.is_in_cells.value_or(false);
-    options.faces_per_cell = faces_per_cell_for(prepared, options, m_request.intent, is_in_cells);
     m_log.str({});
     m_collapses.clear();
     m_progression = {};
@@ -487,7 +482,7 @@ private:
     html.add_input(prepared, still);
     // Levels are states of one reduction, or each has its own: then the collapses of one follow those of
     // another. The levels after one that was stopped are the same as that.
-    const bool is_one = m_request.intent.ratios.empty() && m_request.is_in_cells != true;
+    const bool is_one = m_request.intent.ratios.empty() && !m_request.is_in_cells;
     auto begin = m_collapses.begin();
     std::size_t number = 0;
     bool is_stopped = false;

@@ -7,7 +7,6 @@
 
 #include <selvedge/Error.h>
 #include <selvedge/Reduction_log.h>
-#include <selvedge/automatic_cells.h>
 #include <selvedge/collapse_log.h>
 #include <selvedge/merge.h>
 
@@ -51,7 +50,6 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request)
   m_prepared = prepare(std::move(input), request.prepare, request.obstacle);
 
   Simplify_options options = request.options;
-  options.faces_per_cell = faces_per_cell_for(m_prepared, options, request.intent, request.is_in_cells);
   std::ostringstream stream;
   std::optional<Reduction_log> log;
   if (request.is_log_wanted) {

@@ -23,6 +23,7 @@ using Request = Reduction_request;
 
 // As in the program.
 constexpr double default_error = 0.01;
+constexpr std::size_t faces_per_cell = 50'000;
 
 [[noreturn]] void refuse(const std::string& value, const std::string& expected)
 {
@@ -216,8 +217,11 @@ const std::vector<Option>& table()
        [](const Request& r) { return Json(word_of(instances, r.options.instances)); }},
       {"threads", [](Request& r, const std::string& value) { r.threads = count(value, 1); },
        [](const Request& r) { return optional_json(r.threads); }},
-      {"cells", [](Request& r, const std::string& value) { r.is_in_cells = value_of(truth, value); },
-       [](const Request& r) { return optional_json(r.is_in_cells); }},
+      {"cells",
+       [](Request& r, const std::string& value) {
+         r.options.faces_per_cell = value_of(truth, value) ? faces_per_cell : 0;
+       },
+       [](const Request& r) { return Json(r.options.faces_per_cell > 0); }},
       {"defects", [](Request& r, const std::string& value) { r.prepare.defects = value_of(defects, value); },
        [](const Request& r) { return Json(word_of(defects, r.prepare.defects)); }}};
   return options;

@@ -37,7 +37,6 @@ struct Reduction_request
   Prepare_options prepare;
   Triangle_soup obstacle;
   bool is_sewn = false;
-  std::optional<bool> is_in_cells; ///< none: `faces_per_cell_for` decides
   bool is_log_wanted = false;
   bool is_error_given = false; ///< whether `options.max_error` is what the caller said, and no default
   std::optional<std::size_t> threads;

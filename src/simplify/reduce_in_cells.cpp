@@ -4,7 +4,6 @@
 #include "reduce_in_cells.h"
 
 #include <selvedge/Cancellation_scope.h>
-#include <selvedge/Surface_mesh_simplification/internal/Edge_queue.h>
 #include <selvedge/Surface_mesh_simplification/internal/Simplification.h>
 
 #include <oneapi/tbb/parallel_for.h>
@@ -13,12 +12,11 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cstdint>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <mutex>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 namespace selvedge {
@@ -267,26 +265,25 @@ double common_cost(const std::vector<Cell_run>& runs)
   return s_infinity;
 }
 
-// Returns the collapses that cost at most `limit`, of each cell until the first that costs more. Those of a
-// cell keep their order; those of different cells come by the class of the highest cost in their cell until
-// then. So the states on the way are those of one reduction, more or less, and cells that are done to the
-// whole only in part are so evenly.
-std::vector<Cell_collapse> by_cost(std::vector<Cell_run>& runs, double limit)
+// Returns the collapses of each cell until the first that costs more than `limit`. Those of a cell keep their
+// order. Cells take turns, each with an eighth of its collapses, so that cells that are done to the whole only
+// in part are so evenly. What a cell does in one turn is near in memory.
+std::vector<Cell_collapse> in_turns(std::vector<Cell_run>& runs, double limit)
 {
-  std::vector<std::tuple<std::uint32_t, std::size_t, std::size_t>> order; // class, cell, number
-  for (std::size_t cell = 0; cell < runs.size(); ++cell) {
-    std::uint32_t highest = 0;
-    const std::vector<Cell_collapse>& collapses = runs[cell].collapses;
-    for (std::size_t i = 0; i < collapses.size() && !(collapses[i].cost > limit); ++i) {
-      highest = std::max(highest, internal::class_of_cost(collapses[i].cost));
-      order.push_back({highest, cell, i});
-    }
-  }
-  std::sort(order.begin(), order.end());
+  constexpr std::size_t turns = 8;
   std::vector<Cell_collapse> result;
-  result.reserve(order.size());
-  for (const auto& [cost_class, cell, number] : order)
-    result.push_back(std::move(runs[cell].collapses[number]));
+  for (Cell_run& run : runs)
+    run.collapses.erase(std::find_if(run.collapses.begin(), run.collapses.end(),
+                                     [&](const Cell_collapse& collapse) { return collapse.cost > limit; }),
+                        run.collapses.end());
+  for (std::size_t turn = 0; turn < turns; ++turn)
+    for (Cell_run& run : runs) {
+      const auto part = [&](std::size_t i) {
+        return std::make_move_iterator(run.collapses.begin() +
+                                       std::ptrdiff_t(i * run.collapses.size() / turns));
+      };
+      result.insert(result.end(), part(turn), part(turn + 1));
+    }
   return result;
 }
 
@@ -334,7 +331,7 @@ Cell_collapses reduce_in_cells(const Cell_context& whole)
                     tbb::simple_partitioner());
   result.is_stopped = stop.is_stopped();
   const double limit = result.is_stopped ? s_infinity : common_cost(runs);
-  result.collapses = by_cost(runs, limit);
+  result.collapses = in_turns(runs, limit);
   return result;
 }
 

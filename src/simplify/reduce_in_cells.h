@@ -36,7 +36,7 @@ struct Cell_collapse
 struct Cell_collapses
 {
   std::size_t cells = 0;
-  std::vector<Cell_collapse> collapses; ///< by classes of costs, those of each cell in their order
+  std::vector<Cell_collapse> collapses; ///< in turns of the cells, those of each in their order
   bool is_stopped = false;              ///< `should_stop` of the options has returned true
 };
 

@@ -229,15 +229,6 @@ TEST(App_simplify, CellsAreReplayedAndDoNotDependOnThreads)
   EXPECT_EQ(contents_of(folder / "again.obj"), bytes);
 }
 
-TEST(App_simplify, ReducesALargeMeshInCells)
-{
-  const Workspace folder;
-  const std::string in = folder.generate("grid", "in.ply", 500'000), report = folder / "report.json";
-  EXPECT_EQ(run_app({"simplify", in, "-o", folder / "out.ply", "--ratio", "0.999", "--report", report}).code,
-            0);
-  EXPECT_GT(nlohmann::json::parse(contents_of(report))["cells"]["count"], 8);
-}
-
 TEST(App_simplify, MayReplaceItsInput)
 {
   const Workspace folder;

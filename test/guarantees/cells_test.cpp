@@ -131,7 +131,7 @@ TEST(Cells, AllStopAtTheCostThatHalfOfThemHaveReached)
 }
 
 // A rough sheet in two cells: both go on together, and not one after the other.
-TEST(Cells, TakeTurnsByTheClassOfTheirCosts)
+TEST(Cells, TakeTurns)
 {
   const Triangle_soup rough = mapped(
       sheet(40, 20), [](const Point_3& p) { return Point_3(p.x(), p.y(), std::sin(5 * p.x() + 7 * p.y())); });

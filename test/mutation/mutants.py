@@ -298,6 +298,7 @@ group(
     ("      ++record.rank;\n", "      record.rank = 3;\n", "no second placement"),
     ("m_waiting.release_around(of_edge.v0());", "", "edges wait for ever"),
     ("put(m_has_stale_edges, of_edge.v0(), true);", "", "stale edges are not found"),
+    ("m_expected_collapses -= m_expected_collapses > 0;", "", "as many collapses are expected all the time"),
     ("m_queue.erase(edge_id);\n    m_records[edge_id].rank = s_gone;", "m_records[edge_id].rank = s_gone;",
      "edges that are gone stay in the queue"),
 )
@@ -332,8 +333,8 @@ group(
     ("if (!is_locked[v] && (is_bound[a] || is_bound[b]))", "if (!is_locked[v] && is_bound[v])", "neighbours of the wall move"),
     ("if (low <= plane)", "if (low < plane)", "faces that touch the wall are not in the cell below",
      "what moves in a cell is with its neighbours inside the wall, which such a face does not come into"),
-    (" && !(collapses[i].cost > limit)", "", "every cell goes to its own cost"),
-    ("  std::sort(order.begin(), order.end());\n", "", "cells are done to the whole one after the other"),
+    ("return collapse.cost > limit;", "return false;", "every cell goes to its own cost"),
+    ("turns = 8;", "turns = 1;", "cells are done to the whole one after the other"),
     ("working.constraints().diagonal = whole.diagonal;", "", "drift as a share of the cell"),
 )
 group(
