@@ -55,8 +55,9 @@ Triangle_soup level(const Progressive_mesh& mesh, std::size_t steps)
     throw Input_error("the level has " + std::to_string(triangles.size()) + " faces, and the list says " +
                       std::to_string(mesh.faces[steps]) + "; make the progressive file again");
   Triangle_soup result = selected(soup, triangles, corners);
-  if (result.poses.empty())      // otherwise vertices may differ in one of them
-    share_flat_vertices(result); // as `read_mesh` does
+  // As `read_mesh` does. In poses, vertices may differ in one of them.
+  if (result.poses.empty())
+    share_flat_vertices(result);
   return result;
 }
 

@@ -104,9 +104,7 @@ struct Likeness
         turned(now.turned_against(before))
   {
   }
-  bool is_far() const { return distance > most_distance; }
-  bool is_turned() const { return turned >= least_turned; }
-  bool is_wrong() const { return is_far() || is_turned(); }
+  bool is_wrong() const { return distance > most_distance || turned >= least_turned; }
 
   double distance, turned; // as in `Piece_match`
 };
