@@ -364,7 +364,7 @@ std::string enlargement(const Simplify_request& request, const Level& level)
   if (why.empty() && format_of(request.output, request.format) == Mesh_format::gltf)
     why = "a .gltf file has its buffers in it as text, which takes a third more than a .glb file";
   return "larger than the input by " + counted(level.bytes_more, "byte") + ": " +
-         (why.empty() ? "the input was packed more tightly than is known here" : why);
+         (why.empty() ? "its numbers, or what stands beside them, take more space than in the input" : why);
 }
 
 std::string complaint(const Simplify_request& request, const Level& level, const Outcome& outcome)

@@ -27,8 +27,8 @@ enum class Normals_choice {
 enum class Normals_treatment {
   none,   ///< the soup has no normals
   kept,   ///< they are treated like any other attribute
-  flat,   ///< every corner gets the normal of its triangle, or of the polygon that this is a part of, bit
-          ///< for bit that of the input where it has not changed
+  flat,   ///< every corner gets the normal of its triangle, or of the polygon or face (`keep_flat_normals`)
+          ///< that this is a part of, bit for bit that of the input where it has not changed
   smooth, ///< every corner gets the mean normal of the triangles around its vertex, up to hard edges
   dropped
 };
@@ -64,10 +64,15 @@ void restore_normals(Triangle_soup& soup, Normals_treatment treatment);
 
 /// Gives triangles with flat normals those of the original again, bit for bit, where they still are theirs:
 /// all corners are where they were, or the normals differ from those made anew by at most 0.1°. Triangle i is
-/// what is left of triangle `triangles[i]` of the original, whose corners have `normals`. A polygon keeps its
-/// normals if all its triangles do. Normals that are kept have the least numbers, in their order.
+/// what is left of triangle `triangles[i]` of the original, whose corners have `normals`. Normals that are
+/// kept have the least numbers, in their order.
 ///
-/// **Complexity** O(n) for n triangles and normals of the original.
+/// Several triangles may be one *face*, with one normal, the direction of its area: those of a polygon, and
+/// those that meet in an edge of two triangles at both ends of which their originals have the same normals,
+/// as the two triangles of a square have. Such an edge is still smooth where the normals made anew of both
+/// differ from those of the originals by at most 15°. A face keeps its normals if all its triangles do.
+///
+/// **Complexity** O(n log n) for n triangles and normals of the original.
 void keep_flat_normals(Triangle_soup& result, const std::vector<Index>& triangles,
                        const Triangle_soup& original, const Corner_values<3>& normals);
 

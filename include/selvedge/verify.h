@@ -282,7 +282,8 @@ struct Verify_options
 /// 1. By vertices: at least half of the positions of the piece of the result are positions of the piece of
 ///    the original, and both are of the same kind: in boundary loops, Euler characteristic, and whether some
 ///    edge has more than two faces. Among several such pieces, the one with the most common positions is
-///    taken, and among those one with which it differs in the fewest names.
+///    taken, and among those one with which it differs in the fewest names, and then one that is neither far
+///    from it nor turned (`Mismatch`), if shapes are judged.
 ///    Where `Verify_options::triangles_of_original` is given: then, by triangles, each piece whose triangles
 ///    were all of one piece of the original, of the same kind, which no other piece comes from and no step
 ///    has matched.

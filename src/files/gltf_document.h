@@ -39,6 +39,7 @@ struct Gltf_document
   std::map<int, Gltf_scene::Compression> compressions;    ///< of accessors that Draco held
   std::map<Index, Gltf_scene::Meshopt_view> meshopt_views;
   std::map<std::string, std::size_t> remarks; ///< for `Read_notes`
+  std::map<std::string, std::size_t> compact; ///< for the scene
 
   /// Throws an `Input_error` that names the file.
   [[noreturn]] void fail(const std::string& message) const;

@@ -173,13 +173,13 @@ std::unique_ptr<draco::Mesh> draco_mesh(const std::vector<Packed_column>& column
   return mesh;
 }
 
-/// Compresses a mesh. Empty if Draco cannot.
+/// Compresses a mesh; `speed` is Draco's for encoding and decoding. Empty if Draco cannot.
 std::string encoded(const draco::Mesh& mesh, const std::vector<Packed_column>& columns,
-                    draco::MeshEncoderMethod method)
+                    draco::MeshEncoderMethod method, int speed)
 {
   draco::ExpertEncoder encoder(mesh);
   encoder.SetEncodingMethod(method);
-  encoder.SetSpeedOptions(0, 0);
+  encoder.SetSpeedOptions(speed, speed);
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (!columns[i].quantisation)
       continue;
@@ -300,7 +300,7 @@ std::optional<Draco_primitive> encoded_by_draco(const std::vector<Gltf_scene::Co
   for (bool is_same = false; !is_same;) {
     Cancellation_scope::check();
     mesh = draco_mesh(packed, corners, copies, 0);
-    bytes = encoded(*mesh, packed, draco::MESH_SEQUENTIAL_ENCODING);
+    bytes = encoded(*mesh, packed, draco::MESH_SEQUENTIAL_ENCODING, 0);
     const std::unique_ptr<draco::Mesh> again = decoded(bytes, *mesh);
     if (!again || again->num_points() != rows)
       return std::nullopt;
@@ -322,7 +322,8 @@ std::optional<Draco_primitive> encoded_by_draco(const std::vector<Gltf_scene::Co
     }
   }
   std::size_t points = rows;
-  // In Draco's order, which takes less space. How much depends on the column that tells vertices apart.
+  // In Draco's order, which takes less space. How much depends on the column that tells vertices apart, and
+  // on how values are predicted: 0 is best for smooth normals, 5 for flat ones.
   const bool are_all_different =
       std::all_of(copies.begin(), copies.end(), [](std::uint32_t copy) { return copy == 0; });
   const std::size_t choices = !may_reorder ? 0 : are_all_different ? 1 : columns.size();
@@ -330,7 +331,12 @@ std::optional<Draco_primitive> encoded_by_draco(const std::vector<Gltf_scene::Co
   for (std::size_t apart = 0; apart < choices; ++apart) {
     Cancellation_scope::check();
     mesh = draco_mesh(packed, corners, copies, apart);
-    std::string reordered = encoded(*mesh, packed, draco::MESH_EDGEBREAKER_ENCODING);
+    std::string reordered;
+    for (const int speed : {0, 5}) {
+      std::string tried = encoded(*mesh, packed, draco::MESH_EDGEBREAKER_ENCODING, speed);
+      if (reordered.empty() || (!tried.empty() && tried.size() < reordered.size()))
+        reordered = std::move(tried);
+    }
     if (reordered.size() >= bytes.size())
       continue;
     if (!contents)

@@ -342,8 +342,8 @@ private:
       Json& primitives = meshes.back()["primitives"];
       number = Index(m_scene->parts.size());
       const Index instance = Index(std::lower_bound(m_kinds.begin(), m_kinds.end(), kind) - m_kinds.begin());
-      m_scene->parts.push_back({Index(meshes.size() - 1), Index(meshes.size() - 1), Index(primitives.size()),
-                                instance, 0, Json::object()});
+      const Index mesh = Index(meshes.size() - 1);
+      m_scene->parts.push_back({mesh, mesh, mesh, Index(primitives.size()), instance, 0, Json::object()});
       m_result.groups.names.push_back(std::to_string(number));
       primitives.push_back({{"attributes", Json::object()}});
       if (material >= 0)

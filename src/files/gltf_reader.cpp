@@ -58,6 +58,7 @@ public:
     if (soup().triangles.empty())
       fail(what_there_is() + "; export the mesh as triangles");
     m_scene->document = std::move(json());
+    m_scene->compact = std::move(m_document.compact);
     m_scene->placed_nodes = std::move(m_document.placed_nodes);
     soup().scene = m_scene;
     return std::move(m_file);
@@ -83,6 +84,11 @@ private:
   Json& json() { return m_document.json; }
   const tinygltf::Model& model() const { return m_document.model; }
   void remark(const std::string& what, std::size_t count = 1) { m_file.notes.remarks[what] += count; }
+  void remark_compact(const std::string& what)
+  {
+    remark(what);
+    ++m_document.compact[what];
+  }
   [[noreturn]] void fail(const std::string& message) const { m_document.fail(message); }
 
   bool is_reducible(const tinygltf::Primitive& primitive) const
@@ -90,6 +96,8 @@ private:
     return primitive.mode >= TINYGLTF_MODE_TRIANGLES && primitive.mode <= TINYGLTF_MODE_TRIANGLE_FAN &&
            primitive.attributes.count("POSITION") != 0;
   }
+
+  using Attribute_accessors = std::map<std::string, int>; // by the name of the attribute
 
   /// Where a mesh stands in the scene: a node, or an instance of one.
   struct Place
@@ -162,6 +170,7 @@ private:
              ", which is not there; correct it");
       is_taken[mesh] |= !m_document.to_world[n];
     }
+    find_meshes_alike();
     const std::vector<Place> all = places();
     for (const Place& place : all)
       ++in_scene[model().nodes[place.node].mesh];
@@ -191,6 +200,23 @@ private:
     }
     for (const Gltf_scene::Instanced_node& node : m_scene->instanced_nodes)
       json()["nodes"][node.node]["mesh"] = node.instances.front()["mesh"];
+  }
+
+  // Finds meshes that have the same accessors, as those do that differ only in their materials. Primitives of
+  // one material must be of one in both, because lines between materials hold a mesh.
+  void find_meshes_alike()
+  {
+    using Primitive_key =
+        std::tuple<int, int, Attribute_accessors, std::vector<Attribute_accessors>, std::size_t>;
+    std::map<std::vector<Primitive_key>, Index> first;
+    for (const tinygltf::Mesh& mesh : model().meshes) {
+      std::map<int, std::size_t> first_of_material;
+      std::vector<Primitive_key> key;
+      for (const tinygltf::Primitive& primitive : mesh.primitives)
+        key.emplace_back(primitive.mode, primitive.indices, primitive.attributes, primitive.targets,
+                         first_of_material.emplace(primitive.material, key.size()).first->second);
+      m_first_alike.push_back(first.emplace(std::move(key), Index(m_first_alike.size())).first->second);
+    }
   }
 
   template <class Which>
@@ -230,7 +256,7 @@ private:
       if (is_new)
         m_scene->instances.push_back(
             {block, 0, to_world, is_mirroring(to_world), Index(place.node), place.in_node});
-      m_scene->parts.push_back({own, mesh, p, it->second, 0, Json::object()});
+      m_scene->parts.push_back({own, mesh, m_first_alike[mesh], p, it->second, 0, Json::object()});
       m_sources.push_back(&primitive);
       if (!primitive.targets.empty())
         remark("primitives with morph targets, which are kept (they can be given as poses)");
@@ -305,7 +331,7 @@ private:
       result.compression = found->second;
     m_is_free_accessor[accessor] = true;
     if (model().accessors[accessor].sparse.isSparse && !result.is_sparse)
-      remark("sparse accessors, from now on written in full");
+      remark_compact("sparse accessors, from now on written in full");
     return result;
   }
 
@@ -448,12 +474,12 @@ private:
         add(i, i + 1, i + 2);
       break;
     case TINYGLTF_MODE_TRIANGLE_STRIP:
-      remark("strips and fans, from now on lists of triangles");
+      remark_compact("strips and fans, from now on lists of triangles");
       for (std::size_t i = 0; i + 2 < size; ++i)
         add(i, i + 1 + i % 2, i + 2 - i % 2);
       break;
     default:
-      remark("strips and fans, from now on lists of triangles");
+      remark_compact("strips and fans, from now on lists of triangles");
       for (std::size_t i = 0; i + 2 < size; ++i)
         add(i + 1, i + 2, 0);
     }
@@ -656,8 +682,8 @@ private:
   std::vector<const tinygltf::Primitive*> m_sources; // the primitive of each part
   Cancellation_poll m_poll;
   Names m_group_names;
-  std::map<std::tuple<Index, std::map<std::string, int>, std::vector<std::map<std::string, int>>>, Index>
-      m_block_numbers;
+  std::vector<Index> m_first_alike; // of each mesh of the file, as in `Gltf_scene::Part`
+  std::map<std::tuple<Index, Attribute_accessors, std::vector<Attribute_accessors>>, Index> m_block_numbers;
   std::vector<char> m_is_free_accessor;
   std::set<int> m_kept_accessors;
   bool m_may_be_quantised = false;

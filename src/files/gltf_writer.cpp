@@ -239,8 +239,8 @@ private:
     std::vector<std::string> contents(m_scene.parts.size());
     std::map<Index, std::set<Index>> copies;
     for (const Gltf_scene::Part& part : m_scene.parts)
-      copies[part.mesh_of_file].insert(part.mesh);
-    const auto is_shared = [&](const Gltf_scene::Part& part) { return copies[part.mesh_of_file].size() > 1; };
+      copies[part.first_alike].insert(part.mesh);
+    const auto is_shared = [&](const Gltf_scene::Part& part) { return copies[part.first_alike].size() > 1; };
     Cancellation_poll poll;
     for (std::size_t t = 0; t < m_soup.triangles.size(); ++t) {
       poll();
@@ -256,16 +256,23 @@ private:
       }
     }
     std::map<std::pair<Index, std::string>, Index> first;
+    std::map<Index, std::set<std::string>> different; // by first mesh alike
     for (std::size_t i = 0; i < m_scene.parts.size();) {
       const Gltf_scene::Part& part = m_scene.parts[i];
-      std::string all;
+      std::string all, of_any_block;
       for (; i < m_scene.parts.size() && m_scene.parts[i].mesh == part.mesh; ++i) {
         append_little_endian(all, m_scene.instances[m_scene.parts[i].instance].block);
-        append_little_endian(all, std::uint32_t(contents[i].size()));
-        all += contents[i];
+        for (std::string* const bytes : {&all, &of_any_block}) {
+          append_little_endian(*bytes, std::uint32_t(contents[i].size()));
+          *bytes += contents[i];
+        }
       }
       if (!is_shared(part))
         continue;
+      if (part.mesh == part.mesh_of_file &&
+          different[part.first_alike].insert(std::move(of_any_block)).second &&
+          different[part.first_alike].size() > 1)
+        note("meshes with data of their own, which others have in common with them in the input");
       const auto [same, is_new] = first.emplace(std::make_pair(part.mesh_of_file, std::move(all)), part.mesh);
       m_same_as[part.mesh] = same->second;
       if (is_new && part.mesh != part.mesh_of_file)
@@ -607,7 +614,7 @@ Write_notes write_gltf(Byte_writer& out, const std::vector<const Triangle_soup*>
             .put());
   put_meshes_in_nodes(output.document, scene.instanced_nodes, std::move(put));
   output.write(out, format);
-  return notes;
+  return notes.empty() ? scene.compact : notes;
 }
 
 } // namespace selvedge::files

@@ -3,6 +3,7 @@
 
 #include "progressive/lists.h"
 
+#include "soup/flat_shading.h"
 #include "soup/selection.h"
 
 #include <selvedge/Error.h>
@@ -53,7 +54,11 @@ Triangle_soup level(const Progressive_mesh& mesh, std::size_t steps)
   if (triangles.size() != mesh.faces[steps])
     throw Input_error("the level has " + std::to_string(triangles.size()) + " faces, and the list says " +
                       std::to_string(mesh.faces[steps]) + "; make the progressive file again");
-  return selected(soup, triangles, corners);
+  Triangle_soup result = selected(soup, triangles, corners);
+  // As `read_mesh` does. In poses, vertices may differ in one of them.
+  if (result.poses.empty())
+    share_flat_vertices(result);
+  return result;
 }
 
 } // namespace selvedge

@@ -172,7 +172,8 @@ private:
 
   // Where a mesh has doubles in one place, and not in all, or shares them with something else, it is reduced
   // apart, too.
-  void set_apart_by_doubles(const std::vector<Shared_mesh>& meshes, std::vector<char>& is_apart) const
+  void set_apart_by_doubles(const std::vector<Shared_mesh>& meshes, Apart how,
+                            std::vector<Apart>& apart) const
   {
     constexpr Index s_no_mesh = Index(-1);
     struct Row
@@ -199,7 +200,7 @@ private:
     }
     for (Index t = 0; t < rows.size(); ++t)
       if (rows[t].mesh != s_no_mesh && is_mesh_apart[rows[t].mesh])
-        is_apart[t] = true;
+        apart[t] = how;
   }
 
   void share()
@@ -207,15 +208,18 @@ private:
     std::vector<char> is_tied(m_prepared.soup.points.size(), false); // by position
     for (const auto& [a, b] : m_prepared.snapping.tied)
       is_tied[a] = is_tied[b] = true;
-    std::vector<char> is_apart;
+    std::vector<Apart> apart;
     for (const Index_triple& triangle : m_prepared.soup.triangles)
-      is_apart.push_back(std::any_of(triangle.begin(), triangle.end(),
-                                     [&](Index v) { return is_tied[m_prepared.positions[v]] != 0; }));
-    Shared_meshes shared = shared_meshes(m_prepared.soup, is_apart);
-    if (m_prepared.doubles() > 0) {
-      set_apart_by_doubles(shared.meshes, is_apart);
-      shared = shared_meshes(m_prepared.soup, is_apart);
-    }
+      apart.push_back(std::any_of(triangle.begin(), triangle.end(),
+                                  [&](Index v) { return is_tied[m_prepared.positions[v]] != 0; })
+                          ? Apart::from_all
+                          : Apart::no);
+    Shared_meshes shared = shared_meshes(m_prepared.soup, apart);
+    for (const Apart how : {Apart::from_other_meshes, Apart::from_all})
+      if (m_prepared.doubles() > 0) {
+        set_apart_by_doubles(shared.meshes, how, apart);
+        shared = shared_meshes(m_prepared.soup, apart);
+      }
     m_shared_meshes = shared.meshes.size();
     m_apart_meshes = shared.apart;
     for (const Shared_mesh& mesh : shared.meshes)

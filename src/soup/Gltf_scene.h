@@ -105,6 +105,7 @@ struct Gltf_scene
   {
     Index mesh = 0;
     Index mesh_of_file = 0; ///< of which `mesh` is a copy, or the mesh itself
+    Index first_alike = 0;  ///< the first mesh of the file with the same accessors, or `mesh_of_file` itself
     Index primitive = 0;
     Index instance = 0;
     int index_type = 0;               ///< component type of the indices, 0 when there are none
@@ -141,6 +142,8 @@ struct Gltf_scene
   std::vector<Instanced_node> instanced_nodes;
   std::vector<Placed_node> placed_nodes; ///< parents before their children
   std::vector<std::string> only_in_gltf; ///< names of what no other format holds
+  /// What the file held in a way that may take less space than what writers make of it, and how often.
+  std::map<std::string, std::size_t> compact;
 };
 
 /// Under this name, the `extras` of a document and of its primitives hold the lists of a progressive file

@@ -24,9 +24,10 @@ using Vector = internal::Vector_of_doubles;
 using internal::cross;
 using internal::dot;
 
-// Cosines of 0.1°, 1° and 60°.
+// Cosines of 0.1°, 1°, 15° and 60°.
 constexpr double s_cosine_flat = 0.9999984769;
 constexpr double s_cosine_smooth = 0.9998476952;
+constexpr double s_cosine_of_face = 0.9659258263;
 constexpr double s_cosine_of_polygon = 0.5;
 
 Vector difference(const Point_3& a, const Point_3& b)
@@ -56,15 +57,15 @@ Vector unit_normal(const Triangle_soup& soup, Index triangle)
   return unit(cross(u, v));
 }
 
-// Returns that of a polygon, the triangles from `first` to before `end`: the direction of its area.
-Vector unit_normal(const Triangle_soup& soup, Index first, Index end)
+// Returns that of a face of several triangles: the direction of its area.
+Vector unit_normal(const Triangle_soup& soup, const std::vector<Index>& triangles)
 {
   double largest = 0; // so that squares neither overflow nor underflow
   const auto side = [&](Index triangle, int k) {
     const Index_triple& corners = soup.triangles[triangle];
     return difference(soup.points[corners[k]], soup.points[corners[0]]);
   };
-  for (Index t = first; t < end; ++t)
+  for (const Index t : triangles)
     for (const int k : {1, 2})
       for (const double x : side(t, k))
         largest = std::max(largest, std::abs(x));
@@ -72,7 +73,7 @@ Vector unit_normal(const Triangle_soup& soup, Index first, Index end)
     return {};
   const int exponent = -std::ilogb(largest);
   Vector sum = {};
-  for (Index t = first; t < end; ++t) {
+  for (const Index t : triangles) {
     Vector u = side(t, 1), v = side(t, 2);
     for (int i = 0; i < 3; ++i) {
       u[i] = std::scalbn(u[i], exponent);
@@ -98,62 +99,90 @@ Vector stored(const Vector& normal)
   return {double(float(normal[0])), double(float(normal[1])), double(float(normal[2]))};
 }
 
-// Gives the corners between two hard edges at a vertex the value of the first of them.
-void join_fans(Triangle_soup& soup)
+// A side of a triangle. Corners have the numbers 3 × triangle + place.
+struct Side
 {
-  Corner_values<3>& normals = soup.normals;
-  struct Side
-  {
-    Index low, high;       // the vertices of the edge
-    Index at_low, at_high; // the corners there
-  };
+  Index low, high;       // the vertices of the edge
+  Index at_low, at_high; // the corners there
+};
+
+// Visits every edge of two triangles, by the two sides there.
+template <class Function>
+void for_each_inner_edge(const std::vector<Index_triple>& triangles, const Function& function)
+{
   std::vector<Side> sides;
-  for (Index t = 0; t < soup.triangles.size(); ++t)
+  for (Index t = 0; t < triangles.size(); ++t)
     for (Index k = 0; k < 3; ++k) {
       const Index l = (k + 1) % 3;
-      const Index a = soup.triangles[t][k], b = soup.triangles[t][l];
+      const Index a = triangles[t][k], b = triangles[t][l];
       sides.push_back(a < b ? Side{a, b, 3 * t + k, 3 * t + l} : Side{b, a, 3 * t + l, 3 * t + k});
     }
   const auto edge = [](const Side& side) { return std::make_pair(side.low, side.high); };
   std::sort(sides.begin(), sides.end(), [&](const Side& a, const Side& b) {
     return std::make_tuple(a.low, a.high, a.at_low) < std::make_tuple(b.low, b.high, b.at_low);
   });
+  for (std::size_t i = 0; i < sides.size();) {
+    std::size_t end = i + 1;
+    while (end < sides.size() && edge(sides[end]) == edge(sides[i]))
+      ++end;
+    if (end - i == 2)
+      function(sides[i], sides[i + 1]);
+    i = end;
+  }
+}
+
+// Gives the corners between two hard edges at a vertex the value of the first of them.
+void join_fans(Triangle_soup& soup)
+{
+  Corner_values<3>& normals = soup.normals;
   const auto value = [&](Index corner) { return normals.of_triangle[corner / 3][corner % 3]; };
   const auto is_smooth_between = [&](Index a, Index b) {
     return value(a) == value(b) ||
            (value(a) != normals.missing && value(b) != normals.missing &&
             is_within(normals.values[value(a)], normals.values[value(b)], s_cosine_smooth));
   };
-  internal::Disjoint_sets fans(3 * soup.triangles.size()); // of corners, each 3 × triangle + place
-  for (std::size_t i = 0; i < sides.size();) {
-    std::size_t end = i + 1;
-    while (end < sides.size() && edge(sides[end]) == edge(sides[i]))
-      ++end;
-    const Side &a = sides[i], &b = sides[end - 1];
-    if (end - i == 2 && is_smooth_between(a.at_low, b.at_low) && is_smooth_between(a.at_high, b.at_high)) {
+  internal::Disjoint_sets fans(3 * soup.triangles.size()); // of corners
+  for_each_inner_edge(soup.triangles, [&](const Side& a, const Side& b) {
+    if (is_smooth_between(a.at_low, b.at_low) && is_smooth_between(a.at_high, b.at_high)) {
       fans.unite(a.at_low, b.at_low);
       fans.unite(a.at_high, b.at_high);
     }
-    i = end;
-  }
+  });
   std::vector<Index_triple> joined = normals.of_triangle;
   for (Index corner = 0; corner < 3 * joined.size(); ++corner)
     joined[corner / 3][corner % 3] = value(Index(fans.find(corner)));
   normals.of_triangle = std::move(joined);
 }
 
+// Gives all corners of a face one new normal.
+void set_normal(Triangle_soup& soup, const std::vector<Index>& face, const Vector& normal)
+{
+  const Index number = Index(soup.normals.values.size());
+  soup.normals.values.push_back(stored(normal));
+  for (const Index t : face)
+    soup.normals.of_triangle[t] = {number, number, number};
+}
+
+// Lists the triangles of each face, in the order of their first triangles: those of a polygon, or one alone.
+std::vector<std::vector<Index>> faces_of(const Triangle_soup& soup)
+{
+  std::vector<std::vector<Index>> faces;
+  auto polygon = soup.polygons.begin();
+  for (Index t = 0; t < soup.triangles.size();) {
+    const bool is_polygon = polygon != soup.polygons.end() && polygon->first_triangle == t;
+    const Index end = t + (is_polygon ? polygon++->corners - 2 : 1);
+    std::vector<Index>& face = faces.emplace_back();
+    while (t < end)
+      face.push_back(t++);
+  }
+  return faces;
+}
+
 void restore_flat(Triangle_soup& soup)
 {
-  std::vector<Vector>& values = soup.normals.values;
-  soup.normals = {};
-  auto polygon = soup.polygons.begin();
-  for (Index t = 0, end = 0; t < soup.triangles.size(); t = end) {
-    const bool is_polygon = polygon != soup.polygons.end() && polygon->first_triangle == t;
-    end = t + (is_polygon ? polygon++->corners - 2 : 1);
-    const Index number = Index(values.size());
-    values.push_back(stored(is_polygon ? unit_normal(soup, t, end) : unit_normal(soup, t)));
-    soup.normals.of_triangle.resize(end, {number, number, number});
-  }
+  soup.normals = {{}, std::vector<Index_triple>(soup.triangles.size())};
+  for (const std::vector<Index>& face : faces_of(soup))
+    set_normal(soup, face, face.size() == 1 ? unit_normal(soup, face[0]) : unit_normal(soup, face));
 }
 
 void restore_smooth(Triangle_soup& soup)
@@ -268,32 +297,51 @@ Normals_treatment take_normals(Triangle_soup& soup, Normals_choice choice, Corne
 void keep_flat_normals(Triangle_soup& result, const std::vector<Index>& triangles,
                        const Triangle_soup& original, const Corner_values<3>& normals)
 {
+  const auto old = [&](Index corner) {
+    return normals.values[normals.of_triangle[triangles[corner / 3]][corner % 3]];
+  };
+  const auto made = [&](Index t) { return result.normals.values[result.normals.of_triangle[t][0]]; };
+  const auto is_made_within = [&](Index t, double cosine) {
+    const Vector normal = made(t);
+    return is_within(old(3 * t), normal, cosine) && is_within(old(3 * t + 1), normal, cosine) &&
+           is_within(old(3 * t + 2), normal, cosine);
+  };
   const auto is_in_its_place = [&](Index t) {
     for (std::size_t k = 0; k < 3; ++k)
       if (result.points[result.triangles[t][k]] != original.points[original.triangles[triangles[t]][k]])
         return false;
     return true;
   };
-  const auto fits = [&](Index t) {
-    const Vector& normal = result.normals.values[result.normals.of_triangle[t][0]];
-    const Index_triple& old = normals.of_triangle[triangles[t]];
-    return std::all_of(old.begin(), old.end(),
-                       [&](Index n) { return is_within(normals.values[n], normal, s_cosine_flat); });
-  };
-  std::vector<char> is_kept(result.triangles.size(), false);
+  const std::size_t count = result.triangles.size();
+  internal::Disjoint_sets sets(count); // of triangles
+  for (const std::vector<Index>& polygon : faces_of(result))
+    for (const Index t : polygon)
+      sets.unite(polygon[0], t);
+  for_each_inner_edge(result.triangles, [&](const Side& a, const Side& b) {
+    const Index t = a.at_low / 3, u = b.at_low / 3;
+    if (old(a.at_low) == old(b.at_low) && old(a.at_high) == old(b.at_high) &&
+        is_made_within(t, s_cosine_of_face) && is_made_within(u, s_cosine_of_face))
+      sets.unite(t, u);
+  });
+  std::vector<std::vector<Index>> faces(count); // by first triangle
+  for (Index t = 0; t < count; ++t)
+    faces[sets.find(t)].push_back(t);
+  std::vector<char> is_kept(count, false);
   std::vector<Index> numbers(normals.values.size(), 0);
-  auto polygon = result.polygons.begin();
-  for (Index t = 0, end = 0; t < is_kept.size(); t = end) {
-    const bool is_polygon = polygon != result.polygons.end() && polygon->first_triangle == t;
-    end = t + (is_polygon ? polygon++->corners - 2 : 1);
-    bool keeps = true;
-    for (Index i = t; i < end; ++i)
-      keeps = keeps && (is_in_its_place(i) || fits(i));
-    for (Index i = t; i < end && keeps; ++i) {
-      is_kept[i] = true;
-      for (const Index number : normals.of_triangle[triangles[i]])
-        numbers[number] = 1;
-    }
+  for (const std::vector<Index>& face : faces) {
+    const bool is_of_several =
+        std::any_of(face.begin(), face.end(), [&](Index t) { return made(t) != made(face[0]); });
+    if (is_of_several)
+      set_normal(result, face, unit_normal(result, face));
+    const bool keeps = std::all_of(face.begin(), face.end(), [&](Index t) {
+      return is_in_its_place(t) || is_made_within(t, s_cosine_flat);
+    });
+    for (const Index t : face)
+      if (keeps) {
+        is_kept[t] = true;
+        for (const Index number : normals.of_triangle[triangles[t]])
+          numbers[number] = 1;
+      }
   }
   Corner_values<3> kept;
   for (std::size_t i = 0; i < numbers.size(); ++i)
@@ -301,11 +349,11 @@ void keep_flat_normals(Triangle_soup& result, const std::vector<Index>& triangle
       numbers[i] = Index(kept.values.size());
       kept.values.push_back(normals.values[i]);
     }
-  std::vector<Index> made(result.normals.values.size(), std::numeric_limits<Index>::max());
+  std::vector<Index> new_numbers(result.normals.values.size(), std::numeric_limits<Index>::max());
   for (std::size_t t = 0; t < is_kept.size(); ++t) {
     Index_triple corners = is_kept[t] ? normals.of_triangle[triangles[t]] : result.normals.of_triangle[t];
     for (Index& corner : corners) {
-      Index& number = is_kept[t] ? numbers[corner] : made[corner];
+      Index& number = is_kept[t] ? numbers[corner] : new_numbers[corner];
       if (number == std::numeric_limits<Index>::max()) {
         number = Index(kept.values.size());
         kept.values.push_back(result.normals.values[corner]);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace selvedge {
@@ -23,30 +24,49 @@ double volume(const Gltf_scene::Matrix& m)
 /// A mesh in one place, and what must be the same in all.
 struct Copy
 {
+  Index mesh_of_file = 0;
   Shared_mesh::Place place{{}, false};
   double size = 0;
+  Apart apart = Apart::no;
   std::vector<Index> rows; // of the corners in the node, after the numbers of the primitives
 };
 
+using Copies = std::vector<Copy*>;
+
+// Returns nothing where the copies are not alike, or one is set apart by more than `most`.
+std::optional<Shared_mesh> shared(const Copies& copies, Apart most)
+{
+  for (const Copy* const copy : copies)
+    if (copy->apart > most || copy->rows != copies.front()->rows)
+      return std::nullopt;
+  const auto largest = std::max_element(copies.begin(), copies.end(),
+                                        [](const Copy* a, const Copy* b) { return a->size < b->size; });
+  Shared_mesh result;
+  result.places.push_back(std::move((*largest)->place));
+  for (auto copy = copies.begin(); copy != copies.end(); ++copy)
+    if (copy != largest)
+      result.places.push_back(std::move((*copy)->place));
+  return result;
+}
+
 } // namespace
 
-Shared_meshes shared_meshes(const Triangle_soup& soup, const std::vector<char>& is_apart)
+Shared_meshes shared_meshes(const Triangle_soup& soup, const std::vector<Apart>& apart)
 {
   Shared_meshes result;
   if (!soup.scene)
     return result;
   const Gltf_scene& scene = *soup.scene;
-  std::map<Index, std::map<Index, Copy>> copies; // by mesh of the file, and by mesh
+  std::map<Index, std::map<Index, Copy>> all; // by first mesh alike in the file, and by mesh
   for (const Gltf_scene::Part& part : scene.parts)
-    copies[part.mesh_of_file][part.mesh];
-  std::map<Index, bool> differ;
+    all[part.first_alike][part.mesh].mesh_of_file = part.mesh_of_file;
   for (Index t = 0; t < soup.triangles.size(); ++t) {
     const Gltf_scene::Part& part = scene.parts[soup.groups.of_triangle[t]];
-    auto& of_file = copies[part.mesh_of_file];
-    if (of_file.size() < 2)
+    auto& alike = all[part.first_alike];
+    if (alike.size() < 2)
       continue;
     const Gltf_scene::Instance& instance = scene.instances[part.instance];
-    Copy& copy = of_file[part.mesh];
+    Copy& copy = alike[part.mesh];
     copy.place.triangles.push_back(t);
     copy.place.is_mirrored = instance.is_mirrored;
     copy.size = volume(instance.to_world);
@@ -54,32 +74,33 @@ Shared_meshes shared_meshes(const Triangle_soup& soup, const std::vector<char>& 
     auto [a, b, c] = soup.triangles[t];
     if (instance.is_mirrored)
       std::swap(b, c);
-    bool& is_different = differ[part.mesh_of_file];
-    is_different |= is_apart[t] != 0;
+    copy.apart = std::max(copy.apart, apart[t]);
     for (const Index v : {a, b, c}) {
       const Index row = soup.scene_vertices[v] - instance.first;
       copy.rows.push_back(row);
       const Gltf_scene::Column& positions = scene.blocks[instance.block].attributes.front();
-      is_different |= world_position(instance.to_world, positions, row) != soup.points[v];
+      if (world_position(instance.to_world, positions, row) != soup.points[v])
+        copy.apart = Apart::from_all;
     }
   }
-  for (auto& [mesh, of_file] : copies) {
-    if (of_file.size() < 2)
-      continue;
-    const Copy& first = of_file.begin()->second;
-    if (differ[mesh] || std::any_of(of_file.begin(), of_file.end(),
-                                    [&](const auto& copy) { return copy.second.rows != first.rows; })) {
-      ++result.apart;
-      continue;
+  const auto add = [&](const Copies& copies, Apart most) {
+    std::optional<Shared_mesh> mesh = shared(copies, most);
+    if (mesh)
+      result.meshes.push_back(std::move(*mesh));
+    return mesh.has_value();
+  };
+  for (auto& [first_alike, alike] : all) {
+    Copies copies;
+    std::map<Index, Copies> of_one_mesh;
+    for (auto& [mesh, copy] : alike) {
+      copies.push_back(&copy);
+      of_one_mesh[copy.mesh_of_file].push_back(&copy);
     }
-    const auto largest = std::max_element(of_file.begin(), of_file.end(), [](const auto& a, const auto& b) {
-      return a.second.size < b.second.size;
-    });
-    std::vector<Shared_mesh::Place>& places = result.meshes.emplace_back().places;
-    places.push_back(std::move(largest->second.place));
-    for (auto copy = of_file.begin(); copy != of_file.end(); ++copy)
-      if (copy != largest)
-        places.push_back(std::move(copy->second.place));
+    if (of_one_mesh.size() > 1 && add(copies, Apart::no))
+      continue;
+    for (const auto& [mesh, some] : of_one_mesh)
+      if (some.size() > 1 && !add(some, Apart::from_other_meshes))
+        ++result.apart;
   }
   return result;
 }

@@ -11,7 +11,8 @@
 
 namespace selvedge {
 
-/// A mesh of a glTF file that stands in several places of its scene: in nodes, or in instances of one.
+/// A mesh of a glTF file that stands in several places of its scene: in nodes, or in instances of one. Meshes
+/// with the same accessors, of which materials differ, count as one.
 struct Shared_mesh
 {
   struct Place
@@ -22,6 +23,13 @@ struct Shared_mesh
   std::vector<Place> places; ///< the one in which the mesh is largest comes first
 };
 
+/// Which places of meshes are not reduced like others.
+enum class Apart : char {
+  no,
+  from_other_meshes, ///< only like those of the same mesh of the file
+  from_all
+};
+
 struct Shared_meshes
 {
   std::vector<Shared_mesh> meshes;
@@ -29,11 +37,10 @@ struct Shared_meshes
 };
 
 /// Returns the meshes that can be reduced in all of their places alike. All places must still have the same
-/// triangles, with all vertices where the file has them, and none of the triangles for which
-/// `is_apart` is true.
+/// triangles, with all vertices where the file has them, and none of the triangles that `apart` sets apart.
 ///
 /// **Complexity** O(n log n).
-Shared_meshes shared_meshes(const Triangle_soup& soup, const std::vector<char>& is_apart);
+Shared_meshes shared_meshes(const Triangle_soup& soup, const std::vector<Apart>& apart);
 
 } // namespace selvedge
 

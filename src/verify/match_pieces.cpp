@@ -95,6 +95,20 @@ private:
   Lists m_of_result, m_of_original;
 };
 
+/// How far a piece of the result is from one of the original, and how much of it is turned inside out.
+struct Likeness
+{
+  Likeness(const Shape& now, const Shape& before)
+      : distance(std::max(before.root_mean_square_distance(now), now.root_mean_square_distance(before)) /
+                 before.diagonal()),
+        turned(now.turned_against(before))
+  {
+  }
+  bool is_wrong() const { return distance > most_distance || turned >= least_turned; }
+
+  double distance, turned; // as in `Piece_match`
+};
+
 /// Runs the steps of `match_pieces` one after the other on the pieces that are left.
 class Matching
 {
@@ -215,9 +229,37 @@ private:
       if (kind(m_result.pieces()[r]) == kind(m_original.pieces()[o]))
         possible.push_back(m_near.back());
     }
+    if (m_options.are_shapes_judged)
+      compare_shapes_of_equals(possible);
     for (const auto& [r, o] :
          one_to_one(std::move(possible), m_result.pieces().size(), m_original.pieces().size()))
       match({o}, {r}, Matched_by::vertices);
+  }
+
+  // Several pieces may have all vertices of one: a tube has those of its caps, and a doubled sheet lies in
+  // one place twice. Where neither vertices nor names tell pieces apart, those of different shapes come last.
+  void compare_shapes_of_equals(std::vector<Possible_match>& possible) const
+  {
+    using Rank = std::tuple<Index, double, std::size_t>;
+    const auto rank_of_result = [](const Possible_match& pair) {
+      return Rank(pair.of_result, pair.distance, pair.names_differing);
+    };
+    const auto rank_of_original = [](const Possible_match& pair) {
+      return Rank(pair.of_original, pair.distance, pair.names_differing);
+    };
+    std::map<Rank, std::size_t> results, originals;
+    for (const Possible_match& pair : possible) {
+      ++results[rank_of_result(pair)];
+      ++originals[rank_of_original(pair)];
+    }
+    Shapes now(m_result.soup, m_result.triangles, m_exponent);
+    Shapes before(m_original.soup, m_original.triangles, m_exponent);
+    Cancellation_poll poll;
+    for (Possible_match& pair : possible) {
+      poll();
+      if (results[rank_of_result(pair)] > 1 || originals[rank_of_original(pair)] > 1)
+        pair.is_wrong = Likeness(now[pair.of_result], before[pair.of_original]).is_wrong();
+    }
   }
 
   // What the caller says is checked as far as pieces go: one piece comes from one piece, and has its kind.
@@ -590,10 +632,9 @@ private:
       Piece_match& match = m_matching.matches[i];
       const Shape before(m_original.soup, m_original.triangles_of(match.of_original), m_exponent);
       const Shape now(m_result.soup, m_result.triangles_of(match.of_result), m_exponent);
-      match.distance =
-          std::max(before.root_mean_square_distance(now), now.root_mean_square_distance(before)) /
-          before.diagonal();
-      match.turned = now.turned_against(before);
+      const Likeness likeness(now, before);
+      match.distance = likeness.distance;
+      match.turned = likeness.turned;
     };
     tbb::parallel_for(std::size_t(0), m_matching.matches.size(), Cancellation_scope::inherited(judge));
     for (const Piece_match& match : m_matching.matches) {

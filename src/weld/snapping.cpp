@@ -89,7 +89,7 @@ public:
     for (const Index i : on_border) {
       constexpr int halvings = 12; // a seam is usually far narrower than what it is looked for in
       for (double within = std::ldexp(result.limit, -halvings);;
-           within = (std::min)(result.limit, 2 * within)) {
+           within = (std::min)(result.limit, 16 * within)) {
         Gap least{std::numeric_limits<double>::infinity(), false};
         visit_near(index, i, within, [&](Index j) {
           poll();
@@ -265,11 +265,13 @@ private:
   void visit_near(const FaceIndex& index, Index i, double within, const Function& function) const
   {
     const Site& site = m_sites[i];
-    // Twice the distance, so that rounding of the box loses no partner.
+    // A little more than the distance, so that rounding loses no partner.
     const Point_3& p = point(site);
-    const double reach = 2 * within;
-    const CGAL::Bbox_3 box(p.x() - reach, p.y() - reach, p.z() - reach, p.x() + reach, p.y() + reach,
-                           p.z() + reach);
+    const double reach = 1.001 * within;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const auto low = [&](double x) { return std::nextafter(x - reach, -infinity); };
+    const auto high = [&](double x) { return std::nextafter(x + reach, infinity); };
+    const CGAL::Bbox_3 box(low(p.x()), low(p.y()), low(p.z()), high(p.x()), high(p.y()), high(p.z()));
     index.visit_overlapping(box, [&](Index j) {
       if (i != j && distance(site, m_sites[j]) <= within && !have_common_face(site, m_sites[j]))
         function(j);

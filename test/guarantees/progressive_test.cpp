@@ -12,8 +12,10 @@
 #include "soup/selection.h"
 #include <selvedge/Error.h>
 #include <selvedge/generate.h>
+#include <selvedge/normals.h>
 #include <selvedge/progressive.h>
 #include <selvedge/rounding.h>
+#include <selvedge/verify.h>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -204,6 +206,25 @@ TEST(Progressive, EveryStateIsThatOfTheReduction)
                   vertex_of[left[i].wedges[k]]);
     }
   }
+}
+
+// glTF has vertices of its own for every face that shades flat.
+TEST(Progressive, FacesThatShadeFlatHangTogether)
+{
+  Triangle_soup soup = mapped(sheet(6, 6), [](const Point_3& p) {
+    return Point_3(p.x(), p.y(), std::sin(p.x() / 2) + std::cos(p.y() / 3));
+  });
+  restore_normals(soup, Normals_treatment::flat);
+  Prepare_options options;
+  options.round_to_float32 = true;
+  options.normals = Normals_choice::keep;
+  const Prepared_soup prepared = prepare(soup, options);
+  const Simplified_soup least = simplify_recorded(prepared);
+  const Progressive_mesh mesh = read_again(prepared.soup, least.progression);
+  EXPECT_GT(pieces(mesh.soup).size(), 1u) << "the control";
+  const Triangle_soup finest = level(mesh, 0);
+  EXPECT_EQ(pieces(finest).size(), 1u);
+  expect_same(read_back(finest), read_back(prepared.soup));
 }
 
 TEST(Progressive, PosesGoWithTheirVertices)

@@ -34,6 +34,16 @@ Triangle_soup flat_hills()
   return soup;
 }
 
+// No square of these is flat.
+Triangle_soup flat_bumps()
+{
+  Triangle_soup soup = mapped(sheet(20, 20), [](const Point_3& p) {
+    return Point_3(p.x(), p.y(), float(2 * std::sin(p.x() / 3) * std::cos(p.y() / 3)));
+  });
+  restore_normals(soup, Normals_treatment::flat);
+  return soup;
+}
+
 std::string written(const Triangle_soup& soup, const char* name)
 {
   const Temporary_folder folder;
@@ -108,7 +118,7 @@ TEST(Flat_shading, WhatIsNotReducedKeepsItsBytes)
 
 TEST(Flat_shading, NormalsOfFacesThatStayAreThoseOfTheFile)
 {
-  Triangle_soup soup = flat_hills();
+  Triangle_soup soup = flat_bumps();
   for (std::array<double, 3>& normal : soup.normals.values)
     for (double& x : normal)
       x = std::round(1e4 * x) / 1e4; // as text has them
@@ -135,6 +145,25 @@ TEST(Flat_shading, NormalsOfFacesThatStayAreThoseOfTheFile)
   }
   // The control: on request, all are made anew.
   EXPECT_NE(reduced(soup, 1, Normals_choice::recompute).simplified.soup.normals.values, soup.normals.values);
+}
+
+// Both triangles of a square have its normal, so that they share the vertices of their diagonal.
+TEST(Flat_shading, FilesOfSquaresLoseVerticesWithTheirFaces)
+{
+  Triangle_soup soup = flat_bumps();
+  const std::vector<std::array<double, 3>> of_triangle = soup.normals.values;
+  for (std::size_t t = 0; t < of_triangle.size(); t += 2) {
+    std::array<double, 3>& normal = soup.normals.values[t];
+    for (std::size_t i = 0; i < 3; ++i)
+      normal[i] = float((of_triangle[t][i] + of_triangle[t + 1][i]) / 2);
+    soup.normals.values[t + 1] = normal;
+  }
+  const auto vertices = [](const Triangle_soup& squares, double ratio) {
+    const Triangle_soup file = through(squares, "m.glb");
+    return double(through(reduced(file, ratio).simplified.soup, "m.glb").points.size());
+  };
+  EXPECT_EQ(vertices(soup, 1), 2 * soup.triangles.size()) << "four for each square";
+  EXPECT_LT(vertices(soup, 0.9), 0.95 * vertices(soup, 1)); // 0.99 if squares that bend got two normals
 }
 
 TEST(Flat_shading, GltfGetsTheNormalsOfTheResult)

@@ -6,6 +6,7 @@
 #include "support/Gltf_document.h"
 #include "support/Temporary_folder.h"
 
+#include "soup/Gltf_scene.h"
 #include "soup/selection.h"
 #include <selvedge/mesh_files.h>
 #include <selvedge/simplify.h>
@@ -71,6 +72,59 @@ TEST(Gltf, InstancesStayInstancesWhereTheyAreShared)
       EXPECT_EQ(after.json["meshes"].size(), 3u);
     }
   }
+}
+
+// Files share accessors among meshes that differ in their material.
+TEST(Gltf, MeshesWithTheSameAccessorsAreReducedAlike)
+{
+  const Temporary_folder folder;
+  Document before = waves_in_places();
+  Json& meshes = before.json["meshes"];
+  before.json["materials"] = {{{"name", "wool"}}, {{"name", "silk"}}};
+  meshes[0]["primitives"][0]["material"] = 0;
+  Json alike = meshes[0];
+  alike["primitives"][0]["material"] = 1;
+  meshes.push_back(std::move(alike));
+  before.json["nodes"][1]["mesh"] = 1;
+  Triangle_soup soup = read_glb(before).soup;
+  const Simplified_soup reduced = reduce(soup, 0.2, Placement::vertices, Instances::shared);
+  EXPECT_EQ(reduced.shared_meshes, 1u);
+  EXPECT_EQ(reduced.shared_places, 3u);
+  write_mesh(folder / "a.glb", reduced.soup);
+  const Json after = from_glb(contents(folder / "a.glb")).json;
+  ASSERT_EQ(after["meshes"].size(), 2u);
+  const Json &first = after["meshes"][0]["primitives"][0], &second = after["meshes"][1]["primitives"][0];
+  EXPECT_EQ(first["attributes"], second["attributes"]);
+  EXPECT_EQ(first["indices"], second["indices"]);
+  EXPECT_EQ(second["material"], 1);
+  // Where one of the two has changed, the other is still reduced once.
+  std::vector<Index> kept;
+  for (Index t = 0; t < soup.triangles.size(); ++t)
+    if (t + 1 != soup.triangles.size()) // of the node, which comes last
+      kept.push_back(t);
+  keep_triangles(soup, kept);
+  const Simplified_soup changed = reduce(soup, 0.2, Placement::vertices, Instances::shared);
+  EXPECT_EQ(changed.shared_meshes, 1u);
+  EXPECT_EQ(changed.shared_places, 2u);
+  EXPECT_EQ(changed.apart_meshes, 0u);
+}
+
+// A mesh in which two primitives have one material has no line between them.
+TEST(Gltf, MeshesWithOtherBordersOfMaterialsAreNotAlike)
+{
+  Document document = waves_in_places();
+  Json& meshes = document.json["meshes"];
+  document.json["materials"] = {{{"name", "wool"}}, {{"name", "silk"}}};
+  meshes[0]["primitives"].push_back(meshes[0]["primitives"][0]);
+  for (const int primitive : {0, 1})
+    meshes[0]["primitives"][primitive]["material"] = 0;
+  Json other = meshes[0];
+  other["primitives"][1]["material"] = 1;
+  meshes.push_back(std::move(other));
+  document.json["nodes"][1]["mesh"] = 1;
+  const std::vector<Gltf_scene::Part> parts = read_glb(document).soup.scene->parts;
+  EXPECT_EQ(parts.front().first_alike, 0u);
+  EXPECT_EQ(parts.back().first_alike, 1u);
 }
 
 TEST(Gltf, InstancesThatDifferInOneTriangleAreTwoMeshes)

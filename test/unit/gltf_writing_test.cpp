@@ -224,6 +224,17 @@ TEST(Gltf, ReducedKeepsTheBitsOfEverySurvivingVertex)
   }
 }
 
+// Three corners of each triangle are listed, where a strip lists one.
+TEST(Gltf, SaysWhatTheInputHeldInLessSpace)
+{
+  const Temporary_folder folder;
+  Document document = waves<float>(5126);
+  EXPECT_TRUE(write_mesh(folder / "a.glb", read_glb(document).soup).empty()) << "the control";
+  document.json["meshes"][0]["primitives"][0]["mode"] = 5;
+  const Write_notes notes = write_mesh(folder / "a.glb", read_glb(document).soup);
+  EXPECT_EQ(notes, (Write_notes{{"strips and fans, from now on lists of triangles", 1}}));
+}
+
 TEST(Gltf, TextFormHoldsTheSame)
 {
   const Temporary_folder folder;

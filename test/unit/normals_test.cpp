@@ -115,6 +115,43 @@ TEST(Normals, ThatAreNotFlatAreKeptUnlessAsked)
     }
 }
 
+// A floor and a wall of two triangles each. A corner of the floor has moved up.
+TEST(Normals, OfAFlatFaceStayOneWhenItBends)
+{
+  using Normal = std::array<double, 3>;
+  const auto floor_and_wall = [](double height) {
+    return with_flat_normals(soup({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, height}, {1, 0, -1}, {1, 1, -1}},
+                                  {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}}));
+  };
+  const Triangle_soup original = floor_and_wall(0);
+  const auto normals = [&](double height, const Corner_values<3>& old) {
+    Triangle_soup result = floor_and_wall(height);
+    keep_flat_normals(result, {0, 1, 2, 3}, original, old);
+    std::vector<Normal> of_triangle;
+    for (const Index_triple& corners : result.normals.of_triangle)
+      of_triangle.push_back(result.normals.values[corners[0]]);
+    return of_triangle;
+  };
+  const Normal up{0, 0, 1}, right{1, 0, 0};
+  const std::vector<Normal> bent = normals(0.1, original.normals); // by 8°
+  EXPECT_EQ(bent[0], bent[1]);
+  EXPECT_GT(bent[0][0], 0.03) << "the mean of both";
+  EXPECT_LT(bent[0][0], 0.07);
+  EXPECT_EQ(bent[2], right);
+  EXPECT_EQ(bent[3], right);
+  // So little that the face keeps its normal.
+  EXPECT_EQ(normals(1e-3, original.normals), (std::vector<Normal>{up, up, right, right}));
+  const std::vector<Normal> folded = normals(0.3, original.normals); // by 23°
+  EXPECT_EQ(folded[0], up);
+  EXPECT_GT(folded[1][0], 0.2);
+  // The control: triangles that had normals of their own are faces of their own.
+  Corner_values<3> apart = original.normals;
+  apart.values[1][1] = 1e-4;
+  const std::vector<Normal> facets = normals(0.1, apart);
+  EXPECT_EQ(facets[0], up);
+  EXPECT_GT(facets[1][0], 0.09);
+}
+
 TEST(Normals, AreMadeAnewBetweenHardEdges)
 {
   const Triangle_soup soup = folded_sheet();

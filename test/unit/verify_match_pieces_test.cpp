@@ -489,6 +489,40 @@ TEST(MatchPieces, ThatCoincideAreMatchedByAllTheirNames)
   EXPECT_EQ(matching.matches[1].of_original, std::vector<Index>{0});
 }
 
+// The pieces of the result come in another order, as Draco may write them.
+TEST(MatchPieces, OfADoubledSheetHaveTheirSides)
+{
+  Triangle_soup back = layer(8, 0), coarse_back = layer(4, 0);
+  for (Triangle_soup* sheet : {&back, &coarse_back})
+    for (Index_triple& triangle : sheet->triangles)
+      std::swap(triangle[0], triangle[1]);
+  const Piece_matching matching = match_pieces(joined(coarse_back, layer(4, 0)), joined(layer(8, 0), back));
+  EXPECT_TRUE(matching.is_complete()) << matching.mismatches.front().message;
+  EXPECT_EQ(way(matching), Matched_by::vertices);
+  EXPECT_EQ(mismatches(joined(coarse_back, coarse_back), joined(layer(8, 0), back)),
+            Mismatches{Mismatch::turned});
+}
+
+// All vertices of a cap are vertices of its tube too, which a seam cuts open: both are discs.
+TEST(MatchPieces, OfATubeAndItsCap)
+{
+  constexpr Index sides = 16;
+  const auto on_circle = [](Index i, double z) {
+    const double angle = (i % sides) * (8 * std::atan(1.0) / sides);
+    return Point_3(std::cos(angle), std::sin(angle), z);
+  };
+  const Triangle_soup tube =
+      mapped(sheet(sides, 1), [&](const Point_3& p) { return on_circle(Index(p.x()), 20 * p.y()); });
+  Triangle_soup cap;
+  for (Index i = 0; i < sides; ++i)
+    cap.points.push_back(on_circle(i, 20));
+  for (Index i = 2; i < sides; ++i)
+    cap.triangles.push_back({0, i - 1, i});
+  const Piece_matching matching = match_pieces(joined(cap, tube), joined(tube, cap));
+  EXPECT_TRUE(matching.is_complete()) << matching.mismatches.front().message;
+  EXPECT_EQ(way(matching), Matched_by::vertices);
+}
+
 // The first piece of the result could be either of the original's, the second only the one that the first
 // would take.
 TEST(MatchPieces, GivesWayWhereAnotherHasNoChoice)

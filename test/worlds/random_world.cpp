@@ -88,6 +88,11 @@ void put_elsewhere(Json& json, Random& random, const std::filesystem::path& fold
     for (int i = random.between(1, 2); i > 0; --i) {
       Json place = Json::object();
       place["mesh"] = nodes[n]["mesh"];
+      if (random.one_in(4)) { // as a mesh of its own, with the same accessors
+        Json alike = json["meshes"][place["mesh"].get<std::size_t>()];
+        place["mesh"] = json["meshes"].size();
+        json["meshes"].push_back(std::move(alike));
+      }
       nodes.push_back(moved(std::move(place)));
       json["scenes"][0]["nodes"].push_back(nodes.size() - 1);
     }

@@ -469,10 +469,12 @@ private:
     const Hindrance reason = hindrance(Collapse<Profile>::along(profile, moving));
     if (reason != Hindrance::by_loop)
       return reason;
+    if (m_observer.is_led(moving)) // before its companions are listed: each edge has one in every other place
+      return Hindrance::companions;
     const std::vector<Halfedge> companions = m_observer.companions(moving);
     const bool can_go_elsewhere =
         companions.empty() ||
-        (!m_observer.is_led(moving) && m_observer.are_companions_apart(moving, companions) &&
+        (m_observer.are_companions_apart(moving, companions) &&
          all_of_companions(companions, [this](const auto& of_companion) {
            return m_rule.allows(of_companion) && hindrance(of_companion) == Hindrance::by_loop;
          }));
