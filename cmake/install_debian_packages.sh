@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # Installs what Selvedge is built from, on Debian 12 or later; does nothing where all of it is there already.
-# With the argument "fuzz" also clang and its run-time libraries, of which libFuzzer is one, with "manual" Doxygen, with "python"
+# With the argument "demo" also clang, with "fuzz" its run-time libraries, of which libFuzzer is one, with "manual" Doxygen, with "python"
 # what the Python package and its tests need, with "html" Chromium, in which the pages of --html are tested, with "many" what
 # works through folders of meshes, with "package" what makes packages, with "clean" what their test needs, with "blender" what the
 # test of the add-on for Blender needs. The argument "benchmark" asks for the peers that the benchmark programs measure, which are
@@ -34,7 +34,7 @@ libgtest-dev         tests   tests             every test
 python3              tests   tests             whether includes go one way
 libopenmesh-dev      tests   tests             a mesh of floats, through CGAL's adaptor
 libeigen3-dev        tests   tests             the Garland-Heckbert policies of CGAL, beside which ours must work
-clang                fuzz    tests             fuzzing
+clang                demo    program,tests     the demo, in less time than g++; fuzzing
 libclang-rt-dev      fuzz    tests             sanitizers and libFuzzer
 python3-dev          python  python            headers of Python
 pybind11-dev         python  python            the module
