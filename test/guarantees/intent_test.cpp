@@ -126,6 +126,26 @@ TEST(Intent, AGroupKeepsItsOwnRatioAndTheOthersGoOn)
   }
 }
 
+// A large mesh, of which a relaxed order takes one tile after the other.
+TEST(Intent, AGroupThatLosesFewFacesLosesThemEverywhere)
+{
+  constexpr Index size = 320;
+  const Triangle_soup soup = two_groups(size);
+  Simplify_intent intent;
+  intent.ratios = {{"body", 0.98}};
+  const Simplified_soup result = simplify_soup(prepare(soup), to_ratio(0.5), intent);
+  const auto faces_below_the_middle = [](const Triangle_soup& of) {
+    const auto faces = faces_of(of, 1);
+    return std::count_if(faces.begin(), faces.end(),
+                         [](const auto& face) { return face[0][1] < 0.5 * size; });
+  };
+  const auto lost_in_all = double(faces_of(soup, 1).size() - faces_of(result.soup, 1).size());
+  const auto lost_below = double(faces_below_the_middle(soup) - faces_below_the_middle(result.soup));
+  EXPECT_GT(lost_in_all, 1500);
+  EXPECT_GT(lost_below, 0.3 * lost_in_all);
+  EXPECT_LT(lost_below, 0.7 * lost_in_all);
+}
+
 TEST(Intent, EveryPartNamedMustReachItsRatio)
 {
   const Prepared_soup prepared = prepare(two_groups());

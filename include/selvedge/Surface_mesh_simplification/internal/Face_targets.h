@@ -59,6 +59,8 @@ public:
   const Share& share(std::size_t number) const { return m_state->shares[number]; }
   void set_target(std::size_t number, std::size_t target) { m_state->shares[number].target = target; }
 
+  bool has_several_shares() const { return m_state->shares.size() > 1; }
+
   /// Makes a new, empty share and returns its number.
   std::size_t add_share()
   {

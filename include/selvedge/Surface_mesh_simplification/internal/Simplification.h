@@ -408,10 +408,12 @@ private:
   }
 
   // Whether the number of collapses to come may decide on their order. Levels on the way are to be those of a
-  // reduction that ends there, and where only an error is allowed, it says when the reduction ends.
+  // reduction that ends there. A share with few collapses to come would make them all in its first tiles. Where
+  // only an error is allowed, it says when the reduction ends.
   bool is_target_known() const
   {
-    return (m_options.ratio || m_options.faces) && m_levels.empty() && !m_options.is_progression_recorded;
+    return (m_options.ratio || m_options.faces) && m_levels.empty() && !m_options.is_progression_recorded &&
+           !m_targets.has_several_shares();
   }
 
   // Says of every edge what holds it back, unless the reduction has reached its target or was stopped.
