@@ -95,8 +95,8 @@ std::size_t steps_to_faces(const Progressive_mesh& mesh, std::size_t faces);
 /// Returns the number of faces that a ratio stands for, as in `Simplify_options::ratio`.
 std::size_t faces_at_ratio(const Progressive_mesh& mesh, double ratio);
 
-/// Returns the mesh after so many steps: triangles that are left in their order, and their vertices. Triangles
-/// of a mesh that shades flat share them as those do that `read_mesh` returns, unless it has poses.
+/// Returns the mesh after so many steps: triangles that are left in their order, and their vertices.
+/// Triangles of a mesh that shades flat share them as those do that `read_mesh` returns, unless it has poses.
 ///
 /// **Preconditions** There are as many steps. **Complexity** Linear.
 Triangle_soup level(const Progressive_mesh& mesh, std::size_t steps);

@@ -266,8 +266,8 @@ double common_cost(const std::vector<Cell_run>& runs)
 }
 
 // Returns the collapses of each cell until the first that costs more than `limit`. Those of a cell keep their
-// order. Cells take turns, each with an eighth of its collapses, so that cells that are done to the whole only
-// in part are so evenly. What a cell does in one turn is near in memory.
+// order. Cells take turns, each with an eighth of its collapses, so that cells that are done to the whole
+// only in part are so evenly. What a cell does in one turn is near in memory.
 std::vector<Cell_collapse> in_turns(std::vector<Cell_run>& runs, double limit)
 {
   constexpr std::size_t turns = 8;

@@ -301,7 +301,6 @@ group(
     ("      ++record.rank;\n", "      record.rank = 3;\n", "no second placement"),
     ("m_waiting.release_around(of_edge.v0());", "", "edges wait for ever"),
     ("put(m_has_stale_edges, of_edge.v0(), true);", "", "stale edges are not found"),
-    ("m_expected_collapses -= m_expected_collapses > 0;", "", "as many collapses are expected all the time"),
     ("m_queue.erase(edge_id);\n    m_records[edge_id].rank = s_gone;", "m_records[edge_id].rank = s_gone;",
      "edges that are gone stay in the queue"),
 )
@@ -683,6 +682,16 @@ group(
     ("if (i > 0 && entry < entries[parent(i)])", "if (false)", "an edge that gets cheaper stays where it is"),
     ("key = (std::min)(m_keys[2 * node], m_keys[2 * node + 1])", "key = (std::min)(key, m_keys[node / 2])",
      "a tile whose first edge has left stays the winner"),
+)
+group(
+    headers + "Surface_mesh_simplification/internal/Edge_collapse.h",
+    ("plug_in_test",),
+    ("m_expected_collapses -= m_expected_collapses > 0;", "", "as many collapses are expected all the time"),
+)
+group(
+    headers + "Surface_mesh_simplification/internal/Simplification.h",
+    ("intent_test",),
+    ("!m_targets.has_several_shares()", "true", "a part loses its faces in its first tiles"),
 )
 group(
     "src/soup/check_soup.cpp",

@@ -315,10 +315,10 @@ TEST(Edge_collapse, GoesEquallyFarInAllTilesWhenItsCollapsesAreExpected)
   const auto points_and_cost_after = [](std::size_t expected_collapses, bool is_relaxed) {
     Mesh mesh = mesh_of(skirt(20000, 1)); // four tiles
     double highest = 0;
-    const auto parameters = parameters::expected_collapses(
-        expected_collapses, CGAL::parameters::get_cost(Deducing_cost())
-                                .get_placement(Deducing_placement())
-                                .use_relaxed_order(is_relaxed));
+    const auto parameters =
+        parameters::expected_collapses(expected_collapses, CGAL::parameters::get_cost(Deducing_cost())
+                                                               .get_placement(Deducing_placement())
+                                                               .use_relaxed_order(is_relaxed));
     selvedge::edge_collapse(mesh, Remembering_stop{&highest}, parameters);
     return std::pair(soup_of(mesh).points, highest);
   };

@@ -46,7 +46,8 @@ int collapse_edges(TriangleMesh& mesh, const Stop& stop, const GeomTraits& trait
 /// `edge_is_constrained_map`, `vertex_point_map`, `halfedge_index_map`, `geom_traits`, and
 /// `vertex_index_map`, which is taken and not needed. Besides, `selvedge::parameters::geometric_test(false)`
 /// leaves out CGAL's geometric test, `use_relaxed_order(true)`, or `Tag_true`, relaxes the order a little,
-/// and `selvedge::parameters::expected_collapses(n)` relaxes it further. Any other parameter does not compile.
+/// and `selvedge::parameters::expected_collapses(n)` relaxes it further. Any other parameter does not
+/// compile.
 ///
 /// Policies, filters and visitors are models of CGAL's concepts. The loop also uses the following, where it
 /// exists:
@@ -66,9 +67,9 @@ int collapse_edges(TriangleMesh& mesh, const Stop& stop, const GeomTraits& trait
 ///    differ by at most an eighth; a tile is 8,192 edges with consecutive numbers. A large mesh in which
 ///    near edges have near numbers is reduced in a third less time, since what is needed next is in the
 ///    cache. A stop by cost may leave edges that cost up to an eighth less than the one at which it stops.
-///    With `expected_collapses`, the cheapest edges are one class, half as many as collapses are expected; when
-///    they are gone, half as many as are still expected, and so on until there are few in a tile. That saves
-///    another third of the time.
+///    With `expected_collapses`, the cheapest edges are one class, half as many as collapses are expected;
+///    when they are gone, half as many as are still expected, and so on until there are few in a tile. That
+///    saves another third of the time.
 /// 2. *Completeness*: when the loop ends without a stop, every edge that is not constrained and has a cost
 ///    has been refused since the last collapse at one of its ends or at a neighbour of one, and since the
 ///    last change of a face that was named as its blocker.

@@ -134,7 +134,8 @@ public:
       : m_mesh(mesh), m_traits(traits), m_stop(stop), m_points(points), m_numbers(numbers),
         m_is_constrained(is_constrained), m_cost(cost), m_placement(placement), m_filter(filter),
         m_visitor(visitor), m_is_geometry_tested(is_geometry_tested),
-        m_expected_collapses(expected_collapses), m_halfedges(num_edges(mesh)), m_records(num_edges(mesh)), m_queue(num_edges(mesh), is_order_relaxed), m_waiting(mesh),
+        m_expected_collapses(expected_collapses), m_halfedges(num_edges(mesh)), m_records(num_edges(mesh)),
+        m_queue(num_edges(mesh), is_order_relaxed), m_waiting(mesh),
         m_has_stale_edges(get(CGAL::dynamic_vertex_property_t<unsigned char>(), mesh))
   {
   }

@@ -33,8 +33,8 @@ inline std::uint32_t class_of_cost(double cost)
 ///
 /// In relaxed order, edges come by (class, tile, cost, number), with the classes of `class_of_cost`. A tile
 /// is 8,192 edges with consecutive numbers. Where neighbours have near numbers, edges that come one after
-/// another are then near each other, also in memory. `merge_classes` makes one class of the cheapest edges, so
-/// that more of them come one after another.
+/// another are then near each other, also in memory. `merge_classes` makes one class of the cheapest edges,
+/// so that more of a tile come one after another.
 ///
 /// It exists because costs change while edges are in the queue: each edge knows its place in the heap of its
 /// tile. Every node of a heap has four children and holds its cost, so that a comparison reads no other
@@ -102,8 +102,8 @@ public:
   bool are_merged_classes_gone() const { return m_keys[1] >> s_bits_of_tiles > m_merged_class; }
 
   /// Makes one class of the classes of about the `count` cheapest edges, as a sample of the queue tells.
-  /// Returns false, and does nothing, where so few edges lie in many tiles, or in one. Call it when the merged
-  /// classes are gone, and the queue is not empty.
+  /// Returns false, and does nothing, where these are less than 16 for each tile, or where there is one tile
+  /// only. Call it when the merged classes are gone, and the queue is not empty.
   bool merge_classes(std::size_t count)
   {
     constexpr std::size_t least_per_tile = 16;
@@ -227,7 +227,8 @@ private:
   {
     Id key = s_nowhere;
     if (m_sizes[tile] > 0)
-      key = (std::max)(m_merged_class, class_of(m_entries[tile << m_tile_bits])) << s_bits_of_tiles | Id(tile);
+      key =
+          (std::max)(m_merged_class, class_of(m_entries[tile << m_tile_bits])) << s_bits_of_tiles | Id(tile);
     std::size_t node = m_leaves + tile;
     while (m_keys[node] != key) {
       m_keys[node] = key;
@@ -239,7 +240,7 @@ private:
   }
 
   int m_tile_bits;
-  Id m_merged_class = 0; // the classes up to this one are one
+  Id m_merged_class = 0;        // the classes up to this one are one
   std::vector<Entry> m_entries; // the heap of each tile at the number of its first edge
   std::vector<Id> m_places;     // in the heap, by edge
   std::vector<Id> m_sizes;      // of the heaps, by tile

@@ -379,16 +379,15 @@ private:
     if (m_options.loop == Collapse_loop::own) {
       run_passes([&] {
         const std::size_t collapses_before = m_report.collapses;
-        selvedge::edge_collapse(
-            m_mesh, is_over(),
-            parameters::expected_collapses(
-                is_target_known() ? m_targets.total_excess() / 2 : 0,
-                parameters::geometric_test(false, CGAL::parameters::get_cost(costs)
-                                                      .get_placement(places)
-                                                      .vertex_point_map(m_points)
-                                                      .use_relaxed_order(is_order_relaxed)
-                                                      .filter(Filter{this})
-                                                      .visitor(Visitor(*this)))));
+        selvedge::edge_collapse(m_mesh, is_over(),
+                                parameters::expected_collapses(
+                                    is_target_known() ? m_targets.total_excess() / 2 : 0,
+                                    parameters::geometric_test(false, CGAL::parameters::get_cost(costs)
+                                                                          .get_placement(places)
+                                                                          .vertex_point_map(m_points)
+                                                                          .use_relaxed_order(is_order_relaxed)
+                                                                          .filter(Filter{this})
+                                                                          .visitor(Visitor(*this)))));
         // The loop leaves no collapse undone that a change nearby or of a blocker has made possible. Should a
         // rule look farther, as from one place of a shared mesh to another, another pass finds what it
         // allows.
@@ -408,8 +407,8 @@ private:
   }
 
   // Whether the number of collapses to come may decide on their order. Levels on the way are to be those of a
-  // reduction that ends there. A share with few collapses to come would make them all in its first tiles. Where
-  // only an error is allowed, it says when the reduction ends.
+  // reduction that ends there. A share with few collapses to come would make them all in its first tiles.
+  // Without a target, the limits say where the reduction ends.
   bool is_target_known() const
   {
     return (m_options.ratio || m_options.faces) && m_levels.empty() && !m_options.is_progression_recorded &&
