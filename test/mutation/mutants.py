@@ -692,6 +692,7 @@ group(
     headers + "Surface_mesh_simplification/internal/Simplification.h",
     ("intent_test",),
     ("!m_targets.has_several_shares()", "true", "a part loses its faces in its first tiles"),
+    sources=("src/simplify/simplify_soup.cpp",),
 )
 group(
     "src/soup/check_soup.cpp",
