@@ -179,6 +179,8 @@ bool append_attribute(const draco::PointAttribute& attribute, std::size_t points
   const int components = tinygltf::GetNumComponentsInType(std::uint32_t(accessor.type));
   if (components < 1 || components > 4)
     return false;
+  if (attribute.data_type() == draco::DT_BOOL) // glTF has none, and Draco takes any byte for a bool
+    return false;
   switch (accessor.componentType) {
   case type_int8:
     return append_attribute<std::int8_t>(attribute, points, components, bytes);
