@@ -301,8 +301,10 @@ group(
     ("      ++record.rank;\n", "      record.rank = 3;\n", "no second placement"),
     ("m_waiting.release_around(of_edge.v0());", "", "edges wait for ever"),
     ("put(m_has_stale_edges, of_edge.v0(), true);", "", "stale edges are not found"),
-    ("m_queue.erase(edge_id);\n    m_records[edge_id].rank = s_gone;", "m_records[edge_id].rank = s_gone;",
+    ("dequeue(edge_id);\n    m_records[edge_id].rank = s_gone;", "m_records[edge_id].rank = s_gone;",
      "edges that are gone stay in the queue"),
+    ("float s_near = 6;", "float s_near = 0;", "every change of a cost that can wait is noticed late"),
+    ("    if (record.is_outdated) {\n", "    if (false) {\n", "changes of costs that can wait are never noticed"),
 )
 group(
     loop + "Topology_test.h",

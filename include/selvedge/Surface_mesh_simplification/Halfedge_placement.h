@@ -128,6 +128,10 @@ public:
   {
     return Collapse_locality<Cost>::reaches(m_cost, kept, edge) || m_rule.reaches(kept, edge);
   }
+  bool can_wait(Vertex kept, Edge edge) const
+  {
+    return Collapse_locality<Cost>::can_wait(m_cost, kept, edge) && !m_rule.reaches(kept, edge);
+  }
 
 private:
   // Returns whether the first choice is to move v1 onto v0.

@@ -105,6 +105,7 @@ public:
   /// See `Collapse_locality`.
   bool reaches_neighbours(Vertex kept) const { return m_ends.reaches_neighbours(kept); }
   bool reaches(Vertex kept, Edge edge) const { return m_ends.reaches(kept, edge); }
+  bool can_wait(Vertex kept, Edge edge) const { return m_ends.can_wait(kept, edge); }
 
 private:
   // Returns the place of least cost as it will be stored; none where it is an end, or may not be used.

@@ -288,6 +288,7 @@ public:
   {
     return m_state->options.memory < 1;
   }
+  bool can_wait(Vertex /*kept*/, typename Graph_traits::edge_descriptor /*edge*/) const { return true; }
 
   /// Gives the merged vertex what both have accumulated, and computes what there is around it. The loop calls
   /// it.

@@ -20,9 +20,13 @@ namespace selvedge {
 /// loop assumes. Where it is true, `reaches(policy, kept, edge)` says the same of a single one of these
 /// edges.
 ///
-/// A policy of your own either has members `bool reaches_neighbours(vertex) const` and `bool reaches(vertex,
-/// edge) const` or specialises this trait. A wrong "false" harms order and quality, but no guarantee, since
-/// the filters are asked when an edge collapses.
+/// `can_wait(policy, kept, edge)` says of an edge that the policy reaches whether the loop may ask again
+/// later. It then asks when the queue comes to the cost that the edge had, unless that is near already. So it
+/// asks once about many changes, but notices late when a high cost has become low. False is always correct.
+///
+/// A policy of your own either has members `bool reaches_neighbours(vertex) const`, `bool reaches(vertex,
+/// edge) const` and, if it likes, `bool can_wait(vertex, edge) const`, or specialises this trait. A wrong
+/// answer harms order and quality, but no guarantee, since the filters are asked when an edge collapses.
 template <class Policy, class = void>
 struct Collapse_locality
 {
@@ -35,6 +39,11 @@ struct Collapse_locality
   static bool reaches(const Policy&, const Vertex&, const Edge&)
   {
     return true;
+  }
+  template <class Vertex, class Edge>
+  static bool can_wait(const Policy&, const Vertex&, const Edge&)
+  {
+    return false;
   }
 };
 
@@ -51,6 +60,24 @@ struct Collapse_locality<Policy, std::void_t<decltype(&Policy::reaches_neighbour
   {
     return policy.reaches(kept, edge);
   }
+  template <class Vertex, class Edge>
+  static bool can_wait(const Policy& policy, const Vertex& kept, const Edge& edge)
+  {
+    return can_wait_if_said(policy, kept, edge, 0);
+  }
+
+private:
+  template <class Vertex, class Edge>
+  static auto can_wait_if_said(const Policy& policy, const Vertex& kept, const Edge& edge, int)
+      -> decltype(bool(policy.can_wait(kept, edge)))
+  {
+    return policy.can_wait(kept, edge);
+  }
+  template <class Vertex, class Edge>
+  static bool can_wait_if_said(const Policy&, const Vertex&, const Edge&, long)
+  {
+    return false;
+  }
 };
 
 /// The trait of policies that look only at the ends of an edge.
@@ -63,6 +90,11 @@ struct Looks_at_ends_alone
   }
   template <class Policy, class Vertex, class Edge>
   static bool reaches(const Policy&, const Vertex&, const Edge&)
+  {
+    return false;
+  }
+  template <class Policy, class Vertex, class Edge>
+  static bool can_wait(const Policy&, const Vertex&, const Edge&)
   {
     return false;
   }

@@ -122,9 +122,16 @@ class Edge_collapse
   static constexpr unsigned char s_gone = 255;
   struct Edge_record
   {
+    float cost = 0;               // roughly, of an edge in the queue
     unsigned char rank = s_gone;  // of the placement that is next, from 0
     Merged_at at = Merged_at::v0; // which place this is, if the placement has `choice`
+    bool is_queued = false;
+    bool is_outdated = false; // the cost is computed again when the edge leaves the queue
   };
+
+  // Changes of costs that can wait are noticed at once up to this multiple of the cost of the last edge taken
+  // from the queue. With 4 or more, the error of the results is the same to 0.5 %, as a mean over meshes.
+  static constexpr float s_near = 6;
 
 public:
   Edge_collapse(TriangleMesh& mesh, const GeomTraits& traits, const Stop& stop, const VertexPointMap& points,
@@ -169,8 +176,10 @@ private:
         continue;
       const Profile of_edge = profile(h);
       const Optional_cost cost = cost_of(of_edge, m_records[id(h)]);
-      if (cost)
+      if (cost) {
         m_queue.append(id(h), *cost);
+        note_queued(id(h), *cost);
+      }
       call_with_profile(
           [&](const auto& p) -> decltype(m_visitor.OnCollected(p, cost)) { m_visitor.OnCollected(p, cost); },
           of_edge);
@@ -185,8 +194,21 @@ private:
     if (m_expected_collapses > 0 && m_queue.are_merged_classes_gone())
       merge_classes();
     const auto [cost, edge_id] = m_queue.pop();
+    Edge_record& record = m_records[edge_id];
+    record.is_queued = false;
     const Profile of_edge = profile(m_halfedges[edge_id]);
-    const Optional_cost selected_at(cost);
+    Optional_cost selected_at(cost);
+    if (record.is_outdated) {
+      record.is_outdated = false;
+      selected_at = cost_of(of_edge, record);
+      if (!selected_at)
+        return true;
+      if (*selected_at > cost) {
+        enqueue(edge_id, *selected_at);
+        return true;
+      }
+    }
+    m_front = as_float(*selected_at);
     call_with_profile(
         [&](const auto& p) -> decltype(m_visitor.OnSelected(p, selected_at, m_initial_edges, m_edges)) {
           m_visitor.OnSelected(p, selected_at, m_initial_edges, m_edges);
@@ -202,7 +224,6 @@ private:
       on_refused(of_edge);
       return true;
     }
-    Edge_record& record = m_records[edge_id];
     const Optional<Collapse_of_edge> collapse = collapse_of(of_edge, record);
     const bool is_asked = collapse && (!m_is_geometry_tested || Dihedral_angle_filter<>().accepts(*collapse));
     if (is_asked && is_allowed(m_filter, *collapse)) {
@@ -220,7 +241,7 @@ private:
     if constexpr (Has_choice<Placement, Cost>::value || Has_second<Placement, Profile>::value) {
       ++record.rank;
       if (const Optional_cost next = cost_of(of_edge, record))
-        m_queue.set(edge_id, *next);
+        enqueue(edge_id, *next);
     }
     return true;
   }
@@ -291,7 +312,7 @@ private:
   // Called for each edge that a collapse is about to remove.
   void forget(Id edge_id)
   {
-    m_queue.erase(edge_id);
+    dequeue(edge_id);
     m_records[edge_id].rank = s_gone;
     --m_edges;
   }
@@ -308,18 +329,27 @@ private:
       if (!is_wide && !get(m_has_stale_edges, neighbour))
         continue;
       for (const Halfedge g : CGAL::halfedges_around_target(opposite(h, m_mesh), m_mesh)) {
+        if (g == opposite(h, m_mesh))
+          continue;
         // An edge between two neighbours is looked at from one of them.
         const bool is_due = is_wide && (opposite(g, m_mesh) != next(opposite(h, m_mesh), m_mesh) ||
                                         CGAL::is_border(opposite(h, m_mesh), m_mesh));
-        if (g != opposite(h, m_mesh) && (is_stale(id(g)) || (is_due && is_reached(kept, edge(g, m_mesh)))))
+        Edge_record& record = m_records[id(g)];
+        if (is_stale(record))
           refresh(g);
+        else if (is_due && is_reached(kept, edge(g, m_mesh))) {
+          if (record.cost > s_near * m_front && can_wait(kept, edge(g, m_mesh)))
+            record.is_outdated = true;
+          else
+            refresh(g);
+        }
       }
       put(m_has_stale_edges, neighbour, false);
     }
     put(m_has_stale_edges, kept, false);
     if constexpr (Has_blockers<Filter>::value)
       m_waiting.take_released([this](Id edge_id) {
-        if (m_records[edge_id].rank != s_gone && is_stale(edge_id))
+        if (m_records[edge_id].rank != s_gone && is_stale(m_records[edge_id]))
           refresh(m_halfedges[edge_id]);
       });
   }
@@ -330,7 +360,16 @@ private:
            Collapse_locality<Placement>::reaches(m_placement, kept, e);
   }
 
-  bool is_stale(Id edge_id) const { return m_records[edge_id].rank > 0 || !m_queue.contains(edge_id); }
+  // Of an edge that one of both policies reaches.
+  bool can_wait(Vertex kept, Edge e) const
+  {
+    return (!Collapse_locality<Cost>::reaches(m_cost, kept, e) ||
+            Collapse_locality<Cost>::can_wait(m_cost, kept, e)) &&
+           (!Collapse_locality<Placement>::reaches(m_placement, kept, e) ||
+            Collapse_locality<Placement>::can_wait(m_placement, kept, e));
+  }
+
+  static bool is_stale(const Edge_record& record) { return record.rank > 0 || !record.is_queued; }
 
   // Puts an edge into the queue with the cost of its first placement, or takes it out if that has no cost.
   void refresh(Halfedge h)
@@ -338,12 +377,31 @@ private:
     const Id edge_id = id(h);
     if (get(m_is_constrained, edge(h, m_mesh)))
       return;
-    m_records[edge_id].rank = 0;
-    if (const Optional_cost cost = cost_of(profile(m_halfedges[edge_id]), m_records[edge_id]))
-      m_queue.set(edge_id, *cost);
+    Edge_record& record = m_records[edge_id];
+    record.rank = 0;
+    record.is_outdated = false;
+    if (const Optional_cost cost = cost_of(profile(m_halfedges[edge_id]), record))
+      enqueue(edge_id, *cost);
     else
-      m_queue.erase(edge_id);
+      dequeue(edge_id);
   }
+
+  void enqueue(Id edge_id, const FT& cost)
+  {
+    m_queue.set(edge_id, cost);
+    note_queued(edge_id, cost);
+  }
+  void note_queued(Id edge_id, const FT& cost)
+  {
+    m_records[edge_id].cost = as_float(cost);
+    m_records[edge_id].is_queued = true;
+  }
+  void dequeue(Id edge_id)
+  {
+    m_queue.erase(edge_id);
+    m_records[edge_id].is_queued = false;
+  }
+  static float as_float(const FT& cost) { return float(CGAL::to_double(cost)); }
 
   bool is_stop(const FT& cost, const Profile& of_edge) const
   {
@@ -414,6 +472,8 @@ private:
   Visitor m_visitor;
   bool m_is_geometry_tested;
   std::size_t m_expected_collapses; // still to come; 0 when this is not known, or no longer of use
+
+  float m_front = 0; // the cost of the edge taken last from the queue
 
   std::vector<Halfedge> m_halfedges;  // by edge
   std::vector<Edge_record> m_records; // by edge

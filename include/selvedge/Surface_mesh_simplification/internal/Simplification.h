@@ -156,6 +156,7 @@ class Simplification
 
     bool reaches_neighbours(Vertex kept) const { return m_quadrics.reaches_neighbours(kept); }
     bool reaches(Vertex kept, Edge edge) const { return m_quadrics.reaches(kept, edge); }
+    bool can_wait(Vertex kept, Edge edge) const { return m_quadrics.can_wait(kept, edge); }
 
     template <class Profile, class Vertex>
     void update_after_collapse(const Profile& profile, const Vertex& kept) const
