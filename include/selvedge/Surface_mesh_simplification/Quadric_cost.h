@@ -115,7 +115,6 @@ class Quadric_cost
   struct Face_plane
   {
     Vector normal{0, 0, 0}; // of length 1, or 0 for a face without area
-    double doubled_area = 0;
     double weight = 0;
   };
   using Plane_map =
@@ -426,8 +425,7 @@ private:
   {
     Face_plane plane;
     plane.normal = corners_and_normal(halfedge(face, mesh), mesh, points).second;
-    plane.doubled_area = normalise(plane.normal);
-    plane.weight = weight_of_area(0.5 * plane.doubled_area);
+    plane.weight = weight_of_area(0.5 * normalise(plane.normal));
     put(m_state->planes, face, plane);
   }
 
@@ -442,15 +440,14 @@ private:
   Enclosure enclosure_of(Vertex v, const Profile& profile) const
   {
     const auto& mesh = profile.surface_mesh();
-    const Vector place = m_state->vector(get(profile.vertex_point_map(), v));
     Enclosure result;
     for (const Halfedge to_v : CGAL::halfedges_around_target(v, mesh)) {
       if (CGAL::is_border(to_v, mesh)) {
         result.is_closed = false;
         continue;
       }
-      const Face_plane& plane = get(m_state->planes, face(to_v, mesh));
-      result.add(plane.normal, internal::dot(plane.normal, place), plane.doubled_area);
+      const auto [corners, normal] = corners_and_normal(to_v, mesh, profile.vertex_point_map());
+      result.add(normal, internal::dot(normal, corners[0]));
     }
     return result;
   }

@@ -82,8 +82,7 @@ public:
     content.reserve(faces.size());
     for (const Id face : faces)
       content.push_back({m_map(box_of(face)), face});
-    sort_along_curve(content);
-    fill(content);
+    fill_along_curve(content);
   }
 
   /// Likewise, and says of any of these faces what its corners are: `corners_of(faces[i])`.
@@ -189,8 +188,14 @@ private:
     Id face;
   };
   using Content = std::vector<Entry>;
+  struct Place
+  {
+    std::uint64_t on_curve;
+    Slot index; // in the content
+  };
 
-  static void sort_along_curve(Content& content)
+  // Returns the places of the content on a curve, in their order.
+  static std::vector<Place> places_along_curve(const Content& content)
   {
     using Hilbert_curve = internal::Hilbert_curve;
     static constexpr Hilbert_curve curve;
@@ -201,8 +206,9 @@ private:
         result[axis] = 0.5 * entry.box.lower[axis] + 0.5 * entry.box.upper[axis];
       return result;
     };
+    std::vector<Place> places;
     if (content.empty())
-      return;
+      return places;
     Centre lower = centre(content.front()), upper = lower;
     for (const Entry& entry : content) {
       const Centre c = centre(entry);
@@ -214,7 +220,6 @@ private:
     const double extent = (std::max)({upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]});
     const double cells = extent > 0 ? ((1 << Hilbert_curve::bits) - 1) / extent : 0;
 
-    std::vector<Place> places;
     places.reserve(content.size());
     for (Slot i = 0; i < content.size(); ++i) {
       const Centre c = centre(content[i]);
@@ -224,18 +229,8 @@ private:
       places.push_back({curve.place_of(cell), i});
     }
     radix_sort(places);
-    Content sorted;
-    sorted.reserve(content.size());
-    for (const Place& place : places)
-      sorted.push_back(content[place.index]);
-    content.swap(sorted);
+    return places;
   }
-
-  struct Place
-  {
-    std::uint64_t on_curve;
-    std::uint32_t index;
-  };
 
   // Sorts digit by digit, from the last one, and keeps the order of equal places.
   static void radix_sort(std::vector<Place>& places)
@@ -266,19 +261,28 @@ private:
       for (std::size_t i = 0; i < s_width; ++i)
         if (leaf.faces[i] != s_none)
           content.push_back({leaf.boxes[i], leaf.faces[i]});
-    if (m_leaves.size() > m_leaves_in_tree)
-      sort_along_curve(content);
     std::fill(m_slots.begin(), m_slots.end(), s_none);
-    fill(content);
+    if (m_leaves.size() > m_leaves_in_tree)
+      fill_along_curve(content);
+    else
+      fill(content.size(), [&](std::size_t i) { return content[i]; });
   }
 
-  // Puts the content into new leaves, in its order, and makes the nodes above them.
-  void fill(const Content& content)
+  void fill_along_curve(const Content& content)
+  {
+    const std::vector<Place> places = places_along_curve(content);
+    fill(places.size(), [&](std::size_t i) { return content[places[i].index]; });
+  }
+
+  // Puts entries into new leaves, in their order, and makes the nodes above them.
+  template <class Entry_at>
+  void fill(std::size_t size, const Entry_at& entry_at)
   {
     m_size = m_slot_count = 0;
     m_leaves.clear();
-    m_leaves.reserve((content.size() + s_width - 1) / s_width);
-    for (const Entry& entry : content) {
+    m_leaves.reserve((size + s_width - 1) / s_width);
+    for (std::size_t i = 0; i < size; ++i) {
+      const Entry entry = entry_at(i);
       if (entry.face >= m_slots.size())
         m_slots.resize(entry.face + std::size_t(1), s_none);
       put(entry, m_slots[entry.face] = new_slot());
