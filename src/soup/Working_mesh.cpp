@@ -1144,18 +1144,24 @@ void Working_mesh::measure_uvs(double unit)
   for (std::size_t i = 0; i < vertices.size(); ++i)
     m_wedges[i].is_alone = wedges_at[vertices[i]] == 1;
   Cancellation_poll poll;
-  for (const Mesh::Halfedge_index h : m_mesh.halfedges()) {
+  for (const Mesh::Face_index face : m_mesh.faces()) {
     poll();
-    if (m_mesh.is_border(h) || !is_own(m_mesh.face(h)))
-      continue;
-    const auto& [a, b, c] = m_corners[m_mesh.face(h)];
-    const Mesh::Vertex_index v = m_mesh.target(h);
-    const auto point = [this](Corner corner) { return relative(m_scale(m_soup.points[vertex_of(corner)])); };
-    Wedge& wedge = m_wedges[wedge_at(h)];
-    wedge.uv = relative(uv_of(corner_at(h)));
-    wedge.quadric.add_triangle({point(a), point(b), point(c)},
-                               {relative(uv_of(a)), relative(uv_of(b)), relative(uv_of(c))},
-                               m_constraints.vertex_weights.empty() ? 1 : m_constraints.vertex_weights[v]);
+    if (!is_own(face))
+      break; // the faces of the obstacle come last
+    std::array<Uv_quadric::Vector, 3> points;
+    std::array<Uv, 3> uvs;
+    for (std::size_t k = 0; k < 3; ++k) {
+      points[k] = relative(m_scale(m_soup.points[vertex_of(m_corners[face][k])]));
+      uvs[k] = relative(uv_of(m_corners[face][k]));
+    }
+    Uv_quadric of_face;
+    of_face.add_triangle(points, uvs, 1);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index number = m_wedge_numbers[face][k];
+      m_wedges[number].uv = uvs[k];
+      m_wedges[number].quadric.add(
+          of_face, m_constraints.vertex_weights.empty() ? 1 : m_constraints.vertex_weights[vertices[number]]);
+    }
   }
   for (std::size_t i = 0; i < m_wedges.size(); ++i)
     m_wedges[i].own_cost = m_wedges[i].quadric(relative(m_mesh.point(vertices[i])), m_wedges[i].uv);

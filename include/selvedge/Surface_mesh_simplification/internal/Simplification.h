@@ -375,8 +375,8 @@ private:
         is_promising = run_pass();
       }
     };
-    // A smaller mesh lies in the cache as it is.
-    const bool is_order_relaxed = num_edges(m_mesh) > std::size_t(1) << 18;
+    // Of a smaller mesh, most lies in the cache in any order.
+    const bool is_order_relaxed = num_edges(m_mesh) > std::size_t(1) << 17;
     if (m_options.loop == Collapse_loop::own) {
       run_passes([&] {
         const std::size_t collapses_before = m_report.collapses;
