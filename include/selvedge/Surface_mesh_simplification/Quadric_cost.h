@@ -10,6 +10,7 @@
 #include <selvedge/Surface_mesh_simplification/internal/Symmetric_quadric.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
 #include <selvedge/Surface_mesh_simplification/internal/relative_face_weight.h>
+#include <selvedge/internal/instructions.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Dynamic_property_map.h>
@@ -297,10 +298,12 @@ public:
     const auto& mesh = profile.surface_mesh();
     const auto& points = profile.vertex_point_map();
     const double memory = m_state->options.memory;
-    if (memory < 1)
+    if (memory < 1) {
+      prefetch_around(kept, mesh);
       for (const Halfedge h : CGAL::halfedges_around_target(kept, mesh))
         if (!CGAL::is_border(h, mesh))
           compute_plane(face(h, mesh), mesh, points);
+    }
     accumulate(profile, kept);
     change(m_state->quadrics, kept,
            [&](Vertex_quadric& merged) { compute_quadric(kept, mesh, points, memory, merged); });
@@ -377,6 +380,26 @@ private:
       Value value = get(map, key);
       function(value);
       put(map, key, value);
+    }
+  }
+
+  // Asks the processor to load what a map has of a key, where the map tells its place.
+  template <class Map, class Key>
+  static void prefetch_value(const Map& map, const Key& key)
+  {
+    if constexpr (std::is_lvalue_reference_v<decltype(get(map, key))>)
+      internal::prefetch(get(map, key));
+  }
+
+  // Prefetches what `compute_quadric` reads at the neighbours of a vertex. It is spread over memory, and
+  // would be waited for piece by piece.
+  void prefetch_around(Vertex v, const TriangleMesh& mesh) const
+  {
+    for (const Halfedge h : CGAL::halfedges_around_target(v, mesh)) {
+      prefetch_value(m_state->quadrics, source(h, mesh));
+      for (const Halfedge g : CGAL::halfedges_around_source(h, mesh))
+        if (!CGAL::is_border(g, mesh))
+          prefetch_value(m_state->planes, face(g, mesh));
     }
   }
 
