@@ -372,6 +372,12 @@ group(
 )
 
 group(
+    "src/verify/pieces.cpp",
+    ("verify_pieces_test", "verify_match_pieces_test", "pieces_test"),
+    ("if (are(a, b) || are(b, c) || are(c, a))", "if (false)", "triangles with two corners at one position connect pieces"),
+)
+
+group(
     "src/soup/Working_mesh.cpp",
     ("hindrances_test",),
     ("weakest = (std::max)(weakest, reason);", "weakest = reason;", "a face has the reason of its last edge"),
