@@ -913,6 +913,11 @@ group(
      "pose.points[m_soup.triangles[wedge / 3][wedge % 3]]", "a pose has the places of other vertices"),
 )
 group(
+    "src/progressive/write.cpp",
+    ("progressive_test:*InATurnedNode",),
+    ("normal && &column == normals_of(block)", "false", "rows keep normals that are not those of their corners"),
+)
+group(
     "src/progressive/read.cpp",
     progressive,
     ("if (is_digest_judged && progressive", "if (false && progressive", "what another program has changed is read"),
