@@ -239,6 +239,9 @@ group(
      "return 2 * (height * height + beside * beside) > squared;", "faces that are nearer are skipped"),
     ("1 / (length * std::sqrt(dot(sides[i], sides[i])))", "1 / length", "distances beyond long sides are too large"),
     ("candidate.longest() <= 4 * squared", "candidate.longest() <= 16 * squared", "points far from all corners are near them"),
+    ("likely = (likely + 1) % state.candidates.size();", "break;", "at a vertex of many faces only one face can take a point"),
+    ("find_near_candidates();\n      state.found.reset();", "find_near_candidates();\n      state.found = question(collapse);",
+     "at a vertex of many faces points go to a face that is near, not nearest"),
 )
 group(
     "src/soup/Vertex_values.cpp",
