@@ -229,7 +229,7 @@ private:
       if (part.mesh == part.mesh_of_file &&
           different[part.first_alike].insert(std::move(of_any_block)).second &&
           different[part.first_alike].size() > 1)
-        note("meshes with data of their own, which others have in common with them in the input");
+        note("meshes with data apart, in common with others in the input");
       const auto [same, is_new] = first.emplace(std::make_pair(part.mesh_of_file, std::move(all)), part.mesh);
       m_same_as[part.mesh] = same->second;
       if (is_new && part.mesh != part.mesh_of_file)
@@ -314,8 +314,7 @@ private:
         if (std::optional<Column> quantised = quantised_again(left))
           left = std::move(*quantised);
         else if (left.quantised_accessor)
-          note("attributes that are floats now, because a new value is none of the whole numbers of the "
-               "input");
+          note("attributes held as floats, because a new value is none of the whole numbers of the input");
         if (left.compression) { // is put with the triangles
           m_compressible[i].push_back(std::move(left));
           return std::size_t(0);
@@ -421,13 +420,12 @@ private:
     const std::optional<Draco_primitive> encoded =
         is_alone ? encoded_by_draco(columns, corners, may_reorder) : std::nullopt;
     if (!encoded)
-      note("primitives that are not in Draco any more, because they share vertices or are no smaller there");
+      note("primitives without Draco, because of shared vertices or no gain");
     else if (encoded->unquantised > 0)
       note("attributes that Draco holds as floats, because a new value is none of its whole numbers",
            encoded->unquantised);
     if (encoded && !may_reorder)
-      note("primitives that Draco holds in the order of their vertices, because poses or morph targets have "
-           "it");
+      note("primitives whose vertices Draco holds in order, because poses or morph targets have it");
     const std::size_t size = m_sizes[part.instance];
     if (!encoded) {
       for (const Column& column : columns)
