@@ -24,9 +24,6 @@
 namespace selvedge::app {
 namespace {
 
-// Large enough that few vertices lie on cell walls, small enough that a cell stays in a processor's cache.
-constexpr std::size_t faces_per_cell = 50'000;
-
 constexpr std::string_view level_mark = "{lod}", pose_mark = "{pose}";
 
 // As far off as a shape may be by default. Beyond it, ears become slabs, and a hat becomes a tent.
@@ -305,7 +302,7 @@ void complete(Simplify_request& request)
   if (are_levels_in_one_file(request)) // from fine to coarse
     std::sort(request.lods.begin(), request.lods.end(), std::greater<>());
   request.options.check_intersections = !request.is_unguarded;
-  request.options.faces_per_cell = request.is_in_cells ? faces_per_cell : 0;
+  request.options.faces_per_cell = request.is_in_cells ? Simplify_options::default_faces_per_cell : 0;
   read_ratios(request);
   read_error(request);
   read_weld(request);

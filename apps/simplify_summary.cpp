@@ -349,16 +349,26 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
     stream << sentence << std::endl;
 }
 
+/// Counts what a file got otherwise, which begins with a noun in the plural.
+std::string counted_note(std::size_t count, const std::string& what)
+{
+  const std::string plural = what.substr(0, what.find(' '));
+  const std::string singular = plural == "meshes"     ? "mesh"
+                               : plural == "vertices" ? "vertex"
+                                                      : plural.substr(0, plural.size() - 1);
+  return counted(count, singular, plural) + what.substr(plural.size());
+}
+
 std::string enlargement(const Simplify_request& request, const Level& level)
 {
   if (level.bytes_more == 0)
     return "";
   std::string why;
   if (level.polygons.output < level.polygons.input)
-    why = with_commas(level.polygons.input - level.polygons.output) +
-          " faces of more than three corners are triangles now";
+    why = counted(level.polygons.input - level.polygons.output, "face") +
+          " of more than three corners cut into triangles";
   for (const auto& [what, count] : level.notes)
-    why += (why.empty() ? "" : "; ") + with_commas(count) + " " + what;
+    why += (why.empty() ? "" : "; ") + counted_note(count, what);
   if (why.empty() && request.is_ascii)
     why = "--ascii writes numbers as text";
   if (why.empty() && format_of(request.output, request.format) == Mesh_format::gltf)

@@ -23,7 +23,6 @@ using Request = Reduction_request;
 
 // As in the program.
 constexpr double default_error = 0.01;
-constexpr std::size_t faces_per_cell = 50'000;
 
 [[noreturn]] void refuse(const std::string& value, const std::string& expected)
 {
@@ -219,7 +218,7 @@ const std::vector<Option>& table()
        [](const Request& r) { return optional_json(r.threads); }},
       {"cells",
        [](Request& r, const std::string& value) {
-         r.options.faces_per_cell = value_of(truth, value) ? faces_per_cell : 0;
+         r.options.faces_per_cell = value_of(truth, value) ? Simplify_options::default_faces_per_cell : 0;
        },
        [](const Request& r) { return Json(r.options.faces_per_cell > 0); }},
       {"defects", [](Request& r, const std::string& value) { r.prepare.defects = value_of(defects, value); },

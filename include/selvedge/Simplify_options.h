@@ -133,9 +133,12 @@ struct Simplify_options
   /// in disjoint boxes of space, each of at most about this many faces, on as many threads as oneTBB grants;
   /// then what is left is reduced as a whole. Every guarantee holds as without cells. The result differs from
   /// that without cells, but never depends on the number of threads. `simplify_mesh` has no cells, and throws
-  /// `Argument_error`. The program takes 50,000: few vertices are then at cell walls, and a cell stays in a
-  /// processor's cache.
+  /// `Argument_error`. The program takes `default_faces_per_cell`.
   std::size_t faces_per_cell = 0;
+
+  /// Large enough that few vertices are at cell walls, and small enough that a cell stays in a processor's
+  /// cache.
+  static constexpr std::size_t default_faces_per_cell = 50'000;
 
   Quadric_cost_options cost;
 

@@ -208,7 +208,7 @@ struct Write_options
 };
 
 /// What a file got otherwise than the one that its mesh was read from, and how often: all that may make it
-/// the larger of the two. Empty but for glTF.
+/// the larger of the two. Each begins with a noun in the plural. Empty but for glTF.
 using Write_notes = std::map<std::string, std::size_t>;
 
 /// Writes a mesh. The path's extension says the format.

@@ -104,9 +104,10 @@ std::vector<Offending_pair> pairs_without_descent(const Triangle_soup& result,
 
 /// Counts of one piece: triangles that are connected by the numbers of their vertices.
 ///
-/// A triangle that names a vertex twice has no inside; it belongs to no piece, and is not counted. Positions
-/// play no part: two sides of a seam that have vertices of their own are two borders, even when they
-/// coincide. Triangles with the same three vertices are one face for all counts but `faces`.
+/// A triangle with two corners at one position has no inside; it belongs to no piece, connects none, and is
+/// not counted: a reduction leaves it out. Else positions play no part: two sides of a seam that have
+/// vertices of their own are two borders, even when they coincide. Triangles with the same three vertices are
+/// one face for all counts but `faces`.
 struct Piece
 {
   Index first_triangle;
@@ -296,8 +297,7 @@ struct Verify_options
 /// 4. By positions and distance together.
 ///
 /// When the coordinates of the result are 32-bit floats and those of the original are not, those of the
-/// original are rounded for this, unless `may_be_rounded` is false. A piece without any triangle of three
-/// distinct positions does not count.
+/// original are rounded for this, unless `may_be_rounded` is false.
 ///
 /// Names (groups, objects, materials, each if both meshes have such and at least one name in common) are
 /// judged by patches. A patch is a set of triangles with one name that are connected by vertex numbers. At

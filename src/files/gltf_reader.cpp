@@ -608,8 +608,7 @@ private:
   {
     set_corner_values(soup().normals, "NORMAL",
                       [](const Gltf_scene::Instance& instance, const Column& column, Index row) {
-                        return world_normal(instance, {component(column, row, 0), component(column, row, 1),
-                                                       component(column, row, 2)});
+                        return world_normal(instance, column, row);
                       });
   }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "files/Gltf_output.h"
+#include "files/Local_normals.h"
 #include "files/formats.h"
 #include "files/gltf_decoding.h"
 #include "files/gltf_encoding.h"
@@ -42,7 +43,8 @@ public:
   Gltf_writer(const Triangle_soup& soup, bool is_scene_made, bool is_further_level, bool may_reorder,
               const std::vector<Index>& coarsest, Gltf_output& output, Write_notes& notes)
       : m_is_scene_made(is_scene_made), m_may_reorder(may_reorder), m_soup(soup), m_scene(*soup.scene),
-        m_normals(soup.normals), m_coarsest(coarsest), m_output(output), m_notes(notes)
+        m_normals(soup.normals), m_coarsest(coarsest), m_output(output), m_notes(notes),
+        m_local_normals(*soup.scene)
   {
     check();
     quantise_new_normals();
@@ -143,18 +145,6 @@ private:
     return bytes;
   }
 
-  static std::string bits_of(const std::array<double, 3>& numbers)
-  {
-    return std::string(reinterpret_cast<const char*>(numbers.data()), sizeof numbers);
-  }
-
-  static std::array<double, 3> world_normal_of(const Gltf_scene::Instance& instance, const Column& normals,
-                                               std::size_t row)
-  {
-    return world_normal(instance,
-                        {component(normals, row, 0), component(normals, row, 1), component(normals, row, 2)});
-  }
-
   // Gives normals that are new to a mesh the precision of those that it has in the file, before vertices are
   // split by their normals: so that none are split that have the same normal in the file.
   void quantise_new_normals()
@@ -169,7 +159,7 @@ private:
       columns.push_back(column == attributes.end() || m_normals.empty() ? nullptr : &*column);
       known.emplace_back();
       for (Index row = 0; row < block(instance).size && columns.back(); ++row)
-        known.back().insert(bits_of(world_normal_of(instance, *columns.back(), row)));
+        known.back().insert(bits_of(world_normal(instance, *columns.back(), row)));
     }
     std::map<std::pair<Index, Index>, Index> numbers; // by instance and number of the normal
     Cancellation_poll poll;
@@ -189,39 +179,6 @@ private:
         }
         corner = number->second;
       }
-  }
-
-  // Returns the bytes of the normal that a vertex has in its node: those of its row where that is its normal,
-  // else those of another row of the instance with this normal, at this position if there is one, or else new
-  // ones.
-  std::string local_normal_of(const Vertices_by_normal::Vertex& v, const Column& column)
-  {
-    const Index scene_vertex = m_soup.scene_vertices[v.vertex];
-    const std::size_t number = m_scene.instance_of(scene_vertex);
-    const Gltf_scene::Instance& own = m_scene.instances[number];
-    const std::array<double, 3>& normal = m_normals.values[v.normal];
-    const auto row_of = [](const Column& of, std::size_t row) {
-      return std::string_view(of.rows).substr(row * of.row_size, of.row_size);
-    };
-    const auto normal_of = [&](std::size_t row) { return world_normal_of(own, column, row); };
-    if (v.normal == m_normals.missing || column.component_type != type_float32 ||
-        have_same_bits(normal_of(scene_vertex - own.first), normal))
-      return std::string(row_of(column, scene_vertex - own.first));
-    const Column& positions = block(own).attributes.front();
-    const auto [rows, is_new] = m_rows_of_normals.try_emplace(number);
-    if (is_new)
-      for (Index row = 0; row < block(own).size; ++row)
-        rows->second.emplace(bits_of(normal_of(row)).append(row_of(positions, row)), row);
-    auto row = rows->second.find(bits_of(normal).append(row_of(positions, scene_vertex - own.first)));
-    if (row == rows->second.end())
-      row = rows->second.lower_bound(bits_of(normal));
-    if (row != rows->second.end() && row->first.compare(0, sizeof normal, bits_of(normal)) == 0)
-      return std::string(row_of(column, row->second));
-    const std::array<double, 3> local = local_normal(own, normal);
-    std::string result;
-    for (const double coordinate : quantised_normal(column, local).value_or(local))
-      append_little_endian(result, static_cast<float>(coordinate));
-    return result;
   }
 
   // Whether a column of normals, or one that means nothing without them, is left out: the soup has none.
@@ -272,7 +229,7 @@ private:
       if (part.mesh == part.mesh_of_file &&
           different[part.first_alike].insert(std::move(of_any_block)).second &&
           different[part.first_alike].size() > 1)
-        note("meshes with data of their own, which others have in common with them in the input");
+        note("meshes with data apart, in common with others in the input");
       const auto [same, is_new] = first.emplace(std::make_pair(part.mesh_of_file, std::move(all)), part.mesh);
       m_same_as[part.mesh] = same->second;
       if (is_new && part.mesh != part.mesh_of_file)
@@ -357,19 +314,19 @@ private:
         if (std::optional<Column> quantised = quantised_again(left))
           left = std::move(*quantised);
         else if (left.quantised_accessor)
-          note("attributes that are floats now, because a new value is none of the whole numbers of the "
-               "input");
+          note("attributes held as floats, because a new value is none of the whole numbers of the input");
         if (left.compression) { // is put with the triangles
           m_compressible[i].push_back(std::move(left));
           return std::size_t(0);
         }
         return m_output.put_accessor(left, vertices[i].size(), Gltf_output::Target::vertices, i);
       };
+      const auto row_of = [&](const Column& column, const Vertices_by_normal::Vertex& v) {
+        return column.rows.substr((m_soup.scene_vertices[v.vertex] - instance.first) * column.row_size,
+                                  column.row_size);
+      };
       const auto put_rows = [&](const Column& column) {
-        return put(column, [&](const Vertices_by_normal::Vertex& v) {
-          return std::string_view(column.rows)
-              .substr((m_soup.scene_vertices[v.vertex] - instance.first) * column.row_size, column.row_size);
-        });
+        return put(column, [&](const Vertices_by_normal::Vertex& v) { return row_of(column, v); });
       };
       for (const Column& column : block(instance).attributes)
         if (&column == &block(instance).attributes.front())
@@ -378,8 +335,12 @@ private:
         else if (is_dropped(column))
           m_attributes[i][column.name] = nullptr;
         else if (column.name == "NORMAL" && column.components == 3 && !m_soup.normals.empty())
-          m_attributes[i][column.name] =
-              put(column, [&](const Vertices_by_normal::Vertex& v) { return local_normal_of(v, column); });
+          m_attributes[i][column.name] = put(column, [&](const Vertices_by_normal::Vertex& v) {
+            return v.normal == m_normals.missing
+                       ? row_of(column, v)
+                       : m_local_normals.bytes_of(column, m_soup.scene_vertices[v.vertex],
+                                                  m_normals.values[v.normal]);
+          });
         else
           m_attributes[i][column.name] = put_rows(column);
       for (const std::vector<Column>& target : block(instance).targets) {
@@ -459,13 +420,12 @@ private:
     const std::optional<Draco_primitive> encoded =
         is_alone ? encoded_by_draco(columns, corners, may_reorder) : std::nullopt;
     if (!encoded)
-      note("primitives that are not in Draco any more, because they share vertices or are no smaller there");
+      note("primitives without Draco, because of shared vertices or no gain");
     else if (encoded->unquantised > 0)
       note("attributes that Draco holds as floats, because a new value is none of its whole numbers",
            encoded->unquantised);
     if (encoded && !may_reorder)
-      note("primitives that Draco holds in the order of their vertices, because poses or morph targets have "
-           "it");
+      note("primitives whose vertices Draco holds in order, because poses or morph targets have it");
     const std::size_t size = m_sizes[part.instance];
     if (!encoded) {
       for (const Column& column : columns)
@@ -535,8 +495,7 @@ private:
   std::vector<const Gltf_scene::Part*> m_empty;
   std::optional<std::map<std::tuple<Gltf_scene::Matrix, double, double, double>, std::string_view>>
       m_positions;
-  // By instance: rows by the bits of their normals and positions.
-  std::map<std::size_t, std::map<std::string, Index>> m_rows_of_normals;
+  Local_normals m_local_normals;
 };
 
 /// Levels of detail, and the glTF scene that they all belong to.

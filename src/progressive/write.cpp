@@ -3,6 +3,7 @@
 
 #include "progressive/lists.h"
 
+#include "files/Local_normals.h"
 #include "files/formats.h"
 #include "soup/Gltf_scene.h"
 
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <functional>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -186,11 +188,30 @@ private:
     std::iota(soup.scene_vertices.begin(), soup.scene_vertices.end(), Index(0));
   }
 
+  // Returns the normal of a wedge of a scene. It need not be that of its row: vertices that differ in their
+  // normals alone have become one.
+  std::optional<std::array<double, 3>> normal_at(Index wedge) const
+  {
+    if (!m_soup.scene || m_soup.normals.empty())
+      return std::nullopt;
+    const Index number = m_soup.normals.of_triangle[m_corners[wedge] / 3][m_corners[wedge] % 3];
+    return number == m_soup.normals.missing ? std::nullopt : std::optional(m_soup.normals.values[number]);
+  }
+  static const Gltf_scene::Column* normals_of(const Gltf_scene::Block& block)
+  {
+    const auto found =
+        std::find_if(block.attributes.begin(), block.attributes.end(), [](const Gltf_scene::Column& column) {
+          return column.name == "NORMAL" && column.components == 3;
+        });
+    return found == block.attributes.end() ? nullptr : &*found;
+  }
+
   // Gives every instance a block of its own, with the rows of its wedges. They are written plain, each
   // accessor in a buffer view of its own: compressors may put vertices into another order.
   void put_blocks()
   {
     const Gltf_scene& before = *scene_soup().scene;
+    files::Local_normals local_normals(before);
     std::vector<Gltf_scene::Block> blocks;
     Index v = 0;
     for (std::size_t i = 0; i < before.instances.size(); ++i) {
@@ -203,8 +224,11 @@ private:
       block.size = Index(rows.size());
       const auto select = [&](Gltf_scene::Column& column) {
         std::string selected;
-        for (const std::size_t row : rows)
-          selected.append(column.rows, row * column.row_size, column.row_size);
+        for (std::size_t k = 0; k < rows.size(); ++k)
+          if (const auto normal = normal_at(m_order[first + k]); normal && &column == normals_of(block))
+            selected += local_normals.bytes_of(column, Index(instance.first + rows[k]), *normal);
+          else
+            selected.append(column.rows, rows[k] * column.row_size, column.row_size);
         column.rows = std::move(selected);
         column.compression.reset();
         column.place.reset();
@@ -226,7 +250,7 @@ private:
       part.index_type = 0;
   }
 
-  // Every vertex has one normal: that of its row in a new scene, else that of its corners.
+  // Every vertex has the normal of its row, where the soup has one.
   void put_normals()
   {
     Corner_values<3>& normals = m_result.soup.normals;
@@ -234,17 +258,10 @@ private:
     bool are_missing = false, are_there = false;
     for (Index v = 0; v < m_order.size(); ++v) {
       std::array<double, 3> normal = {beyond, beyond, beyond};
-      const Index corner = m_corners[m_order[v]];
-      if (m_soup.scene) {
-        if (!m_soup.normals.empty() &&
-            m_soup.normals.of_triangle[corner / 3][corner % 3] != m_soup.normals.missing)
-          normal = m_soup.normals.values[m_soup.normals.of_triangle[corner / 3][corner % 3]];
-      } else {
-        const std::size_t instance = m_scene->instance_of(v);
-        for (const Gltf_scene::Column& column : m_scene->blocks[instance].attributes)
-          for (std::size_t k = 0; k < 3 && column.name == "NORMAL"; ++k)
-            normal[k] = component(column, v - m_firsts[instance], k);
-      }
+      const std::size_t instance = m_scene->instance_of(v);
+      const Gltf_scene::Column* const column = normals_of(m_scene->blocks[instance]);
+      if (column && (!m_soup.scene || normal_at(m_order[v])))
+        normal = world_normal(m_scene->instances[instance], *column, v - m_firsts[instance]);
       (normal[0] == beyond ? are_missing : are_there) = true;
       normals.values.push_back(normal);
     }

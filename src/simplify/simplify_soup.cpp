@@ -215,8 +215,8 @@ private:
                           ? Apart::from_all
                           : Apart::no);
     Shared_meshes shared = shared_meshes(m_prepared.soup, apart);
-    for (const Apart how : {Apart::from_other_meshes, Apart::from_all})
-      if (m_prepared.doubles() > 0) {
+    if (m_prepared.doubles() > 0)
+      for (const Apart how : {Apart::from_other_meshes, Apart::from_all}) {
         set_apart_by_doubles(shared.meshes, how, apart);
         shared = shared_meshes(m_prepared.soup, apart);
       }

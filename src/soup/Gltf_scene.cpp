@@ -147,6 +147,13 @@ std::array<double, 3> world_normal(const Gltf_scene::Instance& instance, const s
   return unit(result, instance.is_mirrored ? -1 : 1);
 }
 
+std::array<double, 3> world_normal(const Gltf_scene::Instance& instance, const Gltf_scene::Column& normals,
+                                   std::size_t row)
+{
+  return world_normal(instance,
+                      {component(normals, row, 0), component(normals, row, 1), component(normals, row, 2)});
+}
+
 std::array<double, 3> local_normal(const Gltf_scene::Instance& instance, const std::array<double, 3>& normal)
 {
   const Matrix& m = instance.to_world;

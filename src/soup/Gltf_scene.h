@@ -193,6 +193,10 @@ double fraction(Attribute::Type type, double number);
 /// where the transform neither turns nor scales.
 std::array<double, 3> world_normal(const Gltf_scene::Instance& instance, const std::array<double, 3>& normal);
 
+/// Returns that of a row.
+std::array<double, 3> world_normal(const Gltf_scene::Instance& instance, const Gltf_scene::Column& normals,
+                                   std::size_t row);
+
 /// Returns a normal of length 1 whose direction in world space is about this one.
 std::array<double, 3> local_normal(const Gltf_scene::Instance& instance, const std::array<double, 3>& normal);
 

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -163,26 +164,29 @@ void set_normal(Triangle_soup& soup, const std::vector<Index>& face, const Vecto
     soup.normals.of_triangle[t] = {number, number, number};
 }
 
-// Lists the triangles of each face, in the order of their first triangles: those of a polygon, or one alone.
-std::vector<std::vector<Index>> faces_of(const Triangle_soup& soup)
+// Calls function(triangles) for each face, in the order of their first triangles: those of a polygon, or one
+// alone.
+template <class Function>
+void for_each_face(const Triangle_soup& soup, const Function& function)
 {
-  std::vector<std::vector<Index>> faces;
+  std::vector<Index> face;
   auto polygon = soup.polygons.begin();
   for (Index t = 0; t < soup.triangles.size();) {
     const bool is_polygon = polygon != soup.polygons.end() && polygon->first_triangle == t;
     const Index end = t + (is_polygon ? polygon++->corners - 2 : 1);
-    std::vector<Index>& face = faces.emplace_back();
+    face.clear();
     while (t < end)
       face.push_back(t++);
+    function(face);
   }
-  return faces;
 }
 
 void restore_flat(Triangle_soup& soup)
 {
   soup.normals = {{}, std::vector<Index_triple>(soup.triangles.size())};
-  for (const std::vector<Index>& face : faces_of(soup))
+  for_each_face(soup, [&](const std::vector<Index>& face) {
     set_normal(soup, face, face.size() == 1 ? unit_normal(soup, face[0]) : unit_normal(soup, face));
+  });
 }
 
 void restore_smooth(Triangle_soup& soup)
@@ -314,21 +318,27 @@ void keep_flat_normals(Triangle_soup& result, const std::vector<Index>& triangle
   };
   const std::size_t count = result.triangles.size();
   internal::Disjoint_sets sets(count); // of triangles
-  for (const std::vector<Index>& polygon : faces_of(result))
+  for_each_face(result, [&](const std::vector<Index>& polygon) {
     for (const Index t : polygon)
       sets.unite(polygon[0], t);
+  });
   for_each_inner_edge(result.triangles, [&](const Side& a, const Side& b) {
     const Index t = a.at_low / 3, u = b.at_low / 3;
     if (old(a.at_low) == old(b.at_low) && old(a.at_high) == old(b.at_high) &&
         is_made_within(t, s_cosine_of_face) && is_made_within(u, s_cosine_of_face))
       sets.unite(t, u);
   });
-  std::vector<std::vector<Index>> faces(count); // by first triangle
+  std::vector<Index> ends(count + 1, 0), by_set(count); // triangles, those of a set after each other
   for (Index t = 0; t < count; ++t)
-    faces[sets.find(t)].push_back(t);
+    ++ends[sets.find(t) + 1];
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  for (Index t = 0; t < count; ++t)
+    by_set[ends[sets.find(t)]++] = t; // so that the end of a set is where the next one began
   std::vector<char> is_kept(count, false);
   std::vector<Index> numbers(normals.values.size(), 0);
-  for (const std::vector<Index>& face : faces) {
+  std::vector<Index> face;
+  for (std::size_t set = 0, first = 0; set < count; first = ends[set++]) {
+    face.assign(by_set.begin() + std::ptrdiff_t(first), by_set.begin() + std::ptrdiff_t(ends[set]));
     const bool is_of_several =
         std::any_of(face.begin(), face.end(), [&](Index t) { return made(t) != made(face[0]); });
     if (is_of_several)

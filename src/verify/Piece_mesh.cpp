@@ -17,17 +17,12 @@
 namespace selvedge::internal {
 
 Piece_mesh::Piece_mesh(const Triangle_soup& mesh, const Index* positions_of_vertices)
-    : soup(mesh), positions(positions_of_vertices),
-      numbered(numbered_pieces(soup.triangles, soup.points.size()))
+    : soup(mesh), positions(positions_of_vertices), numbered(numbered_pieces(soup, positions_of_vertices))
 {
   std::vector<Pair> pairs;
-  for (Index t = 0; t < soup.triangles.size(); ++t) {
-    const Index a = position(t, 0), b = position(t, 1), c = position(t, 2);
-    if (a == b || b == c || c == a)
-      numbered.of_triangle[t] = no_piece;
-    else
-      pairs.emplace_back(numbered.of_triangle[t], t);
-  }
+  for (Index t = 0; t < soup.triangles.size(); ++t)
+    if (piece(t) != no_piece)
+      pairs.emplace_back(piece(t), t);
   triangles = Lists(numbered.pieces.size(), std::move(pairs));
 }
 

@@ -335,13 +335,13 @@ std::vector<Index> pieces_by_position(const Triangle_soup& mesh)
 }
 
 Matched_pieces matched_pieces(const Triangle_soup& result, const Triangle_soup& original,
-                              const std::vector<Piece>& pieces_of_result, const Piece_matching& matching,
+                              const Numbered_pieces& pieces_of_result, const Piece_matching& matching,
                               const std::vector<Index>& triangles_of_original, std::size_t obstacle_triangles)
 {
   // The pieces of the result by vertices follow the triangles of the original.
   const Index beyond = Index(original.triangles.size());
   const std::size_t own = result.triangles.size() - obstacle_triangles;
-  Disjoint_sets sets(beyond + pieces_of_result.size());
+  Disjoint_sets sets(beyond + pieces_of_result.pieces.size());
   unite_by_position(original, obstacle_triangles, sets);
   for (const Piece_match& match : matching.matches) {
     const Index first = matching.pieces_of_original[match.of_original.front()].first_triangle;
@@ -353,15 +353,15 @@ Matched_pieces matched_pieces(const Triangle_soup& result, const Triangle_soup& 
   Matched_pieces pieces;
   for (Index t = 0; t < beyond; ++t)
     pieces.of_original.push_back(Index(sets.find(t)));
-  const std::vector<Index> by_vertices = numbered_pieces(result.triangles, result.points.size()).of_triangle;
   for (Index t = 0; t < result.triangles.size(); ++t)
     if (t >= own)
       pieces.of_result.push_back(Index(sets.find(beyond - (result.triangles.size() - t))));
     else if (!triangles_of_original.empty())
       pieces.of_result.push_back(Index(sets.find(triangles_of_original[t])));
-    else
-      pieces.of_result.push_back(by_vertices[t] == no_piece ? no_piece
-                                                            : Index(sets.find(beyond + by_vertices[t])));
+    else {
+      const Index piece = pieces_of_result.of_triangle[t];
+      pieces.of_result.push_back(piece == no_piece ? no_piece : Index(sets.find(beyond + piece)));
+    }
   return pieces;
 }
 

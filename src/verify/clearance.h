@@ -4,6 +4,8 @@
 #ifndef SELVEDGE_SRC_VERIFY_CLEARANCE_H
 #define SELVEDGE_SRC_VERIFY_CLEARANCE_H
 
+#include "pieces.h"
+
 #include <selvedge/verify.h>
 
 #include <optional>
@@ -23,7 +25,7 @@ struct Matched_pieces
   std::vector<Index> of_result, of_original; // by triangle
 };
 Matched_pieces matched_pieces(const Triangle_soup& result, const Triangle_soup& original,
-                              const std::vector<Piece>& pieces_of_result, const Piece_matching& matching,
+                              const Numbered_pieces& pieces_of_result, const Piece_matching& matching,
                               const std::vector<Index>& triangles_of_original,
                               std::size_t obstacle_triangles);
 

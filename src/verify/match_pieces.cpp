@@ -148,14 +148,8 @@ public:
   }
 
 private:
-  bool is_left_of_result(Index piece) const
-  {
-    return m_match_of_result[piece] == no_piece && m_result.triangles[piece].size() > 0;
-  }
-  bool is_left_of_original(Index piece) const
-  {
-    return m_match_of_original[piece] == no_piece && m_original.triangles[piece].size() > 0;
-  }
+  bool is_left_of_result(Index piece) const { return m_match_of_result[piece] == no_piece; }
+  bool is_left_of_original(Index piece) const { return m_match_of_original[piece] == no_piece; }
   std::vector<Index> left_of_result() const
   {
     std::vector<Index> left;
@@ -454,11 +448,9 @@ private:
 
     std::map<std::size_t, std::pair<std::vector<Index>, std::vector<Index>>> groups; // of original, of result
     for (Index o = 0; o < originals; ++o)
-      if (m_original.triangles[o].size() > 0)
-        groups[sets.find(results + o)].first.push_back(o);
+      groups[sets.find(results + o)].first.push_back(o);
     for (Index r = 0; r < results; ++r)
-      if (m_result.triangles[r].size() > 0)
-        groups[sets.find(r)].second.push_back(r);
+      groups[sets.find(r)].second.push_back(r);
     for (auto& [set, group] : groups) {
       auto& [of_original, of_result] = group;
       const auto is_left = [&](Index o) { return is_left_of_original(o); };

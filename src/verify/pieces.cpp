@@ -41,6 +41,16 @@ std::vector<Index_triple> without_repetitions(std::vector<Index_triple> triangle
   return triangles;
 }
 
+// Takes the corners of triangles with two corners at one position together, so that they are no faces.
+template <class Are_at_one_position>
+std::vector<Index_triple> with_an_inside(std::vector<Index_triple> triangles, const Are_at_one_position& are)
+{
+  for (auto& [a, b, c] : triangles)
+    if (are(a, b) || are(b, c) || are(c, a))
+      b = c = a;
+  return triangles;
+}
+
 } // namespace
 
 Numbered_pieces internal::numbered_pieces(const std::vector<Index_triple>& triangles, std::size_t vertices)
@@ -112,9 +122,21 @@ Numbered_pieces internal::numbered_pieces(const std::vector<Index_triple>& trian
   return result;
 }
 
+Numbered_pieces internal::numbered_pieces(const Triangle_soup& soup)
+{
+  const auto are_at_one_position = [&](Index v, Index w) { return soup.points[v] == soup.points[w]; };
+  return numbered_pieces(with_an_inside(soup.triangles, are_at_one_position), soup.points.size());
+}
+
+Numbered_pieces internal::numbered_pieces(const Triangle_soup& soup, const Index* positions)
+{
+  const auto are_at_one_position = [&](Index v, Index w) { return positions[v] == positions[w]; };
+  return numbered_pieces(with_an_inside(soup.triangles, are_at_one_position), soup.points.size());
+}
+
 std::vector<Piece> pieces(const Triangle_soup& soup)
 {
-  return numbered_pieces(soup.triangles, soup.points.size()).pieces;
+  return numbered_pieces(soup).pieces;
 }
 
 std::vector<Topology_difference> topology_differences(const std::vector<Piece>& result,

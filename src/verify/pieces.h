@@ -14,12 +14,19 @@ constexpr Index no_piece = -1;
 struct Numbered_pieces
 {
   std::vector<Piece> pieces;
-  /// The piece of each triangle; `no_piece` for one that names a vertex twice.
+  /// The piece of each triangle; `no_piece` for one with two corners at one position.
   std::vector<Index> of_triangle;
 };
 
-/// Does the same as `pieces` for triangles whose vertices have numbers below `vertices`.
+/// Finds the pieces of triangles whose vertices, with numbers below `vertices`, all have positions of their
+/// own.
 Numbered_pieces numbered_pieces(const std::vector<Index_triple>& triangles, std::size_t vertices);
+
+/// Does the same as `pieces`.
+Numbered_pieces numbered_pieces(const Triangle_soup& soup);
+
+/// Does so too, where `positions` holds the number of each vertex's position.
+Numbered_pieces numbered_pieces(const Triangle_soup& soup, const Index* positions);
 
 } // namespace selvedge::internal
 

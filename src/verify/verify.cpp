@@ -170,6 +170,7 @@ Verification verify(const Triangle_soup& result, const Triangle_soup& original,
     find_pairs(geometry_in_pose(result, obstacle, pose), before, known, permitted, in_pose.pairs,
                in_pose.new_pairs);
   };
+  internal::Numbered_pieces numbered;
   tbb::parallel_invoke(
       Cancellation_scope::inherited([&] {
         const auto find_in_first = [&](const Triangle_soup& after, const Triangle_soup& before) {
@@ -182,14 +183,14 @@ Verification verify(const Triangle_soup& result, const Triangle_soup& original,
           find_in_first(geometry_with_obstacle(result, obstacle), geometry_with_obstacle(original, obstacle));
         internal::for_each_pose(result.poses.size(), judge_pose);
       }),
-      Cancellation_scope::inherited([&] { verification.pieces = pieces(result); }),
+      Cancellation_scope::inherited([&] { numbered = internal::numbered_pieces(result); }),
       Cancellation_scope::inherited(
           [&] { verification.matching = match_pieces(result, original, options); }));
   if (options.clearance) {
     const auto judge_clearance_of = [&](const Triangle_soup& after, const Triangle_soup& before) {
       return internal::judge_clearance(
           *options.clearance, after, before,
-          internal::matched_pieces(after, before, verification.pieces, verification.matching,
+          internal::matched_pieces(after, before, numbered, verification.matching,
                                    options.triangles_of_original, obstacle.triangles.size()));
     };
     verification.clearance = judge_clearance_of(geometry_with_obstacle(result, obstacle),
@@ -199,6 +200,7 @@ Verification verify(const Triangle_soup& result, const Triangle_soup& original,
                                                               geometry_in_pose(original, obstacle, pose));
     });
   }
+  verification.pieces = std::move(numbered.pieces);
   verification.topology_differences =
       topology_differences(verification.pieces, verification.matching.pieces_of_original);
   verification.distances = distances(result, original);

@@ -132,6 +132,22 @@ TEST(App_report, SaysWhyTheOutputIsLargerThanTheInput)
   EXPECT_TRUE(of_other_format["output"]["larger"].is_null());
 }
 
+// One mesh in two nodes, of which one is stretched, so that its places are reduced otherwise.
+TEST(App_report, CountsOneOfWhatMakesAFileLarger)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("skirt", "in.gltf", 600);
+  Json scene = Json::parse(read_file(in));
+  const std::size_t meshes = scene["meshes"].size();
+  scene["nodes"].push_back({{"mesh", 0}, {"translation", {100, 0, 0}}, {"scale", {1, 5, 1}}});
+  scene["scenes"][0]["nodes"].push_back(scene["nodes"].size() - 1);
+  write_file(in, scene.dump());
+  const Json report = report_of(folder, in, folder / "out.gltf", {"--ratio", "0.9", "--instances", "apart"});
+  ASSERT_EQ(Json::parse(read_file(folder / "out.gltf"))["meshes"].size(), meshes + 1);
+  const std::string sentence = report["output"]["larger"];
+  EXPECT_NE(sentence.find("1 mesh more than in the input"), std::string::npos) << sentence;
+}
+
 TEST(App_report, CountsPairsOfAnUncheckedRun)
 {
   const Workspace folder;

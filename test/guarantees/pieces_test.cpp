@@ -317,6 +317,18 @@ TEST(Pieces, RefuseAHoleInsideTheCell)
   EXPECT_NE(refusal.find("its connected pieces are not those of cell_1.ply"), std::string::npos) << refusal;
 }
 
+// Layers that needles hold together: a reduction leaves the needles out, and is no other mesh for it.
+TEST(Pieces, MayLoseWhatHasTwoCornersAtOnePosition)
+{
+  Triangle_soup whole = joined(sheet(12, 12), moved(sheet(12, 12), 0, 0, 1));
+  const Index beyond = Index(whole.points.size() / 2);
+  for (Index v = 0; v < beyond; v += 5) {
+    whole.points.push_back(whole.points[v]);
+    whole.triangles.push_back({v, Index(whole.points.size() - 1), beyond + v});
+  }
+  EXPECT_EQ(pieces(Cut(whole, 4).join(reduced_to_a_quarter)).size(), 2u);
+}
+
 TEST(Pieces, KeepTwoVerticesOfASeamApartAndOneVertexAtAWallOne)
 {
   // Twelve quads in a row, sewn by position alone in the middle, and cut across.

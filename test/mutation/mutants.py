@@ -239,6 +239,9 @@ group(
      "return 2 * (height * height + beside * beside) > squared;", "faces that are nearer are skipped"),
     ("1 / (length * std::sqrt(dot(sides[i], sides[i])))", "1 / length", "distances beyond long sides are too large"),
     ("candidate.longest() <= 4 * squared", "candidate.longest() <= 16 * squared", "points far from all corners are near them"),
+    ("likely = (likely + 1) % state.candidates.size();", "break;", "at a vertex of many faces only one face can take a point"),
+    ("find_near_candidates();\n      state.found.reset();", "find_near_candidates();\n      state.found = question(collapse);",
+     "at a vertex of many faces points go to a face that is near, not nearest"),
 )
 group(
     "src/soup/Vertex_values.cpp",
@@ -371,6 +374,12 @@ group(
     ("if (!added.empty())", "if (false)", "pieces may intersect themselves"),
     ("!matching.is_complete())", "false)", "pieces may have new holes"),
     ("numbers[v] == no_number ? next : m_vertices", "true ? next : m_vertices", "vertices at walls are not joined"),
+)
+
+group(
+    "src/verify/pieces.cpp",
+    ("verify_pieces_test", "verify_match_pieces_test", "pieces_test"),
+    ("if (are(a, b) || are(b, c) || are(c, a))", "if (false)", "triangles with two corners at one position connect pieces"),
 )
 
 group(
@@ -907,6 +916,11 @@ group(
     ("if (uses[wedge] == 0)", "if (false)", "vertices end that no triangle has"),
     ("pose.points[m_soup.triangles[m_corners[wedge] / 3][m_corners[wedge] % 3]]",
      "pose.points[m_soup.triangles[wedge / 3][wedge % 3]]", "a pose has the places of other vertices"),
+)
+group(
+    "src/progressive/write.cpp",
+    ("progressive_test:*InATurnedNode",),
+    ("normal && &column == normals_of(block)", "false", "rows keep normals that are not those of their corners"),
 )
 group(
     "src/progressive/read.cpp",

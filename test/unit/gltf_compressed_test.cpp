@@ -485,7 +485,7 @@ TEST(Gltf_quantised, BecomesFloatsInAColumnThatHasANewNumber)
   EXPECT_TRUE(write_mesh(folder / "m.glb", read(quantised_sheet()).soup).empty());
   const Write_notes notes = write_mesh(folder / "m.glb", file.soup);
   ASSERT_EQ(notes.size(), 1u);
-  EXPECT_EQ(notes.begin()->first.find("attributes that are floats now"), 0u);
+  EXPECT_EQ(notes.begin()->first.find("attributes held as floats"), 0u);
   EXPECT_EQ(notes.begin()->second, 1u);
   EXPECT_EQ(read_mesh(folder / "m.glb").soup.points, file.soup.points);
   const Json accessors = accessors_of(json_of(read_file(folder / "m.glb")));
@@ -835,7 +835,7 @@ TEST(Gltf_draco, KeepsTheOrderOfAMeshInSeveralPoses)
   const Temporary_folder folder;
   const Write_notes notes = write_mesh(folder / "m.glb", file.soup);
   ASSERT_EQ(notes.size(), 1u);
-  EXPECT_EQ(notes.begin()->first.find("primitives that Draco holds in the order of their vertices"), 0u);
+  EXPECT_EQ(notes.begin()->first.find("primitives whose vertices Draco holds in order"), 0u);
 }
 
 TEST(Gltf_draco, IsReadAsThePlainFile)

@@ -110,6 +110,19 @@ std::vector<Point_3> grid_of(const std::array<Point_3, 3>& corners, double max_e
   return points;
 }
 
+// A cone of many faces, whose apex is vertex 0.
+Mesh cone(int sides, double height)
+{
+  Mesh mesh;
+  const auto apex = mesh.add_vertex(Point_3(0, 0, height));
+  for (int i = 0; i < sides; ++i)
+    mesh.add_vertex(
+        Point_3(std::cos(6.28318530717958648 * i / sides), std::sin(6.28318530717958648 * i / sides), 0));
+  for (int i = 0; i < sides; ++i)
+    mesh.add_face(apex, Mesh::Vertex_index(1 + i), Mesh::Vertex_index(1 + (i + 1) % sides));
+  return mesh;
+}
+
 double squared_distance(const Point_3& p, const std::array<Point_3, 3>& t)
 {
   return CGAL::squared_distance(p, Kernel::Triangle_3(t[0], t[1], t[2]));
@@ -165,8 +178,7 @@ protected:
     m_mesh = mesh_of(mapped(sheet(9, 9), [&](const Point_3& p) {
       return Point_3(p.x() + number(m_random), p.y() + number(m_random), 2 * number(m_random));
     }));
-    for (const Face f : m_mesh.faces())
-      m_original.push_back(corners_after(m_mesh, f, {}, {}));
+    m_original = originals_of(m_mesh);
   }
 
   // Compares what is said of a collapse with what all grids say. Counts whether it leads too far.
@@ -180,6 +192,14 @@ protected:
     ASSERT_GT(std::fabs(farthest - max_error), 1e-9) << "the test cannot tell";
     EXPECT_EQ(std::isfinite(error), farthest <= max_error) << h;
     ++(farthest <= max_error ? m_near : m_too_far);
+  }
+
+  static Triangles originals_of(const Mesh& mesh)
+  {
+    Triangles triangles;
+    for (const Face f : mesh.faces())
+      triangles.push_back(corners_after(mesh, f, {}, {}));
+    return triangles;
   }
 
   static Profile profile_of(Mesh& mesh, Mesh::Halfedge_index h)
@@ -218,6 +238,85 @@ TEST_F(Tracked_sheet, ChangedFacesKeepToTheOriginalBetweenTheirCorners)
   EXPECT_GT(m_near, 300u);
   EXPECT_GT(m_too_far, 30u);
   EXPECT_GT(too_far_between_corners, 30u) << "which vertices alone would not tell";
+}
+
+// The points that a collapse hands on, against the faces that can take them, in a mesh as it was.
+double farthest_point(const Mesh& mesh, Mesh::Halfedge_index h, const Point_3& place, double max_error)
+{
+  std::vector<Point_3> points;
+  Triangles faces;
+  for (const Face f : mesh.faces_around_target(mesh.opposite(h)))
+    if (f != Mesh::null_face()) {
+      const auto corners = corners_after(mesh, f, {}, {});
+      const std::vector<Point_3> grid = grid_of(corners, max_error);
+      points.insert(points.end(), grid.begin(), grid.end());
+      points.push_back(mesh.point(mesh.source(h)));
+      if (f != mesh.face(h) && f != mesh.face(mesh.opposite(h)))
+        faces.push_back(corners_after(mesh, f, {mesh.source(h)}, place));
+    }
+  double farthest = 0;
+  for (const Point_3& p : points) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& face : faces)
+      least = std::min(least, squared_distance(p, face));
+    farthest = std::max(farthest, least);
+  }
+  return std::sqrt(farthest);
+}
+
+TEST_F(Tracked_sheet, AtAVertexOfManyFacesTheAnswerIsTheSame)
+{
+  std::size_t near = 0, far = 0;
+  for (const double height : {0.05, 0.5}) {
+    Mesh mesh = cone(40, height);
+    for (const double max_error : {0.03, 0.11, 0.3, 0.6}) {
+      Tracked tracked(mesh);
+      tracked.begin(mesh.points(), 1, max_error);
+      for (const Mesh::Halfedge_index h :
+           mesh.halfedges_around_target(mesh.halfedge(Mesh::Vertex_index(0)))) {
+        const Mesh::Halfedge_index out = mesh.opposite(h);
+        const Point_3 place = mesh.point(mesh.target(out));
+        const double farthest = farthest_point(mesh, out, place, max_error);
+        ASSERT_GT(std::fabs(farthest - max_error), 1e-9) << "the test cannot tell";
+        const bool is_near = farthest <= max_error &&
+                             farthest_from(originals_of(mesh), mesh, out, place, max_error) <= max_error;
+        EXPECT_EQ(tracked.error_at(profile_of(mesh, out), place) <= max_error, is_near);
+        ++(is_near ? near : far);
+      }
+    }
+  }
+  EXPECT_GT(near, 50u);
+  EXPECT_GT(far, 50u);
+}
+
+// Whether it was asked before or not, a collapse hands each point to the nearest face.
+TEST_F(Tracked_sheet, AtAVertexOfManyFacesThePointsGoToTheNearest)
+{
+  constexpr double max_error = 0.1;
+  Mesh mesh = cone(60, 0.05);
+  Tracked asked(mesh), told(mesh);
+  asked.begin(mesh.points(), 1, max_error);
+  told.begin(mesh.points(), 1, max_error);
+  const Mesh::Halfedge_index out = mesh.opposite(mesh.halfedge(Mesh::Vertex_index(0)));
+  const Profile profile = profile_of(mesh, out);
+  ASSERT_LE(asked.error_at(profile, mesh.point(mesh.target(out))), max_error);
+  const auto collapse = internal::Collapse<Profile>::along(profile, out);
+  asked.before_collapse(collapse);
+  told.before_collapse(collapse);
+  const auto left = CGAL::Euler::collapse_edge(mesh.edge(out), mesh);
+  mesh.point(left) = collapse.place();
+  std::set<double> errors;
+  for (const Mesh::Edge_index e : mesh.edges()) {
+    const Mesh::Halfedge_index h = mesh.halfedge(e);
+    for (const Mesh::Halfedge_index moving : {h, mesh.opposite(h)}) {
+      if (mesh.source(moving) == left) // which has many faces
+        continue;
+      const double error = asked.error_at(profile_of(mesh, moving), mesh.point(mesh.target(moving)));
+      EXPECT_EQ(error, told.error_at(profile_of(mesh, moving), mesh.point(mesh.target(moving))));
+      errors.insert(error);
+    }
+  }
+  EXPECT_GT(errors.size(), 50u);
 }
 
 TEST(OriginalSurface, IsNearWhatAnyTriangleIsNear)

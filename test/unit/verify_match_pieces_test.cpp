@@ -553,6 +553,23 @@ TEST(MatchPieces, OfNothing)
   EXPECT_TRUE(match_pieces(needle, needle).is_complete());
 }
 
+// What another program leaves of quantised meshes: a reduction leaves the needles out, so that they cannot be
+// what holds pieces together.
+TEST(MatchPieces, WhateverTrianglesWithTwoCornersAtOnePositionConnect)
+{
+  Triangle_soup needles = fine();
+  const std::vector<Piece> all = pieces(needles);
+  const auto first_corner = [&](Index piece) { return needles.triangles[all[piece].first_triangle][0]; };
+  for (const Index piece : {1, 2, 3}) {
+    needles.points.push_back(needles.points[first_corner(0)]);
+    needles.triangles.push_back({first_corner(0), Index(needles.points.size() - 1), first_corner(piece)});
+  }
+  EXPECT_EQ(way(match_pieces(coarse(), needles)), Matched_by::vertices);
+  EXPECT_EQ(way(match_pieces(needles, fine())), Matched_by::vertices);
+  EXPECT_TRUE(verify(coarse(), needles).same_topology());
+  EXPECT_EQ(mismatches(without_piece(coarse(), 1), needles), Mismatches{Mismatch::missing});
+}
+
 // More pieces at one position than are looked at.
 TEST(MatchPieces, ManyAtOnePosition)
 {

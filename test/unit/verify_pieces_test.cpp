@@ -109,6 +109,31 @@ TEST(Pieces, LeaveOutTrianglesThatNameAVertexTwice)
   EXPECT_EQ(pieces(soup)[0].first_triangle, 1u);
 }
 
+// A bridge between two sheets, and a needle in a slit of one: without them, the sheets are two, and one has
+// the slit.
+TEST(Pieces, AreNotConnectedByTrianglesWithTwoCornersAtOnePosition)
+{
+  Triangle_soup soup = joined(sheet(5, 3), moved(sheet(2, 2), 9, 0, 0));
+  const std::vector<Piece> apart = pieces(soup);
+  soup.points.push_back(soup.points[5]);
+  soup.triangles.insert(soup.triangles.begin(), {5, Index(soup.points.size() - 1), 24});
+  ASSERT_EQ(pieces(soup).size(), 2u);
+  EXPECT_EQ(pieces(soup)[0].first_triangle, 1u);
+  for (Index i = 0; i < 2; ++i)
+    EXPECT_EQ(key(pieces(soup)[i]), key(apart[i]));
+
+  // The first face gets a vertex of its own, so that a slit leads along two of its sides.
+  Triangle_soup slit = tetrahedron();
+  const auto [a, b, c] = slit.triangles[0];
+  slit.points.push_back(slit.points[a]);
+  slit.triangles[0] = {4, b, c};
+  const Key open = only_piece(slit);
+  EXPECT_EQ(open, Key(4, 5, 4, 0, 1, 1));
+  slit.triangles.push_back({a, b, 4});
+  slit.triangles.push_back({c, a, 4});
+  EXPECT_EQ(only_piece(slit), open);
+}
+
 TEST(Pieces, DoNotDependOnAnyOrder)
 {
   const Triangle_soup soup = joined(joined(without_squares(sheet(6, 6), {7, 14, 20}), book()), bowtie());
@@ -125,6 +150,8 @@ TEST(Pieces, DoNotDependOnAnyOrder)
     std::vector<Index> number(soup.points.size());
     std::iota(number.begin(), number.end(), Index(0));
     std::shuffle(number.begin(), number.end(), random);
+    for (Index v = 0; v < number.size(); ++v)
+      shuffled.points[number[v]] = soup.points[v];
     for (Index_triple& triangle : shuffled.triangles) {
       for (Index& vertex : triangle)
         vertex = number[vertex];

@@ -58,8 +58,9 @@ namespace internal {
 /// **Exactness** Floating point.
 ///
 /// **Complexity** Linear in the size of the mesh to begin; for each collapse, the number of points that its
-/// faces carry, times the number of these faces. What `error_at` has found is not computed again when this
-/// collapse is the next one done. Without `begin`, it does nothing, and all errors are 0.
+/// faces carry, times the number of these faces. At a vertex of many faces, to ask about one that is then not
+/// done takes about as long as there are points, or less. What `error_at` has found is not computed again
+/// when this collapse is the next one done. Without `begin`, it does nothing, and all errors are 0.
 ///
 /// **Reference** Klein, Liebich, Strasser: Mesh reduction with error control, 1996.
 template <class TriangleMesh>
@@ -110,17 +111,26 @@ public:
 
   /// Returns the largest distance from a point that the changed faces carry to its new carrier, in units of
   /// the mesh; infinity when no face is left to carry it, or a changed face would be too far from the
-  /// original.
+  /// original. When there are many changed faces, it may be another number, which is at most E when this one
+  /// is.
   template <class Profile, class Place>
   double error_at(const Profile& profile, const Place& place) const
   {
     if (!m_state->is_tracking)
       return 0;
     const Collapse<Profile> collapse(profile, place);
-    m_state->found = find_carriers(collapse);
-    const double error = std::sqrt(m_state->squared_error);
-    return error > m_state->max_error || are_changed_faces_near(collapse.are_both_moved())
-               ? error / m_state->scale
+    State& state = *m_state;
+    find_candidates(collapse);
+    if (state.candidates.size() <= s_few || !std::isfinite(state.max_error)) {
+      find_carriers();
+      state.found = question(collapse);
+    } else {
+      find_near_candidates();
+      state.found.reset();
+    }
+    const double error = std::sqrt(state.squared_error);
+    return error > state.max_error || are_changed_faces_near(collapse.are_both_moved())
+               ? error / state.scale
                : std::numeric_limits<double>::infinity();
   }
 
@@ -130,8 +140,10 @@ public:
     State& state = *m_state;
     if (!state.is_tracking)
       return;
-    if (!state.found || *state.found != question(collapse))
-      find_carriers(collapse);
+    if (!state.found || *state.found != question(collapse)) {
+      find_candidates(collapse);
+      find_carriers();
+    }
     state.found.reset();
     state.has_new_places |= collapse.are_both_moved();
     for (const Face face : state.emptied)
@@ -144,6 +156,9 @@ private:
   static constexpr Number s_none = std::numeric_limits<Number>::max();
 
   static constexpr int s_most_parts = 8;
+
+  // Of so few candidates, the nearest are found at once: most collapses that are asked about are done.
+  static constexpr std::size_t s_few = 32;
 
   // A face that can take points, as it is after the collapse.
   class Candidate
@@ -365,14 +380,13 @@ private:
     put(m_state->first_of_face, face, number);
   }
 
-  // Returns the question that it has answered.
+  // Finds the faces whose points a collapse hands on, and those that can take them.
   template <class Collapse>
-  Question find_carriers(const Collapse& collapse) const
+  void find_candidates(const Collapse& collapse) const
   {
     State& state = *m_state;
     state.emptied.clear();
     state.candidates.clear();
-    state.moves.clear();
     const auto& profile = collapse.profile();
     if (collapse.is_v0_moved())
       find_faces(collapse, profile.v0_v1(), true);
@@ -386,7 +400,13 @@ private:
           if (!CGAL::is_border(beyond, state.mesh))
             add_candidate(beyond, profile, get(profile.vertex_point_map(), target(beyond, state.mesh)));
         }
+  }
 
+  // Finds for each point the nearest candidate.
+  void find_carriers() const
+  {
+    State& state = *m_state;
+    state.moves.clear();
     state.squared_error = 0;
     for (const Face face : state.emptied) {
       std::size_t likely = find_candidate(face);
@@ -399,7 +419,33 @@ private:
         likely = carrier;
       }
     }
-    return question(collapse);
+  }
+
+  // Finds for each point a candidate that is at most E away, until a point has none. At a vertex of many
+  // faces this takes a small part of the time in which the nearest are found.
+  void find_near_candidates() const
+  {
+    State& state = *m_state;
+    const double most = state.max_error * state.max_error;
+    state.moves.clear();
+    state.squared_error = 0;
+    for (const Face face : state.emptied) {
+      std::size_t likely = find_candidate(face);
+      for (Number number = get(state.first_of_face, face); number != s_none; number = state.next[number]) {
+        const Point& p = state.points[number];
+        double squared = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < state.candidates.size() && std::sqrt(squared) > state.max_error; ++i) {
+          if (!state.candidates[likely].is_beyond(p, most))
+            squared = state.candidates[likely].squared_distance(p);
+          if (std::sqrt(squared) > state.max_error)
+            likely = (likely + 1) % state.candidates.size();
+        }
+        state.squared_error = (std::max)(state.squared_error, squared);
+        if (std::sqrt(squared) > state.max_error)
+          return;
+        state.moves.push_back({number, state.candidates[likely].face()});
+      }
+    }
   }
 
   // Returns the candidate that is this face itself, or else the first.
