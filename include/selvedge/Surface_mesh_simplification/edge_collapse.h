@@ -61,15 +61,16 @@ int collapse_edges(TriangleMesh& mesh, const Stop& stop, const GeomTraits& trait
 ///
 /// **Guarantees**
 /// 1. *Order*: edges are considered by (cost, edge number) alone. Both loops collapse the same edges in the
-///    same order where no two edges cost the same, none has length zero, and `second` and `blockers` are not
-///    in use. Where costs tie, CGAL's order depends on its heap, and the counts of edges removed may differ.
-///    In relaxed order, edges are considered by (class of cost, tile, cost, edge number). Costs of one class
-///    differ by at most an eighth; a tile is 8,192 edges with consecutive numbers. A large mesh in which
-///    near edges have near numbers is reduced in a third less time, since what is needed next is in the
-///    cache. A stop by cost may leave edges that cost up to an eighth less than the one at which it stops.
-///    With `expected_collapses`, the cheapest edges are one class, half as many as collapses are expected;
-///    when they are gone, half as many as are still expected, and so on until there are few in a tile. That
-///    saves another third of the time.
+///    same order where no two edges cost the same, none has length zero, and `second`, `blockers` and
+///    `can_wait` are not in use. An edge that waits and has become cheaper comes as late as its former cost
+///    says; a stop by cost may then leave it. Where costs tie, CGAL's order depends on its heap, and the
+///    counts of edges removed may differ. In relaxed order, edges are considered by (class of cost, tile,
+///    cost, edge number). Costs of one class differ by at most an eighth; a tile is 8,192 edges with
+///    consecutive numbers. A large mesh in which near edges have near numbers is reduced in a third less
+///    time, since what is needed next is in the cache. A stop by cost may leave edges that cost up to an
+///    eighth less than the one at which it stops. With `expected_collapses`, the cheapest edges are one
+///    class, half as many as collapses are expected; when they are gone, half as many as are still expected,
+///    and so on until there are few in a tile. That saves another third of the time.
 /// 2. *Completeness*: when the loop ends without a stop, every edge that is not constrained and has a cost
 ///    has been refused since the last collapse at one of its ends or at a neighbour of one, and since the
 ///    last change of a face that was named as its blocker.

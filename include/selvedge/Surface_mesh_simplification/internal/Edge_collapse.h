@@ -93,7 +93,7 @@ struct Has_companions<Visitor, std::void_t<decltype(std::declval<const Visitor&>
 /// It exists because CGAL's loop drops a refused edge until its neighbourhood changes, and builds a full
 /// profile, with allocations, for every cost. This loop tries the next placement of an edge at its own
 /// cost, considers a refused edge again when a face that blocked it changes, and asks policies again only
-/// where their answers may have changed.
+/// where their answers may have changed, or, where they allow it, when the edge is about to collapse.
 ///
 /// Each step takes the cheapest edge from the queue and asks the stop predicate, the topology, the placement,
 /// the geometric test and the filter, in this order (`try_cheapest`). It then performs the collapse, or puts
