@@ -970,6 +970,7 @@ group(
     "src/verify/clearance.cpp",
     ("clearance_test:Clearance_of_pieces.*",),
     ("if (t == own)", "if (false)", "an obstacle connects pieces in the judge"),
+    ("t < own && by_vertices.of_triangle[t] == no_piece", "false", "needles connect pieces in the judge of distances"),
     ("return exact() < exact_square(distance);", "return false;", "the judge is not exact"),
     ("return exact() < other.exact();", "return false;", "the judge does not compare exactly"),
 )
