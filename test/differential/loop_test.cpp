@@ -71,7 +71,7 @@ struct Recorder : internal::No_visitor
   std::vector<double>* costs;
 };
 
-/// A placement without its second, a filter without its blockers.
+/// A placement without its second, which does not say what can wait, and a filter without its blockers.
 template <class Placement>
 struct First_placement_alone
 {
@@ -82,13 +82,11 @@ struct First_placement_alone
   {
     return placement(profile);
   }
-  template <class Vertex>
-  bool reaches_neighbours(const Vertex& kept) const
+  bool reaches_neighbours(Surface_mesh::Vertex_index kept) const
   {
     return placement.reaches_neighbours(kept);
   }
-  template <class Vertex, class Edge>
-  bool reaches(const Vertex& kept, const Edge& edge) const
+  bool reaches(Surface_mesh::Vertex_index kept, Surface_mesh::Edge_index edge) const
   {
     return placement.reaches(kept, edge);
   }
