@@ -308,6 +308,8 @@ group(
      "edges that are gone stay in the queue"),
     ("float s_near = 6;", "float s_near = 0;", "every change of a cost that can wait is noticed late"),
     ("    if (record.is_outdated) {\n", "    if (false) {\n", "changes of costs that can wait are never noticed"),
+    ("if (!selected_at)\n        return true;", "if (!selected_at)\n        return false;",
+     "the loop ends at an edge that has no cost any more"),
 )
 group(
     loop + "Topology_test.h",
