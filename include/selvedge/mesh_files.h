@@ -26,8 +26,8 @@ namespace selvedge {
 /// 2. *Written* (G3): `read_mesh(p)` after `write_mesh(p, soup)` gives the same coordinates bit for bit, the
 ///    same triangles in the same order, and the same number of every vertex. STL, which has no vertex
 ///    numbers, gives the same triangles up to those numbers (and the sign of zeros); so do PLY and glTF where
-///    vertices are split (**Flat shading**), and glTF where they are compressed as in the file, which may
-///    change their order and that of the triangles.
+///    vertices are split or joined (**Flat shading**), and glTF where they are compressed as in the file,
+///    which may change their order and that of the triangles.
 /// 3. *Refusal* (G9): a file that is not a mesh with at least one triangle and finite coordinates is refused
 ///    with an `Input_error` of one line, which names the file, the line (in text), the element, and how to
 ///    mend it. Whatever a file contains, however damaged it is, it is either read or refused in this way.

@@ -205,7 +205,8 @@ struct Piece_matching
   bool is_complete() const { return mismatches.empty(); }
 };
 
-/// Two pieces that are nearer to each other than a clearance. Here, pieces are connected by positions.
+/// Two pieces that are nearer to each other than a clearance. Here, pieces are connected by positions; as in
+/// `Piece`, a triangle with two corners at one position belongs to none.
 struct Near_pieces
 {
   Index first;              ///< the first triangle of one, in the result

@@ -303,16 +303,19 @@ Clearance_verdict judge(double clearance, const Trees& result, const Trees* orig
   return verdict;
 }
 
-// Unites the triangles that have a position in common: those of the mesh, and those of the obstacle, which
-// come last.
-void unite_by_position(const Triangle_soup& mesh, std::size_t obstacle_triangles, Disjoint_sets& triangles)
+// Unites the triangles that have a position in common: those of the mesh that belong to a piece by vertices,
+// and those of the obstacle, which come last.
+void unite_by_position(const Triangle_soup& mesh, const Numbered_pieces& by_vertices,
+                       Disjoint_sets& triangles)
 {
   const std::vector<Index> positions = position_numbers(mesh.points);
-  const std::size_t own = mesh.triangles.size() - obstacle_triangles;
+  const std::size_t own = by_vertices.of_triangle.size();
   std::vector<Index> first_at(mesh.points.size(), no_piece);
   for (Index t = 0; t < mesh.triangles.size(); ++t) {
     if (t == own)
       first_at.assign(first_at.size(), no_piece);
+    if (t < own && by_vertices.of_triangle[t] == no_piece)
+      continue;
     for (const Index v : mesh.triangles[t]) {
       Index& first = first_at[positions[v]];
       if (first == no_piece)
@@ -324,25 +327,26 @@ void unite_by_position(const Triangle_soup& mesh, std::size_t obstacle_triangles
 
 } // namespace
 
-std::vector<Index> pieces_by_position(const Triangle_soup& mesh)
+std::vector<Index> pieces_by_position(const Triangle_soup& mesh, const Numbered_pieces& by_vertices)
 {
   Disjoint_sets sets(mesh.triangles.size());
-  unite_by_position(mesh, 0, sets);
+  unite_by_position(mesh, by_vertices, sets);
   std::vector<Index> pieces;
   for (Index t = 0; t < mesh.triangles.size(); ++t)
-    pieces.push_back(Index(sets.find(t)));
+    pieces.push_back(by_vertices.of_triangle[t] == no_piece ? no_piece : Index(sets.find(t)));
   return pieces;
 }
 
 Matched_pieces matched_pieces(const Triangle_soup& result, const Triangle_soup& original,
-                              const Numbered_pieces& pieces_of_result, const Piece_matching& matching,
-                              const std::vector<Index>& triangles_of_original, std::size_t obstacle_triangles)
+                              const Numbered_pieces& pieces_of_result,
+                              const Numbered_pieces& pieces_of_original, const Piece_matching& matching,
+                              const std::vector<Index>& triangles_of_original)
 {
   // The pieces of the result by vertices follow the triangles of the original.
   const Index beyond = Index(original.triangles.size());
-  const std::size_t own = result.triangles.size() - obstacle_triangles;
+  const std::size_t own = pieces_of_result.of_triangle.size();
   Disjoint_sets sets(beyond + pieces_of_result.pieces.size());
-  unite_by_position(original, obstacle_triangles, sets);
+  unite_by_position(original, pieces_of_original, sets);
   for (const Piece_match& match : matching.matches) {
     const Index first = matching.pieces_of_original[match.of_original.front()].first_triangle;
     for (const Index piece : match.of_original)
@@ -351,13 +355,16 @@ Matched_pieces matched_pieces(const Triangle_soup& result, const Triangle_soup& 
       sets.unite(first, beyond + piece);
   }
   Matched_pieces pieces;
-  for (Index t = 0; t < beyond; ++t)
-    pieces.of_original.push_back(Index(sets.find(t)));
+  for (Index t = 0; t < beyond; ++t) {
+    const bool is_in_none =
+        t < pieces_of_original.of_triangle.size() && pieces_of_original.of_triangle[t] == no_piece;
+    pieces.of_original.push_back(is_in_none ? no_piece : Index(sets.find(t)));
+  }
   for (Index t = 0; t < result.triangles.size(); ++t)
     if (t >= own)
       pieces.of_result.push_back(Index(sets.find(beyond - (result.triangles.size() - t))));
     else if (!triangles_of_original.empty())
-      pieces.of_result.push_back(Index(sets.find(triangles_of_original[t])));
+      pieces.of_result.push_back(pieces.of_original[triangles_of_original[t]]);
     else {
       const Index piece = pieces_of_result.of_triangle[t];
       pieces.of_result.push_back(piece == no_piece ? no_piece : Index(sets.find(beyond + piece)));

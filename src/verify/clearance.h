@@ -13,21 +13,23 @@
 
 namespace selvedge::internal {
 
-/// Numbers the pieces of a mesh that are connected by positions: returns the number of each triangle's.
-std::vector<Index> pieces_by_position(const Triangle_soup& mesh);
+/// Numbers the pieces of a mesh that are connected by positions: returns the number of each triangle's, and
+/// `no_piece` for one that belongs to none by vertices.
+std::vector<Index> pieces_by_position(const Triangle_soup& mesh, const Numbered_pieces& by_vertices);
 
 /// Numbers the pieces of a result and of its original alike: those of the original by position, with those
 /// that a match joins made one, and those of the result by what they are matched with, or else by vertices.
-/// Where `triangles_of_original` is given, a triangle has the number of that which it was. The last triangles
-/// of both meshes are those of one obstacle, which connects no pieces.
+/// Where `triangles_of_original` is given, a triangle has the number of that which it was. Triangles that
+/// belong to no piece by vertices connect none. The last triangles of both meshes, which have no pieces by
+/// vertices, are those of one obstacle, which connects no pieces.
 struct Matched_pieces
 {
   std::vector<Index> of_result, of_original; // by triangle
 };
 Matched_pieces matched_pieces(const Triangle_soup& result, const Triangle_soup& original,
-                              const Numbered_pieces& pieces_of_result, const Piece_matching& matching,
-                              const std::vector<Index>& triangles_of_original,
-                              std::size_t obstacle_triangles);
+                              const Numbered_pieces& pieces_of_result,
+                              const Numbered_pieces& pieces_of_original, const Piece_matching& matching,
+                              const std::vector<Index>& triangles_of_original);
 
 /// Finds the pieces that are nearer to each other than a clearance, and which of them are too near.
 ///

@@ -93,10 +93,14 @@ std::size_t take_out_pairs_between(const std::vector<char>& first, const std::ve
 Verification verify(const Triangle_soup& mesh, const Verify_options& options)
 {
   refuse_clearance_of_permitted(options);
-  const auto judge_clearance_of = [&](const Triangle_soup& in_pose) {
-    return options.clearance ? std::optional(internal::judge_clearance(*options.clearance, in_pose,
-                                                                       internal::pieces_by_position(in_pose)))
-                             : std::nullopt;
+  internal::Numbered_pieces numbered;
+  if (options.clearance)
+    numbered = internal::numbered_pieces(mesh);
+  const auto judge_clearance_of = [&](const Triangle_soup& in_pose) -> std::optional<Clearance_verdict> {
+    if (!options.clearance)
+      return std::nullopt;
+    return internal::judge_clearance(*options.clearance, in_pose,
+                                     internal::pieces_by_position(in_pose, numbered));
   };
   Verification verification;
   verification.permitted = begin_permitted(options);
@@ -187,11 +191,12 @@ Verification verify(const Triangle_soup& result, const Triangle_soup& original,
       Cancellation_scope::inherited(
           [&] { verification.matching = match_pieces(result, original, options); }));
   if (options.clearance) {
+    const internal::Numbered_pieces of_original = internal::numbered_pieces(original);
     const auto judge_clearance_of = [&](const Triangle_soup& after, const Triangle_soup& before) {
-      return internal::judge_clearance(
-          *options.clearance, after, before,
-          internal::matched_pieces(after, before, numbered, verification.matching,
-                                   options.triangles_of_original, obstacle.triangles.size()));
+      return internal::judge_clearance(*options.clearance, after, before,
+                                       internal::matched_pieces(after, before, numbered, of_original,
+                                                                verification.matching,
+                                                                options.triangles_of_original));
     };
     verification.clearance = judge_clearance_of(geometry_with_obstacle(result, obstacle),
                                                 geometry_with_obstacle(original, obstacle));

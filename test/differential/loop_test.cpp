@@ -71,7 +71,7 @@ struct Recorder : internal::No_visitor
   std::vector<double>* costs;
 };
 
-/// A placement without its second, a filter without its blockers.
+/// A placement without its second, which does not say what can wait, and a filter without its blockers.
 template <class Placement>
 struct First_placement_alone
 {
@@ -82,13 +82,11 @@ struct First_placement_alone
   {
     return placement(profile);
   }
-  template <class Vertex>
-  bool reaches_neighbours(const Vertex& kept) const
+  bool reaches_neighbours(Surface_mesh::Vertex_index kept) const
   {
     return placement.reaches_neighbours(kept);
   }
-  template <class Vertex, class Edge>
-  bool reaches(const Vertex& kept, const Edge& edge) const
+  bool reaches(Surface_mesh::Vertex_index kept, Surface_mesh::Edge_index edge) const
   {
     return placement.reaches(kept, edge);
   }
@@ -487,6 +485,54 @@ TEST(Own_loop, EndsOnlyWhenNothingIsPossibleAnyMore)
   EXPECT_GT(filter.refusals(), 100u);
   EXPECT_EQ(run(placement), 0);
   EXPECT_EQ(run(Second_placement<decltype(placement)>{placement}), 0);
+}
+
+/// A cost that other collapses change, and none where an end has five edges.
+struct Cost_of_surroundings
+{
+  bool is_patient;
+  std::size_t *questions, *without_cost;
+
+  template <class Profile>
+  internal::Optional<double> operator()(const Profile& profile, const internal::Optional<Point_3>&) const
+  {
+    ++*questions;
+    const Surface_mesh& mesh = profile.surface_mesh();
+    double squares = 0;
+    for (const auto v : {profile.v0(), profile.v1()}) {
+      if (degree(v, mesh) == 5) {
+        ++*without_cost;
+        return {};
+      }
+      for (const auto h : CGAL::halfedges_around_target(v, mesh))
+        squares += CGAL::squared_distance(profile.p0(), mesh.point(source(h, mesh)));
+    }
+    const std::size_t of_edge = 7919 * std::size_t(profile.v0()) + 104729 * std::size_t(profile.v1());
+    return squares * double(1 + of_edge % 1000) * double(1 + of_edge % 1000); // far apart in the queue
+  }
+  bool reaches_neighbours(Surface_mesh::Vertex_index) const { return true; }
+  bool reaches(Surface_mesh::Vertex_index, Surface_mesh::Edge_index) const { return true; }
+  bool can_wait(Surface_mesh::Vertex_index, Surface_mesh::Edge_index) const { return is_patient; }
+};
+
+// An edge that has waited may have no cost when its turn comes, and one again when others have collapsed.
+TEST(Own_loop, LosesNoEdgeWhoseCostComesAndGoes)
+{
+  std::size_t asked[2] = {}, without_cost[2] = {};
+  for (const bool is_patient : {false, true}) {
+    Surface_mesh mesh = shaken(sheets(6000, 1, 0.01));
+    const auto run = [&](std::size_t& seen, std::size_t& none) {
+      const Cost_of_surroundings cost{is_patient, &seen, &none};
+      const SMS::Midpoint_placement<Surface_mesh> placement;
+      const Edge_ratio_stop stop(0);
+      return selvedge::edge_collapse(mesh, stop, CGAL::parameters::get_cost(cost).get_placement(placement));
+    };
+    EXPECT_GT(run(asked[is_patient], without_cost[is_patient]), 1000);
+    std::size_t again = 0;
+    EXPECT_EQ(run(again, again), 0);
+  }
+  EXPECT_LT(double(asked[1]), 0.9 * double(asked[0]));
+  EXPECT_GT(without_cost[1], 1000u);
 }
 
 TEST(Own_loop, WithoutBlockersForgetsEdges)

@@ -192,6 +192,45 @@ TEST(Clearance_of_pieces, IsExactToTheLastBit)
   EXPECT_EQ(judged(nearer, soup, 1).too_near(), 1u);
 }
 
+// Needles that hold the sheets together; a reduction leaves them out, and then keeps the sheets apart.
+TEST(Clearance_of_pieces, IsJudgedBetweenPiecesThatNeedlesConnect)
+{
+  const Triangle_soup apart = joined(sheet(2, 2), sheet(2, 2, 0.25));
+  Triangle_soup connected = apart;
+  connected.points.push_back(connected.points[4]);
+  connected.triangles.insert(connected.triangles.begin(), {4, 18, 13});
+  Triangle_soup nearer = apart;
+  nearer.points[13] = Point_3(1, 1, 0.125);
+
+  const Clearance_verdict verdict = judged(nearer, connected, 1);
+  ASSERT_EQ(verdict.near.size(), 1u);
+  EXPECT_TRUE(verdict.near[0].is_too_near);
+  EXPECT_EQ(verdict.near[0].before.lower, judged(nearer, apart, 1).near[0].before.lower);
+  EXPECT_EQ(judged(apart, connected, 1).too_near(), 0u);
+  EXPECT_EQ(judged(connected, apart, 1).too_near(), 0u);
+
+  Verify_options options;
+  options.clearance = 1;
+  const Clearance_verdict alone = *verify(connected, options).clearance;
+  ASSERT_EQ(alone.near.size(), 1u);
+  EXPECT_EQ(alone.near[0].first, 1u);
+  EXPECT_EQ(alone.near[0].now.lower, verify(apart, options).clearance->near[0].now.lower);
+
+  // In a pose in which a face is such a needle, it is a face of its piece as before.
+  Triangle_soup posed = apart, nearer_in_pose = apart;
+  posed.poses = {{"flat", apart.points, 0}};
+  posed.poses[0].points[0] = posed.poses[0].points[1];
+  nearer_in_pose.poses = posed.poses;
+  nearer_in_pose.poses[0].points[13] = Point_3(1, 1, 0.125);
+  const auto near_in_pose = [&](const Triangle_soup& result) {
+    return verify(result, posed, options).poses[0].clearance->near;
+  };
+  EXPECT_EQ(near_in_pose(posed).size(), 1u);
+  EXPECT_FALSE(near_in_pose(posed)[0].is_too_near);
+  ASSERT_EQ(near_in_pose(nearer_in_pose).size(), 1u);
+  EXPECT_TRUE(near_in_pose(nearer_in_pose)[0].is_too_near);
+}
+
 TEST(Clearance_of_pieces, IsRefusedWhereItCannotBeKept)
 {
   const Prepared_soup prepared = prepare(wavy_layers(400), {});

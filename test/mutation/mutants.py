@@ -308,6 +308,8 @@ group(
      "edges that are gone stay in the queue"),
     ("float s_near = 6;", "float s_near = 0;", "every change of a cost that can wait is noticed late"),
     ("    if (record.is_outdated) {\n", "    if (false) {\n", "changes of costs that can wait are never noticed"),
+    ("if (!selected_at)\n        return true;", "if (!selected_at)\n        return false;",
+     "the loop ends at an edge that has no cost any more"),
 )
 group(
     loop + "Topology_test.h",
@@ -970,6 +972,7 @@ group(
     "src/verify/clearance.cpp",
     ("clearance_test:Clearance_of_pieces.*",),
     ("if (t == own)", "if (false)", "an obstacle connects pieces in the judge"),
+    ("t < own && by_vertices.of_triangle[t] == no_piece", "false", "needles connect pieces in the judge of distances"),
     ("return exact() < exact_square(distance);", "return false;", "the judge is not exact"),
     ("return exact() < other.exact();", "return false;", "the judge does not compare exactly"),
 )

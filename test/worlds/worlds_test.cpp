@@ -440,6 +440,41 @@ TEST(JudgeOfWorlds, SeesAFileThatIsNotTheResult)
   });
 }
 
+// Two sheets that touch at a corner, with vertices of their own there: in a file that shades flat, these
+// differ in nothing but their normals, so that they are one for who reads it.
+TEST(JudgeOfWorlds, KnowsWhichVerticesAreOneInAFileThatShadesFlat)
+{
+  World world;
+  const auto aside = [](const Point_3& p) { return Point_3(0 - p.x(), 0, 0 - p.y()); }; // without -0
+  world.soup = joined(sheet(6, 6), mapped(sheet(6, 6), aside));
+  restore_normals(world.soup, Normals_treatment::flat);
+  world.options = without_limits(to_ratio(0.4));
+  world.output_format = Mesh_format::ply;
+  const auto number_at_origin = [](Triangle_soup& soup, std::size_t among) -> Index& {
+    std::vector<Index*> found;
+    for (Index_triple& triangle : soup.triangles)
+      for (Index& v : triangle)
+        if (soup.points[v] == Point_3(0, 0, 0))
+          found.push_back(&v);
+    return among == 0 ? *found.front() : *found.back();
+  };
+  World_run run = test::run(world);
+  const Index first = number_at_origin(run.result.soup, 0), second = number_at_origin(run.result.soup, 1);
+  ASSERT_NE(first, second);
+  ASSERT_EQ(number_at_origin(run.read_back, 1), first);
+  expect_seen("written", world,
+              [&](World_run& doctored) { number_at_origin(doctored.read_back, 1) = second; });
+  expect_seen("written", world, [](World_run& doctored) {
+    Triangle_soup& file = doctored.read_back;
+    file.normals.values[file.normals.of_triangle[0][0]] = {0.6, 0, 0.8};
+  });
+
+  world.output_format = Mesh_format::obj; // the control
+  run = test::run(world);
+  EXPECT_EQ(number_at_origin(run.read_back, 1), second);
+  EXPECT_EQ(verdict(world, run), "kept");
+}
+
 TEST(JudgeOfWorlds, SeesAStepThatLeadsElsewhere)
 {
   expect_seen("progression", plain_world(), [](World_run& run) {

@@ -25,8 +25,9 @@ namespace selvedge {
 /// asks once about many changes, but notices late when a high cost has become low. False is always correct.
 ///
 /// A policy of your own either has members `bool reaches_neighbours(vertex) const`, `bool reaches(vertex,
-/// edge) const` and, if it likes, `bool can_wait(vertex, edge) const`, or specialises this trait. A wrong
-/// answer harms order and quality, but no guarantee, since the filters are asked when an edge collapses.
+/// edge) const` and, if it likes, `bool can_wait(vertex, edge) const`, or specialises this trait, with all
+/// three. A wrong answer harms order and quality, but no guarantee, since the filters are asked when an edge
+/// collapses.
 template <class Policy, class = void>
 struct Collapse_locality
 {
@@ -67,14 +68,14 @@ struct Collapse_locality<Policy, std::void_t<decltype(&Policy::reaches_neighbour
   }
 
 private:
-  template <class Vertex, class Edge>
-  static auto can_wait_if_said(const Policy& policy, const Vertex& kept, const Edge& edge, int)
+  template <class P, class Vertex, class Edge> // P is Policy, so that a missing member is no error
+  static auto can_wait_if_said(const P& policy, const Vertex& kept, const Edge& edge, int)
       -> decltype(bool(policy.can_wait(kept, edge)))
   {
     return policy.can_wait(kept, edge);
   }
-  template <class Vertex, class Edge>
-  static bool can_wait_if_said(const Policy&, const Vertex&, const Edge&, long)
+  template <class P, class Vertex, class Edge>
+  static bool can_wait_if_said(const P&, const Vertex&, const Edge&, long)
   {
     return false;
   }
