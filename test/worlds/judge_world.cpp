@@ -730,6 +730,18 @@ Verdict judge_stop(const World& world, const World_run& run)
   return std::nullopt;
 }
 
+// Normals are compared by their values: of two that differ in the sign of a zero, a corner may have either.
+bool have_equal_normals(const Triangle_soup& a, const Triangle_soup& b)
+{
+  if (a.normals.of_triangle.size() != b.normals.of_triangle.size())
+    return false;
+  for (std::size_t t = 0; t < a.normals.of_triangle.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (a.normals.values[a.normals.of_triangle[t][k]] != b.normals.values[b.normals.of_triangle[t][k]])
+        return false;
+  return true;
+}
+
 Verdict judge_replay(const World& world, const World_run& run)
 {
   std::istringstream stream(run.log);
@@ -748,11 +760,10 @@ Verdict judge_replay(const World& world, const World_run& run)
   if (verdict.soup.triangles != run.result.soup.triangles ||
       !std::equal(verdict.soup.points.begin(), verdict.soup.points.end(), run.result.soup.points.begin(),
                   run.result.soup.points.end()) ||
-      (run.result.placed_vertices == 0 &&
-       (verdict.soup.uvs.of_triangle != run.result.soup.uvs.of_triangle ||
-        verdict.soup.uvs.values != run.result.soup.uvs.values ||
-        (run.prepared.normals == Normals_treatment::kept &&
-         verdict.soup.normals.of_triangle != run.result.soup.normals.of_triangle))))
+      (run.result.placed_vertices == 0 && (verdict.soup.uvs.of_triangle != run.result.soup.uvs.of_triangle ||
+                                           verdict.soup.uvs.values != run.result.soup.uvs.values ||
+                                           (run.prepared.normals == Normals_treatment::kept &&
+                                            !have_equal_normals(verdict.soup, run.result.soup)))))
     return broken("the log leads to another result");
   for (std::size_t pose = 0; pose < world.soup.poses.size(); ++pose) {
     if (!world.is_guarded(pose))
