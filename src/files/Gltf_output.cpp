@@ -83,7 +83,7 @@ std::string bytes_of_view(const Gltf_scene::Column& column, std::size_t count, T
   std::string bytes;
   bytes.reserve(count * stride);
   for (std::size_t i = 0; i < count; ++i) {
-    bytes.append(column.rows, i * column.row_size, column.row_size);
+    bytes += column.row(i);
     bytes.append(stride - column.row_size, '\0');
   }
   return bytes;
@@ -189,7 +189,7 @@ bool Gltf_output::put_sparse(Json& accessor, const Column& column, std::size_t c
   Column values = {"values", {}, column.component_type, column.components, column.row_size, {}};
   std::size_t size = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const std::string_view row = std::string_view(column.rows).substr(i * column.row_size, column.row_size);
+    const std::string_view row = column.row(i);
     if (row.find_first_not_of('\0') == row.npos)
       continue;
     ++size;

@@ -67,11 +67,6 @@ draco::DataType draco_type(int component_type)
   }
 }
 
-std::string_view row_of(const Column& column, std::size_t row)
-{
-  return std::string_view(column.rows).substr(row * column.row_size, column.row_size);
-}
-
 /// Stands for the lowest corner of a quantised column until it is put into the bytes. Draco's own option
 /// keeps six decimals of it.
 float placeholder(std::size_t column)
@@ -116,7 +111,7 @@ std::vector<std::uint32_t> earlier_copies(const std::vector<Packed_column>& colu
   for (std::uint32_t row = 0; row < rows; ++row) {
     std::string whole;
     for (const Packed_column& column : columns)
-      whole += row_of(*column.column, row);
+      whole += column.column->row(row);
     result.push_back(copies[whole]++);
   }
   return result;
@@ -147,7 +142,7 @@ std::unique_ptr<draco::Mesh> draco_mesh(const std::vector<Packed_column>& column
                                          ? steps_of(column, *columns[i].quantisation, placeholder(i))
                                          : std::vector<float>();
     const auto value = [&](std::uint32_t row) {
-      return steps.empty() ? row_of(column, row)
+      return steps.empty() ? column.row(row)
                            : std::string_view(reinterpret_cast<const char*>(&steps[row * column.components]),
                                               column.row_size);
     };
@@ -310,8 +305,7 @@ std::optional<Draco_primitive> encoded_by_draco(const std::vector<Gltf_scene::Co
     is_same = true;
     for (std::size_t i = 0; i < columns.size(); ++i) {
       std::uint32_t row = 0;
-      while (row < rows &&
-             row_of(*again, mesh->attribute(int(i))->unique_id(), row) == row_of(columns[i], row))
+      while (row < rows && row_of(*again, mesh->attribute(int(i))->unique_id(), row) == columns[i].row(row))
         ++row;
       if (row == rows)
         continue;
@@ -341,7 +335,7 @@ std::optional<Draco_primitive> encoded_by_draco(const std::vector<Gltf_scene::Co
       continue;
     if (!contents)
       contents = contents_of(*mesh, columns.size(),
-                             [&](std::size_t i, std::uint32_t row) { return row_of(columns[i], row); });
+                             [&](std::size_t i, std::uint32_t row) { return columns[i].row(row); });
     // Edgebreaker makes several vertices of one at which fans of faces meet.
     const std::unique_ptr<draco::Mesh> again = decoded(reordered, *mesh);
     if (!again || !is_same_but_split(

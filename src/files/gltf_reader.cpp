@@ -518,7 +518,7 @@ private:
       std::string row;
       const auto append = [&](const std::vector<Column>& columns) {
         for (const Column& column : columns)
-          row.append(column.rows, i * column.row_size, column.row_size);
+          row += column.row(i);
       };
       append(block.attributes);
       for (const std::vector<Column>& target : block.targets)

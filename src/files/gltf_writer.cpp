@@ -152,11 +152,9 @@ private:
     std::vector<const Column*> columns; // by instance: of normals that are quantised
     std::vector<std::unordered_set<std::string>> known;
     for (const Gltf_scene::Instance& instance : m_scene.instances) {
-      const std::vector<Column>& attributes = block(instance).attributes;
-      const auto column = std::find_if(attributes.begin(), attributes.end(), [](const Column& c) {
-        return c.name == "NORMAL" && c.components == 3 && quantised_normal(c, {0, 0, 1});
-      });
-      columns.push_back(column == attributes.end() || m_normals.empty() ? nullptr : &*column);
+      const Column* const normals = block(instance).normals();
+      const bool are_quantised = normals && quantised_normal(*normals, {0, 0, 1});
+      columns.push_back(are_quantised && !m_normals.empty() ? normals : nullptr);
       known.emplace_back();
       for (Index row = 0; row < block(instance).size && columns.back(); ++row)
         known.back().insert(bits_of(world_normal(instance, *columns.back(), row)));
@@ -322,8 +320,7 @@ private:
         return m_output.put_accessor(left, vertices[i].size(), Gltf_output::Target::vertices, i);
       };
       const auto row_of = [&](const Column& column, const Vertices_by_normal::Vertex& v) {
-        return column.rows.substr((m_soup.scene_vertices[v.vertex] - instance.first) * column.row_size,
-                                  column.row_size);
+        return column.row(m_soup.scene_vertices[v.vertex] - instance.first);
       };
       const auto put_rows = [&](const Column& column) {
         return put(column, [&](const Vertices_by_normal::Vertex& v) { return row_of(column, v); });
@@ -334,10 +331,10 @@ private:
               put(column, [&](const Vertices_by_normal::Vertex& v) { return local_position_of(v.vertex); });
         else if (is_dropped(column))
           m_attributes[i][column.name] = nullptr;
-        else if (column.name == "NORMAL" && column.components == 3 && !m_soup.normals.empty())
+        else if (&column == block(instance).normals() && !m_soup.normals.empty())
           m_attributes[i][column.name] = put(column, [&](const Vertices_by_normal::Vertex& v) {
             return v.normal == m_normals.missing
-                       ? row_of(column, v)
+                       ? std::string(row_of(column, v))
                        : m_local_normals.bytes_of(column, m_soup.scene_vertices[v.vertex],
                                                   m_normals.values[v.normal]);
           });

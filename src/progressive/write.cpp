@@ -197,14 +197,6 @@ private:
     const Index number = m_soup.normals.of_triangle[m_corners[wedge] / 3][m_corners[wedge] % 3];
     return number == m_soup.normals.missing ? std::nullopt : std::optional(m_soup.normals.values[number]);
   }
-  static const Gltf_scene::Column* normals_of(const Gltf_scene::Block& block)
-  {
-    const auto found =
-        std::find_if(block.attributes.begin(), block.attributes.end(), [](const Gltf_scene::Column& column) {
-          return column.name == "NORMAL" && column.components == 3;
-        });
-    return found == block.attributes.end() ? nullptr : &*found;
-  }
 
   // Gives every instance a block of its own, with the rows of its wedges. They are written plain, each
   // accessor in a buffer view of its own: compressors may put vertices into another order.
@@ -223,12 +215,13 @@ private:
       Gltf_scene::Block& block = blocks.emplace_back(before.blocks[instance.block]);
       block.size = Index(rows.size());
       const auto select = [&](Gltf_scene::Column& column) {
+        const bool is_of_normals = &column == block.normals();
         std::string selected;
         for (std::size_t k = 0; k < rows.size(); ++k)
-          if (const auto normal = normal_at(m_order[first + k]); normal && &column == normals_of(block))
+          if (const auto normal = is_of_normals ? normal_at(m_order[first + k]) : std::nullopt)
             selected += local_normals.bytes_of(column, Index(instance.first + rows[k]), *normal);
           else
-            selected.append(column.rows, rows[k] * column.row_size, column.row_size);
+            selected += column.row(rows[k]);
         column.rows = std::move(selected);
         column.compression.reset();
         column.place.reset();
@@ -259,7 +252,7 @@ private:
     for (Index v = 0; v < m_order.size(); ++v) {
       std::array<double, 3> normal = {beyond, beyond, beyond};
       const std::size_t instance = m_scene->instance_of(v);
-      const Gltf_scene::Column* const column = normals_of(m_scene->blocks[instance]);
+      const Gltf_scene::Column* const column = m_scene->blocks[instance].normals();
       if (column && (!m_soup.scene || normal_at(m_order[v])))
         normal = world_normal(m_scene->instances[instance], *column, v - m_firsts[instance]);
       (normal[0] == beyond ? are_missing : are_there) = true;

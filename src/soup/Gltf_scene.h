@@ -8,12 +8,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -65,6 +67,12 @@ struct Gltf_scene
 
     bool is_normalized() const { return accessor.value("normalized", false); }
 
+    /// Returns the bytes of a row.
+    std::string_view row(std::size_t number) const
+    {
+      return std::string_view(rows).substr(number * row_size, row_size);
+    }
+
     /// Returns the same column without its rows.
     Column without_rows() const
     {
@@ -86,6 +94,15 @@ struct Gltf_scene
     Index size = 0;
     std::vector<Column> attributes;
     std::vector<std::vector<Column>> targets;
+
+    /// Returns the column of the normals; null where there is none of three components.
+    const Column* normals() const
+    {
+      const auto found = std::find_if(attributes.begin(), attributes.end(), [](const Column& column) {
+        return column.name == "NORMAL" && column.components == 3;
+      });
+      return found == attributes.end() ? nullptr : &*found;
+    }
   };
 
   /// A block in a node: a range of the vertices of the soup that was read.
@@ -193,7 +210,7 @@ double fraction(Attribute::Type type, double number);
 /// where the transform neither turns nor scales.
 std::array<double, 3> world_normal(const Gltf_scene::Instance& instance, const std::array<double, 3>& normal);
 
-/// Returns that of a row.
+/// Returns the direction in world space of a row of a column of normals.
 std::array<double, 3> world_normal(const Gltf_scene::Instance& instance, const Gltf_scene::Column& normals,
                                    std::size_t row);
 

@@ -1158,9 +1158,11 @@ void Working_mesh::measure_uvs(double unit)
     of_face.add_triangle(points, uvs, 1);
     for (std::size_t k = 0; k < 3; ++k) {
       const Index number = m_wedge_numbers[face][k];
+      Uv_quadric weighted = of_face;
+      if (!m_constraints.vertex_weights.empty())
+        weighted *= m_constraints.vertex_weights[vertices[number]];
       m_wedges[number].uv = uvs[k];
-      m_wedges[number].quadric.add(
-          of_face, m_constraints.vertex_weights.empty() ? 1 : m_constraints.vertex_weights[vertices[number]]);
+      m_wedges[number].quadric += weighted;
     }
   }
   for (std::size_t i = 0; i < m_wedges.size(); ++i)

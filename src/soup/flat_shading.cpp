@@ -60,10 +60,10 @@ public:
       append(number);
       for (const Gltf_scene::Column& column : block.attributes)
         if (column.name != "NORMAL")
-          bytes.append(column.rows, row * column.row_size, column.row_size);
+          bytes += column.row(row);
       for (const std::vector<Gltf_scene::Column>& target : block.targets)
         for (const Gltf_scene::Column& column : target)
-          bytes.append(column.rows, row * column.row_size, column.row_size);
+          bytes += column.row(row);
       return bytes;
     }
     for (int i = 0; i < 3; ++i)

@@ -922,7 +922,8 @@ group(
 group(
     "src/progressive/write.cpp",
     ("progressive_test:*InATurnedNode",),
-    ("normal && &column == normals_of(block)", "false", "rows keep normals that are not those of their corners"),
+    ("const bool is_of_normals = &column == block.normals();", "const bool is_of_normals = false;",
+     "rows keep normals that are not those of their corners"),
 )
 group(
     "src/progressive/read.cpp",

@@ -122,6 +122,7 @@ class Edge_collapse
   static constexpr unsigned char s_gone = 255;
   struct Edge_record
   {
+    // The cost and `is_queued` repeat what the queue knows, so that a look at an edge reads one place.
     float cost = 0;               // roughly, of an edge in the queue
     unsigned char rank = s_gone;  // of the placement that is next, from 0
     Merged_at at = Merged_at::v0; // which place this is, if the placement has `choice`
@@ -472,8 +473,7 @@ private:
   Visitor m_visitor;
   bool m_is_geometry_tested;
   std::size_t m_expected_collapses; // still to come; 0 when this is not known, or no longer of use
-
-  float m_front = 0; // the cost of the edge taken last from the queue
+  float m_front = 0;                // the cost of the edge taken last from the queue
 
   std::vector<Halfedge> m_halfedges;  // by edge
   std::vector<Edge_record> m_records; // by edge

@@ -427,6 +427,7 @@ private:
   {
     State& state = *m_state;
     const double most = state.max_error * state.max_error;
+    const auto is_far = [&](double squared) { return std::sqrt(squared) > state.max_error; };
     state.moves.clear();
     state.squared_error = 0;
     for (const Face face : state.emptied) {
@@ -434,14 +435,14 @@ private:
       for (Number number = get(state.first_of_face, face); number != s_none; number = state.next[number]) {
         const Point& p = state.points[number];
         double squared = std::numeric_limits<double>::infinity();
-        for (std::size_t i = 0; i < state.candidates.size() && std::sqrt(squared) > state.max_error; ++i) {
+        for (std::size_t i = 0; i < state.candidates.size() && is_far(squared); ++i) {
           if (!state.candidates[likely].is_beyond(p, most))
             squared = state.candidates[likely].squared_distance(p);
-          if (std::sqrt(squared) > state.max_error)
+          if (is_far(squared))
             likely = (likely + 1) % state.candidates.size();
         }
         state.squared_error = (std::max)(state.squared_error, squared);
-        if (std::sqrt(squared) > state.max_error)
+        if (is_far(squared))
           return;
         state.moves.push_back({number, state.candidates[likely].face()});
       }

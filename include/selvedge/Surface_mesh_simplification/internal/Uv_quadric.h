@@ -58,22 +58,26 @@ public:
 
   Uv_quadric& operator+=(const Uv_quadric& other)
   {
-    add(other, 1);
+    m_of_points += other.m_of_points;
+    for (std::size_t k = 0; k < 2; ++k) {
+      for (std::size_t i = 0; i < 3; ++i)
+        m_gradients[k][i] += other.m_gradients[k][i];
+      m_d[k] += other.m_d[k];
+    }
+    m_weight += other.m_weight;
     return *this;
   }
 
-  /// Adds `factor` times another one.
-  void add(const Uv_quadric& other, double factor)
+  Uv_quadric& operator*=(double factor)
   {
-    internal::Symmetric_quadric of_points = other.m_of_points;
-    of_points *= factor;
-    m_of_points += of_points;
+    m_of_points *= factor;
     for (std::size_t k = 0; k < 2; ++k) {
-      for (std::size_t i = 0; i < 3; ++i)
-        m_gradients[k][i] += factor * other.m_gradients[k][i];
-      m_d[k] += factor * other.m_d[k];
+      for (double& coordinate : m_gradients[k])
+        coordinate *= factor;
+      m_d[k] *= factor;
     }
-    m_weight += factor * other.m_weight;
+    m_weight *= factor;
+    return *this;
   }
 
   /// Returns the value at a point with the texture coordinates that make it least.
