@@ -78,11 +78,10 @@ public:
     m_rod_of_face.clear();
     m_sliver_balance = 0;
     m_rod_extent = 0;
-    Content content;
-    content.reserve(faces.size());
-    for (const Id face : faces)
-      content.push_back({m_map(box_of(face)), face});
-    fill_along_curve(content);
+    // Boxes are computed again and again, since to keep them all for a moment takes longer than that.
+    fill_along_curve(faces.size(), [&](std::size_t i) {
+      return Entry{m_map(box_of(faces[i])), faces[i]};
+    });
   }
 
   /// Likewise, and says of any of these faces what its corners are: `corners_of(faces[i])`.
@@ -187,15 +186,15 @@ private:
     internal::Monotone_box box;
     Id face;
   };
-  using Content = std::vector<Entry>;
   struct Place
   {
     std::uint64_t on_curve;
-    Slot index; // in the content
+    Slot index; // of the entry
   };
 
-  // Returns the places of the content on a curve, in their order.
-  static std::vector<Place> places_along_curve(const Content& content)
+  // Returns the places of entries on a curve, in their order.
+  template <class Entry_at>
+  static std::vector<Place> places_along_curve(std::size_t size, const Entry_at& entry_at)
   {
     using Hilbert_curve = internal::Hilbert_curve;
     static constexpr Hilbert_curve curve;
@@ -207,11 +206,11 @@ private:
       return result;
     };
     std::vector<Place> places;
-    if (content.empty())
+    if (size == 0)
       return places;
-    Centre lower = centre(content.front()), upper = lower;
-    for (const Entry& entry : content) {
-      const Centre c = centre(entry);
+    Centre lower = centre(entry_at(0)), upper = lower;
+    for (std::size_t i = 1; i < size; ++i) {
+      const Centre c = centre(entry_at(i));
       for (std::size_t axis = 0; axis < 3; ++axis) {
         lower[axis] = (std::min)(lower[axis], c[axis]);
         upper[axis] = (std::max)(upper[axis], c[axis]);
@@ -220,9 +219,9 @@ private:
     const double extent = (std::max)({upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]});
     const double cells = extent > 0 ? ((1 << Hilbert_curve::bits) - 1) / extent : 0;
 
-    places.reserve(content.size());
-    for (Slot i = 0; i < content.size(); ++i) {
-      const Centre c = centre(content[i]);
+    places.reserve(size);
+    for (Slot i = 0; i < size; ++i) {
+      const Centre c = centre(entry_at(i));
       Hilbert_curve::Cell cell;
       for (std::size_t axis = 0; axis < 3; ++axis)
         cell[axis] = std::uint32_t((c[axis] - lower[axis]) * cells);
@@ -255,23 +254,25 @@ private:
   void rebuild()
   {
     ++m_statistics.top_rebuilds;
-    Content content;
+    std::vector<Entry> content;
     content.reserve(m_size);
     for (const Leaf& leaf : m_leaves)
       for (std::size_t i = 0; i < s_width; ++i)
         if (leaf.faces[i] != s_none)
           content.push_back({leaf.boxes[i], leaf.faces[i]});
     std::fill(m_slots.begin(), m_slots.end(), s_none);
+    const auto entry_at = [&](std::size_t i) { return content[i]; };
     if (m_leaves.size() > m_leaves_in_tree)
-      fill_along_curve(content);
+      fill_along_curve(content.size(), entry_at);
     else
-      fill(content.size(), [&](std::size_t i) { return content[i]; });
+      fill(content.size(), entry_at);
   }
 
-  void fill_along_curve(const Content& content)
+  template <class Entry_at>
+  void fill_along_curve(std::size_t size, const Entry_at& entry_at)
   {
-    const std::vector<Place> places = places_along_curve(content);
-    fill(places.size(), [&](std::size_t i) { return content[places[i].index]; });
+    const std::vector<Place> places = places_along_curve(size, entry_at);
+    fill(size, [&](std::size_t i) { return entry_at(places[i].index); });
   }
 
   // Puts entries into new leaves, in their order, and makes the nodes above them.

@@ -41,6 +41,9 @@ public:
   using Number = std::uint32_t;
   using Point = Kernel::Point_3;
 
+  /// Makes room for triangles to come.
+  void reserve(std::size_t triangles) { m_triangles.reserve(triangles); }
+
   /// Adds a triangle, whose corners are among the points with these numbers. Call it before `is_near`.
   void add(const std::array<Number, 3>& triangle) { m_triangles.push_back(triangle); }
 

@@ -89,6 +89,8 @@ public:
       state.scale = std::ldexp(1, -std::ilogb(diagonal));
     state.max_error = max_error * state.scale;
     state.is_tracking = true;
+    state.reserve(num_vertices(state.mesh));
+    state.original.reserve(num_faces(state.mesh));
     const auto number_of = get(CGAL::dynamic_vertex_property_t<Number>(), state.mesh);
     for (const Vertex v : vertices(state.mesh))
       put(number_of, v, s_none);
@@ -270,6 +272,12 @@ private:
     std::vector<Move> moves;
     double squared_error = 0;
     std::optional<Question> found; // the collapse that this is about, until the next one is done
+
+    void reserve(std::size_t points_to_come)
+    {
+      points.reserve(points_to_come);
+      next.reserve(points_to_come);
+    }
   };
 
   template <class Any_point>
@@ -297,14 +305,16 @@ private:
     };
     const std::size_t triangles = state.original.number_of_triangles();
     int most_parts = s_most_parts;
+    std::size_t points = 0;
     for (; most_parts > 1; --most_parts) {
-      std::size_t points = 0;
+      points = 0;
       for (std::size_t i = 0; i < triangles; ++i)
         if (const int parts = parts_of(corners(i), most_parts); parts > 1)
           points += std::size_t((parts + 1) * (parts + 2) / 2 - 3);
       if (points <= (std::max)(std::size_t(100'000), 2 * triangles))
         break;
     }
+    state.reserve(state.points.size() + (most_parts > 1 ? points : 0));
     std::size_t i = 0;
     for (const Face face : faces(state.mesh))
       visit_grid(corners(i++), most_parts, [&](const Point& p) {
