@@ -358,7 +358,10 @@ Working_mesh::make_mesh(const Sewing& sewing, const std::vector<Index>& faces, c
   using Halfedge = Mesh::Halfedge_index;
   const Index side_count = sewing.side_count();
   const auto vertex = [&](Index corner) { return Mesh::Vertex_index(sewing.vertex(corner)); };
-  m_mesh.reserve(sewing.vertex_count(), side_count / 2 + 1, side_count / 3);
+  Index edge_count = 0;
+  for (Index side = 0; side < side_count; ++side)
+    edge_count += side < sewing.mate(side);
+  m_mesh.reserve(sewing.vertex_count(), edge_count, side_count / 3);
   for (Index v = 0; v < sewing.vertex_count(); ++v)
     m_mesh.add_vertex(point_of(v));
   std::vector<Halfedge> halfedges(side_count);
@@ -775,9 +778,9 @@ void Working_mesh::carry(Mesh::Halfedge_index moving, const Border_rule<Mesh>& r
 {
   record_moves(moving);
   for_each_moved_wedge(moving, [&](Index from, Index to) {
+    const Wedge& gone = m_wedges[from];
     Wedge& merged = m_wedges[to];
-    merged.quadric += m_wedges[from].quadric;
-    merged.own_cost = merged.quadric(relative(m_mesh.point(m_mesh.target(moving))), merged.uv);
+    merged.quadric += gone.quadric.moved_by(along(moving), gone.uv_motion(merged.uv));
   });
   for_each_changed_face(moving, rule, [this](Mesh::Halfedge_index h, Mesh::Halfedge_index from) {
     const Mesh::Face_index face = m_mesh.face(h);
@@ -803,10 +806,13 @@ void Working_mesh::before_placement(Mesh::Halfedge_index moving, const Point_3& 
   const Mixture mixture = mixture_at(moving, place);
   Vertex_values::Numbers values = m_values->mixed(mixture.shares, mixture.own);
   for_each_moved_wedge(moving, [&](Index from, Index to) {
+    // No line meets a vertex at a new place, so that there is one wedge at either end.
+    const Wedge& gone = m_wedges[from];
     Wedge& merged = m_wedges[to];
-    merged.quadric += m_wedges[from].quadric;
-    merged.uv = relative(m_values->uv(values));
-    merged.own_cost = merged.quadric(relative(place), merged.uv);
+    const Uv uv = at_unit(m_values->uv(values));
+    merged.quadric = merged.quadric.moved_by(motion(m_mesh.target(moving), place), merged.uv_motion(uv));
+    merged.quadric += gone.quadric.moved_by(motion(m_mesh.source(moving), place), gone.uv_motion(uv));
+    merged.uv = uv;
   });
   for (const Mesh::Halfedge_index h : m_mesh.halfedges_around_target(to_mover)) {
     m_corners[m_mesh.face(h)][m_places[h]] = corner;
@@ -1114,14 +1120,21 @@ bool Working_mesh::keeps_uv_orientation_of(Mesh::Halfedge_index h, Index ply, co
   return before == CGAL::COLLINEAR || uv_orientation(all, m_places[h], uv) == before;
 }
 
-Uv_quadric::Vector Working_mesh::relative(const Point_3& point) const
+Uv_quadric::Vector Working_mesh::along(Mesh::Halfedge_index h) const
 {
-  return {point.x() - m_origin[0], point.y() - m_origin[1], point.z() - m_origin[2]};
+  return motion(m_mesh.source(h), m_mesh.point(m_mesh.target(h)));
 }
 
-Working_mesh::Uv Working_mesh::relative(const Uv& uv) const
+// Returns how a vertex moves when it goes to a place.
+Uv_quadric::Vector Working_mesh::motion(Mesh::Vertex_index v, const Point_3& place) const
 {
-  return {(uv[0] - m_uv_origin[0]) * m_uv_unit, (uv[1] - m_uv_origin[1]) * m_uv_unit};
+  const Point_3& p = m_mesh.point(v);
+  return {place.x() - p.x(), place.y() - p.y(), place.z() - p.z()};
+}
+
+Working_mesh::Uv Working_mesh::at_unit(const Uv& uv) const
+{
+  return {uv[0] * m_uv_unit, uv[1] * m_uv_unit};
 }
 
 void Working_mesh::measure_uvs(double unit)
@@ -1129,10 +1142,6 @@ void Working_mesh::measure_uvs(double unit)
   if (m_soup.uvs.empty() || m_corners.empty() || !(unit > 0))
     return;
   m_uv_unit = unit;
-  const Corner first = m_corners[0][0];
-  const Point_3 origin = m_scale(m_soup.points[vertex_of(first)]);
-  m_origin = {origin.x(), origin.y(), origin.z()};
-  m_uv_origin = uv_of(first);
 
   Wedge_numbers numbers = number_wedges();
   const std::vector<Mesh::Vertex_index>& vertices = numbers.vertices;
@@ -1151,22 +1160,20 @@ void Working_mesh::measure_uvs(double unit)
     std::array<Uv_quadric::Vector, 3> points;
     std::array<Uv, 3> uvs;
     for (std::size_t k = 0; k < 3; ++k) {
-      points[k] = relative(m_scale(m_soup.points[vertex_of(m_corners[face][k])]));
-      uvs[k] = relative(uv_of(m_corners[face][k]));
+      const Point_3 p = m_scale(m_soup.points[vertex_of(m_corners[face][k])]);
+      points[k] = {p.x(), p.y(), p.z()};
+      uvs[k] = at_unit(uv_of(m_corners[face][k]));
     }
-    Uv_quadric of_face;
-    of_face.add_triangle(points, uvs, 1);
+    const Uv_quadric of_face(points, uvs, 1);
     for (std::size_t k = 0; k < 3; ++k) {
       const Index number = m_wedge_numbers[face][k];
-      Uv_quadric weighted = of_face;
-      if (!m_constraints.vertex_weights.empty())
-        weighted *= m_constraints.vertex_weights[vertices[number]];
       m_wedges[number].uv = uvs[k];
-      m_wedges[number].quadric += weighted;
+      m_wedges[number].quadric +=
+          m_constraints.vertex_weights.empty()
+              ? of_face
+              : Uv_quadric(points, uvs, m_constraints.vertex_weights[vertices[number]]);
     }
   }
-  for (std::size_t i = 0; i < m_wedges.size(); ++i)
-    m_wedges[i].own_cost = m_wedges[i].quadric(relative(m_mesh.point(vertices[i])), m_wedges[i].uv);
 }
 
 Working_mesh::Wedge_numbers Working_mesh::number_wedges() const
@@ -1282,7 +1289,7 @@ double Working_mesh::uv_cost(Mesh::Halfedge_index moving) const
   double cost = 0;
   for_each_moved_wedge(moving, [&](Index from, Index to) {
     const Wedge& wedge = m_wedges[from];
-    cost += wedge.quadric(relative(m_mesh.point(m_mesh.target(moving))), m_wedges[to].uv) - wedge.own_cost;
+    cost += wedge.quadric(along(moving), wedge.uv_motion(m_wedges[to].uv));
   });
   return std::max(0.0, cost); // rounding may leave a sum slightly below zero
 }
@@ -1291,9 +1298,11 @@ double Working_mesh::uv_cost_at(Mesh::Halfedge_index edge, const Point_3& place)
 {
   double cost = 0;
   for_each_moved_wedge(edge, [&](Index from, Index to) {
-    Uv_quadric sum = m_wedges[from].quadric;
-    sum += m_wedges[to].quadric;
-    cost += sum.least(relative(place)) - m_wedges[from].own_cost - m_wedges[to].own_cost;
+    const Wedge &first = m_wedges[from], &second = m_wedges[to];
+    const Uv uv_motion = first.uv_motion(second.uv);
+    Uv_quadric sum = first.quadric.moved_by(along(edge), uv_motion);
+    sum += second.quadric;
+    cost += first.quadric(along(edge), uv_motion) + sum.least(motion(m_mesh.target(edge), place));
   });
   return std::max(0.0, cost);
 }

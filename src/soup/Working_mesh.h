@@ -341,8 +341,9 @@ private:
     std::vector<Mesh::Vertex_index> vertices; // by wedge
   };
   Wedge_numbers number_wedges() const;
-  Uv_quadric::Vector relative(const Point_3& point) const;
-  Uv relative(const Uv& uv) const;
+  Uv_quadric::Vector motion(Mesh::Vertex_index v, const Point_3& place) const;
+  Uv_quadric::Vector along(Mesh::Halfedge_index h) const;
+  Uv at_unit(const Uv& uv) const;
 
   const Triangle_soup& m_soup;
   Scale m_scale;
@@ -376,15 +377,14 @@ private:
   // The corners at a vertex between two lines, which share their attributes.
   struct Wedge
   {
-    Uv_quadric quadric;
+    Uv_quadric quadric; // its origin is the wedge
     Uv uv;
-    double own_cost; // the value of the quadric at the place of the wedge
-    bool is_alone;   // the only wedge at its vertex, and stays so: lines neither begin nor end later
+    bool is_alone; // the only wedge at its vertex, and stays so: lines neither begin nor end later
+
+    Uv uv_motion(const Uv& to) const { return {to[0] - uv[0], to[1] - uv[1]}; }
   };
   std::vector<Index_triple> m_wedge_numbers; // by face, for each of its corners
   std::vector<Wedge> m_wedges;
-  Uv_quadric::Vector m_origin{};
-  Uv m_uv_origin{};
   double m_uv_unit = 0; // at the scale
 
   // What a face is in a shared mesh.

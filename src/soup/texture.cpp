@@ -27,7 +27,13 @@ double uv_unit(const Triangle_soup& soup, const Scale& scale)
     area +=
         std::sqrt(CGAL::squared_area(scale(soup.points[a]), scale(soup.points[b]), scale(soup.points[c])));
   }
-  return uv_area > 0 ? std::sqrt(area / uv_area) : 0;
+  if (!(uv_area > 0))
+    return 0;
+  // Rounded to fewer digits, which hardly ever depend on the order in which areas were added.
+  constexpr int bits = 24;
+  int exponent = 0;
+  const double fraction = std::frexp(std::sqrt(area / uv_area), &exponent);
+  return std::ldexp(std::round(std::ldexp(fraction, bits)), exponent - bits);
 }
 
 } // namespace selvedge

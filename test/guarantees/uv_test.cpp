@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <random>
 #include <utility>
 
 namespace selvedge::test {
@@ -118,16 +119,48 @@ TEST(Uv, WithoutATextureItsWeightChangesNothing)
   EXPECT_EQ(triangles_left(0), triangles_left(100));
 }
 
-TEST(Uv, TheQuadricOfAnAffineTextureIsZeroWhereTheTextureGoesOn)
+TEST(Uv, TheQuadricOfAnAffineTextureDoesNotGrowWhereTheTextureGoesOn)
 {
-  Uv_quadric quadric;
-  const auto uv = [](const Uv_quadric::Vector& x) {
-    return Uv_quadric::Uv{2 * x[0] - x[1] + 3, x[0] + 4 * x[1] - 1};
+  const auto change = [](const Uv_quadric::Vector& motion) {
+    return Uv_quadric::Uv{2 * motion[0] - motion[1], motion[0] + 4 * motion[1]};
   };
   const Uv_quadric::Vector a{0, 0, 0}, b{1, 0, 0}, c{0.25, 1, 0}, far{7, -3, 0};
-  quadric.add_triangle({a, b, c}, {uv(a), uv(b), uv(c)}, 1);
-  EXPECT_NEAR(quadric(far, uv(far)), 0, 1e-9);
-  EXPECT_GT(quadric(far, {0, 0}), 1);
+  const Uv_quadric quadric({a, b, c}, {change(a), change(b), change(c)}, 1);
+  EXPECT_NEAR(quadric(far, change(far)), 0, 1e-3);
+  EXPECT_NEAR(quadric.least(far), 0, 1e-3);
+  EXPECT_GT(quadric(far, {0, 0}), 100);
+}
+
+TEST(Uv, AQuadricSaysTheSameFromAnyOrigin)
+{
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> number(-1, 1);
+  for (int i = 0; i < 100; ++i) {
+    const auto point = [&] { return Uv_quadric::Vector{number(random), number(random), number(random)}; };
+    const auto uv = [&] { return Uv_quadric::Uv{number(random), number(random)}; };
+    Uv_quadric quadric({point(), point(), point()}, {uv(), uv(), uv()}, 1);
+    // The next triangle has another place, and another texture coordinate there.
+    quadric += Uv_quadric({point(), point(), point()}, {uv(), uv(), uv()}, 1).moved_by(point(), uv());
+    const Uv_quadric::Vector to = point(), x = point();
+    const Uv_quadric::Uv uv_to = uv(), s = uv();
+    const double first_part = quadric(to, uv_to), rest = quadric.moved_by(to, uv_to)(x, s),
+                 whole =
+                     quadric({to[0] + x[0], to[1] + x[1], to[2] + x[2]}, {uv_to[0] + s[0], uv_to[1] + s[1]});
+    EXPECT_NEAR(first_part + rest, whole, 1e-5 * (std::abs(first_part) + std::abs(rest) + std::abs(whole)));
+    EXPECT_LE(quadric.least(x), quadric(x, s) + 1e-5 * std::abs(quadric(x, s)));
+    // A control: from another origin, it is another function.
+    EXPECT_GT(std::abs(quadric(x, s) - rest), 1e-5 * std::abs(rest));
+  }
+}
+
+TEST(Uv, AQuadricIsFiniteForTheSmallestTriangles)
+{
+  const double tiny = 1e-60;
+  const Uv_quadric quadric({{{0, 0, 0}, {tiny, 0, 0}, {0, tiny, 0}}}, {{{0, 0}, {1, 0}, {0, 1}}}, 1);
+  EXPECT_GT(quadric({tiny, 0, 0}, {0, 0}), 0);
+  const double far = quadric({1, 0, 0}, {0, 0});
+  EXPECT_TRUE(std::isfinite(far));
+  EXPECT_GT(far, 1e30);
 }
 
 TEST(Uv, DeviationIsZeroWhereNothingSwims)

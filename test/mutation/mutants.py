@@ -983,3 +983,21 @@ group(
     ("m_pieces[m_complex.face(f).positions[0]] != m_pieces[motion.mover])", "false)",
      "the replay knows no clearance"),
 )
+
+group(
+    headers + "Surface_mesh_simplification/internal/Uv_quadric.h",
+    ("uv_test:Uv.AQuadric*",),
+    ("product[i] - uv_motion[0] * m_gradients[0][i]", "product[i] + uv_motion[0] * m_gradients[0][i]",
+     "a quadric says something else from another origin"),
+    ("displacement(k, motion) - m_weight * uv_motion[k])", "displacement(k, motion))",
+     "the texture coordinate of the origin does not count"),
+    ("    double sum = growth_with_texture_fixed(motion);\n    for (std::size_t k = 0; k < 2 && m_weight > 0; ++k)\n      sum -=",
+     "    double sum = growth_with_texture_fixed(motion);\n    for (std::size_t k = 0; k < 2 && m_weight > 0; ++k)\n      sum +=",
+     "the best texture coordinates are not the best"),
+)
+group(
+    headers + "internal/saturated_float.h",
+    ("uv_test:Uv.AQuadric*", "quadric_cost_test"),
+    ("return float((std::max)(-largest, (std::min)(largest, number)));", "return float(number);",
+     "numbers too large for a float are infinite"),
+)

@@ -3,6 +3,7 @@
 
 // What a collapse costs.
 
+#include "support/Edge_ratio_stop.h"
 #include "support/mesh_of.h"
 #include "support/meshes.h"
 #include "support/soups.h"
@@ -20,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 namespace selvedge::test {
 namespace {
@@ -174,6 +176,28 @@ TEST(QuadricCost, RecomputedOnceIsWhatUpdatesAfterEachCollapseMakeIt)
     recomputed.recompute(mesh, points);
     EXPECT_EQ(differing(), 0u);
   }
+}
+
+TEST(QuadricCost, IsFiniteForTheLargestWeights)
+{
+  Mesh mesh = Peak::made(1);
+  Quadric_cost<Mesh> cost(mesh, with_memory(0.5));
+  cost.weigh(mesh, std::vector<double>(mesh.number_of_vertices(), 1e300));
+  const Kernel traits;
+  const auto points = get(CGAL::vertex_point, mesh);
+  cost.initialize(mesh, points, traits);
+  const auto profile = [&](Mesh::Halfedge_index h) {
+    return internal::Lazy_edge_profile<Mesh, decltype(points), Kernel>(h, mesh, points, traits);
+  };
+  const auto edge = profile(mesh.halfedge(Vertex(Peak::peak), Vertex(Peak::peak + 1)));
+  cost.update_after_collapse(edge, CGAL::Euler::collapse_edge(mesh.edge(edge.v0_v1()), mesh));
+  double highest = 0;
+  for (const auto h : mesh.halfedges()) {
+    const double along = *cost.cost_along(profile(h), h);
+    EXPECT_TRUE(std::isfinite(along)) << h;
+    highest = std::max(highest, along);
+  }
+  EXPECT_GT(highest, 1e290);
 }
 
 TEST(QuadricCost, PlacesKeepTheVolume)

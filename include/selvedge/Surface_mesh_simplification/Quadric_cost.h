@@ -11,6 +11,7 @@
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
 #include <selvedge/Surface_mesh_simplification/internal/relative_face_weight.h>
 #include <selvedge/internal/instructions.h>
+#include <selvedge/internal/saturated_float.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Dynamic_property_map.h>
@@ -76,6 +77,7 @@ struct No_line_map
 template <class TriangleMesh, class EdgeIsLineMap = No_line_map>
 class Quadric_cost
 {
+  using Matrix = internal::Symmetric_matrix;
   using Quadric = internal::Symmetric_quadric;
   using Vector = internal::Vector_of_doubles;
   using Graph_traits = boost::graph_traits<TriangleMesh>;
@@ -104,24 +106,32 @@ class Quadric_cost
     }
   };
 
-  struct Vertex_quadric
+  // How much the quadrics of a vertex grow with its motion d: dᵀ M d + 2 l · d. (The planes of the mesh as it
+  // is pass through the vertex, so that l is of the others alone.)
+  struct Growth
   {
-    Quadric accumulated;
-    Quadric quadric;     // of which the cost is made
-    double own_cost = 0; // its value at the vertex itself
-    double weight = 1;
+    Matrix matrix;
+    std::array<float, 3> linear{0, 0, 0};
     bool has_lines = false; // whether a border or another line meets the vertex, or may have met it
+
+    double operator()(const Vector& motion) const
+    {
+      return matrix.square(motion) +
+             2 * (linear[0] * motion[0] + linear[1] * motion[1] + linear[2] * motion[2]);
+    }
+    Quadric quadric() const { return {matrix, {linear[0], linear[1], linear[2]}, 0}; }
   };
   // What a face gives to the quadrics at its corners: kept, since each is asked for many times.
   struct Face_plane
   {
-    Vector normal{0, 0, 0}; // of length 1, or 0 for a face without area
-    double weight = 0;
+    std::array<float, 3> normal{0, 0, 0}; // of length 1, or 0 for a face without area
+    float weight = 0;
   };
   using Plane_map =
       typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<Face_plane>>::const_type;
-  using Quadric_map =
-      typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<Vertex_quadric>>::const_type;
+  template <class Value>
+  using Vertex_map =
+      typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<Value>>::const_type;
 
 public:
   /// Asks CGAL's loop to call `initialize` and `update_after_collapse`.
@@ -143,14 +153,20 @@ public:
   /// Multiplies the quadric of every vertex by a factor; a merged vertex has the larger one of both.
   /// `weights` has one finite factor of at least 0 for each vertex, in the order of `vertices(mesh)`, or is
   /// empty for all 1; otherwise it throws `Argument_error`. Call it before the first run.
-  void weigh(const TriangleMesh& mesh, std::vector<double> weights)
+  void weigh(const TriangleMesh& mesh, const std::vector<double>& weights)
   {
     const std::size_t wanted = vertices(mesh).size();
     if (!weights.empty() &&
         (weights.size() != wanted || !std::all_of(weights.begin(), weights.end(), is_weight)))
       throw Argument_error("weights of vertices are finite numbers of at least 0, one for each of " +
                            std::to_string(wanted) + " vertices");
-    m_state->weights = std::move(weights);
+    m_state->weights.reset();
+    if (weights.empty())
+      return;
+    m_state->weights = get(CGAL::dynamic_vertex_property_t<double>(), mesh);
+    auto weight = weights.begin();
+    for (const Vertex v : vertices(mesh))
+      put(*m_state->weights, v, *weight++);
   }
 
   /// Sets the length D to which areas are relative; by default, it is the diagonal of the mesh. A mesh that
@@ -174,15 +190,13 @@ public:
       m_state->diagonal = 1; // all points are one
     compute_planes(mesh, points);
     Cancellation_poll poll;
-    auto weight = m_state->weights.begin();
     for (const Vertex v : vertices(mesh)) {
       poll();
-      Vertex_quadric of_vertex;
-      if (!m_state->weights.empty())
-        of_vertex.weight = *weight++;
-      of_vertex.has_lines = is_at_line(v, mesh);
-      of_vertex.accumulated = compute_quadric(v, mesh, points, 0, of_vertex);
-      put(m_state->quadrics, v, of_vertex);
+      Growth growth;
+      growth.has_lines = is_at_line(v, mesh);
+      compute_growth(v, mesh, points, 0, growth);
+      put(m_state->growths, v, growth);
+      put(m_state->accumulated, v, growth.quadric().moved_by(m_state->vector(get(points, v))));
     }
     m_state->is_initialised = true;
   }
@@ -202,8 +216,9 @@ public:
   template <class Profile, class Point>
   double cost_at(const Profile& profile, const Point& point) const
   {
-    const Vector x = m_state->vector(point);
-    return positive(increase(profile.v0(), x) + increase(profile.v1(), x));
+    const Vector x = vector(point);
+    return positive(get(m_state->growths, profile.v0())(internal::difference(x, vector(profile.p0()))) +
+                    get(m_state->growths, profile.v1())(internal::difference(x, vector(profile.p1()))));
   }
 
   /// Returns the same cost for moving the source of `moving`, a halfedge of the profile's edge, onto its
@@ -211,9 +226,10 @@ public:
   template <class Profile>
   internal::Optional<double> cost_along(const Profile& profile, Halfedge moving) const
   {
-    const bool is_v0_moved = moving == profile.v0_v1();
-    return positive(increase(is_v0_moved ? profile.v0() : profile.v1(),
-                             m_state->vector(is_v0_moved ? profile.p1() : profile.p0())));
+    const Vector p0 = vector(profile.p0()), p1 = vector(profile.p1());
+    return positive(moving == profile.v0_v1()
+                        ? get(m_state->growths, profile.v0())(internal::difference(p1, p0))
+                        : get(m_state->growths, profile.v1())(internal::difference(p0, p1)));
   }
 
   /// Returns where the merged vertex costs least among the points that leave the volume on both sides of the
@@ -227,45 +243,43 @@ public:
   {
     using internal::difference;
     using internal::dot;
-    const Vertex_quadric &at_v0 = get(m_state->quadrics, profile.v0()),
-                         &at_v1 = get(m_state->quadrics, profile.v1());
-    Quadric sum = at_v0.quadric;
-    sum += at_v1.quadric;
-    const Vector x0 = m_state->vector(profile.p0()), x1 = m_state->vector(profile.p1());
-    const Vector along = difference(x1, x0);
+    // All of this is relative to one end.
+    const Vector origin = vector(profile.p0()), along = difference(vector(profile.p1()), origin);
+    Quadric sum = get(m_state->growths, profile.v0()).quadric();
+    sum += get(m_state->growths, profile.v1()).quadric().moved_by(along);
     std::optional<Vector> least;
     Enclosure both;
     if (m_state->options.memory < 1) {
-      both.add(enclosure_of(profile.v0(), profile));
-      both.add(enclosure_of(profile.v1(), profile));
+      both.add(enclosure_of(profile.v0(), profile, origin));
+      both.add(enclosure_of(profile.v1(), profile, origin));
     }
     if (m_state->options.memory < 1 && both.is_closed) {
       for (const Halfedge h : {profile.v0_v1(), profile.v1_v0()}) { // its face is in both
         const auto [corners, normal] =
             corners_and_normal(h, profile.surface_mesh(), profile.vertex_point_map());
-        both.add(normal, dot(normal, corners[0]), -1);
+        both.add(normal, dot(normal, difference(corners[0], origin)), -1);
       }
-      least = sum.least_point_on_plane(both.normals, both.products, x0);
+      least = sum.least_point_on_plane(both.normals, both.products, {0, 0, 0});
     }
     if (!least)
       least = sum.least_point();
     if (least) {
-      Vector off = difference(*least, x0);
+      Vector off = *least;
       for (std::size_t i = 0; i < 3; ++i)
         off[i] -= 0.5 * along[i];
       if (!(dot(off, off) <= reach * reach * dot(along, along)))
         least.reset();
     }
     if (!least) {
-      const std::optional<double> share = sum.least_along(x0, along);
+      const std::optional<double> share = sum.least_along({0, 0, 0}, along);
       if (!share || !(*share > 0 && *share < 1))
         return std::nullopt;
-      least = x0;
-      for (std::size_t i = 0; i < 3; ++i)
-        (*least)[i] += *share * along[i];
+      least = along;
+      for (double& coordinate : *least)
+        coordinate *= *share;
     }
     for (std::size_t i = 0; i < 3; ++i)
-      (*least)[i] += m_state->origin[i];
+      (*least)[i] += origin[i];
     return least;
   }
 
@@ -275,8 +289,8 @@ public:
   double error_at(const Profile& profile, const Point& point) const
   {
     const Vector x = m_state->vector(point);
-    const Quadric &first = get(m_state->quadrics, profile.v0()).accumulated,
-                  &second = get(m_state->quadrics, profile.v1()).accumulated;
+    const Quadric &first = get(m_state->accumulated, profile.v0()),
+                  &second = get(m_state->accumulated, profile.v1());
     const double weight = first.trace() + second.trace();
     return weight > 0 ? std::sqrt(positive(first(x) + second(x)) / weight) : 0;
   }
@@ -305,12 +319,13 @@ public:
           compute_plane(face(h, mesh), mesh, points);
     }
     accumulate(profile, kept);
-    change(m_state->quadrics, kept,
-           [&](Vertex_quadric& merged) { compute_quadric(kept, mesh, points, memory, merged); });
+    const auto update = [&](Vertex v) {
+      change(m_state->growths, v, [&](Growth& growth) { compute_growth(v, mesh, points, memory, growth); });
+    };
+    update(kept);
     if (memory < 1)
       for (const Vertex v : CGAL::vertices_around_target(halfedge(kept, mesh), mesh))
-        change(m_state->quadrics, v,
-               [&](Vertex_quadric& of_vertex) { compute_quadric(v, mesh, points, memory, of_vertex); });
+        update(v);
   }
 
   /// Gives the merged vertex what both have accumulated. Between the first of many collapses of which nobody
@@ -318,12 +333,12 @@ public:
   template <class Profile>
   void accumulate(const Profile& profile, Vertex kept) const
   {
-    const Vertex_quadric& gone = get(m_state->quadrics, kept == profile.v0() ? profile.v1() : profile.v0());
-    change(m_state->quadrics, kept, [&](Vertex_quadric& merged) {
-      merged.accumulated += gone.accumulated;
-      merged.weight = (std::max)(merged.weight, gone.weight);
-      merged.has_lines |= gone.has_lines;
-    });
+    const Vertex gone = kept == profile.v0() ? profile.v1() : profile.v0();
+    change(m_state->accumulated, kept, [&](Quadric& merged) { merged += get(m_state->accumulated, gone); });
+    change(m_state->growths, kept,
+           [&](Growth& merged) { merged.has_lines |= get(m_state->growths, gone).has_lines; });
+    if (m_state->weights)
+      put(*m_state->weights, kept, (std::max)(get(*m_state->weights, kept), get(*m_state->weights, gone)));
   }
 
   /// Computes for the whole mesh what there is around each vertex.
@@ -334,9 +349,8 @@ public:
     Cancellation_poll poll;
     for (const Vertex v : vertices(mesh)) {
       poll();
-      change(m_state->quadrics, v, [&](Vertex_quadric& of_vertex) {
-        compute_quadric(v, mesh, points, m_state->options.memory, of_vertex);
-      });
+      change(m_state->growths, v,
+             [&](Growth& growth) { compute_growth(v, mesh, points, m_state->options.memory, growth); });
     }
   }
 
@@ -346,26 +360,34 @@ private:
     State(const TriangleMesh& mesh, const Quadric_cost_options& options_, const EdgeIsLineMap& edge_is_line_)
         : options(options_), edge_is_line(edge_is_line_),
           planes(get(CGAL::dynamic_face_property_t<Face_plane>(), mesh)),
-          quadrics(get(CGAL::dynamic_vertex_property_t<Vertex_quadric>(), mesh))
+          growths(get(CGAL::dynamic_vertex_property_t<Growth>(), mesh)),
+          accumulated(get(CGAL::dynamic_vertex_property_t<Quadric>(), mesh))
     {
     }
 
+    // Relative to the origin.
     template <class Point>
     Vector vector(const Point& p) const
     {
-      return {CGAL::to_double(p.x()) - origin[0], CGAL::to_double(p.y()) - origin[1],
-              CGAL::to_double(p.z()) - origin[2]};
+      return internal::difference(Quadric_cost::vector(p), origin);
     }
 
     Quadric_cost_options options;
     EdgeIsLineMap edge_is_line;
     Plane_map planes;
-    Quadric_map quadrics;
-    std::vector<double> weights; // by vertex; empty when all are 1
+    Vertex_map<Growth> growths;                // which every cost asks for, apart from the rest
+    Vertex_map<Quadric> accumulated;           // relative to the origin
+    std::optional<Vertex_map<double>> weights; // none when all are 1
     Vector origin{0, 0, 0};
     double diagonal = 0; // not known yet
     bool is_initialised = false;
   };
+
+  template <class Point>
+  static Vector vector(const Point& p)
+  {
+    return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
+  }
 
   static bool is_weight(double number) { return number >= 0 && std::isfinite(number); }
 
@@ -396,7 +418,8 @@ private:
   void prefetch_around(Vertex v, const TriangleMesh& mesh) const
   {
     for (const Halfedge h : CGAL::halfedges_around_target(v, mesh)) {
-      prefetch_value(m_state->quadrics, source(h, mesh));
+      prefetch_value(m_state->growths, source(h, mesh));
+      prefetch_value(m_state->accumulated, source(h, mesh));
       for (const Halfedge g : CGAL::halfedges_around_source(h, mesh))
         if (!CGAL::is_border(g, mesh))
           prefetch_value(m_state->planes, face(g, mesh));
@@ -407,13 +430,6 @@ private:
   double weight_of_area(double area) const
   {
     return internal::relative_face_weight(area / (m_state->diagonal * m_state->diagonal));
-  }
-
-  // How much the quadric of a vertex grows when the vertex moves to x.
-  double increase(Vertex v, const Vector& x) const
-  {
-    const Vertex_quadric& at_vertex = get(m_state->quadrics, v);
-    return at_vertex.quadric(x) - at_vertex.own_cost;
   }
 
   // Rounding may leave a sum slightly below zero.
@@ -435,9 +451,9 @@ private:
   std::pair<std::array<Vector, 3>, Vector> corners_and_normal(Halfedge h, const TriangleMesh& mesh,
                                                               const VertexPointMap& points) const
   {
-    const std::array<Vector, 3> corners{m_state->vector(get(points, source(h, mesh))),
-                                        m_state->vector(get(points, target(h, mesh))),
-                                        m_state->vector(get(points, target(next(h, mesh), mesh)))};
+    const std::array<Vector, 3> corners{vector(get(points, source(h, mesh))),
+                                        vector(get(points, target(h, mesh))),
+                                        vector(get(points, target(next(h, mesh), mesh)))};
     return {corners, internal::cross(internal::difference(corners[1], corners[0]),
                                      internal::difference(corners[2], corners[0]))};
   }
@@ -446,10 +462,11 @@ private:
   void compute_plane(typename Graph_traits::face_descriptor face, const TriangleMesh& mesh,
                      const VertexPointMap& points) const
   {
-    Face_plane plane;
-    plane.normal = corners_and_normal(halfedge(face, mesh), mesh, points).second;
-    plane.weight = weight_of_area(0.5 * normalise(plane.normal));
-    put(m_state->planes, face, plane);
+    Vector normal = corners_and_normal(halfedge(face, mesh), mesh, points).second;
+    const double weight = weight_of_area(0.5 * normalise(normal));
+    put(m_state->planes, face,
+        Face_plane{{float(normal[0]), float(normal[1]), float(normal[2])},
+                   internal::saturated_float(weight)});
   }
 
   template <class VertexPointMap>
@@ -459,8 +476,9 @@ private:
       compute_plane(face, mesh, points);
   }
 
+  // Relative to `origin`.
   template <class Profile>
-  Enclosure enclosure_of(Vertex v, const Profile& profile) const
+  Enclosure enclosure_of(Vertex v, const Profile& profile, const Vector& origin) const
   {
     const auto& mesh = profile.surface_mesh();
     Enclosure result;
@@ -470,48 +488,48 @@ private:
         continue;
       }
       const auto [corners, normal] = corners_and_normal(to_v, mesh, profile.vertex_point_map());
-      result.add(normal, internal::dot(normal, corners[0]));
+      result.add(normal, internal::dot(normal, internal::difference(corners[0], origin)));
     }
     return result;
   }
 
-  // Computes everything about a vertex that follows from the planes of the faces around it and, as far as
-  // `memory` says, from what it has accumulated. Returns the quadric of the faces, which a memory of 1 does
-  // not ask for.
+  // Computes the growth at a vertex from the planes of the faces around it, which a memory of 1 does not ask
+  // for, and, as far as `memory` says, from what it has accumulated.
   template <class VertexPointMap>
-  Quadric compute_quadric(Vertex v, const TriangleMesh& mesh, const VertexPointMap& points, double memory,
-                          Vertex_quadric& of_vertex) const
+  void compute_growth(Vertex v, const TriangleMesh& mesh, const VertexPointMap& points, double memory,
+                      Growth& growth) const
   {
     const State& state = *m_state;
-    const Vector place = state.vector(get(points, v));
-    Quadric of_faces; // relative to the vertex, through which all of these planes pass
+    Matrix matrix;
     if (memory < 1 && halfedge(v, mesh) != Graph_traits::null_halfedge()) {
       double weight = 0;
       for (const Halfedge to_v : CGAL::halfedges_around_target(v, mesh)) {
         if (CGAL::is_border(to_v, mesh))
           continue;
         const Face_plane& plane = get(state.planes, face(to_v, mesh));
-        of_faces.add_square(plane.normal, plane.weight);
+        const Vector normal{plane.normal[0], plane.normal[1], plane.normal[2]};
+        matrix.add_square(normal, plane.weight);
         weight += plane.weight;
-        if (!of_vertex.has_lines)
+        if (!growth.has_lines)
           continue;
-        const Halfedge from_v = next(to_v, mesh);
-        if (const double share = share_of_line(from_v, mesh))
-          add_line(share, plane.normal, place, state.vector(get(points, target(from_v, mesh))), of_faces);
-        if (const double share = share_of_line(to_v, mesh))
-          add_line(share, plane.normal, state.vector(get(points, source(to_v, mesh))), place, of_faces);
+        for (const Halfedge h : {next(to_v, mesh), to_v})
+          if (const double share = share_of_line(h, mesh))
+            add_line(share, normal, vector(get(points, source(h, mesh))),
+                     vector(get(points, target(h, mesh))), matrix);
       }
-      of_faces.add_origin(state.options.stabiliser * weight);
-      of_faces *= of_vertex.weight;
-      of_faces = of_faces.moved_by(place);
+      matrix.add_identity(state.options.stabiliser * weight);
+      matrix *= (1 - memory) * (state.weights ? get(*state.weights, v) : 1);
     }
-    of_vertex.quadric = of_faces;
-    of_vertex.quadric *= 1 - memory;
-    Quadric remembered = of_vertex.accumulated;
-    remembered *= memory;
-    of_vertex.quadric += remembered;
-    of_vertex.own_cost = of_vertex.quadric(place);
-    return of_faces;
+    growth.linear = {0, 0, 0};
+    if (memory > 0) {
+      Quadric remembered = get(state.accumulated, v);
+      remembered *= memory;
+      matrix += remembered.matrix();
+      const Vector half_gradient = remembered.half_gradient(state.vector(get(points, v)));
+      for (std::size_t i = 0; i < 3; ++i)
+        growth.linear[i] = internal::saturated_float(half_gradient[i]);
+    }
+    growth.matrix = matrix;
   }
 
   bool is_at_line(Vertex v, const TriangleMesh& mesh) const
@@ -534,8 +552,7 @@ private:
   }
 
   // Adds the plane that stands on an edge of a face with this normal.
-  void add_line(double share, const Vector& normal, const Vector& start, const Vector& end,
-                Quadric& sum) const
+  void add_line(double share, const Vector& normal, const Vector& start, const Vector& end, Matrix& sum) const
   {
     Vector along = internal::difference(end, start);
     const double length = normalise(along);

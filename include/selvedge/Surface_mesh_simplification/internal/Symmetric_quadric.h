@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_SYMMETRIC_QUADRIC_H
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_SYMMETRIC_QUADRIC_H
 
+#include <selvedge/Surface_mesh_simplification/internal/Symmetric_matrix.h>
 #include <selvedge/internal/Vector_of_doubles.h>
 
 #include <cmath>
@@ -17,47 +18,26 @@ namespace internal {
 class Symmetric_quadric
 {
 public:
+  Symmetric_quadric() = default;
+  Symmetric_quadric(const Symmetric_matrix& matrix, const Vector_of_doubles& b, double c)
+      : m_b(b), m_c(c), m_matrix(matrix)
+  {
+  }
+
   /// Adds weight × (gradient · x + d)².
   void add_square(const Vector_of_doubles& gradient, double d, double weight)
   {
-    m_xx += weight * gradient[0] * gradient[0];
-    m_xy += weight * gradient[0] * gradient[1];
-    m_xz += weight * gradient[0] * gradient[2];
-    m_yy += weight * gradient[1] * gradient[1];
-    m_yz += weight * gradient[1] * gradient[2];
-    m_zz += weight * gradient[2] * gradient[2];
+    m_matrix.add_square(gradient, weight);
     for (std::size_t i = 0; i < 3; ++i)
       m_b[i] += weight * d * gradient[i];
     m_c += weight * d * d;
-  }
-
-  /// Adds weight × (gradient · x)².
-  void add_square(const Vector_of_doubles& gradient, double weight)
-  {
-    const double x = weight * gradient[0], y = weight * gradient[1], z = weight * gradient[2];
-    m_xx += x * gradient[0];
-    m_xy += x * gradient[1];
-    m_xz += x * gradient[2];
-    m_yy += y * gradient[1];
-    m_yz += y * gradient[2];
-    m_zz += z * gradient[2];
-  }
-
-  /// Adds weight × squared distance to the origin.
-  void add_origin(double weight)
-  {
-    m_xx += weight;
-    m_yy += weight;
-    m_zz += weight;
   }
 
   /// Returns the function whose value at x is that of this one at x − `point`.
   Symmetric_quadric moved_by(const Vector_of_doubles& point) const
   {
     Symmetric_quadric moved = *this;
-    const Vector_of_doubles product{m_xx * point[0] + m_xy * point[1] + m_xz * point[2],
-                                    m_xy * point[0] + m_yy * point[1] + m_yz * point[2],
-                                    m_xz * point[0] + m_yz * point[1] + m_zz * point[2]};
+    const Vector_of_doubles product = m_matrix * point;
     for (std::size_t i = 0; i < 3; ++i)
       moved.m_b[i] -= product[i];
     moved.m_c += dot(product, point) - 2 * dot(m_b, point);
@@ -66,12 +46,7 @@ public:
 
   Symmetric_quadric& operator+=(const Symmetric_quadric& other)
   {
-    m_xx += other.m_xx;
-    m_xy += other.m_xy;
-    m_xz += other.m_xz;
-    m_yy += other.m_yy;
-    m_yz += other.m_yz;
-    m_zz += other.m_zz;
+    m_matrix += other.m_matrix;
     for (std::size_t i = 0; i < 3; ++i)
       m_b[i] += other.m_b[i];
     m_c += other.m_c;
@@ -80,36 +55,46 @@ public:
 
   Symmetric_quadric& operator*=(double factor)
   {
-    for (double* const number : {&m_xx, &m_xy, &m_xz, &m_yy, &m_yz, &m_zz, &m_b[0], &m_b[1], &m_b[2], &m_c})
-      *number *= factor;
+    m_matrix *= factor;
+    for (double& number : m_b)
+      number *= factor;
+    m_c *= factor;
     return *this;
   }
 
-  double operator()(const Vector_of_doubles& x) const
+  double operator()(const Vector_of_doubles& x) const { return m_matrix.square(x) + 2 * dot(m_b, x) + m_c; }
+
+  const Symmetric_matrix& matrix() const { return m_matrix; }
+
+  /// Returns half of the gradient at a point.
+  Vector_of_doubles half_gradient(const Vector_of_doubles& x) const
   {
-    return x[0] * (m_xx * x[0] + 2 * (m_xy * x[1] + m_xz * x[2] + m_b[0])) +
-           x[1] * (m_yy * x[1] + 2 * (m_yz * x[2] + m_b[1])) + x[2] * (m_zz * x[2] + 2 * m_b[2]) + m_c;
+    Vector_of_doubles result = m_matrix * x;
+    for (std::size_t i = 0; i < 3; ++i)
+      result[i] += m_b[i];
+    return result;
   }
 
   /// Returns where the function is least, or none when its matrix is singular to working precision.
   std::optional<Vector_of_doubles> least_point() const
   {
+    const auto& [xx, xy, xz, yy_, yz_, zz_] = m_matrix;
     // Decomposes the matrix into LDLᵀ. Without pivots: it is positive semidefinite.
     const double least = s_least_pivot * trace();
-    if (!(m_xx > least))
+    if (!(xx > least))
       return std::nullopt;
-    const double yx = m_xy / m_xx, zx = m_xz / m_xx;
-    const double yy = m_yy - yx * m_xy, yz = m_yz - yx * m_xz;
+    const double yx = xy / xx, zx = xz / xx;
+    const double yy = yy_ - yx * xy, yz = yz_ - yx * xz;
     if (!(yy > least))
       return std::nullopt;
-    const double zy = yz / yy, zz = m_zz - zx * m_xz - zy * yz;
+    const double zy = yz / yy, zz = zz_ - zx * xz - zy * yz;
     if (!(zz > least))
       return std::nullopt;
     const double u = -m_b[0], v = -m_b[1] - yx * u, w = -m_b[2] - zx * u - zy * v;
     Vector_of_doubles x;
     x[2] = w / zz;
     x[1] = v / yy - zy * x[2];
-    x[0] = u / m_xx - yx * x[1] - zx * x[2];
+    x[0] = u / xx - yx * x[1] - zx * x[2];
     return x;
   }
 
@@ -140,15 +125,13 @@ public:
     for (std::size_t i = 0; i < 3; ++i)
       x[i] += off * normal[i];
 
-    const Vector_of_doubles times_u = times_matrix(u), times_v = times_matrix(v);
-    Vector_of_doubles half_gradient = times_matrix(x);
-    for (std::size_t i = 0; i < 3; ++i)
-      half_gradient[i] += m_b[i];
+    const Vector_of_doubles times_u = m_matrix * u, times_v = m_matrix * v;
+    const Vector_of_doubles gradient = half_gradient(x);
     const double uu = dot(u, times_u), uv = dot(u, times_v), vv = dot(v, times_v);
     const double determinant = uu * vv - uv * uv, trace = uu + vv;
     if (!(determinant > s_least_pivot * trace * trace))
       return std::nullopt;
-    const double at_u = dot(u, half_gradient), at_v = dot(v, half_gradient);
+    const double at_u = dot(u, gradient), at_v = dot(v, gradient);
     const double along_u = (uv * at_v - vv * at_u) / determinant,
                  along_v = (uv * at_u - uu * at_v) / determinant;
     for (std::size_t i = 0; i < 3; ++i)
@@ -160,7 +143,7 @@ public:
   /// linear along that line.
   std::optional<double> least_along(const Vector_of_doubles& point, const Vector_of_doubles& direction) const
   {
-    const Vector_of_doubles product = times_matrix(direction);
+    const Vector_of_doubles product = m_matrix * direction;
     const double curvature = dot(direction, product);
     if (!(curvature > 0))
       return std::nullopt;
@@ -168,20 +151,14 @@ public:
   }
 
   /// Returns the sum of the weights, if all terms are squared distances; those of points count three times.
-  double trace() const { return m_xx + m_yy + m_zz; }
+  double trace() const { return m_matrix.trace(); }
 
 private:
   static constexpr double s_least_pivot = 1e-13; // relative to the trace
 
-  Vector_of_doubles times_matrix(const Vector_of_doubles& x) const
-  {
-    return {m_xx * x[0] + m_xy * x[1] + m_xz * x[2], m_xy * x[0] + m_yy * x[1] + m_yz * x[2],
-            m_xz * x[0] + m_yz * x[1] + m_zz * x[2]};
-  }
-
-  double m_xx = 0, m_xy = 0, m_xz = 0, m_yy = 0, m_yz = 0, m_zz = 0;
   Vector_of_doubles m_b{0, 0, 0};
   double m_c = 0;
+  Symmetric_matrix m_matrix;
 };
 
 } // namespace internal

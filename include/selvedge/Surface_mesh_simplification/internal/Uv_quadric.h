@@ -4,8 +4,9 @@
 #ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_UV_QUADRIC_H
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_UV_QUADRIC_H
 
-#include <selvedge/Surface_mesh_simplification/internal/Symmetric_quadric.h>
+#include <selvedge/Surface_mesh_simplification/internal/Symmetric_matrix.h>
 #include <selvedge/Surface_mesh_simplification/internal/relative_face_weight.h>
+#include <selvedge/internal/saturated_float.h>
 
 #include <array>
 #include <cmath>
@@ -13,14 +14,16 @@
 
 namespace selvedge {
 
-/// Measures how far a texture is displaced, summed over triangles: for a point x with the texture coordinates
-/// s, it is the sum of weight × |Gx + d − s|², where Gx + d are the texture coordinates that a triangle gives
-/// to x in its plane.
+/// Measures how much farther a texture is displaced when a vertex moves. The displacement is a sum over
+/// triangles: for a point x with the texture coordinates s, it is the sum of weight × |Gx + d − s|², where
+/// Gx + d are the texture coordinates that a triangle gives to x in its plane.
 ///
-/// It is zero for all x and s that continue the texture unchanged, as on flat cloth with its pattern as
-/// texture.
+/// It says how much larger this sum is, after a motion of the point and of its texture coordinates, than it
+/// is for an origin of both. The displacement does not grow with motions that continue the texture unchanged,
+/// as on flat cloth with its pattern as texture.
 ///
-/// **Exactness** Floating point.
+/// **Exactness** Floating point. It is kept in single precision, since it takes much memory, which a loop
+/// would wait for; numbers too large for that are the largest ones.
 ///
 /// **Reference** Hoppe: New quadric metric for simplifying meshes with appearance attributes, section 4.
 class Uv_quadric
@@ -29,9 +32,12 @@ public:
   using Vector = internal::Vector_of_doubles;
   using Uv = std::array<double, 2>;
 
-  /// Adds a triangle, with `weight` times the `relative_face_weight` of its area. A thin triangle counts
-  /// less, since it says little about what lies beside it; a degenerate one adds nothing.
-  void add_triangle(const std::array<Vector, 3>& x, const std::array<Uv, 3>& s, double weight)
+  Uv_quadric() = default;
+
+  /// Makes that of a triangle, with `weight` times the `relative_face_weight` of its area. Its origin is any
+  /// corner. A thin triangle counts less, since it says little about what lies beside it; a degenerate one
+  /// does not count.
+  Uv_quadric(const std::array<Vector, 3>& x, const std::array<Uv, 3>& s, double weight)
   {
     const Vector e = internal::difference(x[1], x[0]), f = internal::difference(x[2], x[0]),
                  g = internal::difference(x[2], x[1]);
@@ -43,68 +49,96 @@ public:
     const double squared_quality = 48 * squared_area / (squared_edges * squared_edges); // 1: equilateral
     weight *= internal::relative_face_weight(std::sqrt(squared_area)) * squared_quality;
     const Vector of_e = internal::cross(f, normal), of_f = internal::cross(normal, e);
+    internal::Symmetric_matrix matrix;
     for (std::size_t k = 0; k < 2; ++k) {
       Vector gradient;
       for (std::size_t i = 0; i < 3; ++i)
         gradient[i] = ((s[1][k] - s[0][k]) * of_e[i] + (s[2][k] - s[0][k]) * of_f[i]) / (4 * squared_area);
-      const double d = s[0][k] - internal::dot(gradient, x[0]);
-      m_of_points.add_square(gradient, d, weight);
+      matrix.add_square(gradient, weight);
       for (std::size_t i = 0; i < 3; ++i)
-        m_gradients[k][i] += weight * gradient[i];
-      m_d[k] += weight * d;
+        m_gradients[k][i] = internal::saturated_float(weight * gradient[i]);
     }
-    m_weight += weight;
+    set_matrix(matrix);
+    m_weight = internal::saturated_float(weight);
   }
 
+  /// Adds one with the same origin.
   Uv_quadric& operator+=(const Uv_quadric& other)
   {
-    m_of_points += other.m_of_points;
+    set_matrix(matrix() += other.matrix());
+    for (std::size_t i = 0; i < 3; ++i)
+      m_linear[i] = internal::saturated_float(double(m_linear[i]) + other.m_linear[i]);
     for (std::size_t k = 0; k < 2; ++k) {
       for (std::size_t i = 0; i < 3; ++i)
-        m_gradients[k][i] += other.m_gradients[k][i];
-      m_d[k] += other.m_d[k];
+        m_gradients[k][i] = internal::saturated_float(double(m_gradients[k][i]) + other.m_gradients[k][i]);
+      m_displacements[k] = internal::saturated_float(double(m_displacements[k]) + other.m_displacements[k]);
     }
-    m_weight += other.m_weight;
+    m_weight = internal::saturated_float(double(m_weight) + other.m_weight);
     return *this;
   }
 
-  Uv_quadric& operator*=(double factor)
+  /// Returns how much the displacement grows with a motion of the point and of its texture coordinates.
+  double operator()(const Vector& motion, const Uv& uv_motion) const
   {
-    m_of_points *= factor;
-    for (std::size_t k = 0; k < 2; ++k) {
-      for (double& coordinate : m_gradients[k])
-        coordinate *= factor;
-      m_d[k] *= factor;
-    }
-    m_weight *= factor;
-    return *this;
-  }
-
-  /// Returns the value at a point with the texture coordinates that make it least.
-  double least(const Vector& x) const
-  {
-    double sum = m_of_points(x);
-    for (std::size_t k = 0; k < 2 && m_weight > 0; ++k) {
-      const double s = internal::dot(m_gradients[k], x) + m_d[k];
-      sum -= s * s / m_weight;
-    }
-    return sum > 0 ? sum : 0;
-  }
-
-  double operator()(const Vector& x, const Uv& s) const
-  {
-    double sum = m_of_points(x);
+    double sum = growth_with_texture_fixed(motion);
     for (std::size_t k = 0; k < 2; ++k)
-      sum += s[k] * (m_weight * s[k] - 2 * (internal::dot(m_gradients[k], x) + m_d[k]));
-    return sum > 0 ? sum : 0; // rounding may leave a sum slightly below zero
+      sum += uv_motion[k] * (m_weight * uv_motion[k] - 2 * displacement(k, motion));
+    return sum;
+  }
+
+  /// Returns the same with the motion of the texture coordinates for which it is least.
+  double least(const Vector& motion) const
+  {
+    double sum = growth_with_texture_fixed(motion);
+    for (std::size_t k = 0; k < 2 && m_weight > 0; ++k)
+      sum -= displacement(k, motion) * displacement(k, motion) / m_weight;
+    return sum;
+  }
+
+  /// Returns the function whose origin is that of this one after a motion.
+  Uv_quadric moved_by(const Vector& motion, const Uv& uv_motion) const
+  {
+    Uv_quadric moved = *this;
+    const Vector product = matrix() * motion;
+    for (std::size_t i = 0; i < 3; ++i)
+      moved.m_linear[i] = internal::saturated_float(
+          m_linear[i] + product[i] - uv_motion[0] * m_gradients[0][i] - uv_motion[1] * m_gradients[1][i]);
+    for (std::size_t k = 0; k < 2; ++k)
+      moved.m_displacements[k] = internal::saturated_float(displacement(k, motion) - m_weight * uv_motion[k]);
+    return moved;
   }
 
 private:
-  // The terms in x alone, in x and s, and in s alone.
-  internal::Symmetric_quadric m_of_points;
-  std::array<Vector, 2> m_gradients{};
-  Uv m_d{0, 0};
-  double m_weight = 0;
+  internal::Symmetric_matrix matrix() const
+  {
+    return {m_matrix[0], m_matrix[1], m_matrix[2], m_matrix[3], m_matrix[4], m_matrix[5]};
+  }
+  void set_matrix(const internal::Symmetric_matrix& m)
+  {
+    m_matrix = {internal::saturated_float(m.xx), internal::saturated_float(m.xy),
+                internal::saturated_float(m.xz), internal::saturated_float(m.yy),
+                internal::saturated_float(m.yz), internal::saturated_float(m.zz)};
+  }
+
+  double growth_with_texture_fixed(const Vector& motion) const
+  {
+    return matrix().square(motion) +
+           2 * (m_linear[0] * motion[0] + m_linear[1] * motion[1] + m_linear[2] * motion[2]);
+  }
+
+  // The sum of the displacements in one direction of the texture, each with its weight.
+  double displacement(std::size_t k, const Vector& motion) const
+  {
+    const auto& gradient = m_gradients[k];
+    return gradient[0] * motion[0] + gradient[1] * motion[1] + gradient[2] * motion[2] + m_displacements[k];
+  }
+
+  // The terms in the motion alone, in both motions, and in that of the texture coordinates alone.
+  std::array<float, 6> m_matrix{};
+  std::array<float, 3> m_linear{};
+  std::array<std::array<float, 3>, 2> m_gradients{};
+  std::array<float, 2> m_displacements{};
+  float m_weight = 0;
 };
 
 } // namespace selvedge
