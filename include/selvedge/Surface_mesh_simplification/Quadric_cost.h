@@ -106,20 +106,23 @@ class Quadric_cost
     }
   };
 
-  // How much the quadrics of a vertex grow with its motion d: dᵀ M d + 2 l · d. (The planes of the mesh as it
-  // is pass through the vertex, so that l is of the others alone.)
+  // How much the quadrics of a vertex grow with its motion d: dᵀ M d + 2u l · d, where u is the unit of the
+  // state. (The planes of the mesh as it is pass through the vertex, so that l is of the others alone.)
   struct Growth
   {
     Matrix matrix;
     std::array<float, 3> linear{0, 0, 0};
     bool has_lines = false; // whether a border or another line meets the vertex, or may have met it
 
-    double operator()(const Vector& motion) const
+    double operator()(const Vector& motion, double unit) const
     {
       return matrix.square(motion) +
-             2 * (linear[0] * motion[0] + linear[1] * motion[1] + linear[2] * motion[2]);
+             2 * unit * (linear[0] * motion[0] + linear[1] * motion[1] + linear[2] * motion[2]);
     }
-    Quadric quadric() const { return {matrix, {linear[0], linear[1], linear[2]}, 0}; }
+    Quadric quadric(double unit) const
+    {
+      return {matrix, {unit * linear[0], unit * linear[1], unit * linear[2]}, 0};
+    }
   };
   // What a face gives to the quadrics at its corners: kept, since each is asked for many times.
   struct Face_plane
@@ -188,6 +191,7 @@ public:
       m_state->diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
     if (!(m_state->diagonal > 0))
       m_state->diagonal = 1; // all points are one
+    m_state->unit = std::ldexp(1, std::ilogb(m_state->diagonal));
     compute_planes(mesh, points);
     Cancellation_poll poll;
     for (const Vertex v : vertices(mesh)) {
@@ -196,7 +200,7 @@ public:
       growth.has_lines = is_at_line(v, mesh);
       compute_growth(v, mesh, points, 0, growth);
       put(m_state->growths, v, growth);
-      put(m_state->accumulated, v, growth.quadric().moved_by(m_state->vector(get(points, v))));
+      put(m_state->accumulated, v, growth.quadric(m_state->unit).moved_by(m_state->vector(get(points, v))));
     }
     m_state->is_initialised = true;
   }
@@ -217,8 +221,8 @@ public:
   double cost_at(const Profile& profile, const Point& point) const
   {
     const Vector x = vector(point);
-    return positive(get(m_state->growths, profile.v0())(internal::difference(x, vector(profile.p0()))) +
-                    get(m_state->growths, profile.v1())(internal::difference(x, vector(profile.p1()))));
+    return positive(growth(profile.v0(), internal::difference(x, vector(profile.p0()))) +
+                    growth(profile.v1(), internal::difference(x, vector(profile.p1()))));
   }
 
   /// Returns the same cost for moving the source of `moving`, a halfedge of the profile's edge, onto its
@@ -227,9 +231,8 @@ public:
   internal::Optional<double> cost_along(const Profile& profile, Halfedge moving) const
   {
     const Vector p0 = vector(profile.p0()), p1 = vector(profile.p1());
-    return positive(moving == profile.v0_v1()
-                        ? get(m_state->growths, profile.v0())(internal::difference(p1, p0))
-                        : get(m_state->growths, profile.v1())(internal::difference(p0, p1)));
+    return positive(moving == profile.v0_v1() ? growth(profile.v0(), internal::difference(p1, p0))
+                                              : growth(profile.v1(), internal::difference(p0, p1)));
   }
 
   /// Returns where the merged vertex costs least among the points that leave the volume on both sides of the
@@ -245,8 +248,8 @@ public:
     using internal::dot;
     // All of this is relative to one end.
     const Vector origin = vector(profile.p0()), along = difference(vector(profile.p1()), origin);
-    Quadric sum = get(m_state->growths, profile.v0()).quadric();
-    sum += get(m_state->growths, profile.v1()).quadric().moved_by(along);
+    Quadric sum = get(m_state->growths, profile.v0()).quadric(m_state->unit);
+    sum += get(m_state->growths, profile.v1()).quadric(m_state->unit).moved_by(along);
     std::optional<Vector> least;
     Enclosure both;
     if (m_state->options.memory < 1) {
@@ -380,6 +383,7 @@ private:
     std::optional<Vertex_map<double>> weights; // none when all are 1
     Vector origin{0, 0, 0};
     double diagonal = 0; // not known yet
+    double unit = 1;     // the power of two below the diagonal
     bool is_initialised = false;
   };
 
@@ -476,6 +480,11 @@ private:
       compute_plane(face, mesh, points);
   }
 
+  double growth(Vertex v, const Vector& motion) const
+  {
+    return get(m_state->growths, v)(motion, m_state->unit);
+  }
+
   // Relative to `origin`.
   template <class Profile>
   Enclosure enclosure_of(Vertex v, const Profile& profile, const Vector& origin) const
@@ -527,7 +536,7 @@ private:
       matrix += remembered.matrix();
       const Vector half_gradient = remembered.half_gradient(state.vector(get(points, v)));
       for (std::size_t i = 0; i < 3; ++i)
-        growth.linear[i] = internal::saturated_float(half_gradient[i]);
+        growth.linear[i] = internal::saturated_float(half_gradient[i] / state.unit);
     }
     growth.matrix = matrix;
   }
