@@ -362,7 +362,8 @@ void add_comparison(Json& report, const Comparison& comparison)
 void add_parts(Json& report, const Prepared_soup& prepared, const Simplified_soup& result)
 {
   Json list = Json::array();
-  for (const Part_report& part : part_reports(result, prepared)) {
+  const Part_reports reports = part_reports(result, prepared);
+  for (const Part_report& part : reports.parts) {
     Json refused = to_json(part.refused);
     refused.erase("by_loop"); // known of all together only
     list.push_back({{"kind", name(part.kind)},
@@ -374,7 +375,7 @@ void add_parts(Json& report, const Prepared_soup& prepared, const Simplified_sou
                     {"uv", to_json(part.uv_deviation)}});
   }
   report["parts"] = std::move(list);
-  report["uv"] = to_json(uv_deviation(result, prepared));
+  report["uv"] = to_json(reports.uv_deviation);
 }
 
 std::map<std::string, std::size_t> count_by_kind(const std::vector<Violation>& violations)

@@ -46,9 +46,16 @@ struct Part_report
   std::optional<Uv_deviation> uv_deviation;
 };
 
+/// What became of the parts of a soup, and the displacement of its texture over all of them.
+struct Part_reports
+{
+  std::vector<Part_report> parts;
+  std::optional<Uv_deviation> uv_deviation; ///< what the function of this name returns
+};
+
 /// Returns a report for each piece, group, object and material that has triangles, kind by kind. Of the
 /// pieces, only the hundred largest have one.
-std::vector<Part_report> part_reports(const Simplified_soup& result, const Prepared_soup& original);
+Part_reports part_reports(const Simplified_soup& result, const Prepared_soup& original);
 
 } // namespace selvedge
 

@@ -176,6 +176,14 @@ std::optional<Uv_deviation> deviation_of(const std::vector<double>& displacement
   return Uv_deviation{sum / area, maximum};
 }
 
+std::optional<Uv_deviation> deviation_of_all(const std::vector<double>& displacements,
+                                             const Prepared_soup& original)
+{
+  std::vector<Index> all(original.soup.triangles.size());
+  std::iota(all.begin(), all.end(), Index(0));
+  return deviation_of(displacements, original, all);
+}
+
 /// Returns the geometry of some parts, each as a soup of its own.
 std::vector<Triangle_soup> submesh(const Triangle_soup& soup,
                                    const std::vector<std::vector<Index>>& triangles_of_part,
@@ -204,17 +212,16 @@ std::vector<Triangle_soup> submesh(const Triangle_soup& soup,
 
 std::optional<Uv_deviation> uv_deviation(const Simplified_soup& result, const Prepared_soup& original)
 {
-  std::vector<Index> all(original.soup.triangles.size());
-  std::iota(all.begin(), all.end(), Index(0));
-  return deviation_of(uv_displacements(result, original), original, all);
+  return deviation_of_all(uv_displacements(result, original), original);
 }
 
-std::vector<Part_report> part_reports(const Simplified_soup& result, const Prepared_soup& original)
+Part_reports part_reports(const Simplified_soup& result, const Prepared_soup& original)
 {
   const std::vector<double> displacements = uv_displacements(result, original);
   const double unit = diagonal(original.soup, original.scale);
   const std::vector<Part_kind> kinds = part_kinds(original.soup);
-  std::vector<Part_report> reports;
+  Part_reports all{{}, deviation_of_all(displacements, original)};
+  std::vector<Part_report>& reports = all.parts;
   std::map<std::vector<Index>, std::size_t> report_of; // what is a part of two kinds is measured once
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     const Part_kind& kind = kinds[k];
@@ -269,7 +276,7 @@ std::vector<Part_report> part_reports(const Simplified_soup& result, const Prepa
     };
     tbb::parallel_for(std::size_t(0), unmeasured.size(), Cancellation_scope::inherited(measure));
   }
-  return reports;
+  return all;
 }
 
 } // namespace selvedge

@@ -301,7 +301,7 @@ TEST(Report, CountsFacesAndRefusalsOfEveryPieceAndGroup)
 {
   const Prepared_soup prepared = prepare(garment("jacket", 6000));
   const Simplified_soup result = simplify_soup(prepared, to_ratio(0.2));
-  const std::vector<Part_report> parts = part_reports(result, prepared);
+  const std::vector<Part_report> parts = part_reports(result, prepared).parts;
   std::set<Part_kind::Name> kinds;
   for (const Part_report& part : parts)
     kinds.insert(part.kind);
@@ -334,7 +334,8 @@ TEST(Report, APartThatDidNotChangeIsNowhereAway)
 {
   const Prepared_soup prepared = prepare(two_groups());
   const Simplified_soup result = simplify_soup(prepared, to_ratio(0.2), kept("body"));
-  for (const Part_report& part : part_reports(result, prepared)) {
+  const Part_reports reports = part_reports(result, prepared);
+  for (const Part_report& part : reports.parts) {
     if (part.name == "body") {
       EXPECT_EQ(part.distance.maximum, 0);
       EXPECT_EQ(part.faces_input, part.faces_output);

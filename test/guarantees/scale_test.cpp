@@ -374,7 +374,10 @@ TEST(Scale, FiguresAreTheSame)
   const Reduction reduction = reduce(scene.soup, scene.options);
   const Comparison expected = compare(reduction.simplified.soup, scene.soup);
   const Distances expected_distances = distances(reduction.simplified.soup, scene.soup);
-  const std::vector<Part_report> expected_parts = part_reports(reduction.simplified, reduction.prepared);
+  const Part_reports expected_reports = part_reports(reduction.simplified, reduction.prepared);
+  const std::vector<Part_report>& expected_parts = expected_reports.parts;
+  EXPECT_EQ(expected_reports.uv_deviation->mean,
+            uv_deviation(reduction.simplified, reduction.prepared)->mean);
   EXPECT_GT(expected.normals.maximum, 0);
   EXPECT_GT(expected.layers.compared, 0u);
   EXPECT_GT(expected_parts.front().uv_deviation->maximum, 0);
@@ -400,7 +403,7 @@ TEST(Scale, FiguresAreTheSame)
     EXPECT_EQ(found.layers.lines, expected.layers.lines);
     EXPECT_EQ(found.layers.compared, expected.layers.compared);
 
-    const std::vector<Part_report> parts = part_reports(multiple.simplified, multiple.prepared);
+    const std::vector<Part_report> parts = part_reports(multiple.simplified, multiple.prepared).parts;
     ASSERT_EQ(parts.size(), expected_parts.size());
     for (std::size_t i = 0; i < parts.size(); ++i) {
       expect_equal(parts[i].distance, expected_parts[i].distance);
