@@ -56,7 +56,7 @@ namespace selvedge {
 ///
 /// **Complexity** Building is O(n). A query is logarithmic in n for each face that it finds, when boxes
 /// overlap as those of faces of a surface do. A change is O(log n), and amortised O(1) as a rule. The index
-/// takes about 34 bytes per face, and twice as many more while it is built; with rods, 64 bytes more.
+/// takes about 34 bytes per face, and as many more while it is built; with rods, 64 bytes more.
 ///
 /// **Reference** Kamel, Faloutsos: On packing R-trees.
 class Packed_R_tree
