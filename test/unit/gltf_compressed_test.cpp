@@ -838,6 +838,23 @@ TEST(Gltf_draco, KeepsTheOrderOfAMeshInSeveralPoses)
   EXPECT_EQ(notes.begin()->first.find("primitives whose vertices Draco holds in order"), 0u);
 }
 
+// As older encoders write attributes of one value. What is not a step would be NaN, at which Draco crashes.
+TEST(Gltf_draco, IsWrittenWhereTheRangeOfAQuantisedAttributeIsZero)
+{
+  const auto box = [](float range) {
+    const float numbers[] = {0.6f, 0, 0.8f, range}; // all normals are (0.6, 0, 0.8)
+    return std::string(reinterpret_cast<const char*>(numbers), sizeof numbers);
+  };
+  Document_of_sheet document = draco_sheet(true, true);
+  const std::size_t place = document.bytes.find(box(1));
+  ASSERT_NE(place, std::string::npos);
+  document.bytes.replace(place, box(0).size(), box(0));
+  const Mesh_file file = read(document);
+  for (const auto& value : file.soup.normals.values)
+    EXPECT_EQ(value, (std::array<double, 3>{0.6f, 0, 0.8f}));
+  expect_written_by(file, {s_draco});
+}
+
 TEST(Gltf_draco, IsReadAsThePlainFile)
 {
   const Mesh_file plain = read(plain_sheet());
