@@ -9,7 +9,6 @@
 #include <selvedge/Error.h>
 #include <selvedge/poses.h>
 #include <selvedge/progressive.h>
-#include <selvedge/references.h>
 
 #include <algorithm>
 #include <iostream>
@@ -75,9 +74,7 @@ Exit_code run(const Level_request& request)
       std::max(request.faces.value_or(0), request.ratio ? faces_at_ratio(mesh, *request.ratio) : 0);
   const std::size_t steps = steps_to_faces(mesh, target);
   Triangle_soup soup = level(mesh, steps);
-  const std::filesystem::path input = request.input, output = request.output;
-  if (!is_standard_output(request.output))
-    relocate_references(soup, format, input.parent_path(), output.parent_path());
+  relocate(soup, format, request.input, request.output);
   if (!request.poses_output.empty())
     write_poses(request, soup);
   write_output(request.output, soup, format, request.is_ascii);

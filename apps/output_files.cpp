@@ -8,6 +8,7 @@
 #include <selvedge/Error.h>
 #include <selvedge/gltf_poses.h>
 #include <selvedge/poses.h>
+#include <selvedge/references.h>
 
 #include <cerrno>
 #include <string>
@@ -111,6 +112,14 @@ void require_distinct(const std::vector<Named_file>& written, const std::vector<
         throw Argument_error(file->option + " and " + other.option +
                              " name the same file; give them different names: " + file->path.string());
   }
+}
+
+std::vector<std::string> relocate(Triangle_soup& soup, Mesh_format format, const fs::path& from,
+                                  const fs::path& to)
+{
+  if (is_standard_output(to))
+    return {};
+  return relocate_references(soup, format, from.parent_path(), to.parent_path());
 }
 
 CLI::Option* add_polygons_option(CLI::App& command, bool& are_split)

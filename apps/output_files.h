@@ -42,6 +42,11 @@ void require_distinct(const std::vector<Named_file>& written, const std::vector<
 /// Returns whether the name of a file stands for this program's standard output.
 bool is_standard_output(const std::filesystem::path& name);
 
+/// Has a mesh that names other files as the file `from` does name them as the file `to` must, a file of the
+/// given format. Returns the names as `relocate_references` does; standard output is in no folder.
+std::vector<std::string> relocate(Triangle_soup& soup, Mesh_format format, const std::filesystem::path& from,
+                                  const std::filesystem::path& to);
+
 /// Adds `--polygons`; `are_split` says that triangles are wanted.
 CLI::Option* add_polygons_option(CLI::App& command, bool& are_split);
 

@@ -286,7 +286,7 @@ Exit_code run(const Replay_request& request)
                         error.what());
     }
   };
-  const Replay_verdict verdict = replay_once();
+  Replay_verdict verdict = replay_once();
   // A log of key poses has fewer than the mesh.
   const std::vector<Log_header::Posed>& stated = verdict.header.poses;
   const auto is_stated = [&](const Pose& pose) {
@@ -342,8 +342,10 @@ Exit_code run(const Replay_request& request)
   }
   if (!request.scene.empty() && !verdict.violations.empty())
     write_file(output_path(request.scene), verdict.violations.front().scene);
-  if (!request.output.empty() && !verdict.is_stopped)
+  if (!request.output.empty() && !verdict.is_stopped) {
+    relocate(verdict.soup, *format, request.original, request.output);
     write_output(request.output, verdict.soup, *format, request.is_ascii);
+  }
   if (!request.html.empty()) {
     const Log_numbering numbering(original.soup, original.format == Mesh_format::stl);
     if (verdict.header.is_rounded_to_float32)

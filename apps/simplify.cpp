@@ -26,7 +26,6 @@
 #include <selvedge/mesh_files.h>
 #include <selvedge/poses.h>
 #include <selvedge/progressive.h>
-#include <selvedge/references.h>
 #include <selvedge/rounding.h>
 
 #include <algorithm>
@@ -165,13 +164,7 @@ private:
       m_log_header.obstacle = {obstacle.points.size(), obstacle.triangles.size(), obstacle_input.sha256()};
     }
 
-    m_folder_of_references = std::filesystem::path(m_request.input).parent_path();
-    if (!is_standard_output(m_request.output)) {
-      const auto folder = std::filesystem::path(m_request.output).parent_path();
-      m_references = relocate_references(file.soup, output_format(), m_folder_of_references, folder);
-      if (output_format() == Mesh_format::glb || output_format() == Mesh_format::gltf)
-        m_folder_of_references = folder;
-    }
+    m_references = relocate(file.soup, output_format(), m_request.input, m_request.output);
 
     m_bar.begin("judging the input");
     Prepare_options options;
@@ -313,15 +306,23 @@ private:
     m_seconds["verify"] = seconds_since(start);
   }
 
-  // Writes the prepared input with the steps. Names of images are relative to the folder of the output so
-  // far.
+  // Has a mesh refer to the same files from another output. So far it names those to which the first output
+  // refers as that one does, and all others as the input.
+  void relocate_to(const std::filesystem::path& path, Mesh_format format, Triangle_soup& soup) const
+  {
+    const bool is_of_same_kind = format == output_format() || (is_gltf(format) && is_gltf(output_format()));
+    const bool is_as_in_output = is_of_same_kind && !is_standard_output(m_request.output);
+    relocate(soup, format, is_as_in_output ? m_request.output : m_request.input, path);
+  }
+
+  // Writes the prepared input with the steps.
   void write_progression(const Prepared_soup& prepared, const std::vector<Level>& levels)
   {
     if (m_request.progressive.empty())
       return;
     const std::filesystem::path path = m_request.progressive;
     Triangle_soup soup = prepared.soup;
-    relocate_references(soup, Mesh_format::glb, m_folder_of_references, path.parent_path());
+    relocate_to(path, Mesh_format::glb, soup);
     Progressive_notes notes;
     notes.fixed_faces = levels.front().result.report.faces_fixed;
     notes.guarded_poses = m_guarded_poses;
@@ -394,7 +395,9 @@ private:
     }
     for (std::size_t i = 0; i < soup.poses.size() && !m_request.poses_output.empty(); ++i) {
       const std::string name = pose_output(m_request, level, soup.poses[i].name);
-      write_output(name, in_pose(soup, i), mesh_format(name), m_request.is_ascii);
+      Triangle_soup posed = in_pose(soup, i);
+      relocate_to(name, mesh_format(name), posed);
+      write_output(name, posed, mesh_format(name), m_request.is_ascii);
       m_files_written.push_back(name);
     }
   }
@@ -526,7 +529,6 @@ private:
   std::vector<std::size_t> m_guarded_poses;
   std::vector<Soup_collapse> m_collapses; // if a page shows them
   Progression m_progression;              // if it is written
-  std::filesystem::path m_folder_of_references;
   std::map<std::string, double> m_seconds;
   std::size_t m_polygons = 0; // of the input, faces of more than three corners that may be written
   bool m_is_stop_told = false;

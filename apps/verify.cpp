@@ -62,7 +62,7 @@ void print(const char* what, const Line_comparison& lines)
   std::cout << '\n';
 }
 
-void print(const Distances& distances, const Comparison& comparison)
+void print(const Distances& distances, const Comparison& comparison, std::size_t pairs_of_original)
 {
   std::cout << "lengths, as shares of the bounding box's diagonal of " << with_digits(distances.diagonal)
             << ":\n";
@@ -118,6 +118,10 @@ void print(const Distances& distances, const Comparison& comparison)
               << counted(layers.lines_compared, "line") << "; the first: triangles "
               << first.of_original[0] + 1 << " and " << first.of_original[1] + 1 << " of the original became "
               << first.of_result[0] + 1 << " and " << first.of_result[1] + 1 << ", in the other order\n";
+    if (pairs_of_original > 0)
+      std::cout << "  the original has " << counted(pairs_of_original, "offending pair")
+                << ": layers that intersect there have no order, and may come to lie on either side "
+                   "(--defects descend)\n";
   }
 }
 
@@ -233,7 +237,7 @@ void print(const Verify_request& request, const Mesh_file& mesh, const Verificat
       std::cout << "  pieces with " << counted(difference.boundary_loops, "boundary loop")
                 << " and Euler characteristic " << difference.euler_characteristic << ": "
                 << difference.pieces_of_original << " before, " << difference.pieces_of_result << " now\n";
-    print(*verification.distances, *comparison);
+    print(*verification.distances, *comparison, verification.pairs_of_original);
     std::cout << "what this cannot see:\n";
     for (const std::string& line : blind_spots(verification, *comparison))
       std::cout << "  - " << line << '\n';

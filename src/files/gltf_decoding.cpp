@@ -213,13 +213,15 @@ public:
     const std::uint64_t faces = faces_of_draco(m_document, bytes, place);
     std::size_t size = 0;
     const tinygltf::Accessor& indices = accessor(primitive.indices, place, size);
+    require_rows(faces, place);
+    size = std::max(size, 3 * faces * s_most_bytes_of_a_row);
     for (const auto& [name, attribute] : primitive.attributes)
       accessor(attribute, place, size);
     constexpr std::size_t most_times = 1024;
     if (is_too_large(size, bytes.size(), most_times))
       m_document.fail(place + " is said to hold more than " + std::to_string(most_times) +
                       " times its size; export the file without compression");
-    if (indices.count != 3 * faces || primitive.mode != TINYGLTF_MODE_TRIANGLES)
+    if (primitive.mode != TINYGLTF_MODE_TRIANGLES)
       m_document.fail(place + " has other faces than its compressed data; export the file again");
     draco::DecoderBuffer buffer;
     buffer.Init(bytes.data(), bytes.size());
@@ -229,7 +231,7 @@ public:
       m_document.fail(place + " cannot be decoded by Draco; export the file again");
     const draco::Mesh& mesh = *result.value();
     const std::unique_ptr<draco::Mesh> quantised = quantised_mesh(bytes);
-    put(primitive.indices, number, indices_of(mesh, indices.componentType), place);
+    put(primitive.indices, number, {3 * faces, indices_of(mesh, indices.componentType)}, place);
     const Json& attributes = member(extension, "attributes");
     for (const auto& [name, target] : primitive.attributes) {
       if (!attributes.is_object() || !attributes.contains(name))
@@ -237,9 +239,9 @@ public:
       const auto id = std::uint32_t(number_in(m_document, attributes, name.c_str()));
       const draco::PointAttribute* const attribute = mesh.GetAttributeByUniqueId(id);
       const tinygltf::Accessor& of_target = m_document.model.accessors[std::size_t(target)];
-      std::vector<unsigned char> rows;
-      if (!attribute || mesh.num_points() != of_target.count ||
-          !append_attribute(*attribute, of_target.count, of_target, rows))
+      Rows rows{mesh.num_points(), {}};
+      if (!attribute || rows.count > std::max<std::size_t>(3 * faces, of_target.count) ||
+          !append_attribute(*attribute, rows.count, of_target, rows.bytes))
         m_document.fail(place + ": " + name + " does not fit its compressed data; export the file again");
       put(target, number, std::move(rows), place);
       m_document.compressions[target] = compression(*quantised->GetAttributeByUniqueId(id));
@@ -247,6 +249,14 @@ public:
   }
 
 private:
+  static constexpr std::size_t s_most_bytes_of_a_row = 16;
+
+  struct Rows
+  {
+    std::size_t count;
+    std::vector<unsigned char> bytes;
+  };
+
   // Decodes again, and leaves attributes quantised as they are in the bytes.
   static std::unique_ptr<draco::Mesh> quantised_mesh(std::string_view bytes)
   {
@@ -282,11 +292,15 @@ private:
       m_document.fail(place + " names accessor " + std::to_string(number) +
                       ", which is not there; export the file again");
     const tinygltf::Accessor& result = m_document.model.accessors[std::size_t(number)];
-    constexpr std::size_t most_rows = SIZE_MAX >> 16, most_bytes_of_a_row = 16;
-    if (result.count > most_rows)
-      m_document.fail(place + " is said to hold too much; export the file again");
-    size += result.count * most_bytes_of_a_row;
+    require_rows(result.count, place);
+    size += result.count * s_most_bytes_of_a_row;
     return result;
+  }
+
+  void require_rows(std::uint64_t count, const std::string& place) const
+  {
+    if (count > SIZE_MAX >> 16)
+      m_document.fail(place + " is said to hold too much; export the file again");
   }
 
   std::vector<unsigned char> indices_of(const draco::Mesh& mesh, int component_type) const
@@ -310,8 +324,9 @@ private:
     return {rows.begin(), rows.end()};
   }
 
-  // Gives an accessor its bytes, once.
-  void put(int number, std::size_t source, std::vector<unsigned char> bytes, const std::string& place)
+  // Gives an accessor its rows, once. Their number is that of the compressed data: some exporters leave the
+  // one that the accessor had before, although Draco splits and joins vertices.
+  void put(int number, std::size_t source, Rows rows, const std::string& place)
   {
     const auto [known, is_new] = m_sources.emplace(number, source);
     if (!is_new) {
@@ -319,14 +334,16 @@ private:
         m_document.fail(place + " shares an accessor with other compressed data; export the file again");
       return;
     }
-    const Json view = {{"buffer", 0}, {"byteLength", bytes.size()}};
-    m_document.model.bufferViews.push_back(view_of(m_document, std::move(bytes)));
+    const Json view = {{"buffer", 0}, {"byteLength", rows.bytes.size()}};
+    m_document.model.bufferViews.push_back(view_of(m_document, std::move(rows.bytes)));
     m_document.json["bufferViews"].push_back(view);
     tinygltf::Accessor& accessor = m_document.model.accessors[std::size_t(number)];
     accessor.bufferView = int(m_document.model.bufferViews.size() - 1);
     accessor.byteOffset = 0;
+    accessor.count = rows.count;
     Json& json = m_document.json["accessors"][std::size_t(number)];
     json["bufferView"] = accessor.bufferView;
+    json["count"] = rows.count;
     json.erase("byteOffset");
   }
 

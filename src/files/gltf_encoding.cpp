@@ -80,7 +80,8 @@ bool is_exact_in_float(int bits)
   return bits <= 22;
 }
 
-/// Returns the numbers of a column in steps of its quantisation, from the placeholder on.
+/// Returns the numbers of a column in steps of its quantisation, from the placeholder on. What has no step,
+/// as in a box of size 0, gets the first one.
 std::vector<float> steps_of(const Column& column, const Gltf_scene::Compression::Quantisation& quantisation,
                             float origin)
 {
@@ -89,8 +90,9 @@ std::vector<float> steps_of(const Column& column, const Gltf_scene::Compression:
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const std::size_t place = i % column.components;
     const double from_corner = component(column, i / column.components, place) - quantisation.origin[place];
-    steps[i] =
-        origin + float(std::clamp(std::round(from_corner / quantisation.range * most), 0., double(most)));
+    const double step = std::round(from_corner / quantisation.range * most);
+    // NaN, at which Draco crashes, is not greater than 0.
+    steps[i] = origin + (step > 0 ? float((std::min)(step, double(most))) : 0);
   }
   return steps;
 }

@@ -342,7 +342,7 @@ private:
       // third. So the search continues from every border vertex that is reached.
       const Lists::Range here = m_original_at[position];
       std::set<Index> reached(here.begin(), here.end());
-      std::vector<Point_3> at{m_result.soup.points[vertex]}, next;
+      std::set<Point_3> at{m_result.soup.points[vertex]}, next; // each once, however many ways lead to it
       for (; !at.empty() && reached.size() <= most_at_a_position; at.swap(next)) {
         const std::set<Index> before = reached;
         next.clear();
@@ -351,7 +351,7 @@ private:
             if (before.count(piece) > 0)
               return;
             reached.insert(piece);
-            next.push_back(q);
+            next.insert(q);
           });
       }
       for (const Index piece : reached)

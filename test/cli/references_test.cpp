@@ -86,5 +86,61 @@ TEST(App_references, OfAGltfLeadToItsImages)
   EXPECT_EQ(Json::parse(contents_of(folder / "in/out.gltf"))["images"], document["images"]);
 }
 
+TEST(App_references, OfEveryOtherMeshThatIsWrittenLeadThereToo)
+{
+  const Workspace folder;
+  const fs::path in = folder / "in", out = folder / "out", deep = folder / "poses/deep";
+  make_file(in / "a.mtl");
+  fs::create_directories(out);
+  fs::create_directories(deep);
+  const std::string mesh = in / "in.obj", log = folder / "run.log";
+  write_text(mesh, "mtllib a.mtl\n" + contents_of(folder.generate("grid", "in/in.obj", 200)));
+  fs::copy_file(mesh, in / "pose_1.obj");
+  const auto leads = [&](const fs::path& written) {
+    const std::vector<std::string> libraries = libraries_of(written);
+    return libraries.size() == 1 && fs::equivalent(written.parent_path() / libraries[0], in / "a.mtl");
+  };
+  const auto simplify = [&](const std::string& output) {
+    const App_result result =
+        run_app({"simplify", mesh, "-o", output, "--ratio", "0.5", "--pose", in / "pose_1.obj", "--poses-out",
+                 deep / "{pose}.obj", "--log", log, "--quiet"});
+    EXPECT_EQ(result.code, 0) << result.err;
+  };
+  simplify(out / "out.obj");
+  EXPECT_TRUE(leads(out / "out.obj"));
+  EXPECT_TRUE(leads(deep / "pose_1.obj"));
+  simplify(out / "out.ply"); // names no libraries, so that poses name them as the input does
+  EXPECT_TRUE(leads(deep / "pose_1.obj"));
+  const App_result replayed =
+      run_app({"replay", mesh, log, "-o", deep / "again.obj", "--pose", in / "pose_1.obj"});
+  EXPECT_EQ(replayed.code, 0) << replayed.err;
+  EXPECT_TRUE(leads(deep / "again.obj"));
+}
+
+TEST(App_references, OfALevelAndOfAReplayLeadToTheImages)
+{
+  const Workspace folder;
+  const fs::path in = folder / "in", out = folder / "out", deep = folder / "levels/deep";
+  make_file(in / "a.png");
+  fs::create_directories(out);
+  fs::create_directories(deep);
+  const std::string mesh = folder.generate("grid", "in/in.gltf", 200);
+  Json document = Json::parse(contents_of(mesh));
+  document["images"] = {{{"uri", "a.png"}}};
+  write_text(mesh, document.dump());
+  const std::string log = folder / "run.log", progressive = out / "all.glb";
+  const App_result result = run_app({"simplify", mesh, "-o", folder / "out.obj", "--ratio", "0.5", "--log",
+                                     log, "--progressive", progressive, "--quiet"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  const App_result level = run_app({"level", progressive, "--ratio", "0.7", "-o", deep / "level.gltf"});
+  EXPECT_EQ(level.code, 0) << level.err;
+  const App_result replayed = run_app({"replay", mesh, log, "-o", deep / "again.gltf"});
+  EXPECT_EQ(replayed.code, 0) << replayed.err;
+  for (const char* name : {"level.gltf", "again.gltf"}) {
+    const std::string uri = Json::parse(contents_of(deep / name))["images"][0]["uri"];
+    EXPECT_TRUE(fs::equivalent(deep / uri, in / "a.png")) << name << ": " << uri;
+  }
+}
+
 } // namespace
 } // namespace selvedge::test

@@ -358,6 +358,21 @@ TEST(MatchPieces, OfBordersThatWereJoinedOverAThird)
   EXPECT_FALSE(match_pieces(result, original, options).is_complete());
 }
 
+// Every border vertex of a strip is in reach of all of the next one. The ways from the first strip to the
+// last are too many to take each.
+TEST(MatchPieces, OfBordersThatManyWaysLeadTo)
+{
+  const double gap = 0.01;
+  const Triangle_soup strip = stretched(sheet(3, 1), gap / 100);
+  Triangle_soup result = strip;
+  for (int k = 1; k < 20; ++k)
+    result = joined(result, moved(strip, 0, 0, k * gap));
+  Verify_options options;
+  options.weld_distance = 1.2 * gap;
+  const Triangle_soup original = joined(result, moved(strip, 0, 0, 20 * gap));
+  EXPECT_EQ(mismatches(match_pieces(result, original, options)), Mismatches{Mismatch::missing});
+}
+
 // Pieces that were joined elsewhere than at their borders are not.
 TEST(MatchPieces, OfLayersThatWereJoinedInside)
 {
