@@ -133,7 +133,9 @@ private:
       for (Index i = node.first; i < node.beyond; ++i) {
         const Index other = m_order[i];
         if (m_surface_of[other] != surface &&
-            squared_distance(m_boxes[triangle], m_boxes[other]) < m_squared[surface])
+            squared_distance(m_boxes[triangle], m_boxes[other]) < m_squared[surface] &&
+            !is_beyond_plane(triangle, other, m_squared[surface]) &&
+            !is_beyond_plane(other, triangle, m_squared[surface]))
           lower(surface, m_surface_of[other],
                 (std::max)(squared_distance_of(triangle, other), std::numeric_limits<double>::min()));
       }
@@ -154,6 +156,28 @@ private:
         m_squared[surface] = squared;
         m_nearest[surface] = other;
       }
+  }
+
+  // Whether a triangle lies on one side of the plane of another, and nowhere nearer to it than the root of
+  // `squared`, by more than rounding. Where layers are parallel, this spares most of the distances.
+  bool is_beyond_plane(Index of_plane, Index triangle, double squared) const
+  {
+    const auto& [a, b, c] = m_triangles[of_plane];
+    const Kernel::Vector_3 normal = CGAL::cross_product(m_points[b] - m_points[a], m_points[c] - m_points[a]);
+    const double squared_length = normal.squared_length();
+    if (!(squared_length > 0))
+      return false;
+    int sides = 0;
+    for (const Index v : m_triangles[triangle]) {
+      const Kernel::Vector_3 off = m_points[v] - m_points[a];
+      const double height = normal * off;
+      constexpr double rounding = 1e-12;
+      const double least = std::abs(height) - rounding * std::sqrt(squared_length * off.squared_length());
+      if (!(least > 0 && least * least >= squared * squared_length))
+        return false;
+      sides += height > 0 ? 1 : -1;
+    }
+    return std::abs(sides) == 3;
   }
 
   // Of two triangles that do not meet, the least distance is that of two edges, or of a corner and a face.

@@ -1001,3 +1001,10 @@ group(
     ("return float((std::max)(-largest, (std::min)(largest, number)));", "return float(number);",
      "numbers too large for a float are infinite"),
 )
+
+group(
+    "src/inspect/surface_distances.cpp",
+    ("inspect_test",),
+    ("least * least >= squared * squared_length", "true", "what is on one side of a plane is far from it"),
+    ("return std::abs(sides) == 3;", "return true;", "corners on both sides of a plane are far from it"),
+)

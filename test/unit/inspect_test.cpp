@@ -18,6 +18,7 @@
 #include <limits>
 #include <random>
 #include <utility>
+#include <vector>
 
 namespace selvedge::test {
 namespace {
@@ -130,6 +131,49 @@ TEST(Inspect, FindsTheNearestOfManySurfaces)
             return std::sqrt(squares);
           }());
       EXPECT_NEAR(result.surfaces[i].distance, least, 1e-12);
+    }
+  }
+}
+
+TEST(Inspect, LeavesOutNoNearerTriangleOfAnySlope)
+{
+  // Triangles of all slopes and thicknesses, many in near-parallel layers, compared with pairs of them, of
+  // which nothing is left out.
+  std::mt19937 random(3);
+  const auto number = [&] { return double(random()) / 4294967296.0 - 0.5; };
+  const auto distances = [](const std::vector<Point_3>& points, Index count) {
+    std::vector<Index_triple> triangles;
+    std::vector<Index> surfaces;
+    for (Index t = 0; t < count; ++t) {
+      triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+      surfaces.push_back(t);
+    }
+    return internal::surface_distances(points, triangles, surfaces, count, {});
+  };
+  for (int round = 0; round < 50; ++round) {
+    constexpr Index count = 24;
+    const double thickness = std::pow(10., -double(round % 8)), gap = std::pow(10., -double(round % 5));
+    const Kernel::Vector_3 u(number(), number(), number()), v(number(), number(), number());
+    const Kernel::Vector_3 up = CGAL::cross_product(u, v);
+    std::vector<Point_3> points;
+    for (Index t = 0; t < count; ++t) {
+      const double height = gap * (round % 2 == 0 ? double(t) : number());
+      const double slope = t % 3 == 0 ? 0.1 * gap : 0;
+      const double from_u = number(), from_v = number();
+      for (int corner = 0; corner < 3; ++corner)
+        points.push_back(Point_3(0, 0, 0) + (from_u + number()) * u + (from_v + thickness * number()) * v +
+                         (height + slope * number()) * up);
+    }
+    const auto all = distances(points, count);
+    for (Index a = 0; a < count; ++a) {
+      double least = std::numeric_limits<double>::infinity();
+      for (Index b = 0; b < count; ++b)
+        if (b != a) {
+          std::vector<Point_3> pair(points.begin() + 3 * a, points.begin() + 3 * a + 3);
+          pair.insert(pair.end(), points.begin() + 3 * b, points.begin() + 3 * b + 3);
+          least = std::min(least, distances(pair, 2)[0].distance);
+        }
+      EXPECT_NEAR(all[a].distance, least, 1e-12 * least + 1e-15) << round;
     }
   }
 }
