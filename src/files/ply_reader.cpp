@@ -8,8 +8,12 @@
 #include "files/formats.h"
 #include "files/ply_types.h"
 
+#include <boost/container_hash/hash.hpp>
+
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <cstring>
 #include <optional>
 #include <unordered_map>
 
@@ -589,7 +593,7 @@ private:
           read_property(values, property, targets[p]);
       }
       end_row(values);
-      number_uvs(values, uvs, corners.size(), i, uv_corners);
+      number_uvs(values, uvs, corners, i, uv_corners);
       repeat_last_rows(values, m_builder.add_face(corners, uv_corners));
     }
   }
@@ -623,28 +627,47 @@ private:
       number = values.real(list.type);
   }
 
+  static constexpr Index s_none = Index(-1);
+
+  using Uv_bits = std::array<std::uint64_t, 2>;
+  struct Hash_of_bits
+  {
+    std::size_t operator()(const Uv_bits& bits) const { return boost::hash_range(bits.begin(), bits.end()); }
+  };
+  static Uv_bits bits_of(const std::array<double, 2>& uv)
+  {
+    Uv_bits bits;
+    std::memcpy(bits.data(), uv.data(), sizeof bits);
+    return bits;
+  }
+
   /// Numbers the texture coordinates of a face's corners; equal ones get the number of the first of them.
   template <class Values>
-  void number_uvs(const Values& values, const std::vector<double>& uvs, std::size_t corners,
+  void number_uvs(const Values& values, const std::vector<double>& uvs, const std::vector<Index>& corners,
                   std::uint64_t face, std::vector<Index>& numbers)
   {
     numbers.clear();
-    if (uvs.size() != 2 * corners) {
+    if (uvs.size() != 2 * corners.size()) {
       if (!uvs.empty())
         m_builder.ignore("texture coordinates of faces, not two to a corner");
       return;
     }
     auto& known = m_builder.soup().uvs.values;
-    for (std::size_t i = 0; i < corners; ++i) {
+    m_last_uv_at.resize(m_builder.soup().points.size(), s_none);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
       const std::array<double, 2> uv = {uvs[2 * i], uvs[2 * i + 1]};
       check_uv(values, uv, "face " + std::to_string(face));
       if (known.size() + 1 >= std::numeric_limits<Index>::max())
         values.fail("the mesh has more than 4294967293 texture coordinates; split it");
-      const std::string_view bytes(reinterpret_cast<const char*>(uv.data()), sizeof uv);
-      const auto [place, is_new] = m_uv_numbers.emplace(bytes, static_cast<Index>(known.size()));
-      if (is_new)
-        known.push_back(uv);
-      numbers.push_back(place->second);
+      // Most corners have the same as another one at their vertex.
+      Index& number = m_last_uv_at[corners[i]];
+      if (number == s_none || bits_of(known[number]) != bits_of(uv)) {
+        const auto [place, is_new] = m_uv_numbers.emplace(bits_of(uv), static_cast<Index>(known.size()));
+        if (is_new)
+          known.push_back(uv);
+        number = place->second;
+      }
+      numbers.push_back(number);
     }
   }
 
@@ -681,8 +704,9 @@ private:
   bool m_has_normals = false, m_has_uvs = false; // at vertices
   std::vector<std::array<double, 3>> m_normals;
   std::vector<std::array<double, 2>> m_uvs;
-  std::unordered_map<std::string, Index> m_uv_numbers; // by their bytes
-  std::size_t m_repeated_bytes = 0;                    // of attributes of triangles
+  std::unordered_map<Uv_bits, Index, Hash_of_bits> m_uv_numbers;
+  std::vector<Index> m_last_uv_at;  // by vertex: the number of the last one read
+  std::size_t m_repeated_bytes = 0; // of attributes of triangles
 };
 
 } // namespace
