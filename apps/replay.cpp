@@ -383,7 +383,13 @@ Action add_replay(CLI::App& command)
           "it names none.")
       ->type_name("FILE");
   add_obstacle_pose_options(command, request->obstacle_poses, "ORIGINAL", poses);
-  command.add_option("-o,--output", request->output, "File for the mesh to which the steps lead.")
+  command
+      .add_option(
+          "-o,--output", request->output,
+          "File for the mesh to which the steps lead, as `simplify` writes it. What a log does not hold is "
+          "not done: pieces stay separate (--sewn), normals are not made anew (--normals), and "
+          "attributes are not interpolated (--placement optimal). With these, positions and faces are "
+          "the same, but not the files.")
       ->type_name("FILE");
   CLI::Option* const limits =
       command

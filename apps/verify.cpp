@@ -261,6 +261,15 @@ void leave_out_permitted(std::vector<Layer_swap>& swaps, const Triangle_soup& re
   }
 }
 
+/// Says of a file without names, such as OFF and STL, what to do instead of "there is no such part".
+void require_names(const Verify_request& request, const Triangle_soup& mesh)
+{
+  if (!request.may_intersect.empty() && part_kinds(mesh).size() == 1 && mesh.triangle_attributes.empty())
+    throw Argument_error("--may-intersect: " + input_name(request.mesh) +
+                         " holds no names of parts, so that none can be told from the others; write the "
+                         "result as OBJ or glTF, which hold them, and judge that");
+}
+
 Exit_code run(const Verify_request& request)
 {
   const bool has_original = !request.original.empty();
@@ -279,6 +288,7 @@ Exit_code run(const Verify_request& request)
   std::optional<Comparison> comparison;
   Mesh_file original;
   Verify_options options;
+  require_names(request, mesh.soup);
   options.may_intersect = part_pairs(request.may_intersect, mesh.soup);
   options.clearance = request.clearance;
   if (has_original) {
@@ -351,9 +361,10 @@ Action add_verify(CLI::App& command)
           "are what common positions connect.")
       ->check(positive())
       ->type_name("D");
-  add_part_pairs_option(command, request->may_intersect,
-                        "Accept that these parts intersect each other, as `simplify` was told. May be given "
-                        "several times.");
+  add_part_pairs_option(
+      command, request->may_intersect,
+      "Accept that these parts of MESH intersect each other, as `simplify` was told. May be "
+      "given several times.");
   add_format_option(command, request->format);
   add_report_options(command, *request);
   add_html_option(command, request->html);

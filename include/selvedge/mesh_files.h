@@ -151,7 +151,8 @@ struct Read_options
   std::size_t level_of_detail = 0;
 };
 
-/// Reads a mesh. The path's extension says the format.
+/// Reads a mesh. The path's extension says the format. Lines of text end with a line feed, with a carriage
+/// return before it, or, all of them, with a carriage return alone.
 ///
 /// - OBJ: `v` with a weight (attribute `w`) or a colour (`red`, `green`, `blue`, `alpha`), `vt` of one or two
 ///   numbers (the second is 0 when there is none; a third that is not 0 is noted), `vn`, `f` with absolute

@@ -151,7 +151,8 @@ std::vector<Topology_difference> topology_differences(const std::vector<Piece>& 
 enum class Matched_by {
   vertices,  ///< at least half of its vertices lie at vertices of that piece, and the kind is the same
   positions, ///< several pieces at once: joined where their positions coincide, they are of the same kinds
-  borders,   ///< likewise, with borders within the weld distance joined; kinds are not compared
+  borders,   ///< likewise, with borders within the weld distance joined; kinds are not compared. Or it alone,
+             ///< with all of its vertices within that distance of a piece of the same kind
   distance,  ///< of all pieces of the same kind, it lies nearest
   triangles  ///< its triangles are those of that piece, as the caller says, and the kind is the same
 };
@@ -288,7 +289,9 @@ struct Verify_options
 ///    from it nor turned (`Mismatch`), if shapes are judged.
 ///    Where `Verify_options::triangles_of_original` is given: then, by triangles, each piece whose triangles
 ///    were all of one piece of the original, of the same kind, which no other piece comes from and no step
-///    has matched.
+///    has matched. Where `Verify_options::weld_distance` is: then, by borders, pieces of one kind, all of
+///    whose vertices are within that length of the piece of the original, by the fewest different names,
+///    where all that are left there go up one to one.
 /// 2. By positions: the pieces that are left over, and all pieces that have faces in common with them by
 ///    positions, are joined where positions coincide. Files that number vertices in another way (STL, texture
 ///    seams in glTF) are matched here.

@@ -29,6 +29,17 @@ inline std::string in_quotes(std::string_view text)
   return "'" + result + (text.size() > longest ? "...'" : "'");
 }
 
+/// Returns a text with line feeds for its line ends, kept in `copy`, when these are carriage returns alone,
+/// as old programs of the Macintosh write them; else the text itself.
+inline std::string_view with_line_feeds(std::string_view text, std::string& copy)
+{
+  if (text.find('\n') != text.npos || text.find('\r') == text.npos)
+    return text;
+  copy = text;
+  std::replace(copy.begin(), copy.end(), '\r', '\n');
+  return copy;
+}
+
 /// Reads a text in memory word by word and line by line, for the readers of text formats. Copies are cheap
 /// bookmarks.
 class Text_reader

@@ -391,6 +391,17 @@ void prepare_for_decoding(const Json& document, Json& reduced)
       }
 }
 
+#if defined SELVEDGE_HAS_MESHOPTIMIZER || defined SELVEDGE_HAS_DRACO
+// Whether readers may do without an extension: the file then has the same data uncompressed, too.
+bool is_optional(const Gltf_document& document, const char* extension)
+{
+  const Json& required = member(document.json, "extensionsRequired");
+  return std::find(required.begin(), required.end(), extension) == required.end();
+}
+
+constexpr const char* requires_it = ", and requires it: the uncompressed data beside it is not carried";
+#endif
+
 void decode_views(Gltf_document& document)
 {
 #ifdef SELVEDGE_HAS_MESHOPTIMIZER
@@ -417,8 +428,9 @@ void decode_views(Gltf_document& document)
     return;
   for (Json& buffer : document.json["buffers"])
     remove_extension_of(buffer, meshopt_extension);
+  const std::string end = is_optional(document, meshopt_extension) ? requires_it : "";
   remove_extension(document.json, meshopt_extension);
-  document.remarks["buffer views decoded from EXT_meshopt_compression; glTF output has it, too"] +=
+  document.remarks["buffer views decoded from EXT_meshopt_compression; glTF output has it, too" + end] +=
       document.meshopt_views.size();
   document.compact["buffer views in EXT_meshopt_compression, which takes more bytes for a vertex the less "
                    "regular a mesh is"] = document.meshopt_views.size();
@@ -445,10 +457,11 @@ void decode_primitives(Gltf_document& document)
     }
   if (decoded == 0)
     return;
+  const std::string end = is_optional(document, draco_extension) ? requires_it : "";
   remove_extension(document.json, draco_extension);
   document.remarks
-      ["primitives decoded from KHR_draco_mesh_compression; glTF output has it where it loses nothing"] +=
-      decoded;
+      ["primitives decoded from KHR_draco_mesh_compression; glTF output has it where it loses nothing" +
+       end] += decoded;
   document.compact["primitives in Draco, which takes more bytes for a vertex the less regular a mesh is"] =
       decoded;
 #else

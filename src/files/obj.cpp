@@ -358,7 +358,8 @@ private:
 
 Mesh_file read_obj(std::string_view contents, const std::string& name)
 {
-  return Obj_reader(contents, name).read();
+  std::string copy;
+  return Obj_reader(with_line_feeds(contents, copy), name).read();
 }
 
 bool is_in_obj(const Triangle_soup& soup, const Attribute& attribute)

@@ -35,7 +35,8 @@ std::size_t read_count(Text_reader& text, const std::string& kind, std::size_t l
 Mesh_file read_off(std::string_view contents, const std::string& name)
 {
   Soup_builder builder(Mesh_format::off);
-  Text_reader text(contents, name);
+  std::string copy;
+  Text_reader text(with_line_feeds(contents, copy), name);
   const auto fail = [&text](const std::string& message) { text.fail(message); };
   const auto to_line_of = [&](const std::string& kind, std::size_t number, std::size_t count) {
     text.skip_line();

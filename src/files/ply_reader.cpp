@@ -709,11 +709,28 @@ private:
   std::size_t m_repeated_bytes = 0; // of attributes of triangles
 };
 
+/// Does for PLY what `with_line_feeds` does for a text. The body stays as it is when it is binary.
+std::string_view with_line_feeds_in_header(std::string_view contents, std::string& copy)
+{
+  constexpr std::string_view begin = "ply\r", end = "\rend_header\r";
+  const std::size_t place = contents.substr(0, begin.size()) == begin ? contents.find(end) : contents.npos;
+  if (place == contents.npos)
+    return contents;
+  const std::string_view header = contents.substr(0, place + end.size());
+  if (header.find('\n') != header.npos)
+    return contents;
+  const bool is_text = header.find("\rformat ascii") != header.npos;
+  copy = contents;
+  std::replace(copy.begin(), is_text ? copy.end() : copy.begin() + std::ptrdiff_t(header.size()), '\r', '\n');
+  return copy;
+}
+
 } // namespace
 
 Mesh_file read_ply(std::string_view contents, const std::string& name)
 {
-  return Ply_reader(contents, name).read();
+  std::string copy;
+  return Ply_reader(with_line_feeds_in_header(contents, copy), name).read();
 }
 
 } // namespace selvedge::files

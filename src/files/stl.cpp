@@ -83,10 +83,13 @@ public:
     Text_reader text(m_contents, m_name);
     text.skip_space();
     const bool says_solid = text.rest().substr(0, 5) == "solid";
-    if (m_contents.size() == bytes || !says_solid)
+    if (m_contents.size() == bytes || !says_solid) {
       read_binary(facets, bytes);
-    else
+    } else {
+      std::string copy;
+      text = Text_reader(with_line_feeds(m_contents, copy), m_name);
       read_ascii(text);
+    }
     return m_builder.take(m_name);
   }
 

@@ -129,6 +129,7 @@ public:
     match_by_vertices();
     Cancellation_scope::check();
     match_by_triangles();
+    match_within_reach();
     match_joined(false);
     Cancellation_scope::check();
     match_by_distance();
@@ -278,6 +279,59 @@ private:
         match({o}, {r}, Matched_by::triangles);
   }
 
+  // A piece whose vertices were all snapped onto those of a piece that lies on it, or beside it, has none of
+  // its own left to be known by. Such pieces are matched here if they go up one to one: otherwise pieces may
+  // have been joined.
+  void match_within_reach()
+  {
+    if (m_options.weld_distance <= 0 || is_complete() || is_one_empty())
+      return;
+    const Lists& reach = reached();
+    const std::size_t results = m_result.pieces().size(), originals = m_original.pieces().size();
+    Disjoint_sets sets(results + originals);
+    std::vector<std::vector<Index>> in_reach(results); // of every vertex of the piece
+    std::vector<bool> is_begun(results);
+    std::vector<Index> left, both;
+    Cancellation_poll poll;
+    for (Index t = 0; t < m_result.soup.triangles.size(); ++t) {
+      poll();
+      const Index r = m_result.piece(t);
+      if (r == no_piece || !is_left_of_result(r))
+        continue;
+      for (int place = 0; place < 3; ++place) {
+        const Lists::Range here = reach[m_result.position(t, place)];
+        left.clear();
+        if (here.size() <= most_at_a_position)
+          std::copy_if(here.begin(), here.end(), std::back_inserter(left),
+                       [&](Index o) { return is_left_of_original(o); });
+        for (const Index o : left)
+          sets.unite(r, results + o);
+        both.clear();
+        std::set_intersection(in_reach[r].begin(), in_reach[r].end(), left.begin(), left.end(),
+                              std::back_inserter(both));
+        in_reach[r] = is_begun[r] ? both : left;
+        is_begun[r] = true;
+      }
+    }
+    const Piece_names names(m_result, m_original);
+    std::vector<Possible_match> possible;
+    for (Index r = 0; r < results; ++r)
+      for (const Index o : in_reach[r])
+        if (kind(m_result.pieces()[r]) == kind(m_original.pieces()[o]))
+          possible.push_back({0, names.differing(r, o), r, o});
+    const std::vector<Pair> pairs = one_to_one(std::move(possible), results, originals);
+    std::vector<std::size_t> unmatched(results + originals); // of each set
+    for (const Index r : left_of_result())
+      ++unmatched[sets.find(r)];
+    for (const Index o : left_of_original())
+      ++unmatched[sets.find(results + o)];
+    for (const auto& [r, o] : pairs)
+      unmatched[sets.find(r)] -= 2;
+    for (const auto& [r, o] : pairs)
+      if (unmatched[sets.find(r)] == 0)
+        match({o}, {r}, Matched_by::borders);
+  }
+
   // ---- 2 and 4: joined where positions coincide
 
   // Lists the pieces of the original at every position. A position that both meshes have also gets the pieces
@@ -292,6 +346,13 @@ private:
     if (m_options.weld_distance > 0)
       add_near_borders(pairs);
     return Lists(m_position_count, std::move(pairs));
+  }
+
+  const Lists& reached()
+  {
+    if (!m_reach)
+      m_reach = within_reach();
+    return *m_reach;
   }
 
   void add_near_borders(std::vector<Pair>& pairs) const
@@ -396,7 +457,7 @@ private:
   {
     if (is_complete() || is_one_empty())
       return;
-    const Lists reach = within_reach();
+    const Lists& reach = reached();
     const std::size_t results = m_result.pieces().size(), originals = m_original.pieces().size();
     Disjoint_sets sets(results + originals);
     const auto unite = [&](Index r, Index o) { sets.unite(r, results + o); };
@@ -658,6 +719,7 @@ private:
   Piece_mesh m_result, m_original;
   int m_exponent;
   Lists m_original_at; ///< the pieces of the original at each position
+  std::optional<Lists> m_reach;
   std::vector<Index> m_match_of_result, m_match_of_original;
   std::vector<Possible_match> m_near; ///< pairs by vertices, whatever their kinds
   std::vector<Joined> m_groups;       ///< groups by positions that did not match

@@ -62,6 +62,26 @@ TEST(App_replay, AcceptsItsOwnLogAndMakesTheSameFile)
   EXPECT_EQ(contents_of(again), contents_of(run.reduced));
 }
 
+// Exceptions that the help names. Positions and faces are the same even so.
+TEST(App_replay, MakesTheSameFacesWhereTheLogDoesNotHoldAll)
+{
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{"--sewn"}, {"--placement", "optimal"}}) {
+    std::vector<std::string> all = options;
+    all.insert(all.end(), {"--ratio", "0.6"});
+    const Logged_run run(all);
+    EXPECT_EQ(run.code, 0);
+    const std::string again = run.folder / "again.obj";
+    EXPECT_EQ(run_app({"replay", run.original, run.log, "-o", again}).code, 0);
+    EXPECT_TRUE(contents_of(again) != contents_of(run.reduced)) << options.front();
+    const Triangle_soup now = read_mesh(again).soup, before = read_mesh(run.reduced).soup;
+    ASSERT_EQ(now.triangles.size(), before.triangles.size());
+    for (std::size_t t = 0; t < now.triangles.size(); ++t)
+      for (int place = 0; place < 3; ++place)
+        ASSERT_EQ(now.points[now.triangles[t][place]], before.points[before.triangles[t][place]]);
+  }
+}
+
 // What it takes to have nothing judged but geometry shows in the verdict.
 TEST(App_replay, NamesWhatALogWithoutTermsLeavesOpen)
 {

@@ -48,6 +48,18 @@ TEST(App_verify, AgainstTheOriginalOnlyNewPairsCount)
   EXPECT_EQ(run_app({"verify", folder / "apart.obj", "--against", folder / "crossing.obj"}).code, 0);
 }
 
+TEST(App_verify, PartsThatMayIntersectNeedNames)
+{
+  const Workspace folder;
+  const std::string named = std::string(crossing).insert(std::string(crossing).find("f 4"), "g b\n");
+  write_text(folder / "in.obj", std::string(named).insert(named.find("f 1"), "g a\n"));
+  write_text(folder / "out.off", "OFF\n6 2 0\n0 0 0\n4 0 0\n0 4 0\n1 1 -1\n1 1 1\n9 9 0\n3 0 1 2\n3 3 4 5\n");
+  EXPECT_EQ(run_app({"verify", folder / "in.obj", "--may-intersect", "a:b"}).code, 0);
+  expect_refused({"verify", folder / "out.off", "--against", folder / "in.obj", "--may-intersect", "a:b"}, 2,
+                 "out.off holds no names of parts");
+  expect_refused({"verify", folder / "in.obj", "--may-intersect", "a:c"}, 2, "'c'");
+}
+
 TEST(App_verify, PiecesNearerThanAClearanceAreNotVerified)
 {
   const Workspace folder;

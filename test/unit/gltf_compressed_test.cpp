@@ -623,6 +623,11 @@ TEST(Gltf_meshopt, IsReadAsThePlainFileAndWrittenAsItCame)
     EXPECT_EQ(read(without_fallback).soup.points, plain.soup.points);
     EXPECT_LE(expect_written_by(file, {"EXT_meshopt_compression"}).size(),
               plain_sheet().glb().size() * 3 / 4);
+    EXPECT_FALSE(has_remark(file, "requires it"));
+    Document_of_sheet optional = meshopt_sheet(mode, false);
+    optional.json.erase("extensionsRequired");
+    EXPECT_TRUE(has_remark(read(optional), "requires it"));
+    expect_written_by(read(optional), {"EXT_meshopt_compression"});
   }
   const Mesh_file filtered = read(meshopt_sheet("INDICES", true));
   EXPECT_EQ(filtered.soup.points, plain.soup.points);

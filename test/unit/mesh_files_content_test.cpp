@@ -333,6 +333,61 @@ TEST(Off, LinesOfFacesMayBeBroken)
   EXPECT_EQ(file.soup.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
 }
 
+TEST(Line_ends, MayBeCarriageReturnsAlone)
+{
+  const auto write = [](auto... numbers) {
+    std::string bytes;
+    const auto append = [&](auto number) {
+      bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+    };
+    (append(numbers), ...);
+    return bytes;
+  };
+  const std::string header = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                             "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  // The first coordinate has bytes that are line ends in text.
+  const std::uint32_t bits = 0x3f0a0d0a;
+  float odd;
+  std::memcpy(&odd, &bits, sizeof odd);
+  const std::string body = write(odd, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, std::uint8_t(3), 0, 1, 2);
+  const std::string rows = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  struct File
+  {
+    Mesh_format format;
+    std::string text, body;
+  };
+  const std::vector<File> files = {
+      {Mesh_format::obj, "# comment\nv 0 0 0\nv 1 0 0\nv 0 1 0\ng left \\\n sleeve\nf 1 2 3\n", ""},
+      {Mesh_format::off, "OFF\n# comment\n3 1 0\n" + rows, ""},
+      {Mesh_format::ply, "ply\nformat ascii 1.0\n" + header + rows, ""},
+      {Mesh_format::ply, "ply\nformat binary_little_endian 1.0\n" + header, body},
+      {Mesh_format::stl,
+       "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+       "0\nendloop\nendfacet\n"
+       "endsolid a\n",
+       ""}};
+  for (const File& file : files) {
+    std::string old = file.text;
+    std::replace(old.begin(), old.end(), '\n', '\r');
+    const Triangle_soup expected = read_mesh(file.text + file.body, file.format, "text").soup;
+    const Triangle_soup found = read_mesh(old + file.body, file.format, "text").soup;
+    EXPECT_EQ(found.points, expected.points) << file.text;
+    EXPECT_EQ(found.triangles, expected.triangles) << file.text;
+    EXPECT_EQ(found.triangles.size(), 1u);
+    EXPECT_EQ(found.groups.names, expected.groups.names);
+  }
+}
+
+TEST(Line_ends, OfDamagedFilesAreCountedLikeOthers)
+{
+  try {
+    read_obj("v 0 0 0\rv 1 0 0\rv 0 1 zero\r");
+    FAIL() << "a word was read as a number";
+  } catch (const Input_error& error) {
+    EXPECT_STREQ(error.what(), "text:3: 'zero' is not a number");
+  }
+}
+
 TEST(Ply, ValuesBeyondTheDoublesKeepTheirSign)
 {
   const Mesh_file file = read_mesh(

@@ -338,6 +338,38 @@ TEST(MatchPieces, OfBordersThatWereJoinedNeedTheDistance)
   EXPECT_EQ(mismatches(match_pieces(layer(4, 0), original, options)), Mismatches{Mismatch::missing});
 }
 
+// Two faces lie almost on each other, and snapping has moved one of them onto the other.
+TEST(MatchPieces, ThatWereSnappedOntoAnotherKeepTheirNames)
+{
+  const Triangle_soup face = soup({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  const auto with_materials = [](Triangle_soup soup, const std::vector<Index>& of_triangle) {
+    soup.materials.names = {"wool", "silk"};
+    soup.materials.of_triangle = of_triangle;
+    return soup;
+  };
+  const Triangle_soup original = with_materials(joined(face, moved(face, 0, 0, 1e-4)), {0, 1});
+  Triangle_soup snapped = original;
+  snapped.points[1] = original.points[4]; // one vertex stays
+  snapped.points[2] = original.points[5];
+  Verify_options options;
+  options.weld_distance = 1e-3;
+  for (const bool is_all : {false, true}) {
+    if (is_all)
+      snapped.points[0] = original.points[3];
+    const Piece_matching matching = match_pieces(snapped, original, options);
+    ASSERT_TRUE(matching.is_complete());
+    for (const Piece_match& match : matching.matches)
+      EXPECT_EQ(match.of_result, match.of_original);
+    // What is wrong is still found: names that are, and a piece that is gone.
+    EXPECT_EQ(mismatches(match_pieces(with_materials(snapped, {0, 0}), original, options)),
+              Mismatches{Mismatch::name});
+    Triangle_soup one = snapped;
+    one.triangles.pop_back();
+    one.materials.of_triangle.pop_back();
+    EXPECT_FALSE(match_pieces(one, original, options).is_complete());
+  }
+}
+
 // Three borders in a row come to one: the farthest has gone two ways.
 TEST(MatchPieces, OfBordersThatWereJoinedOverAThird)
 {
