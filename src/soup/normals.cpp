@@ -6,6 +6,7 @@
 #include "Disjoint_sets.h"
 
 #include <selvedge/internal/Vector_of_doubles.h>
+#include <selvedge/rounding.h>
 
 #include <algorithm>
 #include <cmath>
@@ -97,7 +98,7 @@ Vector stored(const Vector& normal)
 {
   if (normal == Vector{})
     return {0, 0, 1};
-  return {double(float(normal[0])), double(float(normal[1])), double(float(normal[2]))};
+  return {nearest_float32(normal[0]), nearest_float32(normal[1]), nearest_float32(normal[2])};
 }
 
 // A side of a triangle. Corners have the numbers 3 × triangle + place.
