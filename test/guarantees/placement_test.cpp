@@ -350,6 +350,14 @@ TEST(Placement, NewPlacesStayInTheirCell)
   EXPECT_TRUE(verdict.is_accepted()) << verdict.violations.front().message;
 }
 
+/// Returns (gradient · x + d)².
+internal::Symmetric_quadric square(const internal::Vector_of_doubles& gradient, double d)
+{
+  internal::Symmetric_matrix matrix;
+  matrix.add_square(gradient, 1);
+  return {matrix, {d * gradient[0], d * gradient[1], d * gradient[2]}, d * d};
+}
+
 TEST(Placement, QuadricIsLeastWhereItSays)
 {
   std::mt19937 random(7);
@@ -357,7 +365,7 @@ TEST(Placement, QuadricIsLeastWhereItSays)
   for (int round = 0; round < 100; ++round) {
     internal::Symmetric_quadric quadric;
     for (int i = 0; i < 4; ++i)
-      quadric.add_square({number(random), number(random), number(random)}, number(random), 1);
+      quadric += square({number(random), number(random), number(random)}, number(random));
     const auto least = quadric.least_point();
     ASSERT_TRUE(least);
     const internal::Vector_of_doubles from{number(random), number(random), number(random)},
@@ -376,8 +384,7 @@ TEST(Placement, QuadricIsLeastWhereItSays)
       EXPECT_LT(at(*share), at(*share + step));
     }
   }
-  internal::Symmetric_quadric flat;
-  flat.add_square({0, 0, 1}, 0, 1);
+  const internal::Symmetric_quadric flat = square({0, 0, 1}, 0);
   EXPECT_FALSE(flat.least_point()) << "least in a whole plane";
   EXPECT_FALSE(flat.least_point_on_plane({0, 0, 1}, 0, {0, 0, 0})) << "least in the whole plane";
   EXPECT_FALSE(flat.least_point_on_plane({0, 0, 0}, 0, {0, 0, 0})) << "no plane";
@@ -394,7 +401,7 @@ TEST(Placement, QuadricIsLeastOnAPlaneWhereItSays)
   for (int round = 0; round < 100; ++round) {
     internal::Symmetric_quadric quadric;
     for (int i = 0; i < 4; ++i)
-      quadric.add_square(any(), number(random), 1);
+      quadric += square(any(), number(random));
     const internal::Vector_of_doubles normal = any();
     const double product = number(random);
     const auto least = quadric.least_point_on_plane(normal, product, any());

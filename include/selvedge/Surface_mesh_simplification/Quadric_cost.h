@@ -65,10 +65,10 @@ struct No_line_map
 /// Once the quadrics are computed, no edge becomes a line unless it takes the place of one in a collapse.
 ///
 /// **Exactness** Floating point. The cost orders the collapses, and its error can limit their quality; no
-/// statement about intersections depends on it. Coordinates are taken relative to a vertex or to the centre of
-/// the mesh, so that a mesh far from the origin loses no precision. Normals and weights of faces are kept in
-/// single precision: relative to the vertex, through which their planes pass, what is rounded changes a cost
-/// by far less than the weight of the vertices does. A vertex takes 144 bytes, and a face 16.
+/// statement about intersections depends on it. Coordinates are taken relative to a vertex or to the centre
+/// of the mesh, so that a mesh far from the origin loses no precision. Normals and weights of faces are kept
+/// in single precision: relative to the vertex, through which their planes pass, what is rounded changes a
+/// cost by far less than the weight of the vertices does. A vertex takes 144 bytes, and a face 16.
 ///
 /// **Complexity** Linear in the size of the mesh to initialise; constant for a cost or an error; the number
 /// of faces at the neighbours of the merged vertex for an update.
@@ -118,8 +118,7 @@ class Quadric_cost
 
     double operator()(const Vector& motion, double unit) const
     {
-      return matrix.square(motion) +
-             2 * unit * (linear[0] * motion[0] + linear[1] * motion[1] + linear[2] * motion[2]);
+      return matrix.square(motion) + 2 * unit * internal::dot(linear, motion);
     }
     Quadric quadric(double unit) const
     {

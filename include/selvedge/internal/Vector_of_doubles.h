@@ -16,6 +16,10 @@ inline double dot(const Vector_of_doubles& a, const Vector_of_doubles& b)
 {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
+inline double dot(const std::array<float, 3>& a, const Vector_of_doubles& b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 inline Vector_of_doubles difference(const Vector_of_doubles& a, const Vector_of_doubles& b)
 {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};

@@ -24,15 +24,6 @@ public:
   {
   }
 
-  /// Adds weight × (gradient · x + d)².
-  void add_square(const Vector_of_doubles& gradient, double d, double weight)
-  {
-    m_matrix.add_square(gradient, weight);
-    for (std::size_t i = 0; i < 3; ++i)
-      m_b[i] += weight * d * gradient[i];
-    m_c += weight * d * d;
-  }
-
   /// Returns the function whose value at x is that of this one at x − `point`.
   Symmetric_quadric moved_by(const Vector_of_doubles& point) const
   {

@@ -122,15 +122,13 @@ private:
 
   double growth_with_texture_fixed(const Vector& motion) const
   {
-    return matrix().square(motion) +
-           2 * (m_linear[0] * motion[0] + m_linear[1] * motion[1] + m_linear[2] * motion[2]);
+    return matrix().square(motion) + 2 * internal::dot(m_linear, motion);
   }
 
   // The sum of the displacements in one direction of the texture, each with its weight.
   double displacement(std::size_t k, const Vector& motion) const
   {
-    const auto& gradient = m_gradients[k];
-    return gradient[0] * motion[0] + gradient[1] * motion[1] + gradient[2] * motion[2] + m_displacements[k];
+    return internal::dot(m_gradients[k], motion) + m_displacements[k];
   }
 
   // The terms in the motion alone, in both motions, and in that of the texture coordinates alone.
