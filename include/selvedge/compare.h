@@ -27,10 +27,12 @@ namespace selvedge {
 /// When `from.triangles.size() + 500'000` points do not suffice for this, `upper` is the best bound that is
 /// known. Both are zero when `from` has no triangle, and infinite when only `to` has none.
 /// **Exactness** Both bounds have the errors of `distance`.
-/// **Complexity** O(log n) for each point in practice. There are somewhat more points than vertices.
+/// **Complexity** O(log n) for each vertex, and linear in the pairs of triangles that lie above each other.
 /// **Reference** The distance to one triangle is a convex function, so its maximum over a triangle is at a
-/// corner. A triangle for which no single triangle of `to` gives a good enough bound is divided. After Tang,
-/// Lee and Kim, *Interactive Hausdorff distance computation for general polygonal models*, 2009.
+/// corner. A triangle for which no single triangle of `to` gives a good enough bound is divided by the edges
+/// of `to` above it, projected onto its plane, and where this does not suffice, at points for which the
+/// nearest triangle is sought. After Tang, Lee and Kim, *Interactive Hausdorff distance computation for
+/// general polygonal models*, 2009.
 Bounds maximum_distance(const Triangle_soup& from, const Triangle_soup& to);
 
 /// How far the lines of one mesh are from those of the other.

@@ -1,12 +1,15 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include "Covering.h"
 #include "Surface_tree.h"
+#include "sides.h"
 
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/compare.h>
 #include <selvedge/verify.h>
 
+#include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -89,8 +92,9 @@ struct Part
 {
   std::array<Point_3, 3> corners;
   Index_triple nearest;
-  double upper; // bound of the squared distance from any point of the part
+  double upper = infinity; // bound of the squared distance from any point of the part
   int cuts = 0;
+  std::optional<Point_3> farthest = {}; // a point that may be as far as `upper` says, until it is asked for
 
   bool operator<(const Part& other) const { return upper < other.upper; }
 };
@@ -217,29 +221,61 @@ Bounds maximum_distance(const Triangle_soup& from, const Triangle_soup& to)
     const double enough = length + std::max(0.01 * length, negligible);
     return enough * enough;
   };
-  std::priority_queue<Part> parts;
-  const auto keep = [&](Part part) {
+  // A segment, as of borders and seams, is not covered.
+  std::optional<Neighbours> neighbours;
+  if (std::any_of(source.triangles.begin(), source.triangles.end(), is_face))
+    neighbours.emplace(surface);
+  const auto bound = [&](Part& part, std::optional<Covering_search>& search) {
     part.upper = upper_bound(part, surface);
-    if (part.upper > good_enough())
-      parts.push(part);
-    else
-      return part.upper;
-    return 0.0;
+    part.farthest.reset();
+    if (!neighbours || !(part.upper > good_enough()))
+      return;
+    if (!search)
+      search.emplace(*neighbours);
+    if (const auto farthest = search->farthest(part.corners, part.nearest, part.upper)) {
+      part.upper = farthest->squared_distance;
+      part.farthest = farthest->point;
+    }
   };
-  double upper = lower; // of the parts that are no longer examined
+
+  tbb::enumerable_thread_specific<std::optional<Covering_search>> searches;
+  constexpr std::size_t chunk = 4096;
+  const std::size_t count = source.triangles.size();
+  std::vector<std::vector<Part>> parts_of_chunks((count + chunk - 1) / chunk);
+  std::vector<double> upper_of_chunks(parts_of_chunks.size(), lower); // of what is good enough
+  const auto bound_chunk = [&](std::size_t number) {
+    Cancellation_scope::check();
+    auto& search = searches.local();
+    for (std::size_t i = chunk * number; i < (std::min)(chunk * (number + 1), count); ++i) {
+      const auto& [a, b, c] = source.triangles[i];
+      Part part{{source.points[a], source.points[b], source.points[c]}, {nearest[a], nearest[b], nearest[c]}};
+      bound(part, search);
+      if (part.upper > good_enough())
+        parts_of_chunks[number].push_back(part);
+      else
+        upper_of_chunks[number] = std::max(upper_of_chunks[number], part.upper);
+    }
+  };
+  tbb::parallel_for(std::size_t(0), parts_of_chunks.size(), Cancellation_scope::inherited(bound_chunk));
+  double upper = *std::max_element(upper_of_chunks.begin(), upper_of_chunks.end());
+  std::priority_queue<Part> parts;
+  for (std::vector<Part>& of_chunk : parts_of_chunks)
+    for (const Part& part : std::exchange(of_chunk, {}))
+      parts.push(part);
+
   Cancellation_poll poll;
-  for (const Index_triple& triangle : source.triangles) {
-    poll();
-    const auto& [a, b, c] = triangle;
-    upper = std::max(upper, keep({{source.points[a], source.points[b], source.points[c]},
-                                  {nearest[a], nearest[b], nearest[c]},
-                                  infinity}));
-  }
-  std::size_t budget = from.triangles.size() + 500'000;
+  auto& search = searches.local();
+  std::size_t budget = count + 500'000;
   for (; !parts.empty() && parts.top().upper > good_enough() && budget > 0; --budget) {
     poll();
-    const Part part = parts.top();
+    Part part = parts.top();
     parts.pop();
+    if (const auto farthest = std::exchange(part.farthest, {})) {
+      const Point_3 nearest_to_it = tree.nearest(*farthest, part.nearest[0]).point;
+      lower = std::max(lower, CGAL::squared_distance(*farthest, nearest_to_it));
+      parts.push(part);
+      continue;
+    }
     const auto [place, point] = cut_of(part, surface);
     const Surface_tree::Nearest to_point = tree.nearest(point, part.nearest[place]);
     lower = std::max(lower, CGAL::squared_distance(point, to_point.point));
@@ -251,7 +287,11 @@ Bounds maximum_distance(const Triangle_soup& from, const Triangle_soup& to)
           half.corners[k] = point;
           half.nearest[k] = to_point.triangle;
         }
-      upper = std::max(upper, keep(half));
+      bound(half, search);
+      if (half.upper > good_enough())
+        parts.push(half);
+      else
+        upper = std::max(upper, half.upper);
     }
   }
   if (!parts.empty())

@@ -7,7 +7,8 @@
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Triangle_soup.h>
 
-#include <algorithm>
+#include <oneapi/tbb/parallel_sort.h>
+
 #include <numeric>
 #include <vector>
 
@@ -20,8 +21,9 @@ inline std::vector<Index> position_numbers(const std::vector<Point_3>& points)
   std::vector<Index> order(points.size()), numbers(points.size());
   std::iota(order.begin(), order.end(), Index(0));
   Cancellation_scope::check();
-  std::sort(order.begin(), order.end(),
-            [&](Index v, Index w) { return CGAL::lexicographically_xyz_smaller(points[v], points[w]); });
+  tbb::parallel_sort(order.begin(), order.end(), [&](Index v, Index w) {
+    return CGAL::lexicographically_xyz_smaller(points[v], points[w]);
+  });
   Cancellation_scope::check();
   Index number = 0;
   for (std::size_t i = 0; i < order.size(); ++i) {

@@ -1008,3 +1008,31 @@ group(
     ("least * least >= squared * squared_length", "true", "what is on one side of a plane is far from it"),
     ("return std::abs(sides) == 3;", "return true;", "corners on both sides of a plane are far from it"),
 )
+
+group(
+    "src/verify/Covering.cpp",
+    ("covering_test",),
+    ("if (turn * projection.turn < 0)", "if (turn * projection.turn != 0)",
+     "a fold is covered by what lies on one side of it"),
+    ("if (!beyond || m_queue.size() == most)", "if (!beyond)\n          continue;\n        if (m_queue.size() == most)",
+     "a triangle over a hole is covered"),
+    ("if (crosses(projection, side)) {", "if (crosses(projection, side) && side > 0) {",
+     "the covering does not continue across every edge"),
+    ("if (visit(other / 3))\n          m_queue.push_back", "if (false)\n          m_queue.push_back",
+     "the covering begins only at the triangles named"),
+    ("return corners[side] <= 0 && corners[(side + 1) % 3] <= 0;", "return corners[side] < 0 && corners[(side + 1) % 3] < 0;",
+     "edges that touch a triangle cross it"),
+    ("m_next[side_number(*side)] = side_number(is_last ? *first : *next);",
+     "m_next[side_number(*side)] = side_number(is_last ? *side : *next);",
+     "only one of two neighbours knows the other"),
+    ("corner = positions[corner];", ";", "seams are borders"),
+)
+group(
+    "src/verify/distances.cpp",
+    ("verify_compare_test",),
+    ("const auto farthest = search->farthest(part.corners, part.nearest, part.upper)",
+     "const auto farthest = search->farthest(part.corners, part.nearest, 0)",
+     "no triangle is covered, so that points run out"),
+    ("lower = std::max(lower, CGAL::squared_distance(*farthest, nearest_to_it));", "lower = std::max(lower, part.upper);",
+     "the bound counts as a distance that was seen"),
+)

@@ -72,6 +72,37 @@ TEST(MaximumDistance, HoldsForEveryPointAndIsNearlyReached)
   }
 }
 
+// All vertices of the coarse mesh are at vertices of the fine one, so that every face seems worth a division,
+// and each lies over eighteen others.
+TEST(MaximumDistance, IsTightWhereFacesLieOverManyOthers)
+{
+  constexpr Index width = 90, finer = 3;
+  const auto bumpy = [](const Triangle_soup& flat, double unit) {
+    return mapped(flat, [unit](const Point_3& p) {
+      const double x = unit * p.x(), y = unit * p.y();
+      return Point_3(x, y, 0.05 * std::sin(3 * x + std::sin(5 * y)) * std::cos(4 * y));
+    });
+  };
+  const Triangle_soup coarse = bumpy(sheet(width, width), finer),
+                      fine = bumpy(sheet(finer * width, finer * width), 1);
+  for (const auto& [from, to] : {std::make_pair(coarse, fine), std::make_pair(fine, coarse)}) {
+    const Bounds bounds = maximum_distance(from, to);
+    EXPECT_GT(bounds.lower, 0.01);
+    EXPECT_LE(bounds.upper, 1.011 * bounds.lower);
+  }
+}
+
+// Above the bottom of a valley, a slope is nearer than the faces that go down from this point.
+TEST(MaximumDistance, IsThatOfAPointThatWasLookedAt)
+{
+  const Triangle_soup valley =
+      mapped(sheet(6, 6), [](const Point_3& p) { return p.x() == 2 && p.y() == 2 ? Point_3(2, 2, -7) : p; });
+  const Bounds bounds =
+      maximum_distance(soup({{0.5, 0.5, 2}, {5.5, 0.75, 2}, {2, 4.5, 2}}, {{0, 1, 2}}), valley);
+  EXPECT_GE(bounds.upper, std::sqrt(4.5)) << "at (2, 2, 2)";
+  EXPECT_LE(bounds.lower, std::sqrt(4.6));
+}
+
 TEST(MaximumDistance, IsZeroFromNothingInfiniteToNothingAndScales)
 {
   EXPECT_EQ(maximum_distance({}, one_triangle()).upper, 0);
