@@ -3,6 +3,7 @@
 
 #include "Covering.h"
 #include "Surface_tree.h"
+#include "for_each_chunk.h"
 #include "sides.h"
 
 #include <selvedge/Cancellation_scope.h>
@@ -10,7 +11,6 @@
 #include <selvedge/verify.h>
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +38,6 @@ template <class Function>
 void for_each_nearest(const std::vector<Index>& vertices, const Surface& from, const Surface_tree& to,
                       const Function& function)
 {
-  constexpr std::size_t chunk = 1024;
   std::vector<Numbered_point> queries;
   queries.reserve(vertices.size());
   for (const Index vertex : vertices) {
@@ -49,17 +48,15 @@ void for_each_nearest(const std::vector<Index>& vertices, const Surface& from, c
   while (4 * parts < queries.size())
     parts *= 2;
   sort_by_halves(queries, parts);
-  const auto ask = [&](std::size_t number) {
+  for_each_chunk(queries.size(), 1024, [&](std::size_t, std::size_t first, std::size_t beyond) {
     Index guess = 0;
-    Cancellation_scope::check();
-    for (std::size_t i = chunk * number; i < (std::min)(chunk * (number + 1), queries.size()); ++i) {
+    for (std::size_t i = first; i < beyond; ++i) {
       const Index vertex = queries[i].number;
       const Surface_tree::Nearest nearest = to.nearest(from.points[vertex], guess);
       function(i, vertex, nearest);
       guess = nearest.triangle;
     }
-  };
-  tbb::parallel_for(std::size_t(0), (queries.size() + chunk - 1) / chunk, Cancellation_scope::inherited(ask));
+  });
 }
 
 /// The vertices of one mesh, in an order in which neighbours follow each other, and their squared distances
@@ -241,12 +238,11 @@ Bounds maximum_distance(const Triangle_soup& from, const Triangle_soup& to)
   tbb::enumerable_thread_specific<std::optional<Covering_search>> searches;
   constexpr std::size_t chunk = 4096;
   const std::size_t count = source.triangles.size();
-  std::vector<std::vector<Part>> parts_of_chunks((count + chunk - 1) / chunk);
+  std::vector<std::vector<Part>> parts_of_chunks(chunk_count(count, chunk));
   std::vector<double> upper_of_chunks(parts_of_chunks.size(), lower); // of what is good enough
-  const auto bound_chunk = [&](std::size_t number) {
-    Cancellation_scope::check();
+  for_each_chunk(count, chunk, [&](std::size_t number, std::size_t first, std::size_t beyond) {
     auto& search = searches.local();
-    for (std::size_t i = chunk * number; i < (std::min)(chunk * (number + 1), count); ++i) {
+    for (std::size_t i = first; i < beyond; ++i) {
       const auto& [a, b, c] = source.triangles[i];
       Part part{{source.points[a], source.points[b], source.points[c]}, {nearest[a], nearest[b], nearest[c]}};
       bound(part, search);
@@ -255,8 +251,7 @@ Bounds maximum_distance(const Triangle_soup& from, const Triangle_soup& to)
       else
         upper_of_chunks[number] = std::max(upper_of_chunks[number], part.upper);
     }
-  };
-  tbb::parallel_for(std::size_t(0), parts_of_chunks.size(), Cancellation_scope::inherited(bound_chunk));
+  });
   double upper = *std::max_element(upper_of_chunks.begin(), upper_of_chunks.end());
   std::priority_queue<Part> parts;
   for (std::vector<Part>& of_chunk : parts_of_chunks)

@@ -5,16 +5,21 @@
 
 #include "Surface_tree.h"
 #include "face_samples.h"
+#include "for_each_chunk.h"
 #include "positions.h"
 
 #include <selvedge/Cancellation_scope.h>
 
 #include <CGAL/Exact_rational.h>
 
+#include <oneapi/tbb/enumerable_thread_specific.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 // Draws lines through the layers of an original and its result, and finds layers that have changed places,
 // for `compare`. `Layer_order` in compare.h states the rule.
@@ -24,14 +29,13 @@ namespace {
 
 constexpr Index none = -1;
 
-/// The edges of the original as a graph of positions. A search that starts at several triangles, one per
-/// layer, tells from which of them a position is reached first.
+/// The edges of the original as a graph of positions.
 class Position_graph
 {
 public:
+  /// `positions` are those of the vertices of the triangles; all are below `size`.
   Position_graph(const std::vector<Index_triple>& triangles, std::vector<Index> positions, Index size)
-      : m_positions(std::move(positions)), m_first(size + 1), m_reached(size), m_wanted(size), m_ring(size),
-        m_layer(size)
+      : m_positions(std::move(positions)), m_first(size + 1)
   {
     const auto for_each_side = [&](auto function) {
       for (const Index_triple& triangle : triangles)
@@ -40,68 +44,106 @@ public:
             function(m_positions[triangle[i]], m_positions[triangle[j]]);
     };
     for_each_side([&](Index from, Index) { ++m_first[from + 1]; });
-    for (Index position = 0; position < size; ++position)
-      m_first[position + 1] += m_first[position];
+    std::partial_sum(m_first.begin(), m_first.end(), m_first.begin());
     m_neighbours.resize(m_first[size]);
     std::vector<std::size_t> next(m_first.begin(), m_first.end() - 1);
     for_each_side([&](Index from, Index to) { m_neighbours[next[from]++] = to; });
+    remove_repetitions();
   }
 
+  Index size() const { return Index(m_first.size() - 1); }
+  Index position(Index vertex) const { return m_positions[vertex]; }
+
+  template <class Function>
+  void for_each_neighbour(Index position, const Function& function) const
+  {
+    for (std::size_t k = m_first[position]; k < m_first[position + 1]; ++k)
+      function(m_neighbours[k]);
+  }
+
+private:
+  void remove_repetitions()
+  {
+    auto beyond = m_neighbours.begin();
+    std::size_t first = 0;
+    for (std::size_t position = 0; position + 1 < m_first.size(); ++position) {
+      const auto begin = m_neighbours.begin() + std::ptrdiff_t(first),
+                 end = m_neighbours.begin() + std::ptrdiff_t(m_first[position + 1]);
+      first = m_first[position + 1];
+      std::sort(begin, end);
+      beyond = std::copy(begin, std::unique(begin, end), beyond);
+      m_first[position + 1] = std::size_t(beyond - m_neighbours.begin());
+    }
+    m_neighbours.erase(beyond, m_neighbours.end());
+  }
+
+  std::vector<Index> m_positions;   // of the vertices of the triangles
+  std::vector<std::size_t> m_first; // of each position, and one more
+  std::vector<Index> m_neighbours;
+};
+
+/// A search in the graph that starts at several triangles, one per layer, and tells from which of them a
+/// position is reached first.
+class Flood
+{
+public:
+  explicit Flood(const Position_graph& graph) : m_graph(graph), m_marks(graph.size()) {}
+
   /// Finds, for every wanted position, from which of some triangles it is reached over the fewest edges.
-  void flood(const std::vector<Index_triple>& triangles, const std::vector<Index>& wanted)
+  /// Returns how many positions it has reached.
+  std::size_t run(const std::vector<Index_triple>& triangles, const std::vector<Index>& wanted)
   {
     ++m_time;
     m_queue.clear();
     std::size_t missing = 0;
     for (const Index position : wanted)
-      if (m_wanted[position] != m_time) {
-        m_wanted[position] = m_time;
+      if (std::exchange(m_marks[position].wanted, m_time) != m_time)
         ++missing;
-      }
     const auto reach = [&](Index position, Index layer, Index ring) {
-      if (m_reached[position] != m_time) {
-        m_reached[position] = m_time;
-        m_ring[position] = ring;
-        m_layer[position] = layer;
+      Mark& mark = m_marks[position];
+      if (mark.reached != m_time) {
+        missing -= mark.wanted == m_time;
+        mark = {m_time, mark.wanted, ring, layer};
         m_queue.push_back(position);
-        ++m_work;
-        missing -= m_wanted[position] == m_time;
-      } else if (m_ring[position] == ring && m_layer[position] != layer) {
-        m_layer[position] = none;
+      } else if (mark.ring == ring && mark.layer != layer) {
+        mark.layer = none;
       }
     };
     for (Index layer = 0; layer < triangles.size(); ++layer)
       for (const Index vertex : triangles[layer])
-        reach(m_positions[vertex], layer, 0);
+        reach(m_graph.position(vertex), layer, 0);
     constexpr std::size_t enough = 20'000;
     Index last_ring = none;
     for (std::size_t i = 0; i < m_queue.size() && m_queue.size() < enough; ++i) {
-      const Index position = m_queue[i];
+      const Mark from = m_marks[m_queue[i]];
       // The last ring is completed, since another layer may reach the same positions.
       if (missing == 0 && last_ring == none)
-        last_ring = m_ring[m_queue.back()];
-      if (m_ring[position] == last_ring)
+        last_ring = m_marks[m_queue.back()].ring;
+      if (from.ring == last_ring)
         break;
-      for (std::size_t k = m_first[position]; k < m_first[position + 1]; ++k)
-        reach(m_neighbours[k], m_layer[position], m_ring[position] + 1);
+      m_graph.for_each_neighbour(m_queue[i],
+                                 [&](Index position) { reach(position, from.layer, from.ring + 1); });
     }
+    return m_queue.size();
   }
 
-  /// Returns the layer of a position after a flood; none where several layers reach it first, or no layer.
-  Index layer(Index position) const { return m_reached[position] == m_time ? m_layer[position] : none; }
-
-  /// Returns how many positions all floods have reached so far.
-  std::size_t work() const { return m_work; }
+  /// Returns the layer of a position after a search; none where several layers reach it first, or no layer.
+  Index layer(Index position) const
+  {
+    return m_marks[position].reached == m_time ? m_marks[position].layer : none;
+  }
 
 private:
-  std::vector<Index> m_positions; // of the vertices of the triangles
-  std::vector<std::size_t> m_first;
-  std::vector<Index> m_neighbours;
-  std::vector<Index> m_reached, m_wanted; // number of the last flood that did
-  std::vector<Index> m_ring, m_layer;
+  struct Mark
+  {
+    Index reached = 0, wanted = 0; // number of the last search that did
+    Index ring = 0, layer = 0;
+  };
+
+  const Position_graph& m_graph;
+  std::vector<Mark> m_marks; // by position
   std::vector<Index> m_queue;
   Index m_time = 0;
-  std::size_t m_work = 0;
 };
 
 /// Enumerates the numbers below `size`, each once, so that the first few of them are spread over all.
@@ -183,28 +225,154 @@ bool is_before(const Surface& surface, Index first, Index second, const Segment_
 
 /// Returns, for every vertex of the result, its position in the original, or that of the nearest vertex
 /// there.
-std::vector<Index> positions_in_original(const Surface& result, const Surface& original, Surface_tree& tree,
-                                         const std::vector<Index>& positions, Index size,
-                                         const std::vector<Index>& vertices)
+std::vector<Index> positions_in_original(const Surface& result, const Surface& original,
+                                         const Surface_tree& tree, const std::vector<Index>& positions,
+                                         Index size, const std::vector<Index>& vertices)
 {
   const auto of_original = positions.begin() + result.points.size();
-  std::vector<bool> is_original(size);
+  std::vector<char> is_original(size);
   for (const Index_triple& triangle : original.triangles)
     for (const Index vertex : triangle)
       is_original[of_original[vertex]] = true;
   std::vector<Index> found(positions.begin(), of_original);
-  Cancellation_poll poll;
-  for (const Index vertex : vertices) {
-    poll();
-    if (!is_original[found[vertex]]) {
+  for_each_chunk(vertices.size(), 1024, [&](std::size_t, std::size_t first, std::size_t beyond) {
+    Index guess = 0;
+    for (std::size_t i = first; i < beyond; ++i) {
+      const Index vertex = vertices[i];
+      if (is_original[found[vertex]])
+        continue;
       const Point_3& point = result.points[vertex];
-      const Index_triple& corners = original.triangles[tree.nearest(point).triangle];
+      guess = tree.nearest(point, guess).triangle;
+      const Index_triple& corners = original.triangles[guess];
       found[vertex] = of_original[*std::min_element(corners.begin(), corners.end(), [&](Index v, Index w) {
         return CGAL::has_smaller_distance_to_point(point, original.points[v], original.points[w]);
       })];
     }
-  }
+  });
   return found;
+}
+
+/// A line on which the order of layers is compared: through a point of a face of the original, at right
+/// angles to it.
+struct Line
+{
+  Point_3 point;
+  Segment_3 segment;
+};
+
+/// Compares the order of layers along lines.
+class Comparison_along_lines
+{
+public:
+  /// The positions of the vertices of the result that `graph` knows are `stand_ins`. Everything outlives
+  /// this.
+  Comparison_along_lines(const Surface& before, const Surface& after, const Surface_tree& tree_before,
+                         const Surface_tree& tree_after, const Position_graph& graph,
+                         const std::vector<Index>& stand_ins)
+      : m_before(before), m_after(after), m_tree_before(tree_before), m_tree_after(tree_after),
+        m_stand_ins(stand_ins), m_flood(graph)
+  {
+  }
+
+  /// Adds to `order` what is found along a line. Returns how many positions the search has reached. Swaps
+  /// lie at points of the surface, not of the soup.
+  std::size_t compare(const Line& line, Layer_order& order)
+  {
+    ++order.lines;
+    const std::vector<Crossing> old = crossings(m_tree_before, m_before, line.segment);
+    if (old.size() < 2)
+      return 0;
+    ++order.crossing;
+    order.pairs += old.size() - 1;
+
+    const std::vector<Crossing> now = crossings(m_tree_after, m_after, line.segment);
+    m_layers.clear();
+    m_wanted.clear();
+    for (const Crossing& crossing : old)
+      m_layers.push_back(m_before.triangles[crossing.triangle]);
+    for (const Crossing& crossing : now)
+      for (const Index vertex : m_after.triangles[crossing.triangle])
+        m_wanted.push_back(m_stand_ins[vertex]);
+    const std::size_t work = m_flood.run(m_layers, m_wanted);
+
+    const std::vector<std::size_t> places = places_of_layers(old, now);
+    const std::size_t compared_before = order.compared;
+    std::size_t last = s_nowhere; // the last layer that is crossed once
+    for (std::size_t layer = 0; layer < old.size(); ++layer) {
+      if (places[layer] >= now.size())
+        continue;
+      if (last != s_nowhere) {
+        ++order.compared;
+        const Index lower = now[places[last]].triangle, upper = now[places[layer]].triangle;
+        if (places[last] > places[layer] &&
+            is_before(m_before, old[last].triangle, old[layer].triangle, line.segment) &&
+            is_before(m_after, upper, lower, line.segment))
+          order.swaps.push_back({line.point, {old[last].triangle, old[layer].triangle}, {lower, upper}});
+      }
+      last = layer;
+    }
+    order.lines_compared += order.compared > compared_before;
+    return work;
+  }
+
+private:
+  static constexpr std::size_t s_nowhere = -1, s_several = -2;
+
+  // Returns where each layer is crossed in the result: nowhere, at one place, or at several.
+  std::vector<std::size_t> places_of_layers(const std::vector<Crossing>& old,
+                                            const std::vector<Crossing>& now) const
+  {
+    std::vector<std::size_t> places(old.size(), s_nowhere);
+    for (std::size_t place = 0; place < now.size(); ++place) {
+      const Index_triple& corners = m_after.triangles[now[place].triangle];
+      const Index layer = m_flood.layer(m_stand_ins[corners[0]]);
+      if (layer != none && layer == m_flood.layer(m_stand_ins[corners[1]]) &&
+          layer == m_flood.layer(m_stand_ins[corners[2]]))
+        places[layer] = places[layer] == s_nowhere && is_alike(now[place], old[layer]) ? place : s_several;
+    }
+    return places;
+  }
+
+  const Surface &m_before, &m_after;
+  const Surface_tree &m_tree_before, &m_tree_after;
+  const std::vector<Index>& m_stand_ins; // by vertex of the result
+  Flood m_flood;
+  std::vector<Index_triple> m_layers;
+  std::vector<Index> m_wanted;
+};
+
+void add(Layer_order& sum, const Layer_order& part)
+{
+  sum.lines += part.lines;
+  sum.crossing += part.crossing;
+  sum.pairs += part.pairs;
+  sum.compared += part.compared;
+  sum.lines_compared += part.lines_compared;
+  sum.swaps.insert(sum.swaps.end(), part.swaps.begin(), part.swaps.end());
+}
+
+/// Returns lines through faces of the original, spread over all faces, as far as `reach` to either side.
+std::vector<Line> lines_through(const Surface& original, double reach)
+{
+  constexpr std::size_t most = 200'000, least = 20'000;
+  const std::size_t faces = original.triangles.size();
+  const std::size_t count = faces > most ? most : faces * (1 + least / faces);
+  const Stride faces_in_turn(faces);
+  Face_samples samples(original);
+  std::vector<Line> lines;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Index face = faces_in_turn(i);
+    const Vector_3 normal = original.normal(face);
+    const double length = std::sqrt(normal.squared_length());
+    if (!(length > 0))
+      continue;
+    const Point_3 point = samples.next(face);
+    const Vector_3 half = (reach / length) * normal;
+    const Segment_3 segment(point - half, point + half);
+    if (!segment.is_degenerate()) // not too short for the coordinates
+      lines.push_back({point, segment});
+  }
+  return lines;
 }
 
 } // namespace
@@ -216,78 +384,36 @@ Layer_order layer_order(const Triangle_soup& result, const Triangle_soup& origin
     return order;
   const int exponent = common_exponent(result, original);
   const Surface before(original, exponent), after(result, exponent);
-  Surface_tree tree_before(before);
-  const Surface_tree tree_after(after);
+  const Surface_tree tree_before(before), tree_after(after);
   const std::vector<Index> positions = position_numbers(result, original);
   const Index size = 1 + *std::max_element(positions.begin(), positions.end());
   const std::vector<Index> stand_ins =
       positions_in_original(after, before, tree_before, positions, size, used_vertices(result));
-  Position_graph graph(before.triangles, {positions.begin() + result.points.size(), positions.end()}, size);
+  const Position_graph graph(
+      before.triangles, {positions.begin() + std::ptrdiff_t(result.points.size()), positions.end()}, size);
 
-  constexpr std::size_t most = 200'000, least = 20'000, most_work = 50'000'000;
-  const std::size_t faces = original.triangles.size();
-  const std::size_t lines = faces > most ? most : faces * (1 + least / faces);
-  const Stride faces_in_turn(faces);
-  Face_samples samples(before);
-  std::vector<Index_triple> layers;
-  std::vector<Index> wanted;
-  for (std::size_t line = 0; line < lines && graph.work() < most_work; ++line) {
-    Cancellation_scope::check();
-    const Index face = faces_in_turn(line);
-    const Vector_3 normal = before.normal(face);
-    const double length = std::sqrt(normal.squared_length());
-    if (!(length > 0))
-      continue;
-    const Point_3 point = samples.next(face);
-    const Vector_3 half = (std::ldexp(reach, -exponent) / length) * normal;
-    const Segment_3 segment(point - half, point + half);
-    if (segment.is_degenerate()) // too short for the coordinates
-      continue;
-    ++order.lines;
-    const std::vector<Crossing> old = crossings(tree_before, before, segment);
-    if (old.size() < 2)
-      continue;
-    ++order.crossing;
-    order.pairs += old.size() - 1;
-
-    const std::vector<Crossing> now = crossings(tree_after, after, segment);
-    layers.clear();
-    wanted.clear();
-    for (const Crossing& crossing : old)
-      layers.push_back(before.triangles[crossing.triangle]);
-    for (const Crossing& crossing : now)
-      for (const Index vertex : after.triangles[crossing.triangle])
-        wanted.push_back(stand_ins[vertex]);
-    graph.flood(layers, wanted);
-
-    // Where each layer is crossed in the result: nowhere, at one place, or at several.
-    constexpr std::size_t nowhere = -1, several = -2;
-    std::vector<std::size_t> places(old.size(), nowhere);
-    for (std::size_t place = 0; place < now.size(); ++place) {
-      const Index_triple& corners = after.triangles[now[place].triangle];
-      const Index layer = graph.layer(stand_ins[corners[0]]);
-      if (layer != none && layer == graph.layer(stand_ins[corners[1]]) &&
-          layer == graph.layer(stand_ins[corners[2]]))
-        places[layer] = places[layer] == nowhere && is_alike(now[place], old[layer]) ? place : several;
-    }
-    const std::size_t compared_before = order.compared;
-    std::size_t last = nowhere; // the last layer that is crossed once
-    for (std::size_t layer = 0; layer < old.size(); ++layer) {
-      if (places[layer] >= now.size())
-        continue;
-      if (last != nowhere) {
-        ++order.compared;
-        const Index lower = now[places[last]].triangle, upper = now[places[layer]].triangle;
-        if (places[last] > places[layer] &&
-            is_before(before, old[last].triangle, old[layer].triangle, segment) &&
-            is_before(after, upper, lower, segment))
-          order.swaps.push_back(
-              {scaled(point, exponent), {old[last].triangle, old[layer].triangle}, {lower, upper}});
-      }
-      last = layer;
-    }
-    order.lines_compared += order.compared > compared_before;
+  const std::vector<Line> lines = lines_through(before, std::ldexp(reach, -exponent));
+  tbb::enumerable_thread_specific<std::optional<Comparison_along_lines>> comparisons;
+  // Lines are compared in batches, after each of which the work is looked at.
+  constexpr std::size_t batch = 8192, chunk = 64, most_work = 100'000'000;
+  std::size_t work = 0;
+  for (std::size_t first = 0; first < lines.size() && work < most_work; first += batch) {
+    const std::size_t count = std::min(batch, lines.size() - first);
+    std::vector<Layer_order> orders(chunk_count(count, chunk));
+    std::vector<std::size_t> works(orders.size(), 0);
+    for_each_chunk(count, chunk, [&](std::size_t number, std::size_t from, std::size_t beyond) {
+      auto& comparison = comparisons.local();
+      if (!comparison)
+        comparison.emplace(before, after, tree_before, tree_after, graph, stand_ins);
+      for (std::size_t i = from; i < beyond; ++i)
+        works[number] += comparison->compare(lines[first + i], orders[number]);
+    });
+    work = std::accumulate(works.begin(), works.end(), work);
+    for (const Layer_order& of_chunk : orders)
+      add(order, of_chunk);
   }
+  for (Layer_swap& swap : order.swaps)
+    swap.point = scaled(swap.point, exponent);
   return order;
 }
 
