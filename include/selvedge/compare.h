@@ -172,7 +172,7 @@ struct Comparison
   }
 };
 
-/// Computes all of the above. **Complexity.** O(n log n) in practice, some ten seconds for a million
+/// Computes all of the above. **Complexity.** O(n log n) in practice, some seconds for a million
 /// triangles.
 Comparison compare(const Triangle_soup& result, const Triangle_soup& original);
 

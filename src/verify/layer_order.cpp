@@ -256,6 +256,7 @@ std::vector<Index> positions_in_original(const Surface& result, const Surface& o
 /// angles to it.
 struct Line
 {
+  Index face;
   Point_3 point;
   Segment_3 segment;
 };
@@ -370,7 +371,7 @@ std::vector<Line> lines_through(const Surface& original, double reach)
     const Vector_3 half = (reach / length) * normal;
     const Segment_3 segment(point - half, point + half);
     if (!segment.is_degenerate()) // not too short for the coordinates
-      lines.push_back({point, segment});
+      lines.push_back({face, point, segment});
   }
   return lines;
 }
@@ -392,13 +393,17 @@ Layer_order layer_order(const Triangle_soup& result, const Triangle_soup& origin
   const Position_graph graph(
       before.triangles, {positions.begin() + std::ptrdiff_t(result.points.size()), positions.end()}, size);
 
-  const std::vector<Line> lines = lines_through(before, std::ldexp(reach, -exponent));
+  std::vector<Line> lines = lines_through(before, std::ldexp(reach, -exponent));
   tbb::enumerable_thread_specific<std::optional<Comparison_along_lines>> comparisons;
-  // Lines are compared in batches, after each of which the work is looked at.
-  constexpr std::size_t batch = 8192, chunk = 64, most_work = 100'000'000;
-  std::size_t work = 0;
-  for (std::size_t first = 0; first < lines.size() && work < most_work; first += batch) {
-    const std::size_t count = std::min(batch, lines.size() - first);
+  // Lines are compared in batches as large as the work allows, to judge by that of earlier ones. In a batch
+  // they are in the order of faces, so that what one line has read is at hand for the next.
+  constexpr std::size_t least_batch = 8192, chunk = 64, most_work = 100'000'000;
+  std::size_t work = 0, count = 0;
+  for (std::size_t first = 0; first < lines.size() && work < most_work; first += count) {
+    const double affordable = double(most_work - work) / double(work + 1) * double(first);
+    count = std::min(lines.size() - first, std::max(least_batch, std::size_t(std::min(affordable, 1e9))));
+    std::stable_sort(lines.begin() + std::ptrdiff_t(first), lines.begin() + std::ptrdiff_t(first + count),
+                     [](const Line& a, const Line& b) { return a.face < b.face; });
     std::vector<Layer_order> orders(chunk_count(count, chunk));
     std::vector<std::size_t> works(orders.size(), 0);
     for_each_chunk(count, chunk, [&](std::size_t number, std::size_t from, std::size_t beyond) {
