@@ -79,9 +79,7 @@ public:
     m_sliver_balance = 0;
     m_rod_extent = 0;
     // Boxes are computed again and again, since to keep them all for a moment takes longer than that.
-    fill_along_curve(faces.size(), [&](std::size_t i) {
-      return Entry{m_map(box_of(faces[i])), faces[i]};
-    });
+    fill_along_curve(faces.size(), [&](std::size_t i) { return Entry{m_map(box_of(faces[i])), faces[i]}; });
   }
 
   /// Likewise, and says of any of these faces what its corners are: `corners_of(faces[i])`.
@@ -254,18 +252,30 @@ private:
   void rebuild()
   {
     ++m_statistics.top_rebuilds;
+    std::fill(m_slots.begin(), m_slots.end(), s_none);
+    if (m_leaves.size() == m_leaves_in_tree)
+      return compact();
     std::vector<Entry> content;
     content.reserve(m_size);
     for (const Leaf& leaf : m_leaves)
       for (std::size_t i = 0; i < s_width; ++i)
         if (leaf.faces[i] != s_none)
           content.push_back({leaf.boxes[i], leaf.faces[i]});
-    std::fill(m_slots.begin(), m_slots.end(), s_none);
-    const auto entry_at = [&](std::size_t i) { return content[i]; };
-    if (m_leaves.size() > m_leaves_in_tree)
-      fill_along_curve(content.size(), entry_at);
-    else
-      fill(content.size(), entry_at);
+    fill_along_curve(content.size(), [&](std::size_t i) { return content[i]; });
+  }
+
+  // Closes the gaps between entries, which keep their order.
+  void compact()
+  {
+    m_size = m_slot_count = 0;
+    for (Leaf& leaf : m_leaves) {
+      const Leaf old = std::exchange(leaf, Leaf()); // entries may go into the same leaf, or into earlier ones
+      for (std::size_t i = 0; i < s_width; ++i)
+        if (old.faces[i] != s_none)
+          put({old.boxes[i], old.faces[i]}, m_slots[old.faces[i]] = m_slot_count++);
+    }
+    m_leaves.resize((m_slot_count + s_width - 1) / s_width);
+    make_nodes();
   }
 
   template <class Entry_at>
@@ -275,7 +285,7 @@ private:
     fill(size, [&](std::size_t i) { return entry_at(places[i].index); });
   }
 
-  // Puts entries into new leaves, in their order, and makes the nodes above them.
+  // Puts entries into new leaves, in their order.
   template <class Entry_at>
   void fill(std::size_t size, const Entry_at& entry_at)
   {
@@ -288,8 +298,13 @@ private:
         m_slots.resize(entry.face + std::size_t(1), s_none);
       put(entry, m_slots[entry.face] = new_slot());
     }
-    m_leaves_in_tree = m_leaves.size();
+    make_nodes();
+  }
 
+  // Makes the nodes above the leaves.
+  void make_nodes()
+  {
+    m_leaves_in_tree = m_leaves.size();
     const auto bounding_boxes = [](const auto& blocks, const auto& block_of) {
       std::vector<internal::Monotone_box> boxes;
       boxes.reserve(blocks.size());
