@@ -291,6 +291,11 @@ Json options_json(const Simplify_request& request)
           {"strict", defects_of(request) == Defects::refuse}};
 }
 
+bool has_own_error(const Simplify_request& request)
+{
+  return !request.error.empty() && request.options.max_error.has_value();
+}
+
 Defects defects_of(const Simplify_request& request)
 {
   return request.is_strict ? Defects::refuse : request.defects.value_or(Prepare_options().defects);
@@ -344,7 +349,8 @@ void add_options(CLI::App& command, Simplify_request& request)
           "--error", request.error,
           "Largest distance between the surfaces of the original and the result, as a share of the "
           "diagonal of the bounding box, measured at vertices and at points between them; none sets no "
-          "limit. Without another target, the reduction goes as far as this allows.")
+          "limit. Without another target, the reduction goes as far as this allows. With this option, the "
+          "summary says how far any point is.")
       ->type_name("E|none")
       ->default_str("0.01")
       ->group(how_far);

@@ -81,6 +81,9 @@ std::string pose_output(const Simplify_request& request, std::size_t level, cons
 /// Returns whether the request asks for a mesh, report or log on this program's standard output.
 bool has_standard_output(const Simplify_request& request);
 
+/// Returns whether the user has set a limit of the distances between original and result.
+bool has_own_error(const Simplify_request& request);
+
 /// Returns what becomes of offending pairs of the input.
 Defects defects_of(const Simplify_request& request);
 

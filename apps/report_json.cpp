@@ -314,14 +314,20 @@ void add_verification(Json& report, const Verification& verification, bool has_o
                           {"diagonal", verification.distances->diagonal}};
 }
 
+void add_distances(Json& report, const std::optional<Distances_anywhere>& distances)
+{
+  const auto add_bounds = [&](const char* way, Bounds Distances_anywhere::*bounds) {
+    Json& distance = report["distance"][way];
+    distance["max_lower"] = distances ? Json(((*distances).*bounds).lower) : Json(nullptr);
+    distance["max_upper"] = distances ? Json(((*distances).*bounds).upper) : Json(nullptr);
+  };
+  add_bounds("original_to_result", &Distances_anywhere::original_to_result);
+  add_bounds("result_to_original", &Distances_anywhere::result_to_original);
+}
+
 void add_comparison(Json& report, const Comparison& comparison)
 {
-  const auto add_bounds = [](Json& distance, const Bounds& bounds) {
-    distance["max_lower"] = bounds.lower;
-    distance["max_upper"] = bounds.upper;
-  };
-  add_bounds(report["distance"]["original_to_result"], comparison.original_to_result);
-  add_bounds(report["distance"]["result_to_original"], comparison.result_to_original);
+  add_distances(report, comparison.distances);
   report["borders"] = to_json(comparison.borders);
   report["seams"] = to_json(comparison.seams);
   report["gaps"] = {{"open_edges", comparison.gaps.open_edges},

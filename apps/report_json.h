@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,9 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
 void add_verification(Json& report, const Verification& verification, bool has_original);
 
 /// Sets `borders`, `seams`, `gaps`, `vertices`, `attributes`, `normals` and `layers`, and adds to `distance`.
+/// Adds to the distances of a verification how large they are anywhere, as far as that was measured.
+void add_distances(Json& report, const std::optional<Distances_anywhere>& distances);
+
 void add_comparison(Json& report, const Comparison& comparison);
 
 /// Sets `parts`, and `uv` where there is a texture.

@@ -276,7 +276,7 @@ private:
       m_seconds["cells"] = std::max(m_seconds["cells"], results[i].report.seconds_cells);
       m_seconds["reduce"] = std::max(m_seconds["reduce"], results[i].report.seconds_reduce);
       const bool is_one_of_file = are_levels_in_one_file(m_request);
-      levels.push_back({names[is_one_of_file ? 0 : i], std::move(results[i]), {}, m_guarded_poses, {}});
+      levels.push_back({names[is_one_of_file ? 0 : i], std::move(results[i]), {}, {}, m_guarded_poses, {}});
       if (is_one_of_file)
         levels.back().number = i + 1;
     }
@@ -297,6 +297,8 @@ private:
     m_outcome.is_target_required = m_request.is_target_required;
     for (Level& level : levels) {
       level.verification = verify(level.result, prepared);
+      if (has_own_error(m_request))
+        level.distances_anywhere = distances_anywhere(level.result.soup, prepared.soup);
       if (m_polygons > 0) // otherwise the soup need not be merged and copied for it
         level.polygons = {m_polygons, written_polygons(written(level.result), output_format())};
       m_outcome.is_accepted &= level.verification.accepted() && level.verification.same_topology();
@@ -430,6 +432,7 @@ private:
         json["options"] = options_json(m_request);
       add_reduction(json, prepared, level.result);
       add_verification(json, level.verification, true);
+      add_distances(json, level.distances_anywhere);
       for (Json& pose : json["verified"]["poses"]) {
         pose["guarded"] = false;
         pose["refused"] = 0;

@@ -270,10 +270,22 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
   stream << (references.empty() ? "" : "\n");
 }
 
+// Says whether a limit of distances holds anywhere, and if not, which one would do for that.
+void print_distances(std::ostream& stream, const Distances_anywhere& distances, double limit)
+{
+  stream << "distance of any point: at most " << percent(distances.original_to_result.upper)
+         << " from the original to the result, " << percent(distances.result_to_original.upper) << " back\n";
+  if (limit > 0 && distances.upper() > 1.01 * limit)
+    stream << "limit: " << percent(limit)
+           << " holds at vertices and at points between them; a smaller one, such as --error "
+           << with_digits(limit * limit / distances.upper()) << ", brings all points nearer\n";
+}
+
 void print_summary(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
                    const Level& level, const Outcome& outcome)
 {
-  const auto& [output, result, verification, guarded, polygons, number, notes, bytes_more] = level;
+  const auto& [output, result, verification, distances_anywhere, guarded, polygons, number, notes,
+               bytes_more] = level;
   const Simplify_report& done = result.report;
   const std::size_t faces = result.soup.triangles.size();
   const Distance& distance = verification.distances->original_to_result;
@@ -341,6 +353,8 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
            << "' and '" << parts.second << "' before, " << with_commas(parts.pairs) << " now";
   stream << "\ndistance from the original's vertices: " << percent(distance.root_mean_square)
          << " of the diagonal (RMS), at most " << percent(distance.maximum) << '\n';
+  if (distances_anywhere)
+    print_distances(stream, *distances_anywhere, *request.options.max_error);
   if (distance.maximum > far_off)
     stream << "worst deviation " << percent(distance.maximum) << " of the size, "
            << place_of(distance.farthest, prepared.soup) << '\n';

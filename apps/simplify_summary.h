@@ -7,12 +7,14 @@
 #include "Outcome.h"
 #include "Simplify_request.h"
 
+#include <selvedge/compare.h>
 #include <selvedge/mesh_files.h>
 #include <selvedge/simplify.h>
 #include <selvedge/verify.h>
 
 #include <cstdint>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,7 @@ struct Level
   std::string output;
   Simplified_soup result;
   Verification verification;
+  std::optional<Distances_anywhere> distances_anywhere = {}; ///< where the user has set a limit
   std::vector<std::size_t> guarded_poses; ///< numbers of the further poses in which collapses were judged
 
   /// Faces of more than three corners, in the input and in the file.

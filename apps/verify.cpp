@@ -70,8 +70,8 @@ void print(const Distances& distances, const Comparison& comparison, std::size_t
     std::cout << "  distance from " << what << ": " << with_digits(of_vertices.root_mean_square)
               << " RMS at the vertices, at most " << with_digits(maximum.upper) << " anywhere\n";
   };
-  print_distance("original to result", distances.original_to_result, comparison.original_to_result);
-  print_distance("result to original", distances.result_to_original, comparison.result_to_original);
+  print_distance("original to result", distances.original_to_result, comparison.distances.original_to_result);
+  print_distance("result to original", distances.result_to_original, comparison.distances.result_to_original);
   print("  borders", comparison.borders);
   print("  seams", comparison.seams);
   if (comparison.gaps.open_edges > 0)

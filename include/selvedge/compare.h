@@ -6,6 +6,7 @@
 
 #include <selvedge/verify.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -34,6 +35,19 @@ namespace selvedge {
 /// nearest triangle is sought. After Tang, Lee and Kim, *Interactive Hausdorff distance computation for
 /// general polygonal models*, 2009.
 Bounds maximum_distance(const Triangle_soup& from, const Triangle_soup& to);
+
+/// Bounds of the largest distance from any point of one mesh to the other, both ways, as shares of the
+/// diagonal of the original.
+struct Distances_anywhere
+{
+  Bounds original_to_result = {};
+  Bounds result_to_original = {};
+
+  double upper() const { return (std::max)(original_to_result.upper, result_to_original.upper); }
+};
+
+/// Computes both with `maximum_distance`.
+Distances_anywhere distances_anywhere(const Triangle_soup& result, const Triangle_soup& original);
 
 /// How far the lines of one mesh are from those of the other.
 struct Line_distance
@@ -148,8 +162,7 @@ struct Layer_order
 struct Comparison
 {
   double diagonal = 0; ///< in the unit of the coordinates
-  Bounds original_to_result = {};
-  Bounds result_to_original = {};
+  Distances_anywhere distances;
 
   /// Edges of one triangle.
   Line_comparison borders;

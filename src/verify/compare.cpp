@@ -94,38 +94,50 @@ Normal_deviation normal_deviation(const Triangle_soup& result, const Triangle_so
   return deviation;
 }
 
+Bounds relative(const Bounds& bounds, double unit)
+{
+  return {bounds.lower / unit, bounds.upper / unit};
+}
+
 } // namespace
+
+Distances_anywhere distances_anywhere(const Triangle_soup& result, const Triangle_soup& original)
+{
+  const double diagonal = diagonal_of(original), unit = diagonal > 0 ? diagonal : 1;
+  Distances_anywhere distances;
+  tbb::parallel_invoke(Cancellation_scope::inherited([&] {
+                         distances.original_to_result = relative(maximum_distance(original, result), unit);
+                       }),
+                       Cancellation_scope::inherited([&] {
+                         distances.result_to_original = relative(maximum_distance(result, original), unit);
+                       }));
+  return distances;
+}
 
 Comparison compare(const Triangle_soup& result, const Triangle_soup& original)
 {
   Comparison comparison;
   comparison.diagonal = diagonal_of(original);
   const double unit = comparison.diagonal > 0 ? comparison.diagonal : 1;
-  const auto make_relative = [&](Bounds bounds) { return Bounds{bounds.lower / unit, bounds.upper / unit}; };
   const auto make_lines_relative = [&](Line_comparison lines) {
     for (Line_distance* line : {&lines.original_to_result, &lines.result_to_original})
       *line = {{line->of_ends.root_mean_square / unit, line->of_ends.maximum / unit},
-               make_relative(line->maximum)};
+               relative(line->maximum, unit)};
     return lines;
   };
 
-  Bounds forth, back;
-  tbb::parallel_invoke(Cancellation_scope::inherited([&] { forth = maximum_distance(original, result); }),
-                       Cancellation_scope::inherited([&] { back = maximum_distance(result, original); }),
-                       Cancellation_scope::inherited([&] {
-                         const Borders_and_seams before = borders_and_seams(original),
-                                                 after = borders_and_seams(result);
-                         comparison.borders =
-                             make_lines_relative(compare_lines(after.borders, before.borders));
-                         comparison.seams = make_lines_relative(compare_lines(after.seams, before.seams));
-                         const Gaps gaps = find_gaps(after, before);
-                         comparison.gaps = {gaps.open_edges, gaps.length / unit, gaps.width / unit};
-                       }),
-                       Cancellation_scope::inherited([&] { compare_values(comparison, result, original); }));
-  comparison.original_to_result = make_relative(forth);
-  comparison.result_to_original = make_relative(back);
+  tbb::parallel_invoke(
+      Cancellation_scope::inherited([&] { comparison.distances = distances_anywhere(result, original); }),
+      Cancellation_scope::inherited([&] {
+        const Borders_and_seams before = borders_and_seams(original), after = borders_and_seams(result);
+        comparison.borders = make_lines_relative(compare_lines(after.borders, before.borders));
+        comparison.seams = make_lines_relative(compare_lines(after.seams, before.seams));
+        const Gaps gaps = find_gaps(after, before);
+        comparison.gaps = {gaps.open_edges, gaps.length / unit, gaps.width / unit};
+      }),
+      Cancellation_scope::inherited([&] { compare_values(comparison, result, original); }));
 
-  const double largest = std::max(forth.upper, back.upper);
+  const double largest = unit * comparison.distances.upper();
   tbb::parallel_invoke(Cancellation_scope::inherited(
                            [&] { comparison.normals = normal_deviation(result, original, largest); }),
                        Cancellation_scope::inherited([&] {

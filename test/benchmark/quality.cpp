@@ -282,18 +282,18 @@ void add_rows(Table& table, const std::string& argument, const Request& request)
         faces = result.triangles.size();
       const Distances at_vertices = distances(result, prepared.soup);
       const Comparison comparison = compare(result, prepared.soup);
-      table.add(
-          {mesh.name, text(ratio), programs[i].name, std::to_string(result.triangles.size()),
-           text(1000 * at_vertices.original_to_result.root_mean_square),
-           text(1000 * distance(by_area, result).root_mean_square / at_vertices.diagonal),
-           text(1000 * at_vertices.result_to_original.root_mean_square),
-           text(1000 * std::max(comparison.original_to_result.lower, comparison.result_to_original.lower)),
-           text(comparison.normals.root_mean_square),
-           text(1000 * distance_of_hard_edges(result, prepared.soup) / at_vertices.diagonal),
-           text(1000 * distance_of_pieces(result, pieces)),
-           text(share_of_moved_texture(result, prepared.soup, at_vertices.diagonal)),
-           std::to_string(offending_pairs(result).size()) + " (" +
-               std::to_string(prepared.offending_pairs.size()) + ')'});
+      table.add({mesh.name, text(ratio), programs[i].name, std::to_string(result.triangles.size()),
+                 text(1000 * at_vertices.original_to_result.root_mean_square),
+                 text(1000 * distance(by_area, result).root_mean_square / at_vertices.diagonal),
+                 text(1000 * at_vertices.result_to_original.root_mean_square),
+                 text(1000 * std::max(comparison.distances.original_to_result.lower,
+                                      comparison.distances.result_to_original.lower)),
+                 text(comparison.normals.root_mean_square),
+                 text(1000 * distance_of_hard_edges(result, prepared.soup) / at_vertices.diagonal),
+                 text(1000 * distance_of_pieces(result, pieces)),
+                 text(share_of_moved_texture(result, prepared.soup, at_vertices.diagonal)),
+                 std::to_string(offending_pairs(result).size()) + " (" +
+                     std::to_string(prepared.offending_pairs.size()) + ')'});
       if (!request.folder.empty())
         write_mesh(std::filesystem::path(request.folder) /
                        (mesh.name + '-' + text(ratio) + '-' + std::to_string(i) + ".obj"),

@@ -281,6 +281,30 @@ TEST(App_simplify, EndsWhereFewerFacesWouldMoveTheSurfaceTooFar)
   EXPECT_EQ(run_app({"simplify", in, "-o", out, "--error", "none"}).code, 2);
 }
 
+TEST(App_simplify, SaysHowFarAnyPointIsWhereALimitIsAskedFor)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("sheets", "in.obj", 2000), out = folder / "out.obj";
+  const std::string report = folder / "report.json", judged = folder / "judged.json";
+  const auto distances = [](const std::string& file) {
+    return nlohmann::json::parse(contents_of(file))["distance"];
+  };
+  const App_result limited = run_app({"simplify", in, "-o", out, "--error", "0.002", "--report", report});
+  EXPECT_NE(limited.out.find("\ndistance of any point: at most "), std::string::npos) << limited.out;
+  // Faces are long beside such a limit, and bulge between the points at which it is kept.
+  EXPECT_NE(limited.out.find("\nlimit: 0.2 % holds at vertices and at points between them"),
+            std::string::npos)
+      << limited.out;
+  EXPECT_EQ(run_app({"verify", out, "--against", in, "--report", judged}).code, 0);
+  for (const char* way : {"original_to_result", "result_to_original"})
+    for (const char* bound : {"max_lower", "max_upper"})
+      EXPECT_EQ(distances(report)[way][bound], distances(judged)[way][bound]) << way << ' ' << bound;
+
+  const App_result unlimited = run_app({"simplify", in, "-o", out, "--ratio", "0.5", "--report", report});
+  EXPECT_EQ(unlimited.out.find("distance of any point"), std::string::npos) << unlimited.out;
+  EXPECT_TRUE(distances(report)["original_to_result"]["max_upper"].is_null());
+}
+
 TEST(App_simplify, UncheckedIsWrittenAndNotVerified)
 {
   const Workspace folder;

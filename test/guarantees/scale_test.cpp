@@ -394,8 +394,8 @@ TEST(Scale, FiguresAreTheSame)
 
     const Comparison found = compare(result, original);
     EXPECT_EQ(found.diagonal, std::ldexp(expected.diagonal, exponent));
-    expect_equal(found.original_to_result, expected.original_to_result);
-    expect_equal(found.result_to_original, expected.result_to_original);
+    expect_equal(found.distances.original_to_result, expected.distances.original_to_result);
+    expect_equal(found.distances.result_to_original, expected.distances.result_to_original);
     expect_equal(found.borders, expected.borders);
     expect_equal(found.seams, expected.seams);
     EXPECT_EQ(found.normals.mean, expected.normals.mean);

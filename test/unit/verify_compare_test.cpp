@@ -334,10 +334,10 @@ TEST(Normals, OfTheOtherSideOfTheClothDoNotCount)
 TEST(Comparison, OfNothingIsNothing)
 {
   EXPECT_EQ(compare({}, {}).vertices, 0u);
-  EXPECT_EQ(compare(sheet(1, 1), {}).result_to_original.upper, infinity);
-  EXPECT_EQ(compare({}, sheet(1, 1)).original_to_result.upper, infinity);
+  EXPECT_EQ(distances_anywhere(sheet(1, 1), {}).result_to_original.upper, infinity);
+  EXPECT_EQ(distances_anywhere({}, sheet(1, 1)).original_to_result.upper, infinity);
   const Triangle_soup degenerate = soup({{1, 1, 1}, {2, 2, 2}}, {{0, 0, 0}, {0, 1, 1}});
-  EXPECT_EQ(compare(degenerate, degenerate).original_to_result.upper, 0);
+  EXPECT_EQ(compare(degenerate, degenerate).distances.original_to_result.upper, 0);
   EXPECT_EQ(compare(degenerate, degenerate).normals.samples, 0u);
 }
 
