@@ -22,10 +22,10 @@ namespace selvedge {
 ///
 /// Vertices at one position become one vertex when that keeps every edge manifold and oriented. Where it does
 /// not, they stay separate, as coincident vertices. These move together along a line where several sheets
-/// meet, one on each sheet, and nowhere else. Edges across which a vertex number, a
-/// texture coordinate, a normal, a group, an object or a material changes are lines: vertices on a line move
-/// only along it, and both sides move together, so that no gap can open. An edge is a line also where the
-/// doubles of its two faces are not as many, run other ways, or differ as faces may.
+/// meet, one on each sheet, and nowhere else. Edges across which a vertex number, a texture coordinate, a
+/// normal, a group, an object or a material changes are lines: vertices on a line move only along it, and
+/// both sides move together, so that no gap can open. An edge is a line also where the doubles of its two
+/// faces are not as many, run other ways, or differ as faces may.
 ///
 /// An obstacle may lie beside the soup: triangles that are in the mesh, do not change, and are not in the
 /// result. Nothing of the soup is sewn to it. Where the soup lies along an obstacle, it has the same border

@@ -572,6 +572,30 @@ group(
     ("if (!is_alike || is_held)", "if (!is_alike)", "what is locked in one place is not in others"),
 )
 group(
+    "src/soup/Shared_places.cpp",
+    ("shared_places_test",),
+    (" != m_corners.is_turned(Face(face))", "", "turned places are not seen as such"),
+    ("internal::inflated(box, clearance)", "box", "places that are near each other without overlapping are apart"),
+    ("box += mesh().point(mesh().source(in)).bbox();", ";", "a star is its vertex alone"),
+)
+group(
+    "src/soup/Texture_wedges.cpp",
+    ("texture_wedges_test",),
+    ("wedges_at[vertices[i]] == 1", "true", "the texture beyond a seam costs nothing"),
+    ("if (wedge != done)", "if (true)", "a wedge on both sides of an edge counts twice"),
+)
+group(
+    "src/soup/number_wedges.cpp",
+    ("texture_wedges_test",),
+    ("!is_line[mesh.edge(h)];", "true;", "wedges go on across lines, in one direction"),
+)
+group(
+    "src/soup/Place_rounding.cpp",
+    ("place_rounding_test",),
+    ("if (!m_is_scale_lossless)", "if (false)", "places that are no numbers of the file's type"),
+    ("rounded[i] = sum - digits;", "rounded[i] = place[i];", "places have digits that others lose near 0"),
+)
+group(
     "src/soup/shared_meshes.cpp",
     ("instances_test",),
     ("positions, row) != soup.points[v])", "positions, row) != soup.points[v] && false)",
