@@ -4,7 +4,7 @@
 #include <selvedge/inspect.h>
 
 #include "soup/Gltf_scene.h"
-#include "soup/Working_mesh.h"
+#include "soup/Sewn_mesh.h"
 #include "surface_distances.h"
 #include "verify/pieces.h"
 
@@ -159,7 +159,7 @@ private:
 
   void count_vertices()
   {
-    const Working_mesh::Mesh& mesh = m_working.mesh();
+    const Sewn_mesh::Mesh& mesh = m_working.mesh();
     Inspection::Vertices& count = m_result.movable;
     for (const auto v : mesh.vertices()) {
       if (m_rule.is_free(v))
@@ -170,7 +170,7 @@ private:
         ++(m_working.lock_reason(v) == Hindrance::misoriented ? count.misoriented : count.non_manifold);
     }
     for (Index t = 0; t < m_soup.triangles.size(); ++t) {
-      const Working_mesh::Mesh::Face_index face(m_prepared.fronts.empty() ? t : m_prepared.fronts[t]);
+      const Sewn_mesh::Mesh::Face_index face(m_prepared.fronts.empty() ? t : m_prepared.fronts[t]);
       const auto corners = mesh.vertices_around_face(mesh.halfedge(face));
       m_result.fixed_faces +=
           std::all_of(corners.begin(), corners.end(), [this](auto v) { return m_rule.is_locked(v); });
@@ -178,9 +178,9 @@ private:
   }
 
   // Whether a vertex on a line cannot move along it, apart from limits of turn and drift.
-  bool is_end(Working_mesh::Mesh::Vertex_index v) const
+  bool is_end(Sewn_mesh::Mesh::Vertex_index v) const
   {
-    const Working_mesh::Mesh& mesh = m_working.mesh();
+    const Sewn_mesh::Mesh& mesh = m_working.mesh();
     const auto around = mesh.halfedges_around_target(mesh.halfedge(v));
     return std::none_of(around.begin(), around.end(),
                         [&](auto h) { return m_rule.may_move_along(mesh.opposite(h), m_rule); });
@@ -190,7 +190,7 @@ private:
   {
     Inspection::Seams& seams = m_result.seams;
     for (const auto e : m_working.constraints().line_edges) {
-      const Working_mesh::Differences differences = m_working.differences(e);
+      const Sewn_mesh::Differences differences = m_working.differences(e);
       ++seams.edges;
       seams.by_vertices += differences.in_vertex;
       seams.by_texture += differences.in_uv;
@@ -202,8 +202,8 @@ private:
 
   const Prepared_soup& m_prepared;
   const Triangle_soup& m_soup;
-  Working_mesh m_working;
-  Border_rule<Working_mesh::Mesh> m_rule;
+  Sewn_mesh m_working;
+  Border_rule<Sewn_mesh::Mesh> m_rule;
   Inspection m_result;
 };
 

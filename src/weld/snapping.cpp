@@ -3,7 +3,6 @@
 
 #include "snapping.h"
 
-#include "soup/Working_mesh.h"
 #include "soup/selection.h"
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>

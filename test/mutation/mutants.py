@@ -222,15 +222,15 @@ for file, *entry in (
     ("src/files/gltf_writer.cpp", "m_soup.normals.empty() && !m_is_scene_made", "false", "dropped normals stay in glTF"),
 ):
     group(file, ("flat_shading_test",), tuple(entry))
-group(
-    "src/soup/Working_mesh.cpp",
-    ("placement_test", "worlds_test"),
-    ("rounded[i] = nearest_float32(rounded[i]);", ";", "places are no 32-bit floats"),
-    ("if (m_is_place_allowed && !m_is_place_allowed(result))", "if (false)", "places leave their cell"),
-    ("before == CGAL::COLLINEAR || uv_orientation(all, m_places[h], uv) == before;", "true;",
-     "triangles of the texture turn over"),
-    ("  lock(is_new);\n", "", "vertices that the user locks move"),
-)
+for file, entry in (
+    ("Place_rounding.cpp", ("rounded[i] = nearest_float32(rounded[i]);", ";", "places are no 32-bit floats")),
+    ("Place_rounding.cpp", ("if (m_is_allowed && !m_is_allowed(result))", "if (false)", "places leave their cell")),
+    ("keeps_uv_orientation.cpp",
+     ("before == CGAL::COLLINEAR || uv_orientation(placed, corners, place, uv) == before;", "true;",
+      "triangles of the texture turn over")),
+    ("Sewn_mesh.cpp", ("  lock(is_new);\n", "", "vertices that the user locks move")),
+):
+    group("src/soup/" + file, ("placement_test", "worlds_test"), entry)
 
 group(
     headers + "Surface_mesh_simplification/internal/Tracked_points.h",
@@ -390,19 +390,30 @@ group(
     ("weakest = (std::max)(weakest, reason);", "weakest = reason;", "a face has the reason of its last edge"),
 )
 
+lines = ("working_mesh_part_test", "cells_test", "attributes_test", "seams_test", "random_soups_test", "worlds_test")
+
 group(
-    "src/soup/Working_mesh.cpp",
-    ("working_mesh_part_test", "cells_test", "attributes_test", "seams_test", "random_soups_test", "worlds_test"),
-    ("side < sewing.mate(side) && rule.is_line(mesh.edge(originals[side])))", "side < sewing.mate(side) && false)",
-     "cells know no lines"),
+    "src/soup/Corner_mesh.cpp",
+    lines,
     ("differ_in_label(m_soup.groups) || differ_in_label(m_soup.objects)", "differ_in_label(m_soup.objects)",
      "groups make no lines"),
     ("differ(m_soup.normals, a, b),", "false,", "normals make no lines"),
+    ("m_places[m_mesh.next(h)] = m_places[m_mesh.opposite(m_mesh.prev(h))];", ";", "corners do not follow the edges that merge"),
+)
+group(
+    "src/soup/Corner_mesh.h",
+    lines,
+    ("if (rule.is_line(m_mesh.edge(h)))\n        return false;", "if (false)\n        return false;",
+     "corners are carried across lines"),
+    sources=("src/soup/Working_mesh.cpp",),
+)
+group(
+    "src/soup/Sewn_mesh.cpp",
+    lines,
+    ("rule.is_line(of_whole.edge(originals[side])))", "false)", "cells know no lines"),
     ("is_locked[v] = rule.is_locked(vertices[v]);", "", "what is locked in the whole moves in a cell"),
     ("is_locked[v] = vertices_at[position_of(v)] > 1;", "is_locked[v] = vertices_at[position_of(v)] > 2;", "pairs of twins move"),
     ("is_locked[v] |= is_in_frozen_face[v];", "", "faces that offend move"),
-    ("if (rule.is_line(m_mesh.edge(h)))\n        return false;", "", "corners are carried across lines"),
-    ("m_places[m_mesh.next(h)] = m_places[m_mesh.opposite(m_mesh.prev(h))];", ";", "corners do not follow the edges that merge"),
 )
 group(
     "src/soup/Sewing.cpp",
@@ -419,10 +430,10 @@ group(
     ("(2 * against[first_of(t)] > size[first_of(t)])", "false", "the first triangle of a surface is never turned"),
 )
 group(
-    "src/soup/Working_mesh.cpp",
+    "src/soup/Corner_mesh.cpp",
     ("orientation_test",),
-    ("turn(of_triangle);", ";", "the result keeps turned faces"),
-    ("turn(m_corners.back());", ";", "corners of turned faces lie at other vertices"),
+    ("turn(result);", ";", "the result keeps turned faces"),
+    ("turn(m_corners.back());", ";", "faces are not turned, and the result turns them back"),
 )
 group(
     "src/replay/Complex.cpp",
@@ -555,10 +566,34 @@ group(
     sources=("src/simplify/simplify_soup.cpp",),
 )
 group(
-    "src/soup/Working_mesh.cpp",
+    "src/soup/Shared_places.cpp",
     ("instances_test", "worlds_test"),
     ("places[copy.place].is_mirrored != ", "places[copy.place].is_mirrored && ", "mirrored places are not seen as such"),
     ("if (!is_alike || is_held)", "if (!is_alike)", "what is locked in one place is not in others"),
+)
+group(
+    "src/soup/Shared_places.cpp",
+    ("shared_places_test",),
+    (" != m_corners.is_turned(Face(face))", "", "turned places are not seen as such"),
+    ("internal::inflated(box, clearance)", "box", "places that are near each other without overlapping are apart"),
+    ("box += mesh().point(mesh().source(in)).bbox();", ";", "a star is its vertex alone"),
+)
+group(
+    "src/soup/Texture_wedges.cpp",
+    ("texture_wedges_test",),
+    ("wedges_at[vertices[i]] == 1", "true", "the texture beyond a seam costs nothing"),
+    ("if (wedge != done)", "if (true)", "a wedge on both sides of an edge counts twice"),
+)
+group(
+    "src/soup/number_wedges.cpp",
+    ("texture_wedges_test",),
+    ("!is_line[mesh.edge(h)];", "true;", "wedges go on across lines, in one direction"),
+)
+group(
+    "src/soup/Place_rounding.cpp",
+    ("place_rounding_test",),
+    ("if (!m_is_scale_lossless)", "if (false)", "places that are no numbers of the file's type"),
+    ("rounded[i] = sum - digits;", "rounded[i] = place[i];", "places have digits that others lose near 0"),
 )
 group(
     "src/soup/shared_meshes.cpp",
@@ -731,7 +766,7 @@ group(
     sources=("src/simplify/simplify_soup.cpp",),
 )
 group(
-    "src/soup/Working_mesh.cpp",
+    "src/soup/keeps_pieces.cpp",
     ("non_manifold_test",),
     ("if ((a[0] == b[0]) != (a[1] == b[1]) || (a[0] == b[0]) != (a[2] == b[2]))", "if (false)",
      "a sheet may be joined by other vertices afterwards"),
@@ -783,7 +818,7 @@ group(
 doubles = ("doubles_test",)
 
 group(
-    "src/soup/Working_mesh.cpp",
+    "src/soup/Corner_mesh.cpp",
     doubles,
     ("result.in_doubles = plies != plies_beyond;", "", "the end of a doubled region is no line"),
     ("m_plies[m_first_ply[face] + i].corners[m_places[h]] = corner_at(from, i);", ";", "doubles stay behind their fronts"),
@@ -887,11 +922,10 @@ group(
 progressive = ("progressive_test",)
 
 group(
-    "src/soup/Working_mesh.cpp",
+    "src/soup/Progression_recorder.cpp",
     progressive,
-    ("first[wedge + 1] = ply_count(face);", "first[wedge + 1] = 1;", "doubles share the wedges of their neighbours"),
-    ("for (const Mesh::Halfedge_index side : {moving, m_mesh.opposite(moving)}) {\n    if (m_mesh.is_border(side) || !is_own",
-     "for (const Mesh::Halfedge_index side : {moving}) {\n    if (m_mesh.is_border(side) || !is_own",
+    ("first[wedge + 1] = corners.ply_count(face);", "first[wedge + 1] = 1;", "doubles share the wedges of their neighbours"),
+    ("side : {moving, mesh.opposite(moving)}) {", "side : {moving}) {",
      "one side of a seam stays behind"),
 )
 group(

@@ -135,7 +135,9 @@ def judge(build, mutant, seconds, overlay):
     """Returns what became of a mutant, and the test that says so. The folder `overlay` is for its files."""
     shutil.rmtree(overlay, ignore_errors=True)
     changed = overlay / mutant.file
-    changed.parent.mkdir(parents=True)
+    if mutant.file.startswith("src/") and mutant.file.endswith(".h"):
+        shutil.copytree(TREE / "src", overlay / "src")  # headers there include their neighbours
+    changed.parent.mkdir(parents=True, exist_ok=True)
     text = (TREE / mutant.file).read_text(encoding="utf-8")
     changed.write_text(text.replace(mutant.old, mutant.new), encoding="utf-8")
     objects = {}

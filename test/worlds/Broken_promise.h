@@ -5,6 +5,7 @@
 #define SELVEDGE_TEST_WORLDS_BROKEN_PROMISE_H
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 namespace selvedge::test {
@@ -36,6 +37,9 @@ struct Broken_promise
   Promise promise;
   std::string message;
 };
+
+/// None when all promises are kept.
+using Verdict = std::optional<Broken_promise>;
 
 } // namespace selvedge::test
 

@@ -9,7 +9,6 @@
 
 #include <cstddef>
 #include <map>
-#include <optional>
 #include <string>
 
 namespace selvedge::test {
@@ -38,18 +37,17 @@ struct Judgement_extent
 
 /// The first promise that a run breaks: every motion by brute force, the end, the log by the replay, the
 /// file; then every motion and the end of reductions with other options.
-std::optional<Broken_promise> judge(const World& world, const World_run& run, Judgement_counts& counts,
-                                    const Judgement_extent& extent = {});
+Verdict judge(const World& world, const World_run& run, Judgement_counts& counts,
+              const Judgement_extent& extent = {});
 
 /// The first promise that a twin of a run breaks. One with another index, in other threads, with zeros of the
 /// other sign, or in units 2^k times as large does the same; one with vertices and triangles in another order
 /// keeps what this one keeps; a level of detail is what a run to it alone gives.
-std::optional<Broken_promise> judge_twins(const World& world, const World_run& run, Judgement_counts& counts,
-                                          const Judgement_extent& extent = {});
+Verdict judge_twins(const World& world, const World_run& run, Judgement_counts& counts,
+                    const Judgement_extent& extent = {});
 
 /// Runs a world and judges all of that. An exception is a promise broken.
-std::optional<Broken_promise> judge(const World& world, Judgement_counts& counts,
-                                    const Judgement_extent& extent = {});
+Verdict judge(const World& world, Judgement_counts& counts, const Judgement_extent& extent = {});
 
 } // namespace selvedge::test
 

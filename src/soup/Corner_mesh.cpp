@@ -1,0 +1,230 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "Corner_mesh.h"
+
+#include "Sewing.h"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+
+namespace selvedge {
+
+Corner_mesh::Corner_mesh(const Triangle_soup& soup, const std::vector<Index>& positions,
+                         const std::vector<char>& is_turned, const std::vector<Index>& fronts)
+    : m_soup(soup), m_is_turned(is_turned)
+{
+  m_corners.reserve(soup.triangles.size());
+  for (Index t = 0; t < soup.triangles.size(); ++t) {
+    m_corners.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    if (this->is_turned(Face(t)))
+      turn(m_corners.back());
+  }
+  find_plies(fronts, positions);
+}
+
+Corner_mesh::Corner_mesh(const Corner_mesh& whole, const std::vector<Index>& faces) : m_soup(whole.m_soup)
+{
+  if (!whole.m_first_ply.empty())
+    m_first_ply.assign(1, 0);
+  for (const Index number : faces) {
+    const Face face(number);
+    if (!whole.is_own(face))
+      break; // the faces of the obstacle come last
+    m_corners.push_back(whole.m_corners[face]);
+    if (whole.m_first_ply.empty())
+      continue;
+    m_plies.insert(m_plies.end(), whole.m_plies.begin() + whole.m_first_ply[face],
+                   whole.m_plies.begin() + whole.m_first_ply[face + 1]);
+    m_first_ply.push_back(Index(m_plies.size()));
+  }
+}
+
+// Finds the triangles for which each front stands. Those that run as the face does come first, so that
+// their order is the same in all faces of one surface, in whatever order the soup has them.
+void Corner_mesh::find_plies(const std::vector<Index>& fronts, const std::vector<Index>& positions)
+{
+  if (fronts.empty())
+    return;
+  const auto position_of = [&](Corner corner) { return positions[vertex_of(corner)]; };
+  m_first_ply.assign(fronts.size() + 1, 0);
+  for (Index t = 0; t < fronts.size(); ++t)
+    if (fronts[t] != t)
+      m_first_ply[fronts[t] + 1] += m_first_ply[fronts[t] + 1] == 0 ? 2 : 1;
+  std::partial_sum(m_first_ply.begin(), m_first_ply.end(), m_first_ply.begin());
+  m_plies.resize(m_first_ply.back());
+  std::vector<Index> next = m_first_ply;
+  for (Index t = 0; t < fronts.size(); ++t) {
+    const Face face(fronts[t]);
+    if (!has_doubles(face))
+      continue;
+    Ply& ply = m_plies[next[face]++];
+    ply.triangle = t;
+    for (unsigned char k = 0; k < 3; ++k)
+      for (unsigned char place = 0; place < 3; ++place)
+        if (position_of(3 * t + place) == position_of(m_corners[face][k])) {
+          ply.places[k] = place;
+          ply.corners[k] = 3 * t + place;
+        }
+  }
+  for (Index t = 0; t < fronts.size(); ++t)
+    if (has_doubles(Face(t))) {
+      const auto first = m_plies.begin() + m_first_ply[t];
+      std::stable_partition(first, m_plies.begin() + m_first_ply[t + 1],
+                            [](const Ply& ply) { return !ply.is_against_face(); });
+      m_corners[t] = first->corners;
+    }
+}
+
+// `Surface_mesh::add_face` would make the same, but has to search for what is known here.
+std::vector<Corner_mesh::Halfedge> Corner_mesh::build(const Sewing& sewing, const std::vector<Index>& faces,
+                                                      const std::function<Point_3(Index)>& point_of)
+{
+  const Index side_count = sewing.side_count();
+  const auto vertex = [&](Index corner) { return Mesh::Vertex_index(sewing.vertex(corner)); };
+  Index edge_count = 0;
+  for (Index side = 0; side < side_count; ++side)
+    edge_count += side < sewing.mate(side);
+  m_mesh.reserve(sewing.vertex_count(), edge_count, side_count / 3);
+  for (Index v = 0; v < sewing.vertex_count(); ++v)
+    m_mesh.add_vertex(point_of(v));
+  std::vector<Halfedge> halfedges(side_count);
+  for (Index side = 0; side < side_count; ++side) {
+    const Index mate = sewing.mate(side), end = Sewing::next(side);
+    halfedges[side] =
+        side < mate ? m_mesh.add_edge(vertex(side), vertex(end)) : m_mesh.opposite(halfedges[mate]);
+    m_mesh.set_halfedge(vertex(end), halfedges[side]);
+  }
+  std::vector<Halfedge> border_from(m_mesh.number_of_vertices());
+  std::vector<Face> unused; // a mesh gives removed numbers to the faces that it makes next
+  for (Index side = 0; side < side_count; ++side) {
+    if (side % 3 == 0) {
+      Face face = m_mesh.add_face();
+      for (; face < Face(faces[side / 3]); face = m_mesh.add_face())
+        unused.push_back(face);
+      m_mesh.set_halfedge(face, halfedges[Sewing::previous(side)]);
+    }
+    m_mesh.set_face(halfedges[side], Face(faces[side / 3]));
+    m_mesh.set_next(halfedges[side], halfedges[Sewing::next(side)]);
+    if (sewing.mate(side) == Sewing::none)
+      border_from[vertex(Sewing::next(side))] = m_mesh.opposite(halfedges[side]);
+  }
+  for (Index side = 0; side < side_count; ++side) {
+    if (sewing.mate(side) != Sewing::none)
+      continue;
+    const Halfedge border = m_mesh.opposite(halfedges[side]);
+    m_mesh.set_halfedge(vertex(side), border); // by this, CGAL sees at once that the vertex is on a border
+    m_mesh.set_next(border, border_from[vertex(side)]);
+  }
+  for (const Face face : unused)
+    m_mesh.remove_face(face);
+  m_places.resize(m_mesh.number_of_halfedges());
+  for (Index side = 0; side < side_count; ++side)
+    m_places[halfedges[side]] = Sewing::next(side) % 3;
+  return halfedges;
+}
+
+Index_triple Corner_mesh::corners_in_soup(Face face, Index i) const
+{
+  Index_triple result = corners(face, i);
+  if (has_doubles(face))
+    for (std::size_t k = 0; k < 3; ++k)
+      result[ply(face, i).places[k]] = corners(face, i)[k];
+  else if (is_turned(face))
+    turn(result);
+  return result;
+}
+
+std::pair<Index, Index> Corner_mesh::ends_in_soup(Halfedge moving) const
+{
+  const auto [to_mover, to_goal] =
+      halfedges_to_ends(moving, m_mesh.is_border(moving) ? m_mesh.opposite(moving) : moving);
+  return {vertex_of(corner_at(to_mover)), vertex_of(corner_at(to_goal))};
+}
+
+Corner_mesh::Side Corner_mesh::side(Halfedge h) const
+{
+  const bool is_beyond = m_mesh.is_border(h);
+  const Halfedge own = is_beyond ? m_mesh.opposite(h) : h;
+  return {m_mesh.face(own), m_places[m_mesh.prev(own)], is_beyond};
+}
+
+Corner_mesh::Halfedge Corner_mesh::halfedge(const Side& side) const
+{
+  const Face face(side.triangle);
+  if (!has_face(face))
+    throw std::logic_error("a side of a face that is gone");
+  Halfedge h = m_mesh.halfedge(face);
+  for (int i = 0; i < 3; ++i, h = m_mesh.next(h))
+    if (m_places[m_mesh.prev(h)] == side.place)
+      return side.is_beyond ? m_mesh.opposite(h) : h;
+  throw std::logic_error("a side that its face does not have");
+}
+
+namespace {
+
+// Compares values and not their numbers, since a file may write a value twice.
+template <class Values>
+bool differ(const Values& corners, Index a, Index b)
+{
+  return !corners.empty() && corners.values[corners.of_triangle[a / 3][a % 3]] !=
+                                 corners.values[corners.of_triangle[b / 3][b % 3]];
+}
+
+} // namespace
+
+Corner_mesh::Differences Corner_mesh::differences(Corner a, Corner b) const
+{
+  const auto differ_in_label = [&](const Triangle_labels& labels) {
+    return !labels.empty() && labels.of_triangle[a / 3] != labels.of_triangle[b / 3];
+  };
+  return {vertex_of(a) != vertex_of(b), differ(m_soup.uvs, a, b), differ(m_soup.normals, a, b),
+          differ_in_label(m_soup.groups) || differ_in_label(m_soup.objects) ||
+              differ_in_label(m_soup.materials)};
+}
+
+Corner_mesh::Differences& Corner_mesh::Differences::operator|=(const Differences& other)
+{
+  in_vertex |= other.in_vertex;
+  in_uv |= other.in_uv;
+  in_normal |= other.in_normal;
+  in_label |= other.in_label;
+  in_doubles |= other.in_doubles;
+  return *this;
+}
+
+Corner_mesh::Differences Corner_mesh::differences(Mesh::Edge_index e) const
+{
+  const Halfedge h = m_mesh.halfedge(e), other = m_mesh.opposite(h);
+  const Face face = m_mesh.face(h), beyond = m_mesh.face(other);
+  const Index plies = ply_count(face), plies_beyond = ply_count(beyond);
+  Differences result;
+  result.in_doubles = plies != plies_beyond;
+  for (Index i = 0; i < (std::min)(plies, plies_beyond); ++i) {
+    result |= differences(corner_at(h, i), corner_at(m_mesh.prev(other), i));
+    result |= differences(corner_at(m_mesh.prev(h), i), corner_at(other, i));
+    if (plies > 1 && plies_beyond > 1)
+      result.in_doubles |= ply(face, i).is_against_face() != ply(beyond, i).is_against_face();
+  }
+  return result;
+}
+
+void Corner_mesh::carry(Halfedge h, Halfedge from)
+{
+  const Face face = m_mesh.face(h);
+  m_corners[face][m_places[h]] = corner_at(from);
+  for (Index i = 1; i < ply_count(face); ++i)
+    m_plies[m_first_ply[face] + i].corners[m_places[h]] = corner_at(from, i);
+}
+
+void Corner_mesh::carry_places(Halfedge moving)
+{
+  // Each contracted face takes the edge before h with it. The edge after h takes the place of that edge in
+  // the face beyond it.
+  for (const Halfedge h : {moving, m_mesh.opposite(moving)})
+    if (!m_mesh.is_border(h))
+      m_places[m_mesh.next(h)] = m_places[m_mesh.opposite(m_mesh.prev(h))];
+}
+
+} // namespace selvedge

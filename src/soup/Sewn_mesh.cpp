@@ -1,0 +1,332 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "Sewn_mesh.h"
+
+#include "Sewing.h"
+
+#include <selvedge/Cancellation_scope.h>
+#include <selvedge/Error.h>
+#include <selvedge/Parts.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+#include <string>
+
+namespace selvedge {
+
+Sewn_mesh::Sewn_mesh(const Triangle_soup& soup, const std::vector<Index>& positions,
+                     const std::vector<char>& is_frozen, const Triangle_soup& obstacle, const Scale& scale,
+                     const std::vector<char>& is_turned, const std::vector<Index>& fronts)
+    : Corner_mesh(soup, positions, is_turned, fronts)
+{
+  const Index own_vertices = Index(soup.points.size());
+  std::vector<Index_triple> triangles; // of positions
+  std::vector<Index> faces;            // their numbers in the mesh
+  std::vector<char> is_used(soup.points.size(), false);
+  triangles.reserve(soup.triangles.size() + obstacle.triangles.size());
+  m_is_frozen.assign(is_frozen.begin(), is_frozen.begin() + std::ptrdiff_t(soup.triangles.size()));
+  for (Index t = 0; t < soup.triangles.size(); ++t) {
+    for (const Index i : soup.triangles[t])
+      is_used[i] = true;
+    if (const Index front = fronts.empty() ? t : fronts[t]; front != t) {
+      if (m_is_frozen[front] == 0)
+        m_is_frozen[front] = m_is_frozen[t];
+      continue;
+    }
+    const Face face(t);
+    const auto& [a, b, c] = corners(face);
+    faces.push_back(t);
+    triangles.push_back({positions[vertex_of(a)], positions[vertex_of(b)], positions[vertex_of(c)]});
+    if (has_doubles(face))
+      m_constraints.multiplicities.emplace_back(face, ply_count(face));
+  }
+  const Index own_corners = Index(3 * triangles.size()); // of faces
+  for (Index v = 0; v < is_used.size(); ++v) {
+    m_notes.unused_vertices += !is_used[v];
+    m_notes.coincident_vertices += is_used[v] && positions[v] != v && is_used[positions[v]];
+  }
+  for (const auto& [a, b, c] : obstacle.triangles) {
+    faces.push_back(Index(soup.triangles.size() + triangles.size()) - own_corners / 3);
+    m_constraints.uncounted_faces.emplace_back(faces.back());
+    triangles.push_back(
+        {positions[own_vertices + a], positions[own_vertices + b], positions[own_vertices + c]});
+  }
+
+  const Index corner_count = Index(3 * triangles.size());
+
+  const auto own_corner = [&](Index corner) { return corners(Face(faces[corner / 3]))[corner % 3]; };
+  const Sewing sewing(triangles, own_corners, Index(positions.size()), m_notes);
+  Cancellation_scope::check();
+  std::vector<Corner> corner_of(sewing.vertex_count()); // the first corner of each vertex
+  for (Corner corner = corner_count; corner-- > 0;)
+    corner_of[sewing.vertex(corner)] = corner;
+  const std::vector<Halfedge> halfedges = build(sewing, faces, [&](Index vertex) {
+    const Corner corner = corner_of[vertex];
+    if (corner < own_corners)
+      return scale(soup.points[vertex_of(own_corner(corner))]);
+    const Corner beside = corner - own_corners;
+    return scale(obstacle.points[obstacle.triangles[beside / 3][beside % 3]]);
+  });
+
+  std::vector<Index> vertices_at(positions.size(), 0); // the number of vertices, by position
+  const auto position_of = [&](Index vertex) {
+    return triangles[corner_of[vertex] / 3][corner_of[vertex] % 3];
+  };
+  const auto count_vertices = [&](Index vertex, Corner beyond) {
+    for (; vertex < corner_of.size() && corner_of[vertex] < beyond; ++vertex)
+      ++vertices_at[position_of(vertex)];
+    return vertex;
+  };
+  const Index first_of_obstacle = count_vertices(0, own_corners);
+  m_notes.unsewn_positions =
+      std::count_if(vertices_at.begin(), vertices_at.end(), [](Index count) { return count > 1; });
+  count_vertices(first_of_obstacle, corner_count);
+  std::vector<char> is_locked(corner_of.size(), false);
+  for (Index v = 0; v < is_locked.size(); ++v)
+    is_locked[v] = vertices_at[position_of(v)] > 1;
+  std::vector<char> is_in_frozen_face(corner_of.size(), false), moves_alone(corner_of.size(), false);
+  for (Corner corner = 0; corner < corner_count; ++corner) {
+    const Face face(faces[corner / 3]);
+    is_in_frozen_face[sewing.vertex(corner)] |= is_own(face) ? m_is_frozen[face] : is_frozen[face];
+    moves_alone[sewing.vertex(corner)] |= is_in_frozen_face[sewing.vertex(corner)] || has_doubles(face);
+  }
+  find_joint_vertices(is_locked, moves_alone, vertices_at, position_of);
+  for (Index v = 0; v < is_locked.size(); ++v)
+    is_locked[v] |= is_in_frozen_face[v];
+  lock(is_locked);
+  m_is_misoriented.assign(soup.points.size(), false);
+  for (const Index side : sewing.misoriented_sides()) {
+    if (side >= own_corners)
+      continue;
+    m_misoriented_sides.push_back(3 * faces[side / 3] + side % 3);
+    for (const Corner end : {side, Sewing::next(side)})
+      m_is_misoriented[vertex_of(own_corner(end))] = true;
+  }
+  if (!m_misoriented_sides.empty()) {
+    const std::vector<Index> piece_of = part_kinds(soup).front().of_triangle;
+    std::set<Index> pieces;
+    for (const Index side : m_misoriented_sides)
+      pieces.insert(piece_of[side / 3]);
+    m_notes.misoriented_pieces = pieces.size();
+  }
+
+  Cancellation_scope::check();
+  for (Index side = 0; side < own_corners; ++side) {
+    const Index mate = sewing.mate(side);
+    if (mate != Sewing::none && side < mate && differences(mesh().edge(halfedges[side])).any())
+      m_constraints.line_edges.push_back(mesh().edge(halfedges[side]));
+  }
+  m_notes.seam_edges = m_constraints.line_edges.size();
+  find_no_strip_vertices(position_of);
+
+  if (!obstacle.triangles.empty()) { // the limits are shares of the diagonal of the soup alone
+    CGAL::Bbox_3 box;
+    for (const Index_triple& triangle : soup.triangles)
+      for (const Index i : triangle)
+        box += scale(soup.points[i]).bbox();
+    m_constraints.diagonal =
+        std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
+  }
+}
+
+Sewn_mesh::Sewn_mesh(const Sewn_mesh& whole, const Border_rule<Mesh>& rule, const std::vector<Index>& faces)
+    : Corner_mesh(whole, faces)
+{
+  const Mesh& of_whole = whole.mesh();
+  std::vector<Halfedge> originals; // by side
+  std::vector<Index> mates;
+  std::vector<Index> cut; // sides whose mates are not in the part
+  for (const Index face : faces) {
+    if (!whole.is_own(Face(face)))
+      m_constraints.uncounted_faces.emplace_back(Index(originals.size() / 3));
+    for (unsigned char place = 0; place < 3; ++place) {
+      originals.push_back(whole.halfedge({face, place, false}));
+      mates.push_back(Sewing::none);
+      const Halfedge opposite = of_whole.opposite(originals.back());
+      if (of_whole.is_border(opposite))
+        continue;
+      const Side beyond = whole.side(opposite);
+      const auto found = std::lower_bound(faces.begin(), faces.end(), beyond.triangle);
+      if (found != faces.end() && *found == beyond.triangle)
+        mates.back() = Index(3 * (found - faces.begin())) + beyond.place;
+      else
+        cut.push_back(Index(mates.size() - 1));
+    }
+  }
+
+  const Sewing sewing(std::move(mates));
+  std::vector<Index> numbers(faces.size());
+  std::iota(numbers.begin(), numbers.end(), Index(0));
+  std::vector<Mesh::Vertex_index> vertices(sewing.vertex_count()); // of the whole
+  for (Index side = 0; side < originals.size(); ++side)
+    vertices[sewing.vertex(side)] = of_whole.source(originals[side]);
+  const std::vector<Halfedge> halfedges =
+      build(sewing, numbers, [&](Index vertex) { return of_whole.point(vertices[vertex]); });
+
+  std::vector<char> is_locked(vertices.size(), false);
+  for (Index v = 0; v < vertices.size(); ++v) {
+    is_locked[v] = rule.is_locked(vertices[v]);
+    if (rule.bounds_no_strip(vertices[v]))
+      m_constraints.no_strip_vertices.emplace_back(v);
+  }
+  for (const Index side : cut)
+    is_locked[sewing.vertex(side)] = is_locked[sewing.vertex(Sewing::next(side))] = true;
+  lock(is_locked);
+  for (Index side = 0; side < originals.size(); ++side)
+    if (sewing.mate(side) != Sewing::none && side < sewing.mate(side) &&
+        rule.is_line(of_whole.edge(originals[side])))
+      m_constraints.line_edges.push_back(mesh().edge(halfedges[side]));
+  if (!whole.m_constraints.vertex_weights.empty())
+    for (const Mesh::Vertex_index v : vertices)
+      m_constraints.vertex_weights.push_back(whole.m_constraints.vertex_weights[v]);
+}
+
+void Sewn_mesh::lock(const std::vector<char>& is_locked)
+{
+  for (Index v = 0; v < is_locked.size(); ++v)
+    if (is_locked[v])
+      m_constraints.locked_vertices.push_back(Mesh::Vertex_index(v));
+}
+
+// Finds the positions where several sheets meet along a line that comes from one position and goes on to
+// another, and unlocks their vertices: one on the border of each sheet, which all move together. A vertex of
+// an obstacle is in a frozen face.
+template <class Function>
+void Sewn_mesh::find_joint_vertices(std::vector<char>& is_locked, const std::vector<char>& is_in_frozen_face,
+                                    const std::vector<Index>& vertices_at, const Function& position_of)
+{
+  struct Place_on_line
+  {
+    Index first_end, second_end; // the positions between which it lies
+    std::vector<Mesh::Vertex_index> vertices;
+    bool is_inside = true;
+  };
+  std::map<Index, Place_on_line> places; // by position
+  for (Index v = 0; v < is_locked.size(); ++v) {
+    if (vertices_at[position_of(v)] < 2)
+      continue;
+    const Halfedge border = mesh().halfedge(Mesh::Vertex_index(v)); // or an inner one, if none
+    const auto ends =
+        std::minmax({position_of(mesh().source(border)), position_of(mesh().target(mesh().next(border)))});
+    const auto [place, is_new] =
+        places.try_emplace(position_of(v), Place_on_line{ends.first, ends.second, {}});
+    place->second.vertices.push_back(Mesh::Vertex_index(v));
+    place->second.is_inside = place->second.is_inside && mesh().is_border(border) && !is_in_frozen_face[v] &&
+                              ends.first != ends.second && ends.first == place->second.first_end &&
+                              ends.second == place->second.second_end;
+  }
+  for (auto& [position, place] : places)
+    if (place.is_inside) {
+      for (const Mesh::Vertex_index v : place.vertices)
+        is_locked[v] = false;
+      m_constraints.joint_vertices.push_back(std::move(place.vertices));
+    }
+}
+
+// Finds the ends of lines that a reader of the log may not see: those where the mesh is cut for the sake of
+// non-manifold places, and those of normals, which may be made anew.
+template <class Function>
+void Sewn_mesh::find_no_strip_vertices(const Function& position_of)
+{
+  const auto add = [this](Halfedge h) {
+    m_constraints.no_strip_vertices.push_back(mesh().source(h));
+    m_constraints.no_strip_vertices.push_back(mesh().target(h));
+  };
+  for (const Mesh::Edge_index e : m_constraints.line_edges)
+    if (const Differences differ = differences(e); !differ.in_vertex && !differ.in_uv && !differ.in_label)
+      add(mesh().halfedge(e));
+  std::vector<std::pair<std::pair<Index, Index>, Halfedge>> borders; // by the ends' positions
+  for (const Halfedge h : mesh().halfedges())
+    if (mesh().is_border(h))
+      borders.push_back({std::minmax({position_of(mesh().source(h)), position_of(mesh().target(h))}), h});
+  std::sort(borders.begin(), borders.end());
+  for (std::size_t i = 1; i < borders.size(); ++i)
+    if (borders[i - 1].first == borders[i].first) {
+      add(borders[i - 1].second);
+      add(borders[i].second);
+    }
+}
+
+void Sewn_mesh::lock_by_wish(const std::vector<Index>& vertices, const std::vector<Index>& positions)
+{
+  if (vertices.empty())
+    return;
+  std::vector<char> is_wished(positions.size(), false); // by position
+  for (const Index vertex : vertices) {
+    if (vertex >= soup().points.size())
+      throw Argument_error("vertex " + std::to_string(vertex) + " cannot be locked: the mesh has " +
+                           std::to_string(soup().points.size()) + " vertices, counted from 0");
+    is_wished[positions[vertex]] = true;
+  }
+  m_is_wished.assign(mesh().number_of_vertices(), false);
+  for (const Face face : mesh().faces())
+    if (is_own(face))
+      for (const Halfedge h : mesh().halfedges_around_face(mesh().halfedge(face)))
+        m_is_wished[mesh().target(h)] |= is_wished[positions[vertex_of(corner_at(h))]];
+  std::vector<char> is_new = m_is_wished;
+  for (const Mesh::Vertex_index v : m_constraints.locked_vertices)
+    is_new[v] = false;
+  lock(is_new);
+}
+
+void Sewn_mesh::weigh(const std::vector<double>& weights)
+{
+  m_constraints.vertex_weights.assign(mesh().number_of_vertices(), 0);
+  for (const Halfedge h : mesh().halfedges()) {
+    if (mesh().is_border(h) || !is_own(mesh().face(h)))
+      continue;
+    double& weight = m_constraints.vertex_weights[mesh().target(h)];
+    for (Index i = 0; i < ply_count(mesh().face(h)); ++i)
+      weight = (std::max)(weight, weights[vertex_of(corner_at(h, i))]);
+  }
+}
+
+std::vector<Index> Sewn_mesh::vertices_of_soup(const Triangle_soup& obstacle) const
+{
+  std::vector<Index> result(mesh().number_of_vertices());
+  for (const Halfedge h : mesh().halfedges()) {
+    if (mesh().is_border(h))
+      continue;
+    const Face face = mesh().face(h);
+    result[mesh().target(h)] =
+        is_own(face)
+            ? vertex_of(corner_at(h))
+            : Index(soup().points.size()) + obstacle.triangles[face - soup().triangles.size()][place(h)];
+  }
+  return result;
+}
+
+// A locked vertex keeps its position and its frozen faces, so that its reason is the same at any time.
+Hindrance Sewn_mesh::lock_reason(Mesh::Vertex_index v) const
+{
+  Hindrance reason = !m_is_wished.empty() && m_is_wished[v] ? Hindrance::locked : Hindrance::non_manifold;
+  for (const Halfedge h : mesh().halfedges_around_target(mesh().halfedge(v))) {
+    if (mesh().is_border(h) || !is_own(mesh().face(h)))
+      continue;
+    if (const char frozen = m_is_frozen[mesh().face(h)]; frozen != 0)
+      reason = (std::min)(reason, frozen == by_wish ? Hindrance::locked : Hindrance::frozen);
+    else if (reason == Hindrance::non_manifold && m_is_misoriented[vertex_of(corner_at(h))])
+      reason = Hindrance::misoriented;
+    else if (!m_is_held_elsewhere.empty() && m_is_held_elsewhere[vertex_of(corner_at(h))])
+      return Hindrance::companions;
+  }
+  return reason;
+}
+
+// Looks at what differs now. Where nothing does any more, the line counts as a seam. Where only normals and
+// vertex numbers differ, the numbers are taken to be those of a file that writes a vertex for each normal.
+Hindrance Sewn_mesh::line_reason(Mesh::Edge_index e) const
+{
+  const Differences differ = differences(e);
+  if (differ.in_normal && !differ.in_label && !differ.in_uv)
+    return Hindrance::normals;
+  if (differ.in_vertex || differ.in_doubles || !differ.any())
+    return Hindrance::seam;
+  return differ.in_label ? Hindrance::group : Hindrance::texture;
+}
+
+} // namespace selvedge

@@ -1,0 +1,129 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "Texture_wedges.h"
+
+#include "Sewing.h"
+#include "number_wedges.h"
+
+#include <selvedge/Cancellation_scope.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+
+namespace selvedge {
+
+Texture_wedges::Texture_wedges(const Corner_mesh& corners, const Scale& scale,
+                               const Simplify_constraints<Mesh>& constraints, double unit)
+    : m_corners(corners), m_unit(unit)
+{
+  Wedge_numbers numbers = number_wedges(corners, constraints.line_edges);
+  const std::vector<Mesh::Vertex_index>& vertices = numbers.vertices;
+  m_numbers = std::move(numbers.of_face);
+  m_wedges.assign(vertices.size(), {});
+  std::vector<Index> wedges_at(mesh().number_of_vertices(), 0);
+  for (const Mesh::Vertex_index v : vertices)
+    ++wedges_at[v];
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    m_wedges[i].is_alone = wedges_at[vertices[i]] == 1;
+  Cancellation_poll poll;
+  for (const Corner_mesh::Face face : mesh().faces()) {
+    poll();
+    if (!corners.is_own(face))
+      break; // the faces of the obstacle come last
+    std::array<Uv_quadric::Vector, 3> points;
+    std::array<Uv, 3> uvs;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point_3 p = scale(corners.soup().points[corners.vertex_of(corners.corners(face)[k])]);
+      points[k] = {p.x(), p.y(), p.z()};
+      uvs[k] = at_unit(corners.uv_of(corners.corners(face)[k]));
+    }
+    const Uv_quadric of_face(points, uvs, 1);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index number = m_numbers[face][k];
+      m_wedges[number].uv = uvs[k];
+      m_wedges[number].quadric += constraints.vertex_weights.empty()
+                                      ? of_face
+                                      : Uv_quadric(points, uvs, constraints.vertex_weights[vertices[number]]);
+    }
+  }
+}
+
+// Calls function(from, to) with the wedges at both ends of a motion, once for each side of a line along it.
+template <class Function>
+void Texture_wedges::for_each_moved_wedge(Halfedge moving, const Function& function) const
+{
+  Index done = Sewing::none;
+  for (const Halfedge h : {moving, mesh().opposite(moving)}) {
+    if (mesh().is_border(h))
+      continue;
+    const auto [from, to] = m_corners.halfedges_to_ends(moving, h);
+    const Index wedge = number_at(from);
+    if (wedge != done)
+      function(wedge, number_at(to));
+    if (m_wedges[wedge].is_alone)
+      return;
+    done = wedge;
+  }
+}
+
+// Returns how a vertex moves when it goes to a place.
+Uv_quadric::Vector Texture_wedges::motion(Mesh::Vertex_index v, const Point_3& place) const
+{
+  const Point_3& p = mesh().point(v);
+  return {place.x() - p.x(), place.y() - p.y(), place.z() - p.z()};
+}
+
+Uv_quadric::Vector Texture_wedges::along(Halfedge h) const
+{
+  return motion(mesh().source(h), mesh().point(mesh().target(h)));
+}
+
+double Texture_wedges::cost(Halfedge moving) const
+{
+  double cost = 0;
+  for_each_moved_wedge(moving, [&](Index from, Index to) {
+    const Wedge& wedge = m_wedges[from];
+    cost += wedge.quadric(along(moving), wedge.uv_motion(m_wedges[to].uv));
+  });
+  return std::max(0.0, cost); // rounding may leave a sum slightly below zero
+}
+
+double Texture_wedges::cost_at(Halfedge edge, const Point_3& place) const
+{
+  double cost = 0;
+  for_each_moved_wedge(edge, [&](Index from, Index to) {
+    const Wedge &first = m_wedges[from], &second = m_wedges[to];
+    const Uv uv_motion = first.uv_motion(second.uv);
+    Uv_quadric sum = first.quadric.moved_by(along(edge), uv_motion);
+    sum += second.quadric;
+    cost += first.quadric(along(edge), uv_motion) + sum.least(motion(mesh().target(edge), place));
+  });
+  return std::max(0.0, cost);
+}
+
+void Texture_wedges::merge(Halfedge moving)
+{
+  for_each_moved_wedge(moving, [&](Index from, Index to) {
+    const Wedge& gone = m_wedges[from];
+    Wedge& merged = m_wedges[to];
+    merged.quadric += gone.quadric.moved_by(along(moving), gone.uv_motion(merged.uv));
+  });
+}
+
+void Texture_wedges::merge_at(Halfedge moving, const Point_3& place, const Uv& uv_of_soup)
+{
+  const Uv uv = at_unit(uv_of_soup);
+  for_each_moved_wedge(moving, [&](Index from, Index to) {
+    // No line meets a vertex at a new place, so that there is one wedge at either end.
+    const Wedge& gone = m_wedges[from];
+    Wedge& merged = m_wedges[to];
+    merged.quadric = merged.quadric.moved_by(motion(mesh().target(moving), place), merged.uv_motion(uv));
+    merged.quadric += gone.quadric.moved_by(motion(mesh().source(moving), place), gone.uv_motion(uv));
+    merged.uv = uv;
+  });
+}
+
+} // namespace selvedge

@@ -1,0 +1,30 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SOUP_NUMBER_WEDGES_H
+#define SELVEDGE_SOUP_NUMBER_WEDGES_H
+
+#include "Corner_mesh.h"
+
+#include <vector>
+
+namespace selvedge {
+
+/// The wedges of a mesh: the corners at a vertex between two lines, which share their attributes.
+struct Wedge_numbers
+{
+  std::vector<Index_triple> of_face;                     ///< by face, for each of its corners
+  std::vector<Corner_mesh::Mesh::Vertex_index> vertices; ///< by wedge
+};
+
+/// Numbers the wedges in the order of their first halfedges.
+///
+/// **Preconditions** Nothing has been collapsed.
+///
+/// **Complexity** Linear.
+Wedge_numbers number_wedges(const Corner_mesh& corners,
+                            const std::vector<Corner_mesh::Mesh::Edge_index>& line_edges);
+
+} // namespace selvedge
+
+#endif // SELVEDGE_SOUP_NUMBER_WEDGES_H

@@ -1,0 +1,255 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "judge_result.h"
+
+#include "same_bits.h"
+
+#include "soup/Gltf_scene.h"
+#include "soup/selection.h"
+#include <selvedge/Parts.h>
+#include <selvedge/rounding.h>
+#include <selvedge/verify.h>
+
+#include <CGAL/Kernel/global_functions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace selvedge::test {
+
+bool has_same_label(const Triangle_labels& result, Index triangle, const Triangle_labels& original,
+                    Index from)
+{
+  if (result.empty() || original.empty())
+    return result.empty() == original.empty();
+  return result.names[result.of_triangle[triangle]] == original.names[original.of_triangle[from]];
+}
+
+namespace {
+
+bool have_same_rows(const std::vector<Attribute>& result, Index row, const std::vector<Attribute>& original,
+                    Index from)
+{
+  if (result.size() != original.size())
+    return false;
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const std::size_t size = row_size(original[i]);
+    if (result[i].name != original[i].name || result[i].rows.size() < (row + 1) * size ||
+        std::memcmp(result[i].rows.data() + row * size, original[i].rows.data() + from * size, size) != 0)
+      return false;
+  }
+  return true;
+}
+
+// Mixtures of values lie between the least and the largest of them, but for rounding.
+struct Range
+{
+  double low = INFINITY, high = -INFINITY;
+
+  void add(double x)
+  {
+    low = std::min(low, x);
+    high = std::max(high, x);
+  }
+  bool has(double x) const
+  {
+    const double margin = 1e-6 * std::max(std::abs(low), std::abs(high));
+    return low - margin <= x && x <= high + margin;
+  }
+};
+
+bool is_value_between(const Corner_values<2>& result, Index triangle, const Corner_values<2>& original,
+                      std::size_t k)
+{
+  if (result.empty())
+    return original.empty();
+  for (std::size_t c = 0; c < 2; ++c) {
+    Range range;
+    for (const auto& value : original.values)
+      range.add(value[c]);
+    if (!range.has(result.values[result.of_triangle[triangle][k]][c]))
+      return false;
+  }
+  return true;
+}
+
+bool is_unit(const Corner_values<3>& normals, Index triangle, std::size_t k)
+{
+  if (normals.empty())
+    return true;
+  const auto& [x, y, z] = normals.values[normals.of_triangle[triangle][k]];
+  return std::abs(std::hypot(x, y, z) - 1) < 1e-6 || std::hypot(x, y, z) == 0;
+}
+
+// The worlds have attributes of one component: in floating point, or integers that are not mixed.
+bool are_rows_between(const std::vector<Attribute>& result, Index row, const std::vector<Attribute>& original,
+                      Index from)
+{
+  if (result.size() != original.size())
+    return false;
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const Attribute &now = result[i], &before = original[i];
+    if (before.type != Attribute::Type::float64 && before.type != Attribute::Type::float32 &&
+        !before.is_normalized && !have_same_rows({now}, row, {before}, from))
+      return false;
+    if (before.type != Attribute::Type::float64)
+      continue;
+    const auto number = [](const Attribute& attribute, std::size_t place) {
+      double x;
+      std::memcpy(&x, attribute.rows.data() + place * sizeof x, sizeof x);
+      return x;
+    };
+    Range range;
+    bool is_nan_somewhere = false;
+    for (std::size_t place = 0; place < before.rows.size() / sizeof(double); ++place) {
+      range.add(number(before, place));
+      is_nan_somewhere = is_nan_somewhere || std::isnan(number(before, place));
+    }
+    for (std::size_t c = 0; c < now.components; ++c)
+      if (const double x = number(now, row * now.components + c);
+          !range.has(x) && !(std::isnan(x) && is_nan_somewhere))
+        return false;
+  }
+  return true;
+}
+
+CGAL::Orientation uv_orientation(const Corner_values<2>& uvs, Index triangle)
+{
+  const auto point = [&](std::size_t k) {
+    const auto& uv = uvs.values[uvs.of_triangle[triangle][k]];
+    return Kernel::Point_2(uv[0], uv[1]);
+  };
+  return CGAL::orientation(point(0), point(1), point(2));
+}
+
+} // namespace
+
+Verdict judge_attributes(const World& world, const World_run& run, const Judged_complex& complex,
+                         const std::vector<Index>& regions, const std::vector<char>& is_held)
+{
+  const Triangle_soup &result = run.result.soup, &original = run.prepared.soup;
+  if (result.triangles.size() != complex.own_faces_alive() ||
+      run.result.triangles.size() != result.triangles.size() ||
+      run.result.corners.size() != result.triangles.size())
+    return Broken_promise{Promise::attributes, "the result has not the triangles that the collapses leave"};
+  const bool are_normals_kept =
+      run.prepared.normals != Normals_treatment::flat && run.prepared.normals != Normals_treatment::smooth;
+  std::map<Index, Index> original_vertex, vertex_of_original;
+  std::set<std::size_t> placed; // by the numbers of those that were kept; a place may be where another was
+  for (const Soup_collapse& collapse : run.collapses) {
+    placed.erase(collapse.removed);
+    if (collapse.place)
+      placed.insert(collapse.kept);
+  }
+  std::size_t placed_left = 0;
+  for (Index i = 0; i < result.triangles.size(); ++i) {
+    const Index t = run.result.triangles[i];
+    const auto broken = [&](const char* what) {
+      return Broken_promise{Promise::attributes, "triangle " + std::to_string(i) + " of the result: " + what};
+    };
+    if (!complex.is_alive(t) || (i > 0 && run.result.triangles[i - 1] >= t))
+      return broken("gone, or out of order");
+    if (!has_same_label(result.groups, i, original.groups, t) ||
+        !has_same_label(result.objects, i, original.objects, t) ||
+        !has_same_label(result.materials, i, original.materials, t) ||
+        !has_same_label(result.smoothing_groups, i, original.smoothing_groups, t) ||
+        !have_same_rows(result.triangle_attributes, i, original.triangle_attributes, t))
+      return broken("labels or attributes of another");
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index corner = run.result.corners[i][k], from = original.triangles[corner / 3][corner % 3],
+                  v = result.triangles[i][k];
+      if (complex.position(from) != complex.positions_of(t)[k])
+        return broken("a corner from another position");
+      if (regions[corner / 3] != regions[t])
+        return broken("a corner from the other side of a line");
+      const bool is_placed = placed.count(from) > 0;
+      if (is_placed ? result.points[v] != complex.point(complex.position(from))
+                    : !has_same_bits(result.points[v], original.points[from]))
+        return broken("a point of another vertex");
+      placed_left += is_placed && original_vertex.count(v) == 0;
+      if (original_vertex.emplace(v, from).first->second != from ||
+          vertex_of_original.emplace(from, v).first->second != v)
+        return broken("vertices joined or split");
+      if (is_placed) {
+        if (!is_value_between(result.uvs, i, original.uvs, k) ||
+            (are_normals_kept && !is_unit(result.normals, i, k)) ||
+            !are_rows_between(result.vertex_attributes, v, original.vertex_attributes, from))
+          return broken("a value at a new place that is no mixture of the input's");
+      } else if (!has_same_value(result.uvs, i, original.uvs, corner, k) ||
+                 (are_normals_kept && !has_same_value(result.normals, i, original.normals, corner, k)) ||
+                 !have_same_rows(result.vertex_attributes, v, original.vertex_attributes, from)) {
+        return broken("a value that its corner has not");
+      }
+      if (is_held[t] && corner != 3 * t + k)
+        return Broken_promise{Promise::frozen, "triangle " + std::to_string(t) + " has another corner"};
+    }
+    if (world.options.check_uv_orientation && !original.uvs.empty() &&
+        uv_orientation(original.uvs, t) != CGAL::COLLINEAR &&
+        uv_orientation(original.uvs, t) != uv_orientation(result.uvs, i))
+      return broken("turned over in the texture");
+  }
+  if (placed_left != run.result.placed_vertices)
+    return Broken_promise{Promise::attributes, "the result counts other vertices at new places"};
+  if (world.prepare_options().round_to_float32 && !has_float32_points(result))
+    return Broken_promise{Promise::written, "a place is no 32-bit float, and the file has only such"};
+  return std::nullopt;
+}
+
+// By the numbers of vertices; a result's piece is known by the piece of its triangles.
+Verdict judge_pieces(const World_run& run)
+{
+  const std::vector<Part_kind> kinds = part_kinds(run.prepared.soup);
+  const std::vector<Index>& piece_of = kinds.front().of_triangle;
+  std::map<Index, Piece> before, after;
+  for (const Piece& piece : pieces(run.prepared.soup))
+    before[piece_of[piece.first_triangle]] = piece;
+  for (const Piece& piece : pieces(run.result.soup)) {
+    const Index number = piece_of[run.result.triangles[piece.first_triangle]];
+    if (!after.emplace(number, piece).second)
+      return Broken_promise{Promise::topology, "piece " + std::to_string(number) + " has come apart"};
+  }
+  for (const auto& [number, piece] : before) {
+    const auto found = after.find(number);
+    if (found == after.end())
+      return Broken_promise{Promise::topology, "piece " + std::to_string(number) + " is gone"};
+    if (found->second.boundary_loops != piece.boundary_loops ||
+        found->second.euler_characteristic != piece.euler_characteristic)
+      return Broken_promise{Promise::topology,
+                            "piece " + std::to_string(number) + " has other borders or holes"};
+  }
+  return std::nullopt;
+}
+
+Verdict judge_sharing(const World_run& run)
+{
+  const Triangle_soup& soup = run.result.soup;
+  if (run.result.shared_meshes == 0 || run.result.apart_meshes > 0)
+    return std::nullopt;
+  const Gltf_scene& scene = *soup.scene;
+  std::map<Index, std::vector<Index_triple>> rows; // by part
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    const Index group = soup.groups.of_triangle[t];
+    const Gltf_scene::Instance& instance = scene.instances[scene.parts[group].instance];
+    Index_triple triangle = soup.triangles[t];
+    for (Index& v : triangle)
+      v = soup.scene_vertices[v] - instance.first;
+    if (instance.is_mirrored)
+      std::swap(triangle[1], triangle[2]);
+    rows[group].push_back(triangle);
+  }
+  std::map<std::pair<Index, Index>, Index> first; // by mesh of the file and primitive
+  for (Index group = 0; group < scene.parts.size(); ++group) {
+    const Gltf_scene::Part& part = scene.parts[group];
+    const Index other = first.emplace(std::make_pair(part.mesh_of_file, part.primitive), group).first->second;
+    if (rows[other] != rows[group])
+      return Broken_promise{Promise::attributes, "a shared mesh is not the same in all places"};
+  }
+  return std::nullopt;
+}
+
+} // namespace selvedge::test
