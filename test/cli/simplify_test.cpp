@@ -284,7 +284,7 @@ TEST(App_simplify, EndsWhereFewerFacesWouldMoveTheSurfaceTooFar)
 TEST(App_simplify, SaysHowFarAnyPointIsWhereALimitIsAskedFor)
 {
   const Workspace folder;
-  const std::string in = folder.generate("sheets", "in.obj", 2000), out = folder / "out.obj";
+  const std::string in = folder.generate("skirt", "in.obj", 8000), out = folder / "out.obj";
   const std::string report = folder / "report.json", judged = folder / "judged.json";
   const auto distances = [](const std::string& file) {
     return nlohmann::json::parse(contents_of(file))["distance"];
