@@ -95,6 +95,53 @@ private:
   Lists m_of_result, m_of_original;
 };
 
+/// The triangles of a mesh by their three positions, each with its piece.
+class Triangles_by_position
+{
+public:
+  using Entry = std::pair<Index_triple, Index>; ///< positions in ascending order, and the piece
+
+  class Range
+  {
+  public:
+    using Iterator = std::vector<Entry>::const_iterator;
+    Range(std::pair<Iterator, Iterator> entries) : m_entries(entries) {}
+    Iterator begin() const { return m_entries.first; }
+    Iterator end() const { return m_entries.second; }
+    std::size_t size() const { return std::size_t(end() - begin()); }
+
+  private:
+    std::pair<Iterator, Iterator> m_entries;
+  };
+
+  explicit Triangles_by_position(const Piece_mesh& mesh)
+  {
+    for (Index t = 0; t < mesh.soup.triangles.size(); ++t)
+      if (mesh.piece(t) != no_piece)
+        m_entries.emplace_back(corners(mesh, t), mesh.piece(t));
+    Cancellation_scope::check();
+    std::sort(m_entries.begin(), m_entries.end());
+    Cancellation_scope::check();
+  }
+
+  /// Returns all with the positions of this triangle of one of the two meshes.
+  Range with_corners_of(const Piece_mesh& mesh, Index triangle) const
+  {
+    return std::equal_range(m_entries.begin(), m_entries.end(), Entry(corners(mesh, triangle), 0),
+                            [](const Entry& a, const Entry& b) { return a.first < b.first; });
+  }
+
+private:
+  static Index_triple corners(const Piece_mesh& mesh, Index triangle)
+  {
+    Index_triple triple{mesh.position(triangle, 0), mesh.position(triangle, 1), mesh.position(triangle, 2)};
+    std::sort(triple.begin(), triple.end());
+    return triple;
+  }
+
+  std::vector<Entry> m_entries;
+};
+
 /// How far a piece of the result is from one of the original, and how much of it is turned inside out.
 struct Likeness
 {
@@ -120,7 +167,7 @@ public:
         m_result(result, m_positions.data()), m_original(original, m_positions.data() + result.points.size()),
         m_exponent(common_exponent(result, original)), m_original_at(m_original.pieces_at(m_position_count)),
         m_match_of_result(m_result.pieces().size(), no_piece),
-        m_match_of_original(m_original.pieces().size(), no_piece)
+        m_match_of_original(m_original.pieces().size(), no_piece), m_is_unseen(m_original.pieces().size())
   {
   }
 
@@ -426,30 +473,29 @@ private:
   struct Owners
   {
     bool is_known = false; ///< some corner lies where 1 to 64 pieces are in reach
-    bool is_one = false;
-    Index piece = no_piece;
-    bool is_broken() const { return is_known && piece == no_piece; }
+    std::vector<Index> pieces;
+    bool is_one() const { return pieces.size() == 1; }
+    bool is_broken() const { return is_known && pieces.empty(); }
   };
 
   Owners owners(const Lists& reach, Index triangle) const
   {
     Owners result;
-    std::vector<Index> all, both;
+    std::vector<Index> both;
     for (int place = 0; place < 3; ++place) {
       const auto here = reach[m_result.position(triangle, place)];
       if (here.size() == 0 || here.size() > most_at_a_position)
         continue;
       if (!result.is_known) {
-        all.assign(here.begin(), here.end());
+        result.pieces.assign(here.begin(), here.end());
       } else {
         both.clear();
-        std::set_intersection(all.begin(), all.end(), here.begin(), here.end(), std::back_inserter(both));
-        all.swap(both);
+        std::set_intersection(result.pieces.begin(), result.pieces.end(), here.begin(), here.end(),
+                              std::back_inserter(both));
+        result.pieces.swap(both);
       }
       result.is_known = true;
     }
-    result.is_one = all.size() == 1;
-    result.piece = all.empty() ? no_piece : all.front();
     return result;
   }
 
@@ -468,8 +514,9 @@ private:
 
     std::vector<bool> is_broken(results), is_owner(originals), is_touched(originals),
         owns_nothing(results, true);
-    std::vector<Pair> owned;
+    std::vector<Pair> owned, perhaps_owned;
     std::optional<Nearest_pieces> nearest;
+    const Triangles_by_position before(m_original), now(m_result);
     Cancellation_poll poll;
     for (Index t = 0; t < m_result.soup.triangles.size(); ++t) {
       poll();
@@ -480,7 +527,7 @@ private:
       if (is_by_distance && !found.is_known) {
         if (!nearest)
           nearest.emplace(m_original.soup, m_original.numbered.of_triangle, m_exponent);
-        found = {true, true, nearest->piece_near(centre(m_result.soup, t, m_exponent))};
+        found = {true, {nearest->piece_near(centre(m_result.soup, t, m_exponent))}};
       }
       if (found.is_broken()) {
         is_broken[r] = true;
@@ -490,14 +537,31 @@ private:
             is_touched[*here.begin()] = true;
           }
       }
-      if (found.is_one) {
-        owned.emplace_back(r, found.piece);
-        is_owner[found.piece] = true;
+      const auto own = [&](Index o) {
+        owned.emplace_back(r, o);
+        is_owner[o] = true;
         owns_nothing[r] = false;
+      };
+      if (found.is_one()) {
+        own(found.pieces.front());
+        continue;
       }
+      // All of its corners are corners of several pieces. When the result has this very triangle as often as
+      // the original, those that have it there have it here.
+      const Triangles_by_position::Range same = before.with_corners_of(m_result, t);
+      const bool is_kept = same.size() > 0 && now.with_corners_of(m_result, t).size() >= same.size();
+      for (const auto& [corners, o] : same)
+        if (is_kept && is_left_of_original(o))
+          own(o);
+      for (const Index o : found.pieces)
+        if (is_left_of_original(o))
+          perhaps_owned.emplace_back(r, o);
     }
-    std::sort(owned.begin(), owned.end());
-    owned.erase(std::unique(owned.begin(), owned.end()), owned.end());
+    const auto sort = [](std::vector<Pair>& pairs) {
+      std::sort(pairs.begin(), pairs.end());
+      pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    };
+    sort(owned);
     for (const auto& [r, o] : owned)
       if (is_left_of_result(r) || is_left_of_original(o))
         unite(r, o);
@@ -506,6 +570,10 @@ private:
         unite(possible.of_result, possible.of_original);
         is_owner[possible.of_original] = true;
       }
+    sort(perhaps_owned);
+    for (const auto& [r, o] : perhaps_owned)
+      if (!is_owner[o] && sets.find(r) != sets.find(results + o))
+        unite(r, o);
 
     std::map<std::size_t, std::pair<std::vector<Index>, std::vector<Index>>> groups; // of original, of result
     for (Index o = 0; o < originals; ++o)
@@ -520,25 +588,74 @@ private:
           (std::none_of(of_original.begin(), of_original.end(), is_left) &&
            std::none_of(of_result.begin(), of_result.end(), is_left_now)))
         continue;
-      const bool is_whole = std::all_of(of_original.begin(), of_original.end(),
-                                        [&](Index o) { return is_owner[o] || !is_left(o); });
+      std::vector<Index> seen, unseen;
+      std::partition_copy(of_original.begin(), of_original.end(), std::back_inserter(unseen),
+                          std::back_inserter(seen), [&](Index o) { return !is_owner[o] && is_left(o); });
       const bool has_broken =
           std::any_of(of_result.begin(), of_result.end(), [&](Index r) { return is_broken[r]; });
-      const std::vector<Index> before = m_original.triangles_of(of_original),
-                               now = m_result.triangles_of(of_result);
+      const std::vector<Index> triangles_before = m_original.triangles_of(of_original),
+                               triangles_now = m_result.triangles_of(of_result);
       const bool is_told =
           !is_by_distance &&
           (std::any_of(of_original.begin(), of_original.end(),
                        [&](Index o) { return (is_owner[o] || is_touched[o]) && is_left(o); }) ||
            std::count_if(of_result.begin(), of_result.end(), is_left_now) > 1);
-      if (is_whole && m_original.kinds_by_position(before) == m_result.kinds_by_position(now) &&
-          (!is_by_distance || are_near(of_original, now)))
-        match(std::move(of_original), std::move(of_result), Matched_by::positions);
-      else if (is_whole && !has_broken && m_options.weld_distance > 0 && !is_by_distance)
+      if (m_original.kinds_by_position(triangles_before) == m_result.kinds_by_position(triangles_now) &&
+          (!is_by_distance || are_near(of_original, triangles_now)) && (unseen.empty() || !seen.empty())) {
+        const bool is_whole = unseen.empty() || would_be_missed(unseen, of_original);
+        for (const Index o : unseen)
+          m_is_unseen[o] = !is_whole;
+        match(std::move(is_whole ? of_original : seen), std::move(of_result), Matched_by::positions);
+      } else if (unseen.empty() && !has_broken && m_options.weld_distance > 0 && !is_by_distance)
         match(std::move(of_original), std::move(of_result), Matched_by::borders);
       else if (is_told)
         m_groups.push_back({std::move(of_original), std::move(of_result), has_broken});
     }
+  }
+
+  // Whether pieces that have no triangle of the result for themselves must be there all the same: without
+  // them, be it one or all together, what they are joined to would be of another kind. A patch that others
+  // surround would leave a hole; a notch that it fills could stay open unnoticed.
+  bool would_be_missed(const std::vector<Index>& unseen, const std::vector<Index>& of_original) const
+  {
+    const auto kinds_without = [&](const std::vector<Index>& left_out, const std::vector<Index>& all) {
+      std::vector<Index> others;
+      std::set_difference(all.begin(), all.end(), left_out.begin(), left_out.end(),
+                          std::back_inserter(others));
+      return m_original.kinds_by_position(m_original.triangles_of(others));
+    };
+    const std::vector<Kind> whole = kinds_without({}, of_original);
+    const auto would_one_be_missed = [&](Index o) {
+      Cancellation_scope::check();
+      // What the Euler characteristic of the whole loses is what that of the pieces around this one loses.
+      const std::vector<Index> around = pieces_around(o, of_original);
+      return characteristic(kinds_without({o}, around)) != characteristic(kinds_without({}, around)) ||
+             kinds_without({o}, of_original) != whole;
+    };
+    return kinds_without(unseen, of_original) != whole &&
+           std::all_of(unseen.begin(), unseen.end(), would_one_be_missed);
+  }
+
+  static long characteristic(const std::vector<Kind>& kinds)
+  {
+    return std::accumulate(kinds.begin(), kinds.end(), 0L,
+                           [](long sum, const Kind& kind) { return sum + std::get<long>(kind); });
+  }
+
+  // A piece of the original, and those of some others that have a position in common with it.
+  std::vector<Index> pieces_around(Index piece, const std::vector<Index>& others) const
+  {
+    std::vector<Index> around{piece}, result;
+    for (const Index t : m_original.triangles[piece])
+      for (int place = 0; place < 3; ++place) {
+        const Lists::Range here = m_original_at[m_original.position(t, place)];
+        around.insert(around.end(), here.begin(), here.end());
+      }
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+    std::set_intersection(around.begin(), around.end(), others.begin(), others.end(),
+                          std::back_inserter(result));
+    return result;
   }
 
   // Whether some triangles of the result and some pieces of the original are no farther apart than a quarter
@@ -670,7 +787,10 @@ private:
     for (const Index o : left_of_original())
       if (!is_told_of_original[o])
         add_mismatch(Mismatch::missing, {o}, {},
-                     describe(m_original, o) + " of the original is not in the result");
+                     describe(m_original, o) + " of the original is not in the result" +
+                         (m_is_unseen[o] ? ", or nothing shows that it is: all of its vertices are of other "
+                                           "pieces, too, and the result does not number them apart"
+                                         : ""));
     for (const Index r : left_of_result())
       if (!is_told_of_result[r])
         add_mismatch(Mismatch::added, {}, {r},
@@ -721,6 +841,7 @@ private:
   Lists m_original_at; ///< the pieces of the original at each position
   std::optional<Lists> m_reach;
   std::vector<Index> m_match_of_result, m_match_of_original;
+  std::vector<bool> m_is_unseen;      ///< of pieces of the original, as `would_be_missed` says
   std::vector<Possible_match> m_near; ///< pairs by vertices, whatever their kinds
   std::vector<Joined> m_groups;       ///< groups by positions that did not match
   Piece_matching m_matching;
