@@ -179,8 +179,9 @@ enum class Mismatch {
   added,    ///< a piece of the result has come from no piece of the original
   topology, ///< pieces lie where those of the original do, but are of other kinds
   name,     ///< faces have a group, object or material that the original has elsewhere, or a name is gone
-  far,      ///< pieces are farther from those of the original than a quarter of their size
-  turned    ///< the inside has become the outside
+  far,   ///< pieces are farther from those of the original than a quarter of their size, and than 1 % of the
+         ///< whole diagonal or not made of vertices of the original's pieces alone
+  turned ///< the inside has become the outside
 };
 
 /// Pieces that do not match.

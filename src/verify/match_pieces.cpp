@@ -36,6 +36,9 @@ namespace {
 
 // The largest root mean square distance of matching pieces, as a share of the diagonal of the original's.
 constexpr double most_distance = 0.25;
+// A piece that has only vertices of its original may be this far off, as a share of the diagonal of the whole
+// mesh: small parts are no larger, and a reduction may leave little of them.
+constexpr double most_distance_of_own = 0.01;
 // How many times as far as the nearest piece a matching piece may be.
 constexpr double most_excess = 2;
 // A piece counts as turned inside out when at least this share of its area is. Half is not enough: thin cloth
@@ -799,23 +802,50 @@ private:
 
   // ---- Shapes
 
+  double diagonal_of_original() const
+  {
+    CGAL::Bbox_3 box;
+    for (const Index vertex : used_vertices(m_original.soup))
+      box += scaled(m_original.soup.points[vertex], -m_exponent).bbox();
+    return std::hypot(box.x_span(), box.y_span(), box.z_span());
+  }
+
+  bool has_vertices_of_original_alone(const Piece_match& match) const
+  {
+    const auto is_of_original = [&](Index position) {
+      const Lists::Range here = m_original_at[position];
+      return std::any_of(match.of_original.begin(), match.of_original.end(),
+                         [&](Index o) { return std::binary_search(here.begin(), here.end(), o); });
+    };
+    const std::vector<Index> triangles = m_result.triangles_of(match.of_result);
+    return std::all_of(triangles.begin(), triangles.end(), [&](Index t) {
+      return is_of_original(m_result.position(t, 0)) && is_of_original(m_result.position(t, 1)) &&
+             is_of_original(m_result.position(t, 2));
+    });
+  }
+
   void judge_shapes()
   {
+    std::vector<double> diagonals(m_matching.matches.size()); // of the pieces of the original
     const auto judge = [&](std::size_t i) {
       Piece_match& match = m_matching.matches[i];
       const Shape before(m_original.soup, m_original.triangles_of(match.of_original), m_exponent);
       const Shape now(m_result.soup, m_result.triangles_of(match.of_result), m_exponent);
       const Likeness likeness(now, before);
       match.distance = likeness.distance;
+      diagonals[i] = before.diagonal();
       match.turned = likeness.turned;
     };
     tbb::parallel_for(std::size_t(0), m_matching.matches.size(), Cancellation_scope::inherited(judge));
-    for (const Piece_match& match : m_matching.matches) {
+    const double allowed = most_distance_of_own * diagonal_of_original();
+    for (std::size_t i = 0; i < m_matching.matches.size(); ++i) {
+      const Piece_match& match = m_matching.matches[i];
       const auto what = [&] {
         return describe(m_original, match.of_original) + " of the original and " +
                describe(m_result, match.of_result) + " of the result";
       };
-      if (match.distance > most_distance) {
+      if (match.distance > most_distance &&
+          !(match.distance * diagonals[i] <= allowed && has_vertices_of_original_alone(match))) {
         char percents[32];
         std::snprintf(percents, sizeof percents, "%.0f %%", 100 * match.distance);
         add_mismatch(Mismatch::far, match.of_original, match.of_result,

@@ -144,6 +144,22 @@ TEST(MatchPieces, FindAPieceReplacedByATriangleOfItsOwn)
   EXPECT_EQ(mismatches(result, fine()), Mismatches{Mismatch::far});
 }
 
+// A button may become a triangle of its own, as a reduction to 1 % of the diagonal allows; but no other one.
+TEST(MatchPieces, OfWhichLittleIsLeftAreRightWhereTheyAreSmall)
+{
+  const auto with_button = [](const Triangle_soup& layers, const Triangle_soup& button) {
+    return joined(layers, mapped(button, [](const Point_3& p) {
+                    return Point_3(30 + p.x() / 64, p.y() / 64, p.z() / 64);
+                  }));
+  };
+  const Triangle_soup original = with_button(fine(), layer(8, 0));
+  const Triangle_soup corner = soup({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  const Piece_matching matching = match_pieces(with_button(coarse(), corner), original);
+  EXPECT_EQ(mismatches(matching), Mismatches{});
+  EXPECT_GT(matching.matches.back().distance, 0.25) << "the control";
+  EXPECT_NE(mismatches(with_button(coarse(), moved(corner, 0.01, 0, 0)), original), Mismatches{});
+}
+
 TEST(MatchPieces, FindACopyOfAnotherInThePlaceOfOne)
 {
   const Triangle_soup result = joined(without_piece(coarse(), 1), layer(4, 0.001));
