@@ -80,11 +80,15 @@ void print(const Distances& distances, const Comparison& comparison, std::size_t
               << with_digits(comparison.gaps.width) << " wide\n";
 
   std::cout << "vertices: " << with_commas(comparison.original_vertices) << " of "
-            << with_commas(comparison.vertices) << " are the original's, bit for bit\n";
+            << with_commas(comparison.vertices) << " are the original's, bit for bit"
+            << (comparison.original_vertices < comparison.vertices && !comparison.attributes.empty()
+                    ? "; values at the others are not compared\n"
+                    : "\n");
   for (const Kept_attribute& attribute : comparison.attributes)
-    if (attribute.original < attribute.combinations)
-      std::cout << attribute.name << ": " << with_commas(attribute.combinations - attribute.original)
-                << " of " << with_commas(attribute.combinations) << " values are NOT the original's\n";
+    if (const std::size_t compared = attribute.combinations - attribute.at_new_places;
+        attribute.original < compared)
+      std::cout << attribute.name << ": " << with_commas(compared - attribute.original) << " of "
+                << with_commas(compared) << " values are NOT the original's\n";
   if (!comparison.lost_attributes.empty()) {
     std::cout << "attributes LOST:";
     const char* separator = " ";
