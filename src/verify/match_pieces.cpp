@@ -170,7 +170,7 @@ public:
         m_result(result, m_positions.data()), m_original(original, m_positions.data() + result.points.size()),
         m_exponent(common_exponent(result, original)), m_original_at(m_original.pieces_at(m_position_count)),
         m_match_of_result(m_result.pieces().size(), no_piece),
-        m_match_of_original(m_original.pieces().size(), no_piece), m_is_unseen(m_original.pieces().size())
+        m_match_of_original(m_original.pieces().size(), no_piece), m_is_hidden(m_original.pieces().size())
   {
   }
 
@@ -591,9 +591,9 @@ private:
           (std::none_of(of_original.begin(), of_original.end(), is_left) &&
            std::none_of(of_result.begin(), of_result.end(), is_left_now)))
         continue;
-      std::vector<Index> seen, unseen;
-      std::partition_copy(of_original.begin(), of_original.end(), std::back_inserter(unseen),
-                          std::back_inserter(seen), [&](Index o) { return !is_owner[o] && is_left(o); });
+      std::vector<Index> unseen;
+      std::copy_if(of_original.begin(), of_original.end(), std::back_inserter(unseen),
+                   [&](Index o) { return !is_owner[o] && is_left(o); });
       const bool has_broken =
           std::any_of(of_result.begin(), of_result.end(), [&](Index r) { return is_broken[r]; });
       const std::vector<Index> triangles_before = m_original.triangles_of(of_original),
@@ -604,11 +604,14 @@ private:
                        [&](Index o) { return (is_owner[o] || is_touched[o]) && is_left(o); }) ||
            std::count_if(of_result.begin(), of_result.end(), is_left_now) > 1);
       if (m_original.kinds_by_position(triangles_before) == m_result.kinds_by_position(triangles_now) &&
-          (!is_by_distance || are_near(of_original, triangles_now)) && (unseen.empty() || !seen.empty())) {
-        const bool is_whole = unseen.empty() || would_be_missed(unseen, of_original);
-        for (const Index o : unseen)
-          m_is_unseen[o] = !is_whole;
-        match(std::move(is_whole ? of_original : seen), std::move(of_result), Matched_by::positions);
+          (!is_by_distance || are_near(of_original, triangles_now)) && unseen.size() < of_original.size()) {
+        const std::vector<Index> hidden = perhaps_missing(unseen, of_original);
+        std::vector<Index> seen;
+        std::set_difference(of_original.begin(), of_original.end(), hidden.begin(), hidden.end(),
+                            std::back_inserter(seen));
+        for (const Index o : hidden)
+          m_is_hidden[o] = true;
+        match(std::move(seen), std::move(of_result), Matched_by::positions);
       } else if (unseen.empty() && !has_broken && m_options.weld_distance > 0 && !is_by_distance)
         match(std::move(of_original), std::move(of_result), Matched_by::borders);
       else if (is_told)
@@ -616,11 +619,14 @@ private:
     }
   }
 
-  // Whether pieces that have no triangle of the result for themselves must be there all the same: without
-  // them, be it one or all together, what they are joined to would be of another kind. A patch that others
-  // surround would leave a hole; a notch that it fills could stay open unnoticed.
-  bool would_be_missed(const std::vector<Index>& unseen, const std::vector<Index>& of_original) const
+  // Of pieces that have no triangle of the result for themselves, returns those that may be missing: without
+  // them, what they are joined to would be of the same kind. A patch that others surround would leave a hole;
+  // a notch that it fills could stay open unnoticed.
+  std::vector<Index> perhaps_missing(const std::vector<Index>& unseen,
+                                     const std::vector<Index>& of_original) const
   {
+    if (unseen.empty())
+      return {};
     const auto kinds_without = [&](const std::vector<Index>& left_out, const std::vector<Index>& all) {
       std::vector<Index> others;
       std::set_difference(all.begin(), all.end(), left_out.begin(), left_out.end(),
@@ -628,15 +634,20 @@ private:
       return m_original.kinds_by_position(m_original.triangles_of(others));
     };
     const std::vector<Kind> whole = kinds_without({}, of_original);
-    const auto would_one_be_missed = [&](Index o) {
+    if (kinds_without(unseen, of_original) == whole)
+      return unseen;
+    constexpr int most = 100; // so many times, all is looked at
+    int looks = 0;
+    const auto would_be_missed = [&](Index o) {
       Cancellation_scope::check();
       // What the Euler characteristic of the whole loses is what that of the pieces around this one loses.
       const std::vector<Index> around = pieces_around(o, of_original);
       return characteristic(kinds_without({o}, around)) != characteristic(kinds_without({}, around)) ||
-             kinds_without({o}, of_original) != whole;
+             (looks++ < most && kinds_without({o}, of_original) != whole);
     };
-    return kinds_without(unseen, of_original) != whole &&
-           std::all_of(unseen.begin(), unseen.end(), would_one_be_missed);
+    std::vector<Index> result;
+    std::remove_copy_if(unseen.begin(), unseen.end(), std::back_inserter(result), would_be_missed);
+    return result;
   }
 
   static long characteristic(const std::vector<Kind>& kinds)
@@ -791,7 +802,7 @@ private:
       if (!is_told_of_original[o])
         add_mismatch(Mismatch::missing, {o}, {},
                      describe(m_original, o) + " of the original is not in the result" +
-                         (m_is_unseen[o] ? ", or nothing shows that it is: all of its vertices are of other "
+                         (m_is_hidden[o] ? ", or nothing shows that it is: all of its vertices are of other "
                                            "pieces, too, and the result does not number them apart"
                                          : ""));
     for (const Index r : left_of_result())
@@ -871,7 +882,7 @@ private:
   Lists m_original_at; ///< the pieces of the original at each position
   std::optional<Lists> m_reach;
   std::vector<Index> m_match_of_result, m_match_of_original;
-  std::vector<bool> m_is_unseen;      ///< of pieces of the original, as `would_be_missed` says
+  std::vector<bool> m_is_hidden;      ///< of pieces of the original, as `perhaps_missing` says
   std::vector<Possible_match> m_near; ///< pairs by vertices, whatever their kinds
   std::vector<Joined> m_groups;       ///< groups by positions that did not match
   Piece_matching m_matching;
