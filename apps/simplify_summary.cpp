@@ -9,6 +9,7 @@
 #include <selvedge/Parts.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <ostream>

@@ -74,10 +74,14 @@ void print(const Distances& distances, const Comparison& comparison, std::size_t
   print_distance("result to original", distances.result_to_original, comparison.result_to_original);
   print("  borders", comparison.borders);
   print("  seams", comparison.seams);
-  if (comparison.gaps.open_edges > 0)
-    std::cout << "  GAPS: " << counted(comparison.gaps.open_edges, "edge") << " of seams open, "
-              << with_digits(comparison.gaps.length) << " long in all, up to "
-              << with_digits(comparison.gaps.width) << " wide\n";
+  if (const Gaps& gaps = comparison.gaps; gaps.open_edges > 0) {
+    std::cout << "  GAPS: " << counted(gaps.open_edges, "edge") << " of seams open, "
+              << with_digits(gaps.length) << " long in all";
+    if (gaps.width > 0)
+      std::cout << ", up to " << with_digits(gaps.width) << " wide\n";
+    else
+      std::cout << ", but not wide: one side has a vertex more, or a border has come near a seam\n";
+  }
 
   std::cout << "vertices: " << with_commas(comparison.original_vertices) << " of "
             << with_commas(comparison.vertices) << " are the original's, bit for bit"
