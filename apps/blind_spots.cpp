@@ -40,10 +40,12 @@ std::vector<std::string> blind_spots(const Verification& verification, const Com
   double farthest = 0;
   for (const Piece_match& match : matching.matches)
     farthest = (std::max)(farthest, match.distance);
-  lines.push_back("what a piece has lost or gained at its borders, and where it has moved to, up to a "
-                  "quarter of its size "
-                  "on average; the most of any piece is " +
-                  with_digits(100 * farthest) + " %");
+  lines.push_back(
+      "what a piece has lost or gained at its borders, and where it has moved to, up to a "
+      "quarter of its size "
+      "on average, or 1 % of the diagonal where little is left of a small one; the most of any piece "
+      "is " +
+      with_digits(100 * farthest) + " %");
   lines.push_back(
       "faces that turned over, unless they make up nine tenths of a piece; the normals say how many");
 

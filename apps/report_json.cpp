@@ -340,6 +340,7 @@ void add_comparison(Json& report, const Comparison& comparison)
   for (const Kept_attribute& attribute : comparison.attributes)
     kept.push_back({{"name", attribute.name},
                     {"combinations", attribute.combinations},
+                    {"at_new_places", attribute.at_new_places},
                     {"original", attribute.original}});
   report["attributes"] = {{"kept", std::move(kept)}, {"lost", comparison.lost_attributes}};
   const Normal_deviation& normals = comparison.normals;

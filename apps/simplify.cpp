@@ -406,7 +406,9 @@ private:
 
   void report(const Prepared_soup& prepared, const std::vector<Level>& levels)
   {
-    const std::vector<std::string> dropped = not_carried(prepared.soup, output_format());
+    std::vector<std::string> dropped = not_carried(prepared.soup, output_format());
+    if (format_of(m_request.input, m_request.format) == Mesh_format::stl) // which has none either
+      dropped.erase(std::remove(dropped.begin(), dropped.end(), "vertex numbers"), dropped.end());
     if (!m_request.is_quiet) {
       std::ostream& stream = has_standard_output(m_request) ? std::cerr : std::cout;
       print_input(stream, m_request, prepared, levels.front().verification.distances->diagonal,

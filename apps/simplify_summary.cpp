@@ -9,6 +9,7 @@
 #include <selvedge/Parts.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <ostream>
@@ -34,8 +35,29 @@ std::vector<Hindrances::Description> reasons(const Hindrances& hindrances)
   return reasons;
 }
 
+bool has_vertex_values(const Triangle_soup& soup)
+{
+  return !soup.uvs.empty() || !soup.normals.empty() || !soup.vertex_attributes.empty() ||
+         soup.scene != nullptr;
+}
+
+/// Whether each vertex has one normal at most: then edges across which normals differ stay seams without
+/// them.
+bool have_vertices_one_normal(const Triangle_soup& soup)
+{
+  std::vector<const std::array<double, 3>*> normals(soup.normals.empty() ? 0 : soup.points.size());
+  for (Index t = 0; !normals.empty() && t < soup.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::array<double, 3>* const normal = &soup.normals.values[soup.normals.of_triangle[t][k]];
+      if (const auto* const other = std::exchange(normals[soup.triangles[t][k]], normal);
+          other && *other != *normal)
+        return false;
+    }
+  return true;
+}
+
 /// Returns the option that takes a reason away; empty when none does.
-std::string remedy(Hindrance reason, const Simplify_request& request, Normals_treatment normals)
+std::string remedy(Hindrance reason, const Simplify_request& request, const Triangle_soup& soup)
 {
   const Simplify_options& options = request.options;
   switch (reason) {
@@ -46,7 +68,7 @@ std::string remedy(Hindrance reason, const Simplify_request& request, Normals_tr
   case Hindrance::locked:
     return request.intent.locked.empty() ? "--keep for fewer parts" : "--lock for fewer parts";
   case Hindrance::normals:
-    return normals == Normals_treatment::smooth ? "--normals drop" : "--normals recompute";
+    return have_vertices_one_normal(soup) ? "" : "--normals drop";
   case Hindrance::border_turn:
     return options.max_border_turn < 180 ? "--border-turn 180" : "";
   case Hindrance::seam_turn:
@@ -96,6 +118,8 @@ std::string why_it_stays(Hindrance reason)
     return "what meets at edges of three faces or more stays as it is";
   case Hindrance::misoriented:
     return "what cannot be turned to face one way, like a Moebius band, stays as it is there";
+  case Hindrance::normals:
+    return "the file has a vertex of its own for each of these normals, and vertices stay apart";
   case Hindrance::topology:
     return "every piece keeps its holes and handles";
   case Hindrance::intersection:
@@ -105,9 +129,33 @@ std::string why_it_stays(Hindrance reason)
   }
 }
 
+/// Returns the option against the most frequent reason that has one and holds a tenth of the edges, and that
+/// against the next, if it is half as frequent: an edge that one of them lets go may be held by the other.
+std::string remedies(const std::vector<Hindrances::Description>& all, const Hindrances& hindrances,
+                     const Simplify_request& request, const Triangle_soup& soup)
+{
+  std::string text;
+  std::size_t first = 0;
+  for (const Hindrances::Description& description : all) {
+    const std::string option = remedy(description.reason, request, soup);
+    if (option.empty() || 10 * hindrances[description.reason] < hindrances.total())
+      continue;
+    if (first > 0 && 2 * hindrances[description.reason] < first)
+      return text;
+    const bool is_clear =
+        first == 0 ? description.reason == all[0].reason : text.find(" against ") == std::string::npos;
+    text +=
+        (first == 0 ? "" : " and ") + option + (is_clear ? "" : std::string(" against ") + description.name);
+    if (first > 0)
+      return text;
+    first = hindrances[description.reason];
+  }
+  return text;
+}
+
 /// Says in a line what holds back a reduction that ended by itself, and what helps.
 std::string held_back(const Simplify_request& request, const Simplify_report& report,
-                      Normals_treatment normals)
+                      const Triangle_soup& soup)
 {
   const Hindrances& hindrances = report.hindrances;
   if (hindrances.total() == 0)
@@ -124,11 +172,9 @@ std::string held_back(const Simplify_request& request, const Simplify_report& re
   }
   if (others > 0)
     text += ", " + with_commas(others) + " by other rules";
-  for (const Hindrances::Description& description : all)
-    if (const std::string option = remedy(description.reason, request, normals); !option.empty())
-      return text + "; try " + option +
-             (description.reason == all[0].reason ? "" : std::string(" against ") + description.name);
-  return text + "; no option helps: " + why_it_stays(all[0].reason);
+  const std::string options = remedies(all, hindrances, request, soup);
+  return text + (options.empty() ? "; no option helps much: " + std::string(why_it_stays(all[0].reason))
+                                 : "; try " + options);
 }
 
 /// Says in a clause where a vertex of the original is.
@@ -301,7 +347,7 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
   else
     stream << "as far as the limits allow";
   if (!done.is_reached() && !done.is_stopped)
-    stream << "\nheld back: " << held_back(request, done, prepared.normals);
+    stream << "\nheld back: " << held_back(request, done, prepared.soup);
   if (done.faces_fixed > 0)
     stream << "\nfixed: " << counted(done.faces_fixed, "face")
            << " with all corners frozen, locked or coincident; a ratio is of the other "
@@ -327,8 +373,8 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
            << " border vertices left without them; there the gap may be wider than it was";
   if (result.placed_vertices > 0)
     stream << "\nvertices: " << with_commas(result.soup.points.size() - result.placed_vertices)
-           << " kept bit for bit, " << with_commas(result.placed_vertices)
-           << " at new places with interpolated attributes";
+           << " kept bit for bit, " << with_commas(result.placed_vertices) << " at new places"
+           << (has_vertex_values(prepared.soup) ? " with interpolated attributes" : "");
   if (polygons.input > 0)
     stream << "\npolygons: " << with_commas(polygons.output) << " of " << counted(polygons.input, "face")
            << " of more than three corners written as they were";

@@ -74,17 +74,25 @@ void print(const Distances& distances, const Comparison& comparison, std::size_t
   print_distance("result to original", distances.result_to_original, comparison.distances.result_to_original);
   print("  borders", comparison.borders);
   print("  seams", comparison.seams);
-  if (comparison.gaps.open_edges > 0)
-    std::cout << "  GAPS: " << counted(comparison.gaps.open_edges, "edge") << " of seams open, "
-              << with_digits(comparison.gaps.length) << " long in all, up to "
-              << with_digits(comparison.gaps.width) << " wide\n";
+  if (const Gaps& gaps = comparison.gaps; gaps.open_edges > 0) {
+    std::cout << "  GAPS: " << counted(gaps.open_edges, "edge") << " of seams open, "
+              << with_digits(gaps.length) << " long in all";
+    if (gaps.width > 0)
+      std::cout << ", up to " << with_digits(gaps.width) << " wide\n";
+    else
+      std::cout << ", but not wide: one side has a vertex more, or a border has come near a seam\n";
+  }
 
   std::cout << "vertices: " << with_commas(comparison.original_vertices) << " of "
-            << with_commas(comparison.vertices) << " are the original's, bit for bit\n";
+            << with_commas(comparison.vertices) << " are the original's, bit for bit"
+            << (comparison.original_vertices < comparison.vertices && !comparison.attributes.empty()
+                    ? "; values at the others are not compared\n"
+                    : "\n");
   for (const Kept_attribute& attribute : comparison.attributes)
-    if (attribute.original < attribute.combinations)
-      std::cout << attribute.name << ": " << with_commas(attribute.combinations - attribute.original)
-                << " of " << with_commas(attribute.combinations) << " values are NOT the original's\n";
+    if (const std::size_t compared = attribute.combinations - attribute.at_new_places;
+        attribute.original < compared)
+      std::cout << attribute.name << ": " << with_commas(compared - attribute.original) << " of "
+                << with_commas(compared) << " values are NOT the original's\n";
   if (!comparison.lost_attributes.empty()) {
     std::cout << "attributes LOST:";
     const char* separator = " ";

@@ -90,8 +90,9 @@ struct Kept_attribute
 {
   /// "uv", "normal", "group", "object", "material", "smoothing group", or the name in the file.
   std::string name;
-  std::size_t combinations = 0; ///< of the result, each counted once
-  std::size_t original = 0;     ///< how many of them the original has
+  std::size_t combinations = 0;  ///< of the result, each counted once
+  std::size_t original = 0;      ///< how many of them the original has
+  std::size_t at_new_places = 0; ///< how many have a position at which the original has no value at all
 };
 
 /// Angles between the faces of the result and those of the original that lie nearest, in degrees.

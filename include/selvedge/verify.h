@@ -179,8 +179,9 @@ enum class Mismatch {
   added,    ///< a piece of the result has come from no piece of the original
   topology, ///< pieces lie where those of the original do, but are of other kinds
   name,     ///< faces have a group, object or material that the original has elsewhere, or a name is gone
-  far,      ///< pieces are farther from those of the original than a quarter of their size
-  turned    ///< the inside has become the outside
+  far,   ///< pieces are farther from those of the original than a quarter of their size, and than 1 % of the
+         ///< whole diagonal or not made of vertices of the original's pieces alone
+  turned ///< the inside has become the outside
 };
 
 /// Pieces that do not match.
@@ -294,7 +295,11 @@ struct Verify_options
 ///    where all that are left there go up one to one.
 /// 2. By positions: the pieces that are left over, and all pieces that have faces in common with them by
 ///    positions, are joined where positions coincide. Files that number vertices in another way (STL, texture
-///    seams in glTF) are matched here.
+///    seams in glTF) are matched here. Each piece of the original must show: some triangle of the result has
+///    corners of no other piece, or is one of its triangles and there as often as in the original; or what it
+///    is joined to would be of another kind without it, as a patch within a surface would leave a hole. So a
+///    notch in a border, filled by a piece without vertices of its own, may be called missing though it is
+///    there.
 /// 3. By distance, for results whose vertices are not the original's: two pieces of one kind, each of which
 ///    is, up to a factor of two, the nearest to the vertices of the other, and no farther from them than a
 ///    quarter of the size of the piece of the original.

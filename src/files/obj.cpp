@@ -167,16 +167,19 @@ private:
     m_uv_corners.clear();
     m_normal_corners.clear();
     while (!text.at_line_end()) {
-      m_corners.push_back(read_index(text, "vertex", m_points_above, soup.points.size()));
+      const Text_reader start = text;
+      m_corners.push_back(
+          index_at(start, text.integer_prefix(), {"vertex", "v"}, m_points_above, soup.points.size()));
       if (text.peek() == '/') {
         text.advance(1);
         if (text.peek() != '/' && !text.at_word_end())
-          m_uv_corners.push_back(read_index(text, "texture coordinate", m_uvs_above, soup.uvs.values.size()));
+          read_value_index(text, {"texture coordinate", "vt"}, m_uvs_above, soup.uvs.values.size(),
+                           m_uv_corners);
         if (text.peek() == '/') {
           text.advance(1);
           if (!text.at_word_end())
-            m_normal_corners.push_back(
-                read_index(text, "normal", m_normals_above, soup.normals.values.size()));
+            read_value_index(text, {"normal", "vn"}, m_normals_above, soup.normals.values.size(),
+                             m_normal_corners);
         }
       }
       if (!text.at_word_end())
@@ -201,18 +204,46 @@ private:
     numbers.clear();
   }
 
-  Index read_index(Text_reader& text, const char* kind, std::size_t above, std::size_t count)
+  /// What a number of a face counts, and the statement that gives one of these.
+  struct Kind
+  {
+    const char* name;
+    const char* keyword;
+  };
+
+  /// Reads the number of a value that a face can do without. Some programs write the numbers of values that
+  /// they leave out of the file, and 0 for a corner without one: nothing is lost with these. A number beyond
+  /// the values that there are is another matter: the face has lost its own.
+  void read_value_index(Text_reader& text, const Kind& kind, std::size_t above, std::size_t count,
+                        std::vector<Index>& numbers)
   {
     const Text_reader start = text;
     const std::int64_t number = text.integer_prefix();
+    if (count == 0)
+      m_builder.ignore(std::string("numbers of ") + kind.name + "s in a file without any");
+    else if (number == 0)
+      m_builder.ignore(std::string("numbers 0 of ") + kind.name + "s");
+    else
+      numbers.push_back(index_at(start, number, kind, above, count));
+  }
+
+  // `start` stands before the number.
+  static Index index_at(const Text_reader& start, std::int64_t number, const Kind& kind, std::size_t above,
+                        std::size_t count)
+  {
     // Relative indices count back from the latest element above the face.
     const std::int64_t index = number > 0 ? number - 1 : static_cast<std::int64_t>(above) + number;
     if (number == 0)
-      start.fail(std::string("a face names ") + kind + " 0, but OBJ files count from 1; correct the face");
+      start.fail(std::string("a face names ") + kind.name +
+                 " 0, but OBJ files count from 1; correct the face");
     if (index < 0 || static_cast<std::uint64_t>(index) >= count)
-      start.fail(std::string("a face names ") + kind + " " + std::to_string(number) +
+      start.fail(std::string("a face names ") + kind.name + " " + std::to_string(number) +
                  ", but there are only " + std::to_string(number > 0 ? count : above) +
-                 (number > 0 ? "" : " above it") + "; correct or remove the face");
+                 (number > 0 ? "" : " above it") + "; correct or remove the face" +
+                 (kind.keyword == std::string_view("v")
+                      ? std::string()
+                      : std::string(", or all lines that begin with ") + in_quotes(kind.keyword) +
+                            " to do without " + kind.name + "s"));
     return static_cast<Index>(index);
   }
 

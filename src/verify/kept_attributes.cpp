@@ -118,6 +118,18 @@ std::size_t common(const Combinations& a, const Combinations& b)
   return count;
 }
 
+std::size_t at_new_places(const Combinations& after, const Combinations& before)
+{
+  std::size_t count = 0;
+  auto j = before.begin();
+  for (const auto& [position, value] : after) {
+    while (j != before.end() && j->first < position)
+      ++j;
+    count += j == before.end() || j->first != position;
+  }
+  return count;
+}
+
 } // namespace
 
 void compare_values(Comparison& comparison, const Triangle_soup& result, const Triangle_soup& original)
@@ -144,7 +156,7 @@ void compare_values(Comparison& comparison, const Triangle_soup& result, const T
     Value_numbers numbers;
     const Combinations old = combinations(original, of_original, column, numbers);
     const Combinations kept = combinations(result, of_result, *same, numbers);
-    comparison.attributes.push_back({column.name, kept.size(), common(kept, old)});
+    comparison.attributes.push_back({column.name, kept.size(), common(kept, old), at_new_places(kept, old)});
   }
 }
 

@@ -36,6 +36,9 @@ namespace {
 
 // The largest root mean square distance of matching pieces, as a share of the diagonal of the original's.
 constexpr double most_distance = 0.25;
+// A piece that has only vertices of its original may be this far off, as a share of the diagonal of the whole
+// mesh: small parts are no larger, and a reduction may leave little of them.
+constexpr double most_distance_of_own = 0.01;
 // How many times as far as the nearest piece a matching piece may be.
 constexpr double most_excess = 2;
 // A piece counts as turned inside out when at least this share of its area is. Half is not enough: thin cloth
@@ -95,6 +98,53 @@ private:
   Lists m_of_result, m_of_original;
 };
 
+/// The triangles of a mesh by their three positions, each with its piece.
+class Triangles_by_position
+{
+public:
+  using Entry = std::pair<Index_triple, Index>; ///< positions in ascending order, and the piece
+
+  class Range
+  {
+  public:
+    using Iterator = std::vector<Entry>::const_iterator;
+    Range(std::pair<Iterator, Iterator> entries) : m_entries(entries) {}
+    Iterator begin() const { return m_entries.first; }
+    Iterator end() const { return m_entries.second; }
+    std::size_t size() const { return std::size_t(end() - begin()); }
+
+  private:
+    std::pair<Iterator, Iterator> m_entries;
+  };
+
+  explicit Triangles_by_position(const Piece_mesh& mesh)
+  {
+    for (Index t = 0; t < mesh.soup.triangles.size(); ++t)
+      if (mesh.piece(t) != no_piece)
+        m_entries.emplace_back(corners(mesh, t), mesh.piece(t));
+    Cancellation_scope::check();
+    std::sort(m_entries.begin(), m_entries.end());
+    Cancellation_scope::check();
+  }
+
+  /// Returns all with the positions of this triangle of one of the two meshes.
+  Range with_corners_of(const Piece_mesh& mesh, Index triangle) const
+  {
+    return std::equal_range(m_entries.begin(), m_entries.end(), Entry(corners(mesh, triangle), 0),
+                            [](const Entry& a, const Entry& b) { return a.first < b.first; });
+  }
+
+private:
+  static Index_triple corners(const Piece_mesh& mesh, Index triangle)
+  {
+    Index_triple triple{mesh.position(triangle, 0), mesh.position(triangle, 1), mesh.position(triangle, 2)};
+    std::sort(triple.begin(), triple.end());
+    return triple;
+  }
+
+  std::vector<Entry> m_entries;
+};
+
 /// How far a piece of the result is from one of the original, and how much of it is turned inside out.
 struct Likeness
 {
@@ -120,7 +170,7 @@ public:
         m_result(result, m_positions.data()), m_original(original, m_positions.data() + result.points.size()),
         m_exponent(common_exponent(result, original)), m_original_at(m_original.pieces_at(m_position_count)),
         m_match_of_result(m_result.pieces().size(), no_piece),
-        m_match_of_original(m_original.pieces().size(), no_piece)
+        m_match_of_original(m_original.pieces().size(), no_piece), m_is_hidden(m_original.pieces().size())
   {
   }
 
@@ -426,30 +476,29 @@ private:
   struct Owners
   {
     bool is_known = false; ///< some corner lies where 1 to 64 pieces are in reach
-    bool is_one = false;
-    Index piece = no_piece;
-    bool is_broken() const { return is_known && piece == no_piece; }
+    std::vector<Index> pieces;
+    bool is_one() const { return pieces.size() == 1; }
+    bool is_broken() const { return is_known && pieces.empty(); }
   };
 
   Owners owners(const Lists& reach, Index triangle) const
   {
     Owners result;
-    std::vector<Index> all, both;
+    std::vector<Index> both;
     for (int place = 0; place < 3; ++place) {
       const auto here = reach[m_result.position(triangle, place)];
       if (here.size() == 0 || here.size() > most_at_a_position)
         continue;
       if (!result.is_known) {
-        all.assign(here.begin(), here.end());
+        result.pieces.assign(here.begin(), here.end());
       } else {
         both.clear();
-        std::set_intersection(all.begin(), all.end(), here.begin(), here.end(), std::back_inserter(both));
-        all.swap(both);
+        std::set_intersection(result.pieces.begin(), result.pieces.end(), here.begin(), here.end(),
+                              std::back_inserter(both));
+        result.pieces.swap(both);
       }
       result.is_known = true;
     }
-    result.is_one = all.size() == 1;
-    result.piece = all.empty() ? no_piece : all.front();
     return result;
   }
 
@@ -468,8 +517,9 @@ private:
 
     std::vector<bool> is_broken(results), is_owner(originals), is_touched(originals),
         owns_nothing(results, true);
-    std::vector<Pair> owned;
+    std::vector<Pair> owned, perhaps_owned;
     std::optional<Nearest_pieces> nearest;
+    const Triangles_by_position before(m_original), now(m_result);
     Cancellation_poll poll;
     for (Index t = 0; t < m_result.soup.triangles.size(); ++t) {
       poll();
@@ -480,7 +530,7 @@ private:
       if (is_by_distance && !found.is_known) {
         if (!nearest)
           nearest.emplace(m_original.soup, m_original.numbered.of_triangle, m_exponent);
-        found = {true, true, nearest->piece_near(centre(m_result.soup, t, m_exponent))};
+        found = {true, {nearest->piece_near(centre(m_result.soup, t, m_exponent))}};
       }
       if (found.is_broken()) {
         is_broken[r] = true;
@@ -490,14 +540,31 @@ private:
             is_touched[*here.begin()] = true;
           }
       }
-      if (found.is_one) {
-        owned.emplace_back(r, found.piece);
-        is_owner[found.piece] = true;
+      const auto own = [&](Index o) {
+        owned.emplace_back(r, o);
+        is_owner[o] = true;
         owns_nothing[r] = false;
+      };
+      if (found.is_one()) {
+        own(found.pieces.front());
+        continue;
       }
+      // All of its corners are corners of several pieces. When the result has this very triangle as often as
+      // the original, those that have it there have it here.
+      const Triangles_by_position::Range same = before.with_corners_of(m_result, t);
+      const bool is_kept = same.size() > 0 && now.with_corners_of(m_result, t).size() >= same.size();
+      for (const auto& [corners, o] : same)
+        if (is_kept && is_left_of_original(o))
+          own(o);
+      for (const Index o : found.pieces)
+        if (is_left_of_original(o))
+          perhaps_owned.emplace_back(r, o);
     }
-    std::sort(owned.begin(), owned.end());
-    owned.erase(std::unique(owned.begin(), owned.end()), owned.end());
+    const auto sort = [](std::vector<Pair>& pairs) {
+      std::sort(pairs.begin(), pairs.end());
+      pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    };
+    sort(owned);
     for (const auto& [r, o] : owned)
       if (is_left_of_result(r) || is_left_of_original(o))
         unite(r, o);
@@ -506,6 +573,10 @@ private:
         unite(possible.of_result, possible.of_original);
         is_owner[possible.of_original] = true;
       }
+    sort(perhaps_owned);
+    for (const auto& [r, o] : perhaps_owned)
+      if (!is_owner[o] && sets.find(r) != sets.find(results + o))
+        unite(r, o);
 
     std::map<std::size_t, std::pair<std::vector<Index>, std::vector<Index>>> groups; // of original, of result
     for (Index o = 0; o < originals; ++o)
@@ -520,25 +591,85 @@ private:
           (std::none_of(of_original.begin(), of_original.end(), is_left) &&
            std::none_of(of_result.begin(), of_result.end(), is_left_now)))
         continue;
-      const bool is_whole = std::all_of(of_original.begin(), of_original.end(),
-                                        [&](Index o) { return is_owner[o] || !is_left(o); });
+      std::vector<Index> unseen;
+      std::copy_if(of_original.begin(), of_original.end(), std::back_inserter(unseen),
+                   [&](Index o) { return !is_owner[o] && is_left(o); });
       const bool has_broken =
           std::any_of(of_result.begin(), of_result.end(), [&](Index r) { return is_broken[r]; });
-      const std::vector<Index> before = m_original.triangles_of(of_original),
-                               now = m_result.triangles_of(of_result);
+      const std::vector<Index> triangles_before = m_original.triangles_of(of_original),
+                               triangles_now = m_result.triangles_of(of_result);
       const bool is_told =
           !is_by_distance &&
           (std::any_of(of_original.begin(), of_original.end(),
                        [&](Index o) { return (is_owner[o] || is_touched[o]) && is_left(o); }) ||
            std::count_if(of_result.begin(), of_result.end(), is_left_now) > 1);
-      if (is_whole && m_original.kinds_by_position(before) == m_result.kinds_by_position(now) &&
-          (!is_by_distance || are_near(of_original, now)))
-        match(std::move(of_original), std::move(of_result), Matched_by::positions);
-      else if (is_whole && !has_broken && m_options.weld_distance > 0 && !is_by_distance)
+      if (m_original.kinds_by_position(triangles_before) == m_result.kinds_by_position(triangles_now) &&
+          (!is_by_distance || are_near(of_original, triangles_now)) && unseen.size() < of_original.size()) {
+        const std::vector<Index> hidden = perhaps_missing(unseen, of_original);
+        std::vector<Index> seen;
+        std::set_difference(of_original.begin(), of_original.end(), hidden.begin(), hidden.end(),
+                            std::back_inserter(seen));
+        for (const Index o : hidden)
+          m_is_hidden[o] = true;
+        match(std::move(seen), std::move(of_result), Matched_by::positions);
+      } else if (unseen.empty() && !has_broken && m_options.weld_distance > 0 && !is_by_distance)
         match(std::move(of_original), std::move(of_result), Matched_by::borders);
       else if (is_told)
         m_groups.push_back({std::move(of_original), std::move(of_result), has_broken});
     }
+  }
+
+  // Of pieces that have no triangle of the result for themselves, returns those that may be missing: without
+  // them, what they are joined to would be of the same kind. A patch that others surround would leave a hole;
+  // a notch that it fills could stay open unnoticed.
+  std::vector<Index> perhaps_missing(const std::vector<Index>& unseen,
+                                     const std::vector<Index>& of_original) const
+  {
+    if (unseen.empty())
+      return {};
+    const auto kinds_without = [&](const std::vector<Index>& left_out, const std::vector<Index>& all) {
+      std::vector<Index> others;
+      std::set_difference(all.begin(), all.end(), left_out.begin(), left_out.end(),
+                          std::back_inserter(others));
+      return m_original.kinds_by_position(m_original.triangles_of(others));
+    };
+    const std::vector<Kind> whole = kinds_without({}, of_original);
+    if (kinds_without(unseen, of_original) == whole)
+      return unseen;
+    constexpr int most = 100; // so many times, all is looked at
+    int looks = 0;
+    const auto would_be_missed = [&](Index o) {
+      Cancellation_scope::check();
+      // What the Euler characteristic of the whole loses is what that of the pieces around this one loses.
+      const std::vector<Index> around = pieces_around(o, of_original);
+      return characteristic(kinds_without({o}, around)) != characteristic(kinds_without({}, around)) ||
+             (looks++ < most && kinds_without({o}, of_original) != whole);
+    };
+    std::vector<Index> result;
+    std::remove_copy_if(unseen.begin(), unseen.end(), std::back_inserter(result), would_be_missed);
+    return result;
+  }
+
+  static long characteristic(const std::vector<Kind>& kinds)
+  {
+    return std::accumulate(kinds.begin(), kinds.end(), 0L,
+                           [](long sum, const Kind& kind) { return sum + std::get<long>(kind); });
+  }
+
+  // A piece of the original, and those of some others that have a position in common with it.
+  std::vector<Index> pieces_around(Index piece, const std::vector<Index>& others) const
+  {
+    std::vector<Index> around{piece}, result;
+    for (const Index t : m_original.triangles[piece])
+      for (int place = 0; place < 3; ++place) {
+        const Lists::Range here = m_original_at[m_original.position(t, place)];
+        around.insert(around.end(), here.begin(), here.end());
+      }
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+    std::set_intersection(around.begin(), around.end(), others.begin(), others.end(),
+                          std::back_inserter(result));
+    return result;
   }
 
   // Whether some triangles of the result and some pieces of the original are no farther apart than a quarter
@@ -670,7 +801,10 @@ private:
     for (const Index o : left_of_original())
       if (!is_told_of_original[o])
         add_mismatch(Mismatch::missing, {o}, {},
-                     describe(m_original, o) + " of the original is not in the result");
+                     describe(m_original, o) + " of the original is not in the result" +
+                         (m_is_hidden[o] ? ", or nothing shows that it is: all of its vertices are of other "
+                                           "pieces, too, and the result does not number them apart"
+                                         : ""));
     for (const Index r : left_of_result())
       if (!is_told_of_result[r])
         add_mismatch(Mismatch::added, {}, {r},
@@ -679,23 +813,50 @@ private:
 
   // ---- Shapes
 
+  double diagonal_of_original() const
+  {
+    CGAL::Bbox_3 box;
+    for (const Index vertex : used_vertices(m_original.soup))
+      box += scaled(m_original.soup.points[vertex], -m_exponent).bbox();
+    return std::hypot(box.x_span(), box.y_span(), box.z_span());
+  }
+
+  bool has_vertices_of_original_alone(const Piece_match& match) const
+  {
+    const auto is_of_original = [&](Index position) {
+      const Lists::Range here = m_original_at[position];
+      return std::any_of(match.of_original.begin(), match.of_original.end(),
+                         [&](Index o) { return std::binary_search(here.begin(), here.end(), o); });
+    };
+    const std::vector<Index> triangles = m_result.triangles_of(match.of_result);
+    return std::all_of(triangles.begin(), triangles.end(), [&](Index t) {
+      return is_of_original(m_result.position(t, 0)) && is_of_original(m_result.position(t, 1)) &&
+             is_of_original(m_result.position(t, 2));
+    });
+  }
+
   void judge_shapes()
   {
+    std::vector<double> diagonals(m_matching.matches.size()); // of the pieces of the original
     const auto judge = [&](std::size_t i) {
       Piece_match& match = m_matching.matches[i];
       const Shape before(m_original.soup, m_original.triangles_of(match.of_original), m_exponent);
       const Shape now(m_result.soup, m_result.triangles_of(match.of_result), m_exponent);
       const Likeness likeness(now, before);
       match.distance = likeness.distance;
+      diagonals[i] = before.diagonal();
       match.turned = likeness.turned;
     };
     tbb::parallel_for(std::size_t(0), m_matching.matches.size(), Cancellation_scope::inherited(judge));
-    for (const Piece_match& match : m_matching.matches) {
+    const double allowed = most_distance_of_own * diagonal_of_original();
+    for (std::size_t i = 0; i < m_matching.matches.size(); ++i) {
+      const Piece_match& match = m_matching.matches[i];
       const auto what = [&] {
         return describe(m_original, match.of_original) + " of the original and " +
                describe(m_result, match.of_result) + " of the result";
       };
-      if (match.distance > most_distance) {
+      if (match.distance > most_distance &&
+          !(match.distance * diagonals[i] <= allowed && has_vertices_of_original_alone(match))) {
         char percents[32];
         std::snprintf(percents, sizeof percents, "%.0f %%", 100 * match.distance);
         add_mismatch(Mismatch::far, match.of_original, match.of_result,
@@ -721,6 +882,7 @@ private:
   Lists m_original_at; ///< the pieces of the original at each position
   std::optional<Lists> m_reach;
   std::vector<Index> m_match_of_result, m_match_of_original;
+  std::vector<bool> m_is_hidden;      ///< of pieces of the original, as `perhaps_missing` says
   std::vector<Possible_match> m_near; ///< pairs by vertices, whatever their kinds
   std::vector<Joined> m_groups;       ///< groups by positions that did not match
   Piece_matching m_matching;

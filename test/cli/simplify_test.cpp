@@ -254,6 +254,50 @@ TEST(App_simplify, WritesWhenTheTargetIsOutOfReach)
   EXPECT_EQ(contents_of(out), written);
 }
 
+// The options named are those that help: with them, the target is reached.
+TEST(App_simplify, NamesTheOptionsThatHelp)
+{
+  const Workspace folder;
+  const std::string in = folder / "in.obj", out = folder / "out.obj";
+  ASSERT_EQ(run_app({"generate", "skirt", "-o", in, "--faces", "14000", "--quiet"}).code, 0);
+  const App_result held = run_app({"simplify", in, "-o", out, "--ratio", "0.1"});
+  ASSERT_NE(held.out.find("target 1,400 not reached"), std::string::npos) << held.out;
+  EXPECT_NE(held.out.find("; try --normal-change 90 and --error 0.05\n"), std::string::npos) << held.out;
+  const App_result helped =
+      run_app({"simplify", in, "-o", out, "--ratio", "0.1", "--normal-change", "90", "--error", "0.05"});
+  EXPECT_NE(helped.out.find("target 1,400 reached"), std::string::npos) << helped.out;
+}
+
+// Where each vertex has one normal, leaving the normals out would join none of them.
+TEST(App_simplify, NamesNoOptionThatDoesNotHelp)
+{
+  const Workspace folder;
+  Triangle_soup shaded = unshared(sheet(4, 4));
+  for (Index t = 0; t < shaded.triangles.size(); ++t)
+    for (Index k = 0; k < 3; ++k)
+      shaded.normals.values.push_back({0.1 * k, 0.01 * t, 1});
+  shaded.normals.of_triangle = shaded.triangles;
+  write_mesh(folder / "in.ply", shaded);
+  const App_result apart =
+      run_app({"simplify", folder / "in.ply", "-o", folder / "out.ply", "--ratio", "0.1"});
+  EXPECT_NE(apart.out.find("by normals that differ across edges, "), std::string::npos) << apart.out;
+  EXPECT_NE(apart.out.find("; no option helps much: the file has a vertex of its own"), std::string::npos)
+      << apart.out;
+}
+
+// Nor does it name as lost what the input does not have.
+TEST(App_simplify, NamesWhatTheOutputLosesAlone)
+{
+  const Workspace folder;
+  const std::string obj = folder.generate("grid", "in.obj", 200), stl = folder / "in.stl",
+                    out = folder / "out.stl";
+  const App_result lost = run_app({"simplify", obj, "-o", stl, "--ratio", "1"});
+  EXPECT_NE(lost.out.find("vertex numbers"), std::string::npos) << lost.out;
+  const App_result none = run_app({"simplify", stl, "-o", out, "--ratio", "0.5", "--placement", "optimal"});
+  EXPECT_EQ(none.out.find("not in the output"), std::string::npos) << none.out;
+  EXPECT_EQ(none.out.find("attributes"), std::string::npos) << none.out;
+}
+
 TEST(App_simplify, StopsAtTheErrorAllowed)
 {
   const Workspace folder;

@@ -308,6 +308,13 @@ TEST(App_verify, TellsOfGaps)
   EXPECT_NE(result.out.find("GAPS: 4 edges of seams open"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("seams: 2 edges before, none now"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("vertices: 7 of 10 are"), std::string::npos) << result.out;
+
+  // It stays where it is, but has one edge along the seam where the other has two.
+  write_text(folder / "out.obj",
+             left + "v 2 1 0\nv 1 1 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 1 3 4\nf 1 4 5\nf 6 7 8\nf 6 8 9\n");
+  const App_result touching = run_app({"verify", folder / "out.obj", "--against", folder / "in.obj"});
+  EXPECT_NE(touching.out.find("GAPS: 3 edges of seams open"), std::string::npos) << touching.out;
+  EXPECT_NE(touching.out.find(" long in all, but not wide: "), std::string::npos) << touching.out;
 }
 
 TEST(App_verify, RefusesUnreadableInput)

@@ -118,7 +118,15 @@ const std::vector<Entry>& corpus()
       {"ObjIndexBeyond64Bits", obj, corner + "f 1 2 99999999999999999999\n", "is not an integer"},
       {"ObjIndexFraction", obj, corner + "f 1 2 3.5\n", ":4: a corner of a face is followed by '.5'"},
       {"ObjTextureIndexTooLarge", obj, corner + "vt 0 0\nf 1/1 2/2 3/1\n",
-       ":5: a face names texture coordinate 2"},
+       ":5: a face names texture coordinate 2, but there are only 1; correct or remove the face, or all "
+       "lines "
+       "that begin with 'vt' to do without texture coordinates"},
+      {"ObjTextureIndicesWithoutCoordinates", obj, corner + "vn 0 0 1\nf 1/1/1 2/2/1 3/-3/1\n", "", 3, 1,
+       "not carried, numbers of texture coordinates in a file without any: 3"},
+      {"ObjNormalIndicesWithoutNormals", obj, corner + "f 1//1 2//1 3//1\nf 3//2 2//2 1//0\n", "", 3, 2,
+       "not carried, numbers of normals in a file without any: 6"},
+      {"ObjNormalIndexZero", obj, corner + "vn 0 0 1\nf 1//0 2//0 3//0\nf 3//1 2//1 1//1\n", "", 3, 2,
+       "not carried, numbers 0 of normals: 3"},
       {"ObjRelativeIndices", obj, corner + "f -3 -2 -1\nv 9 9 9\nf -4 -3 -1\n", "", 4, 2},
       {"ObjFaceAboveItsVertices", obj, "f 1 2 3\n" + corner, "", 3, 1},
       {"ObjRelativeIndexAboveItsVertices", obj, "f -1 -2 -3\n" + corner, ":1: a face names vertex -1"},

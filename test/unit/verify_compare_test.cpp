@@ -287,6 +287,20 @@ TEST(Kept, AttributesAreCountedWithTheirPositions)
   EXPECT_EQ(kept(compare(result, original), "weight"), Counts(0, 9));
 }
 
+// The original has nothing there to compare with.
+TEST(Kept, ValuesAtNewPlacesAreCountedApart)
+{
+  const Triangle_soup original = with_attributes(sheet(2, 2));
+  Triangle_soup result = original;
+  result.points[4] = Point_3(1.25, 1, 0);
+  result.uvs.values[0] = {0.5, 0.5};
+  for (const Kept_attribute& attribute : compare(result, original).attributes) {
+    const std::size_t wrong = attribute.combinations - attribute.original - attribute.at_new_places;
+    EXPECT_EQ(attribute.at_new_places, attribute.name == "group" ? 2u : 1u) << attribute.name;
+    EXPECT_EQ(wrong, attribute.name == "uv" ? 1u : 0u) << attribute.name;
+  }
+}
+
 TEST(Kept, LostAttributesAreNamed)
 {
   const Triangle_soup original = with_attributes(sheet(2, 2));

@@ -5,6 +5,7 @@
 #include <selvedge/simplify.h>
 #include <selvedge/verify.h>
 
+#include "support/reduction.h"
 #include "support/soups.h"
 
 #include <gtest/gtest.h>
@@ -141,6 +142,22 @@ TEST(MatchPieces, FindAPieceReplacedByATriangleOfItsOwn)
   result.triangles.erase(result.triangles.begin() + 1, result.triangles.begin() + 32);
   EXPECT_TRUE(topology_differences(pieces(result), pieces(fine())).empty()) << "the control";
   EXPECT_EQ(mismatches(result, fine()), Mismatches{Mismatch::far});
+}
+
+// A button may become a triangle of its own, as a reduction to 1 % of the diagonal allows; but no other one.
+TEST(MatchPieces, OfWhichLittleIsLeftAreRightWhereTheyAreSmall)
+{
+  const auto with_button = [](const Triangle_soup& layers, const Triangle_soup& button) {
+    return joined(layers, mapped(button, [](const Point_3& p) {
+                    return Point_3(30 + p.x() / 64, p.y() / 64, p.z() / 64);
+                  }));
+  };
+  const Triangle_soup original = with_button(fine(), layer(8, 0));
+  const Triangle_soup corner = soup({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  const Piece_matching matching = match_pieces(with_button(coarse(), corner), original);
+  EXPECT_EQ(mismatches(matching), Mismatches{});
+  EXPECT_GT(matching.matches.back().distance, 0.25) << "the control";
+  EXPECT_NE(mismatches(with_button(coarse(), moved(corner, 0.01, 0, 0)), original), Mismatches{});
 }
 
 TEST(MatchPieces, FindACopyOfAnotherInThePlaceOfOne)
@@ -403,6 +420,108 @@ TEST(MatchPieces, OfBordersThatManyWaysLeadTo)
   options.weld_distance = 1.2 * gap;
   const Triangle_soup original = joined(result, moved(strip, 0, 0, 20 * gap));
   EXPECT_EQ(mismatches(match_pieces(result, original, options)), Mismatches{Mismatch::missing});
+}
+
+// ---- Pieces without vertices of their own, in files that number vertices by position
+
+/// A closed ring of 12 × 8 squares.
+Triangle_soup torus()
+{
+  constexpr Index around = 12, across = 8;
+  Triangle_soup result;
+  for (Index x = 0; x < around; ++x)
+    for (Index y = 0; y < across; ++y) {
+      const double u = 2 * M_PI * x / around, v = 2 * M_PI * y / across, r = 3 + std::cos(v);
+      result.points.emplace_back(r * std::cos(u), r * std::sin(u), std::sin(v));
+      const Index a = x * across + y, b = x * across + (y + 1) % across;
+      const Index c = (x + 1) % around * across + (y + 1) % across, d = (x + 1) % around * across + y;
+      result.triangles.push_back({a, c, b});
+      result.triangles.push_back({a, d, c});
+    }
+  return result;
+}
+
+/// The same cut into patches of some 2 to 20 faces that grow from random faces, each with vertices of its
+/// own.
+Triangle_soup in_patches(const Triangle_soup& whole, Index patches, std::mt19937& random)
+{
+  constexpr Index none = Index(-1);
+  std::vector<Index> patch(whole.triangles.size(), none);
+  for (Index i = 0; i < patches; ++i)
+    patch[random() % patch.size()] = i;
+  const auto common = [&](Index t, Index u) {
+    const Index_triple &a = whole.triangles[t], &b = whole.triangles[u];
+    return std::count_if(a.begin(), a.end(), [&](Index v) { return std::count(b.begin(), b.end(), v) > 0; });
+  };
+  while (std::count(patch.begin(), patch.end(), none) > 0)
+    for (Index t = 0; t < patch.size(); ++t)
+      for (Index u = 0; u < patch.size(); ++u)
+        if (patch[t] != none && patch[u] == none && common(t, u) == 2 && random() % 4 == 0)
+          patch[u] = patch[t];
+  Triangle_soup result;
+  for (Index i = 0; i < patches; ++i) {
+    std::vector<Index> number(whole.points.size(), none);
+    for (Index t = 0; t < patch.size(); ++t)
+      if (patch[t] == i) {
+        Index_triple corners = whole.triangles[t];
+        for (Index& v : corners) {
+          if (number[v] == none) {
+            number[v] = Index(result.points.size());
+            result.points.push_back(whole.points[v]);
+          }
+          v = number[v];
+        }
+        result.triangles.push_back(corners);
+      }
+  }
+  return result;
+}
+
+/// With one vertex at each position, as an STL file has it.
+Triangle_soup by_position(const Triangle_soup& soup)
+{
+  Triangle_soup result;
+  for (Index_triple corners : soup.triangles) {
+    for (Index& v : corners) {
+      const Point_3& point = soup.points[v];
+      v = Index(std::find(result.points.begin(), result.points.end(), point) - result.points.begin());
+      if (v == result.points.size())
+        result.points.push_back(point);
+    }
+    result.triangles.push_back(corners);
+  }
+  return result;
+}
+
+// Small patches have all of their vertices in common with others, so that no face shows by its corners whose
+// it is. All of them are there, and each of them is missed: of a closed surface, of a sheet, at whose border
+// a patch may fill a notch, and where a patch lies on another.
+TEST(MatchPieces, OfPatchesWithoutVerticesOfTheirOwn)
+{
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    Triangle_soup original = in_patches(seed % 2 == 0 ? torus() : sheet(8, 8), 10 + random() % 40, random);
+    if (seed % 3 == 0) // this one lies on another, and its sides agree
+      original = joined(original, in_patches(sheet(2, 2), 1, random));
+    EXPECT_EQ(mismatches(by_position(original), original), Mismatches{});
+    for (Index i = 0; i < pieces(original).size(); ++i)
+      EXPECT_NE(mismatches(by_position(without_piece(original, i)), original), Mismatches{}) << "piece " << i;
+  }
+}
+
+TEST(MatchPieces, OfReducedPatchesWithoutVerticesOfTheirOwn)
+{
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const Triangle_soup original = in_patches(torus(), 10 + random() % 40, random);
+    const Triangle_soup result = simplify_soup(prepare(original), to_ratio(0.4)).soup;
+    EXPECT_LT(result.triangles.size(), original.triangles.size());
+    EXPECT_EQ(mismatches(by_position(result), original), Mismatches{});
+    for (Index i = 0; i < pieces(result).size(); ++i)
+      EXPECT_NE(mismatches(by_position(without_piece(result, i)), original), Mismatches{}) << "piece " << i;
+  }
 }
 
 // Pieces that were joined elsewhere than at their borders are not.

@@ -162,6 +162,9 @@ private:
   // Of so few candidates, the nearest are found at once: most collapses that are asked about are done.
   static constexpr std::size_t s_few = 32;
 
+  // So many points of the original are compared with a point one by one, before the tree is asked.
+  static constexpr std::size_t s_few_points = 64;
+
   // A face that can take points, as it is after the collapse.
   class Candidate
   {
@@ -364,8 +367,9 @@ private:
     const double squared = state.max_error * state.max_error * (1 + 1e-6) + 1e-24; // with room for rounding
     std::size_t likely = 0;
     const auto is_near = [&](const Point& p) {
-      // The points that these faces carry are of the original, and at hand.
-      for (std::size_t i = 0; i < state.moves.size(); ++i) {
+      // The points that these faces carry are of the original, and at hand. At a vertex of many faces there
+      // are thousands of them, so that the tree answers sooner.
+      for (std::size_t i = 0; i < (std::min)(state.moves.size(), s_few_points); ++i) {
         const std::size_t at = (likely + i) % state.moves.size();
         if (CGAL::squared_distance(state.points[state.moves[at].number], p) <= squared) {
           likely = at;
