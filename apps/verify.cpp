@@ -113,6 +113,10 @@ void print(const Distances& distances, const Comparison& comparison, std::size_t
   if (layers.crossing == 0) {
     std::cout << "layers: none close to another (none of " << counted(layers.lines, "line")
               << " through the faces crosses two)\n";
+  } else if (layers.compared == 0 && 100 * layers.crossing <= layers.lines) {
+    std::cout << "layers: hardly any close to another (of " << counted(layers.lines, "line")
+              << " through the faces, " << with_commas(layers.crossing)
+              << " cross two, and find neither in the result)\n";
   } else if (layers.compared == 0) {
     std::cout << "layers: could not be compared (" << counted(layers.crossing, "line")
               << " cross two or more, but none finds them in the result)\n";
