@@ -6,11 +6,15 @@
 #include "Sewing.h"
 
 namespace selvedge {
+namespace {
+
+using Halfedge = Corner_mesh::Halfedge;
+
+} // namespace
 
 Wedge_numbers number_wedges(const Corner_mesh& corners,
                             const std::vector<Corner_mesh::Mesh::Edge_index>& line_edges)
 {
-  using Halfedge = Corner_mesh::Halfedge;
   const Corner_mesh::Mesh& mesh = corners.mesh();
   std::vector<char> is_line(mesh.number_of_edges(), false);
   for (const Corner_mesh::Mesh::Edge_index e : line_edges)

@@ -1,0 +1,10 @@
+# Builds the program as ./demo does, by the other compiler, in FOLDER, and has it make, reduce and judge a garment.
+function(run)
+  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${SOURCE} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+set(selvedge ${FOLDER}/build/apps/selvedge)
+run(${CMAKE_COMMAND} --preset demo -B ${FOLDER}/build -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
+run(${CMAKE_COMMAND} --build ${FOLDER}/build --target selvedge_app)
+run(${selvedge} generate skirt -o ${FOLDER}/skirt.obj --faces 5000 --layers 3)
+run(${selvedge} simplify ${FOLDER}/skirt.obj -o ${FOLDER}/reduced.obj --ratio 0.2 --html ${FOLDER}/report.html)
+run(${selvedge} verify ${FOLDER}/reduced.obj --against ${FOLDER}/skirt.obj)
