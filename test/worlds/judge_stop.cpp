@@ -4,6 +4,7 @@
 #include "judge_stop.h"
 
 #include <selvedge/Parts.h>
+#include <selvedge/compare.h>
 #include <selvedge/verify.h>
 
 #include <algorithm>
@@ -27,6 +28,33 @@ std::vector<char> held(const World& world, const Triangle_soup& soup, bool with_
   return is_held;
 }
 
+namespace {
+
+// Whether corners, middles of sides and centres of faces are no farther from the other mesh than a bound
+// says, in shares of the diagonal, and the bound is not far above what was seen.
+bool is_bound(const Bounds& bounds, const Triangle_soup& from, const Triangle_soup& to, double diagonal)
+{
+  Triangle_soup points;
+  for (const auto& [a, b, c] : from.triangles) {
+    const Point_3 &p = from.points[a], &q = from.points[b], &r = from.points[c];
+    for (const Point_3& point : {p, q, r, CGAL::midpoint(p, q), CGAL::midpoint(q, r), CGAL::midpoint(r, p),
+                                 CGAL::centroid(p, q, r)}) {
+      const Index i = Index(points.points.size());
+      points.points.push_back(point);
+      points.triangles.push_back({i, i, i});
+    }
+  }
+  double largest = 0; // of the coordinates, of which these points are rounded
+  for (const Point_3& point : points.points)
+    for (int axis = 0; axis < 3; ++axis)
+      largest = std::max(largest, std::abs(point[axis]));
+  const double unit = diagonal > 0 ? diagonal : 1, rounding = 0x1p-50 * largest / unit;
+  const double seen = distance(points, to).maximum / unit;
+  return seen <= bounds.upper * (1 + 1e-9) + rounding + 1e-8 && bounds.upper <= 1.02 * bounds.lower + 2e-6;
+}
+
+} // namespace
+
 Verdict judge_stop(const World& world, const World_run& run)
 {
   const auto broken = [](const std::string& what) { return Broken_promise{Promise::stop, what}; };
@@ -41,10 +69,16 @@ Verdict judge_stop(const World& world, const World_run& run)
     return broken("the report counts other faces");
   if (report.is_stopped != run.is_told_to_stop)
     return broken("told to stop, and not so reported, or the other way round");
-  if (world.options.max_error && !run.result.soup.triangles.empty() &&
-      distances(run.result.soup, soup).original_to_result.maximum >
-          *world.options.max_error * (1 + 1e-6) + 1e-9)
-    return broken("a vertex of the original is farther away than the error allows");
+  if (!run.result.soup.triangles.empty()) {
+    const Distances at_vertices = distances(run.result.soup, soup);
+    if (world.options.max_error &&
+        at_vertices.original_to_result.maximum > *world.options.max_error * (1 + 1e-6) + 1e-9)
+      return broken("a vertex of the original is farther away than the error allows");
+    const Distances_anywhere anywhere = distances_anywhere(run.result.soup, soup);
+    if (!is_bound(anywhere.original_to_result, soup, run.result.soup, at_vertices.diagonal) ||
+        !is_bound(anywhere.result_to_original, run.result.soup, soup, at_vertices.diagonal))
+      return broken("a point is farther from the other mesh than its bounds say");
+  }
 
   const bool is_over = report.is_reached() || report.is_stopped;
   if (is_over && report.hindrances.total() > 0)
