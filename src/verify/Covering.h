@@ -83,7 +83,7 @@ private:
     std::array<std::array<int, 3>, 3> at_given, at_this;
   };
 
-  bool set_plane(const std::array<Point_3, 3>& corners);
+  bool set_plane(std::array<Point_3, 3> corners);
   Point_2 projected(const Point_3& point) const;
   Projection projected(Index triangle) const;
   static bool overlaps(const Projection& projection);

@@ -103,6 +103,41 @@ TEST(MaximumDistance, IsThatOfAPointThatWasLookedAt)
   EXPECT_LE(bounds.lower, std::sqrt(4.6));
 }
 
+// Needles a billionth of a rounding wide, whose first side is the short one, along a ridge that rises in the
+// middle: both slopes are within rounding of not being below the needle at all.
+TEST(MaximumDistance, HoldsAlongNeedlesOverARidge)
+{
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> share(0, 1);
+  for (int i = 0; i < 400; ++i) {
+    SCOPED_TRACE(i);
+    const double angle = 6.28 * share(random), turn = 0.3 + 2.5 * share(random),
+                 width = std::ldexp(1.0, -60 - i % 4), top = 0.2 + 0.6 * share(random),
+                 lean = share(random) / 10;
+    const double x = std::cos(angle), y = std::sin(angle);
+    const auto at = [&](double along, double across, double z) {
+      return Point_3(along * x - across * y, along * y + across * x, z);
+    };
+    // The first point, at the end of the needle, is the one from which coordinates are measured.
+    const Triangle_soup ridge = soup({{0, 0, 0},
+                                      at(-share(random), 0, 0),
+                                      at(top, 0, 1),
+                                      at(1 + share(random), 0, 0),
+                                      at(top - lean, 5, -3),
+                                      at(top - lean, -5, -3)},
+                                     {{0, 0, 0}, {1, 2, 4}, {2, 3, 4}, {2, 1, 5}, {3, 2, 5}});
+    const Triangle_soup needle =
+        soup({{0, 0, 0}, {width * std::cos(angle + turn), width * std::sin(angle + turn), 0}, {x, y, 0}},
+             {{0, 1, 2}});
+    Triangle_soup points;
+    for (Index k = 0; k <= 40; ++k) {
+      points.points.push_back(at(k / 40.0, 0, 0));
+      points.triangles.push_back({k, k, k});
+    }
+    EXPECT_GE(maximum_distance(needle, ridge).upper, distance(points, ridge).maximum - 1e-12);
+  }
+}
+
 TEST(MaximumDistance, IsZeroFromNothingInfiniteToNothingAndScales)
 {
   EXPECT_EQ(maximum_distance({}, one_triangle()).upper, 0);
