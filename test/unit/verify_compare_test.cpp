@@ -4,6 +4,7 @@
 #include <selvedge/compare.h>
 
 #include "support/soups.h"
+#include "verify/Covering.h"
 
 #include <gtest/gtest.h>
 
@@ -136,6 +137,27 @@ TEST(MaximumDistance, HoldsAlongNeedlesOverARidge)
     }
     EXPECT_GE(maximum_distance(needle, ridge).upper, distance(points, ridge).maximum - 1e-12);
   }
+}
+
+// A search that covers a face with very many others ends before it has, and says how much it did.
+TEST(MaximumDistance, LooksAtSoManyFacesAndNoMore)
+{
+  constexpr Index width = 150;
+  const Triangle_soup fine = sheet(width, width);
+  const internal::Surface surface(fine, 0);
+  const internal::Neighbours neighbours(surface);
+  internal::Covering_search search(neighbours);
+  const auto is_covered = [&](double size) {
+    const std::size_t before = search.looks();
+    const bool covered =
+        search.farthest({Point_3(0.1, 0.2, 1), Point_3(size, 0.3, 1), Point_3(0.3, size, 1)}, {0, 0, 0}, 1e9)
+            .has_value();
+    EXPECT_LE(search.looks() - before, 17'000u);
+    return covered;
+  };
+  EXPECT_TRUE(is_covered(50));
+  EXPECT_FALSE(is_covered(140));
+  EXPECT_TRUE(is_covered(1.5));
 }
 
 TEST(MaximumDistance, IsZeroFromNothingInfiniteToNothingAndScales)
