@@ -65,7 +65,7 @@ Covering_search::Covering_search(const Neighbours& neighbours)
 auto Covering_search::farthest(const std::array<Point_3, 3>& corners, const Index_triple& near, double limit)
     -> std::optional<Farthest>
 {
-  constexpr std::size_t most = 4096;
+  const std::size_t most = m_looks + 16'000;
   if (!set_plane(corners))
     return std::nullopt;
   const std::optional<Index> first = overlapping(near);
@@ -80,7 +80,7 @@ auto Covering_search::farthest(const std::array<Point_3, 3>& corners, const Inde
     for (int side = 0; side < 3; ++side)
       if (crosses(projection, side)) {
         const std::optional<Index> beyond = neighbour_beyond(projection, side);
-        if (!beyond || m_queue.size() == most)
+        if (!beyond || m_looks >= most)
           return std::nullopt;
         if (visit(*beyond))
           m_queue.push_back(*beyond);
@@ -92,9 +92,18 @@ auto Covering_search::farthest(const std::array<Point_3, 3>& corners, const Inde
   return result;
 }
 
-// Makes the plane of a triangle the one onto which triangles are projected, unless it has none.
-bool Covering_search::set_plane(const std::array<Point_3, 3>& corners)
+// Makes the plane of a triangle the one onto which triangles are projected, unless it has none. The first
+// axis runs along the longest side. Along a needle, cuts at any angle to it would be rounded by more than it
+// is wide, and leave nothing of it.
+bool Covering_search::set_plane(std::array<Point_3, 3> corners)
 {
+  const auto squared_length = [&](std::size_t side) {
+    return CGAL::squared_distance(corners[side], corners[(side + 1) % 3]);
+  };
+  const std::array<double, 3> lengths{squared_length(0), squared_length(1), squared_length(2)};
+  std::rotate(corners.begin(),
+              corners.begin() + (std::max_element(lengths.begin(), lengths.end()) - lengths.begin()),
+              corners.end());
   m_origin = corners[0];
   const Vector_3 along = corners[1] - corners[0],
                  normal = CGAL::cross_product(along, corners[2] - corners[0]);
@@ -114,8 +123,9 @@ Kernel::Point_2 Covering_search::projected(const Point_3& point) const
   return {from_origin * m_x, from_origin * m_y};
 }
 
-auto Covering_search::projected(Index triangle) const -> Projection
+auto Covering_search::projected(Index triangle) -> Projection
 {
+  ++m_looks;
   const Surface& surface = m_neighbours.surface();
   Projection result;
   result.triangle = triangle;
@@ -155,10 +165,11 @@ bool Covering_search::crosses(const Projection& projection, int side)
 }
 
 // Returns a neighbour that lies on the other side of a side.
-std::optional<Index> Covering_search::neighbour_beyond(const Projection& projection, int side) const
+std::optional<Index> Covering_search::neighbour_beyond(const Projection& projection, int side)
 {
   const Index own = 3 * projection.triangle + Index(side);
   for (Index other = m_neighbours.next_at_edge(own); other != own; other = m_neighbours.next_at_edge(other)) {
+    ++m_looks;
     const Point_2 opposite = projected(m_neighbours.surface().corner(other / 3, (other % 3 + 2) % 3));
     const int turn =
         CGAL::orientation(projection.corners[side], projection.corners[(side + 1) % 3], opposite);
@@ -177,15 +188,18 @@ std::optional<Index> Covering_search::overlapping(const Index_triple& near)
   for (const Index triangle : near)
     if (visit(triangle))
       m_queue.push_back(triangle);
-  for (std::size_t i = 0; i < m_queue.size() && i < most; ++i) {
+  for (std::size_t i = 0; i < m_queue.size(); ++i) {
     const Index triangle = m_queue[i];
     if (overlaps(projected(triangle)))
       return triangle;
     for (Index side = 3 * triangle; side < 3 * triangle + 3; ++side)
       for (Index other = m_neighbours.next_at_edge(side); other != side;
-           other = m_neighbours.next_at_edge(other))
+           other = m_neighbours.next_at_edge(other)) {
+        if (m_queue.size() == most)
+          break;
         if (visit(other / 3))
           m_queue.push_back(other / 3);
+      }
   }
   return std::nullopt;
 }

@@ -50,7 +50,8 @@ private:
 /// **Exactness** Projected points are rounded. How they lie to each other is decided exactly, and equal
 /// points have equal projections. Corners of polygons and distances are rounded.
 ///
-/// **Complexity** Linear in the number of triangles of the surface that are visited, at most 4,096.
+/// **Complexity** Linear in the number of times that it looks at a triangle of the surface. In one search
+/// that is not much more than 16,000 times, unless more triangles share an edge.
 class Covering_search
 {
 public:
@@ -69,6 +70,9 @@ public:
   std::optional<Farthest> farthest(const std::array<Point_3, 3>& corners, const Index_triple& near,
                                    double limit);
 
+  /// Returns how many times it has looked at a triangle of the surface, in all searches.
+  std::size_t looks() const { return m_looks; }
+
 private:
   using Point_2 = Kernel::Point_2;
 
@@ -83,12 +87,12 @@ private:
     std::array<std::array<int, 3>, 3> at_given, at_this;
   };
 
-  bool set_plane(const std::array<Point_3, 3>& corners);
+  bool set_plane(std::array<Point_3, 3> corners);
   Point_2 projected(const Point_3& point) const;
-  Projection projected(Index triangle) const;
+  Projection projected(Index triangle);
   static bool overlaps(const Projection& projection);
   static bool crosses(const Projection& projection, int side);
-  std::optional<Index> neighbour_beyond(const Projection& projection, int side) const;
+  std::optional<Index> neighbour_beyond(const Projection& projection, int side);
   std::optional<Index> overlapping(const Index_triple& near);
   void find_farther(const Projection& projection, Farthest& farthest) const;
 
@@ -99,6 +103,7 @@ private:
   std::vector<Index> m_visited; // by triangle of the surface: when it was
   Index m_time = 0;
   std::vector<Index> m_queue;
+  std::size_t m_looks = 0;
 
   // The given triangle.
   Point_3 m_origin;

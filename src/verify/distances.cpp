@@ -222,30 +222,35 @@ Bounds maximum_distance(const Triangle_soup& from, const Triangle_soup& to)
   std::optional<Neighbours> neighbours;
   if (std::any_of(source.triangles.begin(), source.triangles.end(), is_face))
     neighbours.emplace(surface);
-  const auto bound = [&](Part& part, std::optional<Covering_search>& search) {
+  // Where coverings fail, as on a surface in shreds, they could be tried for hours.
+  const auto bound = [&](Part& part, std::optional<Covering_search>& search, std::size_t& looks_left) {
     part.upper = upper_bound(part, surface);
     part.farthest.reset();
-    if (!neighbours || !(part.upper > good_enough()))
+    if (!neighbours || looks_left == 0 || !(part.upper > good_enough()))
       return;
     if (!search)
       search.emplace(*neighbours);
+    const std::size_t looks_before = search->looks();
     if (const auto farthest = search->farthest(part.corners, part.nearest, part.upper)) {
       part.upper = farthest->squared_distance;
       part.farthest = farthest->point;
     }
+    looks_left -= std::min(looks_left, search->looks() - looks_before);
   };
 
   tbb::enumerable_thread_specific<std::optional<Covering_search>> searches;
   constexpr std::size_t chunk = 4096;
   const std::size_t count = source.triangles.size();
+  const std::size_t looks = 10'000'000 + 32 * (count + surface.triangles.size());
   std::vector<std::vector<Part>> parts_of_chunks(chunk_count(count, chunk));
   std::vector<double> upper_of_chunks(parts_of_chunks.size(), lower); // of what is good enough
   for_each_chunk(count, chunk, [&](std::size_t number, std::size_t first, std::size_t beyond) {
     auto& search = searches.local();
+    std::size_t looks_left = looks / parts_of_chunks.size();
     for (std::size_t i = first; i < beyond; ++i) {
       const auto& [a, b, c] = source.triangles[i];
       Part part{{source.points[a], source.points[b], source.points[c]}, {nearest[a], nearest[b], nearest[c]}};
-      bound(part, search);
+      bound(part, search, looks_left);
       if (part.upper > good_enough())
         parts_of_chunks[number].push_back(part);
       else
@@ -260,7 +265,7 @@ Bounds maximum_distance(const Triangle_soup& from, const Triangle_soup& to)
 
   Cancellation_poll poll;
   auto& search = searches.local();
-  std::size_t budget = count + 500'000;
+  std::size_t budget = count + 500'000, looks_left = looks;
   for (; !parts.empty() && parts.top().upper > good_enough() && budget > 0; --budget) {
     poll();
     Part part = parts.top();
@@ -282,7 +287,7 @@ Bounds maximum_distance(const Triangle_soup& from, const Triangle_soup& to)
           half.corners[k] = point;
           half.nearest[k] = to_point.triangle;
         }
-      bound(half, search);
+      bound(half, search, looks_left);
       if (half.upper > good_enough())
         parts.push(half);
       else

@@ -4,6 +4,7 @@
 #include <selvedge/compare.h>
 
 #include "support/soups.h"
+#include "verify/Covering.h"
 
 #include <gtest/gtest.h>
 
@@ -101,6 +102,62 @@ TEST(MaximumDistance, IsThatOfAPointThatWasLookedAt)
       maximum_distance(soup({{0.5, 0.5, 2}, {5.5, 0.75, 2}, {2, 4.5, 2}}, {{0, 1, 2}}), valley);
   EXPECT_GE(bounds.upper, std::sqrt(4.5)) << "at (2, 2, 2)";
   EXPECT_LE(bounds.lower, std::sqrt(4.6));
+}
+
+// Needles a billionth of a rounding wide, whose first side is the short one, along a ridge that rises in the
+// middle: both slopes are within rounding of not being below the needle at all.
+TEST(MaximumDistance, HoldsAlongNeedlesOverARidge)
+{
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> share(0, 1);
+  for (int i = 0; i < 400; ++i) {
+    SCOPED_TRACE(i);
+    const double angle = 6.28 * share(random), turn = 0.3 + 2.5 * share(random),
+                 width = std::ldexp(1.0, -60 - i % 4), top = 0.2 + 0.6 * share(random),
+                 lean = share(random) / 10;
+    const double x = std::cos(angle), y = std::sin(angle);
+    const auto at = [&](double along, double across, double z) {
+      return Point_3(along * x - across * y, along * y + across * x, z);
+    };
+    // The first point, at the end of the needle, is the one from which coordinates are measured.
+    const Triangle_soup ridge = soup({{0, 0, 0},
+                                      at(-share(random), 0, 0),
+                                      at(top, 0, 1),
+                                      at(1 + share(random), 0, 0),
+                                      at(top - lean, 5, -3),
+                                      at(top - lean, -5, -3)},
+                                     {{0, 0, 0}, {1, 2, 4}, {2, 3, 4}, {2, 1, 5}, {3, 2, 5}});
+    const Triangle_soup needle =
+        soup({{0, 0, 0}, {width * std::cos(angle + turn), width * std::sin(angle + turn), 0}, {x, y, 0}},
+             {{0, 1, 2}});
+    Triangle_soup points;
+    for (Index k = 0; k <= 40; ++k) {
+      points.points.push_back(at(k / 40.0, 0, 0));
+      points.triangles.push_back({k, k, k});
+    }
+    EXPECT_GE(maximum_distance(needle, ridge).upper, distance(points, ridge).maximum - 1e-12);
+  }
+}
+
+// A search that covers a face with very many others ends before it has, and says how much it did.
+TEST(MaximumDistance, LooksAtSoManyFacesAndNoMore)
+{
+  constexpr Index width = 150;
+  const Triangle_soup fine = sheet(width, width);
+  const internal::Surface surface(fine, 0);
+  const internal::Neighbours neighbours(surface);
+  internal::Covering_search search(neighbours);
+  const auto is_covered = [&](double size) {
+    const std::size_t before = search.looks();
+    const bool covered =
+        search.farthest({Point_3(0.1, 0.2, 1), Point_3(size, 0.3, 1), Point_3(0.3, size, 1)}, {0, 0, 0}, 1e9)
+            .has_value();
+    EXPECT_LE(search.looks() - before, 17'000u);
+    return covered;
+  };
+  EXPECT_TRUE(is_covered(50));
+  EXPECT_FALSE(is_covered(140));
+  EXPECT_TRUE(is_covered(1.5));
 }
 
 TEST(MaximumDistance, IsZeroFromNothingInfiniteToNothingAndScales)
