@@ -345,7 +345,7 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
                : done.is_stopped ? " not reached: interrupted"
                                  : " not reached");
   else
-    stream << "as far as the limits allow";
+    stream << (done.is_stopped ? "interrupted" : "as far as the limits allow");
   if (!done.is_reached() && !done.is_stopped)
     stream << "\nheld back: " << held_back(request, done, prepared.soup);
   if (done.faces_fixed > 0)

@@ -55,6 +55,18 @@ TEST(App_interruption, WritesAndVerifiesWhatWasReached)
   }
 }
 
+TEST(App_interruption, IsNotALimit)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("sheets", "in.ply", many);
+  App_process process({"simplify", in, "-o", folder / "out.ply", "--error", "0.05"}, true);
+  ASSERT_TRUE(process.shows("removed/s")) << process.err();
+  process.send(SIGINT);
+  EXPECT_EQ(process.wait(), 5) << process.err();
+  EXPECT_NE(process.out().find(" s: interrupted\n"), std::string::npos) << process.out();
+  EXPECT_EQ(process.out().find("as far as"), std::string::npos) << process.out();
+}
+
 TEST(App_interruption, BeforeTheReductionWritesNothing)
 {
   const Workspace folder;

@@ -104,7 +104,7 @@ TEST(MaximumDistance, IsThatOfAPointThatWasLookedAt)
   EXPECT_LE(bounds.lower, std::sqrt(4.6));
 }
 
-// Needles a billionth of a rounding wide, whose first side is the short one, along a ridge that rises in the
+// Needles a hundredth of a rounding wide, whose first side is the short one, along a ridge that rises in the
 // middle: both slopes are within rounding of not being below the needle at all.
 TEST(MaximumDistance, HoldsAlongNeedlesOverARidge)
 {
