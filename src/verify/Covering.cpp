@@ -92,18 +92,9 @@ auto Covering_search::farthest(const std::array<Point_3, 3>& corners, const Inde
   return result;
 }
 
-// Makes the plane of a triangle the one onto which triangles are projected, unless it has none. The first
-// axis runs along the longest side. Along a needle, cuts at any angle to it would be rounded by more than it
-// is wide, and leave nothing of it.
-bool Covering_search::set_plane(std::array<Point_3, 3> corners)
+// Makes the plane of a triangle the one onto which triangles are projected, unless it has none.
+bool Covering_search::set_plane(const std::array<Point_3, 3>& corners)
 {
-  const auto squared_length = [&](std::size_t side) {
-    return CGAL::squared_distance(corners[side], corners[(side + 1) % 3]);
-  };
-  const std::array<double, 3> lengths{squared_length(0), squared_length(1), squared_length(2)};
-  std::rotate(corners.begin(),
-              corners.begin() + (std::max_element(lengths.begin(), lengths.end()) - lengths.begin()),
-              corners.end());
   m_origin = corners[0];
   const Vector_3 along = corners[1] - corners[0],
                  normal = CGAL::cross_product(along, corners[2] - corners[0]);
@@ -214,9 +205,13 @@ void Covering_search::find_farther(const Projection& projection, Farthest& farth
   for (int i = 0; i < 3; ++i) {
     const Point_2 &from = projection.corners[i], &to = projection.corners[(i + 1) % 3];
     const Kernel::Vector_2 along = to - from;
+    // It is too large by more than its rounding, so that nothing is cut away that may be below the triangle:
+    // cuts at any angle to a needle, which may be narrower than rounding, would otherwise leave nothing of
+    // it.
     const auto inwards = [&](const Point_2& point) {
       const Kernel::Vector_2 offset = point - from;
-      return projection.turn * (along.x() * offset.y() - along.y() * offset.x());
+      const double first = along.x() * offset.y(), second = along.y() * offset.x();
+      return projection.turn * (first - second) + 1e-15 * (std::abs(first) + std::abs(second));
     };
     std::size_t count = 0;
     for (std::size_t k = 0; k < size; ++k) {

@@ -48,7 +48,8 @@ private:
 /// projection of a vertex, around which all is covered.
 ///
 /// **Exactness** Projected points are rounded. How they lie to each other is decided exactly, and equal
-/// points have equal projections. Corners of polygons and distances are rounded.
+/// points have equal projections. Corners of polygons and distances are rounded; cuts keep what rounding
+/// leaves undecided, so that the polygons cover the triangle all the same.
 ///
 /// **Complexity** Linear in the number of times that it looks at a triangle of the surface. In one search
 /// that is not much more than 16,000 times, unless more triangles share an edge.
@@ -87,7 +88,7 @@ private:
     std::array<std::array<int, 3>, 3> at_given, at_this;
   };
 
-  bool set_plane(std::array<Point_3, 3> corners);
+  bool set_plane(const std::array<Point_3, 3>& corners);
   Point_2 projected(const Point_3& point) const;
   Projection projected(Index triangle);
   static bool overlaps(const Projection& projection);

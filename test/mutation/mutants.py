@@ -1070,3 +1070,8 @@ group(
     ("lower = std::max(lower, CGAL::squared_distance(*farthest, nearest_to_it));", "lower = std::max(lower, part.upper);",
      "the bound counts as a distance that was seen"),
 )
+group(
+    "src/verify/Covering.cpp",
+    ("verify_compare_test",),
+    (" + 1e-15 * (std::abs(first) + std::abs(second))", "", "rounded cuts leave nothing of a needle"),
+)
