@@ -1048,7 +1048,7 @@ group(
     ("covering_test",),
     ("if (turn * projection.turn < 0)", "if (turn * projection.turn != 0)",
      "a fold is covered by what lies on one side of it"),
-    ("if (!beyond || m_queue.size() == most)", "if (!beyond)\n          continue;\n        if (m_queue.size() == most)",
+    ("if (!beyond || m_looks >= most)", "if (!beyond)\n          continue;\n        if (m_looks >= most)",
      "a triangle over a hole is covered"),
     ("if (crosses(projection, side)) {", "if (crosses(projection, side) && side > 0) {",
      "the covering does not continue across every edge"),
