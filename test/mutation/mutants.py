@@ -1062,12 +1062,12 @@ group(
     ("corner = positions[corner];", ";", "seams are borders"),
 )
 group(
-    "src/verify/distances.cpp",
+    "src/verify/maximum_distance.cpp",
     ("verify_compare_test",),
     ("const auto farthest = search->farthest(part.corners, part.nearest, part.upper)",
      "const auto farthest = search->farthest(part.corners, part.nearest, 0)",
      "no triangle is covered, so that points run out"),
-    ("lower = std::max(lower, CGAL::squared_distance(*farthest, nearest_to_it));", "lower = std::max(lower, part.upper);",
+    ("        see(*farthest, part.nearest[0]);", "        m_lower = std::max(m_lower, part.upper);",
      "the bound counts as a distance that was seen"),
 )
 group(
