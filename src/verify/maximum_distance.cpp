@@ -250,11 +250,10 @@ private:
 
 Bounds maximum_distance(const Triangle_soup& from, const Triangle_soup& to)
 {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   if (from.triangles.empty())
     return {0, 0};
   if (to.triangles.empty())
-    return {infinity, infinity};
+    return {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   const int exponent = common_exponent(from, to);
   const Point_3 origin = to.points[to.triangles[0][0]];
   const Surface source(from, exponent, origin), surface(to, exponent, origin);
