@@ -40,10 +40,10 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
 /// Sets `verified`, `pieces`, and `topology`, `matching` and `distance` where there is an original.
 void add_verification(Json& report, const Verification& verification, bool has_original);
 
-/// Sets `borders`, `seams`, `gaps`, `vertices`, `attributes`, `normals` and `layers`, and adds to `distance`.
 /// Adds to the distances of a verification how large they are anywhere, as far as that was measured.
 void add_distances(Json& report, const std::optional<Distances_anywhere>& distances);
 
+/// Sets `borders`, `seams`, `gaps`, `vertices`, `attributes`, `normals` and `layers`, and adds to `distance`.
 void add_comparison(Json& report, const Comparison& comparison);
 
 /// Sets `parts`, and `uv` where there is a texture.

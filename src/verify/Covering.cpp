@@ -3,7 +3,6 @@
 
 #include "Covering.h"
 
-#include "positions.h"
 #include "sides.h"
 
 #include <algorithm>
@@ -42,12 +41,7 @@ constexpr auto is_inside_or_on = [](int sign) { return sign >= 0; };
 Neighbours::Neighbours(const Surface& surface) : m_surface(surface), m_next(3 * surface.triangles.size())
 {
   std::iota(m_next.begin(), m_next.end(), Index(0));
-  const std::vector<Index> positions = position_numbers(surface.points);
-  std::vector<Index_triple> triangles = surface.triangles;
-  for (Index_triple& triangle : triangles)
-    for (Index& corner : triangle)
-      corner = positions[corner];
-  const std::vector<Side> sides = sorted_sides(triangles, surface.points.size());
+  const std::vector<Side> sides = sides_between_positions(surface.points, surface.triangles);
   for (auto first = sides.begin(), side = first; side != sides.end(); ++side) {
     const auto next = side + 1;
     const bool is_last = next == sides.end() || next->low != side->low || next->high != side->high;

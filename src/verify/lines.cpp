@@ -4,7 +4,6 @@
 #include "lines.h"
 
 #include "Surface_tree.h"
-#include "positions.h"
 #include "sides.h"
 
 #include <selvedge/Cancellation_scope.h>
@@ -17,16 +16,6 @@
 
 namespace selvedge::internal {
 namespace {
-
-std::vector<Side> sides_between_positions(const Triangle_soup& soup)
-{
-  const std::vector<Index> positions = position_numbers(soup.points);
-  std::vector<Index_triple> triangles = soup.triangles;
-  for (Index_triple& triangle : triangles)
-    for (Index& corner : triangle)
-      corner = positions[corner];
-  return sorted_sides(triangles, soup.points.size());
-}
 
 /// Whether two corners at one position differ in vertex number, texture coordinate, group, object or
 /// material.
@@ -70,7 +59,7 @@ Borders_and_seams borders_and_seams(const Triangle_soup& soup)
     lines.edges.triangles.push_back({a, b, b});
     lines.opposite.push_back(soup.triangles[side.corner_at_low / 3][opposite]);
   };
-  const std::vector<Side> sides = sides_between_positions(soup);
+  const std::vector<Side> sides = sides_between_positions(soup.points, soup.triangles);
   Cancellation_poll poll;
   for (auto first = sides.begin(), last = first; first != sides.end(); first = last) {
     poll();

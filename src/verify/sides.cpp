@@ -3,6 +3,8 @@
 
 #include "sides.h"
 
+#include "positions.h"
+
 #include <selvedge/Cancellation_scope.h>
 
 #include <algorithm>
@@ -37,4 +39,15 @@ selvedge::internal::sorted_sides(const std::vector<Index_triple>& triangles, std
     first = beyond;
   }
   return sides;
+}
+
+std::vector<selvedge::internal::Side>
+selvedge::internal::sides_between_positions(const std::vector<Point_3>& points,
+                                            std::vector<Index_triple> triangles)
+{
+  const std::vector<Index> positions = position_numbers(points);
+  for (Index_triple& triangle : triangles)
+    for (Index& corner : triangle)
+      corner = positions[corner];
+  return sorted_sides(triangles, points.size());
 }

@@ -31,6 +31,10 @@ inline bool is_face(const Index_triple& corners)
 /// then by their other ends, then by corners. All corners are below `vertices`.
 std::vector<Side> sorted_sides(const std::vector<Index_triple>& triangles, std::size_t vertices);
 
+/// Returns them with the numbers of positions in place of those of vertices.
+std::vector<Side> sides_between_positions(const std::vector<Point_3>& points,
+                                          std::vector<Index_triple> triangles);
+
 } // namespace selvedge::internal
 
 #endif // SELVEDGE_VERIFY_SIDES_H

@@ -1059,7 +1059,6 @@ group(
     ("m_next[side_number(*side)] = side_number(is_last ? *first : *next);",
      "m_next[side_number(*side)] = side_number(is_last ? *side : *next);",
      "only one of two neighbours knows the other"),
-    ("corner = positions[corner];", ";", "seams are borders"),
 )
 group(
     "src/verify/maximum_distance.cpp",
@@ -1074,4 +1073,9 @@ group(
     "src/verify/Covering.cpp",
     ("verify_compare_test",),
     (" + 1e-15 * (std::abs(first) + std::abs(second))", "", "rounded cuts leave nothing of a needle"),
+)
+group(
+    "src/verify/sides.cpp",
+    ("covering_test",),
+    ("corner = positions[corner];", ";", "seams are borders"),
 )

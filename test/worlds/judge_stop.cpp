@@ -31,7 +31,8 @@ std::vector<char> held(const World& world, const Triangle_soup& soup, bool with_
 namespace {
 
 // Whether corners, middles of sides and centres of faces are no farther from the other mesh than a bound
-// says, in shares of the diagonal, and the bound is not far above what was seen.
+// says, in shares of the diagonal, and the bound is not far above what was seen. (A distance from a needle
+// may come out too large by a few 1e-10.)
 bool is_bound(const Bounds& bounds, const Triangle_soup& from, const Triangle_soup& to, double diagonal)
 {
   Triangle_soup points;
