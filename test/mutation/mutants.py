@@ -58,8 +58,6 @@ group(
     headers + "geometry/internal/Star_pack_filter.h",
     ("star_pack_filter_test",),
     ("s_rounding = float(16 * s_unit)", "s_rounding = float(s_unit / 16)", "bounds for single precision too small"),
-    ("const double shift = 4 * s_unit * reach * m_scale;", "const double shift = s_unit / 64 * reach * m_scale;",
-     "rounding of coordinates far from the origin not counted"),
     ("m_is_above[k] = ~are_all_shared & (", "m_is_above[k] = (", "a face is clear of a sweep that has its three corners"),
     ("is_left &= m_is_corner[corner][a] | (side > error);", "is_left &= m_is_corner[corner][a] | (side > -error);",
      "a side known without a bound"),
@@ -73,8 +71,8 @@ group(
      "const Answers is_shared = m_is_corner[edge][k] | m_is_corner[third][k];", "the wrong corners lie on an edge"),
     ("float(slab.upper * inverse * m_scale)", "float(slab.lower * inverse * m_scale)", "a slab without its upper side"),
     ("clear<4>(pack, 4) << 4", "clear<4>(pack, 0) << 4", "plain instructions ask the first half twice"),
-    ("if (!(std::fabs(x) <= largest)) {", "if (std::fabs(x) > 1e300) {", "numbers beyond the range of floats"),
-    ("return shift < 0x1p-3;", "return true;", "used where floats are too coarse"),
+    ("m_reach <= s_largest_reach ? m_reach * s_rounding : nothing", "m_reach * s_rounding",
+     "triangles too large for floats"),
 )
 
 group(
@@ -189,10 +187,7 @@ group(
     loop + "Face_table.h",
     ("guard_test",),
     ("m_index.set(id, box(id));", "", "the index does not follow"),
-    ("        set_triangle(id, h);\n", "", "corners do not follow"),
-    ("m_triangles[id] = Float_triangle::of(m_triangles[id].corners, corners);",
-     "if (m_triangles[id].coordinates == std::array<float, 9>{}) m_triangles[id] = Float_triangle::of(m_triangles[id].corners, corners);",
-     "floats do not follow"),
+    ("        m_corners[id] = find_corners(h);\n", "", "corners do not follow"),
 )
 group(
     loop + "Collapse.h",

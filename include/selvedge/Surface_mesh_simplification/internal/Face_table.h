@@ -62,38 +62,35 @@ public:
         m_ids(get(CGAL::dynamic_face_property_t<Id>(), mesh))
   {
     m_faces.reserve(num_faces(mesh));
-    m_triangles.reserve(num_faces(mesh));
-    if constexpr (s_are_coordinates_doubles)
-      find_origin();
+    m_corners.reserve(num_faces(mesh));
     std::vector<Id> ids;
     ids.reserve(num_faces(mesh));
     for (const Face face : faces(mesh)) {
       const Id id = Id(m_faces.size());
       put(m_ids, face, id);
       m_faces.push_back(face);
-      m_triangles.emplace_back();
-      set_triangle(id, halfedge(face, mesh));
+      m_corners.push_back(find_corners(halfedge(face, mesh)));
       ids.push_back(id);
     }
     m_size = m_faces.size();
     const auto box_of = [this](Id id) { return box(id); };
     if constexpr (s_are_corners_wanted)
-      m_index.build(ids, box_of, coordinates_of());
+      m_index.build(ids, box_of, coordinates());
     else
       m_index.build(ids, box_of);
   }
 
   Face descriptor(Id id) const { return m_faces[id]; }
   Id id(Face face) const { return get(m_ids, face); }
-  const Corners& corners(Id id) const { return m_triangles[id].corners; }
+  const Corners& corners(Id id) const { return m_corners[id]; }
   bool is_at(Id id, Number vertex) const
   {
     const auto& [a, b, c] = corners(id);
     return a == vertex || b == vertex || c == vertex;
   }
 
-  /// Finds the faces whose boxes meet a box, except those at the vertex `mover`. The memory of all of them is
-  /// prefetched before any is looked at.
+  /// Finds the faces whose boxes meet a box, except those at the vertex `mover`. The corners of all of them
+  /// are prefetched before any is looked at.
   void find_near(const CGAL::Bbox_3& box, Number mover, std::vector<Id>& near)
   {
     near.clear();
@@ -134,11 +131,11 @@ public:
   {
     constexpr std::size_t width = Star_pack_filter::width;
     unclear.clear();
-    if (filter.enter(m_origin, m_reach)) {
+    if (filter.is_usable()) {
       // All packs are filled before the first is asked, which would wait for what has just been stored.
       m_packs.resize(near.size() / width + 1);
       for (std::size_t i = 0; i < near.size(); ++i)
-        m_packs[i / width].set(i % width, m_triangles[near[i]]);
+        m_packs[i / width].set(i % width, corners(near[i]), coordinates_from(filter.origin(), near[i]));
       const auto for_each_pack = [&](const auto& function) {
         const std::size_t size = near.size();
         for (std::size_t first = 0; first < size; first += width)
@@ -189,9 +186,9 @@ public:
     for (const Halfedge h : CGAL::halfedges_around_target(halfedge(kept, m_mesh), m_mesh))
       if (!CGAL::is_border(h, m_mesh)) {
         const Id id = get(m_ids, face(h, m_mesh));
-        set_triangle(id, h);
+        m_corners[id] = find_corners(h);
         if constexpr (s_are_corners_wanted)
-          m_index.set(id, box(id), coordinates_of());
+          m_index.set(id, box(id), coordinates());
         else
           m_index.set(id, box(id));
       }
@@ -203,29 +200,6 @@ public:
   std::size_t size() const { return m_size; }
 
 private:
-  void find_origin()
-  {
-    CGAL::Bbox_3 box;
-    for (const Vertex v : vertices(m_mesh))
-      box += m_vertices.point(m_vertices.number(v)).bbox();
-    for (int axis = 0; axis < 3 && (box.min)(axis) <= (box.max)(axis); ++axis)
-      m_origin[std::size_t(axis)] = 0.5 * (box.min)(axis) + 0.5 * (box.max)(axis);
-  }
-
-  void set_triangle(Id id, Halfedge h)
-  {
-    m_triangles[id].corners = find_corners(h);
-    if constexpr (s_are_coordinates_doubles) {
-      auto corners = coordinates_of()(id);
-      for (Vector_of_doubles& corner : corners)
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          corner[axis] -= m_origin[axis];
-          m_reach = (std::max)(m_reach, std::fabs(corner[axis]));
-        }
-      m_triangles[id] = Float_triangle::of(m_triangles[id].corners, corners);
-    }
-  }
-
   Corners find_corners(Halfedge h) const
   {
     return {m_vertices.number(source(h, m_mesh)), m_vertices.number(target(h, m_mesh)),
@@ -235,21 +209,23 @@ private:
   auto collect(std::vector<Id>& near) const
   {
     return [&near, this](Id id) {
-      prefetch(m_triangles[id]);
+      prefetch(m_corners[id]);
       near.push_back(id);
     };
   }
 
-  auto coordinates_of() const
+  std::array<Vector_of_doubles, 3> coordinates_from(const Vector_of_doubles& origin, Id id) const
   {
-    return [this](Id id) {
-      std::array<Vector_of_doubles, 3> result;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const Point& p = m_vertices.point(corners(id)[i]);
-        result[i] = {p[0], p[1], p[2]};
-      }
-      return result;
-    };
+    std::array<Vector_of_doubles, 3> result;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Point& p = m_vertices.point(corners(id)[i]);
+      result[i] = {p[0] - origin[0], p[1] - origin[1], p[2] - origin[2]};
+    }
+    return result;
+  }
+  auto coordinates() const
+  {
+    return [this](Id id) { return coordinates_from({0, 0, 0}, id); };
   }
 
   CGAL::Bbox_3 box(Id id) const
@@ -264,9 +240,7 @@ private:
   typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<Id>>::const_type m_ids;
   std::size_t m_size = 0;
   std::vector<Face> m_faces;                   // by number
-  std::vector<Float_triangle> m_triangles;     // by number: in the mesh, corners are five look-ups away
-  Vector_of_doubles m_origin{0, 0, 0};         // of the floats
-  double m_reach = 0;                          // no coordinate relative to the origin has been larger
+  std::vector<Corners> m_corners;              // by number: in the mesh, they are five look-ups away
   std::vector<Star_pack_filter::Pack> m_packs; // a buffer
 };
 

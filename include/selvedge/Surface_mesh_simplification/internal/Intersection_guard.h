@@ -476,9 +476,6 @@ private:
       m_unclear.clear();
     }
     m_unclear.resize(m_near.size(), ~Sweeps(0));
-    for (const Id id : m_near)
-      for (const auto corner : m_faces.corners(id))
-        m_vertices.prefetch(corner);
   }
 
   // Returns the number of a vertex among the star's points. A new point is added to the view as well.

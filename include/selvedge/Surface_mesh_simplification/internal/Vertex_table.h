@@ -5,7 +5,6 @@
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_VERTEX_TABLE_H
 
 #include <selvedge/Error.h>
-#include <selvedge/internal/instructions.h>
 
 #include <CGAL/Dynamic_property_map.h>
 #include <CGAL/boost/graph/helpers.h>
@@ -101,8 +100,6 @@ public:
 
   bool is_marked(Number v) const { return m_records[v].marked_at == m_now; }
   Mark mark(Number v) const { return m_records[v].mark; }
-
-  void prefetch(Number v) const { internal::prefetch(m_records[v]); }
 
 private:
   static constexpr Mark s_mark_bits = (Mark(1) << 31) - 1;

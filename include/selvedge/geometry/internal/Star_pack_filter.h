@@ -20,31 +20,6 @@
 namespace selvedge {
 namespace internal {
 
-/// A triangle in single precision: the numbers of its corners, and their coordinates relative to an origin
-/// that all triangles have in common.
-struct Float_triangle
-{
-  std::array<std::uint32_t, 3> corners;
-  std::array<float, 9> coordinates; ///< x, y and z of each corner; all are NaN when one has no float
-
-  /// Returns the floats next to the coordinates of corners that are relative to the origin.
-  static Float_triangle of(const std::array<std::uint32_t, 3>& numbers,
-                           const std::array<Vector_of_doubles, 3>& corners)
-  {
-    constexpr double largest = 0x1p100;
-    Float_triangle triangle{numbers, {}};
-    for (std::size_t i = 0; i < 9; ++i) {
-      const double x = corners[i / 3][i % 3];
-      if (!(std::fabs(x) <= largest)) {
-        triangle.coordinates.fill(std::numeric_limits<float>::quiet_NaN());
-        break;
-      }
-      triangle.coordinates[i] = float(x);
-    }
-    return triangle;
-  }
-};
-
 /// Proves in single precision, for eight triangles at a time, that they are clear of a moving star.
 ///
 /// It comes before `Star_view` and everything that is exact, and spares these most of the triangles that an
@@ -84,18 +59,21 @@ public:
   static constexpr std::size_t width = 8;
   using Sweeps = std::array<Mask, width>; ///< sweeps of the star, for each triangle of a pack
 
-  /// Eight triangles, coordinate by coordinate.
+  /// Eight triangles, coordinate by coordinate, relative to the vertex that moves.
   struct alignas(32) Pack
   {
     std::array<std::array<float, width>, 9> coordinates;
     std::array<std::array<std::uint32_t, width>, 3> corners;
 
-    void set(std::size_t i, const Float_triangle& triangle)
+    /// Takes a triangle: the numbers of its corners, and the floats next to their coordinates, which are
+    /// those in the mesh minus `origin()`, rounded once.
+    void set(std::size_t i, const std::array<std::uint32_t, 3>& numbers,
+             const std::array<Vector_of_doubles, 3>& points)
     {
       for (std::size_t row = 0; row < 9; ++row)
-        coordinates[row][i] = triangle.coordinates[row];
+        coordinates[row][i] = float(points[row / 3][row % 3]);
       for (std::size_t row = 0; row < 3; ++row)
-        corners[row][i] = triangle.corners[row];
+        corners[row][i] = numbers[row];
     }
     void set(std::size_t i, const Pack& other, std::size_t j)
     {
@@ -163,21 +141,10 @@ public:
     }
   }
 
-  /// Called before triangles are asked about whose coordinates are relative to `origin`, and at most `reach`.
-  /// Returns whether anything can be proved about them.
-  bool enter(const Vector_of_doubles& origin, double reach)
-  {
-    if (!m_is_usable)
-      return false;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double x = m_origin[i] - origin[i];
-      reach = (std::max)(reach, std::fabs(x));
-      m_offset[i] = float(x);
-    }
-    const double shift = 4 * s_unit * reach * m_scale;
-    m_shift = float(shift) * (1 + 0x1p-20f);
-    return shift < 0x1p-3; // a larger one proves nothing
-  }
+  /// Whether anything can be proved about the star that has begun.
+  bool is_usable() const { return m_is_usable; }
+  /// Where the vertex is that moves.
+  const Vector_of_doubles& origin() const { return m_origin; }
 
   /// Returns which of the first `count` triangles of a pack are not proved clear of the star.
   Mask unclear(const Pack& pack, std::size_t count) const
@@ -232,28 +199,24 @@ private:
 #endif
 
   // The bounds. All lengths are in units in which the star lies within 1 of the view's origin, and ε = 2⁻²⁴.
-  // Let E be the largest coordinate of triangles and of the view's origin (`reach`), and R, for each
-  // triangle, at least 1 and the largest distance of its corners from the view's origin.
-  // - A corner is stored with an error of at most 1.01 ε E in each coordinate, and so is the view's origin.
-  //   Their difference rounds with an error of at most ε R. So corners are moved by a vector not longer than
-  //   3.5 ε E + ε R. Let G = 4 ε E be a bound for the first part (`m_shift`).
+  // Let R, for each triangle, be at least 1 and the largest distance of its corners from the view's origin.
+  // - A corner, relative to the view's origin, is rounded to a double and then to a float. So it is moved by
+  //   a vector not longer than 1.01 ε R.
   // - The axes of the view are perpendicular, not longer than 1, and rounded to floats. A coordinate in the
-  //   view is a sum of three products. With the ε R from above, its error is at most G + 6 ε R, and it is at
-  //   most 1.01 R. Coordinates of the star have errors of at most 1.01 ε. Let e = 16 ε R.
-  // - A coordinate of the triangle and one of the box: G + e would do; G + 2 e is asked for.
+  //   view is a sum of three products. With the motion of the corner, its error is at most 6.1 ε R, and it is
+  //   at most 1.01 R. Coordinates of the star have errors of at most 1.01 ε. Let e = 16 ε R.
+  // - A coordinate of the triangle and one of the box: e would do; 2 e is asked for.
   // - A line is A u + B v + C, with A and B differences of coordinates of the star, at most 2 together. The
-  //   sum of errors is at most 3 G + 22 e, of which 10 e are those of C. 4 G + 32 e is asked for.
+  //   sum of errors is at most 22 e, of which 10 e are those of C. 32 e is asked for.
   // - A height along the normal of a slab is as exact as a coordinate, and is compared likewise.
   // - A line through two corners of the triangle. Let D be the largest coordinate of an edge of the triangle.
-  //   The errors are at most 6 e (R + D) + 2 G (1 + R + D), also where the third corner is compared;
-  //   8 e (R + D) + 4 G (1 + R + D + G) is asked for.
-  // - A plane. Its normal is at most 2 D² in
-  //   each coordinate. Arithmetic changes the height of a point of the star over the plane by at most
-  //   37 D e (1 + R) + 12 D² e. Moving the corners by G changes the normal by at most 4 · 1.74 D G + 4 G²,
-  //   and the height by at most (7 D G + 4 G²)(1 + R + G) + 3 D² G. Together this is less than
-  //   (64 D e + 8 D G + 4 G²)(1 + R + D + G), which is asked for.
+  //   The errors are at most 6 e (R + D), also where the third corner is compared; 8 e (R + D) is asked for.
+  // - A plane. Its normal is at most 2 D² in each coordinate. Arithmetic changes the height of a point of the
+  //   star over the plane by at most 37 D e (1 + R) + 12 D² e, which is less than the 64 D e (1 + R + D) that
+  //   is asked for.
+  // None of this is larger than any float while R is at most 2²⁰. Of a larger triangle, nothing is proved.
   static constexpr double s_unit = 0x1p-24;
-  static constexpr float s_rounding = float(16 * s_unit);
+  static constexpr float s_rounding = float(16 * s_unit), s_largest_reach = 0x1p20f;
 
   // A direction of at most the length 1, and the heights along it between which a sweep lies.
   struct Slab
@@ -316,7 +279,6 @@ private:
         for (std::size_t i = 0; i < 3; ++i) {
           // Of `memcpy`, GCC makes two copies of half the size and waits for both.
           d[i] = *reinterpret_cast<const Floats*>(&pack.coordinates[3 * corner + i][first]);
-          d[i] -= star.m_offset[i];
           enlarge(largest, d[i]);
         }
         for (std::size_t i = 0; i < 3; ++i)
@@ -324,7 +286,9 @@ private:
               d[0] * star.m_axes[i][0] + d[1] * star.m_axes[i][1] + d[2] * star.m_axes[i][2];
       }
       m_reach = largest * star.m_reach_by_size; // R
-      m_rounding = m_reach * s_rounding;        // e
+      // No comparison with NaN is true.
+      const Floats nothing = Floats{} + std::numeric_limits<float>::quiet_NaN();
+      m_rounding = m_reach <= s_largest_reach ? m_reach * s_rounding : nothing; // e
     }
 
     // These functions do not return vectors but add to them, since how vectors are returned depends on the
@@ -335,7 +299,7 @@ private:
     __attribute__((always_inline)) void add_beyond(const Floats (&heights)[3], float lower, float upper,
                                                    Answers& is_clear) const
     {
-      const Floats error = m_rounding * 2 + m_star.m_shift;
+      const Floats error = m_rounding * 2;
       Answers are_below = ~Answers{}, are_above = ~Answers{};
       for (const Floats& height : heights) {
         are_below &= height < lower - error;
@@ -376,9 +340,7 @@ private:
       const Floats x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2],
                    z = a[0] * b[1] - a[1] * b[0];
       const Floats level = x * p[0] + y * p[1] + z * p[2];
-      const float shift = m_star.m_shift;
-      const Floats error =
-          (m_widest * (m_rounding * 64 + 8 * shift) + 4 * shift * shift) * (m_reach + m_widest + (1 + shift));
+      const Floats error = m_widest * m_rounding * 64 * (m_reach + m_widest + 1);
       const Floats highest = level + error, lowest = level - error;
       for (std::size_t k = 0; k < m_star.m_points; ++k) {
         const Floats height = x * m_star.m_star[0][k] + y * m_star.m_star[1][k] + z * m_star.m_star[2][k];
@@ -403,7 +365,7 @@ private:
     template <bool are_edges_asked>
     __attribute__((always_inline)) void add_clear_beside(Answers& is_clear) const
     {
-      const Floats error = m_rounding * 32 + 4 * m_star.m_shift;
+      const Floats error = m_rounding * 32;
       Answers is_left, is_right, was_left, are_clear = ~Answers{};
       find_sides_of_ray(m_star.m_sectors - 1, error, was_left, is_right);
       for (std::size_t j = 0; j < m_star.m_sectors; ++j) {
@@ -441,9 +403,7 @@ private:
     // `find_heights`.
     __attribute__((always_inline)) void find_points_beyond_edges()
     {
-      const float shift = m_star.m_shift;
-      const Floats error =
-          m_rounding * 8 * (m_reach + m_widest) + 4 * shift * (m_reach + m_widest + (1 + shift));
+      const Floats error = m_rounding * 8 * (m_reach + m_widest);
       for (std::size_t edge = 0; edge < 3; ++edge) {
         const std::size_t next = (edge + 1) % 3, third = (edge + 2) % 3;
         const auto &p = m_corners[edge], &q = m_corners[next], &r = m_corners[third];
@@ -565,8 +525,6 @@ private:
   float m_reach_by_size = 0, m_least_size = 0; // how R follows from the largest coordinate, which is not less
   std::array<std::array<float, 3>, 3> m_axes{};
   std::array<float, 3> m_lower{}, m_upper{}; // of the star, in the view
-  std::array<float, 3> m_offset{};           // the view's origin, from that of the triangles
-  float m_shift = 0;                         // G
   std::size_t m_points = 0, m_edges = 0, m_sectors = 0;
   template <class T>
   using Row = std::array<T, s_most_points>;
