@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace selvedge {
@@ -72,7 +73,7 @@ public:
   void count_times(Face face, unsigned times)
   {
     uncount(face);
-    put(m_state->further_times, face, times - 1);
+    change(face, [&](Record& record) { record.further_times = times - 1; });
     share_of(face).faces += times;
   }
 
@@ -80,13 +81,13 @@ public:
   void assign(Face face, std::size_t number)
   {
     uncount(face);
-    put(m_state->share_of, face, std::uint32_t(number));
+    change(face, [&](Record& record) { record.share = std::uint32_t(number); });
     m_state->shares[number].faces += times(face);
   }
   void leave_out(Face face)
   {
     uncount(face);
-    put(m_state->share_of, face, s_uncounted);
+    change(face, [&](Record& record) { record.share = s_uncounted; });
     m_state->are_all_counted = false;
   }
 
@@ -106,12 +107,12 @@ public:
       if (is_counted(face) &&
           std::all_of(corners.begin(), corners.end(), [&](auto v) { return get(is_locked, v); })) {
         share_of(face).fixed += times(face);
-        put(m_state->is_fixed, face, true);
+        change(face, [&](Record& record) { record.is_fixed = true; });
       }
     }
   }
 
-  bool is_counted(Face face) const { return get(m_state->share_of, face) != s_uncounted; }
+  bool is_counted(Face face) const { return record(face).share != s_uncounted; }
 
   /// Returns whether a face at the edge of `h` is counted.
   bool is_counted(Halfedge h) const
@@ -122,7 +123,7 @@ public:
   /// Returns whether a face at the edge of `h` is counted and not fixed.
   bool is_changeable(Halfedge h) const
   {
-    return any_beside(h, [this](Face face) { return is_counted(face) && !get(m_state->is_fixed, face); });
+    return any_beside(h, [this](Face face) { return is_counted(face) && !record(face).is_fixed; });
   }
 
   /// Returns whether the edge of `h` may collapse: not when one of its faces is of a share at its target.
@@ -169,30 +170,42 @@ public:
 private:
   static constexpr std::uint32_t s_uncounted = (std::numeric_limits<std::uint32_t>::max)();
 
+  struct Record
+  {
+    std::uint32_t share = 0;
+    unsigned further_times = 0;
+    bool is_fixed = false;
+  };
+  using Record_map =
+      typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<Record>>::const_type;
+
   struct State
   {
-    explicit State(const TriangleMesh& mesh_)
-        : mesh(mesh_), share_of(get(CGAL::dynamic_face_property_t<std::uint32_t>(), mesh_)),
-          further_times(get(CGAL::dynamic_face_property_t<unsigned>(), mesh_)),
-          is_fixed(get(CGAL::dynamic_face_property_t<unsigned char>(), mesh_)), shares{{internal::face_count(
-                                                                                            mesh_),
-                                                                                        0}}
-    {
-    }
+    explicit State(const TriangleMesh& mesh_) : mesh(mesh_), shares{{internal::face_count(mesh_), 0}} {}
 
     const TriangleMesh& mesh;
-    typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<std::uint32_t>>::const_type
-        share_of;
-    typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<unsigned>>::const_type
-        further_times;
-    typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<unsigned char>>::const_type
-        is_fixed;
+    std::optional<Record_map> records; // none while all are as they are made: in most meshes, to the end
     std::vector<Share> shares;
     bool are_all_counted = true;
   };
 
-  unsigned times(Face face) const { return 1 + get(m_state->further_times, face); }
-  Share& share_of(Face face) const { return m_state->shares[get(m_state->share_of, face)]; }
+  Record record(Face face) const { return m_state->records ? get(*m_state->records, face) : Record(); }
+  template <class Function>
+  void change(Face face, const Function& function)
+  {
+    auto& records = m_state->records;
+    if (!records) {
+      records = get(CGAL::dynamic_face_property_t<Record>(), m_state->mesh);
+      for (const Face any : faces(m_state->mesh))
+        put(*records, any, Record());
+    }
+    Record changed = get(*records, face);
+    function(changed);
+    put(*records, face, changed);
+  }
+
+  unsigned times(Face face) const { return 1 + record(face).further_times; }
+  Share& share_of(Face face) const { return m_state->shares[record(face).share]; }
 
   void uncount(Face face)
   {
