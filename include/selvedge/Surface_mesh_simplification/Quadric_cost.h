@@ -66,9 +66,10 @@ struct No_line_map
 ///
 /// **Exactness** Floating point. The cost orders the collapses, and its error can limit their quality; no
 /// statement about intersections depends on it. Coordinates are taken relative to a vertex or to the centre
-/// of the mesh, so that a mesh far from the origin loses no precision. Normals and weights of faces are kept
-/// in single precision: relative to the vertex, through which their planes pass, what is rounded changes a
-/// cost by far less than the weight of the vertices does. A vertex takes 144 bytes, and a face 16.
+/// of the mesh, so that a mesh far from the origin loses no precision. Normals of faces, and with them their
+/// weights, are kept in single precision: relative to the vertex, through which their planes pass, what is
+/// rounded changes a cost by far less than the weight of the vertices does. A vertex takes 144 bytes, and a
+/// face 12.
 ///
 /// **Complexity** Linear in the size of the mesh to initialise; constant for a cost or an error; the number
 /// of faces at the neighbours of the merged vertex for an update.
@@ -128,8 +129,7 @@ class Quadric_cost
   // What a face gives to the quadrics at its corners: kept, since each is asked for many times.
   struct Face_plane
   {
-    std::array<float, 3> normal{0, 0, 0}; // of length 1, or 0 for a face without area
-    float weight = 0;
+    std::array<float, 3> normal{0, 0, 0}; // as long as the square root of the weight
   };
   using Plane_map =
       typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<Face_plane>>::const_type;
@@ -468,10 +468,11 @@ private:
                      const VertexPointMap& points) const
   {
     Vector normal = corners_and_normal(halfedge(face, mesh), mesh, points).second;
-    const double weight = weight_of_area(0.5 * normalise(normal));
-    put(m_state->planes, face,
-        Face_plane{{float(normal[0]), float(normal[1]), float(normal[2])},
-                   internal::saturated_float(weight)});
+    const double length = std::sqrt(weight_of_area(0.5 * normalise(normal)));
+    Face_plane plane;
+    for (std::size_t i = 0; i < 3; ++i)
+      plane.normal[i] = internal::saturated_float(length * normal[i]);
+    put(m_state->planes, face, plane);
   }
 
   template <class VertexPointMap>
@@ -512,22 +513,24 @@ private:
     const State& state = *m_state;
     Matrix matrix;
     if (memory < 1 && halfedge(v, mesh) != Graph_traits::null_halfedge()) {
-      double weight = 0;
+      Matrix of_lines;
       for (const Halfedge to_v : CGAL::halfedges_around_target(v, mesh)) {
         if (CGAL::is_border(to_v, mesh))
           continue;
         const Face_plane& plane = get(state.planes, face(to_v, mesh));
-        const Vector normal{plane.normal[0], plane.normal[1], plane.normal[2]};
-        matrix.add_square(normal, plane.weight);
-        weight += plane.weight;
+        Vector normal{plane.normal[0], plane.normal[1], plane.normal[2]};
+        matrix.add_square(normal, 1);
         if (!growth.has_lines)
           continue;
+        normalise(normal);
         for (const Halfedge h : {next(to_v, mesh), to_v})
           if (const double share = share_of_line(h, mesh))
             add_line(share, normal, vector(get(points, source(h, mesh))),
-                     vector(get(points, target(h, mesh))), matrix);
+                     vector(get(points, target(h, mesh))), of_lines);
       }
-      matrix.add_identity(state.options.stabiliser * weight);
+      matrix.add_identity(state.options.stabiliser * matrix.trace()); // which is the weight of the planes
+      if (growth.has_lines)
+        matrix += of_lines;
       matrix *= (1 - memory) * (state.weights ? get(*state.weights, v) : 1);
     }
     growth.linear = {0, 0, 0};
