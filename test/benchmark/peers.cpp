@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // What others take for the same reduction, and what they break: ours with and without the guard, CGAL's loop
-// with the same cost, placement and cheap filters, OpenMesh, meshoptimizer and, where its headers are,
-// libigl, on the same meshes, in turns.
+// with the same cost, placement and cheap filters, and with CGAL's own policies, OpenMesh, meshoptimizer and,
+// where its headers are, libigl, on the same meshes, in turns.
 
 #include "Peers.h"
+#include "Cgal_policies.h"
 #include "Mesh.h"
 #include "Table.h"
 #include "interleaved.h"
@@ -58,6 +59,8 @@ void add_rows(Table& table, const Mesh& mesh, double ratio, int runs)
       {"CGAL's loop", [&] { return run_ours(prepared, by_cgal); }},
       {"selvedge", [&] { return run_ours(prepared, guarded); }},
       {"selvedge without guard", [&] { return run_ours(prepared, unguarded); }},
+      {"CGAL Garland-Heckbert", [&] { return run_garland_heckbert(soup, target(soup, ratio)); }},
+      {"CGAL Lindstrom-Turk", [&] { return run_lindstrom_turk(soup, target(soup, ratio)); }},
       {"OpenMesh", [&] { return run_openmesh(soup, guarded, target(soup, ratio)); }},
       {"meshoptimizer", [&] { return run_meshoptimizer(soup, target(soup, ratio)); }}};
 #ifdef SELVEDGE_HAS_LIBIGL
@@ -99,18 +102,18 @@ void print_table(const Request& request)
   for (const std::string& argument : request.meshes)
     add_rows(table, mesh(argument), request.ratio, request.runs);
   std::cout
-      << "\n**The ratios count**: each is of two reductions in one run on one machine. Seconds are per 1000 "
-         "collapses, from the\nfirst quadric to the last collapse, an index included, conversions not; "
-         "medians "
-         "of "
+      << "\n**The ratios count**: each is of two reductions in one run on one machine. Seconds are per 1000\n"
+         "collapses, from the first quadric to the last collapse, an index included, conversions not;\n"
+         "medians of "
       << request.runs
-      << " interleaved.\nCGAL's loop has our cost, placement and cheap filters, and no guard; OpenMesh has "
-         "quadrics and our limits of normal\nchange and aspect ratio; meshoptimizer has no limits; libigl "
-         "blocks intersections, and is there if "
-         "SELVEDGE_LIBIGL_INCLUDE\nsays where its headers are. RMS: from "
-         "the original's vertices to the result, by its\ndiagonal. Pairs are counted by the judge, exactly; "
-         "new are those that the original does not have. Textures, which\nours keeps, are no concern of "
-         "others here. Memory is no part of this: all share one process.\n";
+      << " interleaved.\n"
+         "CGAL's loop has our cost, placement and cheap filters, and no guard; the two after it have CGAL's\n"
+         "own policies, and no limits; OpenMesh has quadrics and our limits of normal change and aspect\n"
+         "ratio; meshoptimizer has no limits; libigl blocks intersections, and is there if\n"
+         "SELVEDGE_LIBIGL_INCLUDE says where its headers are. RMS: from the original's vertices to the\n"
+         "result, by its diagonal. Pairs are counted by the judge, exactly; new are those that the original\n"
+         "does not have. Textures, which ours keeps, are no concern of others here. Memory is no part of\n"
+         "this: all share one process.\n";
   if (!request.csv.empty())
     write_file(request.csv, table.csv());
 }

@@ -4,6 +4,7 @@
 // How good results look: ours with both placements, CGAL's two costs, OpenMesh and meshoptimizer, each
 // reduced to the number of faces that ours reaches, and measured in the same ways.
 
+#include "Cgal_policies.h"
 #include "Mesh.h"
 #include "Peers.h"
 #include "Table.h"
@@ -13,14 +14,8 @@
 #include "verify/Surface_tree.h"
 #include "verify/face_samples.h"
 
-#include <selvedge/Surface_mesh_simplification/stop_predicates.h>
 #include <selvedge/compare.h>
 #include <selvedge/mesh_files.h>
-
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_cost.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_placement.h>
-#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
 #include <CLI/CLI.hpp>
 
@@ -41,40 +36,6 @@ namespace {
 
 using namespace selvedge;
 using namespace selvedge::benchmark;
-namespace SMS = CGAL::Surface_mesh_simplification;
-
-using Cgal_mesh = CGAL::Surface_mesh<Point_3>;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-
-Cgal_mesh mesh_of(const Triangle_soup& soup)
-{
-  Cgal_mesh mesh;
-  for (const Point_3& p : soup.points)
-    mesh.add_vertex(p);
-  for (const auto& [a, b, c] : soup.triangles)
-    mesh.add_face(Cgal_mesh::Vertex_index(a), Cgal_mesh::Vertex_index(b), Cgal_mesh::Vertex_index(c));
-  return mesh;
-}
-
-Triangle_soup by_planes(const Triangle_soup& soup, std::size_t faces)
-{
-  Cgal_mesh mesh = mesh_of(soup);
-  const SMS::GarlandHeckbert_plane_policies<Cgal_mesh, Kernel> policies(mesh);
-  SMS::edge_collapse(mesh, Face_count_stop(faces),
-                     CGAL::parameters::get_cost(policies.get_cost()).get_placement(policies.get_placement()));
-  mesh.collect_garbage();
-  return soup_of(mesh);
-}
-
-Triangle_soup by_lindstrom_turk(const Triangle_soup& soup, std::size_t faces)
-{
-  Cgal_mesh mesh = mesh_of(soup);
-  SMS::edge_collapse(mesh, Face_count_stop(faces),
-                     CGAL::parameters::get_cost(SMS::LindstromTurk_cost<Cgal_mesh>())
-                         .get_placement(SMS::LindstromTurk_placement<Cgal_mesh>()));
-  mesh.collect_garbage();
-  return soup_of(mesh);
-}
 
 /// Points all over a surface, each as a triangle, so that `distances` measures from them: as many on equal
 /// areas.
@@ -267,8 +228,9 @@ void add_rows(Table& table, const std::string& argument, const Request& request)
   const std::vector<Program> programs{
       {"selvedge vertices", ours(Placement::vertices)},
       {"selvedge optimal", ours(Placement::optimal)},
-      {"CGAL GarlandHeckbert plane", [&](std::size_t faces) { return by_planes(soup, faces); }},
-      {"CGAL LindstromTurk", [&](std::size_t faces) { return by_lindstrom_turk(soup, faces); }},
+      {"CGAL GarlandHeckbert plane",
+       [&](std::size_t faces) { return run_garland_heckbert(soup, faces).soup; }},
+      {"CGAL LindstromTurk", [&](std::size_t faces) { return run_lindstrom_turk(soup, faces).soup; }},
       {"OpenMesh", [&](std::size_t faces) { return run_openmesh(soup, limits, faces).soup; }},
       {"meshoptimizer", [&](std::size_t faces) { return run_meshoptimizer(soup, faces).soup; }}};
   if (!request.folder.empty())
