@@ -162,7 +162,7 @@ struct Layer_order
 /// All figures of a comparison.
 struct Comparison
 {
-  double diagonal = 0; ///< in the unit of the coordinates
+  double diagonal = 0; ///< in the unit of the coordinates; infinite when it is too long for a double
   Distances_anywhere distances;
 
   /// Edges of one triangle.

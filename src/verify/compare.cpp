@@ -4,7 +4,7 @@
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/compare.h>
 
-#include "Surface_tree.h"
+#include "Diagonal.h"
 #include "face_samples.h"
 #include "kept_attributes.h"
 #include "layer_order.h"
@@ -24,14 +24,6 @@ namespace selvedge {
 using namespace internal;
 
 namespace {
-
-double diagonal_of(const Triangle_soup& soup)
-{
-  CGAL::Bbox_3 box;
-  for (const Index vertex : used_vertices(soup))
-    box += soup.points[vertex].bbox();
-  return soup.triangles.empty() ? 0 : std::hypot(box.x_span(), box.y_span(), box.z_span());
-}
 
 double angle(const Vector_3& a, const Vector_3& b)
 {
@@ -94,35 +86,34 @@ Normal_deviation normal_deviation(const Triangle_soup& result, const Triangle_so
   return deviation;
 }
 
-Bounds relative(const Bounds& bounds, double unit)
+Bounds relative(const Bounds& bounds, const Diagonal& diagonal)
 {
-  return {bounds.lower / unit, bounds.upper / unit};
+  return {diagonal.share(bounds.lower), diagonal.share(bounds.upper)};
 }
 
 } // namespace
 
 Distances_anywhere distances_anywhere(const Triangle_soup& result, const Triangle_soup& original)
 {
-  const double diagonal = diagonal_of(original), unit = diagonal > 0 ? diagonal : 1;
+  const Diagonal diagonal(original);
   Distances_anywhere distances;
-  tbb::parallel_invoke(Cancellation_scope::inherited([&] {
-                         distances.original_to_result = relative(maximum_distance(original, result), unit);
-                       }),
-                       Cancellation_scope::inherited([&] {
-                         distances.result_to_original = relative(maximum_distance(result, original), unit);
-                       }));
+  tbb::parallel_invoke(
+      Cancellation_scope::inherited(
+          [&] { distances.original_to_result = relative(maximum_distance(original, result), diagonal); }),
+      Cancellation_scope::inherited(
+          [&] { distances.result_to_original = relative(maximum_distance(result, original), diagonal); }));
   return distances;
 }
 
 Comparison compare(const Triangle_soup& result, const Triangle_soup& original)
 {
   Comparison comparison;
-  comparison.diagonal = diagonal_of(original);
-  const double unit = comparison.diagonal > 0 ? comparison.diagonal : 1;
+  const Diagonal diagonal(original);
+  comparison.diagonal = diagonal.length();
   const auto make_lines_relative = [&](Line_comparison lines) {
     for (Line_distance* line : {&lines.original_to_result, &lines.result_to_original})
-      *line = {{line->of_ends.root_mean_square / unit, line->of_ends.maximum / unit},
-               relative(line->maximum, unit)};
+      *line = {{diagonal.share(line->of_ends.root_mean_square), diagonal.share(line->of_ends.maximum)},
+               relative(line->maximum, diagonal)};
     return lines;
   };
 
@@ -133,15 +124,16 @@ Comparison compare(const Triangle_soup& result, const Triangle_soup& original)
         comparison.borders = make_lines_relative(compare_lines(after.borders, before.borders));
         comparison.seams = make_lines_relative(compare_lines(after.seams, before.seams));
         const Gaps gaps = find_gaps(after, before);
-        comparison.gaps = {gaps.open_edges, gaps.length / unit, gaps.width / unit};
+        comparison.gaps = {gaps.open_edges, diagonal.share(gaps.length), diagonal.share(gaps.width)};
       }),
       Cancellation_scope::inherited([&] { compare_values(comparison, result, original); }));
 
-  const double largest = unit * comparison.distances.upper();
-  tbb::parallel_invoke(Cancellation_scope::inherited(
-                           [&] { comparison.normals = normal_deviation(result, original, largest); }),
+  const double largest = comparison.distances.upper();
+  tbb::parallel_invoke(Cancellation_scope::inherited([&] {
+                         comparison.normals = normal_deviation(result, original, diagonal.length_of(largest));
+                       }),
                        Cancellation_scope::inherited([&] {
-                         const double reach = std::clamp(2.5 * largest, 1e-9 * unit, 0.25 * unit);
+                         const double reach = diagonal.length_of(std::clamp(2.5 * largest, 1e-9, 0.25));
                          comparison.layers = layer_order(result, original, reach);
                        }));
   return comparison;

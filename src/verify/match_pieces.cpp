@@ -813,14 +813,6 @@ private:
 
   // ---- Shapes
 
-  double diagonal_of_original() const
-  {
-    CGAL::Bbox_3 box;
-    for (const Index vertex : used_vertices(m_original.soup))
-      box += scaled(m_original.soup.points[vertex], -m_exponent).bbox();
-    return std::hypot(box.x_span(), box.y_span(), box.z_span());
-  }
-
   bool has_vertices_of_original_alone(const Piece_match& match) const
   {
     const auto is_of_original = [&](Index position) {
@@ -848,7 +840,7 @@ private:
       match.turned = likeness.turned;
     };
     tbb::parallel_for(std::size_t(0), m_matching.matches.size(), Cancellation_scope::inherited(judge));
-    const double allowed = most_distance_of_own * diagonal_of_original();
+    const double allowed = most_distance_of_own * Diagonal(m_original.soup).length(m_exponent);
     for (std::size_t i = 0; i < m_matching.matches.size(); ++i) {
       const Piece_match& match = m_matching.matches[i];
       const auto what = [&] {

@@ -175,6 +175,32 @@ TEST(MaximumDistance, IsZeroFromNothingInfiniteToNothingAndScales)
   }
 }
 
+// The diagonal itself is too long for a double.
+TEST(Comparison, IsTheSameAtTheLargestScale)
+{
+  const auto largest = [](const Triangle_soup& soup) {
+    return mapped(soup, [](const Point_3& p) {
+      return Point_3(0x1p1021 * (p.x() - 4), 0x1p1021 * (p.y() - 4), 0x1p1021 * p.z());
+    });
+  };
+  const auto around_zero = [](const Triangle_soup& soup) { return moved(soup, -4, -4, 0); };
+  const Triangle_soup before = sheet(7, 7), after = sheet(7, 6, 1);
+  const Comparison expected = compare(around_zero(after), around_zero(before)),
+                   found = compare(largest(after), largest(before));
+  EXPECT_EQ(found.diagonal, infinity);
+  EXPECT_GT(expected.distances.upper(), 0.1);
+  EXPECT_EQ(found.distances.upper(), expected.distances.upper());
+  EXPECT_EQ(found.borders.original_to_result.maximum.upper,
+            expected.borders.original_to_result.maximum.upper);
+  EXPECT_EQ(found.normals.mean, expected.normals.mean);
+  EXPECT_EQ(found.layers.lines, expected.layers.lines);
+  const auto at_vertices = [](const Triangle_soup& result, const Triangle_soup& original) {
+    return distances(result, original).original_to_result.maximum;
+  };
+  EXPECT_EQ(at_vertices(largest(after), largest(before)),
+            at_vertices(around_zero(after), around_zero(before)));
+}
+
 TEST(Lines, AreToldByPositions)
 {
   const Triangle_soup whole = sheet(3, 4);
