@@ -434,7 +434,7 @@ private:
         json["options"] = options_json(m_request);
       add_reduction(json, prepared, level.result);
       add_verification(json, level.verification, true);
-      add_distances(json, level.distances_anywhere);
+      add_distances(json, level.verification, level.distances_anywhere);
       for (Json& pose : json["verified"]["poses"]) {
         pose["guarded"] = false;
         pose["refused"] = 0;

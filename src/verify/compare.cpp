@@ -6,9 +6,11 @@
 
 #include "Diagonal.h"
 #include "face_samples.h"
+#include "for_each_pose.h"
 #include "kept_attributes.h"
 #include "layer_order.h"
 #include "lines.h"
+#include "soup/obstacle.h"
 
 #include <oneapi/tbb/parallel_invoke.h>
 
@@ -91,18 +93,50 @@ Bounds relative(const Bounds& bounds, const Diagonal& diagonal)
   return {diagonal.share(bounds.lower), diagonal.share(bounds.upper)};
 }
 
+Distances_anywhere distances_in_first_pose(const Triangle_soup& result, const Triangle_soup& original)
+{
+  Distances_anywhere distances;
+  tbb::parallel_invoke(Cancellation_scope::inherited(
+                           [&] { distances.original_to_result = {maximum_distance(original, result)}; }),
+                       Cancellation_scope::inherited(
+                           [&] { distances.result_to_original = {maximum_distance(result, original)}; }));
+  return distances;
+}
+
+// Adds the further poses, and makes all a share of the diagonal.
+Bounds_over_poses over_poses(const Bounds_over_poses& in_first, const Triangle_soup& from,
+                             const Triangle_soup& to, const Diagonal& diagonal)
+{
+  Bounds_over_poses all = in_first;
+  for (std::size_t pose = 0; pose < from.poses.size(); ++pose) {
+    const Bounds bounds =
+        maximum_distance(geometry_in_pose(from, {}, pose), geometry_in_pose(to, {}, pose), all);
+    all = {bounds, bounds.lower > all.lower ? pose : all.pose};
+  }
+  return {relative(all, diagonal), all.pose};
+}
+
+Distances_anywhere over_poses(const Distances_anywhere& in_first, const Triangle_soup& result,
+                              const Triangle_soup& original, const Diagonal& diagonal)
+{
+  require_same_number_of_poses(result, original);
+  Distances_anywhere distances;
+  tbb::parallel_invoke(Cancellation_scope::inherited([&] {
+                         distances.original_to_result =
+                             over_poses(in_first.original_to_result, original, result, diagonal);
+                       }),
+                       Cancellation_scope::inherited([&] {
+                         distances.result_to_original =
+                             over_poses(in_first.result_to_original, result, original, diagonal);
+                       }));
+  return distances;
+}
+
 } // namespace
 
 Distances_anywhere distances_anywhere(const Triangle_soup& result, const Triangle_soup& original)
 {
-  const Diagonal diagonal(original);
-  Distances_anywhere distances;
-  tbb::parallel_invoke(
-      Cancellation_scope::inherited(
-          [&] { distances.original_to_result = relative(maximum_distance(original, result), diagonal); }),
-      Cancellation_scope::inherited(
-          [&] { distances.result_to_original = relative(maximum_distance(result, original), diagonal); }));
-  return distances;
+  return over_poses(distances_in_first_pose(result, original), result, original, Diagonal(original));
 }
 
 Comparison compare(const Triangle_soup& result, const Triangle_soup& original)
@@ -117,8 +151,9 @@ Comparison compare(const Triangle_soup& result, const Triangle_soup& original)
     return lines;
   };
 
+  Distances_anywhere in_first_pose;
   tbb::parallel_invoke(
-      Cancellation_scope::inherited([&] { comparison.distances = distances_anywhere(result, original); }),
+      Cancellation_scope::inherited([&] { in_first_pose = distances_in_first_pose(result, original); }),
       Cancellation_scope::inherited([&] {
         const Borders_and_seams before = borders_and_seams(original), after = borders_and_seams(result);
         comparison.borders = make_lines_relative(compare_lines(after.borders, before.borders));
@@ -128,13 +163,15 @@ Comparison compare(const Triangle_soup& result, const Triangle_soup& original)
       }),
       Cancellation_scope::inherited([&] { compare_values(comparison, result, original); }));
 
-  const double largest = comparison.distances.upper();
+  const double largest = in_first_pose.upper();
   tbb::parallel_invoke(Cancellation_scope::inherited([&] {
-                         comparison.normals = normal_deviation(result, original, diagonal.length_of(largest));
+                         comparison.distances = over_poses(in_first_pose, result, original, diagonal);
                        }),
+                       Cancellation_scope::inherited(
+                           [&] { comparison.normals = normal_deviation(result, original, largest); }),
                        Cancellation_scope::inherited([&] {
-                         const double reach = diagonal.length_of(std::clamp(2.5 * largest, 1e-9, 0.25));
-                         comparison.layers = layer_order(result, original, reach);
+                         const double reach = std::clamp(2.5 * diagonal.share(largest), 1e-9, 0.25);
+                         comparison.layers = layer_order(result, original, diagonal.length_of(reach));
                        }));
   return comparison;
 }
