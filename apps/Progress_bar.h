@@ -31,10 +31,10 @@ public:
   Progress_bar& operator=(const Progress_bar&) = delete;
 
   /// Begins a phase, which the line names.
-  void begin(const char* phase)
+  void begin(const std::string& phase)
   {
     m_is_reducing = false;
-    show(std::string(phase) + " …");
+    show(phase + " …");
   }
 
   void update(const Simplify_progress& progress)

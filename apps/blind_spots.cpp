@@ -32,6 +32,11 @@ std::vector<std::string> blind_spots(const Verification& verification, const Com
     lines.push_back(
         "what rounding did to the original: it was rounded to 32-bit floats before it was compared");
 
+  if (!verification.poses.empty())
+    lines.push_back("the order of layers, borders, seams, normals and the mean distance in " +
+                    counted(verification.poses.size(), "further pose") +
+                    ": they are those of the mesh's own pose");
+
   const Layer_order& layers = comparison.layers;
   lines.push_back("the order of layers between the " + counted(layers.lines, "line") +
                   " that were drawn, and at " + with_commas(layers.pairs - layers.compared) + " of " +

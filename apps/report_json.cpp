@@ -314,20 +314,28 @@ void add_verification(Json& report, const Verification& verification, bool has_o
                           {"diagonal", verification.distances->diagonal}};
 }
 
-void add_distances(Json& report, const std::optional<Distances_anywhere>& distances)
+void add_distances(Json& report, const Verification& verification,
+                   const std::optional<Distances_anywhere>& distances)
 {
-  const auto add_bounds = [&](const char* way, Bounds Distances_anywhere::*bounds) {
+  const auto add_bounds = [&](const char* way, Bounds_over_poses Distances_anywhere::*of_way) {
     Json& distance = report["distance"][way];
-    distance["max_lower"] = distances ? Json(((*distances).*bounds).lower) : Json(nullptr);
-    distance["max_upper"] = distances ? Json(((*distances).*bounds).upper) : Json(nullptr);
+    for (const char* key : {"max_lower", "max_upper", "max_pose"})
+      distance[key] = nullptr;
+    if (!distances)
+      return;
+    const Bounds_over_poses& bounds = (*distances).*of_way;
+    distance["max_lower"] = bounds.lower;
+    distance["max_upper"] = bounds.upper;
+    if (bounds.pose)
+      distance["max_pose"] = verification.poses[*bounds.pose].name;
   };
   add_bounds("original_to_result", &Distances_anywhere::original_to_result);
   add_bounds("result_to_original", &Distances_anywhere::result_to_original);
 }
 
-void add_comparison(Json& report, const Comparison& comparison)
+void add_comparison(Json& report, const Verification& verification, const Comparison& comparison)
 {
-  add_distances(report, comparison.distances);
+  add_distances(report, verification, comparison.distances);
   report["borders"] = to_json(comparison.borders);
   report["seams"] = to_json(comparison.seams);
   report["gaps"] = {{"open_edges", comparison.gaps.open_edges},

@@ -40,11 +40,13 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
 /// Sets `verified`, `pieces`, and `topology`, `matching` and `distance` where there is an original.
 void add_verification(Json& report, const Verification& verification, bool has_original);
 
-/// Adds to the distances of a verification how large they are anywhere, as far as that was measured.
-void add_distances(Json& report, const std::optional<Distances_anywhere>& distances);
+/// Adds to the distances of a verification how large they are anywhere in any pose, as far as that was
+/// measured.
+void add_distances(Json& report, const Verification& verification,
+                   const std::optional<Distances_anywhere>& distances);
 
 /// Sets `borders`, `seams`, `gaps`, `vertices`, `attributes`, `normals` and `layers`, and adds to `distance`.
-void add_comparison(Json& report, const Comparison& comparison);
+void add_comparison(Json& report, const Verification& verification, const Comparison& comparison);
 
 /// Sets `parts`, and `uv` where there is a texture.
 void add_parts(Json& report, const Prepared_soup& prepared, const Simplified_soup& result);

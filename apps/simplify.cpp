@@ -4,6 +4,7 @@
 #include "Outcome.h"
 #include "Progress_bar.h"
 #include "Simplify_request.h"
+#include "cost_of_poses.h"
 #include "html_report.h"
 #include "interruption.h"
 #include "output_files.h"
@@ -103,6 +104,18 @@ private:
                         [](const Pose& pose) { return has_float32_points(pose.points); });
   }
 
+  void say_what_poses_cost(const Triangle_soup& soup)
+  {
+    if (m_request.is_quiet || !m_request.options.check_intersections)
+      return;
+    const std::size_t poses = soup.poses.size(),
+                      every = m_request.poses.animation.empty() ? 0 : m_request.poses.every;
+    if (const std::string cost =
+            cost_of_poses(poses, soup.triangles.size(), number_of_key_poses(poses), every);
+        !cost.empty())
+      complain(cost);
+  }
+
   // Their names are known only now.
   void check_pose_outputs(const std::vector<Pose>& poses) const
   {
@@ -138,6 +151,7 @@ private:
     m_report["input"] = input_json(m_request.input, file);
     read_poses(m_request.poses, m_request.input, file.soup);
     check_pose_outputs(file.soup.poses);
+    say_what_poses_cost(file.soup);
     if (are_levels_in_one_file(m_request) && m_request.options.placement == Placement::optimal &&
         file.soup.scene)
       throw Argument_error(
@@ -166,7 +180,7 @@ private:
 
     m_references = relocate(file.soup, output_format(), m_request.input, m_request.output);
 
-    m_bar.begin("judging the input");
+    m_bar.begin("judging the input" + in_poses(file.soup.poses.size()));
     Prepare_options options;
     options.round_to_float32 = is_rounded(file.soup);
     options.defects = defects_of(m_request);
@@ -208,7 +222,19 @@ private:
           m_guarded_poses.push_back(pose);
     std::sort(m_guarded_poses.begin(), m_guarded_poses.end());
     m_guarded_poses.erase(std::unique(m_guarded_poses.begin(), m_guarded_poses.end()), m_guarded_poses.end());
-    return m_guarded_poses.size() > guarded;
+    if (m_guarded_poses.size() == guarded)
+      return false;
+    if (!m_request.is_quiet)
+      complain("the judge refuses the result in " + counted(m_guarded_poses.size() - guarded, "pose") +
+               " that " + (m_guarded_poses.size() - guarded == 1 ? "was" : "were") +
+               " not guarded: the reduction begins again, with " + with_commas(m_guarded_poses.size()) +
+               " of " + with_commas(levels.front().verification.poses.size()) + " guarded");
+    return true;
+  }
+
+  static std::string in_poses(std::size_t further)
+  {
+    return further == 0 ? "" : " in " + counted(1 + further, "pose");
   }
 
   std::vector<Level> reduce(const Prepared_soup& prepared)
@@ -290,7 +316,8 @@ private:
 
   void judge(std::vector<Level>& levels, const Prepared_soup& prepared)
   {
-    m_bar.begin(levels.size() == 1 ? "judging the result" : "judging the results");
+    m_bar.begin((levels.size() == 1 ? "judging the result" : "judging the results") +
+                in_poses(prepared.soup.poses.size()));
     const Clock::time_point start = Clock::now();
     m_outcome = {};
     m_outcome.is_guarded = m_request.options.check_intersections;
@@ -434,7 +461,7 @@ private:
         json["options"] = options_json(m_request);
       add_reduction(json, prepared, level.result);
       add_verification(json, level.verification, true);
-      add_distances(json, level.distances_anywhere);
+      add_distances(json, level.verification, level.distances_anywhere);
       for (Json& pose : json["verified"]["poses"]) {
         pose["guarded"] = false;
         pose["refused"] = 0;

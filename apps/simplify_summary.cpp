@@ -317,14 +317,28 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
 }
 
 // Says whether a limit of distances holds anywhere, and if not, which one would do for that.
-void print_distances(std::ostream& stream, const Distances_anywhere& distances, double limit)
+void print_distances(std::ostream& stream, const Level& level, const Distances_anywhere& distances,
+                     double limit)
 {
-  stream << "distance of any point: at most " << percent(distances.original_to_result.upper)
-         << " from the original to the result, " << percent(distances.result_to_original.upper) << " back\n";
-  if (limit > 0 && distances.upper() > 1.01 * limit)
+  const auto& [there, back] = distances;
+  const Bounds_over_poses& larger = there.upper < back.upper ? back : there;
+  const std::size_t poses = level.verification.poses.size(), guarded = level.guarded_poses.size();
+  stream << "distance of any point" << (poses > 0 ? " in any pose" : "") << ": at most "
+         << percent(there.upper) << " from the original to the result, " << percent(back.upper) << " back";
+  if (poses > 0)
+    stream << "; the most in " << describe_pose(level.verification, larger.pose);
+  stream << '\n';
+  if (limit <= 0 || larger.upper <= 1.01 * limit)
+    return;
+  if (larger.pose &&
+      !std::binary_search(level.guarded_poses.begin(), level.guarded_poses.end(), *larger.pose))
+    stream << "limit: " << percent(limit) << " holds in the mesh's own pose and in "
+           << (guarded == 0 ? "no other" : with_commas(guarded) + " others")
+           << ", in which every collapse was judged; --key-poses all keeps it in all\n";
+  else
     stream << "limit: " << percent(limit)
            << " holds at vertices and at points between them; a smaller one, such as --error "
-           << with_digits(limit * limit / distances.upper()) << ", brings all points nearer\n";
+           << with_digits(limit * limit / larger.upper) << ", brings all points nearer\n";
 }
 
 void print_summary(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
@@ -397,10 +411,12 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
   for (const Verification::Permitted& parts : verification.permitted)
     stream << "\nmay intersect: " << counted(parts.pairs_of_original, "pair") << " between '" << parts.first
            << "' and '" << parts.second << "' before, " << with_commas(parts.pairs) << " now";
-  stream << "\ndistance from the original's vertices: " << percent(distance.root_mean_square)
-         << " of the diagonal (RMS), at most " << percent(distance.maximum) << '\n';
+  stream << "\ndistance from the original's vertices"
+         << (verification.poses.empty() ? "" : " in the mesh's own pose") << ": "
+         << percent(distance.root_mean_square) << " of the diagonal (RMS), at most "
+         << percent(distance.maximum) << '\n';
   if (distances_anywhere)
-    print_distances(stream, *distances_anywhere, *request.options.max_error);
+    print_distances(stream, level, *distances_anywhere, *request.options.max_error);
   if (distance.maximum > far_off)
     stream << "worst deviation " << percent(distance.maximum) << " of the size, "
            << place_of(distance.farthest, prepared.soup) << '\n';

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <optional>
 #include <string>
 
 namespace selvedge::app {
@@ -48,6 +49,12 @@ inline std::string with_digits_up(double value)
 inline std::string percent(double share)
 {
   return with_digits(100 * share) + " %";
+}
+
+/// Says which pose it is: "pose 'walk'", or "the mesh's own pose".
+inline std::string describe_pose(const Verification& verification, const std::optional<std::size_t>& further)
+{
+  return further ? "pose '" + verification.poses[*further].name + '\'' : "the mesh's own pose";
 }
 
 /// Says what the judge found of a clearance.

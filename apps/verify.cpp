@@ -62,13 +62,19 @@ void print(const char* what, const Line_comparison& lines)
   std::cout << '\n';
 }
 
-void print(const Distances& distances, const Comparison& comparison, std::size_t pairs_of_original)
+void print(const Verification& verification, const Comparison& comparison)
 {
+  const Distances& distances = *verification.distances;
+  const std::size_t pairs_of_original = verification.pairs_of_original;
   std::cout << "lengths, as shares of the bounding box's diagonal of " << with_digits(distances.diagonal)
             << ":\n";
-  const auto print_distance = [](const char* what, const Distance& of_vertices, const Bounds& maximum) {
+  const auto print_distance = [&](const char* what, const Distance& of_vertices,
+                                  const Bounds_over_poses& maximum) {
     std::cout << "  distance from " << what << ": " << with_digits(of_vertices.root_mean_square)
-              << " RMS at the vertices, at most " << with_digits(maximum.upper) << " anywhere\n";
+              << " RMS at the vertices, at most " << with_digits(maximum.upper) << " anywhere";
+    if (!verification.poses.empty())
+      std::cout << " in any pose, the most in " << describe_pose(verification, maximum.pose);
+    std::cout << '\n';
   };
   print_distance("original to result", distances.original_to_result, comparison.distances.original_to_result);
   print_distance("result to original", distances.result_to_original, comparison.distances.result_to_original);
@@ -249,7 +255,7 @@ void print(const Verify_request& request, const Mesh_file& mesh, const Verificat
       std::cout << "  pieces with " << counted(difference.boundary_loops, "boundary loop")
                 << " and Euler characteristic " << difference.euler_characteristic << ": "
                 << difference.pieces_of_original << " before, " << difference.pieces_of_result << " now\n";
-    print(*verification.distances, *comparison, verification.pairs_of_original);
+    print(verification, *comparison);
     std::cout << "what this cannot see:\n";
     for (const std::string& line : blind_spots(verification, *comparison))
       std::cout << "  - " << line << '\n';
@@ -322,7 +328,7 @@ Exit_code run(const Verify_request& request)
   const Exit_code code = is_good ? exit_done : exit_not_verified;
   add_verification(report, *verification, has_original);
   if (comparison) {
-    add_comparison(report, *comparison);
+    add_comparison(report, *verification, *comparison);
     report["cannot_see"] = blind_spots(*verification, *comparison);
   }
   report["memory"] = {{"peak_bytes", peak_memory_bytes()}};

@@ -16,7 +16,7 @@
 // made the result; its vertices may have any numbers, and lie anywhere. All figures are floating point, and
 // deterministic; only `Layer_swap` rests on exact arithmetic. Unless stated otherwise, lengths are shares of
 // the diagonal of the bounding box of the original's triangles; when the diagonal is zero, they are in the
-// unit of the coordinates.
+// unit of the coordinates. Further poses are compared where it says so, and otherwise only the first.
 
 namespace selvedge {
 
@@ -25,6 +25,8 @@ namespace selvedge {
 ///
 /// **Guarantees** `lower` is the distance of a point that was looked at. `upper` exceeds `lower` by at most a
 /// hundredth of it, or by a millionth of the longest side of the bounding box of `from` when that is more.
+/// Given the bounds of other pairs of meshes, such as these two in another pose, it returns bounds of the
+/// largest distance of them all, and looks for no point that is nearer than one known already.
 /// When `from.triangles.size() + 500'000` points do not suffice for this, `upper` is the best bound that is
 /// known. Both are zero when `from` has no triangle, and infinite when only `to` has none.
 /// **Exactness** Both bounds have the errors of `distance`.
@@ -34,19 +36,27 @@ namespace selvedge {
 /// of `to` above it, projected onto its plane, and where this does not suffice, at points for which the
 /// nearest triangle is sought. After Tang, Lee and Kim, *Interactive Hausdorff distance computation for
 /// general polygonal models*, 2009.
-Bounds maximum_distance(const Triangle_soup& from, const Triangle_soup& to);
+Bounds maximum_distance(const Triangle_soup& from, const Triangle_soup& to, const Bounds& of_others = {0, 0});
 
-/// Bounds of the largest distance from any point of one mesh to the other, both ways, as shares of the
-/// diagonal of the original.
+/// Bounds of the largest distance of all poses, and the further pose in which the farthest point that was
+/// looked at is so far; none for the first pose.
+struct Bounds_over_poses : Bounds
+{
+  std::optional<std::size_t> pose = {};
+};
+
+/// Bounds of the largest distance from any point of one mesh to the other in any pose, both ways, as shares
+/// of the diagonal of the original in its first pose.
 struct Distances_anywhere
 {
-  Bounds original_to_result = {};
-  Bounds result_to_original = {};
+  Bounds_over_poses original_to_result = {};
+  Bounds_over_poses result_to_original = {};
 
   double upper() const { return (std::max)(original_to_result.upper, result_to_original.upper); }
 };
 
-/// Computes both with `maximum_distance`.
+/// Computes both with `maximum_distance`. Throws `Argument_error` unless both meshes have the same number of
+/// further poses; so does `compare`.
 Distances_anywhere distances_anywhere(const Triangle_soup& result, const Triangle_soup& original);
 
 /// How far the lines of one mesh are from those of the other.
@@ -162,7 +172,7 @@ struct Layer_order
 /// All figures of a comparison.
 struct Comparison
 {
-  double diagonal = 0; ///< in the unit of the coordinates
+  double diagonal = 0; ///< in the unit of the coordinates; infinite when it is too long for a double
   Distances_anywhere distances;
 
   /// Edges of one triangle.

@@ -353,8 +353,8 @@ struct Distances
 {
   Distance original_to_result;
   Distance result_to_original;
-  /// The diagonal of the bounding box of the original's triangles, in the unit of the coordinates. When it is
-  /// zero, the distances are in that unit, too.
+  /// The diagonal of the bounding box of the original's triangles, in the unit of the coordinates; infinite
+  /// when it is too long for a double. When it is zero, the distances are in that unit, too.
   double diagonal;
 };
 

@@ -6,11 +6,10 @@
 #include "soup/Gltf_scene.h"
 #include "soup/Sewn_mesh.h"
 #include "surface_distances.h"
+#include "verify/Diagonal.h"
 #include "verify/pieces.h"
 
 #include <selvedge/prepare.h>
-
-#include <CGAL/Bbox_3.h>
 
 #include <algorithm>
 #include <cmath>
@@ -99,7 +98,7 @@ public:
     m_result.left_out_faces = m_prepared.left_out_faces;
     m_result.normals = m_prepared.normals;
     m_result.pairs = m_prepared.offending_pairs;
-    measure();
+    m_result.diagonal = internal::Diagonal(m_soup).length();
     find_pieces_and_surfaces();
     count_vertices();
     count_seams();
@@ -108,15 +107,6 @@ public:
   }
 
 private:
-  void measure()
-  {
-    CGAL::Bbox_3 box;
-    for (const Index_triple& triangle : m_soup.triangles)
-      for (const Index v : triangle)
-        box += m_prepared.scale(m_soup.points[v]).bbox();
-    m_result.diagonal = m_prepared.scale.undone(std::hypot(box.x_span(), box.y_span(), box.z_span()));
-  }
-
   void find_pieces_and_surfaces()
   {
     const auto by_vertices = internal::numbered_pieces(m_soup.triangles, m_soup.points.size());

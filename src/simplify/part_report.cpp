@@ -3,7 +3,7 @@
 
 #include <selvedge/part_report.h>
 
-#include "verify/Surface_tree.h"
+#include "verify/Diagonal.h"
 
 #include "soup/texture.h"
 #include <selvedge/Cancellation_scope.h>
@@ -31,11 +31,10 @@ constexpr std::size_t s_pieces_reported = 100;
 // Returns the diagonal of the soup, divided by the scale as all points in this file; 1 if it is 0.
 double diagonal(const Triangle_soup& soup, const Scale& scale)
 {
-  CGAL::Bbox_3 box;
-  for (const Index_triple& triangle : soup.triangles)
-    for (const Index v : triangle)
-      box += scale(soup.points[v]).bbox();
-  const double length = std::hypot(box.x_span(), box.y_span(), box.z_span());
+  std::vector<Point_3> points;
+  for (const Index vertex : internal::used_vertices(soup))
+    points.push_back(scale(soup.points[vertex]));
+  const double length = internal::diagonal(points);
   return length > 0 ? length : 1;
 }
 

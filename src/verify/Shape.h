@@ -4,8 +4,8 @@
 #ifndef SELVEDGE_SRC_VERIFY_SHAPE_H
 #define SELVEDGE_SRC_VERIFY_SHAPE_H
 
+#include "Diagonal.h"
 #include "Lists.h"
-#include "Surface_tree.h"
 
 #include <map>
 #include <memory>
@@ -28,16 +28,14 @@ public:
   template <class Triangles>
   Shape(const Triangle_soup& soup, const Triangles& triangles, int exponent)
       : m_soup(submesh(soup, {triangles.begin(), triangles.end()})), m_surface(m_soup, exponent),
-        m_tree(m_surface)
+        m_tree(m_surface), m_diagonal(internal::diagonal(m_surface.points))
   {
-    for (const Point_3& point : m_surface.points)
-      m_box += point.bbox();
   }
   Shape(const Shape&) = delete;
   Shape& operator=(const Shape&) = delete;
 
   const std::vector<Point_3>& points() const { return m_surface.points; }
-  double diagonal() const { return std::hypot(m_box.x_span(), m_box.y_span(), m_box.z_span()); }
+  double diagonal() const { return m_diagonal; }
   Index nearest(const Point_3& point, Index guess = 0) const { return m_tree.nearest(point, guess).triangle; }
 
   /// Returns the root mean square distance from the points of this shape to the surface of `to`, in scaled
@@ -54,7 +52,7 @@ private:
   Triangle_soup m_soup;
   Surface m_surface;
   Surface_tree m_tree;
-  CGAL::Bbox_3 m_box;
+  double m_diagonal;
 };
 
 /// Makes the shape of each piece when it is first asked for, and keeps it.

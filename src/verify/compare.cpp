@@ -4,11 +4,13 @@
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/compare.h>
 
-#include "Surface_tree.h"
+#include "Diagonal.h"
 #include "face_samples.h"
+#include "for_each_pose.h"
 #include "kept_attributes.h"
 #include "layer_order.h"
 #include "lines.h"
+#include "soup/obstacle.h"
 
 #include <oneapi/tbb/parallel_invoke.h>
 
@@ -24,14 +26,6 @@ namespace selvedge {
 using namespace internal;
 
 namespace {
-
-double diagonal_of(const Triangle_soup& soup)
-{
-  CGAL::Bbox_3 box;
-  for (const Index vertex : used_vertices(soup))
-    box += soup.points[vertex].bbox();
-  return soup.triangles.empty() ? 0 : std::hypot(box.x_span(), box.y_span(), box.z_span());
-}
 
 double angle(const Vector_3& a, const Vector_3& b)
 {
@@ -94,55 +88,90 @@ Normal_deviation normal_deviation(const Triangle_soup& result, const Triangle_so
   return deviation;
 }
 
-Bounds relative(const Bounds& bounds, double unit)
+Bounds relative(const Bounds& bounds, const Diagonal& diagonal)
 {
-  return {bounds.lower / unit, bounds.upper / unit};
+  return {diagonal.share(bounds.lower), diagonal.share(bounds.upper)};
+}
+
+Distances_anywhere distances_in_first_pose(const Triangle_soup& result, const Triangle_soup& original)
+{
+  Distances_anywhere distances;
+  tbb::parallel_invoke(Cancellation_scope::inherited(
+                           [&] { distances.original_to_result = {maximum_distance(original, result)}; }),
+                       Cancellation_scope::inherited(
+                           [&] { distances.result_to_original = {maximum_distance(result, original)}; }));
+  return distances;
+}
+
+// Adds the further poses, and makes all a share of the diagonal.
+Bounds_over_poses over_poses(const Bounds_over_poses& in_first, const Triangle_soup& from,
+                             const Triangle_soup& to, const Diagonal& diagonal)
+{
+  Bounds_over_poses all = in_first;
+  for (std::size_t pose = 0; pose < from.poses.size(); ++pose) {
+    const Bounds bounds =
+        maximum_distance(geometry_in_pose(from, {}, pose), geometry_in_pose(to, {}, pose), all);
+    all = {bounds, bounds.lower > all.lower ? pose : all.pose};
+  }
+  return {relative(all, diagonal), all.pose};
+}
+
+Distances_anywhere over_poses(const Distances_anywhere& in_first, const Triangle_soup& result,
+                              const Triangle_soup& original, const Diagonal& diagonal)
+{
+  require_same_number_of_poses(result, original);
+  Distances_anywhere distances;
+  tbb::parallel_invoke(Cancellation_scope::inherited([&] {
+                         distances.original_to_result =
+                             over_poses(in_first.original_to_result, original, result, diagonal);
+                       }),
+                       Cancellation_scope::inherited([&] {
+                         distances.result_to_original =
+                             over_poses(in_first.result_to_original, result, original, diagonal);
+                       }));
+  return distances;
 }
 
 } // namespace
 
 Distances_anywhere distances_anywhere(const Triangle_soup& result, const Triangle_soup& original)
 {
-  const double diagonal = diagonal_of(original), unit = diagonal > 0 ? diagonal : 1;
-  Distances_anywhere distances;
-  tbb::parallel_invoke(Cancellation_scope::inherited([&] {
-                         distances.original_to_result = relative(maximum_distance(original, result), unit);
-                       }),
-                       Cancellation_scope::inherited([&] {
-                         distances.result_to_original = relative(maximum_distance(result, original), unit);
-                       }));
-  return distances;
+  return over_poses(distances_in_first_pose(result, original), result, original, Diagonal(original));
 }
 
 Comparison compare(const Triangle_soup& result, const Triangle_soup& original)
 {
   Comparison comparison;
-  comparison.diagonal = diagonal_of(original);
-  const double unit = comparison.diagonal > 0 ? comparison.diagonal : 1;
+  const Diagonal diagonal(original);
+  comparison.diagonal = diagonal.length();
   const auto make_lines_relative = [&](Line_comparison lines) {
     for (Line_distance* line : {&lines.original_to_result, &lines.result_to_original})
-      *line = {{line->of_ends.root_mean_square / unit, line->of_ends.maximum / unit},
-               relative(line->maximum, unit)};
+      *line = {{diagonal.share(line->of_ends.root_mean_square), diagonal.share(line->of_ends.maximum)},
+               relative(line->maximum, diagonal)};
     return lines;
   };
 
+  Distances_anywhere in_first_pose;
   tbb::parallel_invoke(
-      Cancellation_scope::inherited([&] { comparison.distances = distances_anywhere(result, original); }),
+      Cancellation_scope::inherited([&] { in_first_pose = distances_in_first_pose(result, original); }),
       Cancellation_scope::inherited([&] {
         const Borders_and_seams before = borders_and_seams(original), after = borders_and_seams(result);
         comparison.borders = make_lines_relative(compare_lines(after.borders, before.borders));
         comparison.seams = make_lines_relative(compare_lines(after.seams, before.seams));
         const Gaps gaps = find_gaps(after, before);
-        comparison.gaps = {gaps.open_edges, gaps.length / unit, gaps.width / unit};
+        comparison.gaps = {gaps.open_edges, diagonal.share(gaps.length), diagonal.share(gaps.width)};
       }),
       Cancellation_scope::inherited([&] { compare_values(comparison, result, original); }));
 
-  const double largest = unit * comparison.distances.upper();
-  tbb::parallel_invoke(Cancellation_scope::inherited(
+  const double largest = in_first_pose.upper();
+  tbb::parallel_invoke(Cancellation_scope::inherited([&] {
+                         comparison.distances = over_poses(in_first_pose, result, original, diagonal);
+                       }),
+                       Cancellation_scope::inherited(
                            [&] { comparison.normals = normal_deviation(result, original, largest); }),
                        Cancellation_scope::inherited([&] {
-                         const double reach = std::clamp(2.5 * largest, 1e-9 * unit, 0.25 * unit);
-                         comparison.layers = layer_order(result, original, reach);
+                         const double reach = std::clamp(2.5 * diagonal.share(largest), 1e-9, 0.25);
+                         comparison.layers = layer_order(result, original, diagonal.length_of(reach));
                        }));
   return comparison;
 }

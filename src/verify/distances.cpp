@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "Surface_tree.h"
+#include "Diagonal.h"
 #include "for_each_nearest.h"
 
 #include <selvedge/verify.h>
@@ -83,16 +83,11 @@ Distance distance(const Triangle_soup& from, const Triangle_soup& to)
 
 Distances distances(const Triangle_soup& result, const Triangle_soup& original)
 {
-  CGAL::Bbox_3 box;
-  for (const Index vertex : used_vertices(original))
-    box += original.points[vertex].bbox();
-  const double diagonal =
-      original.triangles.empty() ? 0 : std::hypot(box.x_span(), box.y_span(), box.z_span());
-  const double unit = diagonal > 0 ? diagonal : 1;
+  const Diagonal diagonal(original);
   const auto relative = [&](const Distance& d) {
-    return Distance{d.root_mean_square / unit, d.maximum / unit, d.farthest};
+    return Distance{diagonal.share(d.root_mean_square), diagonal.share(d.maximum), d.farthest};
   };
-  return {relative(distance(original, result)), relative(distance(result, original)), diagonal};
+  return {relative(distance(original, result)), relative(distance(result, original)), diagonal.length()};
 }
 
 } // namespace selvedge

@@ -105,8 +105,10 @@ std::pair<int, Point_3> cut_of(const Part& part, const Surface& to)
 class Farthest_point_search
 {
 public:
-  /// Begins with the vertices, which are listed. Both surfaces outlive the search.
-  Farthest_point_search(const Surface& from, const Surface& to, const std::vector<Index>& vertices)
+  /// Begins with the vertices, which are listed. No point is looked for that is nearer than `known`. Both
+  /// surfaces outlive the search.
+  Farthest_point_search(const Surface& from, const Surface& to, const std::vector<Index>& vertices,
+                        double known)
       : m_from(from), m_to(to), m_tree(to), m_nearest(from.points.size()),
         m_looks(10'000'000 + 32 * (from.triangles.size() + to.triangles.size()))
   {
@@ -116,7 +118,7 @@ public:
                        m_nearest[vertex] = found.triangle;
                        distances[i] = CGAL::squared_distance(from.points[vertex], found.point);
                      });
-    m_lower = m_upper = *std::max_element(distances.begin(), distances.end());
+    m_lower = m_upper = std::max(known, *std::max_element(distances.begin(), distances.end()));
     CGAL::Bbox_3 box;
     for (const Index vertex : vertices)
       box += from.points[vertex].bbox();
@@ -147,7 +149,7 @@ public:
       m_upper = std::max(m_upper, m_parts.top().upper);
   }
 
-  /// The distance of the farthest point that was looked at.
+  /// The distance of the farthest point that was looked at, or the one known.
   double lower() const { return m_lower; }
   /// A bound of the distance of any point.
   double upper() const { return std::max(m_lower, m_upper); }
@@ -248,18 +250,23 @@ private:
 
 } // namespace
 
-Bounds maximum_distance(const Triangle_soup& from, const Triangle_soup& to)
+Bounds maximum_distance(const Triangle_soup& from, const Triangle_soup& to, const Bounds& of_others)
 {
   if (from.triangles.empty())
-    return {0, 0};
+    return of_others;
   if (to.triangles.empty())
     return {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   const int exponent = common_exponent(from, to);
+  const double known = std::ldexp(of_others.lower, -exponent);
+  if (known > 4) // no two points are farther apart than 2 √3
+    return of_others;
   const Point_3 origin = to.points[to.triangles[0][0]];
   const Surface source(from, exponent, origin), surface(to, exponent, origin);
-  Farthest_point_search search(source, surface, used_vertices(from));
+  Farthest_point_search search(source, surface, used_vertices(from), known * known);
   search.run();
-  return {std::ldexp(std::sqrt(search.lower()), exponent), std::ldexp(std::sqrt(search.upper()), exponent)};
+  const auto length = [&](double squared) { return std::ldexp(std::sqrt(squared), exponent); };
+  return {search.lower() > known * known ? length(search.lower()) : of_others.lower,
+          std::max(length(search.upper()), of_others.upper)};
 }
 
 } // namespace selvedge

@@ -14,7 +14,7 @@
 #include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
-#include <string>
+#include <utility>
 
 // The judge, which decides whether a result may be written. It puts together what `offending_pairs`,
 // `pieces`, `match_pieces` and `distances` say of a result and its original, and knows nothing of the
@@ -157,9 +157,7 @@ Verification verify(const Triangle_soup& result, const Triangle_soup& original,
       triangles.push_back(Index(t)); // of the obstacle
     of_result = pairs_without_descent(after, pairs, before, known, *options.collapses, triangles);
   };
-  if (result.poses.size() != original.poses.size())
-    throw Argument_error("the result has " + std::to_string(result.poses.size()) +
-                         " further poses and its original " + std::to_string(original.poses.size()));
+  internal::require_same_number_of_poses(result, original);
   verification.poses.resize(result.poses.size());
   const auto judge_pose = [&](std::size_t pose) {
     const Triangle_soup before = geometry_in_pose(original, obstacle, pose);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "apps/Outcome.h"
+#include "apps/cost_of_poses.h"
 
 #include <gtest/gtest.h>
 
@@ -18,6 +19,22 @@ TEST(App_outcome, AGuardedResultThatTheJudgeRefusesIsNotWritten)
   EXPECT_EQ(outcome.exit_code(), exit_not_verified);
   outcome.is_interrupted = true;
   EXPECT_EQ(outcome.exit_code(), exit_not_verified);
+}
+
+TEST(App_poses, SayEarlyWhatManyCost)
+{
+  EXPECT_EQ(cost_of_poses(0, 1'000'000, 0, 0), "");
+  EXPECT_EQ(cost_of_poses(100, 60'000, 100, 1), "");
+  EXPECT_EQ(cost_of_poses(1309, 61'666, 1309, 1),
+            "1,309 further poses of 61,666 faces: all guarded, they take about 33 GB and 27 minutes; "
+            "--every 9 takes 146 of them");
+  EXPECT_EQ(
+      cost_of_poses(1309, 61'666, 37, 2),
+      "1,309 further poses of 61,666 faces: all guarded, they take about 33 GB and 27 minutes; 37 are at "
+      "first, then those in which the judge finds new pairs; --every 18 takes 146 of them");
+  EXPECT_EQ(cost_of_poses(200, 60'000, 200, 0),
+            "200 further poses of 60,000 faces: all guarded, they take about 5 GB and 4 minutes; "
+            "--key-poses auto guards few at first");
 }
 
 TEST(App_outcome, AnUnguardedResultIsWrittenAndNeverVerified)

@@ -4,6 +4,7 @@
 // Further poses, from files and from glTF, as a user gives them to the app.
 
 #include "App_run.h"
+#include "support/soups.h"
 
 #include <selvedge/gltf_poses.h>
 #include <selvedge/internal/base64.h>
@@ -125,6 +126,63 @@ TEST_F(Waving_sheets, AreLegalInMorphTargetsAndKeyframes)
     EXPECT_EQ(run_app(verify).code, 0);
     EXPECT_EQ(run_app(replay).code, 0);
   }
+}
+
+TEST_F(Waving_sheets, AreMeasuredInEveryPose)
+{
+  const std::string flat = folder / "flat.obj", out = folder / "small.obj", report = folder / "r.json",
+                    judged = folder / "judged.json";
+  const auto distance = [](const std::string& file) {
+    return nlohmann::json::parse(contents_of(file))["distance"]["original_to_result"];
+  };
+  // The limit holds in the pose of the file, where hardly anything is to be seen of what it does to the
+  // waves.
+  const std::vector<std::string> limited{"simplify", flat, "-o", out, "--error", "0.004", "--report", report};
+  EXPECT_EQ(run_app(limited).code, 0);
+  EXPECT_LE(distance(report)["max_upper"], 0.00404);
+  EXPECT_TRUE(distance(report)["max_pose"].is_null());
+
+  const std::string waving = folder / "waving.obj", small_waving = folder / "small_waving.obj";
+  std::vector<std::string> in_poses = limited;
+  in_poses.insert(in_poses.end(), {"--pose", waving, "--poses-out", folder / "small_{pose}.obj"});
+  const App_result guarded = run_app(in_poses);
+  EXPECT_NE(guarded.out.find("\ndistance of any point in any pose: at most "), std::string::npos)
+      << guarded.out;
+  EXPECT_NE(guarded.out.find("; the most in pose 'waving'\n"), std::string::npos) << guarded.out;
+  EXPECT_EQ(distance(report)["max_pose"], "waving");
+  const App_result result = run_app({"verify", out, "--against", flat, "--pose", small_waving,
+                                     "--against-pose", waving, "--report", judged});
+  EXPECT_NE(result.out.find(" anywhere in any pose, the most in pose 'small_waving'\n"), std::string::npos)
+      << result.out;
+  EXPECT_NE(result.out.find("in 1 further pose: they are those of the mesh's own pose"), std::string::npos)
+      << result.out;
+  EXPECT_EQ(distance(judged)["max_upper"], distance(report)["max_upper"]);
+  EXPECT_EQ(distance(judged)["max_pose"], "small_waving");
+}
+
+TEST(App_poses, ThatAreNotGuardedAreNamedWhereTheyBreakTheLimit)
+{
+  const Workspace folder;
+  const Triangle_soup flat = sheet(20, 20);
+  write_mesh(folder / "flat.obj", flat);
+  write_mesh(folder / "above.obj", moved(flat, 0, 0, 100));
+  write_mesh(folder / "below.obj", moved(flat, 0, 0, -100));
+  write_mesh(folder / "hill.obj", mapped(flat, [](const Point_3& p) {
+               return Point_3(p.x(), p.y(), p.x() == 9 && p.y() == 11 ? 4 : 0);
+             }));
+  std::vector<std::string> arguments{"simplify",         folder / "flat.obj", "-o",
+                                     folder / "out.obj", "--error",           "0.01"};
+  for (const char* name : {"above.obj", "below.obj", "hill.obj"})
+    arguments.insert(arguments.end(), {"--pose", folder / name});
+  const App_result all = run_app(arguments);
+  EXPECT_EQ(all.code, 0) << all.err;
+  EXPECT_EQ(all.out.find("\nlimit: "), std::string::npos) << all.out;
+  arguments.insert(arguments.end(), {"--key-poses", "auto"});
+  const App_result some = run_app(arguments);
+  EXPECT_NE(
+      some.out.find("; the most in pose 'hill'\nlimit: 1 % holds in the mesh's own pose and in 2 others, "),
+      std::string::npos)
+      << some.out;
 }
 
 TEST_F(Waving_sheets, AreGuardedInKeyPosesAndJudgedInAll)

@@ -175,6 +175,76 @@ TEST(MaximumDistance, IsZeroFromNothingInfiniteToNothingAndScales)
   }
 }
 
+TEST(MaximumDistance, IsOfOthersTooWhenTheseAreKnown)
+{
+  const Triangle_soup low = sheet(2, 2), high = sheet(2, 2, 1);
+  EXPECT_EQ(maximum_distance(low, high, {5, 6}).lower, 5);
+  EXPECT_EQ(maximum_distance(low, high, {5, 6}).upper, 6);
+  EXPECT_EQ(maximum_distance(low, high, {0.5, 0.6}).lower, 1);
+  EXPECT_GE(maximum_distance(low, high, {0.5, 2}).upper, 2);
+  EXPECT_EQ(maximum_distance({}, high, {5, 6}).upper, 6);
+}
+
+// In its second further pose, the original has a hill that is not in the result, and not at a vertex of it.
+TEST(Comparison, BoundsTheDistancesInAllPoses)
+{
+  Triangle_soup before = sheet(8, 8), after = sheet(1, 1);
+  for (Point_3& p : after.points)
+    p = Point_3(8 * p.x(), 8 * p.y(), 0);
+  const auto hill = [](double height) {
+    return mapped(
+               sheet(8, 8),
+               [&](const Point_3& p) { return Point_3(p.x(), p.y(), p.x() == 3 && p.y() == 4 ? height : 0); })
+        .points;
+  };
+  before.poses = {{"low", hill(1), 0}, {"high", hill(4), 0}, {"lower", hill(2), 0}};
+  for (const Pose& pose : before.poses)
+    after.poses.push_back({pose.name, after.points, 0});
+  const double diagonal = std::sqrt(128);
+  for (const Distances_anywhere& found :
+       {distances_anywhere(after, before), compare(after, before).distances}) {
+    EXPECT_DOUBLE_EQ(found.original_to_result.lower, 4 / diagonal);
+    EXPECT_GE(found.original_to_result.upper, 4 / diagonal);
+    EXPECT_LE(found.original_to_result.upper, 4.05 / diagonal);
+    EXPECT_EQ(found.original_to_result.pose, 1u);
+    EXPECT_GT(found.result_to_original.lower, 0.5 / diagonal);
+    EXPECT_EQ(found.result_to_original.pose, 1u);
+  }
+  EXPECT_EQ(compare(after, before).normals.maximum, 0) << "of the first pose alone";
+  after.poses.pop_back();
+  EXPECT_THROW(distances_anywhere(after, before), Argument_error);
+  EXPECT_THROW(compare(after, before), Argument_error);
+  after.poses = before.poses = {};
+  EXPECT_LT(distances_anywhere(after, before).upper(), 1e-12);
+  EXPECT_FALSE(distances_anywhere(after, before).original_to_result.pose);
+}
+
+// The diagonal itself is too long for a double.
+TEST(Comparison, IsTheSameAtTheLargestScale)
+{
+  const auto largest = [](const Triangle_soup& soup) {
+    return mapped(soup, [](const Point_3& p) {
+      return Point_3(0x1p1021 * (p.x() - 4), 0x1p1021 * (p.y() - 4), 0x1p1021 * p.z());
+    });
+  };
+  const auto around_zero = [](const Triangle_soup& soup) { return moved(soup, -4, -4, 0); };
+  const Triangle_soup before = sheet(7, 7), after = sheet(7, 6, 1);
+  const Comparison expected = compare(around_zero(after), around_zero(before)),
+                   found = compare(largest(after), largest(before));
+  EXPECT_EQ(found.diagonal, infinity);
+  EXPECT_GT(expected.distances.upper(), 0.1);
+  EXPECT_EQ(found.distances.upper(), expected.distances.upper());
+  EXPECT_EQ(found.borders.original_to_result.maximum.upper,
+            expected.borders.original_to_result.maximum.upper);
+  EXPECT_EQ(found.normals.mean, expected.normals.mean);
+  EXPECT_EQ(found.layers.lines, expected.layers.lines);
+  const auto at_vertices = [](const Triangle_soup& result, const Triangle_soup& original) {
+    return distances(result, original).original_to_result.maximum;
+  };
+  EXPECT_EQ(at_vertices(largest(after), largest(before)),
+            at_vertices(around_zero(after), around_zero(before)));
+}
+
 TEST(Lines, AreToldByPositions)
 {
   const Triangle_soup whole = sheet(3, 4);

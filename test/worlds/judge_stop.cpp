@@ -3,6 +3,8 @@
 
 #include "judge_stop.h"
 
+#include "soup/obstacle.h"
+
 #include <selvedge/Parts.h>
 #include <selvedge/compare.h>
 #include <selvedge/verify.h>
@@ -31,8 +33,7 @@ std::vector<char> held(const World& world, const Triangle_soup& soup, bool with_
 namespace {
 
 // Whether corners, middles of sides and centres of faces are no farther from the other mesh than a bound
-// says, in shares of the diagonal, and the bound is not far above what was seen. (A distance from a needle
-// may come out too large by a few 1e-10.)
+// says, in shares of the diagonal. (A distance from a needle may come out too large by a few 1e-10.)
 bool is_bound(const Bounds& bounds, const Triangle_soup& from, const Triangle_soup& to, double diagonal)
 {
   Triangle_soup points;
@@ -51,7 +52,7 @@ bool is_bound(const Bounds& bounds, const Triangle_soup& from, const Triangle_so
       largest = std::max(largest, std::abs(point[axis]));
   const double unit = diagonal > 0 ? diagonal : 1, rounding = 0x1p-50 * largest / unit;
   const double seen = distance(points, to).maximum / unit;
-  return seen <= bounds.upper * (1 + 1e-9) + rounding + 1e-8 && bounds.upper <= 1.02 * bounds.lower + 2e-6;
+  return seen <= bounds.upper * (1 + 1e-9) + rounding + 1e-8;
 }
 
 } // namespace
@@ -75,10 +76,26 @@ Verdict judge_stop(const World& world, const World_run& run)
     if (world.options.max_error &&
         at_vertices.original_to_result.maximum > *world.options.max_error * (1 + 1e-6) + 1e-9)
       return broken("a vertex of the original is farther away than the error allows");
+    for (std::size_t pose = 0; world.options.max_error && pose < soup.poses.size(); ++pose)
+      if (world.is_guarded(pose) &&
+          distance(geometry_in_pose(soup, {}, pose), geometry_in_pose(run.result.soup, {}, pose)).maximum >
+              (*world.options.max_error * (1 + 1e-6) + 1e-9) *
+                  (at_vertices.diagonal > 0 ? at_vertices.diagonal : 1))
+        return broken("a vertex of the original is farther away in a further pose than the error allows");
     const Distances_anywhere anywhere = distances_anywhere(run.result.soup, soup);
-    if (!is_bound(anywhere.original_to_result, soup, run.result.soup, at_vertices.diagonal) ||
-        !is_bound(anywhere.result_to_original, run.result.soup, soup, at_vertices.diagonal))
+    const auto are_bounds = [&](const Triangle_soup& after, const Triangle_soup& before) {
+      return is_bound(anywhere.original_to_result, before, after, at_vertices.diagonal) &&
+             is_bound(anywhere.result_to_original, after, before, at_vertices.diagonal);
+    };
+    bool is_any_wrong = !are_bounds(run.result.soup, soup);
+    for (std::size_t pose = 0; pose < soup.poses.size(); ++pose)
+      is_any_wrong |=
+          !are_bounds(geometry_in_pose(run.result.soup, {}, pose), geometry_in_pose(soup, {}, pose));
+    if (is_any_wrong)
       return broken("a point is farther from the other mesh than its bounds say");
+    for (const Bounds_over_poses& bounds : {anywhere.original_to_result, anywhere.result_to_original})
+      if (soup.poses.empty() && bounds.upper > 1.02 * bounds.lower + 2e-6)
+        return broken("the bounds of the largest distance are far apart");
   }
 
   const bool is_over = report.is_reached() || report.is_stopped;

@@ -1,0 +1,36 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SRC_VERIFY_LIKENESS_H
+#define SELVEDGE_SRC_VERIFY_LIKENESS_H
+
+#include "Shape.h"
+
+#include <algorithm>
+
+namespace selvedge::internal {
+
+/// The largest root mean square distance of matching pieces, as a share of the diagonal of the original's.
+constexpr double most_distance = 0.25;
+
+/// A piece counts as turned inside out when at least this share of its area is. Half is not enough: thin
+/// cloth that is reduced far has half of its area nearest to its other side.
+constexpr double least_turned = 0.9;
+
+/// How far a piece of the result is from one of the original, and how much of it is turned inside out.
+struct Likeness
+{
+  Likeness(const Shape& now, const Shape& before)
+      : distance(std::max(before.root_mean_square_distance(now), now.root_mean_square_distance(before)) /
+                 before.diagonal()),
+        turned(now.turned_against(before))
+  {
+  }
+  bool is_wrong() const { return distance > most_distance || turned >= least_turned; }
+
+  double distance, turned; // as in `Piece_match`
+};
+
+} // namespace selvedge::internal
+
+#endif // SELVEDGE_SRC_VERIFY_LIKENESS_H

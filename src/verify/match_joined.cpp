@@ -1,0 +1,227 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "Likeness.h"
+#include "match_steps.h"
+#include "soup/Disjoint_sets.h"
+
+#include <selvedge/Cancellation_scope.h>
+
+#include <CGAL/Iterator_range.h>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <utility>
+
+// Matches pieces that are joined where positions coincide, for `match_pieces`.
+
+namespace selvedge::internal {
+namespace {
+
+/// The triangles of a mesh by their three positions, each with its piece.
+class Triangles_by_position
+{
+public:
+  using Entry = std::pair<Index_triple, Index>; ///< positions in ascending order, and the piece
+  using Range = CGAL::Iterator_range<std::vector<Entry>::const_iterator>;
+
+  explicit Triangles_by_position(const Piece_mesh& mesh)
+  {
+    for (Index t = 0; t < mesh.soup.triangles.size(); ++t)
+      if (mesh.piece(t) != no_piece)
+        m_entries.emplace_back(corners(mesh, t), mesh.piece(t));
+    Cancellation_scope::check();
+    std::sort(m_entries.begin(), m_entries.end());
+    Cancellation_scope::check();
+  }
+
+  /// Returns all with the positions of this triangle of one of the two meshes.
+  Range with_corners_of(const Piece_mesh& mesh, Index triangle) const
+  {
+    return Range(std::equal_range(m_entries.begin(), m_entries.end(), Entry(corners(mesh, triangle), 0),
+                                  [](const Entry& a, const Entry& b) { return a.first < b.first; }));
+  }
+
+private:
+  static Index_triple corners(const Piece_mesh& mesh, Index triangle)
+  {
+    Index_triple triple{mesh.position(triangle, 0), mesh.position(triangle, 1), mesh.position(triangle, 2)};
+    std::sort(triple.begin(), triple.end());
+    return triple;
+  }
+
+  std::vector<Entry> m_entries;
+};
+
+// The pieces of the original that a triangle of the result may come from: those within reach of all
+// corners.
+struct Owners
+{
+  bool is_known = false; ///< some corner lies where 1 to 64 pieces are in reach
+  std::vector<Index> pieces;
+  bool is_one() const { return pieces.size() == 1; }
+  bool is_broken() const { return is_known && pieces.empty(); }
+};
+
+Owners owners(const Piece_mesh& mesh, const Lists& reach, Index triangle)
+{
+  Owners result;
+  std::vector<Index> both;
+  for (int place = 0; place < 3; ++place) {
+    const auto here = reach[mesh.position(triangle, place)];
+    if (here.size() == 0 || here.size() > most_at_a_position)
+      continue;
+    if (!result.is_known) {
+      result.pieces.assign(here.begin(), here.end());
+    } else {
+      both.clear();
+      std::set_intersection(result.pieces.begin(), result.pieces.end(), here.begin(), here.end(),
+                            std::back_inserter(both));
+      result.pieces.swap(both);
+    }
+    result.is_known = true;
+  }
+  return result;
+}
+
+// Whether some triangles of the result and some pieces of the original are no farther apart than a quarter
+// of the size of these pieces.
+bool are_near(const Matching& matching, const std::vector<Index>& of_original,
+              const std::vector<Index>& triangles)
+{
+  const Shape after(matching.result.soup, triangles, matching.exponent);
+  const Shape before(matching.original.soup, matching.original.triangles_of(of_original), matching.exponent);
+  if (after.root_mean_square_distance(before) > most_distance * before.diagonal())
+    return false;
+  for (const Index o : of_original) {
+    const Shape piece(matching.original.soup, matching.original.triangles_of({o}), matching.exponent);
+    if (piece.root_mean_square_distance(after) > most_distance * piece.diagonal())
+      return false;
+  }
+  return true;
+}
+
+} // namespace
+
+void match_joined(Matching& matching, bool is_by_distance)
+{
+  if (matching.is_complete() || matching.is_one_empty())
+    return;
+  const Lists& reach = matching.reach();
+  const std::size_t results = matching.result.pieces().size(), originals = matching.original.pieces().size();
+  Disjoint_sets sets(results + originals);
+  const auto unite = [&](Index r, Index o) { sets.unite(r, results + o); };
+  for (const Piece_match& match : matching.found.matches)
+    for (const Index r : match.of_result)
+      for (const Index o : match.of_original)
+        unite(r, o);
+
+  std::vector<bool> is_broken(results), is_owner(originals), is_touched(originals),
+      owns_nothing(results, true);
+  std::vector<Pair> owned, perhaps_owned;
+  std::optional<Nearest_pieces> nearest;
+  const Triangles_by_position before(matching.original), now(matching.result);
+  Cancellation_poll poll;
+  for (Index t = 0; t < matching.result.soup.triangles.size(); ++t) {
+    poll();
+    const Index r = matching.result.piece(t);
+    if (r == no_piece)
+      continue;
+    Owners found = owners(matching.result, reach, t);
+    if (is_by_distance && !found.is_known) {
+      if (!nearest)
+        nearest.emplace(matching.original.soup, matching.original.numbered.of_triangle, matching.exponent);
+      found = {true, {nearest->piece_near(centre(matching.result.soup, t, matching.exponent))}};
+    }
+    if (found.is_broken()) {
+      is_broken[r] = true;
+      for (int place = 0; place < 3; ++place)
+        if (const auto here = reach[matching.result.position(t, place)]; here.size() == 1) {
+          owned.emplace_back(r, *here.begin());
+          is_touched[*here.begin()] = true;
+        }
+    }
+    const auto own = [&](Index o) {
+      owned.emplace_back(r, o);
+      is_owner[o] = true;
+      owns_nothing[r] = false;
+    };
+    if (found.is_one()) {
+      own(found.pieces.front());
+      continue;
+    }
+    // All of its corners are corners of several pieces. When the result has this very triangle as often as
+    // the original, those that have it there have it here.
+    const Triangles_by_position::Range same = before.with_corners_of(matching.result, t);
+    const bool is_kept = same.size() > 0 && now.with_corners_of(matching.result, t).size() >= same.size();
+    for (const auto& [corners, o] : same)
+      if (is_kept && matching.is_left_of_original(o))
+        own(o);
+    for (const Index o : found.pieces)
+      if (matching.is_left_of_original(o))
+        perhaps_owned.emplace_back(r, o);
+  }
+  const auto sort = [](std::vector<Pair>& pairs) {
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  };
+  sort(owned);
+  for (const auto& [r, o] : owned)
+    if (matching.is_left_of_result(r) || matching.is_left_of_original(o))
+      unite(r, o);
+  for (const Possible_match& possible : matching.near)
+    if (matching.is_left_of_result(possible.of_result) && owns_nothing[possible.of_result]) {
+      unite(possible.of_result, possible.of_original);
+      is_owner[possible.of_original] = true;
+    }
+  sort(perhaps_owned);
+  for (const auto& [r, o] : perhaps_owned)
+    if (!is_owner[o] && sets.find(r) != sets.find(results + o))
+      unite(r, o);
+
+  std::map<std::size_t, std::pair<std::vector<Index>, std::vector<Index>>> groups; // of original, of result
+  for (Index o = 0; o < originals; ++o)
+    groups[sets.find(results + o)].first.push_back(o);
+  for (Index r = 0; r < results; ++r)
+    groups[sets.find(r)].second.push_back(r);
+  for (auto& [set, group] : groups) {
+    auto& [of_original, of_result] = group;
+    const auto is_left = [&](Index o) { return matching.is_left_of_original(o); };
+    const auto is_left_now = [&](Index r) { return matching.is_left_of_result(r); };
+    if (of_original.empty() || of_result.empty() ||
+        (std::none_of(of_original.begin(), of_original.end(), is_left) &&
+         std::none_of(of_result.begin(), of_result.end(), is_left_now)))
+      continue;
+    std::vector<Index> unseen;
+    std::copy_if(of_original.begin(), of_original.end(), std::back_inserter(unseen),
+                 [&](Index o) { return !is_owner[o] && is_left(o); });
+    const bool has_broken =
+        std::any_of(of_result.begin(), of_result.end(), [&](Index r) { return is_broken[r]; });
+    const std::vector<Index> triangles_before = matching.original.triangles_of(of_original),
+                             triangles_now = matching.result.triangles_of(of_result);
+    const bool is_told =
+        !is_by_distance &&
+        (std::any_of(of_original.begin(), of_original.end(),
+                     [&](Index o) { return (is_owner[o] || is_touched[o]) && is_left(o); }) ||
+         std::count_if(of_result.begin(), of_result.end(), is_left_now) > 1);
+    if (matching.original.kinds_by_position(triangles_before) ==
+            matching.result.kinds_by_position(triangles_now) &&
+        (!is_by_distance || are_near(matching, of_original, triangles_now)) &&
+        unseen.size() < of_original.size()) {
+      const std::vector<Index> hidden = perhaps_missing(matching, unseen, of_original);
+      std::vector<Index> seen;
+      std::set_difference(of_original.begin(), of_original.end(), hidden.begin(), hidden.end(),
+                          std::back_inserter(seen));
+      for (const Index o : hidden)
+        matching.is_hidden[o] = true;
+      matching.match(std::move(seen), std::move(of_result), Matched_by::positions);
+    } else if (unseen.empty() && !has_broken && matching.options.weld_distance > 0 && !is_by_distance)
+      matching.match(std::move(of_original), std::move(of_result), Matched_by::borders);
+    else if (is_told)
+      matching.groups.push_back({std::move(of_original), std::move(of_result), has_broken});
+  }
+}
+
+} // namespace selvedge::internal
