@@ -47,8 +47,11 @@ double ratio_in(const std::string& text)
 
 void read_error(Simplify_request& request)
 {
-  if (request.error == "none")
+  if (request.error == "none") {
+    if (request.is_error_everywhere)
+      throw Argument_error("--error-everywhere: there is no limit to keep; give --error E in place of none");
     return;
+  }
   const double error = request.error.empty() ? default_error : number_in(request.error);
   if (!(error >= 0 && std::isfinite(error)))
     throw Argument_error("--error: '" + request.error + "' is neither a number of at least 0 nor none");
@@ -247,6 +250,7 @@ Json options_json(const Simplify_request& request)
   return {{"ratio", optional(options.ratio)},
           {"faces", optional(options.faces)},
           {"error", optional(options.max_error)},
+          {"error_everywhere", request.is_error_everywhere},
           {"normal_change", options.max_normal_change},
           {"aspect_ratio", options.min_aspect_ratio},
           {"border_turn", options.max_border_turn},
@@ -293,7 +297,7 @@ Json options_json(const Simplify_request& request)
 
 bool has_own_error(const Simplify_request& request)
 {
-  return !request.error.empty() && request.options.max_error.has_value();
+  return (!request.error.empty() || request.is_error_everywhere) && request.options.max_error.has_value();
 }
 
 Defects defects_of(const Simplify_request& request)
@@ -353,6 +357,12 @@ void add_options(CLI::App& command, Simplify_request& request)
           "summary says how far any point is.")
       ->type_name("E|none")
       ->default_str("0.01")
+      ->group(how_far);
+  command
+      .add_flag("--error-everywhere", request.is_error_everywhere,
+                "Keep the limit of --error at every point of both surfaces, in every output and pose: judge "
+                "the result, and reduce again with a smaller limit while any point may be farther away: "
+                "twice to five times in all.")
       ->group(how_far);
 
   command

@@ -30,6 +30,7 @@ struct Simplify_request
   std::string html;
   std::vector<std::string> ratios; // "R" or "PART=R"
   std::string error;               // "E", "none", or empty for the default
+  bool is_error_everywhere = false;
   std::vector<double> lods;
   std::string obstacle;
   Pose_sources poses, obstacle_poses;

@@ -333,6 +333,13 @@ void add_distances(Json& report, const Verification& verification,
   add_bounds("result_to_original", &Distances_anywhere::result_to_original);
 }
 
+void add_error_search(Json& report, const std::optional<Error_search>& search)
+{
+  report["error_search"] = nullptr;
+  if (search)
+    report["error_search"] = {{"reductions", search->reductions()}, {"error", search->max_error()}};
+}
+
 void add_comparison(Json& report, const Verification& verification, const Comparison& comparison)
 {
   add_distances(report, verification, comparison.distances);

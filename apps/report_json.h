@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_APPS_REPORT_JSON_H
 #define SELVEDGE_APPS_REPORT_JSON_H
 
+#include <selvedge/Error_search.h>
 #include <selvedge/compare.h>
 #include <selvedge/mesh_files.h>
 #include <selvedge/replay.h>
@@ -44,6 +45,9 @@ void add_verification(Json& report, const Verification& verification, bool has_o
 /// measured.
 void add_distances(Json& report, const Verification& verification,
                    const std::optional<Distances_anywhere>& distances);
+
+/// Sets `error_search`.
+void add_error_search(Json& report, const std::optional<Error_search>& search);
 
 /// Sets `borders`, `seams`, `gaps`, `vertices`, `attributes`, `normals` and `layers`, and adds to `distance`.
 void add_comparison(Json& report, const Verification& verification, const Comparison& comparison);

@@ -64,12 +64,14 @@ public:
     try {
       m_report["input"] = nullptr;
       const Prepared_soup prepared = read_and_prepare();
+      if (m_request.is_error_everywhere)
+        m_error_search.emplace(*m_request.options.max_error);
       m_guarded_poses = key_poses(prepared.soup, number_of_key_poses(prepared.soup.poses.size()));
       std::vector<Level> levels;
       do {
         levels = reduce(prepared);
         judge(levels, prepared);
-      } while (guard_more_poses(levels));
+      } while (guard_more_poses(levels) || lower_error(levels));
       write(prepared, levels);
       report(prepared, levels);
       return m_outcome.exit_code();
@@ -237,10 +239,32 @@ private:
     return further == 0 ? "" : " in " + counted(1 + further, "pose");
   }
 
+  // Where the error is to be kept everywhere, and is not, lowers that of the next reduction; or guards the
+  // pose where it is not kept, if that was not judged. Returns whether the reduction is to be done again.
+  bool lower_error(const std::vector<Level>& levels)
+  {
+    if (!m_error_search || !m_outcome.is_accepted || m_outcome.is_interrupted)
+      return false;
+    Bounds_over_poses largest;
+    for (const Level& level : levels)
+      if (const Bounds_over_poses& of_level = level.distances_anywhere->larger();
+          of_level.upper >= largest.upper)
+        largest = of_level;
+    if (largest.upper > *m_request.options.max_error && largest.pose &&
+        !std::binary_search(m_guarded_poses.begin(), m_guarded_poses.end(), *largest.pose)) {
+      m_guarded_poses.insert(std::lower_bound(m_guarded_poses.begin(), m_guarded_poses.end(), *largest.pose),
+                             *largest.pose);
+      return true;
+    }
+    return m_error_search->lower(largest.upper);
+  }
+
   std::vector<Level> reduce(const Prepared_soup& prepared)
   {
     m_bar.begin("sewing and indexing");
     Simplify_options options = m_request.options;
+    if (m_error_search)
+      options.max_error = m_error_search->max_error();
     if (m_guarded_poses.size() < prepared.soup.poses.size())
       options.guarded_poses = m_guarded_poses;
     options.is_progression_recorded = !m_request.progressive.empty();
@@ -303,6 +327,7 @@ private:
       m_seconds["reduce"] = std::max(m_seconds["reduce"], results[i].report.seconds_reduce);
       const bool is_one_of_file = are_levels_in_one_file(m_request);
       levels.push_back({names[is_one_of_file ? 0 : i], std::move(results[i]), {}, {}, m_guarded_poses, {}});
+      levels.back().error_search = m_error_search;
       if (is_one_of_file)
         levels.back().number = i + 1;
     }
@@ -462,6 +487,7 @@ private:
       add_reduction(json, prepared, level.result);
       add_verification(json, level.verification, true);
       add_distances(json, level.verification, level.distances_anywhere);
+      add_error_search(json, level.error_search);
       for (Json& pose : json["verified"]["poses"]) {
         pose["guarded"] = false;
         pose["refused"] = 0;
@@ -559,8 +585,9 @@ private:
   Log_header m_log_header;
   std::ostringstream m_log;
   std::vector<std::size_t> m_guarded_poses;
-  std::vector<Soup_collapse> m_collapses; // if a page shows them
-  Progression m_progression;              // if it is written
+  std::optional<Error_search> m_error_search; // where the error is to be kept everywhere
+  std::vector<Soup_collapse> m_collapses;     // if a page shows them
+  Progression m_progression;                  // if it is written
   std::map<std::string, double> m_seconds;
   std::size_t m_polygons = 0; // of the input, faces of more than three corners that may be written
   bool m_is_stop_told = false;

@@ -321,13 +321,21 @@ void print_distances(std::ostream& stream, const Level& level, const Distances_a
                      double limit)
 {
   const auto& [there, back] = distances;
-  const Bounds_over_poses& larger = there.upper < back.upper ? back : there;
+  const Bounds_over_poses& larger = distances.larger();
   const std::size_t poses = level.verification.poses.size(), guarded = level.guarded_poses.size();
   stream << "distance of any point" << (poses > 0 ? " in any pose" : "") << ": at most "
          << percent(there.upper) << " from the original to the result, " << percent(back.upper) << " back";
   if (poses > 0)
     stream << "; the most in " << describe_pose(level.verification, larger.pose);
   stream << '\n';
+  if (level.error_search && larger.upper <= limit) {
+    const std::size_t reductions = level.error_search->reductions();
+    stream << "limit: " << percent(limit) << " holds at every point";
+    if (reductions > 1)
+      stream << "; found in " << reductions << " reductions, the last with --error "
+             << with_digits(level.error_search->max_error());
+    stream << '\n';
+  }
   if (limit <= 0 || larger.upper <= 1.01 * limit)
     return;
   if (larger.pose &&
@@ -337,15 +345,14 @@ void print_distances(std::ostream& stream, const Level& level, const Distances_a
            << ", in which every collapse was judged; --key-poses all keeps it in all\n";
   else
     stream << "limit: " << percent(limit)
-           << " holds at vertices and at points between them; a smaller one, such as --error "
-           << with_digits(limit * limit / larger.upper) << ", brings all points nearer\n";
+           << " holds at vertices and at points between them; --error-everywhere keeps it at every point\n";
 }
 
 void print_summary(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
                    const Level& level, const Outcome& outcome)
 {
-  const auto& [output, result, verification, distances_anywhere, guarded, polygons, number, notes,
-               bytes_more] = level;
+  const auto& [output, result, verification, distances_anywhere, guarded, polygons, number, error_search,
+               notes, bytes_more] = level;
   const Simplify_report& done = result.report;
   const std::size_t faces = result.soup.triangles.size();
   const Distance& distance = verification.distances->original_to_result;

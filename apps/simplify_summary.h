@@ -7,6 +7,7 @@
 #include "Outcome.h"
 #include "Simplify_request.h"
 
+#include <selvedge/Error_search.h>
 #include <selvedge/compare.h>
 #include <selvedge/mesh_files.h>
 #include <selvedge/simplify.h>
@@ -37,8 +38,9 @@ struct Level
 
   std::size_t number = 0; ///< among the levels in the file, from 1; 0 where it is alone there
 
-  Write_notes notes = {};        ///< on the file, where it is alone there
-  std::uintmax_t bytes_more = 0; ///< than the input has, where this is of the same format
+  std::optional<Error_search> error_search = {}; ///< where the limit is to be kept everywhere
+  Write_notes notes = {};                        ///< on the file, where it is alone there
+  std::uintmax_t bytes_more = 0;                 ///< than the input has, where this is of the same format
 };
 
 /// Says in a sentence that the file is larger than the input, and why; empty where it is not.

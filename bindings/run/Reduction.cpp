@@ -49,24 +49,34 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request)
     header.obstacle = {request.obstacle.points.size(), request.obstacle.triangles.size(), {}};
   m_prepared = prepare(std::move(input), request.prepare, request.obstacle);
 
-  Simplify_options options = request.options;
-  std::ostringstream stream;
-  std::optional<Reduction_log> log;
-  if (request.is_log_wanted) {
-    log.emplace(stream, header, numbering, m_prepared, options);
-    options.on_collapse = [&](const Soup_collapse& collapse) {
-      log->add_collapse(collapse);
-      m_collapses.push_back(collapse);
-    };
-  }
-  m_result = simplify_soup(m_prepared, options, request.intent);
-  if (log) {
-    log->finish(m_result);
-    m_log = stream.str();
-  }
-  const Clock::time_point start = Clock::now();
-  m_verification = verify(m_result, m_prepared);
-  m_seconds_verify = seconds_since(start);
+  if (request.is_error_everywhere)
+    m_error_search.emplace(*request.options.max_error);
+  do {
+    Simplify_options options = request.options;
+    if (m_error_search)
+      options.max_error = m_error_search->max_error();
+    std::ostringstream stream;
+    std::optional<Reduction_log> log;
+    m_collapses.clear();
+    if (request.is_log_wanted) {
+      log.emplace(stream, header, numbering, m_prepared, options);
+      options.on_collapse = [&](const Soup_collapse& collapse) {
+        log->add_collapse(collapse);
+        m_collapses.push_back(collapse);
+      };
+    }
+    m_result = simplify_soup(m_prepared, options, request.intent);
+    if (log) {
+      log->finish(m_result);
+      m_log = stream.str();
+    }
+    const Clock::time_point start = Clock::now();
+    m_verification = verify(m_result, m_prepared);
+    if (m_error_search)
+      m_distances = distances_anywhere(m_result.soup, m_prepared.soup);
+    m_seconds_verify = seconds_since(start);
+  } while (m_error_search && is_accepted() && !is_stopped() &&
+           m_error_search->lower(m_distances->larger().upper));
   if (m_is_sewn)
     m_merged = merged_at_positions(m_result.soup);
 }
@@ -103,6 +113,8 @@ std::string Reduction::report() const
   report["options"] = Json::parse(m_options);
   app::add_reduction(report, m_prepared, m_result);
   app::add_verification(report, m_verification, true);
+  app::add_distances(report, m_verification, m_distances);
+  app::add_error_search(report, m_error_search);
   app::add_parts(report, m_prepared, m_result);
   report["seconds"] = {{"weld", m_prepared.seconds_positions + m_result.seconds_sew},
                        {"check", m_prepared.seconds_check},

@@ -6,9 +6,12 @@
 
 #include "Reduction_request.h"
 
+#include <selvedge/Error_search.h>
+#include <selvedge/compare.h>
 #include <selvedge/replay.h>
 #include <selvedge/verify.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,6 +57,8 @@ private:
   Simplified_soup m_result;
   Triangle_soup m_merged; // if it is sewn
   Verification m_verification;
+  std::optional<Distances_anywhere> m_distances; // these two where the error is to be kept everywhere
+  std::optional<Error_search> m_error_search;
   std::string m_log;
   std::vector<Soup_collapse> m_collapses;
   double m_seconds_verify = 0;

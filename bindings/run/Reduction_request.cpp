@@ -169,6 +169,9 @@ const std::vector<Option>& table()
       {"faces", [](Request& r, const std::string& value) { r.options.faces = count(value); },
        [](const Request& r) { return optional_json(r.options.faces); }},
       {"error", set_error, [](const Request& r) { return optional_json(r.options.max_error); }},
+      {"error_everywhere",
+       [](Request& r, const std::string& value) { r.is_error_everywhere = value_of(truth, value); },
+       [](const Request& r) { return Json(r.is_error_everywhere); }},
       number_option<&Simplify_options::max_normal_change, 180>("normal_change"),
       number_option<&Simplify_options::min_aspect_ratio, 1>("aspect_ratio"),
       number_option<&Simplify_options::max_border_turn, 180>("border_turn"),
@@ -269,6 +272,8 @@ void Reduction_request::check() const
 {
   if (!options.ratio && !options.faces && !is_error_given && intent.ratios.empty())
     throw Argument_error("say how far to reduce the mesh: give ratio, faces, error or part_ratios");
+  if (is_error_everywhere && !options.max_error)
+    throw Argument_error("error_everywhere: there is no limit to keep; give a number as error");
 }
 
 std::string Reduction_request::json() const

@@ -39,6 +39,7 @@ struct Reduction_request
   bool is_sewn = false;
   bool is_log_wanted = false;
   bool is_error_given = false; ///< whether `options.max_error` is what the caller said, and no default
+  bool is_error_everywhere = false;
   std::optional<std::size_t> threads;
 };
 

@@ -67,7 +67,8 @@ struct Simplify_options
   /// ways from points between, of grids that divide the sides of triangles into parts no longer than E, and
   /// into 8 at most (for an original of many long sides fewer, see internal/Tracked_points.h). Between these
   /// points, the distance may be larger: where faces are long beside E, 1.3 E was seen. `distances_anywhere`
-  /// bounds it. (The original is the mesh as `prepare` left it.)
+  /// bounds it, and `Error_search` finds an E with which every point is within another. (The original is the
+  /// mesh as `prepare` left it.)
   std::optional<double> max_error;
 
   /// The largest change of a face's normal in one collapse, in degrees from 0 to 180.

@@ -52,7 +52,10 @@ struct Distances_anywhere
   Bounds_over_poses original_to_result = {};
   Bounds_over_poses result_to_original = {};
 
-  double upper() const { return (std::max)(original_to_result.upper, result_to_original.upper); }
+  const Bounds_over_poses& larger() const
+  {
+    return original_to_result.upper < result_to_original.upper ? result_to_original : original_to_result;
+  }
 };
 
 /// Computes both with `maximum_distance`. Throws `Argument_error` unless both meshes have the same number of

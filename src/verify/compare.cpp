@@ -163,7 +163,7 @@ Comparison compare(const Triangle_soup& result, const Triangle_soup& original)
       }),
       Cancellation_scope::inherited([&] { compare_values(comparison, result, original); }));
 
-  const double largest = in_first_pose.upper();
+  const double largest = in_first_pose.larger().upper;
   tbb::parallel_invoke(Cancellation_scope::inherited([&] {
                          comparison.distances = over_poses(in_first_pose, result, original, diagonal);
                        }),

@@ -215,7 +215,7 @@ TEST(Comparison, BoundsTheDistancesInAllPoses)
   EXPECT_THROW(distances_anywhere(after, before), Argument_error);
   EXPECT_THROW(compare(after, before), Argument_error);
   after.poses = before.poses = {};
-  EXPECT_LT(distances_anywhere(after, before).upper(), 1e-12);
+  EXPECT_LT(distances_anywhere(after, before).larger().upper, 1e-12);
   EXPECT_FALSE(distances_anywhere(after, before).original_to_result.pose);
 }
 
@@ -232,8 +232,8 @@ TEST(Comparison, IsTheSameAtTheLargestScale)
   const Comparison expected = compare(around_zero(after), around_zero(before)),
                    found = compare(largest(after), largest(before));
   EXPECT_EQ(found.diagonal, infinity);
-  EXPECT_GT(expected.distances.upper(), 0.1);
-  EXPECT_EQ(found.distances.upper(), expected.distances.upper());
+  EXPECT_GT(expected.distances.larger().upper, 0.1);
+  EXPECT_EQ(found.distances.larger().upper, expected.distances.larger().upper);
   EXPECT_EQ(found.borders.original_to_result.maximum.upper,
             expected.borders.original_to_result.maximum.upper);
   EXPECT_EQ(found.normals.mean, expected.normals.mean);

@@ -10,7 +10,9 @@
 #include "soup/selection.h"
 #include "support/Temporary_folder.h"
 #include <selvedge/Error.h>
+#include <selvedge/Error_search.h>
 #include <selvedge/cells.h>
+#include <selvedge/compare.h>
 #include <selvedge/mesh_files.h>
 
 #include <oneapi/tbb/global_control.h>
@@ -272,6 +274,30 @@ Verdict judge_in_pieces(const World& world, Random& random)
   return std::nullopt;
 }
 
+// Reduces until the error is kept at every point.
+Verdict judge_error_everywhere(const World& world, const World_run& run, Judgement_counts& counts,
+                               const Judgement_extent& extent)
+{
+  const double wanted = *world.options.max_error;
+  Error_search search(wanted);
+  World twin = world;
+  World_run again;
+  double upper = 0;
+  do {
+    twin.options.max_error = search.max_error();
+    again = run_again(twin, run.prepared);
+    if (again.result.report.is_stopped)
+      return std::nullopt;
+    upper = distances_anywhere(again.result.soup, run.prepared.soup).larger().upper;
+  } while (search.lower(upper));
+  if (upper > wanted)
+    return Broken_promise{Promise::stop, "an error cannot be kept everywhere"};
+  auto broken = judge(twin, test::run(twin), counts, {extent.is_replay_asked, 0});
+  if (broken)
+    broken->message += ", with an error that is kept everywhere";
+  return broken;
+}
+
 } // namespace
 
 Verdict judge_twins(const World& world, const World_run& run, Judgement_counts& counts,
@@ -331,6 +357,12 @@ Verdict judge_twins(const World& world, const World_run& run, Judgement_counts& 
   if (!world.lods.empty()) {
     ++counts.twins;
     if (auto broken = judge_levels(world, run))
+      return broken;
+  }
+  const bool is_limited = world.options.max_error && *world.options.max_error > 0;
+  if (is_limited && !world.options.guarded_poses && !run.result.soup.triangles.empty() && random.one_in(4)) {
+    ++counts.twins;
+    if (auto broken = judge_error_everywhere(world, run, counts, extent))
       return broken;
   }
   if (random.one_in(8) && !is_scene && world.soup.poses.empty()) {
