@@ -252,7 +252,7 @@ public:
                  const Simplify_constraints<TriangleMesh>& constraints, Observer& observer,
                  const VertexPointMap& points)
       : m_start(Clock::now()), m_mesh(mesh), m_points(points), m_options(options), m_observer(observer),
-        m_diagonal(constraints.diagonal ? *constraints.diagonal : diagonal_of_box()),
+        m_diagonal(in_range(constraints.diagonal ? *constraints.diagonal : diagonal_of_box())),
         m_joint(mesh, points, joint_vertices(constraints)), m_rule(make_rule(constraints, points)),
         m_targets(make_targets(constraints)), m_quadrics(mesh, options.cost, m_rule),
         m_partners(mesh, constraints.partners), m_line(m_rule), m_pieces({&observer, m_rule}, m_line),
@@ -267,7 +267,6 @@ public:
         m_offending_pairs(constraints.offending_pairs), m_multiplicities(constraints.multiplicities),
         m_may_intersect(constraints.may_intersect), m_obstacle(constraints.uncounted_faces)
   {
-    refuse_out_of_range();
     if (!m_poses.empty() && options.placement == Placement::optimal)
       throw Argument_error("a new place of a vertex is a place in one pose; with several poses, vertices go "
                            "to others");
@@ -989,8 +988,13 @@ private:
   CGAL::Bbox_3 bounding_box() const
   {
     CGAL::Bbox_3 box;
-    for (const auto v : vertices(m_mesh))
-      box += get(m_points, v).bbox();
+    for (const auto v : vertices(m_mesh)) {
+      const CGAL::Bbox_3 of_point = get(m_points, v).bbox();
+      for (int i = 0; i < 3; ++i)
+        if (!std::isfinite(of_point.max(i)))
+          throw Argument_error("a vertex of the mesh has a coordinate that is not finite");
+      box += of_point;
+    }
     return box;
   }
 
@@ -1007,14 +1011,14 @@ private:
   // than 2^(4d + 50) and does not overflow for d up to 200. For comparisons, the length of the normal of a
   // triangle, which is twice its area A, is squared; the square keeps all digits where 2A > 2^-500. With d at
   // least -200, that holds for all triangles with an area of more than 2^-100 D².
-  void refuse_out_of_range() const
+  double in_range(double diagonal) const
   {
-    if (m_diagonal == 0 || (m_diagonal >= 0x1p-200 && m_diagonal <= 0x1p200))
-      return;
+    if (diagonal == 0 || (diagonal >= 0x1p-200 && diagonal <= 0x1p200))
+      return diagonal;
     const CGAL::Bbox_3 box = bounding_box();
     std::ostringstream text;
     text
-        << "the bounding box of the mesh, " << box << ", is too " << (m_diagonal < 1 ? "small" : "large")
+        << "the bounding box of the mesh, " << box << ", is too " << (diagonal < 1 ? "small" : "large")
         << ": its diagonal is to be from 2^-200 to 2^200, so that squares of areas are numbers; multiply all "
            "coordinates by a power of two, which loses no digit, and those of the result by its inverse";
     throw Argument_error(text.str());
