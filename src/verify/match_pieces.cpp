@@ -36,7 +36,7 @@ namespace {
 
 // The largest root mean square distance of matching pieces, as a share of the diagonal of the original's.
 constexpr double most_distance = 0.25;
-// A piece that has only vertices of its original may be this far off, as a share of the diagonal of the whole
+// A piece that has a vertex of its original may be this far off, as a share of the diagonal of the whole
 // mesh: small parts are no larger, and a reduction may leave little of them.
 constexpr double most_distance_of_own = 0.01;
 // How many times as far as the nearest piece a matching piece may be.
@@ -821,7 +821,7 @@ private:
     return std::hypot(box.x_span(), box.y_span(), box.z_span());
   }
 
-  bool has_vertices_of_original_alone(const Piece_match& match) const
+  bool has_vertex_of_original(const Piece_match& match) const
   {
     const auto is_of_original = [&](Index position) {
       const Lists::Range here = m_original_at[position];
@@ -829,8 +829,8 @@ private:
                          [&](Index o) { return std::binary_search(here.begin(), here.end(), o); });
     };
     const std::vector<Index> triangles = m_result.triangles_of(match.of_result);
-    return std::all_of(triangles.begin(), triangles.end(), [&](Index t) {
-      return is_of_original(m_result.position(t, 0)) && is_of_original(m_result.position(t, 1)) &&
+    return std::any_of(triangles.begin(), triangles.end(), [&](Index t) {
+      return is_of_original(m_result.position(t, 0)) || is_of_original(m_result.position(t, 1)) ||
              is_of_original(m_result.position(t, 2));
     });
   }
@@ -856,7 +856,7 @@ private:
                describe(m_result, match.of_result) + " of the result";
       };
       if (match.distance > most_distance &&
-          !(match.distance * diagonals[i] <= allowed && has_vertices_of_original_alone(match))) {
+          !(match.distance * diagonals[i] <= allowed && has_vertex_of_original(match))) {
         char percents[32];
         std::snprintf(percents, sizeof percents, "%.0f %%", 100 * match.distance);
         add_mismatch(Mismatch::far, match.of_original, match.of_result,
