@@ -84,6 +84,8 @@ std::string remedy(Hindrance reason, const Simplify_request& request, const Tria
     return options.max_normal_change < 90    ? "--normal-change 90"
            : options.max_normal_change < 180 ? "--normal-change 180"
                                              : "";
+  case Hindrance::shading:
+    return "--normals recompute";
   case Hindrance::error:
     return "--error " + with_digits(*options.max_error > 0 ? 5 * *options.max_error : 0.01);
   case Hindrance::clearance:

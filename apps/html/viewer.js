@@ -905,6 +905,7 @@ class Viewer {
   paint() {
     const {data, level, mode, hidden} = this;
     const legend = [];
+    const colour_of_reason = reason => reason < data.reasons.length ? colour_of_number(reason + 1) : FREE;
     const held = new Int16Array(this.models[0].faces).fill(-1);
     if (level && level.triangles)
       level.triangles.forEach((triangle, row) => held[triangle] = level.held_by.length ? level.held_by[row] : data.reasons.length);
@@ -919,7 +920,7 @@ class Viewer {
         plain: () => PLAIN,
         distance: () => PLAIN,
         checker: t => colours[part(t)] || PLAIN,
-        reason: t => held[t] < 0 ? GONE : REASONS[held[t]] || FREE,
+        reason: t => held[t] < 0 ? GONE : colour_of_reason(held[t]),
         still: t => STILL.find(([flag]) => mesh.flags && mesh.flags[t] & flag || flag === 0)[1]
       }[mode];
       model.paint(hidden.size === 0 ? colour : t => hidden.has(part(t)) ? null : colour(t));
@@ -930,7 +931,7 @@ class Viewer {
         counts.set(reason, (counts.get(reason) || 0) + 1);
       for (const [reason, count] of [...counts].sort((a, b) => b[1] - a[1]))
         if (reason >= 0)
-          legend.push([REASONS[reason] || FREE, data.reasons[reason] || 'the target, which is reached', count]);
+          legend.push([colour_of_reason(reason), data.reasons[reason] || 'the target, which is reached', count]);
       if (counts.has(-1))
         legend.push([GONE, 'gone in the result', counts.get(-1)]);
     } else if (mode === 'still') {
@@ -1023,7 +1024,6 @@ function svg(tag, attributes) {
     made.setAttribute(name, value);
   return made;
 }
-const REASONS = Array.from({length: 22}, (_, i) => colour_of_number(i + 1));
 const STILL = [[OFFENDING, [214, 40, 57], 'in an offending pair'], [FROZEN, [52, 110, 196], 'frozen'],
   [LOCKED, [233, 164, 34], 'locked or kept, as asked'], [0, FREE, 'free to change']];
 

@@ -180,7 +180,7 @@ enum class Mismatch {
   topology, ///< pieces lie where those of the original do, but are of other kinds
   name,     ///< faces have a group, object or material that the original has elsewhere, or a name is gone
   far,   ///< pieces are farther from those of the original than a quarter of their size, and than 1 % of the
-         ///< whole diagonal or not made of vertices of the original's pieces alone
+         ///< whole diagonal or without a vertex of the original's pieces
   turned ///< the inside has become the outside
 };
 

@@ -17,11 +17,11 @@
 namespace selvedge::internal {
 namespace {
 
-// A piece that has only vertices of its original may be this far off, as a share of the diagonal of the whole
+// A piece that has a vertex of its original may be this far off, as a share of the diagonal of the whole
 // mesh: small parts are no larger, and a reduction may leave little of them.
 constexpr double most_distance_of_own = 0.01;
 
-bool has_vertices_of_original_alone(const Matching& matching, const Piece_match& match)
+bool has_vertex_of_original(const Matching& matching, const Piece_match& match)
 {
   const auto is_of_original = [&](Index position) {
     const Lists::Range here = matching.original_at[position];
@@ -29,8 +29,8 @@ bool has_vertices_of_original_alone(const Matching& matching, const Piece_match&
                        [&](Index o) { return std::binary_search(here.begin(), here.end(), o); });
   };
   const std::vector<Index> triangles = matching.result.triangles_of(match.of_result);
-  return std::all_of(triangles.begin(), triangles.end(), [&](Index t) {
-    return is_of_original(matching.result.position(t, 0)) && is_of_original(matching.result.position(t, 1)) &&
+  return std::any_of(triangles.begin(), triangles.end(), [&](Index t) {
+    return is_of_original(matching.result.position(t, 0)) || is_of_original(matching.result.position(t, 1)) ||
            is_of_original(matching.result.position(t, 2));
   });
 }
@@ -59,7 +59,7 @@ void judge_shapes(Matching& matching)
              describe(matching.result, match.of_result) + " of the result";
     };
     if (match.distance > most_distance &&
-        !(match.distance * diagonals[i] <= allowed && has_vertices_of_original_alone(matching, match))) {
+        !(match.distance * diagonals[i] <= allowed && has_vertex_of_original(matching, match))) {
       char percents[32];
       std::snprintf(percents, sizeof percents, "%.0f %%", 100 * match.distance);
       matching.add_mismatch(Mismatch::far, match.of_original, match.of_result,

@@ -9,6 +9,7 @@
 #include <selvedge/Surface_mesh_simplification/Intersection_filter.h>
 #include <selvedge/Surface_mesh_simplification/Normal_change_filter.h>
 #include <selvedge/Surface_mesh_simplification/Quadric_cost.h>
+#include <selvedge/Surface_mesh_simplification/simplify_mesh.h>
 #include <selvedge/Surface_mesh_simplification/stop_predicates.h>
 #include <selvedge/verify.h>
 
@@ -140,6 +141,25 @@ TEST(Composition, WithAnExactKernel)
                                   .filter(filter)
                                   .visitor(filter.visitor())),
             0u);
+}
+
+// Both kernels decide exactly, so that nothing differs but the type of the points.
+TEST(Composition, InAWholeReductionWithAnExactKernel)
+{
+  using Exact_mesh = CGAL::Surface_mesh<CGAL::Exact_predicates_exact_constructions_kernel::Point_3>;
+  for (const Collapse_loop loop : {Collapse_loop::own, Collapse_loop::cgal})
+    for (const Face_index index : {Face_index::packed, Face_index::clusters}) {
+      Simplify_options options;
+      options.ratio = 0.3;
+      options.loop = loop;
+      options.index = index;
+      Exact_mesh exact = to_mesh<Exact_mesh>(sheets(400, 2, 1e-5));
+      Surface_mesh usual = to_mesh<Surface_mesh>(sheets(400, 2, 1e-5));
+      EXPECT_GT(simplify_mesh(exact, options).collapses, 50u);
+      simplify_mesh(usual, options);
+      EXPECT_EQ(to_soup(exact).points, to_soup(usual).points);
+      EXPECT_EQ(offending_pairs(to_soup(exact)).size(), 0u);
+    }
 }
 
 TEST(Composition, OnTopOfAFilterOfCgal)

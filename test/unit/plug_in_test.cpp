@@ -9,6 +9,7 @@
 #include <selvedge/Surface_mesh_simplification/Normal_change_filter.h>
 #include <selvedge/Surface_mesh_simplification/Visitor_chain.h>
 #include <selvedge/Surface_mesh_simplification/edge_collapse.h>
+#include <selvedge/Surface_mesh_simplification/simplify_mesh.h>
 #include <selvedge/spatial/Clustered_AABB_tree.h>
 #include <selvedge/verify.h>
 
@@ -18,6 +19,7 @@
 #include "support/soups.h"
 
 #include <CGAL/Polygon_mesh_processing/repair.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 #include <CGAL/Surface_mesh_simplification/Edge_collapse_visitor_base.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_profile.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
@@ -26,6 +28,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -145,6 +148,51 @@ TEST(Intersection_filter, IsRefusedForAMeshThatHasChangedSinceItWasMade)
   CGAL::Euler::remove_face(halfedge(*faces(mesh).begin(), mesh), mesh);
   EXPECT_THROW(collapse(true, mesh, CGAL::parameters::filter(filter).visitor(filter.visitor())),
                Argument_error);
+}
+
+TEST(Intersection_filter, IsRefusedForAMeshWhoseVerticesHaveMovedAndForAnother)
+{
+  for (const bool is_own : {true, false}) {
+    Mesh mesh = waves();
+    const Intersection_filter<Mesh> filter(mesh);
+    Mesh copy = mesh;
+    EXPECT_NE(refusal(is_own, copy, filter, filter.visitor()).find("another mesh"), std::string::npos);
+    const Mesh::Vertex_index moved = *vertices(mesh).begin();
+    const Point_3 place = mesh.point(moved);
+    mesh.point(moved) = Point_3(place.x(), place.y(), place.z() + 1);
+    EXPECT_NE(refusal(is_own, mesh, filter, filter.visitor()).find("has changed"), std::string::npos);
+    mesh.point(moved) = place;
+    EXPECT_EQ(refusal(is_own, mesh, filter, filter.visitor()), "no refusal");
+  }
+}
+
+TEST(Intersection_filter, RefusesFacesThatAreNoTriangles)
+{
+  Mesh mesh;
+  mesh.add_face(mesh.add_vertex({0, 0, 0}), mesh.add_vertex({1, 0, 0}), mesh.add_vertex({1, 1, 0}),
+                mesh.add_vertex({0, 1, 0}));
+  EXPECT_THROW(Intersection_filter<Mesh>{mesh}, Argument_error);
+  EXPECT_THROW(simplify_mesh(mesh, {}), Argument_error);
+  CGAL::Polygon_mesh_processing::triangulate_faces(mesh);
+  EXPECT_NO_THROW(Intersection_filter<Mesh>{mesh});
+}
+
+TEST(Intersection_filter, RefusesCoordinatesThatAreNotFinite)
+{
+  using Limits = std::numeric_limits<double>;
+  for (const double wrong : {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity()})
+    for (const Point_3& place : {Point_3(wrong, 0, 0), Point_3(0, wrong, 0), Point_3(0, 0, wrong)}) {
+      Mesh mesh = waves();
+      mesh.point(*vertices(mesh).begin()) = place;
+      for (const auto& make :
+           {+[](Mesh& of) { Intersection_filter<Mesh>{of}; }, +[](Mesh& of) { simplify_mesh(of, {}); }})
+        try {
+          make(mesh);
+          ADD_FAILURE() << "a mesh with " << place << " is taken";
+        } catch (const Argument_error& error) {
+          EXPECT_NE(std::string(error.what()).find("not finite"), std::string::npos) << error.what();
+        }
+    }
 }
 
 TEST(Intersection_filter, IsMadeFromNamedParameters)

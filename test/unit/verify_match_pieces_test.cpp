@@ -81,6 +81,9 @@ TEST(MatchPieces, OfWhichLittleIsLeftAreRightWhereTheyAreSmall)
   EXPECT_EQ(mismatches(matching), Mismatches{});
   EXPECT_GT(matching.matches.back().distance, 0.25) << "the control";
   EXPECT_NE(mismatches(with_button(coarse(), moved(corner, 0.01, 0, 0)), original), Mismatches{});
+  const Triangle_soup placed =
+      soup({{0, 0, 0}, {1.1, 0, 0}, {0.1, 0.9, 0}}, {{0, 1, 2}}); // --placement optimal
+  EXPECT_EQ(mismatches(with_button(coarse(), placed), original), Mismatches{});
 }
 
 TEST(MatchPieces, FindACopyOfAnotherInThePlaceOfOne)

@@ -230,7 +230,7 @@ public:
       state.reached_cost = (std::max)(state.reached_cost, *choice->cost);
     for (unsigned next = 0; (choice = m_placement.choice(profile, next)) && choice->cost; ++next) {
       if (next > rank && *choice->cost > state.reached_cost) {
-        put(state.rank, e, (unsigned char)(next));
+        put(state.rank, e, static_cast<unsigned char>(next));
         ++state.reversed;
         break;
       }
@@ -253,7 +253,7 @@ public:
     // First choices that were refused around here may be possible now.
     for (const auto h : CGAL::halfedges_around_target(halfedge(kept, m_state->mesh), m_state->mesh))
       for (const auto g : CGAL::halfedges_around_target(opposite(h, m_state->mesh), m_state->mesh))
-        put(m_state->rank, edge(g, m_state->mesh), (unsigned char)(0));
+        put(m_state->rank, edge(g, m_state->mesh), static_cast<unsigned char>(0));
   }
 
   /// A visitor that makes these three calls and does nothing else.

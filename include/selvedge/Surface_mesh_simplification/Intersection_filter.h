@@ -44,9 +44,10 @@ namespace selvedge {
 /// **Preconditions** The caller must ensure that the mesh outlives the filter; that between the construction
 /// of the filter and the end of the loop, only the loop changes the mesh. Checked in every build, with an
 /// `Argument_error`:
-/// - at the construction: no edge has length zero (CGAL's loop would collapse such an edge without asking a
-///   filter), and the faces around every vertex form one fan (`duplicate_non_manifold_vertices()` of
-///   `CGAL::Polygon_mesh_processing` separates several);
+/// - at the construction: all faces are triangles, all coordinates are finite, no edge has length zero
+///   (CGAL's loop would collapse such an edge without asking a filter), and the faces around every vertex
+///   form one fan (`duplicate_non_manifold_vertices()` of `CGAL::Polygon_mesh_processing` separates several);
+/// - when the loop begins: its mesh is that of the filter, and its vertices are where they were;
 /// - when the loop asks the filter for the first time, before any collapse: it has called the visitor's
 ///   `OnStarted`, as both loops do before they ask. Nothing earlier tells a loop without the visitor from one
 ///   that has not begun. A program that asks the filter itself calls `filter.visitor().OnStarted(mesh)`
@@ -94,7 +95,7 @@ public:
   public:
     explicit Visitor(const std::shared_ptr<Guard>& guard) : m_guard(guard) {}
 
-    void OnStarted(TriangleMesh&) { m_guard->on_started(); }
+    void OnStarted(TriangleMesh& mesh) { m_guard->on_started(mesh); }
     void OnFinished(TriangleMesh&) { m_guard->on_finished(); }
     template <class Profile, class OptionalPoint>
     void OnCollapsing(const Profile& profile, const OptionalPoint& placement)

@@ -524,7 +524,7 @@ private:
           continue;
         normalise(normal);
         for (const Halfedge h : {next(to_v, mesh), to_v})
-          if (const double share = share_of_line(h, mesh))
+          if (const double share = share_of_line(h, mesh); share != 0)
             add_line(share, normal, vector(get(points, source(h, mesh))),
                      vector(get(points, target(h, mesh))), of_lines);
       }

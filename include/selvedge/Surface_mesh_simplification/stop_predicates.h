@@ -115,7 +115,7 @@ public:
   template <class FT, class Profile>
   bool operator()(const FT& cost, const Profile&, std::size_t, std::size_t) const
   {
-    return m_is_over(cost);
+    return m_is_over(CGAL::to_double(cost));
   }
 
 private:

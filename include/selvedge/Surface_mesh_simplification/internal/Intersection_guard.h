@@ -124,7 +124,16 @@ public:
   bool is_mover_first() const { return m_is_mover_first; }
 
   /// Called at the start and at the end of each run of a loop.
-  void on_started() { m_is_run_announced = m_is_announcement_due = true; }
+  void on_started(const TriangleMesh& mesh)
+  {
+    if (&mesh != &m_mesh)
+      throw Argument_error(
+          "the loop runs on another mesh than that of its intersection filter; make the filter "
+          "of the mesh that the loop changes, not of a copy");
+    if (!m_vertices.are_in_place(mesh))
+      refuse_changed_mesh();
+    m_is_run_announced = m_is_announcement_due = true;
+  }
   void on_finished() { m_is_run_announced = false; }
 
   template <class Profile>
@@ -187,9 +196,14 @@ private:
       throw Argument_error("the loop has not called the visitor of its intersection filter; give the loop "
                            "this visitor as well, `visitor(filter.visitor())`, or a `Visitor_chain` with it");
     if (m_is_announcement_due && current_faces(m_mesh) != m_faces.size())
-      throw Argument_error("the mesh has changed without the knowledge of its intersection filter; pass all "
-                           "calls of the loop on to the filter's visitor, as a `Visitor_chain` does, and "
-                           "make the filter when the mesh is as the loop is to begin with");
+      refuse_changed_mesh();
+  }
+  [[noreturn]] static void refuse_changed_mesh()
+  {
+    throw Argument_error(
+        "the mesh has changed without the knowledge of its intersection filter; pass all calls "
+        "of the loop on to the filter's visitor, as a `Visitor_chain` does, and make the "
+        "filter when the mesh is as the loop is to begin with");
   }
 
   template <class Profile>

@@ -200,6 +200,19 @@ class Simplification
     }
   };
 
+  struct Is_shading_kept
+  {
+    const Observer* observer;
+    Rule rule;
+
+    template <class Profile>
+    bool operator()(const Collapse<Profile>& collapse) const
+    {
+      return collapse.are_both_moved() ? observer->keeps_shading_at(collapse.moving(), collapse.place())
+                                       : observer->keeps_shading(collapse.moving(), rule);
+    }
+  };
+
   struct Are_pieces_kept
   {
     const Observer* observer;
@@ -221,7 +234,8 @@ class Simplification
   using Target = Halfedge_filter<Targets, Border>;
   using Aspect_ratio = Aspect_ratio_filter<Target, Is_of_strip>;
   using Normal_change = Normal_change_filter<Aspect_ratio>;
-  using Uv = Halfedge_filter<Is_uv_orientation_kept, Normal_change>;
+  using Shading = Halfedge_filter<Is_shading_kept, Normal_change>;
+  using Uv = Halfedge_filter<Is_uv_orientation_kept, Shading>;
   using Error = Error_filter<Tracked_points<TriangleMesh>, Uv>;
   using Intersection =
       Intersection_filter<TriangleMesh, Error, Selectable_index, VertexPointMap, Geom_traits>;
@@ -238,21 +252,21 @@ public:
                  const Simplify_constraints<TriangleMesh>& constraints, Observer& observer,
                  const VertexPointMap& points)
       : m_start(Clock::now()), m_mesh(mesh), m_points(points), m_options(options), m_observer(observer),
-        m_diagonal(constraints.diagonal ? *constraints.diagonal : diagonal_of_box()),
+        m_diagonal(in_range(constraints.diagonal ? *constraints.diagonal : diagonal_of_box())),
         m_joint(mesh, points, joint_vertices(constraints)), m_rule(make_rule(constraints, points)),
         m_targets(make_targets(constraints)), m_quadrics(mesh, options.cost, m_rule),
         m_partners(mesh, constraints.partners), m_line(m_rule), m_pieces({&observer, m_rule}, m_line),
         m_border({&m_partners}, m_pieces), m_target(m_targets, m_border),
         m_aspect_ratio(options.min_aspect_ratio, m_target, {&mesh, m_rule}),
         m_normal_change(options.max_normal_change, m_aspect_ratio),
-        m_uv({options.check_uv_orientation ? &observer : nullptr, m_rule}, m_normal_change), m_tracked(mesh),
+        m_shading({&observer, m_rule}, m_normal_change),
+        m_uv({options.check_uv_orientation ? &observer : nullptr, m_rule}, m_shading), m_tracked(mesh),
         m_error(max_error(), m_tracked, m_uv),
         m_poses(mesh, options, constraints, m_diagonal, max_error(), {&mesh, m_rule},
                 [&](const auto& of_pose) { return make_rule(constraints, of_pose); }),
         m_offending_pairs(constraints.offending_pairs), m_multiplicities(constraints.multiplicities),
         m_may_intersect(constraints.may_intersect), m_obstacle(constraints.uncounted_faces)
   {
-    refuse_out_of_range();
     if (!m_poses.empty() && options.placement == Placement::optimal)
       throw Argument_error("a new place of a vertex is a place in one pose; with several poses, vertices go "
                            "to others");
@@ -304,6 +318,7 @@ public:
     result.error = m_error.refusals();
     result.aspect_ratio = m_aspect_ratio.refusals();
     result.normal_change = m_normal_change.refusals();
+    result.shading = m_shading.refusals();
     result.uv = m_uv.refusals();
     result.intersection = (m_intersection ? m_intersection->refusals() : 0) + m_refused_in_first_pose;
     m_poses.add_refusals(result);
@@ -528,6 +543,8 @@ private:
       return Hindrance::aspect_ratio;
     if (!m_normal_change.accepts(collapse))
       return Hindrance::normal_change;
+    if (!m_shading.accepts(collapse))
+      return Hindrance::shading;
     if (!m_uv.accepts(collapse))
       return Hindrance::uv;
     if (!m_error.accepts(collapse))
@@ -971,8 +988,13 @@ private:
   CGAL::Bbox_3 bounding_box() const
   {
     CGAL::Bbox_3 box;
-    for (const auto v : vertices(m_mesh))
-      box += get(m_points, v).bbox();
+    for (const auto v : vertices(m_mesh)) {
+      const CGAL::Bbox_3 of_point = get(m_points, v).bbox();
+      for (int i = 0; i < 3; ++i)
+        if (!std::isfinite(of_point.max(i)))
+          throw Argument_error("a vertex of the mesh has a coordinate that is not finite");
+      box += of_point;
+    }
     return box;
   }
 
@@ -989,14 +1011,14 @@ private:
   // than 2^(4d + 50) and does not overflow for d up to 200. For comparisons, the length of the normal of a
   // triangle, which is twice its area A, is squared; the square keeps all digits where 2A > 2^-500. With d at
   // least -200, that holds for all triangles with an area of more than 2^-100 D².
-  void refuse_out_of_range() const
+  double in_range(double diagonal) const
   {
-    if (m_diagonal == 0 || (m_diagonal >= 0x1p-200 && m_diagonal <= 0x1p200))
-      return;
+    if (diagonal == 0 || (diagonal >= 0x1p-200 && diagonal <= 0x1p200))
+      return diagonal;
     const CGAL::Bbox_3 box = bounding_box();
     std::ostringstream text;
     text
-        << "the bounding box of the mesh, " << box << ", is too " << (m_diagonal < 1 ? "small" : "large")
+        << "the bounding box of the mesh, " << box << ", is too " << (diagonal < 1 ? "small" : "large")
         << ": its diagonal is to be from 2^-200 to 2^200, so that squares of areas are numbers; multiply all "
            "coordinates by a power of two, which loses no digit, and those of the result by its inverse";
     throw Argument_error(text.str());
@@ -1045,6 +1067,7 @@ private:
   Target m_target;
   Aspect_ratio m_aspect_ratio;
   Normal_change m_normal_change;
+  Shading m_shading;
   Uv m_uv;
   Tracked_points<TriangleMesh> m_tracked;
   Error m_error;

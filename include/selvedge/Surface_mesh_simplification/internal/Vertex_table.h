@@ -24,8 +24,8 @@ namespace internal {
 /// that take part in the motion being judged.
 ///
 /// It exists because the guard thinks in positions while the mesh has vertices: a mark goes to all vertices
-/// at a position at once. Throws `Argument_error` for a mesh with an edge of length zero or a vertex with
-/// several fans of faces.
+/// at a position at once. Throws `Argument_error` for a mesh with a face that is no triangle, a coordinate
+/// that is not finite, an edge of length zero, or a vertex with several fans of faces.
 template <class TriangleMesh, class VertexPointMap>
 class Vertex_table
 {
@@ -44,13 +44,28 @@ public:
     for (const Vertex v : vertices(mesh)) {
       put(m_numbers, v, Number(m_records.size()));
       m_records.push_back({get(m_points, v), 0, 0, false});
+      const Point& p = m_records.back().point;
+      if (!(CGAL::is_finite(p.x()) && CGAL::is_finite(p.y()) && CGAL::is_finite(p.z())))
+        throw Argument_error(
+            "a vertex of the mesh has a coordinate that is not finite; nothing can be decided "
+            "about its faces");
     }
+    refuse_other_faces(mesh);
     refuse_several_fans(mesh);
     find_coincident(mesh);
   }
 
   /// How many vertices there are, or were before the first collapse.
   std::size_t size() const { return m_records.size(); }
+
+  /// Returns whether no vertex has another place than here.
+  bool are_in_place(const TriangleMesh& mesh) const
+  {
+    const auto all = vertices(mesh);
+    return std::all_of(all.begin(), all.end(), [this](Vertex v) {
+      return number(v) < size() && get(m_points, v) == point(number(v));
+    });
+  }
 
   Number number(Vertex v) const { return get(m_numbers, v); }
   const Point& point(Number v) const { return m_records[v].point; }
@@ -112,6 +127,14 @@ private:
     std::uint32_t mark : 31;
     std::uint32_t is_coincident : 1;
   };
+
+  static void refuse_other_faces(const TriangleMesh& mesh)
+  {
+    for (const auto face : faces(mesh))
+      if (!CGAL::is_triangle(halfedge(face, mesh), mesh))
+        throw Argument_error("the mesh has a face that is no triangle; triangulate_faces() of "
+                             "CGAL::Polygon_mesh_processing makes triangles of all faces");
+  }
 
   // A vertex with several fans leads to one of them only, or it has several borders.
   void refuse_several_fans(const TriangleMesh& mesh) const

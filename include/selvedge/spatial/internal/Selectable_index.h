@@ -27,6 +27,11 @@ public:
   explicit Selectable_index(Packed_R_tree index) : m_index(std::move(index)) {}
   explicit Selectable_index(Clustered_AABB_tree index) : m_index(std::move(index)) {}
 
+  template <class BoxOf>
+  void build(const std::vector<Id>& faces, const BoxOf& box_of)
+  {
+    std::visit([&](auto& index) { index.build(faces, box_of); }, m_index);
+  }
   template <class BoxOf, class Corners_of>
   void build(const std::vector<Id>& faces, const BoxOf& box_of, const Corners_of& corners_of)
   {
@@ -34,6 +39,10 @@ public:
       packed->build(faces, box_of, corners_of);
     else
       std::get<Clustered_AABB_tree>(m_index).build(faces, box_of);
+  }
+  void set(Id face, const CGAL::Bbox_3& box)
+  {
+    std::visit([&](auto& index) { index.set(face, box); }, m_index);
   }
   template <class Corners_of>
   void set(Id face, const CGAL::Bbox_3& box, const Corners_of& corners_of)
