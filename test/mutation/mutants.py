@@ -1070,6 +1070,18 @@ group(
      "the bound counts as a distance that was seen"),
 )
 group(
+    "src/verify/compare.cpp",
+    ("verify_compare_test",),
+    ("bounds.lower > all.lower ? pose : all.pose", "all.pose", "the largest distance is always in the first pose"),
+    ("geometry_in_pose(from, {}, pose)", "from", "further poses are compared with the first"),
+)
+group(
+    "src/verify/Surface_tree.h",
+    ("verify_distances_test",),
+    ("height * height > 2.1 *", "height * height > 0.3 *", "planes that are near count as far"),
+    sources=("src/verify/distances.cpp",),
+)
+group(
     "src/verify/Covering.cpp",
     ("verify_compare_test",),
     (" + 1e-15 * (std::abs(first) + std::abs(second))", "", "rounded cuts leave nothing of a needle"),
