@@ -214,6 +214,9 @@ group(
 for file, *entry in (
     ("src/soup/flat_shading.cpp", 'if (column.name != "NORMAL")', "if (true)", "normals keep vertices of glTF apart"),
     ("src/soup/flat_shading.cpp", "|= have_faces_own ||", "|= true ||", "pieces beside each other are joined"),
+    ("src/soup/flat_shading.cpp", "return m_are_normals_dropped && (column.name", "return false && (column.name",
+     "normals of targets keep vertices apart whose normals are dropped"),
+    ("src/soup/flat_shading.cpp", "append_point(pose.points[vertex]);", ";", "vertices that part in a pose are joined"),
     ("src/soup/normals.cpp", "is_in_its_place(t) || is_made_within(t, s_cosine_flat)", "true",
      "faces keep normals that are no longer theirs"),
     ("src/soup/normals.cpp", "is_in_its_place(t) || is_made_within(t, s_cosine_flat)", "false",
