@@ -106,6 +106,20 @@ private:
                         [](const Pose& pose) { return has_float32_points(pose.points); });
   }
 
+  // OBJ has normals apart from vertices: there, several vertices at one place mean something.
+  void join_without_normals(Mesh_file& file)
+  {
+    if (!is_gltf(file.format) && file.format != Mesh_format::ply)
+      return;
+    const std::size_t joined = share_vertices_without_normals(file.soup);
+    if (joined == 0)
+      return;
+    file.notes
+        .remarks["corners joined, for their vertices differ in nothing but the normals that are dropped"] +=
+        joined;
+    m_log_header.are_normals_dropped = true;
+  }
+
   void say_what_poses_cost(const Triangle_soup& soup)
   {
     if (m_request.is_quiet || !m_request.options.check_intersections)
@@ -150,8 +164,10 @@ private:
     Mesh_input input(m_request.input, m_request.format);
     Mesh_file file = input.read();
     m_seconds["read"] = seconds_since(start);
-    m_report["input"] = input_json(m_request.input, file);
     read_poses(m_request.poses, m_request.input, file.soup);
+    if (m_request.normals == Normals_choice::drop)
+      join_without_normals(file);
+    m_report["input"] = input_json(m_request.input, file);
     check_pose_outputs(file.soup.poses);
     say_what_poses_cost(file.soup);
     if (are_levels_in_one_file(m_request) && m_request.options.placement == Placement::optimal &&

@@ -27,8 +27,9 @@ namespace selvedge {
 /// hundredth of it, or by a millionth of the longest side of the bounding box of `from` when that is more.
 /// Given the bounds of other pairs of meshes, such as these two in another pose, it returns bounds of the
 /// largest distance of them all, and looks for no point that is nearer than one known already.
-/// When `from.triangles.size() + 500'000` points do not suffice for this, `upper` is the best bound that is
-/// known. Both are zero when `from` has no triangle, and infinite when only `to` has none.
+/// When `from.triangles.size() + 500'000` points do not suffice for this (or fewer, where the search for the
+/// nearest triangle meets thousands), `upper` is the best bound that is known. Both are zero when `from` has
+/// no triangle, and infinite when only `to` has none.
 /// **Exactness** Both bounds have the errors of `distance`.
 /// **Complexity** O(log n) for each vertex, and linear in the pairs of triangles that lie above each other.
 /// **Reference** The distance to one triangle is a convex function, so its maximum over a triangle is at a

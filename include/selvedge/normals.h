@@ -6,6 +6,7 @@
 
 #include <selvedge/Triangle_soup.h>
 
+#include <cstddef>
 #include <vector>
 
 namespace selvedge {
@@ -56,6 +57,22 @@ bool has_flat_normals(const Triangle_soup& soup);
 ///
 /// **Complexity** O(n log n) for n triangles.
 Normals_treatment take_normals(Triangle_soup& soup, Normals_choice choice, Corner_values<3>* flat = nullptr);
+
+/// Makes triangles share the vertices that differ in nothing but their normals, for a soup from a file that
+/// has one normal for each vertex (PLY, glTF) and is to lose them (`Normals_choice::drop`). Such a file has
+/// several vertices where normals differ; without normals they are one, and no line between them is kept.
+///
+/// Triangles then name the first of such vertices, and the others are unused. Alike, bit for bit, must be
+/// positions in all poses (where −0 is 0), attributes, and texture coordinates if they are those of vertices;
+/// in a glTF scene the node and all accessors but NORMAL and TANGENT, those of morph targets included.
+/// Vertices that differ in nothing at all stay apart, as pieces that lie beside each other, unless a third
+/// one differs from them in its normal, or every face has vertices of its own (at least 100 triangles, and
+/// twice as many vertices).
+///
+/// Returns how many corners name another vertex now. Does nothing where a vertex has two normals.
+///
+/// **Complexity** O(n) expected for n triangles.
+std::size_t share_vertices_without_normals(Triangle_soup& soup);
 
 /// Makes the normals of a reduced soup, unless they are kept, dropped or absent. They have the precision of
 /// 32-bit floats. A mean is weighted by the angles at the vertex (Thürmer and Wüthrich 1998). A triangle

@@ -9,6 +9,7 @@
 #include "soup/selection.h"
 #include "verify/triangles_of_part.h"
 #include <selvedge/Error.h>
+#include <selvedge/normals.h>
 #include <selvedge/rounding.h>
 #include <selvedge/verify.h>
 
@@ -126,6 +127,8 @@ Start start_of(const Triangle_soup& original, const Triangle_soup& obstacle, con
 {
   Start start;
   start.soup = original;
+  if (header.are_normals_dropped)
+    share_vertices_without_normals(start.soup);
   start.soup.poses.clear();
   Triangle_soup beside;
   beside.points = pose ? points_in_pose(obstacle, *pose) : obstacle.points;

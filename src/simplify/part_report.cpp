@@ -105,13 +105,13 @@ public:
 
   Uv uv_near(const Point_3& query) const
   {
-    const auto [point, number] = m_tree->nearest(query, 0);
-    const Triangle_3 t = m_surface->triangle(number);
-    const std::array<Uv, 3>& uv = m_uvs[number];
-    const Kernel::Vector_3 normal = m_surface->normal(number);
+    const auto nearest = m_tree->nearest(query, 0);
+    const Triangle_3 t = m_surface->triangle(nearest.triangle);
+    const std::array<Uv, 3>& uv = m_uvs[nearest.triangle];
+    const Kernel::Vector_3 normal = m_surface->normal(nearest.triangle);
     const double area = normal.squared_length();
-    const auto share = [&, &nearest = point](int i, int j) {
-      return normal * CGAL::cross_product(t[i] - nearest, t[j] - nearest) / area;
+    const auto share = [&](int i, int j) {
+      return normal * CGAL::cross_product(t[i] - nearest.point, t[j] - nearest.point) / area;
     };
     const double a = share(1, 2), b = share(2, 0), c = 1 - a - b;
     return {a * uv[0][0] + b * uv[1][0] + c * uv[2][0], a * uv[0][1] + b * uv[1][1] + c * uv[2][1]};

@@ -40,54 +40,72 @@ std::vector<Index> numbers_of_vertices(const Triangle_soup& soup,
   return numbers;
 }
 
-// Everything that a vertex has but its normal, as bytes.
+// What a vertex has, as bytes: on the one hand its normal, and what means nothing without it if normals are
+// dropped; on the other hand everything else.
 class Vertex_bytes
 {
 public:
-  Vertex_bytes(const Triangle_soup& soup, const std::vector<Index>& uvs) : m_soup(soup), m_uvs(uvs) {}
-
-  std::string operator()(Index vertex) const
+  Vertex_bytes(const Triangle_soup& soup, const std::vector<Index>& normals, const std::vector<Index>& uvs,
+               bool are_normals_dropped)
+      : m_soup(soup), m_normals(normals), m_uvs(uvs), m_are_normals_dropped(are_normals_dropped)
   {
-    std::string bytes;
-    const auto append = [&bytes](const auto& value) {
-      bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+
+  struct Bytes
+  {
+    std::string of_normals, others;
+  };
+
+  Bytes operator()(Index vertex) const
+  {
+    Bytes result;
+    std::string& bytes = result.others;
+    const auto append = [](std::string& to, const auto& value) {
+      to.append(reinterpret_cast<const char*>(&value), sizeof value);
     };
+    append(result.of_normals, m_soup.normals.values[m_normals[vertex]]);
+    const auto append_point = [&](const Point_3& point) {
+      for (int i = 0; i < 3; ++i)
+        append(bytes, m_are_normals_dropped && point[i] == 0 ? 0.0 : point[i]);
+    };
+    for (const Pose& pose : m_soup.poses)
+      append_point(pose.points[vertex]);
     if (m_soup.scene) {
       const std::size_t number = m_soup.scene->instance_of(m_soup.scene_vertices[vertex]);
       const Gltf_scene::Instance& instance = m_soup.scene->instances[number];
       const Gltf_scene::Block& block = m_soup.scene->blocks[instance.block];
       const std::size_t row = m_soup.scene_vertices[vertex] - instance.first;
-      append(number);
+      append(bytes, number);
+      const auto is_dropped = [&](const Gltf_scene::Column& column) {
+        return m_are_normals_dropped && (column.name == "NORMAL" || column.name == "TANGENT");
+      };
       for (const Gltf_scene::Column& column : block.attributes)
         if (column.name != "NORMAL")
-          bytes += column.row(row);
+          (is_dropped(column) ? result.of_normals : bytes) += column.row(row);
       for (const std::vector<Gltf_scene::Column>& target : block.targets)
         for (const Gltf_scene::Column& column : target)
-          bytes += column.row(row);
-      return bytes;
+          (is_dropped(column) ? result.of_normals : bytes) += column.row(row);
+      return result;
     }
-    for (int i = 0; i < 3; ++i)
-      append(m_soup.points[vertex][i]);
+    append_point(m_soup.points[vertex]);
     if (!m_uvs.empty())
-      append(m_soup.uvs.values[m_uvs[vertex]]);
+      append(bytes, m_soup.uvs.values[m_uvs[vertex]]);
     for (const Attribute& attribute : m_soup.vertex_attributes) {
       const std::size_t size = row_size(attribute);
       bytes.append(reinterpret_cast<const char*>(attribute.rows.data()) + vertex * size, size);
     }
-    return bytes;
+    return result;
   }
 
 private:
   const Triangle_soup& m_soup;
-  const std::vector<Index>& m_uvs; // by vertex; empty where corners have them
+  const std::vector<Index>& m_normals; // by vertex
+  const std::vector<Index>& m_uvs;     // by vertex; empty where corners have them
+  bool m_are_normals_dropped;
 };
 
-} // namespace
-
-std::size_t share_flat_vertices(Triangle_soup& soup)
+std::size_t share_vertices(Triangle_soup& soup, bool are_normals_dropped)
 {
-  if (!has_flat_normals(soup))
-    return 0;
   const std::vector<Index> normals = numbers_of_vertices(soup, soup.normals.of_triangle);
   if (normals.empty())
     return 0;
@@ -98,18 +116,20 @@ std::size_t share_flat_vertices(Triangle_soup& soup)
   std::vector<Index> uvs;
   if (soup.scene || are_numbered_like_vertices(soup.uvs, soup))
     uvs = numbers_of_vertices(soup, soup.uvs.of_triangle);
-  std::unordered_map<std::string, Index> first_of;
+  std::unordered_map<std::string, std::pair<Index, std::string>> first_of; // and the bytes of its normals
   std::vector<Index> first(soup.points.size(), s_no_number);
   std::vector<char> is_shared(soup.points.size(), false); // by first vertex
-  const Vertex_bytes bytes_of(soup, uvs);
+  const Vertex_bytes bytes_of(soup, normals, uvs, are_normals_dropped);
   Cancellation_poll poll;
   for (Index v = 0; v < normals.size(); ++v) {
     poll();
     if (normals[v] == s_no_number)
       continue;
-    first[v] = first_of.emplace(bytes_of(v), v).first->second;
-    is_shared[first[v]] |= have_faces_own || !have_same_bits(soup.normals.values[normals[v]],
-                                                             soup.normals.values[normals[first[v]]]);
+    const Vertex_bytes::Bytes bytes = bytes_of(v);
+    const auto& [of_these, bytes_of_normals] =
+        first_of.emplace(bytes.others, std::make_pair(v, bytes.of_normals)).first->second;
+    first[v] = of_these;
+    is_shared[of_these] |= have_faces_own || bytes_of_normals != bytes.of_normals;
   }
   std::size_t joined = 0;
   for (std::size_t t = 0; t < soup.triangles.size(); ++t)
@@ -123,6 +143,18 @@ std::size_t share_flat_vertices(Triangle_soup& soup)
       ++joined;
     }
   return joined;
+}
+
+} // namespace
+
+std::size_t share_flat_vertices(Triangle_soup& soup)
+{
+  return has_flat_normals(soup) ? share_vertices(soup, false) : 0;
+}
+
+std::size_t share_vertices_without_normals(Triangle_soup& soup)
+{
+  return share_vertices(soup, true);
 }
 
 Vertices_by_normal vertices_by_normal(const Triangle_soup& soup, const Corner_values<3>& normals)

@@ -37,7 +37,8 @@ bool are_numbered_like_vertices(const Corner_values<dimension>& values, const Tr
 /// vertices of its own (at least 100 triangles, and twice as many vertices).
 ///
 /// Alike, bit for bit, must be position, attributes, and texture coordinates if they are those of vertices;
-/// in a glTF scene the node and the rows of all accessors but NORMAL, those of morph targets included.
+/// in a glTF scene the node and the rows of all accessors but NORMAL, those of morph targets included; and
+/// the position in all poses.
 ///
 /// Returns how many corners name another vertex now. Does nothing where a vertex has two normals.
 ///

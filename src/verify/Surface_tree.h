@@ -123,6 +123,20 @@ inline Point_3 nearest_on_triangle(const Point_3& query, const Triangle_3& trian
   return nearest;
 }
 
+/// Returns whether the plane of a triangle, and so the triangle, is surely farther from `query` than the root
+/// of `squared_bound`. False says nothing: it is for triangles that are much farther away than their boxes.
+inline bool is_plane_beyond(const Point_3& query, const Triangle_3& triangle, double squared_bound)
+{
+  const Vector_3 b = triangle[1] - triangle[0], c = triangle[2] - triangle[0], q = query - triangle[0];
+  const Vector_3 normal = CGAL::cross_product(b, c);
+  const double height = normal * q, largest_normal = b.squared_length() * c.squared_length();
+  // Rounding changes the normal by less than 2e-15 |b| |c|, and the height by less than that times |q|. As
+  // (x + y)² <= 2 x² + 2 y², the squares need no roots.
+  constexpr double rounding = 1e-28;
+  return height * height > 2.1 * (squared_bound * (normal.squared_length() + rounding * largest_normal) +
+                                  rounding * largest_normal * q.squared_length());
+}
+
 /// Finds nearest points on a surface, and the triangles that meet a segment, in a tree of boxes. The surface
 /// may have degenerate triangles.
 class Surface_tree
@@ -138,6 +152,7 @@ public:
   {
     Point_3 point;
     Index triangle;
+    std::size_t looks = 0; ///< how many triangles were looked at for it
   };
 
   /// Returns the nearest point. The search starts from the last answer, so it is fast when successive queries
@@ -175,8 +190,8 @@ public:
   {
     m_tree.visit([&](const CGAL::Bbox_3& box) { return CGAL::do_intersect(segment, box); },
                  [&](Index number) {
-                   const Triangle_3 triangle = m_surface.triangle(number);
-                   if (!triangle.is_degenerate() && CGAL::do_intersect(segment, triangle))
+                   if (!m_surface.is_degenerate(number) &&
+                       CGAL::do_intersect(segment, m_surface.triangle(number)))
                      *output++ = number;
                  });
   }
@@ -187,13 +202,15 @@ private:
                 const Is_wanted& is_wanted) const
   {
     m_tree.approach(query, squared_bound, [&](Index triangle) {
-      if (!is_wanted(triangle))
+      ++nearest.looks;
+      if (!is_wanted(triangle) || is_plane_beyond(query, m_surface.triangle(triangle), squared_bound))
         return;
       const Point_3 point = nearest_on_triangle(query, m_surface.triangle(triangle));
       const double squared_distance = CGAL::squared_distance(query, point);
       if (squared_distance < squared_bound) {
         squared_bound = squared_distance;
-        nearest = {point, triangle};
+        nearest.point = point;
+        nearest.triangle = triangle;
       }
     });
   }

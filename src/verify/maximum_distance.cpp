@@ -110,6 +110,7 @@ public:
   Farthest_point_search(const Surface& from, const Surface& to, const std::vector<Index>& vertices,
                         double known)
       : m_from(from), m_to(to), m_tree(to), m_nearest(from.points.size()),
+        m_points_left(from.triangles.size() + 500'000),
         m_looks(10'000'000 + 32 * (from.triangles.size() + to.triangles.size()))
   {
     std::vector<double> distances(vertices.size());
@@ -134,7 +135,7 @@ public:
     Cancellation_poll poll;
     Search& search = m_searches.local();
     std::size_t looks_left = m_looks;
-    for (std::size_t points = m_from.triangles.size() + 500'000; points > 0 && is_promising(); --points) {
+    while (m_points_left > 0 && is_promising()) {
       poll();
       Part part = m_parts.top();
       m_parts.pop();
@@ -165,10 +166,13 @@ private:
   }
   bool is_promising() const { return !m_parts.empty() && m_parts.top().upper > good_enough(); }
 
-  // Looks at a point. Returns the triangle nearest to it.
+  // Looks at a point. Returns the triangle nearest to it. Where triangles crowd in each other's boxes, one
+  // may cost as much as many.
   Index see(const Point_3& point, Index guess)
   {
+    constexpr std::size_t usual_looks = 1000;
     const Surface_tree::Nearest nearest = m_tree.nearest(point, guess);
+    m_points_left -= std::min(m_points_left, 1 + nearest.looks / usual_looks);
     m_lower = std::max(m_lower, CGAL::squared_distance(point, nearest.point));
     return nearest.triangle;
   }
@@ -243,6 +247,7 @@ private:
   double m_negligible;          // a length
   double m_lower, m_upper;      // the latter of the parts that are no longer examined
   std::optional<Neighbours> m_neighbours;
+  std::size_t m_points_left;
   std::size_t m_looks;
   tbb::enumerable_thread_specific<Search> m_searches;
   std::priority_queue<Part> m_parts;

@@ -349,6 +349,46 @@ TEST(App_simplify, SaysHowFarAnyPointIsWhereALimitIsAskedFor)
   EXPECT_TRUE(distances(report)["original_to_result"]["max_upper"].is_null());
 }
 
+TEST(App_simplify, DropsWithTheNormalsTheVerticesThatTheySplit)
+{
+  const Workspace folder;
+  Triangle_soup soup = mapped(joined(sheet(10, 20), moved(sheet(10, 20), 10, 0, 0)), [](const Point_3& p) {
+    return Point_3(p.x(), p.y(), std::round(64 * std::sin(p.x() / 4) * std::cos(p.y() / 5)) / 64);
+  });
+  soup.normals.of_triangle = soup.triangles;
+  for (std::size_t v = 0; v < soup.points.size(); ++v) {
+    const double side = v < soup.points.size() / 2 ? 0.6 : -0.6;
+    soup.normals.values.push_back(v % 2 == 0 ? std::array{side, 0., 0.8} : std::array{0., side, 0.8});
+  }
+  const std::string log = folder / "steps.log";
+  const auto simplify = [&](const std::string& name) {
+    write_mesh(folder / name, soup);
+    return run_app({"simplify", folder / name, "-o", folder / ("out_" + name), "--ratio", "0.1", "--normals",
+                    "drop", "--log", log});
+  };
+  for (const char* name : {"in.ply", "in.glb"}) {
+    const App_result result = simplify(name);
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_NE(result.out.find("corners joined, for their vertices differ in nothing but the normals"),
+              std::string::npos)
+        << result.out;
+    const Triangle_soup out = read_mesh(folder / (std::string("out_") + name)).soup;
+    EXPECT_TRUE(out.normals.empty());
+    EXPECT_EQ(out.points.size(), positions(out).size());
+    EXPECT_EQ(run_app({"verify", folder / (std::string("out_") + name), "--against", folder / name}).code, 0);
+    // Vertices leave what was a seam; a log that says nothing of it does not stand.
+    EXPECT_EQ(run_app({"replay", folder / name, log}).code, 0);
+    std::string text = contents_of(log);
+    text.replace(text.find("normals dropped"), 15, "normals ignored");
+    write_text(log, text);
+    EXPECT_EQ(run_app({"replay", folder / name, log}).code, 1);
+  }
+  // OBJ has normals apart from vertices, so that these are two pieces.
+  EXPECT_EQ(simplify("in.obj").code, 0);
+  const Triangle_soup out = read_mesh(folder / "out_in.obj").soup;
+  EXPECT_GT(out.points.size(), positions(out).size());
+}
+
 TEST(App_simplify, UncheckedIsWrittenAndNotVerified)
 {
   const Workspace folder;

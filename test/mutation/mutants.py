@@ -209,6 +209,9 @@ group(
 for file, *entry in (
     ("src/soup/flat_shading.cpp", 'if (column.name != "NORMAL")', "if (true)", "normals keep vertices of glTF apart"),
     ("src/soup/flat_shading.cpp", "|= have_faces_own ||", "|= true ||", "pieces beside each other are joined"),
+    ("src/soup/flat_shading.cpp", "return m_are_normals_dropped && (column.name", "return false && (column.name",
+     "normals of targets keep vertices apart whose normals are dropped"),
+    ("src/soup/flat_shading.cpp", "append_point(pose.points[vertex]);", ";", "vertices that part in a pose are joined"),
     ("src/soup/normals.cpp", "is_in_its_place(t) || is_made_within(t, s_cosine_flat)", "true",
      "faces keep normals that are no longer theirs"),
     ("src/soup/normals.cpp", "is_in_its_place(t) || is_made_within(t, s_cosine_flat)", "false",
@@ -1068,6 +1071,18 @@ group(
      "no triangle is covered, so that points run out"),
     ("        see(*farthest, part.nearest[0]);", "        m_lower = std::max(m_lower, part.upper);",
      "the bound counts as a distance that was seen"),
+)
+group(
+    "src/verify/compare.cpp",
+    ("verify_compare_test",),
+    ("bounds.lower > all.lower ? pose : all.pose", "all.pose", "the largest distance is always in the first pose"),
+    ("geometry_in_pose(from, {}, pose)", "from", "further poses are compared with the first"),
+)
+group(
+    "src/verify/Surface_tree.h",
+    ("verify_distances_test",),
+    ("height * height > 2.1 *", "height * height > 0.3 *", "planes that are near count as far"),
+    sources=("src/verify/distances.cpp",),
 )
 group(
     "src/verify/Covering.cpp",

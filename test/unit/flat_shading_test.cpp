@@ -205,6 +205,85 @@ TEST(Flat_shading, VerticesThatDifferInMoreStayApart)
   EXPECT_EQ(vertices_used(through(soup, "m.ply")), soup.points.size());
 }
 
+/// Two curved slopes that meet in a ridge along x = 10, where each has its own smooth normals.
+Triangle_soup ridge()
+{
+  const auto height = [](double x, double y) { return float(x / 4 + x * x / 40 + std::sin(y / 3) / 2); };
+  Triangle_soup soup = joined(
+      mapped(sheet(10, 20), [&](const Point_3& p) { return Point_3(p.x(), p.y(), height(p.x(), p.y())); }),
+      mapped(sheet(10, 20),
+             [&](const Point_3& p) { return Point_3(10 + p.x(), p.y(), height(10 - p.x(), p.y())); }));
+  soup.normals.of_triangle = soup.triangles; // one normal for each vertex
+  soup.normals.values.resize(soup.points.size());
+  restore_normals(soup, Normals_treatment::smooth);
+  return soup;
+}
+
+TEST(Dropped_normals, LeaveNoVerticesThatDifferInThemAlone)
+{
+  const std::size_t apart = 2 * 11 * 21, together = 21 * 21;
+  for (const char* name : {"m.ply", "m.glb", "m.gltf"}) {
+    const Triangle_soup before = std::string(name) == "m.gltf" ? in_a_node(ridge()) : through(ridge(), name);
+    ASSERT_FALSE(has_flat_normals(before));
+    ASSERT_EQ(vertices_used(before), apart);
+    Triangle_soup file = before;
+    EXPECT_GT(share_vertices_without_normals(file), 21u);
+    EXPECT_EQ(vertices_used(file), together);
+    const std::vector<Piece> whole = pieces(file);
+    ASSERT_EQ(whole.size(), 1u);
+    EXPECT_EQ(whole[0].boundary_loops, 1u);
+
+    const Triangle_soup result = reduced(file, 1, Normals_choice::drop).simplified.soup;
+    EXPECT_EQ(through(result, name).points.size(), together);
+    // What is left of the ridge is an edge like any other: it may turn as it likes, and vertices leave it.
+    const Reduction few = reduced(file, 0.1, Normals_choice::drop);
+    EXPECT_TRUE(few.verification.accepted());
+    EXPECT_LE(few.simplified.soup.triangles.size(), 80u);
+    EXPECT_TRUE(verify(through(few.simplified.soup, name), before).accepted());
+    // The control: nobody has joined them.
+    EXPECT_EQ(through(reduced(before, 1, Normals_choice::drop).simplified.soup, name).points.size(), apart);
+  }
+}
+
+TEST(Dropped_normals, JoinNothingThatDiffersInMore)
+{
+  const std::string text = written(ridge(), "m.gltf");
+  const auto used_with = [&](const char* attribute, bool is_target) {
+    Json json = Json::parse(text);
+    Json& primitive = json["meshes"][0]["primitives"][0];
+    const Json normals = primitive["attributes"]["NORMAL"]; // which differ at the ridge
+    if (is_target)
+      primitive["targets"] = {{{"POSITION", primitive["attributes"]["POSITION"]}, {attribute, normals}}};
+    else
+      primitive["attributes"][attribute] = normals;
+    Triangle_soup soup = read_mesh(json.dump(), Mesh_format::gltf, "m.gltf").soup;
+    share_vertices_without_normals(soup);
+    return vertices_used(soup);
+  };
+  const std::size_t apart = 2 * 11 * 21, together = 21 * 21;
+  EXPECT_EQ(used_with("NORMAL", false), together);
+  EXPECT_EQ(used_with("NORMAL", true), together) << "means nothing without the others";
+  EXPECT_EQ(used_with("_ID", false), apart);
+
+  Triangle_soup posed = through(ridge(), "m.ply");
+  posed.poses = {{"apart", posed.points, 0}};
+  for (std::size_t v = posed.points.size() / 2; v < posed.points.size(); ++v)
+    posed.poses[0].points[v] = Point_3(posed.points[v].x() + 1, posed.points[v].y(), posed.points[v].z());
+  EXPECT_EQ(share_vertices_without_normals(posed), 0u);
+
+  Triangle_soup pieces = joined(ridge(), moved(ridge(), 20, 0, 0)); // alike where they meet, in normals too
+  pieces.normals.of_triangle = pieces.triangles;
+  pieces.normals.values.assign(pieces.points.size(), {0, 0.6, 0.8});
+  Triangle_soup file = through(pieces, "m.ply");
+  EXPECT_EQ(share_vertices_without_normals(file), 0u);
+
+  Triangle_soup corners = ridge(); // as OBJ has them: a vertex has several
+  corners.normals.of_triangle[0][0] = corners.normals.of_triangle[1][2];
+  corners.normals.values.push_back({1, 0, 0});
+  corners.normals.of_triangle[0][0] = Index(corners.normals.values.size() - 1);
+  EXPECT_EQ(share_vertices_without_normals(corners), 0u);
+}
+
 TEST(Flat_shading, PiecesBesideEachOtherStayPieces)
 {
   Triangle_soup pieces = joined(sheet(5, 5), moved(sheet(5, 5), 5, 0, 0));

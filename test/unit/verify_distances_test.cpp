@@ -85,6 +85,25 @@ TEST(Distance, IsThatOfExactConstructions)
   }
 }
 
+// All pages of a book share one edge, so that every box holds most others.
+TEST(Distance, IsThatOfExactConstructionsBetweenThePagesOfABook)
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  Triangle_soup book = soup({{0, 0, -1}, {0, 0, 1}}, {});
+  for (int page = 0; page < 100; ++page) {
+    const double angle = 0.0628318 * page, width = 1.5 + coordinate(random) / 2;
+    book.points.emplace_back(width * std::cos(angle), width * std::sin(angle), coordinate(random));
+    book.triangles.push_back({0, 1, Index(2 + page)});
+  }
+  for (int i = 0; i < 50; ++i) {
+    const Point_3 p(coordinate(random), coordinate(random), coordinate(random));
+    double root_mean_square = 0;
+    const Triangle_soup from = soup({p}, {{0, 0, 0}});
+    EXPECT_NEAR(distance(from, book).maximum, exact_maximum_distance(from, book, root_mean_square), 1e-15);
+  }
+}
+
 TEST(Distance, IsThatOfAPointOnEverySide)
 {
   const Triangle_soup target = one_triangle();

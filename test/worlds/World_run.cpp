@@ -37,7 +37,7 @@ World_run prepared(const World& world)
 {
   World_run run;
   try {
-    run.prepared = prepare(world.soup, world.prepare_options(), world.obstacle);
+    run.prepared = prepare(input_of(world), world.prepare_options(), world.obstacle);
   } catch (const Input_error& error) {
     run.refusal = error.what();
   }
@@ -52,6 +52,14 @@ const char* file_name(const World& world)
 }
 
 } // namespace
+
+Triangle_soup input_of(const World& world)
+{
+  Triangle_soup soup = world.soup;
+  if (world.normals == Normals_choice::drop)
+    share_vertices_without_normals(soup);
+  return soup;
+}
 
 Verification verify_guarded(const World& world, const Simplified_soup& result, const Prepared_soup& prepared)
 {
@@ -74,7 +82,7 @@ World_run run(const World& world)
     Prepare_options without = prepare_options;
     without.weld_distance = 0;
     without.weld_clear_gaps = false;
-    run.unsnapped = prepare(world.soup, without, world.obstacle);
+    run.unsnapped = prepare(input_of(world), without, world.obstacle);
   }
 
   const Log_numbering numbering(world.soup, world.input_format == Mesh_format::stl);
@@ -82,6 +90,7 @@ World_run run(const World& world)
   header.vertices = numbering.size();
   header.triangles = world.soup.triangles.size();
   header.is_rounded_to_float32 = prepare_options.round_to_float32;
+  header.are_normals_dropped = world.normals == Normals_choice::drop;
   if (!world.obstacle.triangles.empty())
     header.obstacle = {world.obstacle.points.size(), world.obstacle.triangles.size(), {}};
   std::ostringstream stream;

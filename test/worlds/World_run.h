@@ -32,6 +32,10 @@ struct World_run
   std::optional<Triangle_soup> last_level;
 };
 
+/// Returns the mesh of a world as the app prepares it: with the vertices joined that differ in dropped
+/// normals alone.
+Triangle_soup input_of(const World& world);
+
 /// Does what a world asks for, up to the file; without levels of detail. Throws what the library throws,
 /// except for `Input_error` from `prepare`.
 World_run run(const World& world);

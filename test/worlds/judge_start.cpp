@@ -53,15 +53,16 @@ char part_of_triangle(const World& world, Index triangle)
 Expected_start::Expected_start(const World& world)
 {
   const bool is_rounded = world.prepare_options().round_to_float32;
-  soup.points = world.soup.points;
+  const Triangle_soup input = input_of(world);
+  soup.points = input.points;
   const std::vector<Index> first = first_at_position(soup.points);
   std::vector<Point_3> before = soup.points;
   if (is_rounded)
     for (Point_3& p : soup.points)
       p = rounded(p);
   const std::vector<Index> first_after = first_at_position(soup.points);
-  for (Index t = 0; t < world.soup.triangles.size(); ++t)
-    if (const Index_triple& triangle = world.soup.triangles[t];
+  for (Index t = 0; t < input.triangles.size(); ++t)
+    if (const Index_triple& triangle = input.triangles[t];
         has_three_positions(triangle, first) && has_three_positions(triangle, first_after)) {
       soup.triangles.push_back(triangle);
       part_of.push_back(part_of_triangle(world, t));
@@ -94,6 +95,8 @@ Expected_start::Expected_start(const World& world)
 World in_pose(const World& world, std::size_t pose)
 {
   World posed = world;
+  posed.soup = input_of(world);
+  posed.normals = Normals_choice::keep; // what is joined is joined in all poses
   posed.soup.points = world.soup.poses[pose].points;
   if (!world.obstacle.poses.empty())
     posed.obstacle.points = world.obstacle.poses[pose].points;

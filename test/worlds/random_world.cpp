@@ -3,6 +3,7 @@
 
 #include "random_world.h"
 #include "random_scene.h"
+#include "soup/flat_shading.h"
 #include "support/Temporary_folder.h"
 
 #include <selvedge/mesh_files.h>
@@ -499,6 +500,11 @@ World random_world(std::uint64_t seed)
   if (!world.soup.normals.empty())
     world.normals = random.one_of(
         {Normals_choice::automatic, Normals_choice::keep, Normals_choice::recompute, Normals_choice::drop});
+  if (world.normals == Normals_choice::drop && world.seed % 4 != 3 && !world.soup.scene) {
+    Triangle_soup split = split_by_normals(world.soup);  // as a PLY file has it
+    if (split.points.size() >= world.soup.points.size()) // else a vertex that is to be locked may be gone
+      world.soup = std::move(split);
+  }
   if (random.one_in(12) && !world.options.faces) {
     for (int i = random.between(1, 3); i > 0; --i)
       world.lods.push_back(random.share());

@@ -50,6 +50,7 @@ def simplify(
     ratio: float = ...,
     faces: int = ...,
     error: Optional[float] = ...,
+    error_everywhere: bool = ...,
     normal_change: float = ...,
     aspect_ratio: float = ...,
     border_turn: float = ...,
