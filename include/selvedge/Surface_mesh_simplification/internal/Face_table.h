@@ -129,38 +129,10 @@ public:
   /// mover, and finds for each of the others the sweeps that are not proved clear of it.
   void remove_clear(Star_pack_filter& filter, std::vector<Id>& near, std::vector<Sweeps>& unclear)
   {
-    constexpr std::size_t width = Star_pack_filter::width;
     unclear.clear();
-    if (filter.is_usable()) {
-      // All packs are filled before the first is asked, which would wait for what has just been stored.
-      m_packs.resize(near.size() / width + 1);
-      for (std::size_t i = 0; i < near.size(); ++i)
-        m_packs[i / width].set(i % width, corners(near[i]), coordinates_from(filter.origin(), near[i]));
-      const auto for_each_pack = [&](const auto& function) {
-        const std::size_t size = near.size();
-        for (std::size_t first = 0; first < size; first += width)
-          function(m_packs[first / width], first, (std::min)(width, size - first));
-      };
-      std::size_t left = 0;
-      for_each_pack([&](const auto& pack, std::size_t first, std::size_t count) {
-        for (auto rest = filter.unclear(pack, count); rest != 0; rest &= rest - 1) {
-          const std::size_t i = lowest_bit(rest);
-          m_packs[left / width].set(left % width, pack, i);
-          near[left++] = near[first + i];
-        }
-      });
-      near.resize(std::exchange(left, 0));
-      for_each_pack([&](const auto& pack, std::size_t first, std::size_t count) {
-        Star_pack_filter::Sweeps of_pack;
-        filter.find_unclear(pack, of_pack);
-        for (std::size_t i = 0; i < count; ++i)
-          if (of_pack[i] != 0) {
-            near[left++] = near[first + i];
-            unclear.push_back(of_pack[i]);
-          }
-      });
-      near.resize(left);
-    }
+    if constexpr (s_are_coordinates_doubles)
+      if (filter.is_usable())
+        remove_clear_in_packs(filter, near, unclear);
     unclear.resize(near.size(), ~Sweeps(0));
   }
 
@@ -200,6 +172,39 @@ public:
   std::size_t size() const { return m_size; }
 
 private:
+  void remove_clear_in_packs(Star_pack_filter& filter, std::vector<Id>& near, std::vector<Sweeps>& unclear)
+  {
+    constexpr std::size_t width = Star_pack_filter::width;
+    // All packs are filled before the first is asked, which would wait for what has just been stored.
+    m_packs.resize(near.size() / width + 1);
+    for (std::size_t i = 0; i < near.size(); ++i)
+      m_packs[i / width].set(i % width, corners(near[i]), coordinates_from(filter.origin(), near[i]));
+    const auto for_each_pack = [&](const auto& function) {
+      const std::size_t size = near.size();
+      for (std::size_t first = 0; first < size; first += width)
+        function(m_packs[first / width], first, (std::min)(width, size - first));
+    };
+    std::size_t left = 0;
+    for_each_pack([&](const auto& pack, std::size_t first, std::size_t count) {
+      for (auto rest = filter.unclear(pack, count); rest != 0; rest &= rest - 1) {
+        const std::size_t i = lowest_bit(rest);
+        m_packs[left / width].set(left % width, pack, i);
+        near[left++] = near[first + i];
+      }
+    });
+    near.resize(std::exchange(left, 0));
+    for_each_pack([&](const auto& pack, std::size_t first, std::size_t count) {
+      Star_pack_filter::Sweeps of_pack;
+      filter.find_unclear(pack, of_pack);
+      for (std::size_t i = 0; i < count; ++i)
+        if (of_pack[i] != 0) {
+          near[left++] = near[first + i];
+          unclear.push_back(of_pack[i]);
+        }
+    });
+    near.resize(left);
+  }
+
   Corners find_corners(Halfedge h) const
   {
     return {m_vertices.number(source(h, m_mesh)), m_vertices.number(target(h, m_mesh)),
