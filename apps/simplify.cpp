@@ -335,18 +335,21 @@ private:
     m_seconds["weld"] = prepared.seconds_positions;
     const std::vector<std::string> names = outputs(m_request);
     std::vector<Level> levels;
+    std::map<std::string, double> seconds; // of this reduction: there may have been others before
     for (std::size_t i = 0; i < results.size(); ++i) {
       // When one run passes through all levels, the last one has the time of all.
       m_seconds["weld"] = std::max(m_seconds["weld"], prepared.seconds_positions + results[i].seconds_sew);
-      m_seconds["index"] = std::max(m_seconds["index"], results[i].report.seconds_index);
-      m_seconds["cells"] = std::max(m_seconds["cells"], results[i].report.seconds_cells);
-      m_seconds["reduce"] = std::max(m_seconds["reduce"], results[i].report.seconds_reduce);
+      seconds["index"] = std::max(seconds["index"], results[i].report.seconds_index);
+      seconds["cells"] = std::max(seconds["cells"], results[i].report.seconds_cells);
+      seconds["reduce"] = std::max(seconds["reduce"], results[i].report.seconds_reduce);
       const bool is_one_of_file = are_levels_in_one_file(m_request);
       levels.push_back({names[is_one_of_file ? 0 : i], std::move(results[i]), {}, {}, m_guarded_poses, {}});
       levels.back().error_search = m_error_search;
       if (is_one_of_file)
         levels.back().number = i + 1;
     }
+    for (const auto& [phase, of_this] : seconds)
+      m_seconds[phase] += of_this;
     return levels;
   }
 
@@ -373,7 +376,7 @@ private:
       m_outcome.is_interrupted |= level.result.report.is_stopped;
       m_outcome.is_reached &= level.result.report.is_reached();
     }
-    m_seconds["verify"] = seconds_since(start);
+    m_seconds["verify"] += seconds_since(start);
   }
 
   // Has a mesh refer to the same files from another output. So far it names those to which the first output
