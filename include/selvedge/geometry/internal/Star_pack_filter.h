@@ -66,7 +66,8 @@ public:
     std::array<std::array<std::uint32_t, width>, 3> corners;
 
     /// Takes a triangle: the numbers of its corners, and the floats next to their coordinates, which are
-    /// those in the mesh minus `origin()`, rounded once.
+    /// those in the mesh minus `origin()`, rounded once. What no float reaches becomes infinite, as IEEE 754
+    /// says, and then nothing is proved.
     void set(std::size_t i, const std::array<std::uint32_t, 3>& numbers,
              const std::array<Vector_of_doubles, 3>& points)
     {
