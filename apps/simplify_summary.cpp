@@ -318,7 +318,7 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
   stream << (references.empty() ? "" : "\n");
 }
 
-// Says whether a limit of distances holds anywhere, and if not, which one would do for that.
+// Says whether a limit of distances holds anywhere, and if not, which option keeps it there.
 void print_distances(std::ostream& stream, const Level& level, const Distances_anywhere& distances,
                      double limit)
 {

@@ -6,7 +6,6 @@
 
 #include <selvedge/verify.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>

@@ -125,6 +125,11 @@ public:
   template <class Rule, class Function>
   void for_each_changed_face(Halfedge moving, const Rule& rule, const Function& function) const;
 
+  /// Calls function(h) for each face that changes when both ends of an edge inside the mesh move to one
+  /// place. The corner that moves is at the target of h, a halfedge of this face.
+  template <class Function>
+  void for_each_changed_face(Halfedge moving, const Function& function) const;
+
 protected:
   /// Gives the faces corners; they become a mesh when `build` is called. The arguments are those of
   /// `Sewn_mesh`.
@@ -187,6 +192,16 @@ void Corner_mesh::for_each_changed_face(Halfedge moving, const Rule& rule, const
   const Halfedge back = m_mesh.opposite(moving);
   if (!goes_all_the_way(moving, back, [this](Halfedge h) { return m_mesh.opposite(m_mesh.prev(h)); }))
     goes_all_the_way(back, moving, [this](Halfedge h) { return m_mesh.opposite(m_mesh.next(h)); });
+}
+
+template <class Function>
+void Corner_mesh::for_each_changed_face(Halfedge moving, const Function& function) const
+{
+  const Halfedge back = m_mesh.opposite(moving);
+  for (const Halfedge end : {moving, back})
+    for (const Halfedge h : m_mesh.halfedges_around_target(end))
+      if (m_mesh.face(h) != m_mesh.face(moving) && m_mesh.face(h) != m_mesh.face(back))
+        function(h);
 }
 
 } // namespace selvedge

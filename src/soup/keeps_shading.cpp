@@ -72,15 +72,12 @@ bool keeps_shading(const Corner_mesh& corners, const Placed_vertices& placed, Co
 bool keeps_shading_at(const Corner_mesh& corners, const Placed_vertices& placed, Corner_mesh::Halfedge moving,
                       const Point_3& place)
 {
-  const Corner_mesh::Mesh& mesh = corners.mesh();
   const Vector normal = placed.normal_at(moving, place);
-  const Corner_mesh::Halfedge back = mesh.opposite(moving);
-  for (const Corner_mesh::Halfedge end : {moving, back})
-    for (const Corner_mesh::Halfedge h : mesh.halfedges_around_target(end))
-      if (mesh.face(h) != mesh.face(moving) && mesh.face(h) != mesh.face(back) &&
-          !Shaded_face(corners, placed, h, 0).is_shaded_alike(corners.place(h), place, normal))
-        return false;
-  return true;
+  bool is_kept = true;
+  corners.for_each_changed_face(moving, [&](Corner_mesh::Halfedge h) {
+    is_kept = is_kept && Shaded_face(corners, placed, h, 0).is_shaded_alike(corners.place(h), place, normal);
+  });
+  return is_kept;
 }
 
 } // namespace selvedge

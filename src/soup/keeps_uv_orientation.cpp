@@ -53,15 +53,13 @@ bool keeps_uv_orientation_at(const Corner_mesh& corners, const Placed_vertices& 
 {
   if (corners.soup().uvs.empty())
     return true;
-  const Corner_mesh::Mesh& mesh = corners.mesh();
   const Uv uv = placed.uv_at(moving, place);
-  const Corner_mesh::Halfedge back = mesh.opposite(moving);
-  for (const Corner_mesh::Halfedge end : {moving, back})
-    for (const Corner_mesh::Halfedge h : mesh.halfedges_around_target(end))
-      if (mesh.face(h) != mesh.face(moving) && mesh.face(h) != mesh.face(back) &&
-          !keeps_orientation(placed, corners.corners(mesh.face(h)), corners.place(h), uv))
-        return false;
-  return true;
+  bool is_kept = true;
+  corners.for_each_changed_face(moving, [&](Corner_mesh::Halfedge h) {
+    is_kept =
+        is_kept && keeps_orientation(placed, corners.corners(corners.mesh().face(h)), corners.place(h), uv);
+  });
+  return is_kept;
 }
 
 } // namespace selvedge
