@@ -552,7 +552,8 @@ void add_options(CLI::App& command, Simplify_request& request)
           "Normals of the input: keep them as they are, so that an edge with different normals on its "
           "two sides is a seam; make them anew, with the hard edges of the input; or leave them out, so that "
           "vertices of PLY and glTF that differ in nothing else are one. "
-          "auto makes those anew that give every face its own normal, and keeps others.")
+          "auto makes those anew that give every face its own normal, or that would come to point to the "
+          "back of a face, and keeps others.")
       ->transform(one_of<Normals_choice>({{"auto", Normals_choice::automatic},
                                           {"keep", Normals_choice::keep},
                                           {"recompute", Normals_choice::recompute},

@@ -189,6 +189,7 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
   report["hindrances"] = std::move(hindrances);
   report["vertices"] = {{"kept", result.soup.points.size() - result.placed_vertices},
                         {"placed", result.placed_vertices}};
+  report["corners"] = {{"mended_normals", result.mended_normals}};
   report["collapses"] = done.collapses;
   report["passes"] = done.passes;
   report["instances"] = {{"meshes", result.shared_meshes},

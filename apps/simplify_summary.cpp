@@ -84,8 +84,6 @@ std::string remedy(Hindrance reason, const Simplify_request& request, const Tria
     return options.max_normal_change < 90    ? "--normal-change 90"
            : options.max_normal_change < 180 ? "--normal-change 180"
                                              : "";
-  case Hindrance::shading:
-    return "--normals recompute";
   case Hindrance::error:
     return "--error " + with_digits(*options.max_error > 0 ? 5 * *options.max_error : 0.01);
   case Hindrance::clearance:
@@ -398,6 +396,9 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
     stream << "\nvertices: " << with_commas(result.soup.points.size() - result.placed_vertices)
            << " kept bit for bit, " << with_commas(result.placed_vertices) << " at new places"
            << (has_vertex_values(prepared.soup) ? " with interpolated attributes" : "");
+  if (result.mended_normals > 0)
+    stream << "\nnormals: kept, but for " << counted(result.mended_normals, "corner")
+           << " with a new one, as the old one would point to the back of the face";
   if (polygons.input > 0)
     stream << "\npolygons: " << with_commas(polygons.output) << " of " << counted(polygons.input, "face")
            << " of more than three corners written as they were";

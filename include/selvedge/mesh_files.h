@@ -26,7 +26,7 @@ namespace selvedge {
 /// 2. *Written* (G3): `read_mesh(p)` after `write_mesh(p, soup)` gives the same coordinates bit for bit, the
 ///    same triangles in the same order, and the same number of every vertex. STL, which has no vertex
 ///    numbers, gives the same triangles up to those numbers (and the sign of zeros); so do PLY and glTF where
-///    vertices are split or joined (**Flat shading**), and glTF where they are compressed as in the file,
+///    vertices are split or joined (**Normals**), and glTF where they are compressed as in the file,
 ///    which may change their order and that of the triangles.
 /// 3. *Refusal* (G9): a file that is not a mesh with at least one triangle and finite coordinates is refused
 ///    with an `Input_error` of one line, which names the file, the line (in text), the element, and how to
@@ -82,12 +82,13 @@ namespace selvedge {
 /// to go, as do accessors and buffer views at the end of their lists. Primitives of points or lines, and
 /// meshes outside the scene, stay as they are. Those without a triangle left are removed.
 ///
-/// **Flat shading.** PLY and glTF hold one normal for each vertex, so that a file with a normal for each face
+/// **Normals.** PLY and glTF hold one normal for each vertex, so that a file with a normal for each face
 /// has several vertices at every corner of its mesh. Where the normals are flat (normals.h), triangles name
 /// the first of the vertices that differ in nothing but the normal, and each corner keeps its own normal, as
 /// in OBJ. The others are unused, and all keep their numbers: those of the file, in a log too. Vertices that
 /// differ in nothing at all stay apart unless another one differs from them in its normal, or every face has
-/// vertices of its own. Writers split such vertices again, in the order that they had.
+/// vertices of its own. Writers split such vertices again, in the order that they had, and all other vertices
+/// that have several normals.
 ///
 /// **Packed files.** A file whose name ends in `.gz` is unpacked by zlib when it is read, and packed when it
 /// is written; all else is as without `.gz`. A packed file that is damaged or truncated is refused, and so is

@@ -18,7 +18,7 @@ namespace selvedge {
 /// normals of its own.
 enum class Normals_choice {
   automatic, ///< flat normals are made anew for the faces that change (`keep_flat_normals`); all others are
-             ///< kept
+             ///< kept, and mended (`mend_normals`)
   keep,      ///< every corner of the result has a normal that some corner of the input has, bit for bit
   recompute, ///< the result gets new normals, made as those of the input seem to be made
   drop       ///< the result has no normals
@@ -28,6 +28,7 @@ enum class Normals_choice {
 enum class Normals_treatment {
   none,   ///< the soup has no normals
   kept,   ///< they are treated like any other attribute
+  mended, ///< as kept; but a corner gets a new one where it would point to the back of its triangle
   flat,   ///< every corner gets the normal of its triangle, or of the polygon or face (`keep_flat_normals`)
           ///< that this is a part of, bit for bit that of the input where it has not changed
   smooth, ///< every corner gets the mean normal of the triangles around its vertex, up to hard edges
@@ -37,7 +38,8 @@ enum class Normals_treatment {
 /// Returns the word for this in options and reports: auto, keep, recompute or drop.
 const char* name_of(Normals_choice choice);
 
-/// Returns the word for this in reports: none, kept, flat, smooth or dropped.
+/// Returns the word for this in reports: none, kept, mended, flat, smooth or
+/// dropped.
 const char* name_of(Normals_treatment treatment);
 
 /// Returns whether normals are *flat*: those of 99 % of all corners differ from the normal of their triangle
@@ -74,9 +76,9 @@ Normals_treatment take_normals(Triangle_soup& soup, Normals_choice choice, Corne
 /// **Complexity** O(n) expected for n triangles.
 std::size_t share_vertices_without_normals(Triangle_soup& soup);
 
-/// Makes the normals of a reduced soup, unless they are kept, dropped or absent. They have the precision of
-/// 32-bit floats. A mean is weighted by the angles at the vertex (Thürmer and Wüthrich 1998). A triangle
-/// without an area has the normal (0, 0, 1).
+/// Makes the normals of a reduced soup, unless they are kept, mended, dropped or absent. They have the
+/// precision of 32-bit floats. A mean is weighted by the angles at the vertex (Thürmer and Wüthrich 1998). A
+/// triangle without an area has the normal (0, 0, 1).
 void restore_normals(Triangle_soup& soup, Normals_treatment treatment);
 
 /// Gives triangles with flat normals those of the original again, bit for bit, where they still are theirs:
@@ -92,6 +94,20 @@ void restore_normals(Triangle_soup& soup, Normals_treatment treatment);
 /// **Complexity** O(n log n) for n triangles and normals of the original.
 void keep_flat_normals(Triangle_soup& result, const std::vector<Index>& triangles,
                        const Triangle_soup& original, const Corner_values<3>& normals);
+
+/// Gives corners of a result new normals where those that they have kept point to the back of their triangle,
+/// so that no part of a surface is shaded as its inside. Such normals come from the other side of a hem, say:
+/// a vertex there brings its normal along when it comes to bound faces of this side. Triangle i is what is
+/// left of triangle `triangles[i]` of the original. Only triangles are mended whose three normals in the
+/// original all point to their front, or all to their back, which is then taken for the front.
+///
+/// A new normal is the mean of those of the triangles around the vertex that need one and meet in edges,
+/// weighted by the angles there (Thürmer and Wüthrich 1998), or that of the triangle alone where the mean
+/// points to its back. It has the precision of 32-bit floats. Returns how many corners have a new one.
+///
+/// **Complexity** O(n) for n triangles, and O(n log n) if any corner needs a new normal. Computed in double.
+std::size_t mend_normals(Triangle_soup& result, const std::vector<Index>& triangles,
+                         const Triangle_soup& original);
 
 } // namespace selvedge
 

@@ -310,9 +310,7 @@ std::vector<std::string> not_carried(const Triangle_soup& soup, Mesh_format form
   };
   say(!is_obj && !is_ply && !soup.uvs.empty(), "texture coordinates");
   if (is_ply)
-    say(!soup.normals.empty() && files::values_of_vertices(soup.normals, soup).empty() &&
-            !has_flat_normals(soup), // the writer splits vertices by these
-        "normals, for not every vertex has one and only one");
+    say(soup.normals.missing.has_value(), "normals, for not every vertex has one");
   else
     say(!is_obj && !soup.normals.empty(), "normals");
   say(!is_obj && !soup.groups.empty(), "groups");

@@ -9,7 +9,6 @@
 #include "soup/flat_shading.h"
 
 #include <selvedge/Error.h>
-#include <selvedge/normals.h>
 #include <selvedge/rounding.h>
 
 #include <algorithm>
@@ -170,7 +169,7 @@ std::vector<std::array<double, 3>> values_of_vertices(const Corner_values<3>& va
 void write_ply(Byte_writer& out, const Triangle_soup& soup, const Write_options& options)
 {
   const Ply_layout layout(soup);
-  if (layout.normals.empty() && has_flat_normals(soup))
+  if (layout.normals.empty() && !soup.normals.empty() && !soup.normals.missing)
     return write_ply(out, split_by_normals(soup), options);
   const bool as_float32 = are_float32(soup.points, 3), float32_normals = are_float32(layout.normals, 3),
              float32_uvs = are_float32(soup.uvs.values, 2);

@@ -140,8 +140,6 @@ private:
       m_working.allow_new_places(m_prepared.is_float32);
     if (m_options.uv_weight > 0)
       m_working.measure_uvs(uv_unit(soup, m_prepared.scale));
-    if (m_prepared.normals == Normals_treatment::kept)
-      m_working.keep_shading();
     m_working.count_refusals(part_kinds(soup));
     if (m_options.is_progression_recorded)
       m_working.record_progression(m_progression);
@@ -321,6 +319,8 @@ private:
     restore_normals(result.soup, m_prepared.normals);
     if (!m_prepared.flat_normals.empty())
       keep_flat_normals(result.soup, result.triangles, m_prepared.soup, m_prepared.flat_normals);
+    if (m_prepared.normals == Normals_treatment::mended)
+      result.mended_normals = mend_normals(result.soup, result.triangles, m_prepared.soup);
     result.corners = std::move(left.corners);
     result.placed_vertices = left.placed_vertices;
     if (report.hindrances.total() > 0)

@@ -5,6 +5,8 @@
 
 #include "selection.h"
 
+#include <selvedge/internal/Vector_of_doubles.h>
+
 #include <optional>
 
 namespace selvedge {
@@ -73,18 +75,6 @@ Placed_vertices::Uv Placed_vertices::uv_at(Halfedge moving, const Point_3& place
 {
   const Mixture mixture = mixture_at(moving, place);
   return m_values->mixed_uv(mixture.shares, mixture.own);
-}
-
-internal::Vector_of_doubles Placed_vertices::normal_at(Index corner) const
-{
-  const Placed_vertex* const placed = find(corner);
-  return placed ? m_values->normal(placed->values) : m_corners.normal_of(corner);
-}
-
-internal::Vector_of_doubles Placed_vertices::normal_at(Halfedge moving, const Point_3& place) const
-{
-  const Mixture mixture = mixture_at(moving, place);
-  return m_values->normal(m_values->mixed(mixture.shares, mixture.own));
 }
 
 void Placed_vertices::merge_at(Halfedge moving, const Point_3& place, const Point_3& point)

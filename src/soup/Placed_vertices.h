@@ -7,8 +7,6 @@
 #include "Corner_mesh.h"
 #include "Vertex_values.h"
 
-#include <selvedge/internal/Vector_of_doubles.h>
-
 #include <array>
 #include <cstddef>
 #include <memory>
@@ -46,11 +44,6 @@ public:
 
   /// Those that the vertex of both ends of an edge would have at a place.
   Uv uv_at(Halfedge moving, const Point_3& place) const;
-
-  /// The normal of a corner as it is now, and that which the vertex of both ends of an edge would have at a
-  /// place. The soup must have normals.
-  internal::Vector_of_doubles normal_at(Index corner) const;
-  internal::Vector_of_doubles normal_at(Halfedge moving, const Point_3& place) const;
 
   /// Places the vertex of both ends of an edge, before they merge. `point` is the place in the unit of the
   /// soup.

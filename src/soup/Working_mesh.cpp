@@ -24,7 +24,7 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
 Working_mesh::Working_mesh(const Working_mesh& whole, const Border_rule<Mesh>& rule,
                            const std::vector<Index>& faces)
     : Sewn_mesh(whole, rule, faces), m_scale(whole.m_scale), m_placed(*this, whole.m_placed.values()),
-      m_rounding(whole.m_rounding), m_is_shading_kept(whole.m_is_shading_kept)
+      m_rounding(whole.m_rounding)
 {
   if (whole.m_texture)
     measure_uvs(whole.m_texture->unit());

@@ -11,7 +11,6 @@
 #include "Shared_places.h"
 #include "Texture_wedges.h"
 #include "keeps_pieces.h"
-#include "keeps_shading.h"
 #include "keeps_uv_orientation.h"
 
 #include <selvedge/Parts.h>
@@ -52,10 +51,6 @@ public:
   /// Makes `uv_cost` say from now on how far the texture is displaced. Before, and where there is no texture,
   /// it is 0. Weights that should count must be set before. `unit` is the `uv_unit` of the soup at the scale.
   void measure_uvs(double unit);
-
-  /// Makes `keeps_shading` look at the normals of the soup from now on, if it has some. Before, it returns
-  /// true.
-  void keep_shading() { m_is_shading_kept = !soup().normals.empty(); }
 
   /// Makes `rounded_place` return places from now on, as `Place_rounding` does; before, it returns none.
   void allow_new_places(bool is_float32);
@@ -126,14 +121,6 @@ public:
   {
     return selvedge::keeps_uv_orientation_at(*this, m_placed, moving, place);
   }
-  bool keeps_shading(Halfedge moving, const Border_rule<Mesh>& rule) const
-  {
-    return !m_is_shading_kept || selvedge::keeps_shading(*this, m_placed, moving, rule);
-  }
-  bool keeps_shading_at(Halfedge moving, const Point_3& place) const
-  {
-    return !m_is_shading_kept || selvedge::keeps_shading_at(*this, m_placed, moving, place);
-  }
   std::vector<Halfedge> companions(Halfedge moving) const
   {
     return m_shared ? m_shared->companions(moving) : std::vector<Halfedge>();
@@ -167,9 +154,8 @@ private:
   Scale m_scale;
   Placed_vertices m_placed;
   std::optional<Place_rounding> m_rounding; // none until new places are allowed
-  bool m_is_shading_kept = false;
-  std::optional<Texture_wedges> m_texture; // none until it is measured
-  std::optional<Shared_places> m_shared;   // none until meshes are shared
+  std::optional<Texture_wedges> m_texture;  // none until it is measured
+  std::optional<Shared_places> m_shared;    // none until meshes are shared
   std::optional<Progression_recorder> m_progression;
   std::function<void(const Soup_collapse&)> m_listener;
   std::function<void(const Collapse&)> m_recorder;

@@ -4,11 +4,13 @@
 #include <selvedge/normals.h>
 
 #include "Disjoint_sets.h"
+#include "number_positions.h"
 
 #include <selvedge/internal/Vector_of_doubles.h>
 #include <selvedge/rounding.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -17,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-// Recognises how the normals of corners were made, and makes those of a result in the same way.
+// Recognises how the normals of corners were made, and makes or mends those of a result.
 
 namespace selvedge {
 namespace {
@@ -31,6 +33,8 @@ constexpr double s_cosine_flat = 0.9999984769;
 constexpr double s_cosine_smooth = 0.9998476952;
 constexpr double s_cosine_of_face = 0.9659258263;
 constexpr double s_cosine_of_polygon = 0.5;
+
+constexpr Index s_no_normal = std::numeric_limits<Index>::max();
 
 Vector difference(const Point_3& a, const Point_3& b)
 {
@@ -182,12 +186,69 @@ void for_each_face(const Triangle_soup& soup, const Function& function)
   }
 }
 
+Vector normal_at(const Triangle_soup& soup, Index triangle, std::size_t place)
+{
+  return soup.normals.values[soup.normals.of_triangle[triangle][place]];
+}
+
+// Returns 1 where the three normals of a triangle point to its front, -1 where they point to its back, else
+// 0.
+int side_of_normals(const Triangle_soup& soup, Index triangle)
+{
+  if (soup.normals.of_triangle[triangle][0] == soup.normals.missing)
+    return 0;
+  const Vector front = unit_normal(soup, triangle);
+  const auto [least, largest] =
+      std::minmax({dot(front, normal_at(soup, triangle, 0)), dot(front, normal_at(soup, triangle, 1)),
+                   dot(front, normal_at(soup, triangle, 2))});
+  return least > 0 ? 1 : largest < 0 ? -1 : 0;
+}
+
+// Leaves out the values that no corner has. The others keep their order.
+void drop_unused(Corner_values<3>& normals)
+{
+  std::vector<Index> numbers(normals.values.size(), s_no_normal);
+  for (const Index_triple& triple : normals.of_triangle)
+    for (const Index number : triple)
+      numbers[number] = 0;
+  Index count = 0;
+  for (Index i = 0; i < numbers.size(); ++i)
+    if (numbers[i] != s_no_normal) {
+      normals.values[count] = normals.values[i];
+      numbers[i] = count++;
+    }
+  normals.values.resize(count);
+  for (Index_triple& triple : normals.of_triangle)
+    for (Index& number : triple)
+      number = numbers[number];
+  if (normals.missing && numbers[*normals.missing] != s_no_normal)
+    normals.missing = numbers[*normals.missing];
+  else
+    normals.missing.reset();
+}
+
 void restore_flat(Triangle_soup& soup)
 {
   soup.normals = {{}, std::vector<Index_triple>(soup.triangles.size())};
   for_each_face(soup, [&](const std::vector<Index>& face) {
     set_normal(soup, face, face.size() == 1 ? unit_normal(soup, face[0]) : unit_normal(soup, face));
   });
+}
+
+// Returns the angle of a triangle at a corner, in radians.
+double angle_at(const Triangle_soup& soup, Index corner)
+{
+  const Index_triple& v = soup.triangles[corner / 3];
+  const auto direction = [&](Index turn) {
+    return unit(difference(soup.points[v[(corner + turn) % 3]], soup.points[v[corner % 3]]));
+  };
+  return std::acos(std::clamp(dot(direction(1), direction(2)), -1.0, 1.0));
+}
+
+void add(Vector& sum, const Vector& normal, double weight)
+{
+  for (std::size_t i = 0; i < 3; ++i)
+    sum[i] += weight * normal[i];
 }
 
 void restore_smooth(Triangle_soup& soup)
@@ -200,17 +261,13 @@ void restore_smooth(Triangle_soup& soup)
       continue;
     const Vector normal = unit_normal(soup, t);
     for (int k = 0; k < 3; ++k) {
-      const Index_triple& v = soup.triangles[t];
       Index& value = normals.of_triangle[t][k];
-      const auto [place, is_new] = numbers.emplace(std::make_pair(v[k], value), Index(sums.size()));
+      const auto [place, is_new] =
+          numbers.emplace(std::make_pair(soup.triangles[t][k], value), Index(sums.size()));
       if (is_new)
         sums.push_back({});
       value = place->second;
-      const Vector u = unit(difference(soup.points[v[(k + 1) % 3]], soup.points[v[k]]));
-      const Vector w = unit(difference(soup.points[v[(k + 2) % 3]], soup.points[v[k]]));
-      const double angle = std::acos(std::clamp(dot(u, w), -1.0, 1.0));
-      for (int i = 0; i < 3; ++i)
-        sums[place->second][i] += angle * normal[i];
+      add(sums[value], normal, angle_at(soup, 3 * t + k));
     }
   }
   const Index count = Index(sums.size());
@@ -247,6 +304,8 @@ const char* name_of(Normals_treatment treatment)
   switch (treatment) {
   case Normals_treatment::kept:
     return "kept";
+  case Normals_treatment::mended:
+    return "mended";
   case Normals_treatment::flat:
     return "flat";
   case Normals_treatment::smooth:
@@ -294,9 +353,83 @@ Normals_treatment take_normals(Triangle_soup& soup, Normals_choice choice, Corne
     return Normals_treatment::flat;
   }
   if (choice != Normals_choice::recompute)
-    return Normals_treatment::kept;
+    return choice == Normals_choice::keep ? Normals_treatment::kept : Normals_treatment::mended;
   join_fans(soup);
   return Normals_treatment::smooth;
+}
+
+std::size_t mend_normals(Triangle_soup& result, const std::vector<Index>& triangles,
+                         const Triangle_soup& original)
+{
+  if (result.normals.empty())
+    return 0;
+  struct Shaded_triangle
+  {
+    Index triangle;
+    Vector front; // has the length 1
+    std::array<bool, 3> is_wrong;
+  };
+  std::vector<Shaded_triangle> shaded; // those with corners to mend
+  std::size_t mended = 0;
+  for (Index t = 0; t < result.triangles.size(); ++t) {
+    if (side_of_normals(result, t) == 1)
+      continue;
+    const int side = side_of_normals(original, triangles[t]);
+    Shaded_triangle triangle{t, {}, {}};
+    add(triangle.front, unit_normal(result, t), side);
+    std::size_t wrong = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      wrong += triangle.is_wrong[k] = dot(triangle.front, normal_at(result, t, k)) < 0;
+    if (wrong > 0)
+      shaded.push_back(triangle);
+    mended += wrong;
+  }
+  if (mended == 0)
+    return 0;
+
+  // Seams of the texture are no hard edges: triangles meet where they have positions in common.
+  const std::vector<Index> positions = number_positions(result.points);
+  std::vector<Index_triple> triples;
+  for (const Shaded_triangle& triangle : shaded) {
+    const auto& [a, b, c] = result.triangles[triangle.triangle];
+    triples.push_back({positions[a], positions[b], positions[c]});
+  }
+  internal::Disjoint_sets fans(3 * shaded.size()); // of corners of `shaded`
+  const auto is_wrong = [&](Index corner) { return shaded[corner / 3].is_wrong[corner % 3]; };
+  for_each_inner_edge(triples, [&](const Side& a, const Side& b) {
+    if (is_wrong(a.at_low) && is_wrong(b.at_low))
+      fans.unite(a.at_low, b.at_low);
+    if (is_wrong(a.at_high) && is_wrong(b.at_high))
+      fans.unite(a.at_high, b.at_high);
+  });
+  std::vector<Vector> sums(3 * shaded.size());
+  const auto for_each_wrong_corner = [&](const auto& function) {
+    for (Index i = 0; i < shaded.size(); ++i)
+      for (Index k = 0; k < 3; ++k)
+        if (shaded[i].is_wrong[k])
+          function(shaded[i], k, fans.find(3 * i + k));
+  };
+  for_each_wrong_corner([&](const Shaded_triangle& triangle, Index k, std::size_t fan) {
+    add(sums[fan], triangle.front, angle_at(result, 3 * triangle.triangle + k));
+  });
+  std::vector<Index> numbers(3 * shaded.size(), s_no_normal); // of the means, by fan
+  const auto new_number = [&](const Vector& normal) {
+    result.normals.values.push_back(normal);
+    return Index(result.normals.values.size() - 1);
+  };
+  for_each_wrong_corner([&](const Shaded_triangle& triangle, Index k, std::size_t fan) {
+    Index& number = result.normals.of_triangle[triangle.triangle][k];
+    const Vector mean = stored(unit(sums[fan]));
+    if (!(dot(mean, triangle.front) > 0)) {
+      number = new_number(stored(triangle.front));
+      return;
+    }
+    if (numbers[fan] == s_no_normal)
+      numbers[fan] = new_number(mean);
+    number = numbers[fan];
+  });
+  drop_unused(result.normals);
+  return mended;
 }
 
 void keep_flat_normals(Triangle_soup& result, const std::vector<Index>& triangles,
@@ -335,8 +468,7 @@ void keep_flat_normals(Triangle_soup& result, const std::vector<Index>& triangle
   std::partial_sum(ends.begin(), ends.end(), ends.begin());
   for (Index t = 0; t < count; ++t)
     by_set[ends[sets.find(t)]++] = t; // so that the end of a set is where the next one began
-  std::vector<char> is_kept(count, false);
-  std::vector<Index> numbers(normals.values.size(), 0);
+  std::vector<Index_triple> kept(count, {s_no_normal, s_no_normal, s_no_normal});
   std::vector<Index> face;
   for (std::size_t set = 0, first = 0; set < count; first = ends[set++]) {
     face.assign(by_set.begin() + std::ptrdiff_t(first), by_set.begin() + std::ptrdiff_t(ends[set]));
@@ -348,32 +480,17 @@ void keep_flat_normals(Triangle_soup& result, const std::vector<Index>& triangle
       return is_in_its_place(t) || is_made_within(t, s_cosine_flat);
     });
     for (const Index t : face)
-      if (keeps) {
-        is_kept[t] = true;
-        for (const Index number : normals.of_triangle[triangles[t]])
-          numbers[number] = 1;
-      }
+      if (keeps)
+        kept[t] = normals.of_triangle[triangles[t]];
   }
-  Corner_values<3> kept;
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-    if (numbers[i] != 0) {
-      numbers[i] = Index(kept.values.size());
-      kept.values.push_back(normals.values[i]);
-    }
-  std::vector<Index> new_numbers(result.normals.values.size(), std::numeric_limits<Index>::max());
-  for (std::size_t t = 0; t < is_kept.size(); ++t) {
-    Index_triple corners = is_kept[t] ? normals.of_triangle[triangles[t]] : result.normals.of_triangle[t];
-    for (Index& corner : corners) {
-      Index& number = is_kept[t] ? numbers[corner] : new_numbers[corner];
-      if (number == std::numeric_limits<Index>::max()) {
-        number = Index(kept.values.size());
-        kept.values.push_back(result.normals.values[corner]);
-      }
-      corner = number;
-    }
-    kept.of_triangle.push_back(corners);
-  }
-  result.normals = std::move(kept);
+  Corner_values<3> both{normals.values, std::move(kept)};
+  for (std::size_t t = 0; t < count; ++t)
+    if (both.of_triangle[t][0] == s_no_normal)
+      for (std::size_t k = 0; k < 3; ++k)
+        both.of_triangle[t][k] = Index(normals.values.size()) + result.normals.of_triangle[t][k];
+  both.values.insert(both.values.end(), result.normals.values.begin(), result.normals.values.end());
+  drop_unused(both);
+  result.normals = std::move(both);
 }
 
 void restore_normals(Triangle_soup& soup, Normals_treatment treatment)

@@ -345,12 +345,26 @@ TEST(AttributesConverted, GoWhereTheFormatHasAPlaceAndTheRestIsNamed)
   expect_same(back.vertex_attributes, soup.vertex_attributes);
 }
 
-TEST(AttributesConverted, NormalsOfCornersAreNamedWhenPlyHasNoPlaceForThem)
+TEST(AttributesConverted, PlyHasAVertexForEachNormal)
 {
-  const Triangle_soup soup = read("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nvn 0 1 0\n"
-                                  "f 1//1 2//1 3//1\nf 1//2 3//2 4//2\n",
-                                  Mesh_format::obj);
-  EXPECT_EQ(not_carried(soup, Mesh_format::ply), Names{"normals, for not every vertex has one and only one"});
+  const char* const square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nvn 0 1 0\n";
+  const Triangle_soup soup =
+      read(square + std::string("f 1//1 2//1 3//1\nf 1//2 3//2 4//2\n"), Mesh_format::obj);
+  EXPECT_EQ(not_carried(soup, Mesh_format::ply), Names{});
+  const Triangle_soup ply = through(soup, "m.ply");
+  EXPECT_EQ(ply.points.size(), 6u);
+  for (std::size_t t = 0; t < 2; ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(ply.normals.values[ply.normals.of_triangle[t][k]], soup.normals.values[t]);
+      EXPECT_EQ(ply.points[ply.triangles[t][k]], soup.points[soup.triangles[t][k]]);
+    }
+}
+
+TEST(AttributesConverted, NormalsThatSomeTrianglesLackAreNamedForPly)
+{
+  const Triangle_soup soup =
+      read("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\nf 1 3 4\n", Mesh_format::obj);
+  EXPECT_EQ(not_carried(soup, Mesh_format::ply), Names{"normals, for not every vertex has one"});
   EXPECT_TRUE(through(soup, "m.ply").normals.empty());
 }
 

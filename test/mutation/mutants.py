@@ -230,11 +230,11 @@ for file, entry in (
 ):
     group("src/soup/" + file, ("placement_test", "worlds_test"), entry)
 
-group("src/soup/keeps_shading.cpp", ("shading_test",),
-      ("return !(least > 0 && after.sides().first < 0)", "return !(least > 0 && false)", "normals come to point to the back"),
-      ("!(largest < 0 && after.sides().second > 0)", "!(largest < 0 && false)", "faces that are inside out turn over"),
-      ("Shaded_face(corners, placed, h, 0).is_shaded_alike(corners.place(h), place, normal)", "true",
-       "at new places, normals come to point to the back"))
+group("src/soup/normals.cpp", ("shading_test",),
+      ("if (side_of_normals(result, t) == 1)", "if (true)", "normals that point to the back are not mended"),
+      ("dot(triangle.front, normal_at(result, t, k)) < 0", "true", "normals that point to the front are mended"),
+      ("if (!(dot(mean, triangle.front) > 0))", "if (false)", "mended normals point to the back"),
+      ("positions[a], positions[b], positions[c]", "a, b, c", "seams of the texture are hard edges where normals are mended"))
 group(
     headers + "Surface_mesh_simplification/internal/Tracked_points.h",
     ("tracked_points_test",),

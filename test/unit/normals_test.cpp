@@ -107,8 +107,9 @@ TEST(Normals, ThatAreNotFlatAreKeptUnlessAsked)
   soup.normals.of_triangle = soup.triangles;
   EXPECT_FALSE(has_flat_normals(soup));
   const Prepared_soup original = prepared(soup, Normals_choice::automatic);
-  EXPECT_EQ(original.normals, Normals_treatment::kept);
+  EXPECT_EQ(original.normals, Normals_treatment::mended);
   const Simplified_soup result = simplify_soup(original, to_ratio(0.3));
+  EXPECT_EQ(result.mended_normals, 0u);
   for (std::size_t t = 0; t < result.soup.triangles.size(); ++t)
     for (int k = 0; k < 3; ++k) {
       const Index corner = result.corners[t][k];

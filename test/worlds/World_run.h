@@ -30,6 +30,13 @@ struct World_run
 
   /// From a progressive file, if the output is glTF and one can hold the steps.
   std::optional<Triangle_soup> last_level;
+
+  /// Whether all normals of the result are those that corners of the input have.
+  bool are_normals_kept() const
+  {
+    return prepared.normals == Normals_treatment::kept ||
+           (prepared.normals == Normals_treatment::mended && result.mended_normals == 0);
+  }
 };
 
 /// Returns the mesh of a world as the app prepares it: with the vertices joined that differ in dropped

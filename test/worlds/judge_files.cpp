@@ -109,10 +109,10 @@ Verdict judge_replay(const World& world, const World_run& run)
   if (verdict.soup.triangles != run.result.soup.triangles ||
       !std::equal(verdict.soup.points.begin(), verdict.soup.points.end(), run.result.soup.points.begin(),
                   run.result.soup.points.end()) ||
-      (run.result.placed_vertices == 0 && (verdict.soup.uvs.of_triangle != run.result.soup.uvs.of_triangle ||
-                                           verdict.soup.uvs.values != run.result.soup.uvs.values ||
-                                           (run.prepared.normals == Normals_treatment::kept &&
-                                            !have_equal_normals(verdict.soup, run.result.soup)))))
+      (run.result.placed_vertices == 0 &&
+       (verdict.soup.uvs.of_triangle != run.result.soup.uvs.of_triangle ||
+        verdict.soup.uvs.values != run.result.soup.uvs.values ||
+        (run.are_normals_kept() && !have_equal_normals(verdict.soup, run.result.soup)))))
     return broken("the log leads to another result");
   for (std::size_t pose = 0; pose < world.soup.poses.size(); ++pose) {
     if (!world.is_guarded(pose))
@@ -170,7 +170,7 @@ Verdict judge_file(const World& world, const World_run& run)
 
 Verdict judge_progressive_file(const World_run& run)
 {
-  const bool with_normals = run.prepared.normals == Normals_treatment::kept;
+  const bool with_normals = run.are_normals_kept();
   if (!run.last_level ||
       sorted_triangles(*run.last_level, with_normals) == sorted_triangles(run.read_back, with_normals))
     return std::nullopt;

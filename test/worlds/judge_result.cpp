@@ -11,6 +11,7 @@
 #include <selvedge/rounding.h>
 #include <selvedge/verify.h>
 
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Kernel/global_functions.h>
 
 #include <algorithm>
@@ -86,6 +87,47 @@ bool is_unit(const Corner_values<3>& normals, Index triangle, std::size_t k)
   return std::abs(std::hypot(x, y, z) - 1) < 1e-6 || std::hypot(x, y, z) == 0;
 }
 
+// Returns 1 for a normal that points to the front of a triangle, -1 to the back, and 0 where that is not
+// clear in double. Decided exactly.
+int side_of(const std::array<double, 3>& normal, const Triangle_soup& soup, Index triangle)
+{
+  using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
+  const auto point = [&](std::size_t k) {
+    const Point_3& p = soup.points[soup.triangles[triangle][k]];
+    return Exact::Point_3(p.x(), p.y(), p.z());
+  };
+  const Exact::Vector_3 u = point(1) - point(0), v = point(2) - point(0), n(normal[0], normal[1], normal[2]);
+  const Exact::FT height = CGAL::cross_product(u, v) * n;
+  const bool is_clear =
+      height * height > 1e-18 * u.squared_length() * v.squared_length() * n.squared_length();
+  return is_clear ? int(CGAL::sign(height)) : 0;
+}
+
+// Returns why a corner of a result that comes from a corner of the original must not have its normal, or
+// null. It is a new one where the old one would point to the back of a triangle whose normals all pointed to
+// its front, and nowhere else.
+const char* wrong_in_mended_normal(const Triangle_soup& result, Index i, std::size_t k,
+                                   const Triangle_soup& original, Index t, Index corner)
+{
+  if (result.normals.empty())
+    return original.normals.empty() ? nullptr : "no normals";
+  const auto value = [](const Triangle_soup& soup, Index triangle, std::size_t place) {
+    return soup.normals.values[soup.normals.of_triangle[triangle][place]];
+  };
+  const auto old = value(original, corner / 3, corner % 3), now = value(result, i, k);
+  const std::array<int, 3> before{side_of(value(original, t, 0), original, t),
+                                  side_of(value(original, t, 1), original, t),
+                                  side_of(value(original, t, 2), original, t)};
+  const auto are_all = [&](int side) { return std::count(before.begin(), before.end(), side) == 3; };
+  if (has_same_value(result.normals, i, original.normals, corner, k))
+    return are_all(1) && side_of(old, result, i) < 0 ? "a normal that points to its back" : nullptr;
+  for (const int side : {1, -1})
+    if (std::count(before.begin(), before.end(), -side) == 0 && side * side_of(old, result, i) <= 0 &&
+        side * side_of(now, result, i) >= 0 && is_unit(result.normals, i, k))
+      return nullptr;
+  return "a new normal for one that does not point to its back";
+}
+
 // The worlds have attributes of one component: in floating point, or integers that are not mixed.
 bool are_rows_between(const std::vector<Attribute>& result, Index row, const std::vector<Attribute>& original,
                       Index from)
@@ -137,8 +179,6 @@ Verdict judge_attributes(const World& world, const World_run& run, const Judged_
       run.result.triangles.size() != result.triangles.size() ||
       run.result.corners.size() != result.triangles.size())
     return Broken_promise{Promise::attributes, "the result has not the triangles that the collapses leave"};
-  const bool are_normals_kept =
-      run.prepared.normals != Normals_treatment::flat && run.prepared.normals != Normals_treatment::smooth;
   std::map<Index, Index> original_vertex, vertex_of_original;
   std::set<std::size_t> placed; // by the numbers of those that were kept; a place may be where another was
   for (const Soup_collapse& collapse : run.collapses) {
@@ -176,15 +216,18 @@ Verdict judge_attributes(const World& world, const World_run& run, const Judged_
           vertex_of_original.emplace(from, v).first->second != v)
         return broken("vertices joined or split");
       if (is_placed) {
-        if (!is_value_between(result.uvs, i, original.uvs, k) ||
-            (are_normals_kept && !is_unit(result.normals, i, k)) ||
+        if (!is_value_between(result.uvs, i, original.uvs, k) || !is_unit(result.normals, i, k) ||
             !are_rows_between(result.vertex_attributes, v, original.vertex_attributes, from))
           return broken("a value at a new place that is no mixture of the input's");
       } else if (!has_same_value(result.uvs, i, original.uvs, corner, k) ||
-                 (are_normals_kept && !has_same_value(result.normals, i, original.normals, corner, k)) ||
+                 (run.are_normals_kept() &&
+                  !has_same_value(result.normals, i, original.normals, corner, k)) ||
                  !have_same_rows(result.vertex_attributes, v, original.vertex_attributes, from)) {
         return broken("a value that its corner has not");
       }
+      if (run.prepared.normals == Normals_treatment::mended && !is_placed)
+        if (const char* const what = wrong_in_mended_normal(result, i, k, original, t, corner))
+          return broken(what);
       if (is_held[t] && corner != 3 * t + k)
         return Broken_promise{Promise::frozen, "triangle " + std::to_string(t) + " has another corner"};
     }

@@ -706,8 +706,16 @@ void decorate(Triangle_soup& soup, Random& random)
     soup.uvs = random_uvs(soup, random);
   if (random.one_in(8))
     soup.normals = random_normals(soup, random);
-  if (!soup.normals.empty() && random.one_in(3))
-    restore_normals(soup, Normals_treatment::flat);
+  if (!soup.normals.empty()) {
+    const auto kind = random.below(3);
+    if (kind == 0)
+      restore_normals(soup, Normals_treatment::flat);
+    if (kind == 1) {
+      for (Index_triple& corners : soup.normals.of_triangle)
+        corners = {0, 0, 0}; // no edge is hard
+      restore_normals(soup, Normals_treatment::smooth);
+    }
+  }
   if (random.one_in(4)) {
     Attribute weights;
     weights.name = "w";

@@ -31,7 +31,6 @@ enum class Hindrance : unsigned char {
   target,       ///< a part that has reached its own ratio would lose a face
   aspect_ratio, ///< a face would become too thin
   normal_change, ///< the normal of a face would turn too much
-  shading,       ///< a normal at a corner would point to the back of a face
   uv,            ///< a triangle of the texture would turn over
   error,         ///< the surface would be too far from the original
   intersection,  ///< faces would touch or pass through each other
@@ -84,7 +83,6 @@ public:
              {Hindrance::target, "target", "parts at their target", "target"},
              {Hindrance::aspect_ratio, "aspect_ratio", "the shape of faces", "aspect_ratio"},
              {Hindrance::normal_change, "normal_change", "the turn of normals", "normal_change"},
-             {Hindrance::shading, "shading", "normals that would point to the back of faces", "shading"},
              {Hindrance::uv, "uv", "texture that would turn over", "uv"},
              {Hindrance::error, "error", "the error bound", "error"},
              {Hindrance::intersection, "intersection", "layers in the way", "intersection"},

@@ -86,19 +86,6 @@ struct No_observer
     return true;
   }
 
-  /// Returns whether every face whose normals at its corners point to one side keeps them on that side.
-  template <class Halfedge, class Rule>
-  bool keeps_shading(const Halfedge& /*moving*/, const Rule&) const
-  {
-    return true;
-  }
-
-  template <class Halfedge, class Point>
-  bool keeps_shading_at(const Halfedge& /*moving*/, const Point& /*place*/) const
-  {
-    return true;
-  }
-
   /// Returns why a vertex is locked: `Hindrance::locked`, or one of the reasons beside it. Asked of locked
   /// vertices, when a reduction ends short of its target.
   template <class Vertex>

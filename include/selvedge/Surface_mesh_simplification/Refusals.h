@@ -19,8 +19,7 @@ struct Refusals
   std::size_t error = 0;  ///< larger than `Simplify_options::max_error`
   std::size_t aspect_ratio = 0;
   std::size_t normal_change = 0;
-  std::size_t shading = 0; ///< a normal at a corner would point to the back of a face
-  std::size_t uv = 0;      ///< a texture triangle would turn over
+  std::size_t uv = 0; ///< a texture triangle would turn over
   std::size_t intersection = 0;
   std::size_t clearance = 0;  ///< faces would come too near others; see `Simplify_options::clearance`
   std::size_t companions = 0; ///< places of a shared mesh are so near each other that they cannot move alike
@@ -34,7 +33,7 @@ struct Refusals
   };
 
   /// Returns all rules, in order.
-  static constexpr std::array<Rule, 11> rules();
+  static constexpr std::array<Rule, 10> rules();
 
   friend Refusals& operator+=(Refusals& a, const Refusals& b)
   {
@@ -50,14 +49,13 @@ struct Refusals
   }
 };
 
-constexpr std::array<Refusals::Rule, 11> Refusals::rules()
+constexpr std::array<Refusals::Rule, 10> Refusals::rules()
 {
   return {{{"border", "border", &Refusals::border},
            {"target", "parts at their target", &Refusals::target},
            {"error", "error", &Refusals::error},
            {"aspect_ratio", "aspect ratio", &Refusals::aspect_ratio},
            {"normal_change", "normal change", &Refusals::normal_change},
-           {"shading", "shading", &Refusals::shading},
            {"uv", "texture", &Refusals::uv},
            {"intersection", "intersection", &Refusals::intersection},
            {"clearance", "clearance", &Refusals::clearance},

@@ -200,19 +200,6 @@ class Simplification
     }
   };
 
-  struct Is_shading_kept
-  {
-    const Observer* observer;
-    Rule rule;
-
-    template <class Profile>
-    bool operator()(const Collapse<Profile>& collapse) const
-    {
-      return collapse.are_both_moved() ? observer->keeps_shading_at(collapse.moving(), collapse.place())
-                                       : observer->keeps_shading(collapse.moving(), rule);
-    }
-  };
-
   struct Are_pieces_kept
   {
     const Observer* observer;
@@ -234,8 +221,7 @@ class Simplification
   using Target = Halfedge_filter<Targets, Border>;
   using Aspect_ratio = Aspect_ratio_filter<Target, Is_of_strip>;
   using Normal_change = Normal_change_filter<Aspect_ratio>;
-  using Shading = Halfedge_filter<Is_shading_kept, Normal_change>;
-  using Uv = Halfedge_filter<Is_uv_orientation_kept, Shading>;
+  using Uv = Halfedge_filter<Is_uv_orientation_kept, Normal_change>;
   using Error = Error_filter<Tracked_points<TriangleMesh>, Uv>;
   using Intersection =
       Intersection_filter<TriangleMesh, Error, Selectable_index, VertexPointMap, Geom_traits>;
@@ -259,8 +245,7 @@ public:
         m_border({&m_partners}, m_pieces), m_target(m_targets, m_border),
         m_aspect_ratio(options.min_aspect_ratio, m_target, {&mesh, m_rule}),
         m_normal_change(options.max_normal_change, m_aspect_ratio),
-        m_shading({&observer, m_rule}, m_normal_change),
-        m_uv({options.check_uv_orientation ? &observer : nullptr, m_rule}, m_shading), m_tracked(mesh),
+        m_uv({options.check_uv_orientation ? &observer : nullptr, m_rule}, m_normal_change), m_tracked(mesh),
         m_error(max_error(), m_tracked, m_uv),
         m_poses(mesh, options, constraints, m_diagonal, max_error(), {&mesh, m_rule},
                 [&](const auto& of_pose) { return make_rule(constraints, of_pose); }),
@@ -318,7 +303,6 @@ public:
     result.error = m_error.refusals();
     result.aspect_ratio = m_aspect_ratio.refusals();
     result.normal_change = m_normal_change.refusals();
-    result.shading = m_shading.refusals();
     result.uv = m_uv.refusals();
     result.intersection = (m_intersection ? m_intersection->refusals() : 0) + m_refused_in_first_pose;
     m_poses.add_refusals(result);
@@ -543,8 +527,6 @@ private:
       return Hindrance::aspect_ratio;
     if (!m_normal_change.accepts(collapse))
       return Hindrance::normal_change;
-    if (!m_shading.accepts(collapse))
-      return Hindrance::shading;
     if (!m_uv.accepts(collapse))
       return Hindrance::uv;
     if (!m_error.accepts(collapse))
@@ -1067,7 +1049,6 @@ private:
   Target m_target;
   Aspect_ratio m_aspect_ratio;
   Normal_change m_normal_change;
-  Shading m_shading;
   Uv m_uv;
   Tracked_points<TriangleMesh> m_tracked;
   Error m_error;
