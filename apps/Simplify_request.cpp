@@ -550,15 +550,18 @@ void add_options(CLI::App& command, Simplify_request& request)
       .add_option(
           "--normals", request.normals,
           "Normals of the input: keep them as they are, so that an edge with different normals on its "
-          "two sides is a seam; make them anew, with the hard edges of the input; or leave them out, so that "
+          "two sides is a seam; loose makes no seams of such edges: each face gets those normals of its "
+          "vertices that suit it best; make them anew, with the hard edges of the input; or leave them out, "
+          "so that "
           "vertices of PLY and glTF that differ in nothing else are one. "
-          "auto makes those anew that give every face its own normal, or that would come to point to the "
-          "back of a face, and keeps others.")
+          "auto makes those anew that give every face its own normal, or that would come to belong to "
+          "another side of the surface, and keeps others.")
       ->transform(one_of<Normals_choice>({{"auto", Normals_choice::automatic},
                                           {"keep", Normals_choice::keep},
+                                          {"loose", Normals_choice::loose},
                                           {"recompute", Normals_choice::recompute},
                                           {"drop", Normals_choice::drop}}))
-      ->type_name("auto|keep|recompute|drop")
+      ->type_name("auto|keep|loose|recompute|drop")
       ->default_str("auto")
       ->group(seams);
 

@@ -109,14 +109,12 @@ private:
   // OBJ has normals apart from vertices: there, several vertices at one place mean something.
   void join_without_normals(Mesh_file& file)
   {
-    if (!is_gltf(file.format) && file.format != Mesh_format::ply)
+    if (!has_normals_of_vertices(file.format))
       return;
     const std::size_t joined = share_vertices_without_normals(file.soup);
     if (joined == 0)
       return;
-    file.notes
-        .remarks["corners joined, for their vertices differ in nothing but the normals that are dropped"] +=
-        joined;
+    file.notes.remarks["corners joined, for their vertices differ in nothing but their normals"] += joined;
     m_log_header.are_normals_dropped = true;
   }
 
@@ -165,7 +163,7 @@ private:
     Mesh_file file = input.read();
     m_seconds["read"] = seconds_since(start);
     read_poses(m_request.poses, m_request.input, file.soup);
-    if (m_request.normals == Normals_choice::drop)
+    if (joins_vertices(m_request.normals))
       join_without_normals(file);
     m_report["input"] = input_json(m_request.input, file);
     check_pose_outputs(file.soup.poses);
@@ -211,7 +209,8 @@ private:
     options.may_intersect = part_pairs(m_request.may_intersect, file.soup);
     try {
       Prepared_soup prepared = prepare(std::move(file.soup), options, obstacle);
-      if (!m_request.progressive.empty() && prepared.normals == Normals_treatment::smooth)
+      if (!m_request.progressive.empty() &&
+          (prepared.normals == Normals_treatment::smooth || prepared.normals == Normals_treatment::picked))
         throw Argument_error(
             "--progressive: normals that are made anew are others in every level, and the file has "
             "one for each vertex; give --normals keep or drop");

@@ -41,23 +41,8 @@ bool has_vertex_values(const Triangle_soup& soup)
          soup.scene != nullptr;
 }
 
-/// Whether each vertex has one normal at most: then edges across which normals differ stay seams without
-/// them.
-bool have_vertices_one_normal(const Triangle_soup& soup)
-{
-  std::vector<const std::array<double, 3>*> normals(soup.normals.empty() ? 0 : soup.points.size());
-  for (Index t = 0; !normals.empty() && t < soup.triangles.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::array<double, 3>* const normal = &soup.normals.values[soup.normals.of_triangle[t][k]];
-      if (const auto* const other = std::exchange(normals[soup.triangles[t][k]], normal);
-          other && *other != *normal)
-        return false;
-    }
-  return true;
-}
-
 /// Returns the option that takes a reason away; empty when none does.
-std::string remedy(Hindrance reason, const Simplify_request& request, const Triangle_soup& soup)
+std::string remedy(Hindrance reason, const Simplify_request& request)
 {
   const Simplify_options& options = request.options;
   switch (reason) {
@@ -68,7 +53,7 @@ std::string remedy(Hindrance reason, const Simplify_request& request, const Tria
   case Hindrance::locked:
     return request.intent.locked.empty() ? "--keep for fewer parts" : "--lock for fewer parts";
   case Hindrance::normals:
-    return have_vertices_one_normal(soup) ? "" : "--normals drop";
+    return joins_vertices(request.normals) ? "" : "--normals loose";
   case Hindrance::border_turn:
     return options.max_border_turn < 180 ? "--border-turn 180" : "";
   case Hindrance::seam_turn:
@@ -118,8 +103,6 @@ std::string why_it_stays(Hindrance reason)
     return "what meets at edges of three faces or more stays as it is";
   case Hindrance::misoriented:
     return "what cannot be turned to face one way, like a Moebius band, stays as it is there";
-  case Hindrance::normals:
-    return "the file has a vertex of its own for each of these normals, and vertices stay apart";
   case Hindrance::topology:
     return "every piece keeps its holes and handles";
   case Hindrance::intersection:
@@ -132,12 +115,12 @@ std::string why_it_stays(Hindrance reason)
 /// Returns the option against the most frequent reason that has one and holds a tenth of the edges, and that
 /// against the next, if it is half as frequent: an edge that one of them lets go may be held by the other.
 std::string remedies(const std::vector<Hindrances::Description>& all, const Hindrances& hindrances,
-                     const Simplify_request& request, const Triangle_soup& soup)
+                     const Simplify_request& request)
 {
   std::string text;
   std::size_t first = 0;
   for (const Hindrances::Description& description : all) {
-    const std::string option = remedy(description.reason, request, soup);
+    const std::string option = remedy(description.reason, request);
     if (option.empty() || 10 * hindrances[description.reason] < hindrances.total())
       continue;
     if (first > 0 && 2 * hindrances[description.reason] < first)
@@ -154,8 +137,7 @@ std::string remedies(const std::vector<Hindrances::Description>& all, const Hind
 }
 
 /// Says in a line what holds back a reduction that ended by itself, and what helps.
-std::string held_back(const Simplify_request& request, const Simplify_report& report,
-                      const Triangle_soup& soup)
+std::string held_back(const Simplify_request& request, const Simplify_report& report)
 {
   const Hindrances& hindrances = report.hindrances;
   if (hindrances.total() == 0)
@@ -172,7 +154,7 @@ std::string held_back(const Simplify_request& request, const Simplify_report& re
   }
   if (others > 0)
     text += ", " + with_commas(others) + " by other rules";
-  const std::string options = remedies(all, hindrances, request, soup);
+  const std::string options = remedies(all, hindrances, request);
   return text + (options.empty() ? "; no option helps much: " + std::string(why_it_stays(all[0].reason))
                                  : "; try " + options);
 }
@@ -368,7 +350,7 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
   else
     stream << (done.is_stopped ? "interrupted" : "as far as the limits allow");
   if (!done.is_reached() && !done.is_stopped)
-    stream << "\nheld back: " << held_back(request, done, prepared.soup);
+    stream << "\nheld back: " << held_back(request, done);
   if (done.faces_fixed > 0)
     stream << "\nfixed: " << counted(done.faces_fixed, "face")
            << " with all corners frozen, locked or coincident; a ratio is of the other "
@@ -398,7 +380,7 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
            << (has_vertex_values(prepared.soup) ? " with interpolated attributes" : "");
   if (result.mended_normals > 0)
     stream << "\nnormals: kept, but for " << counted(result.mended_normals, "corner")
-           << " with a new one, as the old one would point to the back of the face";
+           << " with a new one, as the old one is too far from the normal of the face";
   if (polygons.input > 0)
     stream << "\npolygons: " << with_commas(polygons.output) << " of " << counted(polygons.input, "face")
            << " of more than three corners written as they were";

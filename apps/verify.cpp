@@ -17,6 +17,7 @@
 #include <selvedge/Parts.h>
 #include <selvedge/compare.h>
 #include <selvedge/mesh_files.h>
+#include <selvedge/normals.h>
 #include <selvedge/verify.h>
 
 #include <algorithm>
@@ -315,6 +316,11 @@ Exit_code run(const Verify_request& request)
     of_original.files = request.files_of_poses_of_original;
     read_poses(of_original, request.original, original.soup);
     report["original"] = input_json(request.original, original);
+    if (has_normals_of_vertices(mesh.format) || has_normals_of_vertices(original.format)) {
+      // Vertices that a file has for its normals alone make no pieces.
+      share_vertices_without_normals(mesh.soup);
+      share_vertices_without_normals(original.soup);
+    }
     options.weld_distance = request.weld_distance;
     verification = verify(mesh.soup, original.soup, options);
     report["original"]["rounded"] = verification->is_original_rounded;

@@ -79,6 +79,7 @@ const Words<Instances> instances{{"shared", Instances::shared}, {"apart", Instan
 const Words<Face_index> indices{{"packed", Face_index::packed}, {"clusters", Face_index::clusters}};
 const Words<Normals_choice> normals{{"auto", Normals_choice::automatic},
                                     {"keep", Normals_choice::keep},
+                                    {"loose", Normals_choice::loose},
                                     {"recompute", Normals_choice::recompute},
                                     {"drop", Normals_choice::drop}};
 const Words<Defects> defects{

@@ -110,6 +110,10 @@ Mesh_format mesh_format(const std::filesystem::path& path);
 /// Returns whether a path's extension is `.gz`, in upper or lower case: the file is packed.
 bool is_gzip(const std::filesystem::path& path);
 
+/// Returns whether files of this format have one normal for each vertex, as PLY and glTF have, so that they
+/// hold several vertices where normals differ.
+bool has_normals_of_vertices(Mesh_format format);
+
 /// Returns whether every file of this format holds its positions as 32-bit floats, as STL and glTF do. A mesh
 /// that is written to such a format must be rounded (`round_to_float32`) before it is judged. PLY holds
 /// floats when that loses nothing, else doubles.

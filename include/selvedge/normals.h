@@ -20,6 +20,8 @@ enum class Normals_choice {
   automatic, ///< flat normals are made anew for the faces that change (`keep_flat_normals`); all others are
              ///< kept, and mended (`mend_normals`)
   keep,      ///< every corner of the result has a normal that some corner of the input has, bit for bit
+  loose,     ///< as `automatic`; but different normals make no lines: every corner gets that normal of its
+             ///< vertex which suits its triangle best (`pick_normals`)
   recompute, ///< the result gets new normals, made as those of the input seem to be made
   drop       ///< the result has no normals
 };
@@ -28,18 +30,19 @@ enum class Normals_choice {
 enum class Normals_treatment {
   none,   ///< the soup has no normals
   kept,   ///< they are treated like any other attribute
-  mended, ///< as kept; but a corner gets a new one where it would point to the back of its triangle
+  mended, ///< as kept; but a corner gets a new one where its own is too far from that of its triangle
+  picked, ///< every corner gets one of those that its vertex has in the input, or a new one as in mended
   flat,   ///< every corner gets the normal of its triangle, or of the polygon or face (`keep_flat_normals`)
           ///< that this is a part of, bit for bit that of the input where it has not changed
   smooth, ///< every corner gets the mean normal of the triangles around its vertex, up to hard edges
   dropped
 };
 
-/// Returns the word for this in options and reports: auto, keep, recompute or drop.
+/// Returns the word for this in options and reports: auto, keep, loose, recompute or drop.
 const char* name_of(Normals_choice choice);
 
-/// Returns the word for this in reports: none, kept, mended, flat, smooth or
-/// dropped.
+/// Returns the word for this in reports: none, kept, mended, picked, flat,
+/// smooth or dropped.
 const char* name_of(Normals_treatment treatment);
 
 /// Returns whether normals are *flat*: those of 99 % of all corners differ from the normal of their triangle
@@ -55,16 +58,21 @@ bool has_flat_normals(const Triangle_soup& soup);
 /// corners between two hard edges at a vertex, so that hard edges, and no others, are lines. An edge is hard
 /// where the normals on its two sides differ by more than 1° at one of its ends.
 ///
-/// Flat normals go to `flat`, unless it is null or all are to be made anew (`Normals_choice::recompute`).
+/// Normals that the result is to get again, be they flat or picked, go to `taken`, unless it is null.
 ///
 /// **Complexity** O(n log n) for n triangles.
-Normals_treatment take_normals(Triangle_soup& soup, Normals_choice choice, Corner_values<3>* flat = nullptr);
+Normals_treatment take_normals(Triangle_soup& soup, Normals_choice choice, Corner_values<3>* taken = nullptr);
+
+/// Returns whether vertices that differ in their normals alone become one, with
+/// `share_vertices_without_normals`, before normals are taken.
+bool joins_vertices(Normals_choice choice);
 
 /// Makes triangles share the vertices that differ in nothing but their normals, for a soup from a file that
-/// has one normal for each vertex (PLY, glTF) and is to lose them (`Normals_choice::drop`). Such a file has
-/// several vertices where normals differ; without normals they are one, and no line between them is kept.
+/// has one normal for each vertex (PLY, glTF). Such a file has several vertices where normals differ; without
+/// normals they are one, and no line between them is kept.
 ///
-/// Triangles then name the first of such vertices, and the others are unused. Alike, bit for bit, must be
+/// Triangles then name the first of such vertices, and the others are unused. Corners keep their normals.
+/// Alike, bit for bit, must be
 /// positions in all poses (where −0 is 0), attributes, and texture coordinates if they are those of vertices;
 /// in a glTF scene the node and all accessors but NORMAL and TANGENT, those of morph targets included.
 /// Vertices that differ in nothing at all stay apart, as pieces that lie beside each other, unless a third
@@ -76,9 +84,9 @@ Normals_treatment take_normals(Triangle_soup& soup, Normals_choice choice, Corne
 /// **Complexity** O(n) expected for n triangles.
 std::size_t share_vertices_without_normals(Triangle_soup& soup);
 
-/// Makes the normals of a reduced soup, unless they are kept, mended, dropped or absent. They have the
-/// precision of 32-bit floats. A mean is weighted by the angles at the vertex (Thürmer and Wüthrich 1998). A
-/// triangle without an area has the normal (0, 0, 1).
+/// Makes the normals of a reduced soup where they are flat or smooth. They have the precision of 32-bit
+/// floats. A mean is weighted by the angles at the vertex (Thürmer and Wüthrich 1998). A triangle without an
+/// area has the normal (0, 0, 1).
 void restore_normals(Triangle_soup& soup, Normals_treatment treatment);
 
 /// Gives triangles with flat normals those of the original again, bit for bit, where they still are theirs:
@@ -95,19 +103,32 @@ void restore_normals(Triangle_soup& soup, Normals_treatment treatment);
 void keep_flat_normals(Triangle_soup& result, const std::vector<Index>& triangles,
                        const Triangle_soup& original, const Corner_values<3>& normals);
 
-/// Gives corners of a result new normals where those that they have kept point to the back of their triangle,
-/// so that no part of a surface is shaded as its inside. Such normals come from the other side of a hem, say:
-/// a vertex there brings its normal along when it comes to bound faces of this side. Triangle i is what is
-/// left of triangle `triangles[i]` of the original. Only triangles are mended whose three normals in the
-/// original all point to their front, or all to their back, which is then taken for the front.
+/// Gives the corners of a result normals of the original, whose corners have `normals`. A triangle of which
+/// nothing has changed gets its own. Any other corner gets that normal at its vertex which is nearest to the
+/// normal of its triangle, or to that of its back if all three normals of the original point there. Triangle
+/// i is what is left of triangle `triangles[i]` of the original, and has its corners from the corners
+/// `corners[i]`, numbered as 3 × triangle + place.
+///
+/// **Complexity** O(n) for n triangles, when the numbers of triangles at vertices are bounded.
+void pick_normals(Triangle_soup& result, const std::vector<Index>& triangles,
+                  const std::vector<Index_triple>& corners, const Triangle_soup& original,
+                  const Corner_values<3>& normals);
+
+/// Gives corners of a result new normals where those that they have kept belong to another side of the
+/// surface, so that no part of it is shaded as its inside or its edge. They come from across a hem, say: a
+/// vertex there brings its normal along when it comes to bound faces of this side. A normal is replaced where
+/// it is farther from that of its triangle than 60°, and than all three were in the original. Only triangles
+/// are mended whose three normals in the original all point to their front, or all to their back, which is
+/// then taken for the front. Triangle i is what is left of triangle `triangles[i]` of the original, whose
+/// corners have `normals`.
 ///
 /// A new normal is the mean of those of the triangles around the vertex that need one and meet in edges,
-/// weighted by the angles there (Thürmer and Wüthrich 1998), or that of the triangle alone where the mean
-/// points to its back. It has the precision of 32-bit floats. Returns how many corners have a new one.
+/// weighted by the angles there (Thürmer and Wüthrich 1998), or that of the triangle alone where these are
+/// more than 60° apart. It has the precision of 32-bit floats. Returns how many corners have a new one.
 ///
 /// **Complexity** O(n) for n triangles, and O(n log n) if any corner needs a new normal. Computed in double.
 std::size_t mend_normals(Triangle_soup& result, const std::vector<Index>& triangles,
-                         const Triangle_soup& original);
+                         const Triangle_soup& original, const Corner_values<3>& normals);
 
 } // namespace selvedge
 

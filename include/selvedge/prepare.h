@@ -124,8 +124,9 @@ struct Prepared_soup
   /// What was done with the normals, and is to be done with those of the result.
   Normals_treatment normals = Normals_treatment::none;
 
-  /// The flat normals that `take_normals` has taken from the triangles of `soup`, for `keep_flat_normals`.
-  Corner_values<3> flat_normals;
+  /// The normals that `take_normals` has taken from the triangles of `soup`, for `keep_flat_normals` or
+  /// `pick_normals`.
+  Corner_values<3> taken_normals;
 
   /// The points and triangles of the obstacle, without the triangles that have two corners at one position.
   /// In the members below, vertices and triangles of the obstacle are numbered after those of `soup`.

@@ -208,6 +208,11 @@ Mesh_format mesh_format(const std::filesystem::path& path)
       "convert the file");
 }
 
+bool has_normals_of_vertices(Mesh_format format)
+{
+  return format == Mesh_format::ply || is_gltf(format);
+}
+
 bool stores_float32(Mesh_format format)
 {
   return format == Mesh_format::stl || is_gltf(format);

@@ -96,7 +96,7 @@ public:
 
   Prepared_soup run()
   {
-    m_prepared.normals = take_normals(soup(), m_options.normals, &m_prepared.flat_normals);
+    m_prepared.normals = take_normals(soup(), m_options.normals, &m_prepared.taken_normals);
     m_prepared.is_float32 = m_options.round_to_float32;
     leave_out_degenerate();
     if (m_options.round_to_float32 && !has_float32_points(soup()))
@@ -258,7 +258,7 @@ private:
     const std::size_t left_out = soup().triangles.size() - kept.size();
     if (left_out > 0) {
       keep_triangles(soup(), kept);
-      if (std::vector<Index_triple>& normals = m_prepared.flat_normals.of_triangle; !normals.empty()) {
+      if (std::vector<Index_triple>& normals = m_prepared.taken_normals.of_triangle; !normals.empty()) {
         for (std::size_t i = 0; i < kept.size(); ++i)
           normals[i] = normals[kept[i]];
         normals.resize(kept.size());

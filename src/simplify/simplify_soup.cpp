@@ -317,10 +317,15 @@ private:
     result.soup = std::move(left.soup);
     result.triangles = std::move(left.triangles);
     restore_normals(result.soup, m_prepared.normals);
-    if (!m_prepared.flat_normals.empty())
-      keep_flat_normals(result.soup, result.triangles, m_prepared.soup, m_prepared.flat_normals);
-    if (m_prepared.normals == Normals_treatment::mended)
-      result.mended_normals = mend_normals(result.soup, result.triangles, m_prepared.soup);
+    const Triangle_soup& original = m_prepared.soup;
+    const Corner_values<3>& taken = m_prepared.taken_normals;
+    if (m_prepared.normals == Normals_treatment::flat && !taken.empty())
+      keep_flat_normals(result.soup, result.triangles, original, taken);
+    if (m_prepared.normals == Normals_treatment::picked)
+      pick_normals(result.soup, result.triangles, left.corners, original, taken);
+    if (m_prepared.normals == Normals_treatment::picked || m_prepared.normals == Normals_treatment::mended)
+      result.mended_normals =
+          mend_normals(result.soup, result.triangles, original, taken.empty() ? original.normals : taken);
     result.corners = std::move(left.corners);
     result.placed_vertices = left.placed_vertices;
     if (report.hindrances.total() > 0)

@@ -34,6 +34,9 @@ constexpr double s_cosine_smooth = 0.9998476952;
 constexpr double s_cosine_of_face = 0.9659258263;
 constexpr double s_cosine_of_polygon = 0.5;
 
+// Of 60°: normals that are farther from that of their triangle shade it like another.
+constexpr double s_cosine_of_shading = 0.5;
+
 constexpr Index s_no_normal = std::numeric_limits<Index>::max();
 
 Vector difference(const Point_3& a, const Point_3& b)
@@ -186,21 +189,25 @@ void for_each_face(const Triangle_soup& soup, const Function& function)
   }
 }
 
-Vector normal_at(const Triangle_soup& soup, Index triangle, std::size_t place)
+Vector normal_at(const Corner_values<3>& normals, Index triangle, std::size_t place)
 {
-  return soup.normals.values[soup.normals.of_triangle[triangle][place]];
+  return normals.values[normals.of_triangle[triangle][place]];
 }
 
-// Returns 1 where the three normals of a triangle point to its front, -1 where they point to its back, else
-// 0.
-int side_of_normals(const Triangle_soup& soup, Index triangle)
+// Returns the cosines of the angles between a normal vector of a triangle and the normals at its corners.
+std::array<double, 3> cosines(const Vector& front, const Corner_values<3>& normals, Index triangle)
 {
-  if (soup.normals.of_triangle[triangle][0] == soup.normals.missing)
-    return 0;
-  const Vector front = unit_normal(soup, triangle);
-  const auto [least, largest] =
-      std::minmax({dot(front, normal_at(soup, triangle, 0)), dot(front, normal_at(soup, triangle, 1)),
-                   dot(front, normal_at(soup, triangle, 2))});
+  const auto cosine = [&](std::size_t place) {
+    return dot(front, unit(normal_at(normals, triangle, place)));
+  };
+  return {cosine(0), cosine(1), cosine(2)};
+}
+
+// Returns 1 where these are the cosines of normals that all point to the front, -1 where all point to the
+// back, and 0 otherwise.
+int side_of(const std::array<double, 3>& cosines)
+{
+  const auto [least, largest] = std::minmax({cosines[0], cosines[1], cosines[2]});
   return least > 0 ? 1 : largest < 0 ? -1 : 0;
 }
 
@@ -292,6 +299,8 @@ const char* name_of(Normals_choice choice)
     return "auto";
   case Normals_choice::keep:
     return "keep";
+  case Normals_choice::loose:
+    return "loose";
   case Normals_choice::recompute:
     return "recompute";
   default:
@@ -306,6 +315,8 @@ const char* name_of(Normals_treatment treatment)
     return "kept";
   case Normals_treatment::mended:
     return "mended";
+  case Normals_treatment::picked:
+    return "picked";
   case Normals_treatment::flat:
     return "flat";
   case Normals_treatment::smooth:
@@ -338,28 +349,75 @@ bool has_flat_normals(const Triangle_soup& soup)
   return judged > 0 && 100 * flat >= 99 * judged;
 }
 
-Normals_treatment take_normals(Triangle_soup& soup, Normals_choice choice, Corner_values<3>* flat)
+Normals_treatment take_normals(Triangle_soup& soup, Normals_choice choice, Corner_values<3>* taken)
 {
   if (soup.normals.empty())
     return Normals_treatment::none;
-  if (choice == Normals_choice::drop) {
-    soup.normals = {};
+  if (choice == Normals_choice::keep)
+    return Normals_treatment::kept;
+  const bool is_flat = choice != Normals_choice::drop && has_flat_normals(soup);
+  if (choice == Normals_choice::automatic && !is_flat)
+    return Normals_treatment::mended;
+  if (choice == Normals_choice::recompute && !is_flat) {
+    join_fans(soup);
+    return Normals_treatment::smooth;
+  }
+  Corner_values<3> normals = std::exchange(soup.normals, {});
+  if (choice == Normals_choice::drop)
     return Normals_treatment::dropped;
+  if (taken && choice != Normals_choice::recompute)
+    *taken = std::move(normals);
+  return is_flat ? Normals_treatment::flat : Normals_treatment::picked;
+}
+
+bool joins_vertices(Normals_choice choice)
+{
+  return choice == Normals_choice::drop || choice == Normals_choice::loose;
+}
+
+void pick_normals(Triangle_soup& result, const std::vector<Index>& triangles,
+                  const std::vector<Index_triple>& corners, const Triangle_soup& original,
+                  const Corner_values<3>& normals)
+{
+  const auto vertex_of = [&](Index corner) { return original.triangles[corner / 3][corner % 3]; };
+  const auto number_at = [&](Index corner) { return normals.of_triangle[corner / 3][corner % 3]; };
+  const Index corner_count = Index(3 * original.triangles.size());
+  std::vector<Index> firsts(original.points.size() + 1, 0); // in the next list, by vertex
+  for (Index corner = 0; corner < corner_count; ++corner)
+    ++firsts[vertex_of(corner)];
+  std::partial_sum(firsts.begin(), firsts.end(), firsts.begin());
+  std::vector<Index> by_vertex(corner_count); // corners
+  for (Index corner = corner_count; corner-- > 0;)
+    by_vertex[--firsts[vertex_of(corner)]] = corner;
+
+  result.normals = {normals.values, {}, normals.missing};
+  for (Index i = 0; i < result.triangles.size(); ++i) {
+    const Index t = triangles[i];
+    Index_triple& numbers = result.normals.of_triangle.emplace_back(normals.of_triangle[t]);
+    if (numbers[0] == normals.missing || corners[i] == Index_triple{3 * t, 3 * t + 1, 3 * t + 2})
+      continue;
+    const Vector front = unit_normal(result, i);
+    const double side = side_of(cosines(unit_normal(original, t), normals, t)) < 0 ? -1 : 1;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index v = vertex_of(corners[i][k]);
+      double highest = -std::numeric_limits<double>::infinity();
+      for (Index j = firsts[v]; j < firsts[v + 1]; ++j) {
+        const Index number = number_at(by_vertex[j]);
+        if (number == normals.missing)
+          continue;
+        const double cosine = side * dot(front, unit(normals.values[number]));
+        if (cosine > highest) {
+          highest = cosine;
+          numbers[k] = number;
+        }
+      }
+    }
   }
-  if (choice != Normals_choice::keep && has_flat_normals(soup)) {
-    if (flat && choice == Normals_choice::automatic)
-      *flat = std::move(soup.normals);
-    soup.normals = {};
-    return Normals_treatment::flat;
-  }
-  if (choice != Normals_choice::recompute)
-    return choice == Normals_choice::keep ? Normals_treatment::kept : Normals_treatment::mended;
-  join_fans(soup);
-  return Normals_treatment::smooth;
+  drop_unused(result.normals);
 }
 
 std::size_t mend_normals(Triangle_soup& result, const std::vector<Index>& triangles,
-                         const Triangle_soup& original)
+                         const Triangle_soup& original, const Corner_values<3>& normals)
 {
   if (result.normals.empty())
     return 0;
@@ -372,14 +430,22 @@ std::size_t mend_normals(Triangle_soup& result, const std::vector<Index>& triang
   std::vector<Shaded_triangle> shaded; // those with corners to mend
   std::size_t mended = 0;
   for (Index t = 0; t < result.triangles.size(); ++t) {
-    if (side_of_normals(result, t) == 1)
+    if (result.normals.of_triangle[t][0] == result.normals.missing)
       continue;
-    const int side = side_of_normals(original, triangles[t]);
+    const Vector front = unit_normal(result, t);
+    const std::array<double, 3> now = cosines(front, result.normals, t);
+    const auto is_right = [](double cosine) { return cosine >= s_cosine_of_shading; };
+    if (std::all_of(now.begin(), now.end(), is_right))
+      continue;
+    const std::array<double, 3> before = cosines(unit_normal(original, triangles[t]), normals, triangles[t]);
+    const int side = side_of(before);
+    const double limit =
+        std::min({s_cosine_of_shading, std::abs(before[0]), std::abs(before[1]), std::abs(before[2])});
     Shaded_triangle triangle{t, {}, {}};
-    add(triangle.front, unit_normal(result, t), side);
+    add(triangle.front, front, side);
     std::size_t wrong = 0;
     for (std::size_t k = 0; k < 3; ++k)
-      wrong += triangle.is_wrong[k] = dot(triangle.front, normal_at(result, t, k)) < 0;
+      wrong += triangle.is_wrong[k] = side != 0 && side * now[k] < limit;
     if (wrong > 0)
       shaded.push_back(triangle);
     mended += wrong;
@@ -420,7 +486,7 @@ std::size_t mend_normals(Triangle_soup& result, const std::vector<Index>& triang
   for_each_wrong_corner([&](const Shaded_triangle& triangle, Index k, std::size_t fan) {
     Index& number = result.normals.of_triangle[triangle.triangle][k];
     const Vector mean = stored(unit(sums[fan]));
-    if (!(dot(mean, triangle.front) > 0)) {
+    if (dot(mean, triangle.front) < s_cosine_of_shading) {
       number = new_number(stored(triangle.front));
       return;
     }

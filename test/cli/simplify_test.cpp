@@ -269,7 +269,7 @@ TEST(App_simplify, NamesTheOptionsThatHelp)
 }
 
 // Where each vertex has one normal, leaving the normals out would join none of them.
-TEST(App_simplify, NamesNoOptionThatDoesNotHelp)
+TEST(App_simplify, NamesTheOptionThatMakesNoSeamsOfNormals)
 {
   const Workspace folder;
   Triangle_soup shaded = unshared(sheet(4, 4));
@@ -281,8 +281,13 @@ TEST(App_simplify, NamesNoOptionThatDoesNotHelp)
   const App_result apart =
       run_app({"simplify", folder / "in.ply", "-o", folder / "out.ply", "--ratio", "0.1"});
   EXPECT_NE(apart.out.find("by normals that differ across edges, "), std::string::npos) << apart.out;
-  EXPECT_NE(apart.out.find("; no option helps much: the file has a vertex of its own"), std::string::npos)
-      << apart.out;
+  EXPECT_NE(apart.out.find("; try --normals loose\n"), std::string::npos) << apart.out;
+  const std::string report = folder / "report.json";
+  const App_result loose = run_app({"simplify", folder / "in.ply", "-o", folder / "out.ply", "--ratio", "0.1",
+                                    "--normals", "loose", "--report", report});
+  EXPECT_NE(loose.out.find("target 3 reached"), std::string::npos) << loose.out;
+  EXPECT_EQ(nlohmann::json::parse(contents_of(report))["output"]["normals"], "picked");
+  EXPECT_EQ(run_app({"verify", folder / "out.ply", "--against", folder / "in.ply"}).code, 0);
 }
 
 // Nor does it name as lost what the input does not have.
@@ -369,7 +374,7 @@ TEST(App_simplify, DropsWithTheNormalsTheVerticesThatTheySplit)
   for (const char* name : {"in.ply", "in.glb"}) {
     const App_result result = simplify(name);
     EXPECT_EQ(result.code, 0) << result.err;
-    EXPECT_NE(result.out.find("corners joined, for their vertices differ in nothing but the normals"),
+    EXPECT_NE(result.out.find("corners joined, for their vertices differ in nothing but their normals"),
               std::string::npos)
         << result.out;
     const Triangle_soup out = read_mesh(folder / (std::string("out_") + name)).soup;

@@ -120,6 +120,84 @@ TEST(Shading, OfAFaceThatIsInsideOutStaysSo)
   EXPECT_GT(reduction.simplified.mended_normals, 0u);
 }
 
+// Cloth in pleats, each side of them nearly flat, with normals of its own at its corners.
+Triangle_soup pleats()
+{
+  constexpr Index columns = 60, rows = 20;
+  Triangle_soup soup;
+  for (Index i = 0; i <= columns; ++i)
+    for (Index j = 0; j <= rows; ++j)
+      soup.points.emplace_back(i, j, i % 3 == 0 ? 0.3 : 0);
+  for (Index i = 0; i < columns; ++i)
+    for (Index j = 0; j < rows; ++j) {
+      const Index a = (rows + 1) * i + j, b = a + 1, c = a + rows + 1, d = c + 1;
+      const Index number = 2 * (i % 3) + j % 2, next = 2 * (i % 3) + (j + 1) % 2;
+      soup.triangles.push_back({a, d, b});
+      soup.normals.of_triangle.push_back({number, next, next});
+      soup.triangles.push_back({a, c, d});
+      soup.normals.of_triangle.push_back({number, number, next});
+    }
+  soup.normals.values = {{0.3, 0.1, 1}, {0.3, -0.1, 1}, {0, 0.1, 1},
+                         {0, -0.1, 1},  {-0.3, 0.1, 1}, {-0.3, -0.1, 1}};
+  return soup;
+}
+
+TEST(Shading, HoldsNoEdgesWhereNormalsAreLoose)
+{
+  const Triangle_soup soup = pleats();
+  Prepare_options options;
+  options.normals = Normals_choice::loose;
+  const Reduction loose = reduce(soup, to_ratio(0.03), options), kept = reduce(soup, to_ratio(0.03));
+  EXPECT_TRUE(loose.verification.accepted());
+  EXPECT_TRUE(loose.simplified.report.is_reached());
+  EXPECT_FALSE(kept.simplified.report.is_reached());
+  // Where the pleats are still there, their sides have the normals of theirs.
+  const Triangle_soup half = reduce(soup, to_ratio(0.3), options).simplified.soup;
+  for (Index t = 0; t < half.triangles.size(); ++t) {
+    const auto& [a, b, c] = half.triangles[t];
+    const double left = std::min({half.points[a].x(), half.points[b].x(), half.points[c].x()});
+    for (const Index number : half.normals.of_triangle[t])
+      EXPECT_EQ(half.normals.values[number][0], soup.normals.values[2 * (std::size_t(left) % 3)][0]);
+  }
+}
+
+TEST(Shading, IsThatOfTheNearestNormalAtAVertex)
+{
+  const Triangle_soup original = pleats();
+  Triangle_soup result = original;
+  std::vector<Index> triangles;
+  std::vector<Index_triple> corners;
+  for (Index t = 0; t < original.triangles.size(); ++t) {
+    triangles.push_back(t);
+    corners.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+  }
+  // The first triangle has moved to the flat side beside its own.
+  const Index flat = 40;
+  ASSERT_EQ(original.points[original.triangles[flat][0]].x(), 1);
+  result.triangles[0] = original.triangles[flat];
+  corners[0] = corners[flat];
+  result.normals = {};
+  pick_normals(result, triangles, corners, original, original.normals);
+  for (Index t = 0; t < original.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_EQ(result.normals.values[result.normals.of_triangle[t][k]],
+                original.normals.values[original.normals.of_triangle[t == 0 ? flat : t][k]]);
+}
+
+// Normals that are off in the original are not mended for that.
+TEST(Shading, StaysAsItIsWhereNothingChanges)
+{
+  Triangle_soup soup = hem();
+  for (auto& normal : soup.normals.values)
+    normal = {normal[0] + 0.9, normal[1], normal[2]};
+  Triangle_soup result = soup;
+  std::vector<Index> triangles;
+  for (Index t = 0; t < soup.triangles.size(); ++t)
+    triangles.push_back(t);
+  EXPECT_EQ(mend_normals(result, triangles, soup, soup.normals), 0u);
+  EXPECT_EQ(result.normals.values, soup.normals.values);
+}
+
 // Faces that meet at a mended vertex have one normal there, also across a seam of the texture.
 TEST(Shading, IsSmoothWhereNormalsAreMended)
 {
@@ -129,7 +207,7 @@ TEST(Shading, IsSmoothWhereNormalsAreMended)
   original.normals = {{{0, 0, 1}}, {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}};
   Triangle_soup result = original;
   result.normals = {{{0, 0, 1}, {0, 0, -1}}, {{1, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0, 0, 0}}};
-  EXPECT_EQ(mend_normals(result, {0, 1, 2, 3}, original), 3u);
+  EXPECT_EQ(mend_normals(result, {0, 1, 2, 3}, original, original.normals), 3u);
   const auto normal = [&](std::size_t t) { return result.normals.values[result.normals.of_triangle[t][0]]; };
   EXPECT_EQ(normal(0), normal(1));
   EXPECT_EQ(normal(0), normal(2));
@@ -141,7 +219,7 @@ TEST(Shading, IsSmoothWhereNormalsAreMended)
 
 TEST(Shading, OfFacesThatHaveNoMeanIsTheirOwn)
 {
-  // Two faces of a roof as steep as this have no common normal that points to the front of both.
+  // Two faces of a roof as steep as this have no common normal that is near to both.
   Triangle_soup original;
   original.points = {{0, 0, 0}, {0, 1, 0}, {-1, 0, -100}, {1, 0, -100}};
   original.triangles = {{0, 1, 2}, {1, 0, 3}};
@@ -150,7 +228,7 @@ TEST(Shading, OfFacesThatHaveNoMeanIsTheirOwn)
   result.points[2] = {-1, 0, 100};
   result.points[3] = {1, 0, 100};
   result.normals = {{{0, 0, -1}}, {{0, 0, 0}, {0, 0, 0}}};
-  mend_normals(result, {0, 1}, original);
+  mend_normals(result, {0, 1}, original, original.normals);
   EXPECT_EQ(count_of_wrong_sides(result), 0u);
 }
 
@@ -158,7 +236,8 @@ TEST(Shading, NeedsNoNormals)
 {
   Triangle_soup result = hem();
   const Triangle_soup original = result;
-  EXPECT_EQ(mend_normals(result, std::vector<Index>(original.triangles.size()), original), 0u);
+  EXPECT_EQ(mend_normals(result, std::vector<Index>(original.triangles.size()), original, original.normals),
+            0u);
   result.normals = {};
-  EXPECT_EQ(mend_normals(result, {}, original), 0u);
+  EXPECT_EQ(mend_normals(result, {}, original, {}), 0u);
 }

@@ -231,9 +231,12 @@ for file, entry in (
     group("src/soup/" + file, ("placement_test", "worlds_test"), entry)
 
 group("src/soup/normals.cpp", ("shading_test",),
-      ("if (side_of_normals(result, t) == 1)", "if (true)", "normals that point to the back are not mended"),
-      ("dot(triangle.front, normal_at(result, t, k)) < 0", "true", "normals that point to the front are mended"),
-      ("if (!(dot(mean, triangle.front) > 0))", "if (false)", "mended normals point to the back"),
+      ("if (std::all_of(now.begin(), now.end(), is_right))", "if (true)", "normals that point to the back are not mended"),
+      ("side != 0 && side * now[k] < limit", "true", "normals that are near are mended"),
+      ("std::min({s_cosine_of_shading, std::abs(before[0]), std::abs(before[1]), std::abs(before[2])})", "s_cosine_of_shading", "normals that were as far are mended"),
+      ("if (dot(mean, triangle.front) < s_cosine_of_shading)", "if (false)", "mended normals point to the back"),
+      ("if (cosine > highest)", "if (false)", "each corner keeps the normals of its triangle"),
+      ("corners[i] == Index_triple{3 * t, 3 * t + 1, 3 * t + 2}", "false", "triangles that have not changed pick other normals"),
       ("positions[a], positions[b], positions[c]", "a, b, c", "seams of the texture are hard edges where normals are mended"))
 group(
     headers + "Surface_mesh_simplification/internal/Tracked_points.h",

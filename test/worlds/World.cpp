@@ -156,8 +156,8 @@ World read_world(const std::filesystem::path& folder)
   world.weld_distance = json["weld"];
   world.are_clear_gaps_welded = json.value("weld_auto", false);
   const std::string normals = json.value("normals", "keep"); // worlds of earlier versions have none
-  for (const Normals_choice choice :
-       {Normals_choice::automatic, Normals_choice::keep, Normals_choice::recompute, Normals_choice::drop})
+  for (const Normals_choice choice : {Normals_choice::automatic, Normals_choice::keep, Normals_choice::loose,
+                                      Normals_choice::recompute, Normals_choice::drop})
     if (normals == name_of(choice))
       world.normals = choice;
   world.are_faces_oriented = json.value("orient", false);

@@ -56,7 +56,7 @@ const char* file_name(const World& world)
 Triangle_soup input_of(const World& world)
 {
   Triangle_soup soup = world.soup;
-  if (world.normals == Normals_choice::drop)
+  if (joins_vertices(world.normals))
     share_vertices_without_normals(soup);
   return soup;
 }
@@ -90,7 +90,7 @@ World_run run(const World& world)
   header.vertices = numbering.size();
   header.triangles = world.soup.triangles.size();
   header.is_rounded_to_float32 = prepare_options.round_to_float32;
-  header.are_normals_dropped = world.normals == Normals_choice::drop;
+  header.are_normals_dropped = joins_vertices(world.normals);
   if (!world.obstacle.triangles.empty())
     header.obstacle = {world.obstacle.points.size(), world.obstacle.triangles.size(), {}};
   std::ostringstream stream;
@@ -107,7 +107,8 @@ World_run run(const World& world)
     run.read_back = read_mesh(folder / file_name(world)).soup;
     if ((world.output_format == Mesh_format::glb || world.output_format == Mesh_format::gltf) &&
         !world.is_sewn && !run.result.progression.empty() &&
-        run.prepared.normals != Normals_treatment::smooth) {
+        run.prepared.normals != Normals_treatment::smooth &&
+        run.prepared.normals != Normals_treatment::picked) {
       write_progressive(folder / "all.glb", run.prepared.soup, run.result.progression);
       const Progressive_mesh mesh = read_progressive(folder / "all.glb");
       run.last_level = level(mesh, mesh.step_count());

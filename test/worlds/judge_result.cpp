@@ -87,9 +87,9 @@ bool is_unit(const Corner_values<3>& normals, Index triangle, std::size_t k)
   return std::abs(std::hypot(x, y, z) - 1) < 1e-6 || std::hypot(x, y, z) == 0;
 }
 
-// Returns 1 for a normal that points to the front of a triangle, -1 to the back, and 0 where that is not
-// clear in double. Decided exactly.
-int side_of(const std::array<double, 3>& normal, const Triangle_soup& soup, Index triangle)
+// Returns the cosine of the angle between a normal and a triangle's normal, rounded from the exact number;
+// NaN for a needle, whose normal is not known in double.
+double cosine(const std::array<double, 3>& normal, const Triangle_soup& soup, Index triangle)
 {
   using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
   const auto point = [&](std::size_t k) {
@@ -97,35 +97,86 @@ int side_of(const std::array<double, 3>& normal, const Triangle_soup& soup, Inde
     return Exact::Point_3(p.x(), p.y(), p.z());
   };
   const Exact::Vector_3 u = point(1) - point(0), v = point(2) - point(0), n(normal[0], normal[1], normal[2]);
-  const Exact::FT height = CGAL::cross_product(u, v) * n;
-  const bool is_clear =
-      height * height > 1e-18 * u.squared_length() * v.squared_length() * n.squared_length();
-  return is_clear ? int(CGAL::sign(height)) : 0;
+  const Exact::Vector_3 front = CGAL::cross_product(u, v);
+  if (n == CGAL::NULL_VECTOR || front.squared_length() <= 1e-18 * u.squared_length() * v.squared_length())
+    return NAN;
+  const Exact::FT height = front * n;
+  return int(CGAL::sign(height)) *
+         std::sqrt(CGAL::to_double(height * height / (front.squared_length() * n.squared_length())));
 }
 
-// Returns why a corner of a result that comes from a corner of the original must not have its normal, or
-// null. It is a new one where the old one would point to the back of a triangle whose normals all pointed to
-// its front, and nowhere else.
-const char* wrong_in_mended_normal(const Triangle_soup& result, Index i, std::size_t k,
-                                   const Triangle_soup& original, Index t, Index corner)
+using Normal = std::array<double, 3>;
+
+Normal normal_of(const Corner_values<3>& normals, Index triangle, std::size_t place)
 {
-  if (result.normals.empty())
-    return original.normals.empty() ? nullptr : "no normals";
-  const auto value = [](const Triangle_soup& soup, Index triangle, std::size_t place) {
-    return soup.normals.values[soup.normals.of_triangle[triangle][place]];
-  };
-  const auto old = value(original, corner / 3, corner % 3), now = value(result, i, k);
-  const std::array<int, 3> before{side_of(value(original, t, 0), original, t),
-                                  side_of(value(original, t, 1), original, t),
-                                  side_of(value(original, t, 2), original, t)};
-  const auto are_all = [&](int side) { return std::count(before.begin(), before.end(), side) == 3; };
-  if (has_same_value(result.normals, i, original.normals, corner, k))
-    return are_all(1) && side_of(old, result, i) < 0 ? "a normal that points to its back" : nullptr;
-  for (const int side : {1, -1})
-    if (std::count(before.begin(), before.end(), -side) == 0 && side * side_of(old, result, i) <= 0 &&
-        side * side_of(now, result, i) >= 0 && is_unit(result.normals, i, k))
+  return normals.values[normals.of_triangle[triangle][place]];
+}
+
+// Returns why a corner of a result must not have its normal, or null. It has one of `old`, those of the
+// original at its vertex, unless these are farther from the normal of the triangle than 60° and than all
+// three of the original were.
+const char* wrong_in_mended_normal(const Triangle_soup& result, Index i, std::size_t k,
+                                   const Triangle_soup& original, const Corner_values<3>& normals, Index t,
+                                   const std::vector<Normal>& old)
+{
+  constexpr double margin = 1e-6; // NaN is beyond no limit
+  const Normal now = normal_of(result.normals, i, k);
+  std::array<double, 3> before;
+  for (std::size_t j = 0; j < 3; ++j)
+    before[j] = cosine(normal_of(normals, t, j), original, t);
+  const auto is_in_front = [](double x) { return x > margin; };
+  const double limit = std::min({0.5, before[0], before[1], before[2]});
+  if (std::find(old.begin(), old.end(), now) != old.end())
+    return std::all_of(before.begin(), before.end(), is_in_front) && cosine(now, result, i) < limit - margin
+               ? "a normal of another side"
+               : nullptr;
+  for (const int side : {1, -1}) {
+    const auto is_behind = [&](double x) { return side * x < -margin; };
+    const auto may_be_wrong = [&](const Normal& normal) {
+      return !(side * cosine(normal, result, i) > 0.5 + margin);
+    };
+    if (std::none_of(before.begin(), before.end(), is_behind) &&
+        std::any_of(old.begin(), old.end(), may_be_wrong) &&
+        !(side * cosine(now, result, i) < 0.5 - margin) && is_unit(result.normals, i, k))
       return nullptr;
-  return "a new normal for one that does not point to its back";
+  }
+  return "a new normal in place of one that is near, or one that is not";
+}
+
+// Judges the normals of a result that are kept, but for those that are mended, or picked.
+Verdict judge_mended_normals(const World_run& run, const std::set<std::size_t>& placed)
+{
+  const Triangle_soup &result = run.result.soup, &original = run.prepared.soup;
+  const bool are_picked = run.prepared.normals == Normals_treatment::picked;
+  if (!are_picked && run.prepared.normals != Normals_treatment::mended)
+    return std::nullopt;
+  const Corner_values<3>& normals = are_picked ? run.prepared.taken_normals : original.normals;
+  const auto vertex_of = [&](Index corner) { return original.triangles[corner / 3][corner % 3]; };
+  std::map<Index, std::vector<Normal>> at_vertices;
+  for (Index corner = 0; corner < 3 * original.triangles.size(); ++corner)
+    if (normals.of_triangle[corner / 3][0] != normals.missing)
+      at_vertices[vertex_of(corner)].push_back(normal_of(normals, corner / 3, corner % 3));
+  if (result.normals.of_triangle.size() != result.triangles.size())
+    return Broken_promise{Promise::attributes, "the result has no normals"};
+  for (Index i = 0; i < result.triangles.size(); ++i) {
+    const Index t = run.result.triangles[i];
+    const bool is_missing = result.normals.of_triangle[i][0] == result.normals.missing;
+    if (is_missing != (normals.of_triangle[t][0] == normals.missing))
+      return Broken_promise{Promise::attributes, "a triangle has lost or got normals"};
+    for (std::size_t k = 0; k < 3 && !is_missing; ++k) {
+      const Index corner = run.result.corners[i][k];
+      std::vector<Normal> old = at_vertices[vertex_of(corner)];
+      if (!are_picked)
+        old = {normal_of(normals, corner / 3, corner % 3)};
+      else if (old.empty() || corner == 3 * t + k)
+        old.push_back(normal_of(normals, t, k));
+      if (const bool is_mixed = !are_picked && placed.count(vertex_of(corner)) > 0; !is_mixed)
+        if (const char* const what = wrong_in_mended_normal(result, i, k, original, normals, t, old))
+          return Broken_promise{Promise::attributes,
+                                "triangle " + std::to_string(i) + " of the result: " + what};
+    }
+  }
+  return std::nullopt;
 }
 
 // The worlds have attributes of one component: in floating point, or integers that are not mixed.
@@ -225,9 +276,6 @@ Verdict judge_attributes(const World& world, const World_run& run, const Judged_
                  !have_same_rows(result.vertex_attributes, v, original.vertex_attributes, from)) {
         return broken("a value that its corner has not");
       }
-      if (run.prepared.normals == Normals_treatment::mended && !is_placed)
-        if (const char* const what = wrong_in_mended_normal(result, i, k, original, t, corner))
-          return broken(what);
       if (is_held[t] && corner != 3 * t + k)
         return Broken_promise{Promise::frozen, "triangle " + std::to_string(t) + " has another corner"};
     }
@@ -236,6 +284,8 @@ Verdict judge_attributes(const World& world, const World_run& run, const Judged_
         uv_orientation(original.uvs, t) != uv_orientation(result.uvs, i))
       return broken("turned over in the texture");
   }
+  if (auto broken = judge_mended_normals(run, placed))
+    return broken;
   if (placed_left != run.result.placed_vertices)
     return Broken_promise{Promise::attributes, "the result counts other vertices at new places"};
   if (world.prepare_options().round_to_float32 && !has_float32_points(result))

@@ -135,6 +135,8 @@ Verdict judge_reduction(const World& world, const World_run& run, Judged_complex
     ++counts.options["shared_meshes"];
   if (run.result.mended_normals > 0)
     ++counts.options["mended_normals"];
+  if (run.prepared.normals == Normals_treatment::picked && !run.collapses.empty())
+    ++counts.options["picked_normals"];
   if (run.prepared.doubles() > 0 && !run.collapses.empty())
     ++counts.options["doubles"];
   if (auto broken = judge_stop(world, run))

@@ -498,9 +498,9 @@ World random_world(std::uint64_t seed)
   world.are_faces_oriented = world.seed % 8 != 5;
   world.options.instances = world.seed % 16 == 2 ? Instances::apart : Instances::shared;
   if (!world.soup.normals.empty())
-    world.normals = random.one_of(
-        {Normals_choice::automatic, Normals_choice::keep, Normals_choice::recompute, Normals_choice::drop});
-  if (world.normals == Normals_choice::drop && world.seed % 4 != 3 && !world.soup.scene) {
+    world.normals = random.one_of({Normals_choice::automatic, Normals_choice::keep, Normals_choice::loose,
+                                   Normals_choice::recompute, Normals_choice::drop});
+  if (joins_vertices(world.normals) && world.seed % 4 != 3 && !world.soup.scene) {
     Triangle_soup split = split_by_normals(world.soup);  // as a PLY file has it
     if (split.points.size() >= world.soup.points.size()) // else a vertex that is to be locked may be gone
       world.soup = std::move(split);
