@@ -22,16 +22,27 @@ public:
   explicit Local_normals(const Gltf_scene& scene) : m_scene(scene) {}
 
   /// Returns the bytes in a column of normals, of three components, for a vertex of the scene that has a
-  /// normal in world space: those of its row where that is its normal, else those of another row of the
-  /// instance with this normal, at this position if there is one, or else new ones. Where the column does not
-  /// hold floats, those of its row.
+  /// normal in world space: those of `row_at`, else those of another row of the instance with this normal, or
+  /// else new ones. Where the column does not hold floats, those of its row.
   std::string bytes_of(const Gltf_scene::Column& column, Index scene_vertex,
                        const std::array<double, 3>& normal);
 
+  /// Returns the row of the instance in which tangents and what morph targets add belong to the normal of
+  /// such a vertex: its own where that has its normal, else another one with this normal at its position, or
+  /// else its own.
+  Index row_at(const Gltf_scene::Column& column, Index scene_vertex, const std::array<double, 3>& normal);
+
 private:
+  using Rows =
+      std::map<std::string, Index>; // by the normals in world space and positions in the node, as bytes
+
+  bool is_of_row(const Gltf_scene::Column& column, Index scene_vertex,
+                 const std::array<double, 3>& normal) const;
+  const Rows& rows_of(const Gltf_scene::Column& column, std::size_t instance);
+  std::string key(Index scene_vertex, const std::array<double, 3>& normal) const;
+
   const Gltf_scene& m_scene;
-  /// By instance: the rows by the normals in world space and positions in the node, as bytes.
-  std::map<std::size_t, std::map<std::string, Index>> m_rows;
+  std::map<std::size_t, Rows> m_rows; // by instance
 };
 
 /// Returns the bytes of a normal.

@@ -322,8 +322,15 @@ private:
       const auto row_of = [&](const Column& column, const Vertices_by_normal::Vertex& v) {
         return column.row(m_soup.scene_vertices[v.vertex] - instance.first);
       };
+      const Column* const normals = m_soup.normals.empty() ? nullptr : block(instance).normals();
       const auto put_rows = [&](const Column& column) {
-        return put(column, [&](const Vertices_by_normal::Vertex& v) { return row_of(column, v); });
+        const bool is_of_normals = normals && (column.name == "NORMAL" || column.name == "TANGENT");
+        return put(column, [&](const Vertices_by_normal::Vertex& v) {
+          return !is_of_normals || v.normal == m_normals.missing
+                     ? row_of(column, v)
+                     : column.row(m_local_normals.row_at(*normals, m_soup.scene_vertices[v.vertex],
+                                                         m_normals.values[v.normal]));
+        });
       };
       for (const Column& column : block(instance).attributes)
         if (&column == &block(instance).attributes.front())
@@ -331,7 +338,7 @@ private:
               put(column, [&](const Vertices_by_normal::Vertex& v) { return local_position_of(v.vertex); });
         else if (is_dropped(column))
           m_attributes[i][column.name] = nullptr;
-        else if (&column == block(instance).normals() && !m_soup.normals.empty())
+        else if (&column == normals)
           m_attributes[i][column.name] = put(column, [&](const Vertices_by_normal::Vertex& v) {
             return v.normal == m_normals.missing
                        ? std::string(row_of(column, v))

@@ -7,6 +7,8 @@
 #include "support/reduction.h"
 #include "support/soups.h"
 
+#include "soup/Gltf_scene.h"
+
 #include <selvedge/mesh_files.h>
 #include <selvedge/normals.h>
 
@@ -18,6 +20,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace selvedge::test {
@@ -243,6 +246,33 @@ TEST(Dropped_normals, LeaveNoVerticesThatDifferInThemAlone)
     // The control: nobody has joined them.
     EXPECT_EQ(through(reduced(before, 1, Normals_choice::drop).simplified.soup, name).points.size(), apart);
   }
+}
+
+TEST(Loose_normals, BringTheirTangentsAlong)
+{
+  Json json = Json::parse(written(ridge(), "m.gltf"));
+  Json& primitive = json["meshes"][0]["primitives"][0];
+  const Json normals = primitive["attributes"]["NORMAL"]; // as numbers that tell which row it was
+  primitive["attributes"]["TANGENT"] = normals;
+  primitive["targets"] = {{{"POSITION", primitive["attributes"]["POSITION"]}, {"NORMAL", normals}}};
+  Triangle_soup file = read_mesh(json.dump(), Mesh_format::gltf, "m.gltf").soup;
+  share_vertices_without_normals(file);
+  const Simplified_soup result = reduced(file, 0.5, Normals_choice::loose).simplified;
+  EXPECT_EQ(result.mended_normals, 0u);
+  const Triangle_soup out = through(result.soup, "m.gltf");
+  std::set<std::pair<double, double>> places;
+  for (const Point_3& p : out.points)
+    places.emplace(p.x(), p.y());
+  EXPECT_GT(out.points.size(), places.size()); // the ridge is hard where it is left
+  const Gltf_scene::Block& block = out.scene->blocks.at(0);
+  for (const Gltf_scene::Column& column : block.attributes)
+    if (column.name == "TANGENT") {
+      EXPECT_EQ(column.rows, block.normals()->rows);
+    }
+  for (const Gltf_scene::Column& column : block.targets.at(0))
+    if (column.name == "NORMAL") {
+      EXPECT_EQ(column.rows, block.normals()->rows);
+    }
 }
 
 TEST(Dropped_normals, JoinNothingThatDiffersInMore)
