@@ -555,7 +555,8 @@ void add_options(CLI::App& command, Simplify_request& request)
           "so that "
           "vertices of PLY and glTF that differ in nothing else are one. "
           "auto makes those anew that give every face its own normal, or that would come to belong to "
-          "another side of the surface, and keeps others.")
+          "another side of the surface, and keeps others, but those that differ by at most 0.1 degrees at a "
+          "vertex become one.")
       ->transform(one_of<Normals_choice>({{"auto", Normals_choice::automatic},
                                           {"keep", Normals_choice::keep},
                                           {"loose", Normals_choice::loose},
