@@ -322,7 +322,10 @@ void print_distances(std::ostream& stream, const Level& level, const Distances_a
              << with_digits(level.error_search->max_error());
     stream << '\n';
   }
-  if (limit <= 0 || larger.upper <= 1.01 * limit)
+  if (level.error_search && larger.upper > limit && level.error_search->max_error() <= 0)
+    stream << "limit: whether " << percent(limit)
+           << " holds at every point is not known: distances are measured to about a millionth of the size\n";
+  if (limit <= 0 || larger.upper <= 1.01 * limit || level.error_search)
     return;
   if (larger.pose &&
       !std::binary_search(level.guarded_poses.begin(), level.guarded_poses.end(), *larger.pose))
