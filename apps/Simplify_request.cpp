@@ -267,6 +267,7 @@ Json options_json(const Simplify_request& request)
           {"memory", options.cost.memory},
           {"border_weight", options.cost.border_weight},
           {"uv_weight", options.uv_weight},
+          {"normal_weight", options.normal_weight},
           {"part_ratios", part_ratios},
           {"lods", request.lods},
           {"progressive", request.progressive.empty() ? Json(nullptr) : Json(request.progressive)},
@@ -608,6 +609,14 @@ void add_options(CLI::App& command, Simplify_request& request)
       .add_option("--uv-weight", options.uv_weight,
                   "Weight of the displacement of the texture in the cost, relative to that of the surface; 0 "
                   "ignores it.")
+      ->check(in_range(0))
+      ->type_name("W")
+      ->capture_default_str()
+      ->group(tuning);
+  command
+      .add_option("--normal-weight", options.normal_weight,
+                  "The same for the turn of normals that are kept. More keeps the shading truer, and the "
+                  "shape less so.")
       ->check(in_range(0))
       ->type_name("W")
       ->capture_default_str()
