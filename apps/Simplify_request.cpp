@@ -267,6 +267,7 @@ Json options_json(const Simplify_request& request)
           {"memory", options.cost.memory},
           {"border_weight", options.cost.border_weight},
           {"uv_weight", options.uv_weight},
+          {"normal_weight", options.normal_weight},
           {"part_ratios", part_ratios},
           {"lods", request.lods},
           {"progressive", request.progressive.empty() ? Json(nullptr) : Json(request.progressive)},
@@ -555,7 +556,8 @@ void add_options(CLI::App& command, Simplify_request& request)
           "so that "
           "vertices of PLY and glTF that differ in nothing else are one. "
           "auto makes those anew that give every face its own normal, or that would come to belong to "
-          "another side of the surface, and keeps others.")
+          "another side of the surface, and keeps others, but those that differ by at most 0.1 degrees at a "
+          "vertex become one.")
       ->transform(one_of<Normals_choice>({{"auto", Normals_choice::automatic},
                                           {"keep", Normals_choice::keep},
                                           {"loose", Normals_choice::loose},
@@ -607,6 +609,14 @@ void add_options(CLI::App& command, Simplify_request& request)
       .add_option("--uv-weight", options.uv_weight,
                   "Weight of the displacement of the texture in the cost, relative to that of the surface; 0 "
                   "ignores it.")
+      ->check(in_range(0))
+      ->type_name("W")
+      ->capture_default_str()
+      ->group(tuning);
+  command
+      .add_option("--normal-weight", options.normal_weight,
+                  "The same for the turn of normals that are kept. More keeps the shading truer, and the "
+                  "shape less so.")
       ->check(in_range(0))
       ->type_name("W")
       ->capture_default_str()

@@ -3,10 +3,12 @@
 
 #include "simplify_summary.h"
 
+#include "output_files.h"
 #include "standard_streams.h"
 #include "text.h"
 
 #include <selvedge/Parts.h>
+#include <selvedge/normals.h>
 
 #include <algorithm>
 #include <array>
@@ -279,6 +281,8 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
   if (prepared.normals == Normals_treatment::flat)
     stream << "  normals made anew where faces change: every face of the input has its own, as in flat "
               "shading\n";
+  if (prepared.normals == Normals_treatment::dropped && is_gltf(format_of(request.output, request.format)))
+    stream << "  normals dropped: programs that show glTF then shade every face flat\n";
   if (prepared.normals == Normals_treatment::smooth)
     stream << "  normals made anew, with the hard edges of the input\n";
   if (const auto held = std::count(prepared.is_held.begin(), prepared.is_held.end(), char(true)); held > 0)
@@ -318,7 +322,10 @@ void print_distances(std::ostream& stream, const Level& level, const Distances_a
              << with_digits(level.error_search->max_error());
     stream << '\n';
   }
-  if (limit <= 0 || larger.upper <= 1.01 * limit)
+  if (level.error_search && larger.upper > limit && level.error_search->max_error() <= 0)
+    stream << "limit: whether " << percent(limit)
+           << " holds at every point is not known: distances are measured to about a millionth of the size\n";
+  if (limit <= 0 || larger.upper <= 1.01 * limit || level.error_search)
     return;
   if (larger.pose &&
       !std::binary_search(level.guarded_poses.begin(), level.guarded_poses.end(), *larger.pose))

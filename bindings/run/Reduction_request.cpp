@@ -197,6 +197,7 @@ const std::vector<Option>& table()
       cost_option<&Quadric_cost_options::memory, 1>("memory"),
       cost_option<&Quadric_cost_options::border_weight>("border_weight"),
       number_option<&Simplify_options::uv_weight>("uv_weight"),
+      number_option<&Simplify_options::normal_weight>("normal_weight"),
       {"part_ratios", add_part_ratio, part_ratios_json},
       {"lock", [](Request& r, const std::string& value) { r.intent.locked.push_back(value); },
        [](const Request& r) { return Json(r.intent.locked); }},

@@ -117,6 +117,11 @@ struct Simplify_options
   /// this part of the cost off.
   double uv_weight = 0.02;
 
+  /// The same for normals that are kept: of how much the normal of a point of the surface turns, relative to
+  /// the displacement of the surface itself. A radian counts as a length: the radius of the mean curvature
+  /// that the normals tell. More weight keeps the shading truer, and the shape less so.
+  double normal_weight = 0.005;
+
   /// The loop that does the collapses. Both loops give the guarantees; `own` is faster.
   Collapse_loop loop = Collapse_loop::own;
 

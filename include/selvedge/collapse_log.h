@@ -29,7 +29,7 @@ namespace selvedge {
 ///     selvedge-log 1
 ///     input VERTICES TRIANGLES SHA256
 ///     rounding none|float32                  once at most; none where it is missing
-///     normals kept|ignored|dropped           once at most; kept where it is missing
+///     normals kept|joined|ignored|dropped    once at most; kept where it is missing
 ///     defects freeze|descend                 once at most; freeze where it is missing
 ///     may_intersect PART PART                any number of them
 ///     obstacle VERTICES TRIANGLES SHA256     once at most
@@ -51,7 +51,8 @@ namespace selvedge {
 /// - *rounding*: what was done to every coordinate before anything else: nothing, or rounding to the nearest
 ///   32-bit float, ties to even.
 /// - *normals*: whether an edge across which the normals of the input differ is a line, like one across which
-///   texture coordinates or materials do. They are ignored when the writer makes the normals anew. Where they
+///   texture coordinates or materials do. Normals that are nearly alike at a vertex may have become one
+///   first (`join_near_normals`). They are ignored when the writer makes the normals anew. Where they
 ///   are dropped, vertices that differ in nothing else are one as well (`share_vertices_without_normals`).
 /// - *defects*: what becomes of the offending pairs of the input. Their triangles stay as they are, or the
 ///   pairs and all that descend from them are exempt (`pairs_without_descent` of verify.h says which do). A
@@ -133,6 +134,7 @@ struct Log_header
   std::size_t triangles = 0;
   std::string sha256; ///< of the file; empty when unknown
   bool is_rounded_to_float32 = false;
+  bool are_normals_joined = false; ///< those that are nearly alike at a vertex are one
   bool are_normals_ignored = false;
   bool are_normals_dropped = false; ///< ignored, and vertices that differ in nothing else are one
   bool may_pairs_descend = false;   ///< the policy for offending pairs is `descend`

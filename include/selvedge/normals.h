@@ -18,7 +18,8 @@ namespace selvedge {
 /// normals of its own.
 enum class Normals_choice {
   automatic, ///< flat normals are made anew for the faces that change (`keep_flat_normals`); all others are
-             ///< kept, and mended (`mend_normals`)
+             ///< kept, those that are nearly alike at a vertex as one (`join_near_normals`), and mended
+             ///< (`mend_normals`)
   keep,      ///< every corner of the result has a normal that some corner of the input has, bit for bit
   loose,     ///< as `automatic`; but different normals make no lines: every corner gets that normal of its
              ///< vertex which suits its triangle best (`pick_normals`)
@@ -30,7 +31,8 @@ enum class Normals_choice {
 enum class Normals_treatment {
   none,   ///< the soup has no normals
   kept,   ///< they are treated like any other attribute
-  mended, ///< as kept; but a corner gets a new one where its own is too far from that of its triangle
+  mended, ///< as kept; but those that were nearly alike at a vertex are one, and a corner gets a new one
+          ///< where its own is too far from that of its triangle
   picked, ///< every corner gets one of those that its vertex has in the input, or a new one as in mended
   flat,   ///< every corner gets the normal of its triangle, or of the polygon or face (`keep_flat_normals`)
           ///< that this is a part of, bit for bit that of the input where it has not changed
@@ -44,6 +46,12 @@ const char* name_of(Normals_choice choice);
 /// Returns the word for this in reports: none, kept, mended, picked, flat,
 /// smooth or dropped.
 const char* name_of(Normals_treatment treatment);
+
+/// Returns whether a reduction keeps the normals: they are kept or mended.
+inline bool are_kept(Normals_treatment treatment)
+{
+  return treatment == Normals_treatment::kept || treatment == Normals_treatment::mended;
+}
 
 /// Returns whether normals are *flat*: those of 99 % of all corners differ from the normal of their triangle
 /// by at most 0.1°, which is what numbers of four decimals tell, or by at most 60° where the three corners
@@ -67,6 +75,13 @@ Normals_treatment take_normals(Triangle_soup& soup, Normals_choice choice, Corne
 /// `share_vertices_without_normals`, before normals are taken.
 bool joins_vertices(Normals_choice choice);
 
+/// Gives each corner the first of the normals at its vertex, in the order of triangles, that differs from its
+/// own by at most 0.1°, and is not replaced itself. Such normals look alike in 256 shades; they come from
+/// arithmetic or from few decimals, and would make a line of an edge that nobody sees.
+///
+/// **Complexity** O(n) for n triangles and bounded numbers of normals at a vertex.
+void join_near_normals(Triangle_soup& soup);
+
 /// Makes triangles share the vertices that differ in nothing but their normals, for a soup from a file that
 /// has one normal for each vertex (PLY, glTF). Such a file has several vertices where normals differ; without
 /// normals they are one, and no line between them is kept.
@@ -79,7 +94,8 @@ bool joins_vertices(Normals_choice choice);
 /// one differs from them in its normal, or every face has vertices of its own (at least 100 triangles, and
 /// twice as many vertices).
 ///
-/// Returns how many corners name another vertex now. Does nothing where a vertex has two normals.
+/// Returns how many corners name another vertex now. Does nothing where a vertex has two normals,
+/// unless they are nearly alike (`join_near_normals`).
 ///
 /// **Complexity** O(n) expected for n triangles.
 std::size_t share_vertices_without_normals(Triangle_soup& soup);

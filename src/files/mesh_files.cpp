@@ -85,11 +85,13 @@ void refuse_what_is_no_mesh(std::string_view contents, Mesh_format format, const
     throw Input_error(name + ": the text of the file is in UTF-16; save it in UTF-8 or ASCII");
 }
 
-// PLY and glTF: connects the faces of a file that shades flat.
+// PLY and glTF: connects the faces of a file that has several vertices at a place because of their normals.
 Mesh_file with_shared_vertices(Mesh_file file)
 {
-  if (const std::size_t joined = share_flat_vertices(file.soup); joined > 0)
-    file.notes.remarks["corners joined, for their vertices differ in nothing but flat normals"] += joined;
+  const bool is_flat = has_flat_normals(file.soup);
+  if (const std::size_t joined = share_split_vertices(file.soup); joined > 0)
+    file.notes.remarks[std::string("corners joined, for their vertices differ in nothing but ") +
+                       (is_flat ? "flat normals" : "the last digits of normals")] += joined;
   return file;
 }
 

@@ -91,8 +91,12 @@ Log_writer::Log_writer(std::ostream& stream, const Log_header& header) : m_strea
   };
   write_mesh("input", header);
   m_stream << "rounding " << (header.is_rounded_to_float32 ? "float32" : "none") << '\n';
-  if (header.are_normals_ignored || header.are_normals_dropped)
-    m_stream << "normals " << (header.are_normals_dropped ? "dropped" : "ignored") << '\n';
+  if (header.are_normals_joined || header.are_normals_ignored || header.are_normals_dropped)
+    m_stream << "normals "
+             << (header.are_normals_dropped   ? "dropped"
+                 : header.are_normals_ignored ? "ignored"
+                                              : "joined")
+             << '\n';
   if (header.may_pairs_descend)
     m_stream << "defects descend\n";
   for (const auto& [a, b] : header.may_intersect)
@@ -153,8 +157,11 @@ public:
         header.is_rounded_to_float32 = is_second_word("none", "float32");
         is_rounding_known = true;
       } else if (m_words[0] == "normals" && !are_normals_known) {
-        header.are_normals_dropped = m_words.size() == 2 && m_words[1] == "dropped";
-        header.are_normals_ignored = header.are_normals_dropped || is_second_word("kept", "ignored");
+        const auto is = [&](const char* word) { return m_words.size() == 2 && m_words[1] == word; };
+        header.are_normals_joined = is("joined");
+        header.are_normals_dropped = is("dropped");
+        header.are_normals_ignored =
+            header.are_normals_dropped || (!header.are_normals_joined && is_second_word("kept", "ignored"));
         are_normals_known = true;
       } else if (m_words[0] == "defects" && !are_defects_known) {
         header.may_pairs_descend = is_second_word("freeze", "descend");

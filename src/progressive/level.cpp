@@ -57,7 +57,7 @@ Triangle_soup level(const Progressive_mesh& mesh, std::size_t steps)
   Triangle_soup result = selected(soup, triangles, corners);
   // As `read_mesh` does. In poses, vertices may differ in one of them.
   if (result.poses.empty())
-    share_flat_vertices(result);
+    share_split_vertices(result);
   return result;
 }
 

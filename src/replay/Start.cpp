@@ -142,6 +142,8 @@ Start start_of(const Triangle_soup& original, const Triangle_soup& obstacle, con
   }
   if (header.are_normals_ignored)
     start.soup.normals = {};
+  if (header.are_normals_joined)
+    join_near_normals(start.soup);
   for (Index t = 0; t < original.triangles.size(); ++t)
     start.numbers.push_back(t);
   leave_out_needless(start);

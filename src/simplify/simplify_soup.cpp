@@ -140,6 +140,8 @@ private:
       m_working.allow_new_places(m_prepared.is_float32);
     if (m_options.uv_weight > 0)
       m_working.measure_uvs(uv_unit(soup, m_prepared.scale));
+    if (m_options.normal_weight > 0 && are_kept(m_prepared.normals))
+      m_working.measure_normals(normal_unit(soup, m_prepared.scale));
     m_working.count_refusals(part_kinds(soup));
     if (m_options.is_progression_recorded)
       m_working.record_progression(m_progression);

@@ -49,6 +49,10 @@ public:
   {
     return m_soup.uvs.values[m_soup.uvs.of_triangle[corner / 3][corner % 3]];
   }
+  const std::array<double, 3>& normal_of(Corner corner) const
+  {
+    return m_soup.normals.values[m_soup.normals.of_triangle[corner / 3][corner % 3]];
+  }
 
   bool has_face(Face face) const { return m_mesh.has_valid_index(face) && !m_mesh.is_removed(face); }
   bool is_own(Face face) const { return std::size_t(face) < own_face_count(); } ///< is none of an obstacle

@@ -77,6 +77,12 @@ Placed_vertices::Uv Placed_vertices::uv_at(Halfedge moving, const Point_3& place
   return m_values->mixed_uv(mixture.shares, mixture.own);
 }
 
+std::array<double, 3> Placed_vertices::normal_at(Index corner) const
+{
+  const Placed_vertex* const placed = find(corner);
+  return placed ? m_values->normal(placed->values) : m_corners.normal_of(corner);
+}
+
 void Placed_vertices::merge_at(Halfedge moving, const Point_3& place, const Point_3& point)
 {
   const Mixture mixture = mixture_at(moving, place);

@@ -45,6 +45,9 @@ public:
   /// Those that the vertex of both ends of an edge would have at a place.
   Uv uv_at(Halfedge moving, const Point_3& place) const;
 
+  /// The normal of a corner as it is now. The soup must have some.
+  std::array<double, 3> normal_at(Index corner) const;
+
   /// Places the vertex of both ends of an edge, before they merge. `point` is the place in the unit of the
   /// soup.
   void merge_at(Halfedge moving, const Point_3& place, const Point_3& point);

@@ -54,6 +54,13 @@ public:
   std::array<double, 2> mixed_uv(const Shares& shares, const Share& own) const;
   std::array<double, 2> uv(const Numbers& numbers) const { return {numbers[0], numbers[1]}; }
 
+  /// Returns the normal alone among such numbers. The soup must have some.
+  std::array<double, 3> normal(const Numbers& numbers) const
+  {
+    const double* const normal = numbers.data() + m_first_of_normal;
+    return {normal[0], normal[1], normal[2]};
+  }
+
   /// Numbers for a vertex of a result: `of_vertex[v]` is null for a vertex that keeps its values.
   using Of_vertices = std::vector<const Numbers*>;
 

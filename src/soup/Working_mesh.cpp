@@ -28,6 +28,8 @@ Working_mesh::Working_mesh(const Working_mesh& whole, const Border_rule<Mesh>& r
 {
   if (whole.m_texture)
     measure_uvs(whole.m_texture->unit());
+  if (whole.m_shading)
+    measure_normals(whole.m_shading->unit());
 }
 
 void Working_mesh::share(std::vector<Shared_mesh> meshes, double clearance)
@@ -42,6 +44,12 @@ void Working_mesh::measure_uvs(double unit)
 {
   if (!soup().uvs.empty() && own_face_count() > 0 && unit > 0)
     m_texture.emplace(*this, m_scale, constraints(), unit);
+}
+
+void Working_mesh::measure_normals(double unit)
+{
+  if (!soup().normals.empty() && !soup().normals.missing && own_face_count() > 0 && unit > 0)
+    m_shading.emplace(*this, m_scale, constraints(), unit);
 }
 
 void Working_mesh::allow_new_places(bool is_float32)
@@ -76,10 +84,14 @@ void Working_mesh::carry_all(Halfedge moving, const Border_rule<Mesh>& rule)
     m_progression->record_moves(moving);
   if (m_texture)
     m_texture->merge(moving);
+  if (m_shading)
+    m_shading->merge(moving);
   for_each_changed_face(moving, rule, [this](Halfedge h, Halfedge from) {
     carry(h, from);
     if (m_texture)
       m_texture->carry(h, from);
+    if (m_shading)
+      m_shading->carry(h, from);
   });
   carry_places(moving);
 }
@@ -95,10 +107,14 @@ void Working_mesh::before_placement(Halfedge moving, const Point_3& place, bool 
   m_placed.merge_at(moving, place, point);
   if (m_texture)
     m_texture->merge_at(moving, place, m_placed.uv_at(corner_at(moving)));
+  if (m_shading)
+    m_shading->merge_at(moving, place, m_placed.normal_at(corner_at(moving)));
   for (const Halfedge h : mesh().halfedges_around_target(mesh().prev(moving))) {
     carry(h, moving);
     if (m_texture)
       m_texture->carry(h, moving);
+    if (m_shading)
+      m_shading->carry(h, moving);
   }
   carry_places(moving);
 }

@@ -9,7 +9,7 @@
 #include "Progression_recorder.h"
 #include "Sewn_mesh.h"
 #include "Shared_places.h"
-#include "Texture_wedges.h"
+#include "Value_wedges.h"
 #include "keeps_pieces.h"
 #include "keeps_uv_orientation.h"
 
@@ -51,6 +51,9 @@ public:
   /// Makes `uv_cost` say from now on how far the texture is displaced. Before, and where there is no texture,
   /// it is 0. Weights that should count must be set before. `unit` is the `uv_unit` of the soup at the scale.
   void measure_uvs(double unit);
+
+  /// The same for `normal_cost`, in which `unit` is the `normal_unit` of the soup at the scale.
+  void measure_normals(double unit);
 
   /// Makes `rounded_place` return places from now on, as `Place_rounding` does; before, it returns none.
   void allow_new_places(bool is_float32);
@@ -135,6 +138,11 @@ public:
   {
     return m_texture ? m_texture->cost_at(edge, place) : 0;
   }
+  double normal_cost(Halfedge moving) const { return m_shading ? m_shading->cost(moving) : 0; }
+  double normal_cost_at(Halfedge edge, const Point_3& place) const
+  {
+    return m_shading ? m_shading->cost_at(edge, place) : 0;
+  }
 
   /// What is left of the soup.
   struct Result
@@ -155,6 +163,7 @@ private:
   Placed_vertices m_placed;
   std::optional<Place_rounding> m_rounding; // none until new places are allowed
   std::optional<Texture_wedges> m_texture;  // none until it is measured
+  std::optional<Shading_wedges> m_shading;  // none until it is measured
   std::optional<Shared_places> m_shared;    // none until meshes are shared
   std::optional<Progression_recorder> m_progression;
   std::function<void(const Soup_collapse&)> m_listener;

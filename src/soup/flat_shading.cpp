@@ -4,11 +4,13 @@
 #include "flat_shading.h"
 
 #include "Gltf_scene.h"
+#include "near_normals.h"
 #include "selection.h"
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/normals.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <string>
 #include <tuple>
@@ -22,10 +24,12 @@ namespace {
 
 constexpr Index s_no_number = std::numeric_limits<Index>::max();
 
-// Returns the number of each vertex at all of its corners, `s_no_number` for unused ones; nothing when there
-// are no such numbers, or a vertex has several.
+// Returns the number of each vertex at all of its corners, or the first of those that are alike,
+// `s_no_number` for unused vertices; nothing when there are no numbers, or a vertex has several.
+template <class Are_alike>
 std::vector<Index> numbers_of_vertices(const Triangle_soup& soup,
-                                       const std::vector<Index_triple>& of_triangle)
+                                       const std::vector<Index_triple>& of_triangle,
+                                       const Are_alike& are_alike)
 {
   if (of_triangle.empty())
     return {};
@@ -33,11 +37,21 @@ std::vector<Index> numbers_of_vertices(const Triangle_soup& soup,
   for (std::size_t t = 0; t < of_triangle.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       Index& number = numbers[soup.triangles[t][k]];
-      if (number != s_no_number && number != of_triangle[t][k])
+      if (number == s_no_number)
+        number = of_triangle[t][k];
+      else if (!are_alike(number, of_triangle[t][k]))
         return {};
-      number = of_triangle[t][k];
     }
   return numbers;
+}
+
+// Returns the number of the first of the normals of each vertex, if they are nearly alike: several are left
+// at vertices that `share_split_vertices` has joined.
+std::vector<Index> normals_of_vertices(const Triangle_soup& soup)
+{
+  return numbers_of_vertices(soup, soup.normals.of_triangle, [&](Index a, Index b) {
+    return a == b || are_near_normals(soup.normals.values[a], soup.normals.values[b]);
+  });
 }
 
 // What a vertex has, as bytes: on the one hand its normal, and what means nothing without it if normals are
@@ -104,9 +118,15 @@ private:
   bool m_are_normals_dropped;
 };
 
-std::size_t share_vertices(Triangle_soup& soup, bool are_normals_dropped)
+// Which of the vertices that differ in nothing but their normals become one.
+enum class Sharing { all, near, without_normals };
+
+std::size_t share_vertices(Triangle_soup& soup, Sharing sharing)
 {
-  const std::vector<Index> normals = numbers_of_vertices(soup, soup.normals.of_triangle);
+  const std::equal_to<Index> are_equal;
+  const std::vector<Index> normals = sharing == Sharing::without_normals
+                                         ? normals_of_vertices(soup)
+                                         : numbers_of_vertices(soup, soup.normals.of_triangle, are_equal);
   if (normals.empty())
     return 0;
   const std::size_t used =
@@ -115,21 +135,31 @@ std::size_t share_vertices(Triangle_soup& soup, bool are_normals_dropped)
   const bool have_faces_own = soup.triangles.size() >= few && used >= 2 * soup.triangles.size();
   std::vector<Index> uvs;
   if (soup.scene || are_numbered_like_vertices(soup.uvs, soup))
-    uvs = numbers_of_vertices(soup, soup.uvs.of_triangle);
-  std::unordered_map<std::string, std::pair<Index, std::string>> first_of; // and the bytes of its normals
+    uvs = numbers_of_vertices(soup, soup.uvs.of_triangle, are_equal);
+  struct Shared_vertex
+  {
+    Index first;
+    std::string bytes_of_normals;
+  };
+  std::unordered_map<std::string, std::vector<Shared_vertex>> vertices; // by all other bytes
   std::vector<Index> first(soup.points.size(), s_no_number);
   std::vector<char> is_shared(soup.points.size(), false); // by first vertex
-  const Vertex_bytes bytes_of(soup, normals, uvs, are_normals_dropped);
+  const Vertex_bytes bytes_of(soup, normals, uvs, sharing == Sharing::without_normals);
   Cancellation_poll poll;
   for (Index v = 0; v < normals.size(); ++v) {
     poll();
     if (normals[v] == s_no_number)
       continue;
     const Vertex_bytes::Bytes bytes = bytes_of(v);
-    const auto& [of_these, bytes_of_normals] =
-        first_of.emplace(bytes.others, std::make_pair(v, bytes.of_normals)).first->second;
-    first[v] = of_these;
-    is_shared[of_these] |= have_faces_own || bytes_of_normals != bytes.of_normals;
+    std::vector<Shared_vertex>& alike = vertices[bytes.others];
+    auto found = alike.begin();
+    while (found != alike.end() && sharing == Sharing::near &&
+           !are_near_normals(soup.normals.values[normals[found->first]], soup.normals.values[normals[v]]))
+      ++found;
+    if (found == alike.end())
+      found = alike.insert(found, {v, bytes.of_normals});
+    first[v] = found->first;
+    is_shared[found->first] |= have_faces_own || found->bytes_of_normals != bytes.of_normals;
   }
   std::size_t joined = 0;
   for (std::size_t t = 0; t < soup.triangles.size(); ++t)
@@ -147,14 +177,14 @@ std::size_t share_vertices(Triangle_soup& soup, bool are_normals_dropped)
 
 } // namespace
 
-std::size_t share_flat_vertices(Triangle_soup& soup)
+std::size_t share_split_vertices(Triangle_soup& soup)
 {
-  return has_flat_normals(soup) ? share_vertices(soup, false) : 0;
+  return share_vertices(soup, has_flat_normals(soup) ? Sharing::all : Sharing::near);
 }
 
 std::size_t share_vertices_without_normals(Triangle_soup& soup)
 {
-  return share_vertices(soup, true);
+  return share_vertices(soup, Sharing::without_normals);
 }
 
 Vertices_by_normal vertices_by_normal(const Triangle_soup& soup, const Corner_values<3>& normals)

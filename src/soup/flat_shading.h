@@ -11,7 +11,8 @@
 #include <vector>
 
 // PLY and glTF hold one normal for each vertex. So a file that shades flat has a vertex for every normal at a
-// corner of the mesh, and different vertices on the two sides of every edge.
+// corner of the mesh, and different vertices on the two sides of every edge. One that shades smoothly may
+// have several vertices where normals differ in their last digits.
 
 namespace selvedge {
 
@@ -31,10 +32,12 @@ bool are_numbered_like_vertices(const Corner_values<dimension>& values, const Tr
 }
 
 /// Makes triangles share the vertices that differ in nothing but their normals, if these are flat
-/// (`has_flat_normals`). Triangles then name the first of such vertices, and the others are unused; vertices
-/// keep their numbers, and corners their normals. Vertices that differ in nothing at all stay apart, because
-/// pieces may lie beside each other, unless a third one differs from them in its normal, or every face has
-/// vertices of its own (at least 100 triangles, and twice as many vertices).
+/// (`has_flat_normals`), and otherwise those whose normals are nearly alike (`are_near_normals`): a program
+/// that writes vertices that differ would have written one, but for its arithmetic. Triangles then name the
+/// first of such vertices, and the others are unused; vertices keep their numbers, and corners their normals.
+/// Vertices that differ in nothing at all stay apart, because pieces may lie beside each other, unless a
+/// third one differs from them in its normal, or every face has vertices of its own (at least 100 triangles,
+/// and twice as many vertices).
 ///
 /// Alike, bit for bit, must be position, attributes, and texture coordinates if they are those of vertices;
 /// in a glTF scene the node and the rows of all accessors but NORMAL, those of morph targets included; and
@@ -42,8 +45,8 @@ bool are_numbered_like_vertices(const Corner_values<dimension>& values, const Tr
 ///
 /// Returns how many corners name another vertex now. Does nothing where a vertex has two normals.
 ///
-/// **Complexity** O(n) expected for n triangles.
-std::size_t share_flat_vertices(Triangle_soup& soup);
+/// **Complexity** O(n) expected for n triangles and bounded numbers of such vertices at one place.
+std::size_t share_split_vertices(Triangle_soup& soup);
 
 /// The vertices of a soup as a file holds them that has one normal for each.
 struct Vertices_by_normal
@@ -60,7 +63,7 @@ struct Vertices_by_normal
 /// Returns a vertex for each vertex of the soup and each of these normals that it has, bit for bit; `normals`
 /// are those of the soup or others in their places. They are in the order of the
 /// vertices where each has one, else in that of the normals, which is the order of the file before
-/// `share_flat_vertices`. Linear for bounded numbers of normals at a vertex; O(n log n) where some have
+/// `share_split_vertices`. Linear for bounded numbers of normals at a vertex; O(n log n) where some have
 /// several.
 Vertices_by_normal vertices_by_normal(const Triangle_soup& soup, const Corner_values<3>& normals);
 

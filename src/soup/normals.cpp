@@ -4,6 +4,7 @@
 #include <selvedge/normals.h>
 
 #include "Disjoint_sets.h"
+#include "near_normals.h"
 #include "number_positions.h"
 
 #include <selvedge/internal/Vector_of_doubles.h>
@@ -356,8 +357,10 @@ Normals_treatment take_normals(Triangle_soup& soup, Normals_choice choice, Corne
   if (choice == Normals_choice::keep)
     return Normals_treatment::kept;
   const bool is_flat = choice != Normals_choice::drop && has_flat_normals(soup);
-  if (choice == Normals_choice::automatic && !is_flat)
+  if (choice == Normals_choice::automatic && !is_flat) {
+    join_near_normals(soup);
     return Normals_treatment::mended;
+  }
   if (choice == Normals_choice::recompute && !is_flat) {
     join_fans(soup);
     return Normals_treatment::smooth;
@@ -414,6 +417,42 @@ void pick_normals(Triangle_soup& result, const std::vector<Index>& triangles,
     }
   }
   drop_unused(result.normals);
+}
+
+bool are_near_normals(const std::array<double, 3>& a, const std::array<double, 3>& b)
+{
+  return is_within(a, b, s_cosine_flat);
+}
+
+void join_near_normals(Triangle_soup& soup)
+{
+  constexpr Index none = std::numeric_limits<Index>::max();
+  struct Entry
+  {
+    Index normal;
+    Index next; // of the same vertex
+  };
+  Corner_values<3>& normals = soup.normals;
+  std::vector<Entry> entries;
+  std::vector<Index> first(soup.points.size(), none), last(soup.points.size(), none);
+  for (std::size_t t = 0; t < normals.of_triangle.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      Index& normal = normals.of_triangle[t][k];
+      const Index v = soup.triangles[t][k];
+      if (normal == normals.missing)
+        continue;
+      Index found = first[v];
+      while (found != none && entries[found].normal != normal &&
+             !are_near_normals(normals.values[entries[found].normal], normals.values[normal]))
+        found = entries[found].next;
+      if (found == none) {
+        found = Index(entries.size());
+        (first[v] == none ? first[v] : entries[last[v]].next) = found;
+        last[v] = found;
+        entries.push_back({normal, none});
+      }
+      normal = entries[found].normal;
+    }
 }
 
 std::size_t mend_normals(Triangle_soup& result, const std::vector<Index>& triangles,

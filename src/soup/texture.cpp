@@ -5,11 +5,25 @@
 
 #include <CGAL/Kernel/global_functions.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 
 namespace selvedge {
+
+namespace {
+
+// Rounds to fewer digits, which hardly ever depend on the order in which areas were added.
+double rounded_unit(double unit)
+{
+  constexpr int bits = 24;
+  int exponent = 0;
+  const double fraction = std::frexp(unit, &exponent);
+  return std::ldexp(std::round(std::ldexp(fraction, bits)), exponent - bits);
+}
+
+} // namespace
 
 double uv_unit(const Triangle_soup& soup, const Scale& scale)
 {
@@ -29,11 +43,37 @@ double uv_unit(const Triangle_soup& soup, const Scale& scale)
   }
   if (!(uv_area > 0))
     return 0;
-  // Rounded to fewer digits, which hardly ever depend on the order in which areas were added.
-  constexpr int bits = 24;
-  int exponent = 0;
-  const double fraction = std::frexp(std::sqrt(area / uv_area), &exponent);
-  return std::ldexp(std::round(std::ldexp(fraction, bits)), exponent - bits);
+  return rounded_unit(std::sqrt(area / uv_area));
+}
+
+double normal_unit(const Triangle_soup& soup, const Scale& scale)
+{
+  using Vector = std::array<double, 3>;
+  double area = 0, turns = 0;
+  for (std::size_t t = 0; t < soup.normals.of_triangle.size(); ++t) {
+    std::array<Point_3, 3> points;
+    std::array<Vector, 3> normals;
+    for (std::size_t k = 0; k < 3; ++k) {
+      points[k] = scale(soup.points[soup.triangles[t][k]]);
+      normals[k] = soup.normals.values[soup.normals.of_triangle[t][k]];
+    }
+    const double of_triangle = std::sqrt(CGAL::squared_area(points[0], points[1], points[2]));
+    if (!(of_triangle > 0))
+      continue;
+    // The integral of the squared gradient: the sum of cot(angle) / 2 × squared turn along the edge beyond.
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
+      const double cotangent = (points[l] - points[k]) * (points[m] - points[k]) / (2 * of_triangle);
+      double squared = 0;
+      for (std::size_t i = 0; i < 3; ++i)
+        squared += (normals[l][i] - normals[m][i]) * (normals[l][i] - normals[m][i]);
+      sum += cotangent * squared / 2;
+    }
+    area += of_triangle;
+    turns += std::max(0.0, sum);
+  }
+  return turns > 0 ? rounded_unit(std::sqrt(2 * area / turns)) : 0;
 }
 
 } // namespace selvedge

@@ -14,6 +14,11 @@ namespace selvedge {
 /// when they have no area.
 double uv_unit(const Triangle_soup& soup, const Scale& scale = Scale());
 
+/// Returns the length on the surface that a turn of the normal by one radian stands for, divided by the
+/// scale: the radius of a curvature like that which the normals tell, on the mean over the area. 0 when they
+/// do not turn.
+double normal_unit(const Triangle_soup& soup, const Scale& scale = Scale());
+
 } // namespace selvedge
 
 #endif // SELVEDGE_SOUP_TEXTURE_H

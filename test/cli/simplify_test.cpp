@@ -288,6 +288,12 @@ TEST(App_simplify, NamesTheOptionThatMakesNoSeamsOfNormals)
   EXPECT_NE(loose.out.find("target 3 reached"), std::string::npos) << loose.out;
   EXPECT_EQ(nlohmann::json::parse(contents_of(report))["output"]["normals"], "picked");
   EXPECT_EQ(run_app({"verify", folder / "out.ply", "--against", folder / "in.ply"}).code, 0);
+  for (const std::string name : {"out.glb", "out.ply"}) {
+    const std::string dropped =
+        run_app({"simplify", folder / "in.ply", "-o", folder / name, "--ratio", "0.1", "--normals", "drop"})
+            .out;
+    EXPECT_EQ(dropped.find("shade every face flat") != std::string::npos, name == "out.glb") << dropped;
+  }
 }
 
 // Nor does it name as lost what the input does not have.

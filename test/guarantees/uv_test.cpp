@@ -5,7 +5,7 @@
 #include "support/reduction.h"
 #include "support/soups.h"
 
-#include <selvedge/Surface_mesh_simplification/internal/Uv_quadric.h>
+#include <selvedge/Surface_mesh_simplification/internal/Value_quadric.h>
 #include <selvedge/mesh_files.h>
 #include <selvedge/part_report.h>
 
@@ -122,7 +122,7 @@ TEST(Uv, WithoutATextureItsWeightChangesNothing)
 TEST(Uv, TheQuadricOfAnAffineTextureDoesNotGrowWhereTheTextureGoesOn)
 {
   const auto change = [](const Uv_quadric::Vector& motion) {
-    return Uv_quadric::Uv{2 * motion[0] - motion[1], motion[0] + 4 * motion[1]};
+    return Uv_quadric::Value{2 * motion[0] - motion[1], motion[0] + 4 * motion[1]};
   };
   const Uv_quadric::Vector a{0, 0, 0}, b{1, 0, 0}, c{0.25, 1, 0}, far{7, -3, 0};
   const Uv_quadric quadric({a, b, c}, {change(a), change(b), change(c)}, 1);
@@ -137,12 +137,12 @@ TEST(Uv, AQuadricSaysTheSameFromAnyOrigin)
   std::uniform_real_distribution<double> number(-1, 1);
   for (int i = 0; i < 100; ++i) {
     const auto point = [&] { return Uv_quadric::Vector{number(random), number(random), number(random)}; };
-    const auto uv = [&] { return Uv_quadric::Uv{number(random), number(random)}; };
+    const auto uv = [&] { return Uv_quadric::Value{number(random), number(random)}; };
     Uv_quadric quadric({point(), point(), point()}, {uv(), uv(), uv()}, 1);
     // The next triangle has another place, and another texture coordinate there.
     quadric += Uv_quadric({point(), point(), point()}, {uv(), uv(), uv()}, 1).moved_by(point(), uv());
     const Uv_quadric::Vector to = point(), x = point();
-    const Uv_quadric::Uv uv_to = uv(), s = uv();
+    const Uv_quadric::Value uv_to = uv(), s = uv();
     const double first_part = quadric(to, uv_to), rest = quadric.moved_by(to, uv_to)(x, s),
                  whole =
                      quadric({to[0] + x[0], to[1] + x[1], to[2] + x[2]}, {uv_to[0] + s[0], uv_to[1] + s[1]});

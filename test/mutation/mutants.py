@@ -585,14 +585,14 @@ group(
     ("box += mesh().point(mesh().source(in)).bbox();", ";", "a star is its vertex alone"),
 )
 group(
-    "src/soup/Texture_wedges.cpp",
-    ("texture_wedges_test",),
+    "src/soup/Value_wedges.cpp",
+    ("value_wedges_test",),
     ("wedges_at[vertices[i]] == 1", "true", "the texture beyond a seam costs nothing"),
     ("if (wedge != done)", "if (true)", "a wedge on both sides of an edge counts twice"),
 )
 group(
     "src/soup/number_wedges.cpp",
-    ("texture_wedges_test",),
+    ("value_wedges_test",),
     ("!is_line[mesh.edge(h)];", "true;", "wedges go on across lines, in one direction"),
 )
 group(
@@ -1025,7 +1025,7 @@ group(
 )
 
 group(
-    headers + "Surface_mesh_simplification/internal/Uv_quadric.h",
+    headers + "Surface_mesh_simplification/internal/Value_quadric.h",
     ("uv_test:Uv.AQuadric*",),
     ("product[i] - uv_motion[0] * m_gradients[0][i]", "product[i] + uv_motion[0] * m_gradients[0][i]",
      "a quadric says something else from another origin"),

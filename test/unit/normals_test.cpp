@@ -3,6 +3,7 @@
 
 // Normals that are made anew for a result.
 
+#include "soup/texture.h"
 #include "support/logged_reduction.h"
 #include "support/meshes.h"
 #include "support/reduction.h"
@@ -17,7 +18,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -116,6 +119,124 @@ TEST(Normals, ThatAreNotFlatAreKeptUnlessAsked)
       EXPECT_EQ(result.soup.normals.values[result.soup.normals.of_triangle[t][k]],
                 soup.normals.values[soup.normals.of_triangle[corner / 3][corner % 3]]);
     }
+}
+
+// As four decimals leave them, at each corner.
+TEST(Normals, ThatAreNearlyAlikeAtAVertexAreOne)
+{
+  Triangle_soup soup = hills();
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> noise(-2e-4, 2e-4);
+  for (const Index_triple& triangle : soup.triangles) {
+    const Index first = Index(soup.normals.values.size());
+    for (const Index v : triangle) {
+      const Point_3& p = soup.points[v];
+      soup.normals.values.push_back(
+          {-std::cos(p.x() / 4) / 4 + noise(random), std::sin(p.y() / 5) / 5 + noise(random), 1});
+    }
+    soup.normals.of_triangle.push_back({first, first + 1, first + 2});
+  }
+  ASSERT_FALSE(has_flat_normals(soup));
+  Prepare_options options;
+  options.normals = Normals_choice::automatic;
+  const Logged_reduction reduction = reduce_and_log(soup, to_ratio(0.2), options);
+  const Simplified_soup& result = reduction.simplified;
+  EXPECT_LE(result.soup.triangles.size(), soup.triangles.size() / 5);
+  std::map<Index, std::set<Index>> at_vertex;
+  for (std::size_t t = 0; t < result.soup.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const Index corner = result.corners[t][k], normal = result.soup.normals.of_triangle[t][k];
+      at_vertex[result.soup.triangles[t][k]].insert(normal);
+      bool is_of_vertex = false;
+      for (std::size_t i = 0; i < 3 * soup.triangles.size(); ++i)
+        is_of_vertex |= soup.triangles[i / 3][i % 3] == soup.triangles[corner / 3][corner % 3] &&
+                        soup.normals.values[i] == result.soup.normals.values[normal];
+      EXPECT_TRUE(is_of_vertex) << "no normal of the input is changed or mixed";
+    }
+  for (const auto& [vertex, normals] : at_vertex)
+    EXPECT_EQ(normals.size(), 1u) << "at vertex " << vertex;
+  EXPECT_TRUE(replay_text(soup, reduction.log).is_accepted());
+  // The controls: a judge to whom nobody says so sees vertices leave their lines, and normals that are kept
+  // make every edge one.
+  const std::string line = "normals joined\n";
+  ASSERT_NE(reduction.log.find(line), std::string::npos);
+  EXPECT_FALSE(replay_text(soup, std::string(reduction.log).erase(reduction.log.find(line), line.size()))
+                   .is_accepted());
+  EXPECT_GT(simplify_soup(prepared(soup, Normals_choice::keep), to_ratio(0.2)).soup.triangles.size(),
+            soup.triangles.size() / 2);
+}
+
+/// Deep waves with the normals that their formula has.
+Triangle_soup shaded_waves()
+{
+  Triangle_soup soup = mapped(sheet(60, 20), [](const Point_3& p) {
+    return Point_3(p.x(), p.y(), 2 * std::sin(p.x() / 3) + 0.3 * std::sin(p.y() / 2));
+  });
+  for (const Point_3& p : soup.points)
+    soup.normals.values.push_back({-2 * std::cos(p.x() / 3) / 3, -0.15 * std::cos(p.y() / 2), 1});
+  for (std::array<double, 3>& normal : soup.normals.values) {
+    const double length = std::hypot(normal[0], normal[1], normal[2]);
+    for (double& x : normal)
+      x /= length;
+  }
+  soup.normals.of_triangle = soup.triangles;
+  return soup;
+}
+
+// The mean angle in degrees, over the area, between the shading of faces at their centres and that of the
+// waves.
+double shading_error(const Triangle_soup& soup)
+{
+  double sum = 0, area = 0;
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    const auto& [a, b, c] = soup.triangles[t];
+    const Point_3 centre = CGAL::centroid(soup.points[a], soup.points[b], soup.points[c]);
+    Kernel::Vector_3 normal(0, 0, 0);
+    for (const Index n : soup.normals.of_triangle[t]) {
+      const auto& [x, y, z] = soup.normals.values[n];
+      normal = normal + Kernel::Vector_3(x, y, z);
+    }
+    const Kernel::Vector_3 true_normal(-2 * std::cos(centre.x() / 3) / 3, -0.15 * std::cos(centre.y() / 2),
+                                       1);
+    const double weight = std::sqrt(CGAL::squared_area(soup.points[a], soup.points[b], soup.points[c]));
+    sum += weight * CGAL::approximate_angle(normal, true_normal);
+    area += weight;
+  }
+  return sum / area;
+}
+
+TEST(Normals, CountInTheCost)
+{
+  const Triangle_soup soup = shaded_waves();
+  const auto error_with = [&](double weight) {
+    Simplify_options options = to_ratio(0.1);
+    options.normal_weight = weight;
+    const Triangle_soup result = simplify_soup(prepared(soup, Normals_choice::keep), options).soup;
+    EXPECT_LE(result.triangles.size(), soup.triangles.size() / 10);
+    return shading_error(result);
+  };
+  const double without = error_with(0);
+  EXPECT_LT(error_with(Simplify_options().normal_weight), 0.9 * without);
+  EXPECT_LT(error_with(1), 0.8 * without);
+}
+
+// On a sphere, normals turn by a radian along one radius, whatever the size.
+TEST(Normals, HaveTheRadiusOfCurvatureAsTheirUnit)
+{
+  for (const double radius : {1e-3, 1., 64.}) {
+    Triangle_soup sphere = nested_spheres(2000, 1, 1e-3);
+    sphere.normals.of_triangle = sphere.triangles;
+    for (Point_3& p : sphere.points) {
+      const double length = std::hypot(p.x(), p.y(), p.z());
+      sphere.normals.values.push_back({p.x() / length, p.y() / length, p.z() / length});
+      p = Point_3(radius * p.x() / length, radius * p.y() / length, radius * p.z() / length);
+    }
+    EXPECT_NEAR(normal_unit(sphere), radius, 0.02 * radius);
+  }
+  Triangle_soup flat = sheet(3, 3);
+  flat.normals.values = {{0, 0, 1}};
+  flat.normals.of_triangle.assign(flat.triangles.size(), {0, 0, 0});
+  EXPECT_EQ(normal_unit(flat), 0);
 }
 
 // A floor and a wall of two triangles each. A corner of the floor has moved up.

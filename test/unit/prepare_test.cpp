@@ -35,6 +35,7 @@ TEST(Refusal, OptionsOutOfRange)
   expect_refused([](Simplify_options& o) { o.max_border_drift = -1; });
   expect_refused([](Simplify_options& o) { o.faces_per_cluster = 0; });
   expect_refused([](Simplify_options& o) { o.uv_weight = -1; });
+  expect_refused([](Simplify_options& o) { o.normal_weight = -1; });
   expect_refused([](Simplify_options& o) { o.uv_weight = std::numeric_limits<double>::infinity(); });
   expect_refused([](Simplify_options& o) { o.cost.border_weight = -1; });
   expect_refused([](Simplify_options& o) { o.cost.stabiliser = std::nan(""); });

@@ -108,6 +108,7 @@ void write_world(const World& world, const std::filesystem::path& folder)
                      {"clearance", optional_json(options.clearance)},
                      {"check_uv_orientation", options.check_uv_orientation},
                      {"uv_weight", options.uv_weight},
+                     {"normal_weight", options.normal_weight},
                      {"is_placement_optimal", options.placement == Placement::optimal},
                      {"is_loop_own", options.loop == Collapse_loop::own},
                      {"instances", options.instances == Instances::shared},
@@ -179,6 +180,7 @@ World read_world(const std::filesystem::path& folder)
   options.instances = json.value("instances", false) ? Instances::shared : Instances::apart;
   options.check_uv_orientation = json["check_uv_orientation"];
   options.uv_weight = json["uv_weight"];
+  options.normal_weight = json.value("normal_weight", 0.0); // worlds of earlier versions have none
   options.placement = json.value("is_placement_optimal", false) ? Placement::optimal : Placement::vertices;
   options.loop = json["is_loop_own"] ? Collapse_loop::own : Collapse_loop::cgal;
   options.index = json["is_index_packed"] ? Face_index::packed : Face_index::clusters;
@@ -249,6 +251,7 @@ std::string command_line(const World& world)
   if (options.clearance)
     add("--clearance", text_of(*options.clearance));
   add_if_other("--uv-weight", options.uv_weight, plain.uv_weight);
+  add_if_other("--normal-weight", options.normal_weight, plain.normal_weight);
   add_if_other("--border-weight", options.cost.border_weight, plain.cost.border_weight);
   add_if_other("--stabiliser", options.cost.stabiliser, plain.cost.stabiliser);
   add_if_other("--memory", options.cost.memory, plain.cost.memory);

@@ -148,7 +148,7 @@ Verdict judge_file(const World& world, const World_run& run)
           return Broken_promise{Promise::written, "the file has other normals"};
     if (has_vertices_of_several_normals(result))
       expected = split_by_normals(expected);
-    share_flat_vertices(expected);
+    share_split_vertices(expected);
   }
   if (file.triangles != expected.triangles || file.points.size() != expected.points.size() ||
       !std::equal(file.points.begin(), file.points.end(), expected.points.begin(), has_same_bits))

@@ -274,6 +274,29 @@ Verdict judge_in_pieces(const World& world, Random& random)
   return std::nullopt;
 }
 
+// Returns by how much `distances_anywhere` may be off where nothing is: a millionth of the longest side of
+// the bounding box, in any pose, as a share of the diagonal.
+double measuring_error(const Triangle_soup& soup)
+{
+  const auto box_of = [&](const std::vector<Point_3>& points) {
+    CGAL::Bbox_3 box;
+    for (const Index_triple& triangle : soup.triangles)
+      for (const Index v : triangle)
+        box += points[v].bbox();
+    return box;
+  };
+  const CGAL::Bbox_3 first = box_of(soup.points);
+  double longest = 0;
+  const auto see = [&](const CGAL::Bbox_3& box) {
+    longest = std::max({longest, box.x_span(), box.y_span(), box.z_span()});
+  };
+  see(first);
+  for (const Pose& pose : soup.poses)
+    see(box_of(pose.points));
+  const double diagonal = std::hypot(first.x_span(), first.y_span(), first.z_span());
+  return 1e-6 * longest / (diagonal > 0 ? diagonal : 1);
+}
+
 // Reduces until the error is kept at every point.
 Verdict judge_error_everywhere(const World& world, const World_run& run, Judgement_counts& counts,
                                const Judgement_extent& extent)
@@ -290,7 +313,7 @@ Verdict judge_error_everywhere(const World& world, const World_run& run, Judgeme
       return std::nullopt;
     upper = distances_anywhere(again.result.soup, run.prepared.soup).larger().upper;
   } while (search.lower(upper));
-  if (upper > wanted)
+  if (upper > wanted + measuring_error(run.prepared.soup))
     return Broken_promise{Promise::stop, "an error cannot be kept everywhere"};
   auto broken = judge(twin, test::run(twin), counts, {extent.is_replay_asked, 0});
   if (broken)

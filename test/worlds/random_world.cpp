@@ -202,6 +202,7 @@ void choose_limits(Simplify_options& options, Random& random)
   sometimes(options.max_seam_turn, {0, 1, 8, 60, 90, 180});
   sometimes(options.max_border_drift, {0, 1e-9, 0.002, 0.05, 10});
   sometimes(options.uv_weight, {0, 1e-3, 0.1, 10});
+  sometimes(options.normal_weight, {0, 1e-3, 0.1, 10});
   sometimes(options.cost.border_weight, {0, 0.1, 1, 100});
   sometimes(options.cost.stabiliser, {0, 1e-5, 0.1, 1});
   sometimes(options.cost.memory, {0, 0.5, 1});

@@ -82,6 +82,7 @@ private:
     set_option(&Simplify_options::faces, plain.faces);
     set_option(&Simplify_options::ratio, std::optional<double>(0));
     set_option(&Simplify_options::uv_weight, plain.uv_weight);
+    set_option(&Simplify_options::normal_weight, plain.normal_weight);
     set_option(&Simplify_options::check_uv_orientation, plain.check_uv_orientation);
     for (const double limit : {plain.max_normal_change, 180.})
       set_limit(&Simplify_options::max_normal_change, limit, plain.max_normal_change);

@@ -66,6 +66,7 @@ def simplify(
     memory: float = ...,
     border_weight: float = ...,
     uv_weight: float = ...,
+    normal_weight: float = ...,
     part_ratios: Mapping[str, float] = ...,
     lock: Union[str, Sequence[str]] = ...,
     keep: Union[str, Sequence[str]] = ...,

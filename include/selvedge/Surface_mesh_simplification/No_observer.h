@@ -144,6 +144,18 @@ struct No_observer
   {
     return 0;
   }
+
+  /// The same for the turn of normals.
+  template <class Halfedge>
+  double normal_cost(const Halfedge& /*moving*/) const
+  {
+    return 0;
+  }
+  template <class Halfedge, class Point>
+  double normal_cost_at(const Halfedge& /*edge*/, const Point& /*place*/) const
+  {
+    return 0;
+  }
 };
 
 } // namespace selvedge

@@ -92,17 +92,17 @@ class Simplification
 
   using Poses = Further_poses<TriangleMesh, Is_of_strip>;
 
-  /// Adds the cost of the texture to that of the quadrics, takes the mean over all poses, and for vertices
-  /// that move together the costs of all. An edge has no cost if none of its faces counts.
+  /// Adds the costs of texture and normals to that of the quadrics, takes the mean over all poses, and for
+  /// vertices that move together the costs of all. An edge has no cost if none of its faces counts.
   class Cost
   {
   public:
     using Update_tag = CGAL::Tag_true;
 
     Cost(TriangleMesh& mesh, const Quadrics& quadrics, const Targets& targets, const Joint& joint,
-         const Poses& poses, const Observer& observer, double uv_weight)
+         const Poses& poses, const Observer& observer, double uv_weight, double normal_weight)
         : m_mesh(&mesh), m_quadrics(quadrics), m_targets(targets), m_joint(&joint), m_poses(&poses),
-          m_observer(&observer), m_uv_weight(uv_weight)
+          m_observer(&observer), m_uv_weight(uv_weight), m_normal_weight(normal_weight)
     {
     }
 
@@ -144,8 +144,12 @@ class Simplification
     {
       if (!m_targets.is_counted(profile.v0_v1()))
         return {};
-      const double cost = m_quadrics.cost_at(profile, place);
-      return m_uv_weight > 0 ? cost + m_uv_weight * m_observer->uv_cost_at(profile.v0_v1(), place) : cost;
+      double cost = m_quadrics.cost_at(profile, place);
+      if (m_uv_weight > 0)
+        cost += m_uv_weight * m_observer->uv_cost_at(profile.v0_v1(), place);
+      if (m_normal_weight > 0)
+        cost += m_normal_weight * m_observer->normal_cost_at(profile.v0_v1(), place);
+      return cost;
     }
 
     template <class Profile>
@@ -172,7 +176,11 @@ class Simplification
       double cost = *m_quadrics.cost_along(profile, moving);
       if (!m_poses->empty())
         cost = m_poses->mean_cost(cost, Collapse<Profile>::along(profile, moving));
-      return m_uv_weight > 0 ? cost + m_uv_weight * m_observer->uv_cost(moving) : cost;
+      if (m_uv_weight > 0)
+        cost += m_uv_weight * m_observer->uv_cost(moving);
+      if (m_normal_weight > 0)
+        cost += m_normal_weight * m_observer->normal_cost(moving);
+      return cost;
     }
 
     TriangleMesh* m_mesh;
@@ -181,7 +189,7 @@ class Simplification
     const Joint* m_joint;
     const Poses* m_poses;
     const Observer* m_observer;
-    double m_uv_weight;
+    double m_uv_weight, m_normal_weight;
   };
 
   struct Is_uv_orientation_kept
@@ -260,6 +268,8 @@ public:
           "a clearance is kept where intersections are checked; leave one of the two options");
     if (!(options.uv_weight >= 0 && std::isfinite(options.uv_weight)))
       throw Argument_error("the weight of the texture is at least 0, and finite");
+    if (!(options.normal_weight >= 0 && std::isfinite(options.normal_weight)))
+      throw Argument_error("the weight of normals is at least 0, and finite");
     m_quadrics.weigh(mesh, constraints.vertex_weights);
     m_quadrics.measure_by(m_diagonal);
     if (options.max_error)
@@ -337,8 +347,9 @@ public:
 
     // The observer's weights of faces are relative to the area 1, those of the quadrics to that of the
     // diagonal.
-    const Cost costs(m_mesh, m_quadrics, m_targets, m_joint, m_poses, m_observer,
-                     m_options.uv_weight * relative_face_weight(1 / (m_diagonal * m_diagonal)));
+    const double unit = relative_face_weight(1 / (m_diagonal * m_diagonal));
+    const Cost costs(m_mesh, m_quadrics, m_targets, m_joint, m_poses, m_observer, m_options.uv_weight * unit,
+                     m_options.normal_weight * unit);
     if (m_options.placement == Placement::optimal)
       run_passes(costs, Optimal_places(costs, m_rule, {&m_observer}));
     else

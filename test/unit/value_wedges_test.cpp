@@ -4,7 +4,7 @@
 // Wedges are the corners at a vertex that no line separates; the texture's displacement is known for each.
 
 #include "soup/Sewn_mesh.h"
-#include "soup/Texture_wedges.h"
+#include "soup/Value_wedges.h"
 #include "soup/number_wedges.h"
 #include "support/meshes.h"
 #include "support/soups.h"

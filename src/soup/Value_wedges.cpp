@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "Texture_wedges.h"
+#include "Value_wedges.h"
 
 #include "Sewing.h"
 #include "number_wedges.h"
@@ -15,8 +15,9 @@
 
 namespace selvedge {
 
-Texture_wedges::Texture_wedges(const Corner_mesh& corners, const Scale& scale,
-                               const Simplify_constraints<Mesh>& constraints, double unit)
+template <std::size_t dimension>
+Value_wedges<dimension>::Value_wedges(const Corner_mesh& corners, const Scale& scale,
+                                      const Simplify_constraints<Mesh>& constraints, double unit)
     : m_corners(corners), m_unit(unit)
 {
   Wedge_numbers numbers = number_wedges(corners, constraints.line_edges);
@@ -33,27 +34,28 @@ Texture_wedges::Texture_wedges(const Corner_mesh& corners, const Scale& scale,
     poll();
     if (!corners.is_own(face))
       break; // the faces of the obstacle come last
-    std::array<Uv_quadric::Vector, 3> points;
-    std::array<Uv, 3> uvs;
+    std::array<Vector, 3> points;
+    std::array<Value, 3> values;
     for (std::size_t k = 0; k < 3; ++k) {
       const Point_3 p = scale(corners.soup().points[corners.vertex_of(corners.corners(face)[k])]);
       points[k] = {p.x(), p.y(), p.z()};
-      uvs[k] = at_unit(corners.uv_of(corners.corners(face)[k]));
+      values[k] = at_unit(value_of(corners.corners(face)[k]));
     }
-    const Uv_quadric of_face(points, uvs, 1);
+    const Quadric of_face(points, values, 1);
     for (std::size_t k = 0; k < 3; ++k) {
       const Index number = m_numbers[face][k];
-      m_wedges[number].uv = uvs[k];
+      m_wedges[number].value = values[k];
       m_wedges[number].quadric += constraints.vertex_weights.empty()
                                       ? of_face
-                                      : Uv_quadric(points, uvs, constraints.vertex_weights[vertices[number]]);
+                                      : Quadric(points, values, constraints.vertex_weights[vertices[number]]);
     }
   }
 }
 
 // Calls function(from, to) with the wedges at both ends of a motion, once for each side of a line along it.
+template <std::size_t dimension>
 template <class Function>
-void Texture_wedges::for_each_moved_wedge(Halfedge moving, const Function& function) const
+void Value_wedges<dimension>::for_each_moved_wedge(Halfedge moving, const Function& function) const
 {
   Index done = Sewing::none;
   for (const Halfedge h : {moving, mesh().opposite(moving)}) {
@@ -70,60 +72,71 @@ void Texture_wedges::for_each_moved_wedge(Halfedge moving, const Function& funct
 }
 
 // Returns how a vertex moves when it goes to a place.
-Uv_quadric::Vector Texture_wedges::motion(Mesh::Vertex_index v, const Point_3& place) const
+template <std::size_t dimension>
+typename Value_wedges<dimension>::Vector Value_wedges<dimension>::motion(Mesh::Vertex_index v,
+                                                                         const Point_3& place) const
 {
   const Point_3& p = mesh().point(v);
   return {place.x() - p.x(), place.y() - p.y(), place.z() - p.z()};
 }
 
-Uv_quadric::Vector Texture_wedges::along(Halfedge h) const
+template <std::size_t dimension>
+typename Value_wedges<dimension>::Vector Value_wedges<dimension>::along(Halfedge h) const
 {
   return motion(mesh().source(h), mesh().point(mesh().target(h)));
 }
 
-double Texture_wedges::cost(Halfedge moving) const
+template <std::size_t dimension>
+double Value_wedges<dimension>::cost(Halfedge moving) const
 {
   double cost = 0;
   for_each_moved_wedge(moving, [&](Index from, Index to) {
     const Wedge& wedge = m_wedges[from];
-    cost += wedge.quadric(along(moving), wedge.uv_motion(m_wedges[to].uv));
+    cost += wedge.quadric(along(moving), wedge.value_motion(m_wedges[to].value));
   });
   return std::max(0.0, cost); // rounding may leave a sum slightly below zero
 }
 
-double Texture_wedges::cost_at(Halfedge edge, const Point_3& place) const
+template <std::size_t dimension>
+double Value_wedges<dimension>::cost_at(Halfedge edge, const Point_3& place) const
 {
   double cost = 0;
   for_each_moved_wedge(edge, [&](Index from, Index to) {
     const Wedge &first = m_wedges[from], &second = m_wedges[to];
-    const Uv uv_motion = first.uv_motion(second.uv);
-    Uv_quadric sum = first.quadric.moved_by(along(edge), uv_motion);
+    const Value value_motion = first.value_motion(second.value);
+    Quadric sum = first.quadric.moved_by(along(edge), value_motion);
     sum += second.quadric;
-    cost += first.quadric(along(edge), uv_motion) + sum.least(motion(mesh().target(edge), place));
+    cost += first.quadric(along(edge), value_motion) + sum.least(motion(mesh().target(edge), place));
   });
   return std::max(0.0, cost);
 }
 
-void Texture_wedges::merge(Halfedge moving)
+template <std::size_t dimension>
+void Value_wedges<dimension>::merge(Halfedge moving)
 {
   for_each_moved_wedge(moving, [&](Index from, Index to) {
     const Wedge& gone = m_wedges[from];
     Wedge& merged = m_wedges[to];
-    merged.quadric += gone.quadric.moved_by(along(moving), gone.uv_motion(merged.uv));
+    merged.quadric += gone.quadric.moved_by(along(moving), gone.value_motion(merged.value));
   });
 }
 
-void Texture_wedges::merge_at(Halfedge moving, const Point_3& place, const Uv& uv_of_soup)
+template <std::size_t dimension>
+void Value_wedges<dimension>::merge_at(Halfedge moving, const Point_3& place, const Value& of_soup)
 {
-  const Uv uv = at_unit(uv_of_soup);
+  const Value value = at_unit(of_soup);
   for_each_moved_wedge(moving, [&](Index from, Index to) {
     // No line meets a vertex at a new place, so that there is one wedge at either end.
     const Wedge& gone = m_wedges[from];
     Wedge& merged = m_wedges[to];
-    merged.quadric = merged.quadric.moved_by(motion(mesh().target(moving), place), merged.uv_motion(uv));
-    merged.quadric += gone.quadric.moved_by(motion(mesh().source(moving), place), gone.uv_motion(uv));
-    merged.uv = uv;
+    merged.quadric =
+        merged.quadric.moved_by(motion(mesh().target(moving), place), merged.value_motion(value));
+    merged.quadric += gone.quadric.moved_by(motion(mesh().source(moving), place), gone.value_motion(value));
+    merged.value = value;
   });
 }
+
+template class Value_wedges<2>;
+template class Value_wedges<3>;
 
 } // namespace selvedge

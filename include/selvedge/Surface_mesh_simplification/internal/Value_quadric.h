@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_UV_QUADRIC_H
-#define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_UV_QUADRIC_H
+#ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_VALUE_QUADRIC_H
+#define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_VALUE_QUADRIC_H
 
 #include <selvedge/Surface_mesh_simplification/internal/Symmetric_matrix.h>
 #include <selvedge/Surface_mesh_simplification/internal/relative_face_weight.h>
@@ -14,30 +14,31 @@
 
 namespace selvedge {
 
-/// Measures how much farther a texture is displaced when a vertex moves. The displacement is a sum over
-/// triangles: for a point x with the texture coordinates s, it is the sum of weight × |Gx + d − s|², where
-/// Gx + d are the texture coordinates that a triangle gives to x in its plane.
+/// Measures how much farther values on the surface, such as a texture or normals, are displaced when a vertex
+/// moves. The displacement is a sum over triangles: for a point x with the value s, it is the sum of weight ×
+/// |Gx + d − s|², where Gx + d is the value that a triangle gives to x in its plane.
 ///
-/// It says how much larger this sum is, after a motion of the point and of its texture coordinates, than it
-/// is for an origin of both. The displacement does not grow with motions that continue the texture unchanged,
-/// as on flat cloth with its pattern as texture.
+/// It says how much larger this sum is, after a motion of the point and of its value, than it is for an
+/// origin of both. The displacement does not grow with motions that continue the values unchanged, as on flat
+/// cloth with its pattern as texture.
 ///
 /// **Exactness** Floating point. It is kept in single precision, since it takes much memory, which a loop
 /// would wait for; numbers too large for that are the largest ones.
 ///
 /// **Reference** Hoppe: New quadric metric for simplifying meshes with appearance attributes, section 4.
-class Uv_quadric
+template <std::size_t dimension>
+class Value_quadric
 {
 public:
   using Vector = internal::Vector_of_doubles;
-  using Uv = std::array<double, 2>;
+  using Value = std::array<double, dimension>;
 
-  Uv_quadric() = default;
+  Value_quadric() = default;
 
   /// Makes that of a triangle, with `weight` times the `relative_face_weight` of its area. Its origin is any
   /// corner. A thin triangle counts less, since it says little about what lies beside it; a degenerate one
   /// does not count.
-  Uv_quadric(const std::array<Vector, 3>& x, const std::array<Uv, 3>& s, double weight)
+  Value_quadric(const std::array<Vector, 3>& x, const std::array<Value, 3>& s, double weight)
   {
     const Vector e = internal::difference(x[1], x[0]), f = internal::difference(x[2], x[0]),
                  g = internal::difference(x[2], x[1]);
@@ -50,7 +51,7 @@ public:
     weight *= internal::relative_face_weight(std::sqrt(squared_area)) * squared_quality;
     const Vector of_e = internal::cross(f, normal), of_f = internal::cross(normal, e);
     internal::Symmetric_matrix matrix;
-    for (std::size_t k = 0; k < 2; ++k) {
+    for (std::size_t k = 0; k < dimension; ++k) {
       Vector gradient;
       for (std::size_t i = 0; i < 3; ++i)
         gradient[i] = ((s[1][k] - s[0][k]) * of_e[i] + (s[2][k] - s[0][k]) * of_f[i]) / (4 * squared_area);
@@ -63,12 +64,12 @@ public:
   }
 
   /// Adds one with the same origin.
-  Uv_quadric& operator+=(const Uv_quadric& other)
+  Value_quadric& operator+=(const Value_quadric& other)
   {
     set_matrix(matrix() += other.matrix());
     for (std::size_t i = 0; i < 3; ++i)
       m_linear[i] = internal::saturated_float(double(m_linear[i]) + other.m_linear[i]);
-    for (std::size_t k = 0; k < 2; ++k) {
+    for (std::size_t k = 0; k < dimension; ++k) {
       for (std::size_t i = 0; i < 3; ++i)
         m_gradients[k][i] = internal::saturated_float(double(m_gradients[k][i]) + other.m_gradients[k][i]);
       m_displacements[k] = internal::saturated_float(double(m_displacements[k]) + other.m_displacements[k]);
@@ -77,34 +78,38 @@ public:
     return *this;
   }
 
-  /// Returns how much the displacement grows with a motion of the point and of its texture coordinates.
-  double operator()(const Vector& motion, const Uv& uv_motion) const
+  /// Returns how much the displacement grows with a motion of the point and of its value.
+  double operator()(const Vector& motion, const Value& value_motion) const
   {
-    double sum = growth_with_texture_fixed(motion);
-    for (std::size_t k = 0; k < 2; ++k)
-      sum += uv_motion[k] * (m_weight * uv_motion[k] - 2 * displacement(k, motion));
+    double sum = growth_with_value_fixed(motion);
+    for (std::size_t k = 0; k < dimension; ++k)
+      sum += value_motion[k] * (m_weight * value_motion[k] - 2 * displacement(k, motion));
     return sum;
   }
 
-  /// Returns the same with the motion of the texture coordinates for which it is least.
+  /// Returns the same with the motion of the value for which it is least.
   double least(const Vector& motion) const
   {
-    double sum = growth_with_texture_fixed(motion);
-    for (std::size_t k = 0; k < 2 && m_weight > 0; ++k)
+    double sum = growth_with_value_fixed(motion);
+    for (std::size_t k = 0; k < dimension && m_weight > 0; ++k)
       sum -= displacement(k, motion) * displacement(k, motion) / m_weight;
     return sum;
   }
 
   /// Returns the function whose origin is that of this one after a motion.
-  Uv_quadric moved_by(const Vector& motion, const Uv& uv_motion) const
+  Value_quadric moved_by(const Vector& motion, const Value& value_motion) const
   {
-    Uv_quadric moved = *this;
+    Value_quadric moved = *this;
     const Vector product = matrix() * motion;
-    for (std::size_t i = 0; i < 3; ++i)
-      moved.m_linear[i] = internal::saturated_float(
-          m_linear[i] + product[i] - uv_motion[0] * m_gradients[0][i] - uv_motion[1] * m_gradients[1][i]);
-    for (std::size_t k = 0; k < 2; ++k)
-      moved.m_displacements[k] = internal::saturated_float(displacement(k, motion) - m_weight * uv_motion[k]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      double linear = m_linear[i] + product[i];
+      for (std::size_t k = 0; k < dimension; ++k)
+        linear -= value_motion[k] * m_gradients[k][i];
+      moved.m_linear[i] = internal::saturated_float(linear);
+    }
+    for (std::size_t k = 0; k < dimension; ++k)
+      moved.m_displacements[k] =
+          internal::saturated_float(displacement(k, motion) - m_weight * value_motion[k]);
     return moved;
   }
 
@@ -120,25 +125,27 @@ private:
                 internal::saturated_float(m.yz), internal::saturated_float(m.zz)};
   }
 
-  double growth_with_texture_fixed(const Vector& motion) const
+  double growth_with_value_fixed(const Vector& motion) const
   {
     return matrix().square(motion) + 2 * internal::dot(m_linear, motion);
   }
 
-  // The sum of the displacements in one direction of the texture, each with its weight.
+  // The sum of the displacements in one number, each with its weight.
   double displacement(std::size_t k, const Vector& motion) const
   {
     return internal::dot(m_gradients[k], motion) + m_displacements[k];
   }
 
-  // The terms in the motion alone, in both motions, and in that of the texture coordinates alone.
+  // The terms in the motion alone, in both motions, and in that of the value alone.
   std::array<float, 6> m_matrix{};
   std::array<float, 3> m_linear{};
-  std::array<std::array<float, 3>, 2> m_gradients{};
-  std::array<float, 2> m_displacements{};
+  std::array<std::array<float, 3>, dimension> m_gradients{};
+  std::array<float, dimension> m_displacements{};
   float m_weight = 0;
 };
 
+using Uv_quadric = Value_quadric<2>;
+
 } // namespace selvedge
 
-#endif // SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_UV_QUADRIC_H
+#endif // SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_VALUE_QUADRIC_H

@@ -1,0 +1,103 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SOUP_VALUE_WEDGES_H
+#define SELVEDGE_SOUP_VALUE_WEDGES_H
+
+#include "Corner_mesh.h"
+
+#include <selvedge/Surface_mesh_simplification/Simplify_constraints.h>
+#include <selvedge/Surface_mesh_simplification/internal/Value_quadric.h>
+#include <selvedge/internal/Scale.h>
+
+#include <vector>
+
+namespace selvedge {
+
+/// The values that the wedges of a mesh have, two numbers for the texture or three for normals, and how far
+/// those of the surface beside a wedge are displaced when it moves.
+///
+/// **Preconditions** The mesh outlives the object, which is told of every collapse before it is done.
+template <std::size_t dimension>
+class Value_wedges
+{
+public:
+  using Mesh = Corner_mesh::Mesh;
+  using Halfedge = Corner_mesh::Halfedge;
+  using Quadric = Value_quadric<dimension>;
+  using Vector = typename Quadric::Vector;
+  using Value = typename Quadric::Value;
+
+  /// Measures a texture, in which `unit` is the `uv_unit` of the soup at the scale, or normals, in which it
+  /// is the `normal_unit`. The constraints say which edges are lines, and weigh the vertices.
+  ///
+  /// **Preconditions** Nothing has been collapsed, and every corner of the soup has a value.
+  Value_wedges(const Corner_mesh& corners, const Scale& scale, const Simplify_constraints<Mesh>& constraints,
+               double unit);
+
+  double unit() const { return m_unit; }
+
+  /// Returns by how much a motion displaces the values, see `No_observer::uv_cost`.
+  double cost(Halfedge moving) const;
+
+  /// Returns the same for the motions of both ends of an edge to a place.
+  double cost_at(Halfedge edge, const Point_3& place) const;
+
+  /// Adds what the wedges that move know to those at the goal.
+  void merge(Halfedge moving);
+
+  /// Adds up what the wedges at both ends know, and moves them to a place with its own value, in no unit.
+  void merge_at(Halfedge moving, const Point_3& place, const Value& of_soup);
+
+  /// Puts the corner at the target of h into the wedge at the target of `from`.
+  void carry(Halfedge h, Halfedge from) { number_at(h) = number_at(from); }
+
+private:
+  struct Wedge
+  {
+    Quadric quadric; // its origin is the wedge
+    Value value;
+    bool is_alone; // the only wedge at its vertex, and stays so: lines neither begin nor end later
+
+    Value value_motion(const Value& to) const
+    {
+      Value motion;
+      for (std::size_t k = 0; k < dimension; ++k)
+        motion[k] = to[k] - value[k];
+      return motion;
+    }
+  };
+
+  const Mesh& mesh() const { return m_corners.mesh(); }
+  Index& number_at(Halfedge h) { return m_numbers[mesh().face(h)][m_corners.place(h)]; }
+  Index number_at(Halfedge h) const { return m_numbers[mesh().face(h)][m_corners.place(h)]; }
+  template <class Function>
+  void for_each_moved_wedge(Halfedge moving, const Function& function) const;
+  Vector motion(Mesh::Vertex_index v, const Point_3& place) const;
+  Vector along(Halfedge h) const;
+  Value at_unit(Value value) const
+  {
+    for (double& x : value)
+      x *= m_unit;
+    return value;
+  }
+  Value value_of(Index corner) const
+  {
+    if constexpr (dimension == 2)
+      return m_corners.uv_of(corner);
+    else
+      return m_corners.normal_of(corner);
+  }
+
+  const Corner_mesh& m_corners;
+  double m_unit;
+  std::vector<Index_triple> m_numbers; // of wedges: by face, for each of its corners
+  std::vector<Wedge> m_wedges;
+};
+
+using Texture_wedges = Value_wedges<2>;
+using Shading_wedges = Value_wedges<3>;
+
+} // namespace selvedge
+
+#endif // SELVEDGE_SOUP_VALUE_WEDGES_H
