@@ -115,7 +115,7 @@ private:
     if (joined == 0)
       return;
     file.notes.remarks["corners joined, for their vertices differ in nothing but their normals"] += joined;
-    m_log_header.are_normals_dropped = true;
+    m_log_header.normals = Logged_normals::dropped;
   }
 
   void say_what_poses_cost(const Triangle_soup& soup)
