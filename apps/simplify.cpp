@@ -71,7 +71,7 @@ public:
       do {
         levels = reduce(prepared);
         judge(levels, prepared);
-      } while (guard_more_poses(levels) || lower_error(levels));
+      } while (guard_more_poses(levels) || advance_error_search(levels));
       write(prepared, levels);
       report(prepared, levels);
       return m_outcome.exit_code();
@@ -254,9 +254,9 @@ private:
     return further == 0 ? "" : " in " + counted(1 + further, "pose");
   }
 
-  // Where the error is to be kept everywhere, and is not, lowers that of the next reduction; or guards the
-  // pose where it is not kept, if that was not judged. Returns whether the reduction is to be done again.
-  bool lower_error(const std::vector<Level>& levels)
+  // Where the error is to be kept everywhere, chooses that of the next reduction; or guards the pose where it
+  // is not kept, if that was not judged. Returns whether the reduction is to be done again.
+  bool advance_error_search(const std::vector<Level>& levels)
   {
     if (!m_error_search || !m_outcome.is_accepted || m_outcome.is_interrupted)
       return false;
@@ -271,7 +271,7 @@ private:
                              *largest.pose);
       return true;
     }
-    return m_error_search->lower(largest.upper);
+    return m_error_search->advance(largest.upper);
   }
 
   std::vector<Level> reduce(const Prepared_soup& prepared)

@@ -76,7 +76,7 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request)
       m_distances = distances_anywhere(m_result.soup, m_prepared.soup);
     m_seconds_verify = seconds_since(start);
   } while (m_error_search && is_accepted() && !is_stopped() &&
-           m_error_search->lower(m_distances->larger().upper));
+           m_error_search->advance(m_distances->larger().upper));
   if (m_is_sewn)
     m_merged = merged_at_positions(m_result.soup);
 }
