@@ -90,7 +90,7 @@ constexpr Index s_no_hub = std::numeric_limits<Index>::max();
 /// fan. Fewer pairs than a fan has cost less than its cones.
 std::vector<Index> find_hubs(std::size_t points, const std::vector<Index_triple>& triangles)
 {
-  constexpr Index least_fan = 64;
+  constexpr Index least_fan = 16;
   if (triangles.size() < least_fan)
     return {};
   std::vector<Index> valence(points, 0);
