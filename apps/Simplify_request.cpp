@@ -362,8 +362,8 @@ void add_options(CLI::App& command, Simplify_request& request)
   command
       .add_flag("--error-everywhere", request.is_error_everywhere,
                 "Keep the limit of --error at every point of both surfaces, in every output and pose: judge "
-                "the result, and reduce again with a smaller limit while any point may be farther away: "
-                "twice to five times in all.")
+                "the result, and reduce again with a smaller limit while any point may be farther away, and "
+                "with a larger one when all are far nearer: twice to seven times in all.")
       ->group(how_far);
 
   command

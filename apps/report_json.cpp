@@ -341,6 +341,34 @@ void add_error_search(Json& report, const std::optional<Error_search>& search)
     report["error_search"] = {{"reductions", search->reductions()}, {"error", search->max_error()}};
 }
 
+void Phase_seconds::add(const Prepared_soup& prepared, const std::vector<const Simplified_soup*>& results)
+{
+  // When one run passes through all levels, the last one has the time of all.
+  const auto longest = [&](const auto& seconds_of) {
+    double most = 0;
+    for (const Simplified_soup* result : results)
+      most = std::max(most, seconds_of(*result));
+    return most;
+  };
+  m_seconds["check"] = prepared.seconds_check;
+  m_seconds["snap"] = prepared.seconds_snap;
+  m_seconds["weld"] =
+      prepared.seconds_positions + longest([](const Simplified_soup& result) { return result.seconds_sew; });
+  m_seconds["index"] += longest([](const Simplified_soup& result) { return result.report.seconds_index; });
+  m_seconds["cells"] += longest([](const Simplified_soup& result) { return result.report.seconds_cells; });
+  m_seconds["reduce"] += longest([](const Simplified_soup& result) { return result.report.seconds_reduce; });
+}
+
+Json Phase_seconds::json(const std::vector<std::string>& phases) const
+{
+  Json json = Json::object();
+  for (const std::string& phase : phases) {
+    const auto found = m_seconds.find(phase);
+    json[phase] = found == m_seconds.end() ? 0.0 : found->second;
+  }
+  return json;
+}
+
 void add_comparison(Json& report, const Verification& verification, const Comparison& comparison)
 {
   add_distances(report, verification, comparison.distances);

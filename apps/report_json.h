@@ -49,6 +49,23 @@ void add_distances(Json& report, const Verification& verification,
 /// Sets `error_search`.
 void add_error_search(Json& report, const std::optional<Error_search>& search);
 
+/// The seconds of the phases of a reduction, by the keys of reports. Where it is done again, those of
+/// reducing and judging are sums.
+class Phase_seconds
+{
+public:
+  double& operator[](const std::string& phase) { return m_seconds[phase]; }
+
+  /// Sets the seconds of preparing and sewing, and adds those of one reduction. `results` are its levels.
+  void add(const Prepared_soup& prepared, const std::vector<const Simplified_soup*>& results);
+
+  /// Returns the value of `seconds`, with these keys; 0 for a phase that has not been.
+  Json json(const std::vector<std::string>& phases) const;
+
+private:
+  std::map<std::string, double> m_seconds;
+};
+
 /// Sets `borders`, `seams`, `gaps`, `vertices`, `attributes`, `normals` and `layers`, and adds to `distance`.
 void add_comparison(Json& report, const Verification& verification, const Comparison& comparison);
 

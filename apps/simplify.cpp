@@ -71,7 +71,7 @@ public:
       do {
         levels = reduce(prepared);
         judge(levels, prepared);
-      } while (guard_more_poses(levels) || lower_error(levels));
+      } while (guard_more_poses(levels) || advance_error_search(levels));
       write(prepared, levels);
       report(prepared, levels);
       return m_outcome.exit_code();
@@ -115,7 +115,7 @@ private:
     if (joined == 0)
       return;
     file.notes.remarks["corners joined, for their vertices differ in nothing but their normals"] += joined;
-    m_log_header.are_normals_dropped = true;
+    m_log_header.normals = Logged_normals::dropped;
   }
 
   void say_what_poses_cost(const Triangle_soup& soup)
@@ -254,9 +254,9 @@ private:
     return further == 0 ? "" : " in " + counted(1 + further, "pose");
   }
 
-  // Where the error is to be kept everywhere, and is not, lowers that of the next reduction; or guards the
-  // pose where it is not kept, if that was not judged. Returns whether the reduction is to be done again.
-  bool lower_error(const std::vector<Level>& levels)
+  // Where the error is to be kept everywhere, chooses that of the next reduction; or guards the pose where it
+  // is not kept, if that was not judged. Returns whether the reduction is to be done again.
+  bool advance_error_search(const std::vector<Level>& levels)
   {
     if (!m_error_search || !m_outcome.is_accepted || m_outcome.is_interrupted)
       return false;
@@ -271,7 +271,7 @@ private:
                              *largest.pose);
       return true;
     }
-    return m_error_search->lower(largest.upper);
+    return m_error_search->advance(largest.upper);
   }
 
   std::vector<Level> reduce(const Prepared_soup& prepared)
@@ -329,26 +329,19 @@ private:
     for (Simplified_soup& result : results)
       if (result.progression.steps.size() >= m_progression.steps.size())
         m_progression = std::move(result.progression);
-    m_seconds["check"] = prepared.seconds_check;
-    m_seconds["snap"] = prepared.seconds_snap;
-    m_seconds["weld"] = prepared.seconds_positions;
+    std::vector<const Simplified_soup*> all;
+    for (const Simplified_soup& result : results)
+      all.push_back(&result);
+    m_seconds.add(prepared, all);
     const std::vector<std::string> names = outputs(m_request);
     std::vector<Level> levels;
-    std::map<std::string, double> seconds; // of this reduction: there may have been others before
     for (std::size_t i = 0; i < results.size(); ++i) {
-      // When one run passes through all levels, the last one has the time of all.
-      m_seconds["weld"] = std::max(m_seconds["weld"], prepared.seconds_positions + results[i].seconds_sew);
-      seconds["index"] = std::max(seconds["index"], results[i].report.seconds_index);
-      seconds["cells"] = std::max(seconds["cells"], results[i].report.seconds_cells);
-      seconds["reduce"] = std::max(seconds["reduce"], results[i].report.seconds_reduce);
       const bool is_one_of_file = are_levels_in_one_file(m_request);
       levels.push_back({names[is_one_of_file ? 0 : i], std::move(results[i]), {}, {}, m_guarded_poses, {}});
       levels.back().error_search = m_error_search;
       if (is_one_of_file)
         levels.back().number = i + 1;
     }
-    for (const auto& [phase, of_this] : seconds)
-      m_seconds[phase] += of_this;
     return levels;
   }
 
@@ -526,10 +519,8 @@ private:
     m_seconds["parts"] = seconds_parts;
     if (!m_report.contains("progressive"))
       m_report["progressive"] = nullptr;
-    m_report["seconds"] = Json::object();
-    for (const char* phase :
-         {"read", "weld", "check", "snap", "index", "cells", "reduce", "verify", "write", "parts"})
-      m_report["seconds"][phase] = m_seconds[phase];
+    m_report["seconds"] = m_seconds.json(
+        {"read", "weld", "check", "snap", "index", "cells", "reduce", "verify", "write", "parts"});
     m_report["memory"] = {{"peak_bytes", peak_memory_bytes()}};
     m_report["exit_code"] = int(m_outcome.exit_code());
     if (!m_request.report.empty()) {
@@ -606,7 +597,7 @@ private:
   std::optional<Error_search> m_error_search; // where the error is to be kept everywhere
   std::vector<Soup_collapse> m_collapses;     // if a page shows them
   Progression m_progression;                  // if it is written
-  std::map<std::string, double> m_seconds;
+  Phase_seconds m_seconds;
   std::size_t m_polygons = 0; // of the input, faces of more than three corners that may be written
   bool m_is_stop_told = false;
   std::atomic<bool> m_is_kept = false; // a signal keeps what the reduction has reached

@@ -3,6 +3,7 @@
 
 #include "simplify_summary.h"
 
+#include "fate_of_limit.h"
 #include "output_files.h"
 #include "standard_streams.h"
 #include "text.h"
@@ -302,39 +303,20 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
   stream << (references.empty() ? "" : "\n");
 }
 
-// Says whether a limit of distances holds anywhere, and if not, which option keeps it there.
 void print_distances(std::ostream& stream, const Level& level, const Distances_anywhere& distances,
                      double limit)
 {
   const auto& [there, back] = distances;
-  const Bounds_over_poses& larger = distances.larger();
-  const std::size_t poses = level.verification.poses.size(), guarded = level.guarded_poses.size();
-  stream << "distance of any point" << (poses > 0 ? " in any pose" : "") << ": at most "
+  const bool has_poses = !level.verification.poses.empty();
+  stream << "distance of any point" << (has_poses ? " in any pose" : "") << ": at most "
          << percent(there.upper) << " from the original to the result, " << percent(back.upper) << " back";
-  if (poses > 0)
-    stream << "; the most in " << describe_pose(level.verification, larger.pose);
+  if (has_poses)
+    stream << "; the most in " << describe_pose(level.verification, distances.larger().pose);
   stream << '\n';
-  if (level.error_search && larger.upper <= limit) {
-    const std::size_t reductions = level.error_search->reductions();
-    stream << "limit: " << percent(limit) << " holds at every point";
-    if (reductions > 1)
-      stream << "; found in " << reductions << " reductions, the last with --error "
-             << with_digits(level.error_search->max_error());
-    stream << '\n';
-  }
-  if (level.error_search && larger.upper > limit && level.error_search->max_error() <= 0)
-    stream << "limit: whether " << percent(limit)
-           << " holds at every point is not known: distances are measured to about a millionth of the size\n";
-  if (limit <= 0 || larger.upper <= 1.01 * limit || level.error_search)
-    return;
-  if (larger.pose &&
-      !std::binary_search(level.guarded_poses.begin(), level.guarded_poses.end(), *larger.pose))
-    stream << "limit: " << percent(limit) << " holds in the mesh's own pose and in "
-           << (guarded == 0 ? "no other" : with_commas(guarded) + " others")
-           << ", in which every collapse was judged; --key-poses all keeps it in all\n";
-  else
-    stream << "limit: " << percent(limit)
-           << " holds at vertices and at points between them; --error-everywhere keeps it at every point\n";
+  if (const std::string fate =
+          fate_of_limit(limit, distances.larger(), level.error_search, level.guarded_poses);
+      !fate.empty())
+    stream << fate << '\n';
 }
 
 void print_summary(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,

@@ -66,6 +66,7 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request)
       };
     }
     m_result = simplify_soup(m_prepared, options, request.intent);
+    m_seconds.add(m_prepared, {&m_result});
     if (log) {
       log->finish(m_result);
       m_log = stream.str();
@@ -74,9 +75,9 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request)
     m_verification = verify(m_result, m_prepared);
     if (m_error_search)
       m_distances = distances_anywhere(m_result.soup, m_prepared.soup);
-    m_seconds_verify = seconds_since(start);
+    m_seconds["verify"] += seconds_since(start);
   } while (m_error_search && is_accepted() && !is_stopped() &&
-           m_error_search->lower(m_distances->larger().upper));
+           m_error_search->advance(m_distances->larger().upper));
   if (m_is_sewn)
     m_merged = merged_at_positions(m_result.soup);
 }
@@ -116,13 +117,7 @@ std::string Reduction::report() const
   app::add_distances(report, m_verification, m_distances);
   app::add_error_search(report, m_error_search);
   app::add_parts(report, m_prepared, m_result);
-  report["seconds"] = {{"weld", m_prepared.seconds_positions + m_result.seconds_sew},
-                       {"check", m_prepared.seconds_check},
-                       {"snap", m_prepared.seconds_snap},
-                       {"index", m_result.report.seconds_index},
-                       {"cells", m_result.report.seconds_cells},
-                       {"reduce", m_result.report.seconds_reduce},
-                       {"verify", m_seconds_verify}};
+  report["seconds"] = m_seconds.json({"weld", "check", "snap", "index", "cells", "reduce", "verify"});
   return app::to_text(report);
 }
 

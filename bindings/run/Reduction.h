@@ -5,6 +5,7 @@
 #define SELVEDGE_BINDINGS_RUN_REDUCTION_H
 
 #include "Reduction_request.h"
+#include "apps/report_json.h"
 
 #include <selvedge/Error_search.h>
 #include <selvedge/compare.h>
@@ -61,7 +62,7 @@ private:
   std::optional<Error_search> m_error_search;
   std::string m_log;
   std::vector<Soup_collapse> m_collapses;
-  double m_seconds_verify = 0;
+  app::Phase_seconds m_seconds;
 };
 
 /// Replays a log on the mesh that it was made of.

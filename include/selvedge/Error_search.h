@@ -4,8 +4,8 @@
 #ifndef SELVEDGE_ERROR_SEARCH_H
 #define SELVEDGE_ERROR_SEARCH_H
 
-#include <cmath>
 #include <cstddef>
+#include <optional>
 
 namespace selvedge {
 
@@ -13,9 +13,13 @@ namespace selvedge {
 ///
 /// `max_error` limits distances at vertices and at points between them; elsewhere they may be larger. A
 /// caller who needs the limit at every point reduces with `max_error()`, asks `distances_anywhere` for a
-/// bound of the distances, and tells it to `lower`, until this returns false. Two to five reductions do.
+/// bound of the distances, and tells it to `advance`, until this returns false. The last reduction is then
+/// the one to keep. Two to seven reductions do.
 ///
-/// **Complexity** At most eight reductions. The last would be with an error of 0.
+/// The error is lowered until the limit is kept. Where it is kept by far, up to two larger ones are tried; if
+/// the last of them is too large, the best one is due again.
+///
+/// **Complexity** At most ten reductions. Where nothing helps, the eighth is the last, with an error of 0.
 class Error_search
 {
 public:
@@ -28,23 +32,62 @@ public:
   /// How many reductions there have been, the one that comes next included.
   std::size_t reductions() const { return m_reductions; }
 
-  /// Called after a reduction, with an upper bound of the distance of any point. Returns false when it is
-  /// kept, or when nothing less can be asked for; otherwise lowers `max_error()`.
-  bool lower(double upper)
+  /// Called after a reduction, with an upper bound of the distance of any point. Returns whether another
+  /// reduction is due, with another `max_error()`.
+  bool advance(double upper)
   {
-    if (upper <= m_wanted || m_max_error <= 0)
+    const Trial last{m_max_error, upper};
+    if (upper <= m_wanted) {
+      m_kept = last;
+    } else {
+      m_too_large = last;
+      if (m_kept && m_kept->error >= m_max_error) // the caller has changed other options
+        m_kept.reset();
+    }
+    if (m_max_error <= 0)
       return false;
-    // A smaller error changes which edges collapse, and may help less than it should: then the next helps
-    // more.
-    const double reserve = std::ldexp(0.01, int(m_reductions++));
-    const double next = m_max_error * (m_wanted / upper) * (1 - reserve);
-    m_max_error = next > 0 ? next : 0;
+    if (!m_kept) {
+      lower();
+    } else if (m_too_large && m_raises_left > 0 && m_kept->upper < s_enough * m_wanted) {
+      --m_raises_left;
+      raise();
+    } else if (m_max_error != m_kept->error) {
+      m_raises_left = 0;
+      m_max_error = m_kept->error;
+    } else {
+      return false;
+    }
+    ++m_reductions;
     return true;
   }
 
 private:
-  double m_wanted, m_max_error;
-  std::size_t m_reductions = 1;
+  struct Trial
+  {
+    double error, upper;
+  };
+
+  static constexpr double s_enough = 0.93; // of the limit: an error that comes so near is not raised
+
+  // A smaller error changes which edges collapse, and may help less than it should: then the next helps more.
+  void lower()
+  {
+    const double next = m_max_error * (m_wanted / m_too_large->upper) * (1 - m_reserve);
+    m_max_error = next > 0 ? next : 0;
+    m_reserve *= 3;
+  }
+
+  // Between the two, where their bounds let expect the limit.
+  void raise()
+  {
+    const double expected = (m_wanted - m_kept->upper) / (m_too_large->upper - m_kept->upper);
+    const double share = expected > 0.8 ? 0.8 : expected > 0.2 ? expected : 0.2;
+    m_max_error = m_kept->error + share * (m_too_large->error - m_kept->error);
+  }
+
+  double m_wanted, m_max_error, m_reserve = 0.004;
+  std::optional<Trial> m_kept, m_too_large; // the last of either kind
+  std::size_t m_reductions = 1, m_raises_left = 2;
 };
 
 } // namespace selvedge

@@ -127,6 +127,14 @@ private:
   std::vector<Index> m_vertices, m_numbers; // empty when every vertex is its own number
 };
 
+/// What a log says of the normals of the input.
+enum class Logged_normals {
+  kept,    ///< an edge across which they differ is a line
+  joined,  ///< those that are nearly alike at a vertex are one, and then kept
+  ignored, ///< it is none
+  dropped  ///< nor is it one, and vertices that differ in nothing else are one
+};
+
 /// The lines of a log before its first motion.
 struct Log_header
 {
@@ -134,10 +142,8 @@ struct Log_header
   std::size_t triangles = 0;
   std::string sha256; ///< of the file; empty when unknown
   bool is_rounded_to_float32 = false;
-  bool are_normals_joined = false; ///< those that are nearly alike at a vertex are one
-  bool are_normals_ignored = false;
-  bool are_normals_dropped = false; ///< ignored, and vertices that differ in nothing else are one
-  bool may_pairs_descend = false;   ///< the policy for offending pairs is `descend`
+  Logged_normals normals = Logged_normals::kept;
+  bool may_pairs_descend = false; ///< the policy for offending pairs is `descend`
 
   /// The names of parts that may intersect each other.
   std::vector<std::pair<std::string, std::string>> may_intersect;

@@ -43,8 +43,7 @@ enum class Normals_treatment {
 /// Returns the word for this in options and reports: auto, keep, loose, recompute or drop.
 const char* name_of(Normals_choice choice);
 
-/// Returns the word for this in reports: none, kept, mended, picked, flat,
-/// smooth or dropped.
+/// Returns the word for this in reports: none, kept, mended, picked, flat, smooth or dropped.
 const char* name_of(Normals_treatment treatment);
 
 /// Returns whether a reduction keeps the normals: they are kept or mended.

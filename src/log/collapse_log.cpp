@@ -21,6 +21,8 @@ namespace selvedge {
 namespace {
 
 constexpr std::string_view s_first_line = "selvedge-log 1";
+const std::vector<std::string> s_words_for_normals{"kept", "joined", "ignored",
+                                                   "dropped"}; // by Logged_normals
 
 template <class Number>
 std::string text_of(Number number)
@@ -91,12 +93,8 @@ Log_writer::Log_writer(std::ostream& stream, const Log_header& header) : m_strea
   };
   write_mesh("input", header);
   m_stream << "rounding " << (header.is_rounded_to_float32 ? "float32" : "none") << '\n';
-  if (header.are_normals_joined || header.are_normals_ignored || header.are_normals_dropped)
-    m_stream << "normals "
-             << (header.are_normals_dropped   ? "dropped"
-                 : header.are_normals_ignored ? "ignored"
-                                              : "joined")
-             << '\n';
+  if (header.normals != Logged_normals::kept)
+    m_stream << "normals " << s_words_for_normals[std::size_t(header.normals)] << '\n';
   if (header.may_pairs_descend)
     m_stream << "defects descend\n";
   for (const auto& [a, b] : header.may_intersect)
@@ -154,17 +152,13 @@ public:
     bool is_rounding_known = false, are_normals_known = false, are_defects_known = false;
     while (next_line()) {
       if (m_words[0] == "rounding" && !is_rounding_known) {
-        header.is_rounded_to_float32 = is_second_word("none", "float32");
+        header.is_rounded_to_float32 = second_word({"none", "float32"}) == 1;
         is_rounding_known = true;
       } else if (m_words[0] == "normals" && !are_normals_known) {
-        const auto is = [&](const char* word) { return m_words.size() == 2 && m_words[1] == word; };
-        header.are_normals_joined = is("joined");
-        header.are_normals_dropped = is("dropped");
-        header.are_normals_ignored =
-            header.are_normals_dropped || (!header.are_normals_joined && is_second_word("kept", "ignored"));
+        header.normals = Logged_normals(second_word(s_words_for_normals));
         are_normals_known = true;
       } else if (m_words[0] == "defects" && !are_defects_known) {
-        header.may_pairs_descend = is_second_word("freeze", "descend");
+        header.may_pairs_descend = second_word({"freeze", "descend"}) == 1;
         are_defects_known = true;
       } else if (m_words[0] == "may_intersect") {
         expect_words(3, 3, "may_intersect PART PART");
@@ -274,14 +268,20 @@ private:
     return false;
   }
 
-  /// Reads a line of a key and one of two words. Returns whether it is the second.
-  bool is_second_word(const std::string& first, const std::string& second) const
+  /// Reads a line of a key and one of several words. Returns the number of the word.
+  std::size_t second_word(const std::vector<std::string>& words) const
   {
     const std::string key(m_words[0]);
-    expect_words(2, 2, (key + ' ' + first + '|' + second).c_str());
-    if (m_words[1] != first && m_words[1] != second)
-      fail("after '" + key + "' comes '" + first + "' or '" + second + "'");
-    return m_words[1] == second;
+    std::string form = key + ' ', names;
+    for (const std::string& word : words) {
+      form += (word == words.front() ? "" : "|") + word;
+      names += (word == words.front() ? "" : word == words.back() ? " or " : ", ") + ("'" + word + "'");
+    }
+    expect_words(2, 2, form.c_str());
+    const auto found = std::find(words.begin(), words.end(), m_words[1]);
+    if (found == words.end())
+      fail("after '" + key + "' comes " + names);
+    return std::size_t(found - words.begin());
   }
 
   void expect_words(std::size_t least, std::size_t most, const char* form) const

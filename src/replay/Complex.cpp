@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <unordered_map>
 
 // The mesh of `replay`: what snaps and collapses do to faces, seams and corners, computed apart from the
 // reduction.
@@ -94,11 +95,21 @@ std::array<Index, 2> Complex::opposite_side(Index face, Index position) const
 
 std::vector<Complex::Edge> Complex::edges_at(Index position) const
 {
+  constexpr std::size_t many = 64; // edges among which a search one by one takes longer than a table
   std::vector<Edge> edges;
+  std::unordered_map<Index, std::size_t> places; // of the edges, if they are many
   const auto entry_of = [&](Index neighbour) -> Edge& {
-    for (Edge& edge : edges)
-      if (edge.neighbour == neighbour)
-        return edge;
+    if (edges.size() < many) {
+      for (Edge& edge : edges)
+        if (edge.neighbour == neighbour)
+          return edge;
+    } else {
+      if (places.empty())
+        for (std::size_t i = 0; i < edges.size(); ++i)
+          places.emplace(edges[i].neighbour, i);
+      if (const auto [found, is_new] = places.emplace(neighbour, edges.size()); !is_new)
+        return edges[found->second];
+    }
     edges.push_back({neighbour});
     return edges.back();
   };

@@ -127,7 +127,7 @@ Start start_of(const Triangle_soup& original, const Triangle_soup& obstacle, con
 {
   Start start;
   start.soup = original;
-  if (header.are_normals_dropped)
+  if (header.normals == Logged_normals::dropped)
     share_vertices_without_normals(start.soup);
   start.soup.poses.clear();
   Triangle_soup beside;
@@ -140,10 +140,10 @@ Start start_of(const Triangle_soup& original, const Triangle_soup& obstacle, con
     start.points_of_first_pose = std::move(first.points);
     start.soup.points = original.poses[*pose].points;
   }
-  if (header.are_normals_ignored)
-    start.soup.normals = {};
-  if (header.are_normals_joined)
+  if (header.normals == Logged_normals::joined)
     join_near_normals(start.soup);
+  else if (header.normals != Logged_normals::kept)
+    start.soup.normals = {};
   for (Index t = 0; t < original.triangles.size(); ++t)
     start.numbers.push_back(t);
   leave_out_needless(start);

@@ -25,11 +25,12 @@ std::vector<Not_judged> not_judged(const Replay_verdict& verdict)
   if (verdict.snaps > 0)
     result.push_back({"limits_of_snaps", "what snaps do to angles and shapes of triangles, and to borders: "
                                          "the weld distance is their only limit"});
-  if (verdict.header.are_normals_ignored)
+  if (const Logged_normals normals = verdict.header.normals;
+      normals == Logged_normals::ignored || normals == Logged_normals::dropped)
     result.push_back(
         {"normals", std::string("whether edges across which normals differ move only along themselves: the "
                                 "log says that normals are ") +
-                        (verdict.header.are_normals_dropped ? "dropped" : "made anew")});
+                        (normals == Logged_normals::dropped ? "dropped" : "ignored")});
   for (const auto& [a, b] : verdict.header.may_intersect)
     result.push_back({"may_intersect", "whether the parts '" + a + "' and '" + b +
                                            "' keep clear of each other: the log says that they may "

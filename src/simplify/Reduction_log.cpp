@@ -39,8 +39,11 @@ std::vector<Index> smallest_numbers(const std::vector<Point_3>& points, const Lo
 Log_header completed(Log_header header, const Prepared_soup& prepared, const Simplify_options& options)
 {
   header.limits = limits_of(options);
-  header.are_normals_ignored = prepared.normals != Normals_treatment::none && !are_kept(prepared.normals);
-  header.are_normals_joined = prepared.normals == Normals_treatment::mended;
+  if (prepared.normals == Normals_treatment::mended)
+    header.normals = Logged_normals::joined;
+  else if (header.normals == Logged_normals::kept && prepared.normals != Normals_treatment::none &&
+           !are_kept(prepared.normals))
+    header.normals = Logged_normals::ignored;
   const auto& in_poses = prepared.offending_pairs_in_poses;
   header.may_pairs_descend =
       prepared.defects == Defects::descend &&

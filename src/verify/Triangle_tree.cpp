@@ -84,6 +84,70 @@ bool is_askew_sliver(const Point_3& a, const Point_3& b, const Point_3& c, const
   return second * second * dot(width, width) > thin * thin * dot(normal, normal);
 }
 
+constexpr Index s_no_hub = std::numeric_limits<Index>::max();
+
+/// Returns for each triangle the corner at which it belongs to a fan, or `s_no_hub`; nothing when there is no
+/// fan. Fewer pairs than a fan has cost less than its cones.
+std::vector<Index> find_hubs(std::size_t points, const std::vector<Index_triple>& triangles)
+{
+  constexpr Index least_fan = 16;
+  if (triangles.size() < least_fan)
+    return {};
+  std::vector<Index> valence(points, 0);
+  for (const Index_triple& triangle : triangles)
+    for (const Index v : triangle)
+      ++valence[v];
+  if (*std::max_element(valence.begin(), valence.end()) < least_fan)
+    return {};
+  std::vector<Index> hubs;
+  hubs.reserve(triangles.size());
+  for (const Index_triple& triangle : triangles) {
+    const Index hub = *std::max_element(triangle.begin(), triangle.end(),
+                                        [&](Index a, Index b) { return valence[a] < valence[b]; });
+    hubs.push_back(valence[hub] < least_fan ? s_no_hub : hub);
+  }
+  return hubs;
+}
+
+std::array<double, 3> coordinates(const Point_3& p)
+{
+  return {p.x(), p.y(), p.z()};
+}
+
+/// Returns a direction from the apex into a triangle, to sort a fan by.
+std::array<double, 3> direction_into(const Index_triple& triangle, const std::vector<Point_3>& points,
+                                     const std::array<double, 3>& apex)
+{
+  std::array<double, 3> sum{};
+  for (const Index v : triangle) {
+    const std::array<double, 3> side = internal::difference(coordinates(points[v]), apex);
+    const double size = (std::max)({std::fabs(side[0]), std::fabs(side[1]), std::fabs(side[2])});
+    for (int axis = 0; axis < 3; ++axis)
+      if (const double share = side[axis] / size; std::isfinite(share))
+        sum[axis] += share;
+  }
+  return sum;
+}
+
+/// Sorts parts that consist of one fan alone by direction, once the centres of its triangles are its apex.
+template <class Direction>
+void sort_fans(std::vector<Numbered_point>& centres, std::size_t parts, const std::vector<Index>& hubs,
+               const Direction& direction, std::size_t first_part, std::size_t beyond_part)
+{
+  const auto first = centres.begin() + std::ptrdiff_t(centres.size() * first_part / parts);
+  const auto beyond = centres.begin() + std::ptrdiff_t(centres.size() * beyond_part / parts);
+  if (std::all_of(first, beyond, [&](const Numbered_point& centre) {
+        return hubs[centre.number] != s_no_hub && centre.coordinates == first->coordinates;
+      })) {
+    std::for_each(first, beyond, [&](Numbered_point& centre) { centre.coordinates = direction(centre); });
+    Halving(centres, parts).sort(first_part, beyond_part);
+  } else if (beyond_part - first_part > 1) {
+    const std::size_t middle_part = (first_part + beyond_part) / 2;
+    sort_fans(centres, parts, hubs, direction, first_part, middle_part);
+    sort_fans(centres, parts, hubs, direction, middle_part, beyond_part);
+  }
+}
+
 } // namespace
 
 void sort_by_halves(std::vector<Numbered_point>& points, std::size_t parts)
@@ -91,9 +155,12 @@ void sort_by_halves(std::vector<Numbered_point>& points, std::size_t parts)
   Halving(points, parts).sort(0, parts);
 }
 
-Triangle_tree::Triangle_tree(const std::vector<Point_3>& points, const std::vector<Index_triple>& triangles)
+Triangle_tree::Triangle_tree(const std::vector<Point_3>& points, const std::vector<Index_triple>& triangles,
+                             Search search)
     : m_triangles(triangles.size()), m_boxes(triangles.size())
 {
+  const std::vector<Index> hubs =
+      search == Search::pairs ? find_hubs(points.size(), triangles) : std::vector<Index>();
   std::size_t leaf_count = 1;
   while (leaf_count * s_leaf_size < triangles.size())
     leaf_count *= 2;
@@ -114,8 +181,17 @@ Triangle_tree::Triangle_tree(const std::vector<Point_3>& points, const std::vect
         centres[i].coordinates[axis] = low / 2 + high / 2;
       }
       centres[i].number = Index(i);
+      if (!hubs.empty() && hubs[i] != s_no_hub)
+        centres[i].coordinates = coordinates(points[hubs[i]]);
     });
     sort_by_halves(centres, leaf_count);
+    if (!hubs.empty())
+      sort_fans(
+          centres, leaf_count, hubs,
+          [&](const Numbered_point& centre) {
+            return direction_into(triangles[centre.number], points, centre.coordinates);
+          },
+          0, leaf_count);
     for_each_triangle([&](std::size_t i) { m_triangles[i] = centres[i].number; });
   }
   for_each_triangle([&](std::size_t i) {
@@ -134,11 +210,16 @@ Triangle_tree::Triangle_tree(const std::vector<Point_3>& points, const std::vect
   m_margin = Capsule::margin_for(m_largest);
   for (std::size_t i = 0; i < m_boxes.size(); ++i)
     if (std::exchange(m_boxes[i].capsule, 0) != 0) {
-      const auto coordinates = [&](int corner) {
-        const Point_3& p = points[triangles[m_triangles[i]][corner]];
-        return Capsule::Vector{p.x(), p.y(), p.z()};
-      };
-      add_capsule(m_boxes[i], Capsule(coordinates(0), coordinates(1), coordinates(2), m_margin));
+      const auto& [a, b, c] = triangles[m_triangles[i]];
+      add_capsule(m_boxes[i],
+                  Capsule(coordinates(points[a]), coordinates(points[b]), coordinates(points[c]), m_margin));
+    }
+  for (std::size_t i = 0; i < hubs.size(); ++i)
+    if (const Index hub = hubs[m_triangles[i]]; hub != s_no_hub) {
+      const Index_triple& triangle = triangles[m_triangles[i]];
+      const std::size_t corner = std::find(triangle.begin(), triangle.end(), hub) - triangle.begin();
+      const auto position = [&](std::size_t k) { return coordinates(points[triangle[(corner + k) % 3]]); };
+      add_fan(m_boxes[i], {position(0), Cone(position(0), position(1), position(2))});
     }
   m_nodes.resize(2 * leaf_count);
   for (std::size_t node = 2 * leaf_count; --node > 0;) {
@@ -178,15 +259,47 @@ void Triangle_tree::add_capsule(Box& box, const Capsule& capsule)
   m_capsules.push_back(capsule);
 }
 
+bool Triangle_tree::are_in_fan_apart(const Box& a, const Box& b) const
+{
+  const Fan &f = m_fans[a.fan - 1], &g = m_fans[b.fan - 1];
+  return f.apex == g.apex && are_apart(f.cone, g.cone);
+}
+
+void Triangle_tree::add_fan(Box& box, const Fan& fan)
+{
+  m_fans.push_back(fan);
+  box.fan = m_fans.size();
+}
+
 void Triangle_tree::enclose(Box& node, const Box* first, const Box* beyond)
 {
-  std::size_t any = 0;
+  std::size_t any_capsule = 0;
+  bool are_all_in_fans = first != beyond;
   for (const Box* box = first; box != beyond; ++box) {
     node.add(*box);
-    any |= box->capsule;
+    any_capsule |= box->capsule;
+    are_all_in_fans &= box->fan != 0;
   }
-  if (any == 0)
-    return;
+  if (any_capsule != 0)
+    enclose_capsules(node, first, beyond);
+  if (are_all_in_fans)
+    enclose_fan(node, first, beyond);
+}
+
+void Triangle_tree::enclose_fan(Box& node, const Box* first, const Box* beyond)
+{
+  Fan fan = m_fans[first->fan - 1];
+  for (const Box* box = first + 1; box != beyond; ++box) {
+    const Fan& other = m_fans[box->fan - 1];
+    if (other.apex != fan.apex)
+      return;
+    fan.cone.add(other.cone);
+  }
+  add_fan(node, fan);
+}
+
+void Triangle_tree::enclose_capsules(Box& node, const Box* first, const Box* beyond)
+{
   Capsule capsule = capsule_around(*first);
   for (const Box* box = first + 1; box != beyond; ++box)
     capsule = Capsule(capsule, capsule_around(*box), m_margin);

@@ -5,6 +5,7 @@
 #define SELVEDGE_SRC_VERIFY_TRIANGLE_TREE_H
 
 #include "verify/Capsule.h"
+#include "verify/Cone.h"
 
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Triangle_soup.h>
@@ -41,15 +42,23 @@ void sort_by_halves(std::vector<Numbered_point>& points, std::size_t parts);
 /// a triangle has a capsule as well, and so has a node of the tree where the capsule is long and thin. The
 /// searches ask them where boxes decide nothing.
 ///
-/// **Exactness** Boxes are exact. Capsules leave out only what is proved apart.
+/// Nor do boxes say anything about triangles that share a corner. So where very many do, a *fan*, the search
+/// for pairs asks for their cones, and has a fan in the order of its directions.
+///
+/// **Exactness** Boxes are exact. Capsules and cones leave out only what is proved apart.
 class Triangle_tree
 {
 public:
-  /// Neither argument needs to outlive the tree.
-  Triangle_tree(const std::vector<Point_3>& points, const std::vector<Index_triple>& triangles);
+  /// What is asked of a tree. All of them answer every question; one for pairs is slower to build.
+  enum class Search { distances, pairs };
+
+  /// Neither of the lists needs to outlive the tree.
+  Triangle_tree(const std::vector<Point_3>& points, const std::vector<Index_triple>& triangles,
+                Search search = Search::distances);
 
   /// Calls `function(i, j)` once for each pair of triangles that may meet, in no particular order and
-  /// concurrently: those whose boxes meet, but for slivers that are proved apart.
+  /// concurrently: those whose boxes meet, but for slivers that are proved apart, and triangles of a fan that
+  /// are proved to meet only in the corner that all of it shares.
   template <class Function>
   void for_each_pair(const Function& function) const
   {
@@ -81,6 +90,7 @@ private:
     std::array<double, 3> low{s_infinity, s_infinity, s_infinity};
     std::array<double, 3> high{-s_infinity, -s_infinity, -s_infinity};
     std::size_t capsule = 0; // its number, or 0 when it has none
+    std::size_t fan = 0;     // likewise
 
     CGAL::Bbox_3 bbox() const { return {low[0], low[1], low[2], high[0], high[1], high[2]}; }
 
@@ -94,6 +104,13 @@ private:
   };
 
   static constexpr double s_infinity = std::numeric_limits<double>::infinity();
+  /// Triangles of one fan.
+  struct Fan
+  {
+    std::array<double, 3> apex;
+    Cone cone;
+  };
+
   static constexpr std::size_t s_leaf_size = 4;
   static constexpr std::size_t s_task_size = 4096; // triangles below which another task does not pay
 
@@ -108,7 +125,8 @@ private:
 
   bool may_meet(const Box& a, const Box& b) const
   {
-    return overlap(a, b) && ((a.capsule | b.capsule) == 0 || !are_capsules_apart(a, b));
+    return overlap(a, b) && (a.fan == 0 || b.fan == 0 || !are_in_fan_apart(a, b)) &&
+           ((a.capsule | b.capsule) == 0 || !are_capsules_apart(a, b));
   }
 
   // Whether `box` may hold something nearer to `query` than the root of `squared_bound`, from which it is a
@@ -121,12 +139,17 @@ private:
   Capsule capsule_around(const Box& box) const;
   bool is_capsule_beyond(const Point_3& query, const Box& box, double squared_bound) const;
   bool are_capsules_apart(const Box& a, const Box& b) const;
+  bool are_in_fan_apart(const Box& a, const Box& b) const;
 
   // Gives a box the capsule around what is in it, if this is slender.
   void add_capsule(Box& box, const Capsule& capsule);
 
-  // Adds the boxes from `first` to `beyond` to a node, and gives it a capsule if they have some.
+  void add_fan(Box& box, const Fan& fan);
+
+  // Adds the boxes from `first` to `beyond` to a node, and gives it a capsule and a cone if they have some.
   void enclose(Box& node, const Box* first, const Box* beyond);
+  void enclose_capsules(Box& node, const Box* first, const Box* beyond);
+  void enclose_fan(Box& node, const Box* first, const Box* beyond);
 
   static double squared_distance(const Point_3& query, const Box& box)
   {
@@ -241,6 +264,7 @@ private:
   std::vector<Box> m_boxes;       // in the same order
   std::vector<Box> m_nodes;       // node k has the children 2k and 2k + 1, all leaves are on the last level
   std::vector<Capsule> m_capsules{1}; // the first is nobody's
+  std::vector<Fan> m_fans;            // by number less 1
   double m_largest = 0;               // of all coordinates
   double m_margin = 0;                // of capsules; none is made where it is 0
 };

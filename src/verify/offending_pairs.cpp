@@ -174,12 +174,13 @@ public:
     for (Index i = 0; i < m_soup.triangles.size(); ++i)
       if (m_degenerate[i])
         report(Offending_pair{i, i, Offence::degenerate});
-    Triangle_tree(m_soup.points, m_soup.triangles).for_each_pair([&](Index a, Index b) {
-      static thread_local Cancellation_poll poll;
-      poll();
-      if (const std::optional<Offence> offence = judge(a, b))
-        report(Offending_pair{std::min(a, b), std::max(a, b), *offence});
-    });
+    Triangle_tree(m_soup.points, m_soup.triangles, Triangle_tree::Search::pairs)
+        .for_each_pair([&](Index a, Index b) {
+          static thread_local Cancellation_poll poll;
+          poll();
+          if (const std::optional<Offence> offence = judge(a, b))
+            report(Offending_pair{std::min(a, b), std::max(a, b), *offence});
+        });
   }
 
 private:

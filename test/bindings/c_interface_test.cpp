@@ -6,6 +6,7 @@
 
 #include <selvedge_c.h>
 
+#include "apps/report_json.h"
 #include "bindings/run/Reduction_request.h"
 #include "support/meshes.h"
 #include "support/soups.h"
@@ -36,6 +37,21 @@
 
 namespace selvedge::test {
 namespace {
+
+TEST(Bindings_report, HasTheSecondsOfAllReductions)
+{
+  Prepared_soup prepared;
+  prepared.seconds_positions = 1;
+  Simplified_soup first, second;
+  first.seconds_sew = second.report.seconds_index = 2;
+  first.report.seconds_reduce = 3;
+  second.report.seconds_reduce = 4; // of both, where they are levels of one reduction
+  app::Phase_seconds seconds;
+  seconds.add(prepared, {&first, &second});
+  seconds.add(prepared, {&first});
+  EXPECT_EQ(seconds.json({"weld", "index", "reduce", "write"}).dump(),
+            R"({"weld":3.0,"index":2.0,"reduce":7.0,"write":0.0})");
+}
 
 using Simplify = decltype(&selvedge_simplify);
 

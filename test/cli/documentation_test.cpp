@@ -88,7 +88,7 @@ TEST(App_documentation, OptionsInReportsAreThoseOfTheHelp)
     }
     ++defaults;
   }
-  EXPECT_EQ(defaults, 21u);
+  EXPECT_EQ(defaults, 22u);
 }
 
 } // namespace

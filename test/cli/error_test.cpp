@@ -38,7 +38,7 @@ protected:
   Json read_report() const { return Json::parse(std::ifstream(report)); }
 
   Workspace folder;
-  std::string in = folder.generate("shorts", "in.ply", 3000), out = folder / "out.ply",
+  std::string in = folder.generate("shorts", "in.ply", 5000), out = folder / "out.ply",
               report = folder / "report.json", log = folder / "out.log";
 };
 

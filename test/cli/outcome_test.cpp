@@ -3,6 +3,7 @@
 
 #include "apps/Outcome.h"
 #include "apps/cost_of_poses.h"
+#include "apps/fate_of_limit.h"
 
 #include <gtest/gtest.h>
 
@@ -35,6 +36,25 @@ TEST(App_poses, SayEarlyWhatManyCost)
   EXPECT_EQ(cost_of_poses(200, 60'000, 200, 0),
             "200 further poses of 60,000 faces: all guarded, they take about 5 GB and 4 minutes; "
             "--key-poses auto guards few at first");
+}
+
+TEST(App_limit, IsSaidToHoldWhereItDoes)
+{
+  Bounds_over_poses largest;
+  largest.upper = 0.0012;
+  EXPECT_EQ(fate_of_limit(0.001, largest, {}, {}),
+            "limit: 0.1 % holds at vertices and at points between them; --error-everywhere keeps it at every "
+            "point");
+  Error_search search(0.001);
+  EXPECT_EQ(fate_of_limit(0.001, largest, search, {}), // as when it is interrupted
+            "limit: 0.1 % holds at vertices and at points between them; the search for one that keeps it at "
+            "every point did not end");
+  largest.upper = 0.001;
+  EXPECT_EQ(fate_of_limit(0.001, largest, {}, {}), "");
+  EXPECT_EQ(fate_of_limit(0.001, largest, search, {}), "limit: 0.1 % holds at every point");
+  search.advance(0.002);
+  EXPECT_EQ(fate_of_limit(0.001, largest, search, {}).rfind("limit: 0.1 % holds at every point; found in 2 "),
+            0u);
 }
 
 TEST(App_outcome, AnUnguardedResultIsWrittenAndNeverVerified)

@@ -5,6 +5,8 @@
 
 #include "support/soups.h"
 
+#include <selvedge/verify.h>
+
 #include <CGAL/intersections.h>
 #include <CGAL/squared_distance_3.h>
 
@@ -27,10 +29,11 @@ Sliver_pairs pairs_in_tree(const Triangle_soup& soup)
 {
   Sliver_pairs pairs;
   std::mutex mutex;
-  Triangle_tree(soup.points, soup.triangles).for_each_pair([&](Index i, Index j) {
-    const std::lock_guard<std::mutex> lock(mutex);
-    EXPECT_TRUE(pairs.insert(std::minmax(i, j)).second) << i << ' ' << j;
-  });
+  Triangle_tree(soup.points, soup.triangles, Triangle_tree::Search::pairs)
+      .for_each_pair([&](Index i, Index j) {
+        const std::lock_guard<std::mutex> lock(mutex);
+        EXPECT_TRUE(pairs.insert(std::minmax(i, j)).second) << i << ' ' << j;
+      });
   return pairs;
 }
 
@@ -126,6 +129,92 @@ TEST(TriangleTree, FindsFewPairsInAFringeOfAnySize)
       const Triangle_soup soup = fringe(ribbons, 4, bend);
       EXPECT_LT(pairs_in_tree(soup).size(), 20 * soup.triangles.size()) << ribbons << ' ' << bend;
     }
+}
+
+/// Triangles that share a corner, point 0. On a grid, many of them lie in one plane, on one line, or twice at
+/// one place; in a plane, some lie so near to others that only exact arithmetic tells whether they overlap.
+enum class Fan_kind { anywhere, on_grid, in_plane };
+
+Triangle_soup random_fan(unsigned seed, Index count, Fan_kind kind)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto any = [&] {
+    if (kind == Fan_kind::on_grid)
+      return Point_3(int(random() % 5) - 2, int(random() % 5) - 2, int(random() % 5) - 2);
+    const double x = unit(random), y = unit(random), z = unit(random);
+    return Point_3(x, y, kind == Fan_kind::in_plane ? 0 : z);
+  };
+  const Point_3 apex = any();
+  Triangle_soup result;
+  result.points = {apex};
+  for (Index i = 0; i < count; ++i) {
+    Point_3 a = any(), b = kind == Fan_kind::on_grid ? any() : a + 0.1 * (any() - apex);
+    if (kind != Fan_kind::on_grid && i % 2 == 1) // where the one before ends, seen from the apex
+      a = apex + (unit(random) + 1.5) / 3 * (result.points[2 * i] - apex);
+    result.points.insert(result.points.end(), {a, b});
+    result.triangles.push_back({0, 2 * i + 1, 2 * i + 2});
+  }
+  return result;
+}
+
+TEST(TriangleTree, FindsAllThatMeetBeyondTheCornerOfAFan)
+{
+  std::size_t left_out = 0;
+  for (unsigned seed = 0; seed < 96; ++seed) {
+    SCOPED_TRACE(seed);
+    Triangle_soup soup = random_fan(seed, 64, Fan_kind(seed % 3));
+    if (seed % 2 == 1) // a second fan through the first
+      soup = joined(soup, random_fan(seed + 1000, 90, Fan_kind(seed % 3)));
+    // Differences of coordinates and their quotients are too large or too small for normal numbers.
+    const int size = seed / 3 % 4, exponent = size == 1 ? -1070 : size == 2 ? 1022 : 0;
+    soup = mapped(soup, [&](const Point_3& p) {
+      return Point_3(std::ldexp(p.x(), exponent), std::ldexp(p.y(), size == 3 ? -1060 : exponent),
+                     std::ldexp(p.z(), exponent));
+    });
+    const Sliver_pairs pairs = pairs_in_tree(soup);
+    for (Index j = 0; j < soup.triangles.size(); ++j)
+      for (Index i = 0; i < j; ++i) {
+        if (pairs.count({i, j}) == 1)
+          continue;
+        ++left_out;
+        for (const Offending_pair& pair :
+             offending_pairs(test::soup(soup.points, {soup.triangles[i], soup.triangles[j]})))
+          EXPECT_EQ(pair.offence, Offence::degenerate) << i << ' ' << j;
+      }
+  }
+  EXPECT_GT(left_out, 100000U);
+}
+
+/// A fan around point 0, whose other points lie above a circle; `z` gives the height at an angle.
+template <class Function>
+Triangle_soup fan(Index count, const Point_3& apex, const Function& z)
+{
+  Triangle_soup result;
+  result.points = {apex};
+  for (Index i = 0; i < count; ++i) {
+    const double angle = 2 * CGAL_PI * i / count;
+    result.points.emplace_back(std::cos(angle), std::sin(angle), z(angle));
+    result.triangles.push_back({0, i + 1, (i + 1) % count + 1});
+  }
+  return result;
+}
+
+TEST(TriangleTree, FindsFewPairsInAFanOfAnySize)
+{
+  const auto flat = [](double) { return 0.0; };
+  for (const Index count : {500U, 10000U}) {
+    const Triangle_soup disc = fan(count, Point_3(0, 0, 0), flat);
+    const Triangle_soup polygon = fan(count, Point_3(-1, 0, 0), flat);
+    const Triangle_soup cone = fan(count, Point_3(0, 0, 1), flat);
+    const Triangle_soup saddle =
+        fan(count, Point_3(0, 0, 0), [](double angle) { return std::cos(2 * angle); });
+    // Two sheets at one position, and ordinary triangles around and between.
+    const Triangle_soup sheets = joined(fan(count, Point_3(0, 0, 0), [](double) { return -0.5; }), saddle);
+    const Triangle_soup among = joined(moved(sheet(80, 80, 1.5), -40.5, -40.25, 0), joined(cone, saddle));
+    for (const Triangle_soup* soup : {&disc, &polygon, &cone, &saddle, &sheets, &among})
+      EXPECT_LT(pairs_in_tree(*soup).size(), 20 * soup->triangles.size()) << count;
+  }
 }
 
 // The squared distance of a query from all triangles, and how many were asked, from a first guess.

@@ -51,6 +51,19 @@ void expect_accepted(const Triangle_soup& soup, const Simplify_options& options,
   EXPECT_TRUE(are_same_bits(verdict.soup, reduction.simplified.soup));
 }
 
+/// Faces around point 0, above a circle of the other points.
+Triangle_soup cone(Index rim)
+{
+  Triangle_soup result;
+  result.points = {Point_3(0, 0, 1)};
+  for (Index i = 0; i < rim; ++i) {
+    const double angle = 2 * CGAL_PI * i / rim;
+    result.points.emplace_back(std::cos(angle), std::sin(angle), 0);
+    result.triangles.push_back({0, 1 + i, 1 + (i + 1) % rim});
+  }
+  return result;
+}
+
 // The middle of the lower border bulges out by 0.3 and goes to a new place on the straight border, which the
 // limit of 0.35 allows. The second step leads the border away from where it was, up to 0.37.
 TEST(Replay, ALineRemembersWhatMovedToANewPlace)
@@ -564,6 +577,18 @@ TEST(Replay, RefusesATouchOfTwoVertices)
   };
   EXPECT_EQ(kind("5 0.5 0"), Violation_kind::intersection);
   EXPECT_TRUE(replay_text(flat, head_of(flat) + "c 9 4 4.9 0.5 0\nresult 1 32 -\n").is_accepted());
+}
+
+TEST(Replay, KnowsTheEdgesOfAVertexThatHasMany)
+{
+  const Triangle_soup soup = cone(200);
+  expect_accepted(soup, to_ratio(0.3));
+  // A vertex of the border goes to the apex, and leaves a notch. From then on, the apex is on the border.
+  for (const Index removed : {1, 2, 63, 64, 65, 66, 100, 199, 200}) {
+    const std::string step = "c " + std::to_string(removed) + " 0\n";
+    EXPECT_TRUE(replay_text(soup, head_of(soup) + step + "result 1 198 -\n").is_accepted()) << removed;
+    EXPECT_EQ(kind_of_first(soup, head_of(soup) + step + "c 150 0\nresult 2 196 -\n"), Violation_kind::link);
+  }
 }
 
 TEST(Replay, RefusesWhatTheLinkConditionForbids)

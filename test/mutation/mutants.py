@@ -101,6 +101,7 @@ group(
 
 group(
     "src/verify/Capsule.cpp",
+    "src/verify/Cone.cpp",
     ("triangle_tree_test",),
     ("radii = a.m_radius + b.m_radius", "radii = a.m_radius", "a capsule without its radius"),
     (" + a.m_radius,", ",", "a capsule around capsules forgets the radius of one"),

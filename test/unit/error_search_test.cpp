@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <random>
 
 namespace selvedge::test {
 namespace {
@@ -14,7 +15,7 @@ TEST(Error_search, EndsWhereTheErrorIsKept)
 {
   Error_search search(2);
   EXPECT_EQ(search.max_error(), 2);
-  EXPECT_FALSE(search.lower(2));
+  EXPECT_FALSE(search.advance(2));
   EXPECT_EQ(search.max_error(), 2);
   EXPECT_EQ(search.reductions(), 1u);
 }
@@ -22,11 +23,11 @@ TEST(Error_search, EndsWhereTheErrorIsKept)
 TEST(Error_search, LowersTheErrorByWhatIsTooMuch)
 {
   Error_search search(2);
-  EXPECT_TRUE(search.lower(4));
+  EXPECT_TRUE(search.advance(4));
   EXPECT_LT(search.max_error(), 1);
   EXPECT_GT(search.max_error(), 0.9);
   EXPECT_EQ(search.reductions(), 2u);
-  EXPECT_FALSE(search.lower(1.9));
+  EXPECT_FALSE(search.advance(1.9));
 }
 
 TEST(Error_search, AsksForNoErrorWhenNothingHelps)
@@ -34,7 +35,7 @@ TEST(Error_search, AsksForNoErrorWhenNothingHelps)
   for (const double upper : {2 + 1e-9, 1e300, std::numeric_limits<double>::infinity()}) {
     Error_search search(2);
     double last = search.max_error();
-    while (search.lower(upper)) {
+    while (search.advance(upper)) {
       EXPECT_LT(search.max_error(), last);
       last = search.max_error();
     }
@@ -43,10 +44,75 @@ TEST(Error_search, AsksForNoErrorWhenNothingHelps)
   }
 }
 
+// Runs a search where a reduction with an error e keeps upper(e) everywhere; returns the last error.
+template <class Function>
+double last_error(Error_search& search, const Function& upper)
+{
+  while (search.advance(upper(search.max_error())))
+    EXPECT_LE(search.reductions(), 10u);
+  EXPECT_LE(upper(search.max_error()), 1);
+  return search.max_error();
+}
+
+TEST(Error_search, TriesLargerErrorsWhereTheLimitIsKeptByFar)
+{
+  // As on a dress: the bound stays, whatever the error, until it falls at once.
+  Error_search search(1);
+  const double error = last_error(search, [](double e) { return e > 0.6 ? 1.2 : 0.5 * e; });
+  EXPECT_GT(error, 0.53);
+  EXPECT_LE(error, 0.6);
+}
+
+TEST(Error_search, ReturnsToTheBestErrorWhereLargerOnesDoNotKeepTheLimit)
+{
+  Error_search search(1);
+  double first_kept = 0;
+  const double error = last_error(search, [&](double e) {
+    if (first_kept == 0 && e <= 0.6)
+      first_kept = e;
+    return e == first_kept ? 0.5 : 1.1;
+  });
+  EXPECT_EQ(error, first_kept);
+}
+
+TEST(Error_search, IsContentWithAnErrorThatComesNearTheLimit)
+{
+  Error_search search(1);
+  last_error(search, [](double e) { return 1.3 * e; });
+  EXPECT_EQ(search.reductions(), 2u);
+}
+
+TEST(Error_search, EndsWithAReductionThatKeepsTheLimit)
+{
+  for (unsigned seed = 0; seed < 1000; ++seed) {
+    SCOPED_TRACE(seed);
+    // Bounds differ from the error in no order that could be foreseen, but are the same for the same error.
+    const auto upper = [seed](double e) {
+      std::mt19937 random(seed + unsigned(e * 1e6));
+      return e * std::uniform_real_distribution<double>(0.5, 3)(random);
+    };
+    Error_search search(1);
+    last_error(search, upper);
+  }
+}
+
+TEST(Error_search, GoesOnWhereAnErrorKeepsTheLimitNoMore)
+{
+  Error_search search(1);
+  EXPECT_TRUE(search.advance(1.2));
+  EXPECT_TRUE(search.advance(0.5)); // far below the limit
+  EXPECT_TRUE(search.advance(1.1));
+  EXPECT_TRUE(search.advance(1.1)); // the first that kept it is due again
+  const double kept = search.max_error();
+  EXPECT_TRUE(search.advance(1.2)); // and does not keep it in a further pose
+  EXPECT_LT(search.max_error(), kept);
+  EXPECT_FALSE(search.advance(0.5));
+}
+
 TEST(Error_search, HasNothingLessThanNoError)
 {
   Error_search search(0);
-  EXPECT_FALSE(search.lower(1e-17));
+  EXPECT_FALSE(search.advance(1e-17));
 }
 
 } // namespace

@@ -9,6 +9,7 @@
 #include "support/reduction.h"
 #include "support/soups.h"
 
+#include <selvedge/Error.h>
 #include <selvedge/normals.h>
 #include <selvedge/replay.h>
 #include <selvedge/rounding.h>
@@ -331,6 +332,15 @@ TEST(Normals, MadeAnewAreIgnoredByTheReplay)
   const std::string line = "normals ignored\n";
   ASSERT_NE(log.find(line), std::string::npos);
   EXPECT_FALSE(replay_text(soup, std::string(log).erase(log.find(line), line.size())).is_accepted());
+  try {
+    replay_text(soup, std::string(log).replace(log.find(line), line.size(), "normals made\n"));
+    ADD_FAILURE() << "accepted";
+  } catch (const Input_error& error) {
+    EXPECT_NE(
+        std::string(error.what()).find("after 'normals' comes 'kept', 'joined', 'ignored' or 'dropped'"),
+        std::string::npos)
+        << error.what();
+  }
 }
 
 } // namespace

@@ -90,7 +90,8 @@ World_run run(const World& world)
   header.vertices = numbering.size();
   header.triangles = world.soup.triangles.size();
   header.is_rounded_to_float32 = prepare_options.round_to_float32;
-  header.are_normals_dropped = joins_vertices(world.normals);
+  if (joins_vertices(world.normals))
+    header.normals = Logged_normals::dropped;
   if (!world.obstacle.triangles.empty())
     header.obstacle = {world.obstacle.points.size(), world.obstacle.triangles.size(), {}};
   std::ostringstream stream;

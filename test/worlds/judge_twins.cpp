@@ -312,7 +312,7 @@ Verdict judge_error_everywhere(const World& world, const World_run& run, Judgeme
     if (again.result.report.is_stopped)
       return std::nullopt;
     upper = distances_anywhere(again.result.soup, run.prepared.soup).larger().upper;
-  } while (search.lower(upper));
+  } while (search.advance(upper));
   if (upper > wanted + measuring_error(run.prepared.soup))
     return Broken_promise{Promise::stop, "an error cannot be kept everywhere"};
   auto broken = judge(twin, test::run(twin), counts, {extent.is_replay_asked, 0});
