@@ -55,6 +55,13 @@ TEST(App_limit, IsSaidToHoldWhereItDoes)
   search.advance(0.002);
   EXPECT_EQ(fate_of_limit(0.001, largest, search, {}).rfind("limit: 0.1 % holds at every point; found in 2 "),
             0u);
+  Error_search least(1e-7);
+  largest.upper = 1e-6;
+  while (least.advance(largest.upper))
+    ;
+  EXPECT_EQ(
+      fate_of_limit(1e-7, largest, least, {}).rfind("limit: whether 1e-05 % holds at every point is not"),
+      0u);
 }
 
 TEST(App_outcome, AnUnguardedResultIsWrittenAndNeverVerified)
