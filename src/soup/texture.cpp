@@ -48,11 +48,11 @@ double uv_unit(const Triangle_soup& soup, const Scale& scale)
 
 double normal_unit(const Triangle_soup& soup, const Scale& scale)
 {
-  using Vector = std::array<double, 3>;
+  using Direction = std::array<double, 3>;
   double area = 0, turns = 0;
   for (std::size_t t = 0; t < soup.normals.of_triangle.size(); ++t) {
     std::array<Point_3, 3> points;
-    std::array<Vector, 3> normals;
+    std::array<Direction, 3> normals;
     for (std::size_t k = 0; k < 3; ++k) {
       points[k] = scale(soup.points[soup.triangles[t][k]]);
       normals[k] = soup.normals.values[soup.normals.of_triangle[t][k]];
