@@ -553,8 +553,7 @@ void add_options(CLI::App& command, Simplify_request& request)
           "Normals of the input: keep them as they are, so that an edge with different normals on its "
           "two sides is a seam; loose makes no seams of such edges: each face gets those normals of its "
           "vertices that suit it best; make them anew, with the hard edges of the input; or leave them out, "
-          "so that "
-          "vertices of PLY and glTF that differ in nothing else are one. "
+          "so that vertices of PLY and glTF that differ in nothing else are one. "
           "auto makes those anew that give every face its own normal, or that would come to belong to "
           "another side of the surface, and keeps others, but those that differ by at most 0.1 degrees at a "
           "vertex become one.")
@@ -589,14 +588,16 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->type_name("own|cgal")
       ->default_str("own")
       ->group(tuning);
-  command
-      .add_option("--stabiliser", options.cost.stabiliser,
-                  "Weight of the distance to the original vertices in the cost; it decides where the surface "
-                  "is flat.")
-      ->check(in_range(0))
-      ->type_name("W")
-      ->capture_default_str()
-      ->group(tuning);
+  const auto add_weight = [&](const char* name, double& weight, const char* description) {
+    command.add_option(name, weight, description)
+        ->check(in_range(0))
+        ->type_name("W")
+        ->capture_default_str()
+        ->group(tuning);
+  };
+  add_weight("--stabiliser", options.cost.stabiliser,
+             "Weight of the distance to the original vertices in the cost; it decides where the surface is "
+             "flat.");
   command
       .add_option("--memory", options.cost.memory,
                   "Share of the cost that is the distance to all planes since the original, from 0 to 1; the "
@@ -605,27 +606,14 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->type_name("SHARE")
       ->capture_default_str()
       ->group(tuning);
-  command
-      .add_option("--uv-weight", options.uv_weight,
-                  "Weight of the displacement of the texture in the cost, relative to that of the surface; 0 "
-                  "ignores it.")
-      ->check(in_range(0))
-      ->type_name("W")
-      ->capture_default_str()
-      ->group(tuning);
-  command
-      .add_option("--normal-weight", options.normal_weight,
-                  "The same for the turn of normals that are kept. More keeps the shading truer, and the "
-                  "shape less so.")
-      ->check(in_range(0))
-      ->type_name("W")
-      ->capture_default_str()
-      ->group(tuning);
-  command.add_option("--border-weight", options.cost.border_weight, "Weight of borders in the cost.")
-      ->check(in_range(0))
-      ->type_name("W")
-      ->capture_default_str()
-      ->group(tuning);
+  add_weight("--uv-weight", options.uv_weight,
+             "Weight of the displacement of the texture in the cost, relative to that of the surface; 0 "
+             "ignores it.");
+  add_weight(
+      "--normal-weight", options.normal_weight,
+      "The same for the turn of normals that are kept. More keeps the shading truer, and the shape less "
+      "so.");
+  add_weight("--border-weight", options.cost.border_weight, "Weight of borders in the cost.");
 
   const char* const conduct = "Conduct";
   command

@@ -86,15 +86,15 @@ void join_near_normals(Triangle_soup& soup);
 /// normals they are one, and no line between them is kept.
 ///
 /// Triangles then name the first of such vertices, and the others are unused. Corners keep their normals.
-/// Alike, bit for bit, must be
-/// positions in all poses (where −0 is 0), attributes, and texture coordinates if they are those of vertices;
-/// in a glTF scene the node and all accessors but NORMAL and TANGENT, those of morph targets included.
+/// Alike, bit for bit, must be positions in all poses (where −0 is 0), attributes, and texture coordinates if
+/// they are those of vertices; in a glTF scene the node and all accessors but NORMAL and TANGENT, those of
+/// morph targets included.
 /// Vertices that differ in nothing at all stay apart, as pieces that lie beside each other, unless a third
 /// one differs from them in its normal, or every face has vertices of its own (at least 100 triangles, and
 /// twice as many vertices).
 ///
-/// Returns how many corners name another vertex now. Does nothing where a vertex has two normals,
-/// unless they are nearly alike (`join_near_normals`).
+/// Returns how many corners name another vertex now. Does nothing where a vertex has two normals, unless
+/// they are nearly alike (`join_near_normals`).
 ///
 /// **Complexity** O(n) expected for n triangles.
 std::size_t share_vertices_without_normals(Triangle_soup& soup);

@@ -33,8 +33,8 @@ public:
   Index row_at(const Gltf_scene::Column& column, Index scene_vertex, const std::array<double, 3>& normal);
 
 private:
-  using Rows =
-      std::map<std::string, Index>; // by the normals in world space and positions in the node, as bytes
+  /// By the normals in world space and positions in the node, as bytes.
+  using Rows = std::map<std::string, Index>;
 
   bool is_of_row(const Gltf_scene::Column& column, Index scene_vertex,
                  const std::array<double, 3>& normal) const;

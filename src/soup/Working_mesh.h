@@ -156,6 +156,16 @@ public:
   Result result() const;
 
 private:
+  // Calls function(wedges) with those of the texture and of normals that are measured.
+  template <class Function>
+  void for_each_measure(const Function& function)
+  {
+    if (m_texture)
+      function(*m_texture);
+    if (m_shading)
+      function(*m_shading);
+  }
+
   void carry_all(Halfedge moving, const Border_rule<Mesh>& rule);
   Hindrance hindrance_of(Face face) const;
 

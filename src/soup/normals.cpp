@@ -6,6 +6,7 @@
 #include "Disjoint_sets.h"
 #include "near_normals.h"
 #include "number_positions.h"
+#include "selection.h"
 
 #include <selvedge/internal/Vector_of_doubles.h>
 #include <selvedge/rounding.h>
@@ -16,6 +17,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -212,29 +214,6 @@ int side_of(const std::array<double, 3>& cosines)
   return least > 0 ? 1 : largest < 0 ? -1 : 0;
 }
 
-// Leaves out the values that no corner has. The others keep their order.
-void drop_unused(Corner_values<3>& normals)
-{
-  std::vector<Index> numbers(normals.values.size(), s_no_normal);
-  for (const Index_triple& triple : normals.of_triangle)
-    for (const Index number : triple)
-      numbers[number] = 0;
-  Index count = 0;
-  for (Index i = 0; i < numbers.size(); ++i)
-    if (numbers[i] != s_no_normal) {
-      normals.values[count] = normals.values[i];
-      numbers[i] = count++;
-    }
-  normals.values.resize(count);
-  for (Index_triple& triple : normals.of_triangle)
-    for (Index& number : triple)
-      number = numbers[number];
-  if (normals.missing && numbers[*normals.missing] != s_no_normal)
-    normals.missing = numbers[*normals.missing];
-  else
-    normals.missing.reset();
-}
-
 void restore_flat(Triangle_soup& soup)
 {
   soup.normals = {{}, std::vector<Index_triple>(soup.triangles.size())};
@@ -393,10 +372,10 @@ void pick_normals(Triangle_soup& result, const std::vector<Index>& triangles,
   for (Index corner = corner_count; corner-- > 0;)
     by_vertex[--firsts[vertex_of(corner)]] = corner;
 
-  result.normals = {normals.values, {}, normals.missing};
+  std::vector<Index_triple> picked;
   for (Index i = 0; i < result.triangles.size(); ++i) {
     const Index t = triangles[i];
-    Index_triple& numbers = result.normals.of_triangle.emplace_back(normals.of_triangle[t]);
+    Index_triple& numbers = picked.emplace_back(normals.of_triangle[t]);
     if (numbers[0] == normals.missing || corners[i] == Index_triple{3 * t, 3 * t + 1, 3 * t + 2})
       continue;
     const Vector front = unit_normal(result, i);
@@ -416,7 +395,7 @@ void pick_normals(Triangle_soup& result, const std::vector<Index>& triangles,
       }
     }
   }
-  drop_unused(result.normals);
+  result.normals = with_used(normals.values, std::move(picked), normals.missing);
 }
 
 bool are_near_normals(const std::array<double, 3>& a, const std::array<double, 3>& b)
@@ -426,7 +405,6 @@ bool are_near_normals(const std::array<double, 3>& a, const std::array<double, 3
 
 void join_near_normals(Triangle_soup& soup)
 {
-  constexpr Index none = std::numeric_limits<Index>::max();
   struct Entry
   {
     Index normal;
@@ -434,7 +412,7 @@ void join_near_normals(Triangle_soup& soup)
   };
   Corner_values<3>& normals = soup.normals;
   std::vector<Entry> entries;
-  std::vector<Index> first(soup.points.size(), none), last(soup.points.size(), none);
+  std::vector<Index> first(soup.points.size(), s_no_normal), last(soup.points.size(), s_no_normal);
   for (std::size_t t = 0; t < normals.of_triangle.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       Index& normal = normals.of_triangle[t][k];
@@ -442,14 +420,14 @@ void join_near_normals(Triangle_soup& soup)
       if (normal == normals.missing)
         continue;
       Index found = first[v];
-      while (found != none && entries[found].normal != normal &&
+      while (found != s_no_normal && entries[found].normal != normal &&
              !are_near_normals(normals.values[entries[found].normal], normals.values[normal]))
         found = entries[found].next;
-      if (found == none) {
+      if (found == s_no_normal) {
         found = Index(entries.size());
-        (first[v] == none ? first[v] : entries[last[v]].next) = found;
+        (first[v] == s_no_normal ? first[v] : entries[last[v]].next) = found;
         last[v] = found;
-        entries.push_back({normal, none});
+        entries.push_back({normal, s_no_normal});
       }
       normal = entries[found].normal;
     }
@@ -533,7 +511,8 @@ std::size_t mend_normals(Triangle_soup& result, const std::vector<Index>& triang
       numbers[fan] = new_number(mean);
     number = numbers[fan];
   });
-  drop_unused(result.normals);
+  result.normals =
+      with_used(result.normals.values, std::move(result.normals.of_triangle), result.normals.missing);
   return mended;
 }
 
@@ -588,14 +567,13 @@ void keep_flat_normals(Triangle_soup& result, const std::vector<Index>& triangle
       if (keeps)
         kept[t] = normals.of_triangle[triangles[t]];
   }
-  Corner_values<3> both{normals.values, std::move(kept)};
   for (std::size_t t = 0; t < count; ++t)
-    if (both.of_triangle[t][0] == s_no_normal)
+    if (kept[t][0] == s_no_normal)
       for (std::size_t k = 0; k < 3; ++k)
-        both.of_triangle[t][k] = Index(normals.values.size()) + result.normals.of_triangle[t][k];
-  both.values.insert(both.values.end(), result.normals.values.begin(), result.normals.values.end());
-  drop_unused(both);
-  result.normals = std::move(both);
+        kept[t][k] = Index(normals.values.size()) + result.normals.of_triangle[t][k];
+  std::vector<Vector> values = normals.values;
+  values.insert(values.end(), result.normals.values.begin(), result.normals.values.end());
+  result.normals = with_used(values, std::move(kept), std::nullopt);
 }
 
 void restore_normals(Triangle_soup& soup, Normals_treatment treatment)

@@ -69,18 +69,8 @@ template <std::size_t dimension>
 Corner_values<dimension> selected(const Corner_values<dimension>& from,
                                   const std::vector<Index_triple>& corners)
 {
-  Corner_values<dimension> result;
-  if (from.empty())
-    return result;
-  result.of_triangle = at_corners(from.of_triangle, corners);
-  const std::vector<Index> kept = keep_used(result.of_triangle, from.values.size());
-  result.values = rows(from.values, kept);
-  if (from.missing) {
-    const auto missing = std::lower_bound(kept.begin(), kept.end(), *from.missing);
-    if (missing != kept.end() && *missing == *from.missing)
-      result.missing = Index(missing - kept.begin());
-  }
-  return result;
+  return from.empty() ? Corner_values<dimension>()
+                      : with_used(from.values, at_corners(from.of_triangle, corners), from.missing);
 }
 
 Triangle_labels selected(const Triangle_labels& from, const std::vector<Index>& triangles)
@@ -116,6 +106,27 @@ std::vector<Cut_polygon> polygons_left(const std::vector<Cut_polygon>& from,
 }
 
 } // namespace
+
+template <std::size_t dimension>
+Corner_values<dimension> with_used(const std::vector<std::array<double, dimension>>& values,
+                                   std::vector<Index_triple> of_triangle, std::optional<Index> missing)
+{
+  Corner_values<dimension> result;
+  const std::vector<Index> kept = keep_used(of_triangle, values.size());
+  result.of_triangle = std::move(of_triangle);
+  result.values = rows(values, kept);
+  if (missing) {
+    const auto found = std::lower_bound(kept.begin(), kept.end(), *missing);
+    if (found != kept.end() && *found == *missing)
+      result.missing = Index(found - kept.begin());
+  }
+  return result;
+}
+
+template Corner_values<2> with_used(const std::vector<std::array<double, 2>>&, std::vector<Index_triple>,
+                                    std::optional<Index>);
+template Corner_values<3> with_used(const std::vector<std::array<double, 3>>&, std::vector<Index_triple>,
+                                    std::optional<Index>);
 
 std::size_t row_size(const Attribute& attribute)
 {

@@ -6,6 +6,9 @@
 
 #include <selvedge/Triangle_soup.h>
 
+#include <array>
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace selvedge {
@@ -21,6 +24,14 @@ namespace selvedge {
 /// **Complexity** Linear; O(log p) more for every triangle where there are p polygons.
 Triangle_soup selected(const Triangle_soup& soup, const std::vector<Index>& triangles,
                        const std::vector<Index_triple>& corners);
+
+/// Returns values for corners, of which each triangle has those of these numbers. Values that are used keep
+/// their order, and the others are dropped; so is the one that stands for none, if no triangle has it.
+///
+/// **Complexity** Linear.
+template <std::size_t dimension>
+Corner_values<dimension> with_used(const std::vector<std::array<double, dimension>>& values,
+                                   std::vector<Index_triple> of_triangle, std::optional<Index> missing);
 
 /// Keeps only some triangles of a soup, in the order given, with all their labels and attributes. Vertices
 /// and values keep their numbers, used or not. A polygon stays one when all its triangles do.
