@@ -15,11 +15,13 @@
 #include <selvedge/poses.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <functional>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace selvedge::app {
 namespace {
@@ -58,13 +60,43 @@ void read_error(Simplify_request& request)
   request.options.max_error = error;
 }
 
+constexpr std::array<std::pair<const char*, Open_seams>, 3> seams_words{
+    {{"hold", Open_seams::hold}, {"auto", Open_seams::weld}, {"none", Open_seams::measure}}};
+
 void read_weld(Simplify_request& request)
 {
-  if (request.weld.empty() || request.weld == "auto")
+  const bool is_loop_of_cgal = request.options.loop == Collapse_loop::cgal;
+  if (is_loop_of_cgal && request.weld == "hold")
+    throw Argument_error(
+        "--weld hold: CGAL's loop collapses no two edges right after each other, as the two sides of a gap "
+        "need it; leave out --loop cgal");
+  if (request.weld.empty()) {
+    request.open_seams = is_loop_of_cgal ? Open_seams::measure : Open_seams::hold;
     return;
+  }
+  for (const auto& [word, seams] : seams_words)
+    if (request.weld == word) {
+      request.open_seams = seams;
+      return;
+    }
+  request.open_seams = Open_seams::ignore;
   request.weld_distance = number_in(request.weld);
   if (!(request.weld_distance >= 0 && std::isfinite(request.weld_distance)))
-    throw Argument_error("--weld: '" + request.weld + "' is neither a number of at least 0 nor auto");
+    throw Argument_error("--weld: '" + request.weld +
+                         "' is neither a number of at least 0 nor hold, auto or none");
+}
+
+Json weld_json(const Simplify_request& request)
+{
+  for (const auto& [word, seams] : seams_words)
+    if (request.open_seams == seams)
+      return word;
+  return request.weld_distance;
+}
+
+bool are_gaps_welded(const Simplify_request& request)
+{
+  return request.open_seams == Open_seams::weld || request.weld_distance > 0;
 }
 
 void read_ratios(Simplify_request& request)
@@ -94,7 +126,7 @@ void check_poses(const Simplify_request& request)
   }
   if (request.is_in_cells)
     refuse_with("--cells", "a mesh in several poses is not reduced in cells");
-  if (!request.weld.empty())
+  if (are_gaps_welded(request))
     refuse_with("--weld", "gaps are closed in one pose only");
   if (request.is_sewn)
     refuse_with("--sewn", "vertices that meet in one pose may be apart in others");
@@ -144,7 +176,7 @@ void check_clearance(const Simplify_request& request)
     refuse_with("--no-intersection-check", "a distance is kept only where intersections are checked");
   if (request.is_in_cells)
     refuse_with("--cells", "cells do not know how near the pieces beside them are");
-  if (!request.weld.empty())
+  if (are_gaps_welded(request))
     refuse_with("--weld", "closing gaps brings pieces nearer to each other");
   if (!request.may_intersect.empty())
     refuse_with("--may-intersect", "parts that may intersect have no distance");
@@ -285,7 +317,7 @@ Json options_json(const Simplify_request& request)
            request.obstacle_poses.animation.empty() ? Json(nullptr) : Json(request.obstacle_poses.animation)},
           {"key_poses", request.are_key_poses_chosen ? "auto" : "all"},
           {"poses_out", request.poses_output.empty() ? Json(nullptr) : Json(request.poses_output)},
-          {"weld", request.weld == "auto" ? Json(request.weld) : Json(request.weld_distance)},
+          {"weld", weld_json(request)},
           {"sewn", request.is_sewn},
           {"normals", name_of(request.normals)},
           {"orient", request.are_faces_oriented ? "auto" : "keep"},
@@ -525,10 +557,13 @@ void add_options(CLI::App& command, Simplify_request& request)
   const char* const seams = "Seams";
   command
       .add_option("--weld", request.weld,
-                  "Close seams that gape: snap a border vertex onto its partner on another border within "
-                  "this length, in the unit of the file, or within the length at which most gaps clearly "
-                  "end, if there is one. Without this option, the summary says what that length is.")
-      ->type_name("EPS|auto")
+                  "What becomes of seams that gape. A length, in the unit of the file, closes them: a border "
+                  "vertex snaps onto its partner on another border within this length; auto takes the "
+                  "length at which most gaps clearly end, if there is one, which the summary says. hold "
+                  "closes no gap, but lets none of those get wider: the two sides lose their vertices in "
+                  "pairs. none reduces the two sides as separate borders.")
+      ->type_name("EPS|auto|hold|none")
+      ->default_str("hold")
       ->group(seams);
   command
       .add_flag(

@@ -41,8 +41,9 @@ struct Simplify_request
   Simplify_intent intent;
   bool is_unguarded = false;
   bool is_in_cells = false;
-  std::string weld;         // "EPS", "auto", or empty
-  double weld_distance = 0; // 0 for auto
+  std::string weld;         // "EPS", a word, or empty
+  double weld_distance = 0; // 0 unless EPS is given; then open seams are ignored
+  Open_seams open_seams = Open_seams::hold;
   Normals_choice normals = Normals_choice::automatic;
   bool are_faces_oriented = true;
   bool is_sewn = false;

@@ -226,7 +226,7 @@ void print_seams(const Inspection& mesh)
   std::cout << " (looked for within the median length of border edges, " << with_digits(gaps.limit) << ")\n";
   if (gaps.clear_length)
     std::cout << "open seams: " << partners_in_clear_gaps(gaps, mesh.diagonal)
-              << "; --weld auto joins them\n";
+              << "; --weld auto closes them\n";
   else if (!gaps.lengths.empty())
     std::cout << "open seams: none that are clearly narrower than what lies beside them\n";
 }

@@ -246,7 +246,7 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
                     {"motions", snap.snaps.size()},
                     {"seam_edges", snap.seam_edges},
                     {"largest_distance", snap.largest_distance},
-                    {"tied", snap.tied.size()},
+                    {"tied", prepared.tied.size()},
                     {"left_alone", done.left_alone}};
   report["rounding"] = {{"coordinates", prepared.rounding.coordinates},
                         {"vertices", prepared.rounding.vertices},

@@ -201,9 +201,7 @@ private:
     options.round_to_float32 = is_rounded(file.soup);
     options.defects = defects_of(m_request);
     options.weld_distance = m_request.weld_distance;
-    options.weld_clear_gaps = m_request.weld == "auto";
-    options.measure_border_gaps =
-        m_request.weld.empty() && (!m_request.is_quiet || !m_request.report.empty());
+    options.open_seams = m_request.open_seams;
     options.normals = m_request.normals;
     options.orient = m_request.are_faces_oriented;
     options.may_intersect = part_pairs(m_request.may_intersect, file.soup);

@@ -64,6 +64,8 @@ std::string remedy(Hindrance reason, const Simplify_request& request)
   case Hindrance::drift:
     return "--border-drift " +
            with_digits(options.max_border_drift > 0 ? 5 * options.max_border_drift : 0.01);
+  case Hindrance::gap:
+    return request.open_seams == Open_seams::hold ? "--weld auto or none" : "";
   case Hindrance::target:
     return "smaller ratios for the parts that have their own";
   case Hindrance::aspect_ratio:
@@ -181,7 +183,7 @@ std::string place_of(Index vertex, const Triangle_soup& original)
   return text.str();
 }
 
-void print_snapping(std::ostream& stream, const Snapping_notes& notes)
+void print_snapping(std::ostream& stream, const Snapping_notes& notes, std::size_t tied)
 {
   stream << "  seams closed: " << with_commas(notes.snapped) << " of " << with_commas(notes.partnered)
          << " border vertices that have a partner, along " << counted(notes.seam_edges, "edge")
@@ -197,8 +199,8 @@ void print_snapping(std::ostream& stream, const Snapping_notes& notes)
   print(notes.left_frozen, "a face there is frozen");
   print(notes.left_foreign, "the partner belongs to a node with another transform");
   print(notes.left_ambiguous, "every partner has a nearer one");
-  if (!notes.tied.empty())
-    stream << "  tied: " << counted(notes.tied.size(), "pair")
+  if (tied > 0)
+    stream << "  tied: " << counted(tied, "pair")
            << " of border vertices that stay apart leave their borders together\n";
   print(notes.near_without_edge, "no edge beside them can be sewn to the border that is near");
 }
@@ -206,14 +208,16 @@ void print_snapping(std::ostream& stream, const Snapping_notes& notes)
 void print_border_gaps(std::ostream& stream, const Simplify_request& request, const Border_gaps& gaps,
                        double diagonal)
 {
-  if (request.weld == "auto" && !gaps.clear_length)
+  if (gaps.clear_length)
+    stream << (request.open_seams == Open_seams::weld ? "  --weld auto: " : "  open seams: ")
+           << partners_in_clear_gaps(gaps, diagonal)
+           << (request.open_seams == Open_seams::weld   ? ", which is the length chosen\n"
+               : request.open_seams == Open_seams::hold ? "; they get no wider, and --weld auto closes them\n"
+                                                        : "; --weld auto closes them\n");
+  else if (request.open_seams == Open_seams::weld)
     stream
         << "  --weld auto: nothing is closed, because no gaps in seams are clearly narrower than what lies "
            "beside them; --weld EPS closes gaps up to a length\n";
-  else if (gaps.clear_length)
-    stream << (request.weld == "auto" ? "  --weld auto: " : "  open seams: ")
-           << partners_in_clear_gaps(gaps, diagonal)
-           << (request.weld == "auto" ? ", which is the length chosen\n" : "; --weld auto joins them\n");
 }
 
 // Says in which further pose pieces are nearest to each other.
@@ -292,7 +296,7 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
            << '\n';
   print_border_gaps(stream, request, prepared.border_gaps, diagonal);
   if (prepared.snapping.distance > 0)
-    print_snapping(stream, prepared.snapping);
+    print_snapping(stream, prepared.snapping, prepared.tied.size());
   const char* separator = "  not in the output, because its format cannot hold them: ";
   for (const std::string& what : dropped)
     stream << std::exchange(separator, ", ") << what;

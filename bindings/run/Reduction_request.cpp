@@ -82,6 +82,8 @@ const Words<Normals_choice> normals{{"auto", Normals_choice::automatic},
                                     {"loose", Normals_choice::loose},
                                     {"recompute", Normals_choice::recompute},
                                     {"drop", Normals_choice::drop}};
+const Words<Open_seams> seams{
+    {"hold", Open_seams::hold}, {"auto", Open_seams::weld}, {"none", Open_seams::measure}};
 const Words<Defects> defects{
     {"descend", Defects::descend}, {"freeze", Defects::freeze}, {"refuse", Defects::refuse}};
 
@@ -158,8 +160,9 @@ Json part_ratios_json(const Request& request)
 
 void set_weld(Request& request, const std::string& value)
 {
-  request.prepare.weld_clear_gaps = value == "auto";
-  request.prepare.weld_distance = request.prepare.weld_clear_gaps ? 0 : number(value);
+  const auto word = std::find_if(seams.begin(), seams.end(), [&](const auto& s) { return s.first == value; });
+  request.prepare.open_seams = word == seams.end() ? Open_seams::ignore : word->second;
+  request.prepare.weld_distance = word == seams.end() ? number(value) : 0;
 }
 
 const std::vector<Option>& table()
@@ -208,7 +211,8 @@ const std::vector<Option>& table()
        [](const Request& r) { return r.intent.weights.empty() ? Json(nullptr) : Json(r.intent.weights); }},
       {"weld", set_weld,
        [](const Request& r) {
-         return r.prepare.weld_clear_gaps ? Json("auto") : Json(r.prepare.weld_distance);
+         return r.prepare.open_seams == Open_seams::ignore ? Json(r.prepare.weld_distance)
+                                                           : Json(word_of(seams, r.prepare.open_seams));
        }},
       {"sewn", [](Request& r, const std::string& value) { r.is_sewn = value_of(truth, value); },
        [](const Request& r) { return Json(r.is_sewn); }},
@@ -251,6 +255,7 @@ Reduction_request::Reduction_request()
 {
   options.max_error = default_error;
   prepare.normals = Normals_choice::automatic;
+  prepare.open_seams = Open_seams::hold;
 }
 
 void Reduction_request::set(const std::string& name, const std::string& value)

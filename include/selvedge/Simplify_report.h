@@ -26,7 +26,7 @@ struct Simplify_report
   std::size_t faces_to_go = 0; ///< faces above the target at the end, summed over all parts with a target
   std::size_t collapses = 0;
   std::size_t placed = 0;     ///< how many of `collapses` put the merged vertex to a new place
-  std::size_t left_alone = 0; ///< vertices tied to partners that have gone without them; see `Snapping_notes`
+  std::size_t left_alone = 0; ///< vertices whose partners have gone without them; see `Prepared_soup::tied`
   std::size_t refused_elsewhere = 0; ///< motions that only another place of their shared mesh did not allow
   std::size_t passes = 0;            ///< of the loop: another begins while more collapses may be possible
   bool is_stopped = false;           ///< by `Simplify_options::should_stop`

@@ -7,7 +7,6 @@
 #include <selvedge/Triangle_soup.h>
 
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace selvedge {
@@ -45,10 +44,6 @@ struct Snapping_notes
   std::size_t seam_edges = 0;  ///< pairs of border edges that have become one edge
   double largest_distance = 0; ///< of one snap; where several pieces meet, a vertex may snap more than once
   std::vector<Snap> snaps;     ///< in the order in which they were done
-
-  /// Partners that name each other in the end, frozen or not: `simplify_soup` lets both leave their borders,
-  /// or neither. Each position is given by the first vertex that is there after snapping.
-  std::vector<std::pair<Index, Index>> tied;
 };
 
 } // namespace selvedge

@@ -124,7 +124,7 @@ struct Inspection
 
   std::size_t border_edges = 0;
 
-  /// The gaps between borders, and the length that `Prepare_options::weld_clear_gaps` would weld.
+  /// The gaps between borders, and the length that `Open_seams::weld` would weld.
   Border_gaps border_gaps;
 };
 

@@ -29,6 +29,15 @@ enum class Defects {
 /// Returns "descend", "freeze" or "refuse".
 const char* name_of(Defects defects);
 
+/// What becomes of the gaps of open seams where they have a clear length (`Border_gaps`). Each does what
+/// those before it do, but that gaps that are held are not welded.
+enum class Open_seams {
+  ignore,  ///< nothing; the two sides of a gap are reduced as separate borders
+  measure, ///< they are measured alone: `Prepared_soup::border_gaps`
+  hold,    ///< they stay where they are and get no wider: their sides are *tied* (`Prepared_soup::tied`)
+  weld     ///< they are closed: the clear length takes the place of `Prepare_options::weld_distance`
+};
+
 /// The options of `prepare`.
 struct Prepare_options
 {
@@ -80,23 +89,17 @@ struct Prepare_options
   /// Vertices under different transforms of a glTF scene are not joined. A vertex whose snap is refused stays
   /// where it is; `Prepared_soup::snapping` counts such vertices by reason.
   ///
-  /// **What stays open** Partners that choose each other in the end, be they frozen, are *tied*: a reduction
-  /// lets one leave its border only to a tied vertex, only if its partner could go to the partner of that,
-  /// and lets the partner go next. While both do, the two sides are nowhere farther apart than the pairs of
-  /// vertices that are left. (The own loop only. A partner that is refused once the first has gone tries
-  /// again later; `Simplify_report::left_alone` counts those left in the end.)
+  /// **What stays open** Partners that choose each other in the end, be they frozen, are tied:
+  /// `Prepared_soup::tied`.
   ///
   /// **Exactness** Distances, which choose what is tried, are rounded to double. **Complexity** O(n log n)
   /// for n triangles; in every round, as many steps as there are pairs of border vertices within this
   /// distance.
   double weld_distance = 0;
 
-  /// Whether the gaps between borders are measured: `Prepared_soup::border_gaps`.
-  bool measure_border_gaps = false;
-
-  /// Whether the clear length of these gaps, if there is one, takes the place of the weld distance, which
-  /// must be 0; otherwise `Argument_error` is thrown.
-  bool weld_clear_gaps = false;
+  /// What becomes of open seams. `Argument_error` is thrown when they are to be held or welded and the weld
+  /// distance is not 0.
+  Open_seams open_seams = Open_seams::ignore;
 
   /// Whether a reduction turns faces that run against the others of their surface, so that the surface is
   /// connected there, too, and turns what is left of them back in its result. Otherwise no vertex moves where
@@ -190,10 +193,21 @@ struct Prepared_soup
   Rounding_notes rounding;
   bool is_float32 = false; ///< whether new coordinates must be 32-bit floats, too
 
-  /// The gaps between borders before anything snaps, if they were to be measured or welded.
+  /// The gaps between borders before anything snaps, unless they were to be ignored.
   Border_gaps border_gaps;
 
   Snapping_notes snapping;
+
+  /// Pairs of positions on the two sides of gaps: partners, each the nearest of the other, frozen or not.
+  /// Each position is given by its first vertex. There are some where open seams are held, and where snapping
+  /// leaves them.
+  ///
+  /// A reduction lets a tied vertex leave its border only to a tied vertex, only if its partner could go to
+  /// the partner of that, and lets the partner go next. While both do, the two sides are nowhere farther
+  /// apart than the pairs of vertices that are left. (The own loop only. A partner that is refused once the
+  /// first has gone tries again later; `Simplify_report::left_alone` counts those left in the end.)
+  std::vector<std::pair<Index, Index>> tied;
+
   double seconds_positions = 0; ///< for rounding, and finding coincident vertices
   double seconds_check = 0;     ///< for judging
   double seconds_snap = 0;      ///< for snapping

@@ -231,7 +231,7 @@ Inspection inspect(Triangle_soup soup)
 {
   Prepare_options options;
   options.normals = Normals_choice::automatic;
-  options.measure_border_gaps = true;
+  options.open_seams = Open_seams::measure;
   const Prepared_soup prepared = prepare(std::move(soup), options);
   return Inspector(prepared).run();
 }

@@ -449,13 +449,21 @@ private:
     const std::vector<Point_3> points_before = soup().points;
     const std::size_t obstacle_triangles = obstacle().triangles.size();
     double distance = m_options.weld_distance;
-    if (m_options.measure_border_gaps || m_options.weld_clear_gaps)
-      m_prepared.border_gaps =
-          border_gaps(soup(), m_prepared.positions, transforms, obstacle_triangles, m_prepared.scale);
-    if (m_options.weld_clear_gaps)
-      distance = m_prepared.border_gaps.clear_length.value_or(0);
-    m_prepared.snapping = snap_borders(soup(), m_prepared.positions, stays, distance, transforms,
-                                       obstacle_triangles, m_prepared.scale);
+    if (m_options.open_seams != Open_seams::ignore) {
+      Open_borders open =
+          find_open_seams(soup(), m_prepared.positions, transforms, obstacle_triangles, m_prepared.scale);
+      m_prepared.border_gaps = std::move(open.gaps);
+      if (m_options.open_seams == Open_seams::hold)
+        m_prepared.tied = std::move(open.tied);
+      if (m_options.open_seams == Open_seams::weld)
+        distance = m_prepared.border_gaps.clear_length.value_or(0);
+    }
+    if (distance != 0) {
+      Snapped_borders snapped = snap_borders(soup(), m_prepared.positions, stays, distance, transforms,
+                                             obstacle_triangles, m_prepared.scale);
+      m_prepared.snapping = std::move(snapped.notes);
+      m_prepared.tied = std::move(snapped.tied);
+    }
     forget_moved_polygons(soup(), points_before);
   }
 
@@ -513,11 +521,12 @@ Prepared_soup prepare(Triangle_soup input, const Prepare_options& options, const
 {
   if (input.triangles.empty())
     throw Input_error("the mesh has no triangles");
-  if (options.weld_clear_gaps && options.weld_distance != 0)
-    throw Argument_error("the weld distance is either given or found, not both");
+  const bool are_gaps_welded = options.open_seams == Open_seams::weld || options.weld_distance != 0;
+  if (options.open_seams >= Open_seams::hold && options.weld_distance != 0)
+    throw Argument_error("the length of gaps that are held or welded is either found or given, not both");
   check_soup(input, "the mesh");
   check_soup(obstacle, "the obstacle");
-  if (!input.poses.empty() && (options.weld_clear_gaps || options.weld_distance != 0))
+  if (!input.poses.empty() && are_gaps_welded)
     throw Argument_error(
         "gaps are not welded in several poses; weld the mesh in its own pose first, or leave "
         "out one of the two options");

@@ -315,9 +315,9 @@ Cell_collapses reduce_in_cells(const Cell_context& whole)
         if (f != Working_mesh::Mesh::null_face())
           stays[f] = true;
   // Partners leave their borders together, and may lie in two cells.
-  if (!prepared.snapping.tied.empty()) {
+  if (!prepared.tied.empty()) {
     std::vector<char> is_tied(prepared.soup.points.size(), false); // by position
-    for (const auto& [a, b] : prepared.snapping.tied)
+    for (const auto& [a, b] : prepared.tied)
       is_tied[a] = is_tied[b] = true;
     for (Index t = 0; t < prepared.soup.triangles.size(); ++t)
       for (const Index v : prepared.soup.triangles[t])

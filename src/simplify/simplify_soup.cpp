@@ -129,7 +129,8 @@ private:
       }
     }
     const std::vector<Index> of_soup = m_working.vertices_of_soup(m_prepared.obstacle);
-    tie(constraints.partners, of_soup);
+    if (m_options.loop == Collapse_loop::own)
+      tie(constraints.partners, of_soup);
     pose(constraints, of_soup);
     if (m_options.instances == Instances::shared && m_options.loop == Collapse_loop::own &&
         soup.poses.empty())
@@ -207,9 +208,12 @@ private:
 
   void share()
   {
+    // Where gaps are closed, those that stay open may differ between the places of a mesh. Gaps that are only
+    // held do not set places apart, and are not held in shared meshes.
     std::vector<char> is_tied(m_prepared.soup.points.size(), false); // by position
-    for (const auto& [a, b] : m_prepared.snapping.tied)
-      is_tied[a] = is_tied[b] = true;
+    if (m_prepared.snapping.distance > 0)
+      for (const auto& [a, b] : m_prepared.tied)
+        is_tied[a] = is_tied[b] = true;
     std::vector<Apart> apart;
     for (const Index_triple& triangle : m_prepared.soup.triangles)
       apart.push_back(std::any_of(triangle.begin(), triangle.end(),
@@ -227,13 +231,25 @@ private:
     for (const Shared_mesh& mesh : shared.meshes)
       m_shared_places += mesh.places.size();
     m_working.share(std::move(shared.meshes), m_options.clearance.value_or(0));
+
+    const auto is_shared = [&](Working_mesh::Mesh::Vertex_index v) {
+      const auto faces = m_working.mesh().faces_around_target(m_working.mesh().halfedge(v));
+      return std::any_of(faces.begin(), faces.end(), [&](auto f) {
+        return f != Working_mesh::Mesh::null_face() && m_working.is_shared(f);
+      });
+    };
+    auto& partners = m_working.constraints().partners;
+    partners.erase(
+        std::remove_if(partners.begin(), partners.end(),
+                       [&](const auto& pair) { return is_shared(pair.first) || is_shared(pair.second); }),
+        partners.end());
   }
 
   void
   tie(std::vector<std::pair<Working_mesh::Mesh::Vertex_index, Working_mesh::Mesh::Vertex_index>>& partners,
       const std::vector<Index>& of_soup)
   {
-    const auto& tied = m_prepared.snapping.tied;
+    const auto& tied = m_prepared.tied;
     if (tied.empty())
       return;
     std::vector<Working_mesh::Mesh::Vertex_index> vertices(m_prepared.positions.size()); // by position

@@ -70,12 +70,19 @@ public:
       drop_sewn_sides();
     }
     count();
-    for (const Pair& pair : mutual_partners(true))
-      m_notes.tied.emplace_back(m_sites[pair.low].position, m_sites[pair.high].position);
     return std::move(m_notes);
   }
 
-  /// Looks for partners without snapping any.
+  /// Returns the pairs of positions that name each other, frozen or not.
+  Position_pairs tied()
+  {
+    Position_pairs tied;
+    for (const Pair& pair : mutual_partners(true))
+      tied.emplace_back(m_sites[pair.low].position, m_sites[pair.high].position);
+    return tied;
+  }
+
+  /// Looks for partners without snapping any. The clear length, or 0, becomes the distance.
   Border_gaps gaps()
   {
     Border_gaps result;
@@ -110,6 +117,7 @@ public:
     for (const Gap& gap : found)
       result.lengths.push_back(gap.length);
     choose_clear_length(found, result);
+    m_distance = result.clear_length.value_or(0);
     return result;
   }
 
@@ -578,7 +586,7 @@ private:
   }
 
   std::vector<Point_3> m_points; // divided by the scale, as is the distance
-  const double m_distance;
+  double m_distance;
   std::vector<Index_triple> m_triangles; // of positions
   std::vector<Side> m_sides;             // of borders
   std::vector<Site> m_sites;
@@ -594,10 +602,10 @@ private:
 } // namespace
 
 template <class FaceIndex>
-Snapping_notes snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
-                            const std::vector<char>& is_frozen, double distance,
-                            const std::vector<Index>& transforms, std::size_t obstacle_triangles,
-                            const Scale& scale)
+Snapped_borders snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
+                             const std::vector<char>& is_frozen, double distance,
+                             const std::vector<Index>& transforms, std::size_t obstacle_triangles,
+                             const Scale& scale)
 {
   if (!(std::isfinite(distance) && distance >= 0))
     throw Argument_error("the weld distance must be a finite number, 0 or larger");
@@ -605,9 +613,10 @@ Snapping_notes snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
     return {};
   Border_snapping<FaceIndex> snapping(soup, positions, is_frozen, scale(distance), transforms,
                                       obstacle_triangles, scale);
-  Snapping_notes notes = snapping.run();
-  notes.distance = distance;
-  notes.largest_distance = scale.undone(notes.largest_distance);
+  Snapped_borders result{snapping.run(), {}};
+  result.notes.distance = distance;
+  result.notes.largest_distance = scale.undone(result.notes.largest_distance);
+  result.tied = snapping.tied();
 
   const std::vector<Point_3> points = soup.points;
   std::vector<Index> first_at(points.size(), s_no_place);
@@ -619,34 +628,36 @@ Snapping_notes snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
       first_at[place] = v;
     positions[v] = first_at[place];
   }
-  for (auto& [a, b] : notes.tied) {
+  for (auto& [a, b] : result.tied) {
     a = first_at[a];
     b = first_at[b];
   }
-  return notes;
+  return result;
 }
 
-Border_gaps border_gaps(const Triangle_soup& soup, const std::vector<Index>& positions,
-                        const std::vector<Index>& transforms, std::size_t obstacle_triangles,
-                        const Scale& scale)
+Open_borders find_open_seams(const Triangle_soup& soup, const std::vector<Index>& positions,
+                             const std::vector<Index>& transforms, std::size_t obstacle_triangles,
+                             const Scale& scale)
 {
   const std::vector<char> is_frozen(soup.triangles.size(), false);
-  Border_gaps gaps =
-      Border_snapping<Packed_R_tree>(soup, positions, is_frozen, 0, transforms, obstacle_triangles, scale)
-          .gaps();
+  Border_snapping<Packed_R_tree> snapping(soup, positions, is_frozen, 0, transforms, obstacle_triangles,
+                                          scale);
+  Border_gaps gaps = snapping.gaps();
+  Position_pairs tied = snapping.tied();
   for (double& length : gaps.lengths)
     length = scale.undone(length);
   gaps.limit = scale.undone(gaps.limit);
   if (gaps.clear_length)
     gaps.clear_length = scale.undone(*gaps.clear_length);
-  return gaps;
+  return {std::move(gaps), std::move(tied)};
 }
 
-template Snapping_notes snap_borders<Packed_R_tree>(Triangle_soup&, std::vector<Index>&,
-                                                    const std::vector<char>&, double,
-                                                    const std::vector<Index>&, std::size_t, const Scale&);
-template Snapping_notes snap_borders<Brute_force_index>(Triangle_soup&, std::vector<Index>&,
-                                                        const std::vector<char>&, double,
-                                                        const std::vector<Index>&, std::size_t, const Scale&);
+template Snapped_borders snap_borders<Packed_R_tree>(Triangle_soup&, std::vector<Index>&,
+                                                     const std::vector<char>&, double,
+                                                     const std::vector<Index>&, std::size_t, const Scale&);
+template Snapped_borders snap_borders<Brute_force_index>(Triangle_soup&, std::vector<Index>&,
+                                                         const std::vector<char>&, double,
+                                                         const std::vector<Index>&, std::size_t,
+                                                         const Scale&);
 
 } // namespace selvedge

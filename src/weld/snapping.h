@@ -11,9 +11,27 @@
 #include <selvedge/spatial/Packed_R_tree.h>
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace selvedge {
+
+using Position_pairs = std::vector<std::pair<Index, Index>>;
+
+/// What `snap_borders` did, and the partners that it left apart and that are each the nearest of the other,
+/// frozen or not (`Prepared_soup::tied`).
+struct Snapped_borders
+{
+  Snapping_notes notes;
+  Position_pairs tied;
+};
+
+/// The gaps between borders, and the pairs of partners within the clear length, as in `Snapped_borders`.
+struct Open_borders
+{
+  Border_gaps gaps;
+  Position_pairs tied;
+};
 
 /// Snaps border vertices together, to close seams whose two sides lie within `distance` of each other: of two
 /// partners, one moves to the position of the other.
@@ -62,22 +80,23 @@ namespace selvedge {
 /// **Complexity** O(n log n) for n triangles and, in each round, as many steps as there are pairs of border
 /// vertices within `distance`. There are about as many rounds as pieces that meet in one corner.
 template <class FaceIndex = Packed_R_tree>
-Snapping_notes snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
-                            const std::vector<char>& is_frozen, double distance,
-                            const std::vector<Index>& transforms = {}, std::size_t obstacle_triangles = 0,
-                            const Scale& scale = Scale());
+Snapped_borders snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
+                             const std::vector<char>& is_frozen, double distance,
+                             const std::vector<Index>& transforms = {}, std::size_t obstacle_triangles = 0,
+                             const Scale& scale = Scale());
 
 /// Finds, for every vertex on a border, the least distance within which it has a partner, as `snap_borders`
-/// defines partners, as far as that is at most the median length of border edges; and which length is clear.
-/// Nothing is moved. (A vertex may cease to have a partner within larger distances, because then a short
-/// stretch of border joins the two.) Vertices under different transforms are no partners. Frozen ones may be.
+/// defines partners, as far as that is at most the median length of border edges; which length is clear; and
+/// which pairs of partners within it are each the nearest of the other. Nothing is moved. (A vertex may cease
+/// to have a partner within larger distances, because then a short stretch of border joins the two.) Vertices
+/// under different transforms are no partners. Frozen ones may be.
 ///
 /// **Preconditions** and other parameters as for `snap_borders`. **Exactness** Distances are rounded to
 /// double. **Complexity** O(n log n) for n triangles, and as many steps as there are pairs of border vertices
 /// within twice the lengths found.
-Border_gaps border_gaps(const Triangle_soup& soup, const std::vector<Index>& positions,
-                        const std::vector<Index>& transforms = {}, std::size_t obstacle_triangles = 0,
-                        const Scale& scale = Scale());
+Open_borders find_open_seams(const Triangle_soup& soup, const std::vector<Index>& positions,
+                             const std::vector<Index>& transforms = {}, std::size_t obstacle_triangles = 0,
+                             const Scale& scale = Scale());
 
 } // namespace selvedge
 

@@ -124,6 +124,29 @@ TEST(App_simplify, ClosesSeamsAndLeavesThemSewnWhenAsked)
                  "at least 0");
 }
 
+TEST(App_simplify, HoldsOpenSeamsUnlessToldOtherwise)
+{
+  const Workspace folder;
+  write_text(folder / "in.obj", two_squares());
+  const auto tied = [&](std::vector<std::string> options, const std::string& says) {
+    options.insert(options.begin(), {"simplify", folder / "in.obj", "-o", folder / "out.obj", "--ratio",
+                                     "0.5", "--report", folder / "r.json"});
+    const App_result result = run_app(options);
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_NE(result.out.find(says), std::string::npos) << result.out;
+    return Json::parse(contents_of(folder / "r.json"))["snap"]["tied"].get<int>();
+  };
+  const std::string holds = "; they get no wider, and --weld auto closes them\n";
+  EXPECT_EQ(tied({}, holds), 3);
+  EXPECT_EQ(tied({"--weld", "hold"}, holds), 3);
+  EXPECT_EQ(tied({"--weld", "none"}, "; --weld auto closes them\n"), 0);
+  EXPECT_EQ(tied({"--loop", "cgal"}, "; --weld auto closes them\n"), 0);
+  EXPECT_EQ(tied({"--quiet"}, ""), 3) << "the result does not depend on what is printed";
+  expect_refused({"simplify", folder / "in.obj", "-o", folder / "o.obj", "--ratio", "1", "--weld", "hold",
+                  "--loop", "cgal"},
+                 2, "--weld hold");
+}
+
 TEST(App_simplify, GoesThroughEveryFormat)
 {
   const Workspace folder;

@@ -44,10 +44,10 @@ Triangle_soup hills(double x = 0, double y = 0, double z = 0)
 }
 
 /// The hills in several nodes.
-Triangle_soup in_places(const std::vector<Json>& nodes)
+Triangle_soup in_places(const std::vector<Json>& nodes, const Triangle_soup& mesh = hills())
 {
   const Temporary_folder folder;
-  write_mesh(folder / "a.gltf", hills());
+  write_mesh(folder / "a.gltf", mesh);
   Json json = Json::parse(read_file(folder / "a.gltf"));
   json["nodes"] = nodes;
   json["scenes"][0]["nodes"] = Json::array();
@@ -99,6 +99,29 @@ TEST(Instances, AreReducedOnceAndJudgedInEveryPlace)
   // By themselves, the flatter place comes out otherwise.
   const Logged_reduction apart = reduce_and_log(soup, as_far_as_possible(Instances::apart));
   EXPECT_GT(meshes(apart.simplified.soup), 1u);
+}
+
+TEST(Instances, GapsThatAreHeldDoNotSetPlacesApart)
+{
+  Triangle_soup mirrored =
+      mapped(hills(), [](const Point_3& p) { return Point_3(p.x(), s_side / 8. + 1 / 64. - p.y(), p.z()); });
+  for (Index_triple& triangle : mirrored.triangles)
+    std::swap(triangle[1], triangle[2]);
+  const Triangle_soup soup = in_places(s_far_apart, joined(hills(), mirrored));
+  Prepare_options options;
+  options.open_seams = Open_seams::hold;
+  Prepared_soup prepared = prepare(soup, options);
+  ASSERT_FALSE(prepared.tied.empty());
+  const Simplified_soup shared = simplify_soup(prepared, as_far_as_possible(Instances::shared));
+  const Simplified_soup apart = simplify_soup(prepared, as_far_as_possible(Instances::apart));
+  EXPECT_EQ(shared.shared_meshes, 1u);
+  EXPECT_EQ(shared.apart_meshes, 0u);
+  prepared.tied.clear();
+  EXPECT_EQ(simplify_soup(prepared, as_far_as_possible(Instances::shared)).soup.triangles,
+            shared.soup.triangles)
+      << "they are not held there";
+  EXPECT_NE(simplify_soup(prepared, as_far_as_possible(Instances::apart)).soup.triangles,
+            apart.soup.triangles);
 }
 
 TEST(Instances, WhatOnePlaceRefusesIsDoneInNone)

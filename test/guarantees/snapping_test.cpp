@@ -204,7 +204,7 @@ TEST(Snapping, SidesThatStayApartLeaveTogether)
   Prepared_soup prepared = snapped(seam_that_stays_open(), 0.125);
   EXPECT_EQ(prepared.snapping.snapped, 0u);
   EXPECT_EQ(prepared.snapping.left_blocked, 82u);
-  EXPECT_EQ(prepared.snapping.tied.size(), 41u);
+  EXPECT_EQ(prepared.tied.size(), 41u);
   const auto sides = [&](const Simplify_options& options) {
     const Simplified_soup result = simplify_soup(prepared, options);
     EXPECT_EQ(result.report.left_alone, 0u);
@@ -224,15 +224,92 @@ TEST(Snapping, SidesThatStayApartLeaveTogether)
     EXPECT_LT(left.size(), 35u);
     EXPECT_EQ(left, right);
   }
-  prepared.snapping.tied.clear();
+  prepared.tied.clear();
   const auto [left, right] = sides(options);
   EXPECT_NE(left, right) << "as strangers, they go their own ways";
+}
+
+/// The same without the sheet in the gap, which is from x = 3 to 3.125.
+Triangle_soup open_seam()
+{
+  Triangle_soup soup = seam_that_stays_open();
+  soup.triangles.pop_back();
+  return soup;
+}
+
+Prepare_options with_seams(Open_seams open_seams)
+{
+  Prepare_options options;
+  options.open_seams = open_seams;
+  return options;
+}
+
+TEST(Snapping, OpenSeamsThatAreHeldGetNoWider)
+{
+  const auto width = [](const Simplified_soup& result) {
+    std::array<std::vector<Point_3>, 2> sides;
+    for (const Point_3& p : result.soup.points)
+      if (p.x() == 3 || p.x() == 3.125)
+        sides[p.x() == 3 ? 0 : 1].push_back(p);
+    double widest = 0;
+    for (auto& side : sides)
+      std::sort(side.begin(), side.end(), [](const auto& p, const auto& q) { return p.y() < q.y(); });
+    for (const int side : {0, 1})
+      for (const Point_3& p : sides[side]) {
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 1; i < sides[1 - side].size(); ++i)
+          least = std::min(least, CGAL::squared_distance(
+                                      p, Kernel::Segment_3(sides[1 - side][i - 1], sides[1 - side][i])));
+        widest = std::max(widest, std::sqrt(least));
+      }
+    return widest;
+  };
+  // Where two vertices face each other, they are at most so far apart.
+  const double gap = std::hypot(0.125, 0.1);
+  for (const double ratio : {0.5, 0.2, 0.1}) {
+    const Prepared_soup held = prepare(open_seam(), with_seams(Open_seams::hold));
+    EXPECT_EQ(held.tied.size(), 41u);
+    EXPECT_EQ(held.snapping.distance, 0);
+    EXPECT_EQ(held.soup.points, open_seam().points);
+    const Simplified_soup result = simplify_soup(held, to_ratio(ratio));
+    EXPECT_EQ(result.report.left_alone, 0u);
+    EXPECT_LE(width(result), gap * (1 + 1e-12));
+    const Prepared_soup ignored = prepare(open_seam(), with_seams(Open_seams::ignore));
+    EXPECT_TRUE(ignored.tied.empty());
+    EXPECT_GT(width(simplify_soup(ignored, to_ratio(ratio))), gap);
+  }
+}
+
+TEST(Snapping, GapsAreHeldOrClosedUpToALengthThatIsEitherFoundOrGiven)
+{
+  for (const Open_seams open_seams : {Open_seams::hold, Open_seams::weld}) {
+    Prepare_options options = with_seams(open_seams);
+    options.weld_distance = 0.125;
+    EXPECT_THROW(prepare(open_seam(), options), Argument_error);
+  }
+  EXPECT_TRUE(prepare(open_seam(), with_seams(Open_seams::measure)).tied.empty());
+  EXPECT_EQ(prepare(open_seam(), with_seams(Open_seams::measure)).border_gaps.within_clear_length, 82u);
+  EXPECT_GT(prepare(open_seam(), with_seams(Open_seams::weld)).snapping.snapped, 0u);
+}
+
+TEST(Snapping, WhatHoldsAGapIsAReasonOfItsOwn)
+{
+  Prepared_soup prepared = prepare(open_seam(), with_seams(Open_seams::hold));
+  const auto held_back = [&] {
+    Simplify_options options = to_ratio(0);
+    options.max_border_turn = 180;
+    options.max_normal_change = 180;
+    return simplify_soup(prepared, options).report.hindrances[Hindrance::gap];
+  };
+  EXPECT_GT(held_back(), 0u);
+  prepared.tied.clear();
+  EXPECT_EQ(held_back(), 0u);
 }
 
 TEST(Snapping, ATiedVertexStaysWhereItsPartnerCannotFollow)
 {
   Prepared_soup prepared = snapped(seam_that_stays_open(), 0.125);
-  auto& tied = prepared.snapping.tied;
+  auto& tied = prepared.tied;
   std::set<double> places; // along the seam, of every second pair: their neighbours are free
   for (std::size_t i = tied.size(); i-- > 0;)
     if (const double y = prepared.soup.points[tied[i].first].y(); std::fmod(y, 2) == 0)
@@ -304,8 +381,9 @@ TEST(Snapping, IndexDoesNotMatter)
     for (const double distance : {0.5 * s_hair, 1e-3, 1e-2}) {
       std::vector<Index> fast_positions = number_positions(fast.points), slow_positions = fast_positions;
       const std::vector<char> is_frozen(fast.triangles.size(), false);
-      const Snapping_notes a = snap_borders(fast, fast_positions, is_frozen, distance);
-      const Snapping_notes b = snap_borders<Brute_force_index>(slow, slow_positions, is_frozen, distance);
+      const Snapping_notes a = snap_borders(fast, fast_positions, is_frozen, distance).notes;
+      const Snapping_notes b =
+          snap_borders<Brute_force_index>(slow, slow_positions, is_frozen, distance).notes;
       ASSERT_EQ(a.snaps.size(), b.snaps.size());
       for (std::size_t i = 0; i < a.snaps.size(); ++i) {
         EXPECT_EQ(a.snaps[i].from, b.snaps[i].from);

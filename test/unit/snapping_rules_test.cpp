@@ -48,14 +48,14 @@ Snapped snap(Triangle_soup soup, const std::set<Index>& frozen = {}, double dist
   std::vector<char> is_frozen(soup.triangles.size(), false);
   for (const Index t : frozen)
     is_frozen[t] = true;
-  Snapping_notes notes = snap_borders(soup, positions, is_frozen, distance);
+  Snapping_notes notes = snap_borders(soup, positions, is_frozen, distance).notes;
   EXPECT_EQ(positions, number_positions(soup.points));
   return {std::move(soup), std::move(positions), std::move(notes)};
 }
 
 Border_gaps gaps_of(const Triangle_soup& soup)
 {
-  return border_gaps(soup, number_positions(soup.points));
+  return find_open_seams(soup, number_positions(soup.points)).gaps;
 }
 
 TEST(Border_gaps, AreTheLeastDistancesAtWhichPartnersSnap)
@@ -185,12 +185,12 @@ TEST(Snapping_rules, OnlyUnderOneTransform)
   const std::vector<char> is_frozen(soup.triangles.size(), false);
   std::vector<Index> transforms(soup.points.size(), 7);
   std::fill(transforms.begin() + 16, transforms.end(), Index(8));
-  const Snapping_notes apart = snap_borders(soup, positions, is_frozen, s_distance, transforms);
+  const Snapping_notes apart = snap_borders(soup, positions, is_frozen, s_distance, transforms).notes;
   EXPECT_EQ(apart.left_foreign, 8u);
   EXPECT_TRUE(apart.snaps.empty());
   EXPECT_EQ(soup.points, two_sheets().points);
   std::fill(transforms.begin() + 16, transforms.end(), Index(7));
-  EXPECT_EQ(snap_borders(soup, positions, is_frozen, s_distance, transforms).snapped, 8u);
+  EXPECT_EQ(snap_borders(soup, positions, is_frozen, s_distance, transforms).notes.snapped, 8u);
 }
 
 TEST(Snapping_rules, WhatLiesInTheGapIsNotPassed)

@@ -56,7 +56,7 @@ Prepare_options World::prepare_options() const
   prepare.round_to_float32 = needs_float32(soup, output_format);
   prepare.defects = defects;
   prepare.weld_distance = weld_distance;
-  prepare.weld_clear_gaps = are_clear_gaps_welded;
+  prepare.open_seams = open_seams;
   prepare.normals = normals;
   prepare.orient = are_faces_oriented;
   prepare.may_intersect = may_intersect;
@@ -91,7 +91,7 @@ void write_world(const World& world, const std::filesystem::path& folder)
                      {"sewn", world.is_sewn},
                      {"defects", name_of(world.defects)},
                      {"weld", world.weld_distance},
-                     {"weld_auto", world.are_clear_gaps_welded},
+                     {"open_seams", world.open_seams},
                      {"normals", name_of(world.normals)},
                      {"orient", world.are_faces_oriented},
                      {"may_intersect", world.may_intersect},
@@ -155,7 +155,9 @@ World read_world(const std::filesystem::path& folder)
     if (defects == name_of(choice))
       world.defects = choice;
   world.weld_distance = json["weld"];
-  world.are_clear_gaps_welded = json.value("weld_auto", false);
+  // Worlds of earlier versions say only whether they are welded.
+  world.open_seams =
+      json.value("open_seams", json.value("weld_auto", false) ? Open_seams::weld : Open_seams::ignore);
   const std::string normals = json.value("normals", "keep"); // worlds of earlier versions have none
   for (const Normals_choice choice : {Normals_choice::automatic, Normals_choice::keep, Normals_choice::loose,
                                       Normals_choice::recompute, Normals_choice::drop})
@@ -256,8 +258,10 @@ std::string command_line(const World& world)
   add_if_other("--stabiliser", options.cost.stabiliser, plain.cost.stabiliser);
   add_if_other("--memory", options.cost.memory, plain.cost.memory);
   add_if_other("--weld", world.weld_distance, 0);
-  if (world.are_clear_gaps_welded)
+  if (world.open_seams == Open_seams::weld)
     add("--weld", "auto");
+  if (world.open_seams == Open_seams::ignore && world.weld_distance == 0)
+    add("--weld", "none");
   if (world.normals != Normals_choice::automatic)
     add("--normals", name_of(world.normals));
   if (!world.are_faces_oriented)

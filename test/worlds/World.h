@@ -33,7 +33,7 @@ struct World
   bool is_sewn = false; ///< the file has one number for what lies at one position
   Defects defects = Defects::freeze;
   double weld_distance = 0;
-  bool are_clear_gaps_welded = false; ///< then the distance is 0
+  Open_seams open_seams = Open_seams::ignore; ///< if the distance is not 0, they are ignored
   Normals_choice normals = Normals_choice::automatic;
   bool are_faces_oriented = true;
   std::vector<std::pair<std::string, std::string>> may_intersect; ///< names of objects

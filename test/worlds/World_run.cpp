@@ -78,10 +78,10 @@ World_run run(const World& world)
     return run;
   const Prepare_options prepare_options = world.prepare_options();
   run.unsnapped = run.prepared;
-  if (world.weld_distance > 0 || world.are_clear_gaps_welded) {
+  if (world.weld_distance > 0 || world.open_seams == Open_seams::weld) {
     Prepare_options without = prepare_options;
     without.weld_distance = 0;
-    without.weld_clear_gaps = false;
+    without.open_seams = Open_seams::ignore;
     run.unsnapped = prepare(input_of(world), without, world.obstacle);
   }
 

@@ -230,8 +230,8 @@ Verdict judge_preparation(const World& world, const World_run& run, const Expect
 Verdict judge_snaps(const World& world, const World_run& run, Judged_complex& complex, std::size_t& count)
 {
   const double distance = run.prepared.snapping.distance;
-  if (distance !=
-      (world.are_clear_gaps_welded ? run.prepared.border_gaps.clear_length.value_or(0) : world.weld_distance))
+  if (distance != (world.open_seams == Open_seams::weld ? run.prepared.border_gaps.clear_length.value_or(0)
+                                                        : world.weld_distance))
     return Broken_promise{Promise::seams, "the distance of snaps is not the one that was asked for"};
   for (const Snap& snap : run.prepared.snapping.snaps) {
     const Index from = complex.position(snap.from), to = complex.position(snap.to);

@@ -99,6 +99,25 @@ Verdict judge_collapses(const World_run& run, Judged_complex& complex, Judgement
   return std::nullopt;
 }
 
+/// Vertices on the two sides of a gap go together: the report counts those whose partners went without them.
+Verdict judge_ties(const World& world, const World_run& run)
+{
+  if (world.options.loop != Collapse_loop::own || run.result.shared_meshes > 0)
+    return std::nullopt;
+  std::set<Index> gone; // positions
+  for (const Soup_collapse& collapse : run.collapses)
+    gone.insert(run.prepared.positions[collapse.removed]);
+  const auto alone =
+      std::size_t(std::count_if(run.prepared.tied.begin(), run.prepared.tied.end(), [&](const auto& pair) {
+        return gone.count(pair.first) != gone.count(pair.second);
+      }));
+  if (alone != run.result.report.left_alone)
+    return Broken_promise{Promise::seams, std::to_string(alone) +
+                                              " vertices are left whose partners across a gap are gone, " +
+                                              std::to_string(run.result.report.left_alone) + " are reported"};
+  return std::nullopt;
+}
+
 /// One reduction of what is prepared; the complex is as it was before it.
 Verdict judge_reduction(const World& world, const World_run& run, Judged_complex complex,
                         Judgement_counts& counts)
@@ -127,6 +146,8 @@ Verdict judge_reduction(const World& world, const World_run& run, Judged_complex
   turn_faces(); // the result has the winding of the input
   if (auto broken = judge_attributes(world, run, complex, regions, is_held))
     return broken;
+  if (auto broken = judge_ties(world, run))
+    return broken;
   if (auto broken = judge_pieces(run))
     return broken;
   if (auto broken = judge_sharing(run))
@@ -137,6 +158,8 @@ Verdict judge_reduction(const World& world, const World_run& run, Judged_complex
     ++counts.options["mended_normals"];
   if (run.prepared.normals == Normals_treatment::picked && !run.collapses.empty())
     ++counts.options["picked_normals"];
+  if (!run.prepared.tied.empty() && !run.collapses.empty())
+    ++counts.options["ties"];
   if (run.prepared.doubles() > 0 && !run.collapses.empty())
     ++counts.options["doubles"];
   if (auto broken = judge_stop(world, run))

@@ -384,7 +384,8 @@ void add_poses(World& world)
     }
   }
   world.weld_distance = 0;
-  world.are_clear_gaps_welded = false;
+  if (world.open_seams == Open_seams::weld)
+    world.open_seams = Open_seams::hold;
   world.is_sewn = false;
 }
 
@@ -410,7 +411,7 @@ void choose_clearance(World& world, std::uint64_t number)
 {
   const std::vector<Point_3>& points = world.soup.points;
   if (world.seed % 3 != 0 || world.options.faces_per_cell > 0 || !world.may_intersect.empty() ||
-      world.weld_distance > 0 || world.are_clear_gaps_welded || points.empty())
+      world.weld_distance > 0 || world.open_seams == Open_seams::weld || points.empty())
     return;
   Random random(world.seed + 7 + number);
   const double size = diagonal(world.soup);
@@ -495,7 +496,10 @@ World random_world(std::uint64_t seed)
   if (!std::isfinite(world.weld_distance))
     world.weld_distance = 0;
   // No random number, so that worlds of earlier versions stay what they were.
-  world.are_clear_gaps_welded = world.weld_distance == 0 && world.seed % 4 == 1;
+  if (world.weld_distance == 0)
+    world.open_seams = world.seed % 4 == 1   ? Open_seams::weld
+                       : world.seed % 4 == 2 ? Open_seams::ignore
+                                             : Open_seams::hold;
   world.are_faces_oriented = world.seed % 8 != 5;
   world.options.instances = world.seed % 16 == 2 ? Instances::apart : Instances::shared;
   if (!world.soup.normals.empty())
@@ -522,7 +526,7 @@ World random_world(std::uint64_t seed)
   fit_options_to_poses(world);
   // Cells refuse the option, and snaps may join the two parts.
   if (world.seed % 3 != 0 && world.input_format == Mesh_format::obj && world.options.faces_per_cell == 0 &&
-      world.weld_distance == 0 && !world.are_clear_gaps_welded)
+      world.weld_distance == 0 && world.open_seams != Open_seams::weld)
     let_objects_intersect(world);
   choose_clearance(world, 0);
   return world;

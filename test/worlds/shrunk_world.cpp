@@ -98,7 +98,7 @@ private:
     set<double>([](World& w) -> double& { return w.options.cost.stabiliser; }, plain.cost.stabiliser);
     set<double>([](World& w) -> double& { return w.options.cost.memory; }, plain.cost.memory);
     set<double>([](World& w) -> double& { return w.weld_distance; }, 0);
-    set<bool>([](World& w) -> bool& { return w.are_clear_gaps_welded; }, false);
+    set<Open_seams>([](World& w) -> Open_seams& { return w.open_seams; }, Open_seams::ignore);
     set<bool>([](World& w) -> bool& { return w.are_faces_oriented; }, false);
     set<Normals_choice>([](World& w) -> Normals_choice& { return w.normals; }, Normals_choice::keep);
     set<bool>([](World& w) -> bool& { return w.is_sewn; }, false);

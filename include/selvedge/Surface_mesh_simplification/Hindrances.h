@@ -22,12 +22,12 @@ enum class Hindrance : unsigned char {
   group,        ///< the vertex would leave a line between groups, objects or materials
   texture,      ///< the vertex would leave a line across which texture coordinates differ
   normals,      ///< the vertex could go if no edge were a line because of its normals alone
-  line_end,     ///< the vertex is an end, a junction or a corner face of borders and seams, or is tied to a
-                ///< partner across a gap that has no way to go along
+  line_end,     ///< the vertex is an end, a junction or a corner face of borders and seams
   border_turn,  ///< a border turns too much at the vertex
   seam_turn,    ///< a seam turns too much at the vertex
   drift,        ///< a border or seam would come too far from where it was
   topology,     ///< a piece would lose a hole or vanish, or the surface would touch itself
+  gap,          ///< the vertex has a partner across a gap that has no way to go along
   target,       ///< a part that has reached its own ratio would lose a face
   aspect_ratio, ///< a face would become too thin
   normal_change, ///< the normal of a face would turn too much
@@ -80,6 +80,7 @@ public:
              {Hindrance::seam_turn, "seam_turn", "the turn of seams", "border"},
              {Hindrance::drift, "drift", "the drift of borders and seams", "border"},
              {Hindrance::topology, "topology", "topology", "topology"},
+             {Hindrance::gap, "gap", "gaps that would get wider", "border"},
              {Hindrance::target, "target", "parts at their target", "target"},
              {Hindrance::aspect_ratio, "aspect_ratio", "the shape of faces", "aspect_ratio"},
              {Hindrance::normal_change, "normal_change", "the turn of normals", "normal_change"},

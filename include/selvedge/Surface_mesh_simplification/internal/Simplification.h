@@ -531,7 +531,7 @@ private:
     if (!m_pieces.accepts(collapse))
       return Hindrance::topology;
     if (!m_border.accepts(collapse))
-      return Hindrance::line_end;
+      return Hindrance::gap;
     if (!m_target.accepts(collapse))
       return Hindrance::target;
     if (!m_aspect_ratio.accepts(collapse))
