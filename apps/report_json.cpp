@@ -247,6 +247,7 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
                     {"seam_edges", snap.seam_edges},
                     {"largest_distance", snap.largest_distance},
                     {"tied", prepared.tied.size()},
+                    {"facing", prepared.facing.size()},
                     {"left_alone", done.left_alone}};
   report["rounding"] = {{"coordinates", prepared.rounding.coordinates},
                         {"vertices", prepared.rounding.vertices},

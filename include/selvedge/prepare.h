@@ -34,7 +34,7 @@ const char* name_of(Defects defects);
 enum class Open_seams {
   ignore,  ///< nothing; the two sides of a gap are reduced as separate borders
   measure, ///< they are measured alone: `Prepared_soup::border_gaps`
-  hold,    ///< they stay where they are and get no wider: their sides are *tied* (`Prepared_soup::tied`)
+  hold,    ///< they stay where they are, and are kept from getting wider: `Prepared_soup::tied`, `facing`
   weld     ///< they are closed: the clear length takes the place of `Prepare_options::weld_distance`
 };
 
@@ -89,8 +89,7 @@ struct Prepare_options
   /// Vertices under different transforms of a glTF scene are not joined. A vertex whose snap is refused stays
   /// where it is; `Prepared_soup::snapping` counts such vertices by reason.
   ///
-  /// **What stays open** Partners that choose each other in the end, be they frozen, are tied:
-  /// `Prepared_soup::tied`.
+  /// **What stays open** Gaps that are left are held: `Prepared_soup::tied`, `facing`.
   ///
   /// **Exactness** Distances, which choose what is tried, are rounded to double. **Complexity** O(n log n)
   /// for n triangles; in every round, as many steps as there are pairs of border vertices within this
@@ -207,6 +206,12 @@ struct Prepared_soup
   /// apart than the pairs of vertices that are left. (The own loop only. A partner that is refused once the
   /// first has gone tries again later; `Simplify_report::left_alone` counts those left in the end.)
   std::vector<std::pair<Index, Index>> tied;
+
+  /// Positions on borders at the same gaps that are tied to none: within the clear length, or the weld
+  /// distance, of an edge of another border at which the surface continues, as at a seam whose two sides have
+  /// other numbers of vertices. Each is given by its first vertex. There, a reduction lets borders drift by a
+  /// tenth of `Simplify_options::max_border_drift`.
+  std::vector<Index> facing;
 
   double seconds_positions = 0; ///< for rounding, and finding coincident vertices
   double seconds_check = 0;     ///< for judging

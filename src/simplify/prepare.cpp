@@ -454,7 +454,7 @@ private:
           find_open_seams(soup(), m_prepared.positions, transforms, obstacle_triangles, m_prepared.scale);
       m_prepared.border_gaps = std::move(open.gaps);
       if (m_options.open_seams == Open_seams::hold)
-        m_prepared.tied = std::move(open.tied);
+        hold(std::move(open.left));
       if (m_options.open_seams == Open_seams::weld)
         distance = m_prepared.border_gaps.clear_length.value_or(0);
     }
@@ -462,9 +462,15 @@ private:
       Snapped_borders snapped = snap_borders(soup(), m_prepared.positions, stays, distance, transforms,
                                              obstacle_triangles, m_prepared.scale);
       m_prepared.snapping = std::move(snapped.notes);
-      m_prepared.tied = std::move(snapped.tied);
+      hold(std::move(snapped.left));
     }
     forget_moved_polygons(soup(), points_before);
+  }
+
+  void hold(Gaps_left left)
+  {
+    m_prepared.tied = std::move(left.tied);
+    m_prepared.facing = std::move(left.facing);
   }
 
   // Nothing is sewn to the obstacle, so its triangles need not be asked.

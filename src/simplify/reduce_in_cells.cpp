@@ -314,14 +314,17 @@ Cell_collapses reduce_in_cells(const Cell_context& whole)
       for (const auto f : whole.working.mesh().faces_around_target(whole.working.mesh().halfedge(v)))
         if (f != Working_mesh::Mesh::null_face())
           stays[f] = true;
-  // Partners leave their borders together, and may lie in two cells.
-  if (!prepared.tied.empty()) {
-    std::vector<char> is_tied(prepared.soup.points.size(), false); // by position
+  // Partners leave their borders together, and may lie in two cells. Other vertices at gaps have limits that
+  // cells do not know.
+  if (!prepared.tied.empty() || !prepared.facing.empty()) {
+    std::vector<char> is_at_gap(prepared.soup.points.size(), false); // by position
     for (const auto& [a, b] : prepared.tied)
-      is_tied[a] = is_tied[b] = true;
+      is_at_gap[a] = is_at_gap[b] = true;
+    for (const Index position : prepared.facing)
+      is_at_gap[position] = true;
     for (Index t = 0; t < prepared.soup.triangles.size(); ++t)
       for (const Index v : prepared.soup.triangles[t])
-        stays[t] |= is_tied[prepared.positions[v]];
+        stays[t] |= is_at_gap[prepared.positions[v]];
   }
   // The places of a shared mesh lie in several cells.
   for (Index t = 0; t < prepared.soup.triangles.size(); ++t)

@@ -130,7 +130,7 @@ private:
     }
     const std::vector<Index> of_soup = m_working.vertices_of_soup(m_prepared.obstacle);
     if (m_options.loop == Collapse_loop::own)
-      tie(constraints.partners, of_soup);
+      hold_gaps(constraints, of_soup);
     pose(constraints, of_soup);
     if (m_options.instances == Instances::shared && m_options.loop == Collapse_loop::own &&
         soup.poses.empty())
@@ -245,18 +245,17 @@ private:
         partners.end());
   }
 
-  void
-  tie(std::vector<std::pair<Working_mesh::Mesh::Vertex_index, Working_mesh::Mesh::Vertex_index>>& partners,
-      const std::vector<Index>& of_soup)
+  void hold_gaps(Simplify_constraints<Working_mesh::Mesh>& constraints, const std::vector<Index>& of_soup)
   {
-    const auto& tied = m_prepared.tied;
-    if (tied.empty())
+    if (m_prepared.tied.empty() && m_prepared.facing.empty())
       return;
     std::vector<Working_mesh::Mesh::Vertex_index> vertices(m_prepared.positions.size()); // by position
     for (const auto v : m_working.mesh().vertices())
       vertices[m_prepared.positions[of_soup[v]]] = v;
-    for (const auto& pair : tied)
-      partners.emplace_back(vertices[pair.first], vertices[pair.second]);
+    for (const auto& [a, b] : m_prepared.tied)
+      constraints.partners.emplace_back(vertices[a], vertices[b]);
+    for (const Index position : m_prepared.facing)
+      constraints.facing_vertices.push_back(vertices[position]);
   }
 
   // Puts the mesh into the further poses of the soup that are guarded.

@@ -17,6 +17,7 @@
 #include <cstring>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -73,13 +74,32 @@ public:
     return std::move(m_notes);
   }
 
-  /// Returns the pairs of positions that name each other, frozen or not.
-  Position_pairs tied()
+  /// Returns what is open within the distance.
+  Gaps_left left()
   {
-    Position_pairs tied;
-    for (const Pair& pair : mutual_partners(true))
-      tied.emplace_back(m_sites[pair.low].position, m_sites[pair.high].position);
-    return tied;
+    Gaps_left left;
+    std::vector<char> is_tied(m_sites.size(), false);
+    for (const Pair& pair : mutual_partners(true)) {
+      left.tied.emplace_back(m_sites[pair.low].position, m_sites[pair.high].position);
+      is_tied[pair.low] = is_tied[pair.high] = true;
+    }
+    std::vector<Index> numbers(m_sides.size());
+    std::iota(numbers.begin(), numbers.end(), Index(0));
+    FaceIndex sides;
+    sides.build(numbers, [&](Index side) { return segment(side).bbox(); });
+    Cancellation_poll poll;
+    for (Index i = 0; i < m_sites.size(); ++i) {
+      if (is_tied[i] || m_sites[i].next.empty())
+        continue;
+      bool is_facing = false;
+      sides.visit_overlapping(box_around(point(m_sites[i]), m_distance), [&](Index side) {
+        poll();
+        is_facing = is_facing || is_facing_side(i, side);
+      });
+      if (is_facing)
+        left.facing.push_back(m_sites[i].position);
+    }
+    return left;
   }
 
   /// Looks for partners without snapping any. The clear length, or 0, becomes the distance.
@@ -266,20 +286,23 @@ private:
     return index;
   }
 
+  // Returns a box that reaches a little farther than the distance, so that rounding loses nothing.
+  static CGAL::Bbox_3 box_around(const Point_3& p, double distance)
+  {
+    const double reach = 1.001 * distance;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const auto low = [&](double x) { return std::nextafter(x - reach, -infinity); };
+    const auto high = [&](double x) { return std::nextafter(x + reach, infinity); };
+    return {low(p.x()), low(p.y()), low(p.z()), high(p.x()), high(p.y()), high(p.z())};
+  }
+
   // Calls function(j) for each other site j on a border within a distance of a site, unless the two have a
   // common face.
   template <class Function>
   void visit_near(const FaceIndex& index, Index i, double within, const Function& function) const
   {
     const Site& site = m_sites[i];
-    // A little more than the distance, so that rounding loses no partner.
-    const Point_3& p = point(site);
-    const double reach = 1.001 * within;
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    const auto low = [&](double x) { return std::nextafter(x - reach, -infinity); };
-    const auto high = [&](double x) { return std::nextafter(x + reach, infinity); };
-    const CGAL::Bbox_3 box(low(p.x()), low(p.y()), low(p.z()), high(p.x()), high(p.y()), high(p.z()));
-    index.visit_overlapping(box, [&](Index j) {
+    index.visit_overlapping(box_around(point(site), within), [&](Index j) {
       if (i != j && distance(site, m_sites[j]) <= within && !have_common_face(site, m_sites[j]))
         function(j);
     });
@@ -355,6 +378,24 @@ private:
       for (const Index q : b.previous)
         least = (std::min)(least, p == q ? 0 : distance(m_sites[p], m_sites[q]));
     return least;
+  }
+
+  Kernel::Segment_3 segment(Index side) const
+  {
+    return {m_points[m_sides[side][0]], m_points[m_sides[side][1]]};
+  }
+
+  // Whether a site is within the distance of a side at which the surface continues.
+  bool is_facing_side(Index i, Index side) const
+  {
+    const std::array<Index, 2> ends = {m_site_at[m_sides[side][0]], m_site_at[m_sides[side][1]]};
+    const auto is_apart = [&](Index j) {
+      return j != i && m_sites[j].transform == m_sites[i].transform &&
+             !have_common_face(m_sites[i], m_sites[j]) && !is_shortly_followed(i, j, m_distance) &&
+             !is_shortly_followed(j, i, m_distance);
+    };
+    return is_apart(ends[0]) && is_apart(ends[1]) && (is_continued(i, ends[0]) || is_continued(i, ends[1])) &&
+           CGAL::squared_distance(point(m_sites[i]), segment(side)) <= m_distance * m_distance;
   }
 
   double median_border_edge() const
@@ -613,10 +654,11 @@ Snapped_borders snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
     return {};
   Border_snapping<FaceIndex> snapping(soup, positions, is_frozen, scale(distance), transforms,
                                       obstacle_triangles, scale);
-  Snapped_borders result{snapping.run(), {}};
+  Snapped_borders result;
+  result.notes = snapping.run();
   result.notes.distance = distance;
   result.notes.largest_distance = scale.undone(result.notes.largest_distance);
-  result.tied = snapping.tied();
+  result.left = snapping.left();
 
   const std::vector<Point_3> points = soup.points;
   std::vector<Index> first_at(points.size(), s_no_place);
@@ -628,10 +670,12 @@ Snapped_borders snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
       first_at[place] = v;
     positions[v] = first_at[place];
   }
-  for (auto& [a, b] : result.tied) {
+  for (auto& [a, b] : result.left.tied) {
     a = first_at[a];
     b = first_at[b];
   }
+  for (Index& position : result.left.facing)
+    position = first_at[position];
   return result;
 }
 
@@ -643,13 +687,13 @@ Open_borders find_open_seams(const Triangle_soup& soup, const std::vector<Index>
   Border_snapping<Packed_R_tree> snapping(soup, positions, is_frozen, 0, transforms, obstacle_triangles,
                                           scale);
   Border_gaps gaps = snapping.gaps();
-  Position_pairs tied = snapping.tied();
+  Gaps_left left = snapping.left();
   for (double& length : gaps.lengths)
     length = scale.undone(length);
   gaps.limit = scale.undone(gaps.limit);
   if (gaps.clear_length)
     gaps.clear_length = scale.undone(*gaps.clear_length);
-  return {std::move(gaps), std::move(tied)};
+  return {std::move(gaps), std::move(left)};
 }
 
 template Snapped_borders snap_borders<Packed_R_tree>(Triangle_soup&, std::vector<Index>&,

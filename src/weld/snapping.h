@@ -16,21 +16,27 @@
 
 namespace selvedge {
 
-using Position_pairs = std::vector<std::pair<Index, Index>>;
+/// What is left open within a distance: partners that are each the nearest of the other, frozen or not
+/// (`Prepared_soup::tied`), and the positions in no such pair that are within the distance of an edge of
+/// another border at which the surface continues (`Prepared_soup::facing`).
+struct Gaps_left
+{
+  std::vector<std::pair<Index, Index>> tied;
+  std::vector<Index> facing;
+};
 
-/// What `snap_borders` did, and the partners that it left apart and that are each the nearest of the other,
-/// frozen or not (`Prepared_soup::tied`).
+/// What `snap_borders` did, and what it left open within the weld distance.
 struct Snapped_borders
 {
   Snapping_notes notes;
-  Position_pairs tied;
+  Gaps_left left;
 };
 
-/// The gaps between borders, and the pairs of partners within the clear length, as in `Snapped_borders`.
+/// The gaps between borders, and what is open within the clear length.
 struct Open_borders
 {
   Border_gaps gaps;
-  Position_pairs tied;
+  Gaps_left left;
 };
 
 /// Snaps border vertices together, to close seams whose two sides lie within `distance` of each other: of two
@@ -87,9 +93,9 @@ Snapped_borders snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
 
 /// Finds, for every vertex on a border, the least distance within which it has a partner, as `snap_borders`
 /// defines partners, as far as that is at most the median length of border edges; which length is clear; and
-/// which pairs of partners within it are each the nearest of the other. Nothing is moved. (A vertex may cease
-/// to have a partner within larger distances, because then a short stretch of border joins the two.) Vertices
-/// under different transforms are no partners. Frozen ones may be.
+/// what is open within it. Nothing is moved. (A vertex may cease to have a partner within larger distances,
+/// because then a short stretch of border joins the two.) Vertices under different transforms are no
+/// partners. Frozen ones may be.
 ///
 /// **Preconditions** and other parameters as for `snap_borders`. **Exactness** Distances are rounded to
 /// double. **Complexity** O(n log n) for n triangles, and as many steps as there are pairs of border vertices

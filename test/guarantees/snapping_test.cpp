@@ -244,26 +244,30 @@ Prepare_options with_seams(Open_seams open_seams)
   return options;
 }
 
+/// Returns how far vertices at the plane x = left are at most from the border at x = right, and the other way
+/// round.
+double width_of_gap(const Triangle_soup& soup, double left, double right)
+{
+  std::array<std::vector<Point_3>, 2> sides;
+  for (const Point_3& p : soup.points)
+    if (p.x() == left || p.x() == right)
+      sides[p.x() == left ? 0 : 1].push_back(p);
+  double widest = 0;
+  for (auto& side : sides)
+    std::sort(side.begin(), side.end(), [](const auto& p, const auto& q) { return p.y() < q.y(); });
+  for (const int side : {0, 1})
+    for (const Point_3& p : sides[side]) {
+      const auto& other = sides[1 - side];
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 1; i < other.size(); ++i)
+        least = std::min(least, CGAL::squared_distance(p, Kernel::Segment_3(other[i - 1], other[i])));
+      widest = std::max(widest, std::sqrt(least));
+    }
+  return widest;
+}
+
 TEST(Snapping, OpenSeamsThatAreHeldGetNoWider)
 {
-  const auto width = [](const Simplified_soup& result) {
-    std::array<std::vector<Point_3>, 2> sides;
-    for (const Point_3& p : result.soup.points)
-      if (p.x() == 3 || p.x() == 3.125)
-        sides[p.x() == 3 ? 0 : 1].push_back(p);
-    double widest = 0;
-    for (auto& side : sides)
-      std::sort(side.begin(), side.end(), [](const auto& p, const auto& q) { return p.y() < q.y(); });
-    for (const int side : {0, 1})
-      for (const Point_3& p : sides[side]) {
-        double least = std::numeric_limits<double>::infinity();
-        for (std::size_t i = 1; i < sides[1 - side].size(); ++i)
-          least = std::min(least, CGAL::squared_distance(
-                                      p, Kernel::Segment_3(sides[1 - side][i - 1], sides[1 - side][i])));
-        widest = std::max(widest, std::sqrt(least));
-      }
-    return widest;
-  };
   // Where two vertices face each other, they are at most so far apart.
   const double gap = std::hypot(0.125, 0.1);
   for (const double ratio : {0.5, 0.2, 0.1}) {
@@ -273,11 +277,38 @@ TEST(Snapping, OpenSeamsThatAreHeldGetNoWider)
     EXPECT_EQ(held.soup.points, open_seam().points);
     const Simplified_soup result = simplify_soup(held, to_ratio(ratio));
     EXPECT_EQ(result.report.left_alone, 0u);
-    EXPECT_LE(width(result), gap * (1 + 1e-12));
+    EXPECT_LE(width_of_gap(result.soup, 3, 3.125), gap * (1 + 1e-12));
     const Prepared_soup ignored = prepare(open_seam(), with_seams(Open_seams::ignore));
     EXPECT_TRUE(ignored.tied.empty());
-    EXPECT_GT(width(simplify_soup(ignored, to_ratio(ratio))), gap);
+    EXPECT_GT(width_of_gap(simplify_soup(ignored, to_ratio(ratio)).soup, 3, 3.125), gap);
   }
+}
+
+TEST(Snapping, BordersDriftLessWhereTheyFaceEdges)
+{
+  // The sides of the gap have 41 and 28 vertices.
+  const double gap = 1 / 64.;
+  const auto curved = [&](double from, double stretch) {
+    return [=](const Point_3& p) {
+      const double y = stretch * p.y();
+      return Point_3(from + p.x(), y, 0.02 * y * y);
+    };
+  };
+  const Triangle_soup soup =
+      joined(mapped(sheet(3, 40), curved(0, 1)), mapped(sheet(3, 27), curved(3 + gap, 40 / 27.)));
+  Prepared_soup prepared = snapped(soup, 2 * gap);
+  EXPECT_EQ(prepared.tied.size(), 0u);
+  EXPECT_EQ(prepared.facing.size(), 41u + 28 - 4) << "all but the ends, which snap";
+  const Simplify_options options = to_ratio(0.2);
+  const auto width = [&](double max_border_drift) {
+    Simplify_options limited = options;
+    limited.max_border_drift = max_border_drift;
+    return width_of_gap(simplify_soup(prepared, limited).soup, 3, 3 + gap);
+  };
+  const double drift = 0.1 * options.max_border_drift * diagonal(soup);
+  EXPECT_LE(width(options.max_border_drift), 2 * gap + 2 * drift);
+  prepared.facing.clear();
+  EXPECT_GT(width(options.max_border_drift), 2 * gap + 2 * drift);
 }
 
 TEST(Snapping, GapsAreHeldOrClosedUpToALengthThatIsEitherFoundOrGiven)

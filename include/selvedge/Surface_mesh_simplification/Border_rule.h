@@ -62,7 +62,9 @@ enum class Line_refusal : unsigned char {
 ///    line turns by at most `max_border_turn` or `max_seam_turn`. Ends of lines, vertices with more than two
 ///    line edges, and vertices where a border becomes a marked line never move.
 /// 3. No collapse removes a face whose three edges are all lines.
-/// 4. Every original vertex of a line lies within `max_drift` of the segment that replaced it.
+/// 4. Every original vertex of a line lies within `max_drift`, or within its own limit of drift, of the
+/// segment
+///    that replaced it.
 ///
 /// **Preconditions** The mesh outlives the rule. Edges are marked and vertices are locked before the first
 /// collapse.
@@ -107,6 +109,9 @@ public:
 
   /// Locks a vertex, so that it never moves. Other vertices may move onto it.
   void lock(Vertex v) { m_state->raise(v, Freedom::none); }
+
+  /// Sets the largest drift for a vertex of a line, in place of `Border_rule_options::max_drift`.
+  void limit_drift(Vertex v, double max_drift) { m_state->squared_drift_of[v] = max_drift * max_drift; }
 
   bool is_locked(Vertex v) const { return get(m_state->freedoms, v) == Freedom::none; }
 
@@ -219,13 +224,20 @@ public:
 private:
   enum class Freedom : unsigned char { free, along_line, along_other_line, none };
 
+  // An original vertex of a line that is gone.
+  struct Passed
+  {
+    Point point;
+    double max_squared_drift;
+  };
+
   // What a line edge at the merged vertex must be after the collapse. Where two edges become one, this holds
   // whichever of them CGAL keeps.
   struct Pending_line
   {
     Vertex far_end;
     bool is_marked;
-    std::vector<Point> passed;
+    std::vector<Passed> passed;
   };
   struct Pending_collapse
   {
@@ -266,8 +278,9 @@ private:
     typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<Freedom>>::const_type freedoms;
     typename boost::property_map<TriangleMesh, CGAL::dynamic_edge_property_t<unsigned char>>::const_type
         marks;
-    boost::unordered_map<Edge, std::vector<Point>> passed; // original line vertices that an edge has replaced
-    std::optional<Pending_collapse> pending;               // announced, and not yet done
+    boost::unordered_map<Vertex, double> squared_drift_of;  // of vertices with a limit of their own
+    boost::unordered_map<Edge, std::vector<Passed>> passed; // vertices that an edge has replaced
+    std::optional<Pending_collapse> pending;                // announced, and not yet done
   };
 
   // Returns the other line edge at the source of the line edge `h`, pointing away from it. None when the
@@ -320,19 +333,19 @@ private:
     const Point& u = get(state.points, target(behind, state.mesh));
     if (!is_turn_small(m - u, p - m, is_border_edge(ahead) ? state.min_border_cosine : state.min_seam_cosine))
       return Line_refusal::turn;
-    if (state.max_squared_drift == std::numeric_limits<double>::infinity())
+    if (state.max_squared_drift == std::numeric_limits<double>::infinity() && state.squared_drift_of.empty())
       return Line_refusal::none;
     const typename Geom_traits::Segment_3 segment(u, p);
-    const auto is_near = [&](const Point& q) {
-      return CGAL::to_double(CGAL::squared_distance(q, segment)) <= state.max_squared_drift;
+    const auto is_near = [&](const Passed& passed) {
+      return CGAL::to_double(CGAL::squared_distance(passed.point, segment)) <= passed.max_squared_drift;
     };
-    if (!is_near(m))
+    if (!is_near(passed_at(source(ahead, state.mesh))))
       return Line_refusal::drift;
     for (const Halfedge h : {behind, ahead}) {
       const auto found = state.passed.find(edge(h, state.mesh));
       if (found != state.passed.end())
-        for (const Point& q : found->second)
-          if (!is_near(q))
+        for (const Passed& passed : found->second)
+          if (!is_near(passed))
             return Line_refusal::drift;
     }
     return Line_refusal::none;
@@ -370,7 +383,7 @@ private:
         Pending_line line{target(out, mesh), bool(get(state.marks, e)), {}};
         take_passed(e, line.passed);
         if (moves && is_along_line) {
-          line.passed.push_back(get(state.points, near_end));
+          line.passed.push_back(passed_at(near_end));
           take_passed(merged, line.passed);
         }
         pending.lines.push_back(std::move(line));
@@ -380,12 +393,20 @@ private:
     return pending;
   }
 
-  void take_passed(Edge e, std::vector<Point>& points) const
+  Passed passed_at(Vertex v) const
+  {
+    const State& state = *m_state;
+    const auto found = state.squared_drift_of.find(v);
+    return {get(state.points, v),
+            found == state.squared_drift_of.end() ? state.max_squared_drift : found->second};
+  }
+
+  void take_passed(Edge e, std::vector<Passed>& passed) const
   {
     const auto found = m_state->passed.find(e);
     if (found == m_state->passed.end())
       return;
-    points.insert(points.end(), found->second.begin(), found->second.end());
+    passed.insert(passed.end(), found->second.begin(), found->second.end());
     m_state->passed.erase(found);
   }
 

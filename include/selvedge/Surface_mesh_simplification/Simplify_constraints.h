@@ -34,6 +34,11 @@ struct Simplify_constraints
                         typename boost::graph_traits<TriangleMesh>::vertex_descriptor>>
       partners;
 
+  /// Border vertices that face another border across a gap, and have no partner: they may drift by
+  /// `s_share_of_drift_at_gaps` of what borders may.
+  std::vector<typename boost::graph_traits<TriangleMesh>::vertex_descriptor> facing_vertices;
+  static constexpr double s_share_of_drift_at_gaps = 0.1;
+
   /// Groups of coincident vertices, one for each sheet at a line where several sheets meet, such as the
   /// copies of a vertex at non-manifold edges. Each is on the border of its sheet. The vertices of a group
   /// move along these borders together, in one motion that is judged as a whole, or not at all. A vertex is

@@ -942,6 +942,8 @@ private:
     Border_rule<TriangleMesh, Points> rule(m_mesh, points, options);
     for (const auto e : constraints.line_edges)
       rule.mark(e);
+    for (const auto v : constraints.facing_vertices)
+      rule.limit_drift(v, Simplify_constraints<TriangleMesh>::s_share_of_drift_at_gaps * options.max_drift);
     for (const auto v : constraints.no_strip_vertices)
       rule.bound_no_strip(v);
     for (const auto v : locked_vertices(constraints))
