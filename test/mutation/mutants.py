@@ -101,7 +101,6 @@ group(
 
 group(
     "src/verify/Capsule.cpp",
-    "src/verify/Cone.cpp",
     ("triangle_tree_test",),
     ("radii = a.m_radius + b.m_radius", "radii = a.m_radius", "a capsule without its radius"),
     (" + a.m_radius,", ",", "a capsule around capsules forgets the radius of one"),
@@ -1028,13 +1027,12 @@ group(
 group(
     headers + "Surface_mesh_simplification/internal/Value_quadric.h",
     ("uv_test:Uv.AQuadric*",),
-    ("product[i] - uv_motion[0] * m_gradients[0][i]", "product[i] + uv_motion[0] * m_gradients[0][i]",
+    ("linear -= value_motion[k] * m_gradients[k][i];", "linear += value_motion[k] * m_gradients[k][i];",
      "a quadric says something else from another origin"),
-    ("displacement(k, motion) - m_weight * uv_motion[k])", "displacement(k, motion))",
-     "the texture coordinate of the origin does not count"),
-    ("    double sum = growth_with_texture_fixed(motion);\n    for (std::size_t k = 0; k < 2 && m_weight > 0; ++k)\n      sum -=",
-     "    double sum = growth_with_texture_fixed(motion);\n    for (std::size_t k = 0; k < 2 && m_weight > 0; ++k)\n      sum +=",
-     "the best texture coordinates are not the best"),
+    ("displacement(k, motion) - m_weight * value_motion[k])", "displacement(k, motion))",
+     "the value of the origin does not count"),
+    ("sum -= displacement(k, motion) * displacement(k, motion)", "sum += displacement(k, motion) * displacement(k, motion)",
+     "the best values are not the best"),
 )
 group(
     headers + "internal/saturated_float.h",
