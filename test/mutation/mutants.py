@@ -328,11 +328,22 @@ group(
 group(
     loop + "Simplification.h",
     ("hindrances_test",),
-    ("weakest = (std::max)(weakest, reason);", "weakest = reason;", "an edge counts for its last direction"),
-    ("if (!m_targets.is_changeable(h))\n        continue;", "", "edges of fixed faces count"),
-    ("line_reason(e) < weakest_gone", "line_reason(e) <= weakest_gone", "the kinds of lines are mixed up"),
-    ("m_targets.is_reached() || m_report.is_stopped)\n      return;", "m_report.is_stopped)\n      return;",
+    ("if (!targets().is_changeable(h))\n        continue;", "", "edges of fixed faces count"),
+    ("targets().is_reached() || m_report.is_stopped)\n      return;", "m_report.is_stopped)\n      return;",
      "reasons where the target is reached"),
+    sources=("src/simplify/simplify_soup.cpp",),
+)
+group(
+    loop + "Hindrance_search.h",
+    ("hindrances_test",),
+    ("weakest = (std::max)(weakest, reason);", "weakest = reason;", "an edge counts for its last direction"),
+    ("line_reason(e) < weakest_gone", "line_reason(e) <= weakest_gone", "the kinds of lines are mixed up"),
+    sources=("src/simplify/simplify_soup.cpp",),
+)
+group(
+    loop + "Filter_chain.h",
+    ("hindrances_test",),
+    ("std::count_if(std::begin(sides), std::end(sides), is_line) <= 1;", "false;", "thin cloth keeps its edge dense"),
     sources=("src/simplify/simplify_soup.cpp",),
 )
 group(
@@ -560,13 +571,18 @@ group(
 # Meshes in several places
 
 group(
-    headers + "Surface_mesh_simplification/internal/Simplification.h",
+    loop + "Motion_filter.h",
     ("instances_test",),
-    ("if (are_apart && all_of_companions(m_companions,", "if (are_apart || all_of_companions(m_companions,",
+    ("if (are_apart && std::all_of(m_companions", "if (are_apart || std::all_of(m_companions",
      "other places are not asked"),
     ("const bool are_apart = m_observer.are_companions_apart(collapse.moving(), m_companions);",
      "const bool are_apart = true;", "places that come near each other change alike"),
-    ("if (m_motions_left == 0) { // no motion", "if (true) { // no motion", "a level while places differ"),
+    ("return m_collapses_left == 0;", "return true;", "a level while places differ"),
+    sources=("src/simplify/simplify_soup.cpp",),
+)
+group(
+    loop + "Hindrance_search.h",
+    ("instances_test",),
     ("m_observer.are_companions_apart(moving, companions) &&", "true &&",
      "places that are too near are no reason"),
     sources=("src/simplify/simplify_soup.cpp",),
@@ -745,7 +761,7 @@ group(
 group(
     headers + "Surface_mesh_simplification/internal/Simplification.h",
     ("intent_test",),
-    ("!m_targets.has_several_shares()", "true", "a part loses its faces in its first tiles"),
+    ("!targets().has_several_shares()", "true", "a part loses its faces in its first tiles"),
     sources=("src/simplify/simplify_soup.cpp",),
 )
 group(
@@ -755,13 +771,6 @@ group(
     ("    check_corners(values.of_triangle, values.values.size(), name);", "", "values that do not exist"),
     ("attribute.rows.size(), rows * bytes,", "attribute.rows.size(), attribute.rows.size(),",
      "attributes of another length"),
-)
-
-group(
-    headers + "Surface_mesh_simplification/internal/Simplification.h",
-    ("hindrances_test",),
-    ("std::count_if(std::begin(sides), std::end(sides), is_line) <= 1;", "false;", "thin cloth keeps its edge dense"),
-    sources=("src/simplify/simplify_soup.cpp",),
 )
 
 # Sheets that meet along a line
