@@ -516,13 +516,17 @@ group(
     "src/replay/replay.cpp",
     ("replay_all_test", "replay_test", "replay_mutation_test"),
     ("!m_complex.is_one_fan(position) &&", "false &&", "what holds sheets together moves"),
-    ("if (edge.is_border() && other->is_border())", "if (false)", "a triangle with two border edges goes"),
-    ("if (apexes.count(edge.neighbour) == 0)", "if (false)", "no link condition"),
-    ("is_on_border(at_removed) && is_on_border(at_kept) && !edge_to", "false && !edge_to", "two borders meet"),
     ("if (!m_complex.has(f, motion.mover))", "if (f % 2 == 0)", "half of what stands still is not seen"),
     ("if (face.sweep.touches(standing))", "if (false)", "tunnelling through what stands still"),
     ("face.sweep.touches(side))", "false)", "tunnelling within the star"),
     ("m_tree.set(f, m_boxes[f]);", "", "the tree does not follow"),
+)
+group(
+    "src/replay/link.cpp",
+    ("replay_all_test", "replay_test", "replay_mutation_test"),
+    ("if (edge.is_border() && other->is_border())", "if (false)", "a triangle with two border edges goes"),
+    ("if (apexes.count(edge.neighbour) == 0)", "if (false)", "no link condition"),
+    ("is_on_border(at_removed) && is_on_border(at_kept) && !edge_to", "false && !edge_to", "two borders meet"),
 )
 group(
     "src/replay/snap.cpp",
@@ -910,7 +914,7 @@ group(
     ("m_prepared.is_frozen[t] |= m_prepared.is_held[v];", ";", "what coincides in some poses moves"),
 )
 group(
-    "src/replay/replay.cpp",
+    "src/replay/inputs.cpp",
     poses,
     ("if (!stated.sha256.empty() && stated.sha256 != digest_of(original.poses[pose].points))", "if (false)",
      "the replay takes any pose for the one of the log"),
@@ -925,6 +929,10 @@ group(
     ("    for (Index f = Index(m_complex.size()); f < m_complex.size_with_obstacle(); ++f)\n      faces.push_back(f);\n", "",
      "the replay sees no obstacle"),
     ("m_complex.is_of_obstacle(f) ||", "!m_complex.is_of_obstacle(f) &&", "the replay keeps no distance from an obstacle"),
+)
+group(
+    "src/replay/inputs.cpp",
+    obstacles,
     ("      stated.sha256 != options.sha256_of_obstacle)", "      false)", "the replay takes any obstacle"),
 )
 group(
