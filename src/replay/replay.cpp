@@ -8,9 +8,10 @@
 #include "Start.h"
 #include "clearance.h"
 #include "contact.h"
+#include "inputs.h"
 #include "limits.h"
+#include "link.h"
 #include "snap.h"
-#include "soup/obstacle.h"
 
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
@@ -21,7 +22,6 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
-#include <set>
 #include <utility>
 
 // Repeats a log on the original and judges every step, exactly and apart from the reduction that wrote it.
@@ -215,7 +215,7 @@ private:
       return;
     }
     const std::array<Coordinates, 2> before{m_complex.point(removed), m_complex.point(kept)};
-    const std::optional<Coordinates> place = place_of(step, removed, kept);
+    const std::optional<Coordinates> place = place_of(step, kept);
     for (const Index end : {removed, kept})
       if (m_complex.point(end) != place.value_or(before[1]))
         m_changing.insert(m_changing.end(), m_complex.faces_at(end).begin(), m_complex.faces_at(end).end());
@@ -247,7 +247,7 @@ private:
         judge_clearance({second, m_complex.place(first)});
       }
       shift(kept, *place);
-      report_pending_limit(removed, kept);
+      report_pending_limit(removed);
     }
     const std::size_t pairs_before = m_offences.count();
     apply(removed, kept, false, before);
@@ -264,7 +264,7 @@ private:
   static constexpr Index no_position() { return Index(-1); }
 
   /// Returns the place that a step names; none when `kept` is there already, so that only `removed` moves.
-  std::optional<Coordinates> place_of(const Log_step& step, Index /*removed*/, Index kept) const
+  std::optional<Coordinates> place_of(const Log_step& step, Index kept) const
   {
     if (!step.place || *step.place == m_complex.point(kept))
       return std::nullopt;
@@ -389,35 +389,8 @@ private:
 
   void judge_link(Index removed, Index kept)
   {
-    const std::vector<Complex::Edge> at_removed = m_complex.edges_at(removed),
-                                     at_kept = m_complex.edges_at(kept);
-    const auto edge_to = [](const std::vector<Complex::Edge>& edges, Index neighbour) {
-      const auto found = std::find_if(edges.begin(), edges.end(),
-                                      [&](const Complex::Edge& edge) { return edge.neighbour == neighbour; });
-      return found == edges.end() ? nullptr : &*found;
-    };
-    std::set<Index> apexes;
-    for (const Index f : m_complex.faces_at(removed))
-      if (m_complex.has(f, kept))
-        for (const Index p : m_complex.face(f).positions)
-          if (p != removed && p != kept)
-            apexes.insert(p);
-    for (const Complex::Edge& edge : at_removed) {
-      const Complex::Edge* const other = edge_to(at_kept, edge.neighbour);
-      if (!other)
-        continue;
-      if (apexes.count(edge.neighbour) == 0)
-        return report(Violation_kind::link,
-                      "both vertices have an edge to a third one, but no triangle joins the three");
-      if (edge.is_border() && other->is_border())
-        return report(Violation_kind::link, "a triangle with two border edges would vanish");
-    }
-    const auto is_on_border = [](const std::vector<Complex::Edge>& edges) {
-      return std::any_of(edges.begin(), edges.end(),
-                         [](const Complex::Edge& edge) { return edge.is_border(); });
-    };
-    if (is_on_border(at_removed) && is_on_border(at_kept) && !edge_to(at_removed, kept)->is_border())
-      report(Violation_kind::link, "both vertices are on a border, but their edge is not");
+    if (const char* const objection = link_objection(m_complex, removed, kept))
+      report(Violation_kind::link, objection);
   }
 
   // ---- Contacts
@@ -625,7 +598,7 @@ private:
     if (!m_is_bad)
       m_pending_limit = m_limits.judge(m_complex, removed, kept, place, false);
   }
-  void report_pending_limit(Index removed, Index /*kept*/)
+  void report_pending_limit(Index removed)
   {
     if (m_pending_limit)
       report(*m_pending_limit, m_limits.message(*m_pending_limit), m_complex.faces_at(removed));
@@ -765,83 +738,10 @@ private:
 } // namespace
 } // namespace reference
 
-namespace {
-
-// Returns what the log says of the pose of a number.
-const Log_header::Posed& stated_pose(const Triangle_soup& original, const Log_header& header,
-                                     std::size_t pose)
-{
-  if (pose >= original.poses.size())
-    throw Argument_error("there is no pose " + std::to_string(pose) + "; the mesh has " +
-                         std::to_string(original.poses.size()) + " further poses");
-  const std::string& name = original.poses[pose].name;
-  // Without some of the mesh's poses, the log has the others by their names.
-  std::size_t place = pose;
-  if (header.poses.size() < original.poses.size())
-    for (place = 0; place < header.poses.size() && header.poses[place].name != name;)
-      ++place;
-  if (place >= header.poses.size())
-    throw Input_error("the log says nothing of the pose '" + name + "': it has " +
-                      std::to_string(header.poses.size()) + " further poses; leave out the others");
-  const Log_header::Posed& stated = header.poses[place];
-  if (!stated.sha256.empty() && stated.sha256 != digest_of(original.poses[pose].points))
-    throw Input_error("the pose '" + name + "' is not the pose '" + stated.name +
-                      "' that the log has in its place; give the same poses in the same order");
-  return stated;
-}
-
-// Returns whether the log names the digests of the obstacle. `posed` is what it says of the pose in question.
-bool require_obstacle(const Replay_options& options, const Log_header& header, const Log_header::Posed* posed)
-{
-  const Triangle_soup& obstacle = *options.obstacle;
-  if (!header.obstacle)
-    return false;
-  const Log_header::Obstacle& stated = *header.obstacle;
-  if (!stated.sha256.empty() && !options.sha256_of_obstacle.empty() &&
-      stated.sha256 != options.sha256_of_obstacle)
-    throw Input_error("this is not the obstacle that the log names, which has another SHA-256; give the one "
-                      "that the log was made with");
-  if (stated.vertices != obstacle.points.size() || stated.triangles != obstacle.triangles.size())
-    throw Input_error("the log names an obstacle of " + std::to_string(stated.vertices) + " vertices and " +
-                      std::to_string(stated.triangles) + " triangles; this one has " +
-                      std::to_string(obstacle.points.size()) + " and " +
-                      std::to_string(obstacle.triangles.size()) +
-                      "; give the one that the log was made with");
-  const bool is_stated = !stated.sha256.empty() && !options.sha256_of_obstacle.empty();
-  if (!posed)
-    return is_stated;
-  if (!posed->sha256_of_obstacle.empty() &&
-      posed->sha256_of_obstacle != digest_of(points_in_pose(obstacle, *options.pose)))
-    throw Input_error("in the pose '" + posed->name +
-                      "', the obstacle is not where the log has it; give the "
-                      "poses of the obstacle that the log was made with, in the same order");
-  return is_stated && !posed->sha256_of_obstacle.empty();
-}
-
-} // namespace
-
 Replay_verdict replay(const Triangle_soup& original, bool is_stl, Log_reader& log,
                       const Replay_options& options)
 {
-  const std::size_t vertices = is_stl ? 3 * original.triangles.size() : original.points.size();
-  const Log_header& header = log.header();
-  if (!header.sha256.empty() && !options.sha256_of_original.empty() &&
-      header.sha256 != options.sha256_of_original)
-    throw Input_error("this is not the file that the log was made from, which has another SHA-256; give the "
-                      "original that the log was made from");
-  if (header.vertices != vertices || header.triangles != original.triangles.size())
-    throw Input_error("the log is of a mesh of " + std::to_string(header.vertices) + " vertices and " +
-                      std::to_string(header.triangles) + " triangles; this one has " +
-                      std::to_string(vertices) + " and " + std::to_string(original.triangles.size()) +
-                      "; give the original that the log was made from");
-  if (options.obstacle && !options.obstacle->poses.empty() &&
-      options.obstacle->poses.size() != original.poses.size())
-    throw Argument_error("the obstacle has " + std::to_string(options.obstacle->poses.size()) +
-                         " further poses and the mesh " + std::to_string(original.poses.size()) +
-                         "; give as many, or none for an obstacle that stands still");
-  const Log_header::Posed* const posed =
-      options.pose ? &stated_pose(original, header, *options.pose) : nullptr;
-  const bool is_obstacle_stated = options.obstacle && require_obstacle(options, header, posed);
+  const bool is_obstacle_stated = reference::check_inputs(original, is_stl, log.header(), options);
   const auto start = reference::Clock::now();
   reference::Replay run(original, is_stl, log, options);
   const double seconds_prepare = reference::seconds_since(start);

@@ -8,9 +8,9 @@
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
 #include <selvedge/Parts.h>
+#include <selvedge/Surface_mesh_simplification/internal/mesh_diagonal.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
@@ -128,8 +128,7 @@ Sewn_mesh::Sewn_mesh(const Triangle_soup& soup, const std::vector<Index>& positi
     for (const Index_triple& triangle : soup.triangles)
       for (const Index i : triangle)
         box += scale(soup.points[i]).bbox();
-    m_constraints.diagonal =
-        std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
+    m_constraints.diagonal = internal::diagonal_of(box);
   }
 }
 

@@ -101,7 +101,6 @@ group(
 
 group(
     "src/verify/Capsule.cpp",
-    "src/verify/Cone.cpp",
     ("triangle_tree_test",),
     ("radii = a.m_radius + b.m_radius", "radii = a.m_radius", "a capsule without its radius"),
     (" + a.m_radius,", ",", "a capsule around capsules forgets the radius of one"),
@@ -329,11 +328,22 @@ group(
 group(
     loop + "Simplification.h",
     ("hindrances_test",),
-    ("weakest = (std::max)(weakest, reason);", "weakest = reason;", "an edge counts for its last direction"),
-    ("if (!m_targets.is_changeable(h))\n        continue;", "", "edges of fixed faces count"),
-    ("line_reason(e) < weakest_gone", "line_reason(e) <= weakest_gone", "the kinds of lines are mixed up"),
-    ("m_targets.is_reached() || m_report.is_stopped)\n      return;", "m_report.is_stopped)\n      return;",
+    ("if (!targets().is_changeable(h))\n        continue;", "", "edges of fixed faces count"),
+    ("targets().is_reached() || m_report.is_stopped)\n      return;", "m_report.is_stopped)\n      return;",
      "reasons where the target is reached"),
+    sources=("src/simplify/simplify_soup.cpp",),
+)
+group(
+    loop + "Hindrance_search.h",
+    ("hindrances_test",),
+    ("weakest = (std::max)(weakest, reason);", "weakest = reason;", "an edge counts for its last direction"),
+    ("line_reason(e) < weakest_gone", "line_reason(e) <= weakest_gone", "the kinds of lines are mixed up"),
+    sources=("src/simplify/simplify_soup.cpp",),
+)
+group(
+    loop + "Filter_chain.h",
+    ("hindrances_test",),
+    ("std::count_if(std::begin(sides), std::end(sides), is_line) <= 1;", "false;", "thin cloth keeps its edge dense"),
     sources=("src/simplify/simplify_soup.cpp",),
 )
 group(
@@ -506,13 +516,17 @@ group(
     "src/replay/replay.cpp",
     ("replay_all_test", "replay_test", "replay_mutation_test"),
     ("!m_complex.is_one_fan(position) &&", "false &&", "what holds sheets together moves"),
-    ("if (edge.is_border() && other->is_border())", "if (false)", "a triangle with two border edges goes"),
-    ("if (apexes.count(edge.neighbour) == 0)", "if (false)", "no link condition"),
-    ("is_on_border(at_removed) && is_on_border(at_kept) && !edge_to", "false && !edge_to", "two borders meet"),
     ("if (!m_complex.has(f, motion.mover))", "if (f % 2 == 0)", "half of what stands still is not seen"),
     ("if (face.sweep.touches(standing))", "if (false)", "tunnelling through what stands still"),
     ("face.sweep.touches(side))", "false)", "tunnelling within the star"),
     ("m_tree.set(f, m_boxes[f]);", "", "the tree does not follow"),
+)
+group(
+    "src/replay/link.cpp",
+    ("replay_all_test", "replay_test", "replay_mutation_test"),
+    ("if (edge.is_border() && other->is_border())", "if (false)", "a triangle with two border edges goes"),
+    ("if (apexes.count(edge.neighbour) == 0)", "if (false)", "no link condition"),
+    ("is_on_border(at_removed) && is_on_border(at_kept) && !edge_to", "false && !edge_to", "two borders meet"),
 )
 group(
     "src/replay/snap.cpp",
@@ -561,13 +575,18 @@ group(
 # Meshes in several places
 
 group(
-    headers + "Surface_mesh_simplification/internal/Simplification.h",
+    loop + "Motion_filter.h",
     ("instances_test",),
-    ("if (are_apart && all_of_companions(m_companions,", "if (are_apart || all_of_companions(m_companions,",
+    ("if (are_apart && std::all_of(m_companions", "if (are_apart || std::all_of(m_companions",
      "other places are not asked"),
     ("const bool are_apart = m_observer.are_companions_apart(collapse.moving(), m_companions);",
      "const bool are_apart = true;", "places that come near each other change alike"),
-    ("if (m_motions_left == 0) { // no motion", "if (true) { // no motion", "a level while places differ"),
+    ("return m_collapses_left == 0;", "return true;", "a level while places differ"),
+    sources=("src/simplify/simplify_soup.cpp",),
+)
+group(
+    loop + "Hindrance_search.h",
+    ("instances_test",),
     ("m_observer.are_companions_apart(moving, companions) &&", "true &&",
      "places that are too near are no reason"),
     sources=("src/simplify/simplify_soup.cpp",),
@@ -746,7 +765,7 @@ group(
 group(
     headers + "Surface_mesh_simplification/internal/Simplification.h",
     ("intent_test",),
-    ("!m_targets.has_several_shares()", "true", "a part loses its faces in its first tiles"),
+    ("!targets().has_several_shares()", "true", "a part loses its faces in its first tiles"),
     sources=("src/simplify/simplify_soup.cpp",),
 )
 group(
@@ -756,13 +775,6 @@ group(
     ("    check_corners(values.of_triangle, values.values.size(), name);", "", "values that do not exist"),
     ("attribute.rows.size(), rows * bytes,", "attribute.rows.size(), attribute.rows.size(),",
      "attributes of another length"),
-)
-
-group(
-    headers + "Surface_mesh_simplification/internal/Simplification.h",
-    ("hindrances_test",),
-    ("std::count_if(std::begin(sides), std::end(sides), is_line) <= 1;", "false;", "thin cloth keeps its edge dense"),
-    sources=("src/simplify/simplify_soup.cpp",),
 )
 
 # Sheets that meet along a line
@@ -902,7 +914,7 @@ group(
     ("m_prepared.is_frozen[t] |= m_prepared.is_held[v];", ";", "what coincides in some poses moves"),
 )
 group(
-    "src/replay/replay.cpp",
+    "src/replay/inputs.cpp",
     poses,
     ("if (!stated.sha256.empty() && stated.sha256 != digest_of(original.poses[pose].points))", "if (false)",
      "the replay takes any pose for the one of the log"),
@@ -917,6 +929,10 @@ group(
     ("    for (Index f = Index(m_complex.size()); f < m_complex.size_with_obstacle(); ++f)\n      faces.push_back(f);\n", "",
      "the replay sees no obstacle"),
     ("m_complex.is_of_obstacle(f) ||", "!m_complex.is_of_obstacle(f) &&", "the replay keeps no distance from an obstacle"),
+)
+group(
+    "src/replay/inputs.cpp",
+    obstacles,
     ("      stated.sha256 != options.sha256_of_obstacle)", "      false)", "the replay takes any obstacle"),
 )
 group(
@@ -1028,13 +1044,12 @@ group(
 group(
     headers + "Surface_mesh_simplification/internal/Value_quadric.h",
     ("uv_test:Uv.AQuadric*",),
-    ("product[i] - uv_motion[0] * m_gradients[0][i]", "product[i] + uv_motion[0] * m_gradients[0][i]",
+    ("linear -= value_motion[k] * m_gradients[k][i];", "linear += value_motion[k] * m_gradients[k][i];",
      "a quadric says something else from another origin"),
-    ("displacement(k, motion) - m_weight * uv_motion[k])", "displacement(k, motion))",
-     "the texture coordinate of the origin does not count"),
-    ("    double sum = growth_with_texture_fixed(motion);\n    for (std::size_t k = 0; k < 2 && m_weight > 0; ++k)\n      sum -=",
-     "    double sum = growth_with_texture_fixed(motion);\n    for (std::size_t k = 0; k < 2 && m_weight > 0; ++k)\n      sum +=",
-     "the best texture coordinates are not the best"),
+    ("displacement(k, motion) - m_weight * value_motion[k])", "displacement(k, motion))",
+     "the value of the origin does not count"),
+    ("sum -= displacement(k, motion) * displacement(k, motion)", "sum += displacement(k, motion) * displacement(k, motion)",
+     "the best values are not the best"),
 )
 group(
     headers + "internal/saturated_float.h",

@@ -22,28 +22,6 @@ struct Scene
 
 Scene random_scene(Random& random);
 
-/// Spoils some of a soup: drops, doubles and turns triangles, splits, joins and moves vertices, adds
-/// triangles without an area and vertices without a triangle.
-void spoil(Triangle_soup& soup, Random& random);
-
-/// Divides some triangles at a side, and fills the T-junctions with triangles without an area.
-void add_needles(Triangle_soup& soup, Random& random);
-
-/// Adds doubles: triangles with the same three positions as others, of some, of half or of all triangles,
-/// once or twice, with their vertices or with others in the same places, turned over or not.
-void add_doubles(Triangle_soup& soup, Random& random);
-
-/// Puts points elsewhere: scaled, far from the origin, on the other side, sheared, at distances of units in
-/// the last place, between 32-bit floats, with zeros of either sign. Returns what was done.
-std::string displace(Triangle_soup& soup, Random& random);
-
-/// Groups, objects, materials, texture coordinates, normals, and weights `w` of vertices, as an OBJ file
-/// holds them.
-void decorate(Triangle_soup& soup, Random& random);
-
-/// Something beside, under, in or at a soup that stands in its way.
-Triangle_soup random_obstacle(const Triangle_soup& soup, Random& random);
-
 } // namespace selvedge::test
 
 #endif // SELVEDGE_TEST_WORLDS_RANDOM_SCENE_H

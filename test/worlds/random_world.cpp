@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "random_world.h"
+#include "random_changes.h"
 #include "random_scene.h"
 #include "soup/flat_shading.h"
 #include "support/Temporary_folder.h"

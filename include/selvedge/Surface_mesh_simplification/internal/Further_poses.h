@@ -4,7 +4,6 @@
 #ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_FURTHER_POSES_H
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_FURTHER_POSES_H
 
-#include <selvedge/Simplify_options.h>
 #include <selvedge/Simplify_report.h>
 #include <selvedge/Surface_mesh_simplification/Aspect_ratio_filter.h>
 #include <selvedge/Surface_mesh_simplification/Border_filter.h>
@@ -14,6 +13,7 @@
 #include <selvedge/Surface_mesh_simplification/Quadric_cost.h>
 #include <selvedge/Surface_mesh_simplification/Simplify_constraints.h>
 #include <selvedge/Surface_mesh_simplification/internal/Pose_motions.h>
+#include <selvedge/Surface_mesh_simplification/internal/Reduction_setup.h>
 #include <selvedge/Surface_mesh_simplification/internal/Tracked_points.h>
 #include <selvedge/spatial/internal/Selectable_index.h>
 
@@ -57,11 +57,11 @@ class Further_poses
     Normal_change normal_change;
     Error error;
 
-    Pose(TriangleMesh& mesh, const Simplify_options& options, Rule rule_, double max_error,
-         const IsOfStrip& is_of_strip)
-        : rule(std::move(rule_)), quadrics(mesh, options.cost, rule), tracked(mesh), line(rule),
-          aspect_ratio(options.min_aspect_ratio, line, is_of_strip),
-          normal_change(options.max_normal_change, aspect_ratio), error(max_error, tracked, normal_change)
+    Pose(const Reduction_setup<TriangleMesh>& setup, const Points& points, const IsOfStrip& is_of_strip)
+        : rule(setup.border_rule(points)), quadrics(setup.mesh, setup.options.cost, rule),
+          tracked(setup.mesh), line(rule), aspect_ratio(setup.options.min_aspect_ratio, line, is_of_strip),
+          normal_change(setup.options.max_normal_change, aspect_ratio),
+          error(setup.max_error, tracked, normal_change)
     {
     }
   };
@@ -69,21 +69,17 @@ class Further_poses
 public:
   using Face = typename Constraints::Face;
 
-  /// `make_rule(points)` returns the rule of borders and seams in a pose. `max_error` is a length.
-  template <class MakeRule>
-  Further_poses(TriangleMesh& mesh, const Simplify_options& options, const Constraints& constraints,
-                double diagonal, double max_error, const IsOfStrip& is_of_strip, const MakeRule& make_rule)
-      : m_mesh(mesh), m_motions(mesh, points_of(constraints))
+  Further_poses(const Reduction_setup<TriangleMesh>& setup, const IsOfStrip& is_of_strip)
+      : m_mesh(setup.mesh), m_motions(setup.mesh, points_of(setup.constraints))
   {
     m_poses.reserve(m_motions.size());
     for (std::size_t i = 0; i < m_motions.size(); ++i) {
-      Pose& pose =
-          m_poses.emplace_back(mesh, options, make_rule(m_motions.points(i)), max_error, is_of_strip);
-      pose.quadrics.weigh(mesh, constraints.vertex_weights);
-      pose.quadrics.measure_by(diagonal);
-      if (options.max_error)
-        pose.tracked.begin(m_motions.points(i), diagonal, max_error);
-      m_offending_pairs.push_back(constraints.poses[i].offending_pairs);
+      Pose& pose = m_poses.emplace_back(setup, m_motions.points(i), is_of_strip);
+      pose.quadrics.weigh(m_mesh, setup.constraints.vertex_weights);
+      pose.quadrics.measure_by(setup.diagonal);
+      if (setup.options.max_error)
+        pose.tracked.begin(m_motions.points(i), setup.diagonal, setup.max_error);
+      m_offending_pairs.push_back(setup.constraints.poses[i].offending_pairs);
     }
   }
 

@@ -1,0 +1,146 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COLLAPSE_COST_H
+#define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COLLAPSE_COST_H
+
+#include <selvedge/Simplify_options.h>
+#include <selvedge/Surface_mesh_simplification/Quadric_cost.h>
+#include <selvedge/Surface_mesh_simplification/internal/Collapse.h>
+#include <selvedge/Surface_mesh_simplification/internal/Filter_chain.h>
+#include <selvedge/Surface_mesh_simplification/internal/Joint_motions.h>
+#include <selvedge/Surface_mesh_simplification/internal/Lazy_edge_profile.h>
+#include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
+#include <selvedge/Surface_mesh_simplification/internal/relative_face_weight.h>
+
+#include <CGAL/Kernel_traits.h>
+
+namespace selvedge {
+namespace internal {
+
+/// What a collapse costs in a reduction: it adds the costs of texture and normals to that of the quadrics,
+/// takes the mean over all poses, and for vertices that move together the costs of all. An edge has no cost
+/// if none of its faces counts.
+///
+/// A model of CGAL's concept `GetCost`.
+template <class TriangleMesh, class VertexPointMap, class Observer>
+class Collapse_cost
+{
+  using Graph_traits = boost::graph_traits<TriangleMesh>;
+  using Vertex = typename Graph_traits::vertex_descriptor;
+  using Halfedge = typename Graph_traits::halfedge_descriptor;
+  using Edge = typename Graph_traits::edge_descriptor;
+  using Geom_traits =
+      typename CGAL::Kernel_traits<typename boost::property_traits<VertexPointMap>::value_type>::Kernel;
+  using Filters = Filter_chain<TriangleMesh, VertexPointMap, Observer>;
+  using Joint = Joint_motions<TriangleMesh, VertexPointMap>;
+
+public:
+  using Quadrics = Quadric_cost<TriangleMesh, typename Filters::Rule>;
+  using Update_tag = CGAL::Tag_true;
+
+  /// **Preconditions** The mesh, the filters, the joint motions and the observer outlive it.
+  Collapse_cost(TriangleMesh& mesh, const Quadrics& quadrics, const Filters& filters, const Joint& joint,
+                const Observer& observer, const Simplify_options& options, double diagonal)
+      : m_mesh(&mesh), m_quadrics(quadrics), m_targets(filters.targets()), m_joint(&joint),
+        m_poses(&filters.poses()), m_observer(&observer)
+  {
+    // The observer's weights of faces are relative to the area 1, those of the quadrics to that of the
+    // diagonal.
+    const double unit = relative_face_weight(1 / (diagonal * diagonal));
+    m_uv_weight = options.uv_weight * unit;
+    m_normal_weight = options.normal_weight * unit;
+  }
+
+  void initialize(const TriangleMesh& mesh, const VertexPointMap& points, const Geom_traits& traits) const
+  {
+    m_quadrics.initialize(mesh, points, traits);
+    m_poses->initialise_costs();
+  }
+
+  template <class Profile, class Point>
+  Optional<typename Profile::FT> operator()(const Profile& profile, const Optional<Point>& placement) const
+  {
+    Optional<double> cost;
+    if (placement) {
+      const Collapse<Profile> collapse(profile, *placement);
+      cost =
+          collapse.are_both_moved() ? cost_at(profile, *placement) : cost_along(profile, collapse.moving());
+    }
+    return cost ? typename Profile::FT(*cost) : Optional<typename Profile::FT>();
+  }
+
+  template <class Profile>
+  Optional<double> cost_along(const Profile& profile, Halfedge moving) const
+  {
+    if (!m_targets.is_counted(moving) || m_observer->is_led(moving))
+      return {};
+    double cost = cost_alone(profile, moving);
+    if (m_joint->is_joint(source(moving, *m_mesh))) {
+      const Geom_traits traits;
+      if (const auto others = m_joint->others(moving))
+        for (const Halfedge h : *others)
+          cost += cost_alone(Lazy_edge_profile<TriangleMesh, VertexPointMap, Geom_traits>(
+                                 h, *m_mesh, profile.vertex_point_map(), traits),
+                             h);
+    }
+    return cost;
+  }
+
+  template <class Profile, class Point>
+  Optional<double> cost_at(const Profile& profile, const Point& place) const
+  {
+    if (!m_targets.is_counted(profile.v0_v1()))
+      return {};
+    double cost = m_quadrics.cost_at(profile, place);
+    if (m_uv_weight > 0)
+      cost += m_uv_weight * m_observer->uv_cost_at(profile.v0_v1(), place);
+    if (m_normal_weight > 0)
+      cost += m_normal_weight * m_observer->normal_cost_at(profile.v0_v1(), place);
+    return cost;
+  }
+
+  template <class Profile>
+  auto least_place(const Profile& profile, double reach) const
+  {
+    return m_quadrics.least_place(profile, reach);
+  }
+
+  bool reaches_neighbours(Vertex kept) const { return m_quadrics.reaches_neighbours(kept); }
+  bool reaches(Vertex kept, Edge edge) const { return m_quadrics.reaches(kept, edge); }
+  bool can_wait(Vertex kept, Edge edge) const { return m_quadrics.can_wait(kept, edge); }
+
+  template <class Profile>
+  void update_after_collapse(const Profile& profile, Vertex kept) const
+  {
+    m_quadrics.update_after_collapse(profile, kept);
+    m_poses->update_costs(profile.v0(), profile.v1(), kept);
+  }
+
+private:
+  template <class Profile>
+  double cost_alone(const Profile& profile, Halfedge moving) const
+  {
+    double cost = *m_quadrics.cost_along(profile, moving);
+    if (!m_poses->empty())
+      cost = m_poses->mean_cost(cost, Collapse<Profile>::along(profile, moving));
+    if (m_uv_weight > 0)
+      cost += m_uv_weight * m_observer->uv_cost(moving);
+    if (m_normal_weight > 0)
+      cost += m_normal_weight * m_observer->normal_cost(moving);
+    return cost;
+  }
+
+  TriangleMesh* m_mesh;
+  Quadrics m_quadrics;
+  typename Filters::Targets m_targets;
+  const Joint* m_joint;
+  const typename Filters::Poses* m_poses;
+  const Observer* m_observer;
+  double m_uv_weight, m_normal_weight;
+};
+
+} // namespace internal
+} // namespace selvedge
+
+#endif // SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COLLAPSE_COST_H

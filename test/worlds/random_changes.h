@@ -1,0 +1,41 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_TEST_WORLDS_RANDOM_CHANGES_H
+#define SELVEDGE_TEST_WORLDS_RANDOM_CHANGES_H
+
+#include "Random.h"
+
+#include <selvedge/Triangle_soup.h>
+
+#include <string>
+
+// What is done to the soup of a scene, and put beside it.
+
+namespace selvedge::test {
+
+/// Spoils some of a soup: drops, doubles and turns triangles, splits, joins and moves vertices, adds
+/// triangles without an area and vertices without a triangle.
+void spoil(Triangle_soup& soup, Random& random);
+
+/// Divides some triangles at a side, and fills the T-junctions with triangles without an area.
+void add_needles(Triangle_soup& soup, Random& random);
+
+/// Adds doubles: triangles with the same three positions as others, of some, of half or of all triangles,
+/// once or twice, with their vertices or with others in the same places, turned over or not.
+void add_doubles(Triangle_soup& soup, Random& random);
+
+/// Puts points elsewhere: scaled, far from the origin, on the other side, sheared, at distances of units in
+/// the last place, between 32-bit floats, with zeros of either sign. Returns what was done.
+std::string displace(Triangle_soup& soup, Random& random);
+
+/// Groups, objects, materials, texture coordinates, normals, and weights `w` of vertices, as an OBJ file
+/// holds them.
+void decorate(Triangle_soup& soup, Random& random);
+
+/// Something beside, under, in or at a soup that stands in its way.
+Triangle_soup random_obstacle(const Triangle_soup& soup, Random& random);
+
+} // namespace selvedge::test
+
+#endif // SELVEDGE_TEST_WORLDS_RANDOM_CHANGES_H
