@@ -13,7 +13,6 @@
 #include <array>
 #include <atomic>
 #include <functional>
-#include <iterator>
 #include <limits>
 #include <mutex>
 #include <numeric>
@@ -265,25 +264,16 @@ double common_cost(const std::vector<Cell_run>& runs)
   return s_infinity;
 }
 
-// Returns the collapses of each cell until the first that costs more than `limit`. Those of a cell keep their
-// order. Cells take turns, each with an eighth of its collapses, so that cells that are done to the whole
-// only in part are so evenly. What a cell does in one turn is near in memory.
-std::vector<Cell_collapse> in_turns(std::vector<Cell_run>& runs, double limit)
+// Returns the collapses of each cell until the first that costs more than `limit`.
+std::vector<std::vector<Cell_collapse>> collapses_within(std::vector<Cell_run>&& runs, double limit)
 {
-  constexpr std::size_t turns = 8;
-  std::vector<Cell_collapse> result;
-  for (Cell_run& run : runs)
+  std::vector<std::vector<Cell_collapse>> result;
+  for (Cell_run& run : runs) {
     run.collapses.erase(std::find_if(run.collapses.begin(), run.collapses.end(),
                                      [&](const Cell_collapse& collapse) { return collapse.cost > limit; }),
                         run.collapses.end());
-  for (std::size_t turn = 0; turn < turns; ++turn)
-    for (Cell_run& run : runs) {
-      const auto part = [&](std::size_t i) {
-        return std::make_move_iterator(run.collapses.begin() +
-                                       std::ptrdiff_t(i * run.collapses.size() / turns));
-      };
-      result.insert(result.end(), part(turn), part(turn + 1));
-    }
+    result.push_back(std::move(run.collapses));
+  }
   return result;
 }
 
@@ -331,7 +321,7 @@ Cell_collapses reduce_in_cells(const Cell_context& whole)
                     tbb::simple_partitioner());
   result.is_stopped = stop.is_stopped();
   const double limit = result.is_stopped ? s_infinity : common_cost(runs);
-  result.collapses = in_turns(runs, limit);
+  result.collapses = collapses_within(std::move(runs), limit);
   return result;
 }
 
