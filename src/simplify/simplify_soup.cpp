@@ -266,11 +266,10 @@ private:
   }
 
   // Finds collapses in cells, and does them to the whole mesh, which then knows as much of them as of its own
-  // collapses. Cells go a little less far than a reduction of the whole alone would. The reduction that
-  // follows also collapses where cells meet, and evens out differences between them.
+  // collapses. The reduction that follows also collapses where cells meet, and evens out differences between
+  // them.
   void run_in_cells()
   {
-    constexpr double caution = 0.97;
     const Stopwatch stopwatch;
     const auto total = m_simplification.targets().total();
     const std::size_t movable =
@@ -279,7 +278,7 @@ private:
       return;
     const double faces_per_collapse = 2.0 * double(total.faces) / double(m_working.face_count());
     const double share =
-        caution * double(m_simplification.targets().total_excess()) / (faces_per_collapse * double(movable));
+        double(m_simplification.targets().total_excess()) / (faces_per_collapse * double(movable));
     const Cell_collapses found = reduce_in_cells({m_prepared,
                                                   m_working,
                                                   m_simplification.rule(),
