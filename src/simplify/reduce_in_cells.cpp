@@ -7,12 +7,14 @@
 #include <selvedge/Surface_mesh_simplification/internal/Simplification.h>
 
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_invoke.h>
 #include <oneapi/tbb/partitioner.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <mutex>
 #include <numeric>
@@ -105,7 +107,7 @@ public:
     triangles.erase(std::remove_if(triangles.begin(), triangles.end(),
                                    [&](Index t) { return t < fronts.size() && fronts[t] != t; }),
                     triangles.end());
-    divide({}, vertices.begin(), vertices.end(), std::move(triangles));
+    m_cells = divide({}, vertices.begin(), vertices.end(), std::move(triangles));
   }
 
   std::vector<Cell> take() { return std::move(m_cells); }
@@ -113,16 +115,17 @@ public:
 private:
   using Iterator = std::vector<Index>::iterator;
 
-  void divide(const Box& box, Iterator first, Iterator beyond, std::vector<Index> triangles)
+  std::vector<Cell> divide(const Box& box, Iterator first, Iterator beyond, std::vector<Index> triangles)
   {
+    std::vector<Cell> cells;
     const std::size_t count = beyond - first;
     if (count <= m_vertices_per_cell) {
       if (count > 0)
-        m_cells.push_back({box, std::move(triangles)});
-      return;
+        cells.push_back({box, std::move(triangles)});
+      return cells;
     }
     if (m_stop.ask())
-      return;
+      return cells;
     const int axis = longest_axis(first, beyond);
     const auto coordinate = [&](Index v) { return m_scale(m_soup.points[v][axis]); };
     const Iterator middle = first + count / 2;
@@ -144,8 +147,14 @@ private:
         triangles_above.push_back(t);
     }
     triangles = {};
-    divide(below, first, first_part, std::move(triangles_below));
-    divide(above, second_part, beyond, std::move(triangles_above));
+    std::vector<Cell> cells_above;
+    tbb::parallel_invoke(Cancellation_scope::inherited(
+                             [&] { cells = divide(below, first, first_part, std::move(triangles_below)); }),
+                         Cancellation_scope::inherited([&] {
+                           cells_above = divide(above, second_part, beyond, std::move(triangles_above));
+                         }));
+    std::move(cells_above.begin(), cells_above.end(), std::back_inserter(cells));
+    return cells;
   }
 
   int longest_axis(Iterator first, Iterator beyond) const

@@ -53,7 +53,7 @@ struct Cell_collapses
 /// their timing. `should_stop` of the options is asked before every division of a box, before every cell, and
 /// within each cell as in any reduction.
 ///
-/// **Complexity** O(n log n) for n faces in all; parallel, except for the division into cells.
+/// **Complexity** O(n log n) for n faces in all, in parallel.
 Cell_collapses reduce_in_cells(const Cell_context& whole);
 
 } // namespace selvedge

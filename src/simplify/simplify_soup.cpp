@@ -17,6 +17,8 @@
 #include <selvedge/Parts.h>
 #include <selvedge/Surface_mesh_simplification/internal/Simplification.h>
 
+#include <oneapi/tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <numeric>
 #include <string>
@@ -279,13 +281,17 @@ private:
     const double faces_per_collapse = 2.0 * double(total.faces) / double(m_working.face_count());
     const double share =
         double(m_simplification.targets().total_excess()) / (faces_per_collapse * double(movable));
-    const Cell_collapses found = reduce_in_cells({m_prepared,
-                                                  m_working,
-                                                  m_simplification.rule(),
-                                                  m_options,
-                                                  m_simplification.diagonal(),
-                                                  {total.faces, total.target, total.faces},
-                                                  share});
+    Cell_collapses found;
+    tbb::parallel_invoke(Cancellation_scope::inherited([&] {
+                           found = reduce_in_cells({m_prepared,
+                                                    m_working,
+                                                    m_simplification.rule(),
+                                                    m_options,
+                                                    m_simplification.diagonal(),
+                                                    {total.faces, total.target, total.faces},
+                                                    share});
+                         }),
+                         Cancellation_scope::inherited([this] { m_simplification.begin(); }));
     m_cells = found.cells;
     m_is_stopped_in_cells = found.is_stopped;
     std::size_t collapses = 0;
@@ -315,6 +321,8 @@ private:
     if (m_is_stopped_in_cells)
       m_options.should_stop = [](const Simplify_progress&) { return true; };
     m_seconds_cells = stopwatch.seconds();
+    tbb::parallel_invoke(Cancellation_scope::inherited([this] { m_simplification.build_index(); }),
+                         Cancellation_scope::inherited([this] { m_simplification.refresh_quadrics(); }));
   }
 
   Simplified_soup state(const Simplify_report& report) const

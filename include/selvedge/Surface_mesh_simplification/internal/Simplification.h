@@ -91,6 +91,7 @@ class Simplification
   };
 
   using Poses = Further_poses<TriangleMesh, Is_of_strip>;
+  using Clock = std::chrono::steady_clock;
 
   /// Adds the costs of texture and normals to that of the quadrics, takes the mean over all poses, and for
   /// vertices that move together the costs of all. An edge has no cost if none of its faces counts.
@@ -272,20 +273,29 @@ public:
       throw Argument_error("the weight of normals is at least 0, and finite");
     m_quadrics.weigh(mesh, constraints.vertex_weights);
     m_quadrics.measure_by(m_diagonal);
-    if (options.max_error)
-      m_tracked.begin(m_points, m_diagonal, max_error());
     m_report.faces_input = m_targets.total().faces;
     m_report.faces_fixed = m_targets.total().fixed;
   }
 
+  /// Computes what is asked of the original. `run` does it, if nobody has; others may read the mesh
+  /// meanwhile.
+  void begin()
+  {
+    if (std::exchange(m_has_begun, true))
+      return;
+    if (m_options.max_error)
+      m_tracked.begin(m_points, m_diagonal, max_error());
+    m_quadrics.initialize(m_mesh, m_points, m_traits);
+  }
+
   /// Moves the source of `moving` onto its target, or both to `place`, without asking any filter, since the
   /// caller knows that this is allowed: it repeats collapses that were found in cells at `cost`. Call it
-  /// before `run`.
+  /// between `begin` and `run`.
   void collapse(Halfedge moving, const std::optional<Point>& place, bool is_mover_first, double cost)
   {
     m_cost = cost;
+    m_are_quadrics_old = true;
     const Geom_traits traits;
-    m_quadrics.initialize(m_mesh, m_points, traits);
     const Lazy_edge_profile<TriangleMesh, VertexPointMap, Geom_traits> profile(moving, m_mesh, m_points,
                                                                                traits);
     ++m_accepted;
@@ -295,6 +305,33 @@ public:
     perform_collapse(m_mesh, m_points, No_constrained_edges(),
                      place ? Collapse_of_edge(profile, *place) : Collapse_of_edge::along(profile, moving),
                      visitor, Accumulation{m_quadrics});
+  }
+
+  /// Takes note that no more such collapses come: `refresh_quadrics` computes what there is around each
+  /// vertex now, and `build_index` where each face is. `run` does it, if nobody has. Both may be called at
+  /// once.
+  void refresh_quadrics()
+  {
+    if (std::exchange(m_are_quadrics_old, false))
+      m_quadrics.recompute(m_mesh, m_points);
+  }
+  void build_index()
+  {
+    if (std::exchange(m_has_index, true))
+      return;
+    const Clock::time_point start = Clock::now();
+    Cancellation_scope::check();
+    if (m_options.check_intersections) {
+      m_intersection.emplace(m_mesh, m_error, empty_index(), m_points);
+      m_intersection->exempt(m_offending_pairs, m_multiplicities);
+      m_intersection->let_intersect(m_may_intersect);
+      if (m_options.clearance)
+        m_intersection->keep_clearance(*m_options.clearance, m_obstacle);
+      m_poses.build_index([this] { return empty_index(); }, m_multiplicities, m_may_intersect,
+                          m_options.clearance, m_obstacle);
+    }
+    Cancellation_scope::check();
+    m_report.seconds_index = seconds_since(start);
   }
 
   double diagonal() const { return m_diagonal; }
@@ -340,9 +377,9 @@ public:
     for (const double ratio : ratios)
       m_levels.push_back(m_targets.share(0).at_ratio(ratio));
     m_on_level = on_level;
+    begin();
     build_index();
-    if (m_report.collapses > 0) // found in cells
-      m_quadrics.recompute(m_mesh, m_points);
+    refresh_quadrics();
     pass_levels();
 
     // The observer's weights of faces are relative to the area 1, those of the quadrics to that of the
@@ -360,8 +397,6 @@ public:
   }
 
 private:
-  using Clock = std::chrono::steady_clock;
-
   struct Rounding
   {
     const Observer* observer;
@@ -609,23 +644,6 @@ private:
         break;
       }
     return refusal == Line_refusal::off_line || reason == Hindrance::normals ? reason : Hindrance::line_end;
-  }
-
-  void build_index()
-  {
-    const Clock::time_point start = Clock::now();
-    Cancellation_scope::check();
-    if (m_options.check_intersections) {
-      m_intersection.emplace(m_mesh, m_error, empty_index(), m_points);
-      m_intersection->exempt(m_offending_pairs, m_multiplicities);
-      m_intersection->let_intersect(m_may_intersect);
-      if (m_options.clearance)
-        m_intersection->keep_clearance(*m_options.clearance, m_obstacle);
-      m_poses.build_index([this] { return empty_index(); }, m_multiplicities, m_may_intersect,
-                          m_options.clearance, m_obstacle);
-    }
-    Cancellation_scope::check();
-    m_report.seconds_index = seconds_since(start);
   }
 
   Selectable_index empty_index() const
@@ -1081,6 +1099,8 @@ private:
   std::size_t m_refused_in_first_pose = 0;
   std::size_t m_refused_by_clearance = 0; // in any pose
   double m_cost = 0;
+  bool m_has_begun = false, m_has_index = false;
+  bool m_are_quadrics_old = false; // for collapses that were found in cells
   bool m_are_hindrances_counted = true;
   Refusals m_refused_until_now;
   std::vector<std::size_t> m_levels; // face counts of share 0
