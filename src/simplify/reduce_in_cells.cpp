@@ -7,6 +7,7 @@
 #include <selvedge/Surface_mesh_simplification/internal/Simplification.h>
 
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_invoke.h>
 #include <oneapi/tbb/partitioner.h>
 
 #include <algorithm>
@@ -106,7 +107,7 @@ public:
     triangles.erase(std::remove_if(triangles.begin(), triangles.end(),
                                    [&](Index t) { return t < fronts.size() && fronts[t] != t; }),
                     triangles.end());
-    divide({}, vertices.begin(), vertices.end(), std::move(triangles));
+    m_cells = divide({}, vertices.begin(), vertices.end(), std::move(triangles));
   }
 
   std::vector<Cell> take() { return std::move(m_cells); }
@@ -114,16 +115,17 @@ public:
 private:
   using Iterator = std::vector<Index>::iterator;
 
-  void divide(const Box& box, Iterator first, Iterator beyond, std::vector<Index> triangles)
+  std::vector<Cell> divide(const Box& box, Iterator first, Iterator beyond, std::vector<Index> triangles)
   {
+    std::vector<Cell> cells;
     const std::size_t count = beyond - first;
     if (count <= m_vertices_per_cell) {
       if (count > 0)
-        m_cells.push_back({box, std::move(triangles)});
-      return;
+        cells.push_back({box, std::move(triangles)});
+      return cells;
     }
     if (m_stop.ask())
-      return;
+      return cells;
     const int axis = longest_axis(first, beyond);
     const auto coordinate = [&](Index v) { return m_scale(m_soup.points[v][axis]); };
     const Iterator middle = first + count / 2;
@@ -145,8 +147,14 @@ private:
         triangles_above.push_back(t);
     }
     triangles = {};
-    divide(below, first, first_part, std::move(triangles_below));
-    divide(above, second_part, beyond, std::move(triangles_above));
+    std::vector<Cell> cells_above;
+    tbb::parallel_invoke(Cancellation_scope::inherited(
+                             [&] { cells = divide(below, first, first_part, std::move(triangles_below)); }),
+                         Cancellation_scope::inherited([&] {
+                           cells_above = divide(above, second_part, beyond, std::move(triangles_above));
+                         }));
+    std::move(cells_above.begin(), cells_above.end(), std::back_inserter(cells));
+    return cells;
   }
 
   int longest_axis(Iterator first, Iterator beyond) const
@@ -265,25 +273,16 @@ double common_cost(const std::vector<Cell_run>& runs)
   return s_infinity;
 }
 
-// Returns the collapses of each cell until the first that costs more than `limit`. Those of a cell keep their
-// order. Cells take turns, each with an eighth of its collapses, so that cells that are done to the whole
-// only in part are so evenly. What a cell does in one turn is near in memory.
-std::vector<Cell_collapse> in_turns(std::vector<Cell_run>& runs, double limit)
+// Returns the collapses of each cell until the first that costs more than `limit`.
+std::vector<std::vector<Cell_collapse>> collapses_within(std::vector<Cell_run>&& runs, double limit)
 {
-  constexpr std::size_t turns = 8;
-  std::vector<Cell_collapse> result;
-  for (Cell_run& run : runs)
+  std::vector<std::vector<Cell_collapse>> result;
+  for (Cell_run& run : runs) {
     run.collapses.erase(std::find_if(run.collapses.begin(), run.collapses.end(),
                                      [&](const Cell_collapse& collapse) { return collapse.cost > limit; }),
                         run.collapses.end());
-  for (std::size_t turn = 0; turn < turns; ++turn)
-    for (Cell_run& run : runs) {
-      const auto part = [&](std::size_t i) {
-        return std::make_move_iterator(run.collapses.begin() +
-                                       std::ptrdiff_t(i * run.collapses.size() / turns));
-      };
-      result.insert(result.end(), part(turn), part(turn + 1));
-    }
+    result.push_back(std::move(run.collapses));
+  }
   return result;
 }
 
@@ -334,7 +333,7 @@ Cell_collapses reduce_in_cells(const Cell_context& whole)
                     tbb::simple_partitioner());
   result.is_stopped = stop.is_stopped();
   const double limit = result.is_stopped ? s_infinity : common_cost(runs);
-  result.collapses = in_turns(runs, limit);
+  result.collapses = collapses_within(std::move(runs), limit);
   return result;
 }
 

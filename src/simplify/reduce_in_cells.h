@@ -36,12 +36,12 @@ struct Cell_collapse
 struct Cell_collapses
 {
   std::size_t cells = 0;
-  std::vector<Cell_collapse> collapses; ///< in turns of the cells, those of each in their order
-  bool is_stopped = false;              ///< `should_stop` of the options has returned true
+  std::vector<std::vector<Cell_collapse>> collapses; ///< of each cell, in their order
+  bool is_stopped = false;                           ///< `should_stop` of the options has returned true
 };
 
-/// Finds collapses that can be done to the whole mesh in the order in which they are returned, or those of
-/// different cells in any other order, or at once.
+/// Finds collapses that can be done to the whole mesh: those of one cell in their order, and those of
+/// different cells in any order, or at once.
 ///
 /// Cells are disjoint open boxes. A vertex may move in a cell only if it and all its neighbours are strictly
 /// inside, and only to places strictly inside. So every star and every sweep is strictly inside a convex set,
@@ -53,7 +53,7 @@ struct Cell_collapses
 /// their timing. `should_stop` of the options is asked before every division of a box, before every cell, and
 /// within each cell as in any reduction.
 ///
-/// **Complexity** O(n log n) for n faces in all; parallel, except for the division into cells.
+/// **Complexity** O(n log n) for n faces in all, in parallel.
 Cell_collapses reduce_in_cells(const Cell_context& whole);
 
 } // namespace selvedge

@@ -12,9 +12,12 @@
 #include "soup/texture.h"
 #include "soup/vertex_weights.h"
 
+#include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
 #include <selvedge/Parts.h>
 #include <selvedge/Surface_mesh_simplification/internal/Simplification.h>
+
+#include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <numeric>
@@ -280,11 +283,10 @@ private:
   }
 
   // Finds collapses in cells, and does them to the whole mesh, which then knows as much of them as of its own
-  // collapses. Cells go a little less far than a reduction of the whole alone would. The reduction that
-  // follows also collapses where cells meet, and evens out differences between them.
+  // collapses. The reduction that follows also collapses where cells meet, and evens out differences between
+  // them.
   void run_in_cells()
   {
-    constexpr double caution = 0.97;
     const Stopwatch stopwatch;
     const auto total = m_simplification.targets().total();
     const std::size_t movable =
@@ -293,37 +295,49 @@ private:
       return;
     const double faces_per_collapse = 2.0 * double(total.faces) / double(m_working.face_count());
     const double share =
-        caution * double(m_simplification.targets().total_excess()) / (faces_per_collapse * double(movable));
-    const Cell_collapses found = reduce_in_cells({m_prepared,
-                                                  m_working,
-                                                  m_simplification.rule(),
-                                                  m_options,
-                                                  m_simplification.diagonal(),
-                                                  {total.faces, total.target, total.faces},
-                                                  share});
+        double(m_simplification.targets().total_excess()) / (faces_per_collapse * double(movable));
+    Cell_collapses found;
+    tbb::parallel_invoke(Cancellation_scope::inherited([&] {
+                           found = reduce_in_cells({m_prepared,
+                                                    m_working,
+                                                    m_simplification.rule(),
+                                                    m_options,
+                                                    m_simplification.diagonal(),
+                                                    {total.faces, total.target, total.faces},
+                                                    share});
+                         }),
+                         Cancellation_scope::inherited([this] { m_simplification.begin(); }));
     m_cells = found.cells;
-    const std::size_t faces_left =
-        total.faces - std::min(total.faces, std::size_t(faces_per_collapse * double(found.collapses.size())));
-    const Simplify_progress progress{total.faces, total.target, faces_left};
     m_is_stopped_in_cells = found.is_stopped;
-    for (const auto& [collapse, cost] : found.collapses) {
-      // Small cells may together go too far, each by its last face.
-      if (m_simplification.targets().is_reached())
-        break;
-      // When the cells were stopped, all that they have reached is done without another question.
-      constexpr std::size_t collapses_between_questions = 4096;
-      if (!m_is_stopped_in_cells && m_options.should_stop &&
-          m_collapses_in_cells % collapses_between_questions == 0 && m_options.should_stop(progress)) {
-        m_is_stopped_in_cells = true;
-        break;
+    std::size_t collapses = 0;
+    for (const std::vector<Cell_collapse>& of_cell : found.collapses)
+      collapses += of_cell.size();
+    const std::size_t faces_left =
+        total.faces - std::min(total.faces, std::size_t(faces_per_collapse * double(collapses)));
+    // What one cell does is near in memory, so they are done one after the other.
+    for (const std::vector<Cell_collapse>& of_cell : found.collapses)
+      for (const auto& [collapse, cost] : of_cell) {
+        // Small cells may together go too far, each by its last face.
+        if (m_simplification.targets().is_reached())
+          break;
+        // When somebody wants to stop, all that the cells have reached is done without another question, so
+        // that the result is even.
+        constexpr std::size_t collapses_between_questions = 4096;
+        if (m_collapses_in_cells % collapses_between_questions == 0) {
+          if (!m_options.should_stop)
+            Cancellation_scope::check();
+          else if (!m_is_stopped_in_cells)
+            m_is_stopped_in_cells = m_options.should_stop({total.faces, total.target, faces_left});
+        }
+        m_simplification.collapse(m_working.halfedge(collapse.moving), collapse.place,
+                                  collapse.is_mover_first, cost);
+        ++m_collapses_in_cells;
       }
-      m_simplification.collapse(m_working.halfedge(collapse.moving), collapse.place, collapse.is_mover_first,
-                                cost);
-      ++m_collapses_in_cells;
-    }
     if (m_is_stopped_in_cells)
       m_options.should_stop = [](const Simplify_progress&) { return true; };
     m_seconds_cells = stopwatch.seconds();
+    tbb::parallel_invoke(Cancellation_scope::inherited([this] { m_simplification.build_index(); }),
+                         Cancellation_scope::inherited([this] { m_simplification.refresh_quadrics(); }));
   }
 
   Simplified_soup state(const Simplify_report& report) const

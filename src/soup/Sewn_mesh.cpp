@@ -137,23 +137,27 @@ Sewn_mesh::Sewn_mesh(const Sewn_mesh& whole, const Border_rule<Mesh>& rule, cons
 {
   const Mesh& of_whole = whole.mesh();
   std::vector<Halfedge> originals; // by side
-  std::vector<Index> mates;
+  std::vector<Index> mates(3 * faces.size(), Sewing::none);
   std::vector<Index> cut; // sides whose mates are not in the part
+  originals.reserve(mates.size());
   for (const Index face : faces) {
+    const auto next_face = faces.begin() + std::ptrdiff_t(originals.size() / 3) + 1;
     if (!whole.is_own(Face(face)))
       m_constraints.uncounted_faces.emplace_back(Index(originals.size() / 3));
     for (unsigned char place = 0; place < 3; ++place) {
+      const Index side = Index(originals.size());
       originals.push_back(whole.halfedge({face, place, false}));
-      mates.push_back(Sewing::none);
       const Halfedge opposite = of_whole.opposite(originals.back());
-      if (of_whole.is_border(opposite))
+      if (mates[side] != Sewing::none || of_whole.is_border(opposite)) // found from the other side, or none
         continue;
       const Side beyond = whole.side(opposite);
-      const auto found = std::lower_bound(faces.begin(), faces.end(), beyond.triangle);
-      if (found != faces.end() && *found == beyond.triangle)
-        mates.back() = Index(3 * (found - faces.begin())) + beyond.place;
-      else
-        cut.push_back(Index(mates.size() - 1));
+      const auto found =
+          beyond.triangle < face ? faces.end() : std::lower_bound(next_face, faces.end(), beyond.triangle);
+      if (found != faces.end() && *found == beyond.triangle) {
+        mates[side] = Index(3 * (found - faces.begin())) + beyond.place;
+        mates[mates[side]] = side;
+      } else
+        cut.push_back(side);
     }
   }
 

@@ -130,24 +130,23 @@ TEST(Cells, AllStopAtTheCostThatHalfOfThemHaveReached)
   EXPECT_EQ(std::size_t(std::count_if(left.begin(), left.end(), is_rough)), rough.triangles.size());
 }
 
-// A rough sheet in two cells: both go on together, and not one after the other.
-TEST(Cells, TakeTurns)
+// So that the result is even, one cell is not done and the other left out.
+TEST(Cells, AreAllDoneToTheWholeWhoeverWantsToStopMeanwhile)
 {
-  const Triangle_soup rough = mapped(
-      sheet(40, 20), [](const Point_3& p) { return Point_3(p.x(), p.y(), std::sin(5 * p.x() + 7 * p.y())); });
-  Simplify_options options = in_cells(to_ratio(0.5), rough.triangles.size() - 100);
-  std::vector<bool> is_in_first_cell;
-  options.on_collapse = [&](const Soup_collapse& collapse) {
-    is_in_first_cell.push_back(rough.points[collapse.removed].x() < 20);
+  const Prepared_soup prepared = prepare(sheet(100, 100));
+  Simplify_options options = in_cells(to_ratio(0.1), 4000);
+  const std::size_t found = simplify_soup(prepared, options).report.collapses_in_cells;
+  std::size_t done = 0, wishes = 0;
+  options.on_collapse = [&](const Soup_collapse&) { ++done; };
+  options.should_stop = [&](const Simplify_progress&) {
+    wishes += done > 0;
+    return done > 0;
   };
-  const Reduction reduction = reduce(rough, options);
-  EXPECT_EQ(reduction.simplified.report.cells, 2u);
-  const std::size_t half = reduction.simplified.report.collapses_in_cells / 2;
-  EXPECT_GT(half, 50u);
-  const auto count = std::size_t(
-      std::count(is_in_first_cell.begin(), is_in_first_cell.begin() + std::ptrdiff_t(half), true));
-  EXPECT_GT(count, half / 3);
-  EXPECT_LT(count, half - half / 3);
+  const Simplify_report report = simplify_soup(prepared, options).report;
+  EXPECT_TRUE(report.is_stopped);
+  EXPECT_EQ(wishes, 1u);
+  EXPECT_EQ(report.collapses_in_cells, found);
+  EXPECT_EQ(report.collapses, found);
 }
 
 // The control of the replay: what has no cells but layers, each reduced as if the other were not there, is

@@ -360,7 +360,6 @@ group(
     ("if (low <= plane)", "if (low < plane)", "faces that touch the wall are not in the cell below",
      "what moves in a cell is with its neighbours inside the wall, which such a face does not come into"),
     ("return collapse.cost > limit;", "return false;", "every cell goes to its own cost"),
-    ("turns = 8;", "turns = 1;", "cells are done to the whole one after the other"),
     ("working.constraints().diagonal = whole.diagonal;", "", "drift as a share of the cell"),
 )
 group(

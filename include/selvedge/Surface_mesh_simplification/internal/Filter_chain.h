@@ -132,10 +132,9 @@ public:
         m_tracked(m_mesh), m_error(setup.max_error, m_tracked, m_uv), m_poses(setup, {&m_mesh, m_rule}),
         m_offending_pairs(setup.constraints.offending_pairs),
         m_multiplicities(setup.constraints.multiplicities), m_may_intersect(setup.constraints.may_intersect),
-        m_obstacle(setup.constraints.uncounted_faces)
+        m_obstacle(setup.constraints.uncounted_faces), m_diagonal(setup.diagonal),
+        m_max_error(setup.max_error)
   {
-    if (m_options.max_error)
-      m_tracked.begin(m_points, setup.diagonal, setup.max_error);
   }
 
   Filter_chain(const Filter_chain&) = delete; // filters refer to partners
@@ -145,6 +144,14 @@ public:
   const Targets& targets() const { return m_targets; }
   const Partners& partners() const { return m_partners; }
   const Poses& poses() const { return m_poses; }
+
+  /// Takes points of the original, from which the result may not come too far. Others may read the mesh
+  /// meanwhile.
+  void track_points()
+  {
+    if (m_options.max_error)
+      m_tracked.begin(m_points, m_diagonal, m_max_error);
+  }
 
   /// Sets the target of all faces that have none of their own.
   void set_target(std::size_t faces) { m_targets.set_target(0, faces); }
@@ -331,6 +338,7 @@ private:
   decltype(Constraints::multiplicities) m_multiplicities;
   decltype(Constraints::may_intersect) m_may_intersect;
   decltype(Constraints::uncounted_faces) m_obstacle;
+  double m_diagonal, m_max_error;
   std::optional<Intersection> m_intersection;
   const std::vector<Face>* m_blockers = nullptr;
   std::size_t m_refused_by_contact = 0;   // or by lack of clearance, in the mesh's own pose

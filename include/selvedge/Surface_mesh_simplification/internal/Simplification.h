@@ -28,6 +28,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace selvedge {
@@ -73,13 +74,23 @@ public:
   {
   }
 
+  /// Computes what is asked of the original. `run` does it, if nobody has; others may read the mesh
+  /// meanwhile.
+  void begin()
+  {
+    if (std::exchange(m_has_begun, true))
+      return;
+    m_filters.track_points();
+    m_quadrics.initialize(m_mesh, m_points, m_traits);
+  }
+
   /// Moves the source of `moving` onto its target, or both to `place`, without asking any filter, since the
   /// caller knows that this is allowed: it repeats collapses that were found in cells at `cost`. Call it
-  /// before `run`.
+  /// between `begin` and `run`.
   void collapse(Halfedge moving, const std::optional<Point>& place, bool is_mover_first, double cost)
   {
     m_cost = cost;
-    m_quadrics.initialize(m_mesh, m_points, m_traits);
+    m_are_quadrics_old = true;
     const Profile profile(moving, m_mesh, m_points, m_traits);
     ++m_accepted;
     m_is_mover_first = is_mover_first;
@@ -87,6 +98,25 @@ public:
     perform_collapse(m_mesh, m_points, No_constrained_edges(),
                      place ? Collapse<Profile>(profile, *place) : Collapse<Profile>::along(profile, moving),
                      visitor, Accumulation{m_quadrics});
+  }
+
+  /// Takes note that no more such collapses come: `refresh_quadrics` computes what there is around each
+  /// vertex now, and `build_index` where each face is. `run` does it, if nobody has. Both may be called at
+  /// once.
+  void refresh_quadrics()
+  {
+    if (std::exchange(m_are_quadrics_old, false))
+      m_quadrics.recompute(m_mesh, m_points);
+  }
+  void build_index()
+  {
+    if (std::exchange(m_has_index, true))
+      return;
+    const Clock::time_point start = Clock::now();
+    Cancellation_scope::check();
+    m_filters.build_index();
+    Cancellation_scope::check();
+    m_report.seconds_index = seconds_since(start);
   }
 
   double diagonal() const { return m_diagonal; }
@@ -121,9 +151,9 @@ public:
     for (const double ratio : ratios)
       m_levels.push_back(targets().share(0).at_ratio(ratio));
     m_on_level = on_level;
+    begin();
     build_index();
-    if (m_report.collapses > 0) // found in cells
-      m_quadrics.recompute(m_mesh, m_points);
+    refresh_quadrics();
     pass_levels();
     const Cost costs(m_mesh, m_quadrics, m_filters, m_motions.joint(), m_observer, m_options, m_diagonal);
     if (m_options.placement == Placement::optimal)
@@ -157,15 +187,6 @@ private:
     m_quadrics.measure_by(m_diagonal);
     m_report.faces_input = targets().total().faces;
     m_report.faces_fixed = targets().total().fixed;
-  }
-
-  void build_index()
-  {
-    const Clock::time_point start = Clock::now();
-    Cancellation_scope::check();
-    m_filters.build_index();
-    Cancellation_scope::check();
-    m_report.seconds_index = seconds_since(start);
   }
 
   template <class Places>
@@ -423,6 +444,8 @@ private:
   std::size_t m_accepted = 0;
   bool m_is_mover_first = false; // of the last collapse accepted
   double m_cost = 0;
+  bool m_has_begun = false, m_has_index = false;
+  bool m_are_quadrics_old = false; // for collapses that were found in cells
   bool m_are_hindrances_counted = true;
   Refusals m_refused_until_now;
   std::vector<std::size_t> m_levels; // face counts of share 0

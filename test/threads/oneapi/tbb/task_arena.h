@@ -19,6 +19,16 @@ public:
   }
 };
 
+namespace this_task_arena {
+
+/// A thread that waits here takes up no other work in any case.
+template <class Function>
+auto isolate(const Function& function)
+{
+  return function();
+}
+
+} // namespace this_task_arena
 } // namespace tbb
 
 #endif // SELVEDGE_TEST_THREADS_TASK_ARENA_H
