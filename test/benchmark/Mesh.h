@@ -33,6 +33,7 @@ inline Mesh mesh(const std::string& argument, Defects defects = Defects::freeze)
   Prepare_options of_soup;
   of_soup.defects = defects;
   of_soup.normals = Normals_choice::automatic;
+  of_soup.open_seams = Open_seams::hold;
   std::string name = std::filesystem::path(argument).stem().string();
   std::replace_if(
       name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c) && c != '-' && c != ':'; },
