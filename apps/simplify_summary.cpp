@@ -205,16 +205,18 @@ void print_snapping(std::ostream& stream, const Snapping_notes& notes, std::size
   print(notes.near_without_edge, "no edge beside them can be sewn to the border that is near");
 }
 
-void print_border_gaps(std::ostream& stream, const Simplify_request& request, const Border_gaps& gaps,
+void print_border_gaps(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
                        double diagonal)
 {
-  if (gaps.clear_length)
-    stream << (request.open_seams == Open_seams::weld ? "  --weld auto: " : "  open seams: ")
-           << partners_in_clear_gaps(gaps, diagonal)
-           << (request.open_seams == Open_seams::weld   ? ", which is the length chosen\n"
-               : request.open_seams == Open_seams::hold ? "; they get no wider, and --weld auto closes them\n"
-                                                        : "; --weld auto closes them\n");
-  else if (request.open_seams == Open_seams::weld)
+  const Border_gaps& gaps = prepared.border_gaps;
+  const bool are_closed = request.open_seams == Open_seams::weld;
+  if (gaps.clear_length) {
+    stream << (are_closed ? "  --weld auto: " : "  open seams: ") << partners_in_clear_gaps(gaps, diagonal)
+           << (are_closed ? ", which is the length chosen\n" : "; ");
+    if (request.open_seams == Open_seams::hold)
+      stream << (prepared.facing.empty() ? "they get no wider, and " : "they get hardly wider, and ");
+    stream << (are_closed ? "" : "--weld auto closes them\n");
+  } else if (are_closed)
     stream
         << "  --weld auto: nothing is closed, because no gaps in seams are clearly narrower than what lies "
            "beside them; --weld EPS closes gaps up to a length\n";
@@ -294,7 +296,7 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
     stream << "  coincident in some poses and not in others, so that their faces are frozen: "
            << counted(std::size_t(held), "vertex", "vertices") << ", the first is " << prepared.first_held
            << '\n';
-  print_border_gaps(stream, request, prepared.border_gaps, diagonal);
+  print_border_gaps(stream, request, prepared, diagonal);
   if (prepared.snapping.distance > 0)
     print_snapping(stream, prepared.snapping, prepared.tied.size());
   const char* separator = "  not in the output, because its format cannot hold them: ";

@@ -311,6 +311,24 @@ TEST(Snapping, BordersDriftLessWhereTheyFaceEdges)
   EXPECT_GT(width(options.max_border_drift), 2 * gap + 2 * drift);
 }
 
+TEST(Snapping, PairsGoByWhatBothCost)
+{
+  // The left sheet is flat. The right one has ripples in its upper half.
+  const auto rippled = [](const Point_3& p) {
+    return Point_3(p.x(), p.y(), p.y() > 20 ? 0.1 * std::sin(2 * p.y()) : 0);
+  };
+  const Triangle_soup soup = joined(sheet(3, 40), mapped(moved(sheet(3, 40), 3.125, 0, 0), rippled));
+  const Prepared_soup prepared = prepare(soup, with_seams(Open_seams::hold));
+  ASSERT_EQ(prepared.tied.size(), 41u);
+  const Simplified_soup result = simplify_soup(prepared, to_ratio(0.6));
+  std::array<std::size_t, 2> left{0, 0}; // of the 20 lower and 20 upper ones
+  for (const Point_3& p : result.soup.points)
+    if (p.x() == 3 && p.y() != 20)
+      ++left[p.y() > 20];
+  EXPECT_LT(left[0], 15u);
+  EXPECT_EQ(left[1], 20u);
+}
+
 TEST(Snapping, GapsAreHeldOrClosedUpToALengthThatIsEitherFoundOrGiven)
 {
   for (const Open_seams open_seams : {Open_seams::hold, Open_seams::weld}) {

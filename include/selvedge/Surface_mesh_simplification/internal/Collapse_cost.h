@@ -19,8 +19,8 @@ namespace selvedge {
 namespace internal {
 
 /// What a collapse costs in a reduction: it adds the costs of texture and normals to that of the quadrics,
-/// takes the mean over all poses, and for vertices that move together the costs of all. An edge has no cost
-/// if none of its faces counts.
+/// takes the mean over all poses; for vertices that move together the costs of all, and for those that leave
+/// their borders in pairs the mean of both. An edge has no cost if none of its faces counts.
 ///
 /// A model of CGAL's concept `GetCost`.
 template <class TriangleMesh, class VertexPointMap, class Observer>
@@ -43,7 +43,7 @@ public:
   Collapse_cost(TriangleMesh& mesh, const Quadrics& quadrics, const Filters& filters, const Joint& joint,
                 const Observer& observer, const Simplify_options& options, double diagonal)
       : m_mesh(&mesh), m_quadrics(quadrics), m_targets(filters.targets()), m_joint(&joint),
-        m_poses(&filters.poses()), m_observer(&observer)
+        m_partners(&filters.partners()), m_poses(&filters.poses()), m_observer(&observer)
   {
     // The observer's weights of faces are relative to the area 1, those of the quadrics to that of the
     // diagonal.
@@ -75,15 +75,16 @@ public:
   {
     if (!m_targets.is_counted(moving) || m_observer->is_led(moving))
       return {};
-    double cost = cost_alone(profile, moving);
+    const double cost = cost_alone(profile, moving);
     if (m_joint->is_joint(source(moving, *m_mesh))) {
-      const Geom_traits traits;
+      double sum = cost;
       if (const auto others = m_joint->others(moving))
         for (const Halfedge h : *others)
-          cost += cost_alone(Lazy_edge_profile<TriangleMesh, VertexPointMap, Geom_traits>(
-                                 h, *m_mesh, profile.vertex_point_map(), traits),
-                             h);
+          sum += cost_beside(profile, h);
+      return sum;
     }
+    if (const auto motion = m_partners->partner_motion(moving))
+      return (cost + cost_beside(profile, *motion)) / 2;
     return cost;
   }
 
@@ -118,6 +119,16 @@ public:
   }
 
 private:
+  // The cost of another motion in the same mesh.
+  template <class Profile>
+  double cost_beside(const Profile& profile, Halfedge moving) const
+  {
+    const Geom_traits traits;
+    return cost_alone(Lazy_edge_profile<TriangleMesh, VertexPointMap, Geom_traits>(
+                          moving, *m_mesh, profile.vertex_point_map(), traits),
+                      moving);
+  }
+
   template <class Profile>
   double cost_alone(const Profile& profile, Halfedge moving) const
   {
@@ -135,6 +146,7 @@ private:
   Quadrics m_quadrics;
   typename Filters::Targets m_targets;
   const Joint* m_joint;
+  const typename Filters::Partners* m_partners;
   const typename Filters::Poses* m_poses;
   const Observer* m_observer;
   double m_uv_weight, m_normal_weight;
