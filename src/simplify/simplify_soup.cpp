@@ -254,7 +254,8 @@ private:
       return;
     std::vector<Working_mesh::Mesh::Vertex_index> vertices(m_prepared.positions.size()); // by position
     for (const auto v : m_working.mesh().vertices())
-      vertices[m_prepared.positions[of_soup[v]]] = v;
+      if (of_soup[v] < m_prepared.soup.points.size()) // an obstacle may have a vertex there, too
+        vertices[m_prepared.positions[of_soup[v]]] = v;
     for (const auto& [a, b] : m_prepared.tied)
       constraints.partners.emplace_back(vertices[a], vertices[b]);
     for (const Index position : m_prepared.facing)

@@ -30,7 +30,8 @@ std::vector<std::ptrdiff_t> first_equal(const std::vector<Element>& elements)
 // mover and, on a line, at the vertex behind it. Those of a contracted face must be one, with all three
 // vertices in common, just where those of its neighbours are and, on a line, those beside the edge behind. So
 // as many vertices, edges and faces of pieces go as without doubles, and what replaces them has as many
-// faces.
+// faces. And triangles beside an edge that is no line must have it in common only where they have their third
+// vertex in common: two sheets that meet in the edge alone would come apart at the goal.
 bool keeps_pieces_of_doubles(const Corner_mesh& corners, Halfedge moving, const Border_rule<Mesh>& rule)
 {
   const Mesh& mesh = corners.mesh();
@@ -57,6 +58,20 @@ bool keeps_pieces_of_doubles(const Corner_mesh& corners, Halfedge moving, const 
     }
     return first_equal(triangles);
   };
+  const auto meet_in_edge_alone = [&](Halfedge side) {
+    const Face face = mesh.face(side);
+    if (mesh.is_border(side) || !corners.is_own(face))
+      return false;
+    const auto has_common = [&](Halfedge corner, Index i, Index j) {
+      return corners.vertex_of(corners.corner_at(corner, i)) ==
+             corners.vertex_of(corners.corner_at(corner, j));
+    };
+    for (Index i = 0; i < corners.ply_count(face); ++i)
+      for (Index j = 0; j < i; ++j)
+        if (has_common(side, i, j) && has_common(mesh.prev(side), i, j) && !has_common(mesh.next(side), i, j))
+          return true;
+    return false;
+  };
   const auto at_mover = common_vertices(moving, false);
   if (at_mover != common_vertices(moving, true))
     return false;
@@ -66,7 +81,7 @@ bool keeps_pieces_of_doubles(const Corner_mesh& corners, Halfedge moving, const 
           common_faces(h) != common_faces(mesh.opposite(h)))
         return false;
   if (!rule.is_line(mesh.edge(moving)))
-    return true;
+    return !meet_in_edge_alone(moving) && !meet_in_edge_alone(mesh.opposite(moving));
   for (const Halfedge h : mesh.halfedges_around_target(mesh.opposite(moving)))
     if (h != mesh.opposite(moving) && rule.is_line(mesh.edge(h)) &&
         (at_mover != common_vertices(h, false) || common_faces(moving) != common_faces(h) ||
