@@ -116,12 +116,27 @@ TEST(Instances, GapsThatAreHeldDoNotSetPlacesApart)
   const Simplified_soup apart = simplify_soup(prepared, as_far_as_possible(Instances::apart));
   EXPECT_EQ(shared.shared_meshes, 1u);
   EXPECT_EQ(shared.apart_meshes, 0u);
+  EXPECT_EQ(shared.report.left_alone, 0u);
+  Prepared_soup welded = prepared;
+  welded.snapping.distance = 1 / 64.;
+  EXPECT_EQ(simplify_soup(welded, as_far_as_possible(Instances::shared)).shared_meshes, 0u);
   prepared.tied.clear();
   EXPECT_EQ(simplify_soup(prepared, as_far_as_possible(Instances::shared)).soup.triangles,
             shared.soup.triangles)
       << "they are not held there";
   EXPECT_NE(simplify_soup(prepared, as_far_as_possible(Instances::apart)).soup.triangles,
             apart.soup.triangles);
+}
+
+TEST(Instances, GapsBetweenPlacesAreNotHeld)
+{
+  const Triangle_soup soup =
+      in_places({{{"name", "left"}}, {{"name", "right"}, {"translation", {4.0625, 0, 0}}}}, sheet(4, 4));
+  Prepare_options options;
+  options.open_seams = Open_seams::hold;
+  const Prepared_soup prepared = prepare(soup, options);
+  EXPECT_TRUE(prepared.tied.empty());
+  EXPECT_TRUE(prepared.facing.empty());
 }
 
 TEST(Instances, WhatOnePlaceRefusesIsDoneInNone)

@@ -306,7 +306,7 @@ TEST(Snapping, BordersDriftLessWhereTheyFaceEdges)
   };
   const Triangle_soup soup =
       joined(mapped(sheet(3, 40), curved(0, 1)), mapped(sheet(3, 27), curved(3 + gap, 40 / 27.)));
-  Prepared_soup prepared = snapped(soup, 2 * gap);
+  Prepared_soup prepared = snapped(soup, 1.5 * gap);
   EXPECT_EQ(prepared.tied.size(), 0u);
   EXPECT_EQ(prepared.facing.size(), 41u + 28 - 1)
       << "all but a corner from which both surfaces lead the same way";
@@ -353,6 +353,31 @@ TEST(Snapping, GapsAreHeldOrClosedUpToALengthThatIsEitherFoundOrGiven)
   EXPECT_TRUE(prepare(open_seam(), with_seams(Open_seams::measure)).tied.empty());
   EXPECT_EQ(prepare(open_seam(), with_seams(Open_seams::measure)).border_gaps.within_clear_length, 82u);
   EXPECT_GT(prepare(open_seam(), with_seams(Open_seams::weld)).snapping.snapped, 0u);
+}
+
+TEST(Snapping, WhatIsHeldIsKnownToTheMeshItselfAndTheOwnLoopOnly)
+{
+  const auto gaps = [](const Triangle_soup& soup, const Triangle_soup& obstacle = {}) {
+    const Prepared_soup prepared = prepare(soup, with_seams(Open_seams::hold), obstacle);
+    return std::pair(prepared.tied.size(), prepared.facing.size());
+  };
+  using Gaps = std::pair<std::size_t, std::size_t>;
+  EXPECT_EQ(gaps(joined(sheet(3, 40), moved(sheet(3, 40), 3.125, 0, 0))), Gaps(41, 0));
+  EXPECT_EQ(gaps(joined(sheet(3, 40), moved(sheet(3, 40), 3.75, 0, 0))), Gaps(0, 0)) << "no clear length";
+  EXPECT_EQ(gaps(sheet(3, 40), moved(sheet(3, 40), 3.125, 0, 0)), Gaps(0, 0)) << "an obstacle has no seams";
+
+  Triangle_soup posed = open_seam();
+  posed.poses.push_back({"later", moved(posed, 0, 0, 1).points});
+  EXPECT_EQ(gaps(posed), Gaps(41, 0));
+  EXPECT_THROW(prepare(posed, with_seams(Open_seams::weld)), Argument_error);
+
+  Prepared_soup prepared = prepare(open_seam(), with_seams(Open_seams::hold));
+  Simplify_options options = to_ratio(0.1);
+  options.loop = Collapse_loop::cgal;
+  const Simplified_soup held = simplify_soup(prepared, options);
+  EXPECT_EQ(held.report.left_alone, 0u);
+  prepared.tied.clear();
+  EXPECT_EQ(simplify_soup(prepared, options).soup.triangles, held.soup.triangles);
 }
 
 TEST(Snapping, WhatHoldsAGapIsAReasonOfItsOwn)
