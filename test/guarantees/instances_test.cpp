@@ -109,9 +109,9 @@ TEST(Instances, GapsThatAreHeldDoNotSetPlacesApart)
   for (Index_triple& triangle : mirrored.triangles)
     std::swap(triangle[1], triangle[2]);
   const Triangle_soup soup = in_places(s_far_apart, joined(hills(), mirrored));
-  Prepare_options options;
-  options.open_seams = Open_seams::hold;
-  Prepared_soup prepared = prepare(soup, options);
+  Prepare_options of_soup;
+  of_soup.open_seams = Open_seams::hold;
+  Prepared_soup prepared = prepare(soup, of_soup);
   ASSERT_FALSE(prepared.tied.empty());
   const auto reduced = [&](Instances instances) {
     Simplify_options options = as_far_as_possible(instances);
