@@ -134,7 +134,7 @@ TEST(App_simplify, HoldsOpenSeamsUnlessToldOtherwise)
     const App_result result = run_app(options);
     EXPECT_EQ(result.code, 0) << result.err;
     EXPECT_NE(result.out.find(says), std::string::npos) << result.out;
-    return Json::parse(contents_of(folder / "r.json"))["snap"]["tied"].get<int>();
+    return nlohmann::json::parse(contents_of(folder / "r.json"))["snap"]["tied"].get<int>();
   };
   const std::string holds = "; they get no wider, and --weld auto closes them\n";
   EXPECT_EQ(tied({}, holds), 3);

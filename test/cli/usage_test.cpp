@@ -95,6 +95,7 @@ TEST(App_usage, RefusesWhatMakesNoSense)
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--clearance", "inf"}, "--clearance"},
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--clearance", "1", "--cells"}, "or --cells"},
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--clearance", "1", "--weld", "auto"}, "or --weld"},
+      {{"simplify", in, "-o", out, "--ratio", "0.5", "--clearance", "1", "--weld", "0.1"}, "or --weld"},
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--clearance", "1", "--may-intersect", "a:b"},
        "or --may-intersect"},
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--clearance", "1", "--no-intersection-check"},

@@ -103,25 +103,43 @@ TEST(Instances, AreReducedOnceAndJudgedInEveryPlace)
 
 TEST(Instances, GapsThatAreHeldDoNotSetPlacesApart)
 {
-  Triangle_soup mirrored =
-      mapped(hills(), [](const Point_3& p) { return Point_3(p.x(), s_side / 8. + 1 / 64. - p.y(), p.z()); });
+  Triangle_soup mirrored = mapped(hills(), [](const Point_3& p) { // the same at the gap, and steeper behind
+    return Point_3(p.x(), s_side / 8. + 1 / 64. - p.y(), double(float(p.z() * (1 + s_side / 16. - p.y()))));
+  });
   for (Index_triple& triangle : mirrored.triangles)
     std::swap(triangle[1], triangle[2]);
   const Triangle_soup soup = in_places(s_far_apart, joined(hills(), mirrored));
-  Prepare_options options;
-  options.open_seams = Open_seams::hold;
-  Prepared_soup prepared = prepare(soup, options);
+  Prepare_options of_soup;
+  of_soup.open_seams = Open_seams::hold;
+  Prepared_soup prepared = prepare(soup, of_soup);
   ASSERT_FALSE(prepared.tied.empty());
-  const Simplified_soup shared = simplify_soup(prepared, as_far_as_possible(Instances::shared));
-  const Simplified_soup apart = simplify_soup(prepared, as_far_as_possible(Instances::apart));
+  const auto reduced = [&](Instances instances) {
+    Simplify_options options = as_far_as_possible(instances);
+    options.max_border_turn = 180;
+    return simplify_soup(prepared, options);
+  };
+  const Simplified_soup shared = reduced(Instances::shared);
+  const Simplified_soup apart = reduced(Instances::apart);
   EXPECT_EQ(shared.shared_meshes, 1u);
   EXPECT_EQ(shared.apart_meshes, 0u);
+  EXPECT_EQ(shared.report.left_alone, 0u);
+  Prepared_soup welded = prepared;
+  welded.snapping.distance = 1 / 64.;
+  EXPECT_EQ(simplify_soup(welded, as_far_as_possible(Instances::shared)).shared_meshes, 0u);
   prepared.tied.clear();
-  EXPECT_EQ(simplify_soup(prepared, as_far_as_possible(Instances::shared)).soup.triangles,
-            shared.soup.triangles)
-      << "they are not held there";
-  EXPECT_NE(simplify_soup(prepared, as_far_as_possible(Instances::apart)).soup.triangles,
-            apart.soup.triangles);
+  EXPECT_EQ(reduced(Instances::shared).soup.triangles, shared.soup.triangles) << "they are not held there";
+  EXPECT_NE(reduced(Instances::apart).soup.triangles, apart.soup.triangles);
+}
+
+TEST(Instances, GapsBetweenPlacesAreNotHeld)
+{
+  const Triangle_soup soup =
+      in_places({{{"name", "left"}}, {{"name", "right"}, {"translation", {4.0625, 0, 0}}}}, sheet(4, 4));
+  Prepare_options options;
+  options.open_seams = Open_seams::hold;
+  const Prepared_soup prepared = prepare(soup, options);
+  EXPECT_TRUE(prepared.tied.empty());
+  EXPECT_TRUE(prepared.facing.empty());
 }
 
 TEST(Instances, WhatOnePlaceRefusesIsDoneInNone)

@@ -361,6 +361,12 @@ group(
      "what moves in a cell is with its neighbours inside the wall, which such a face does not come into"),
     ("return collapse.cost > limit;", "return false;", "every cell goes to its own cost"),
     ("working.constraints().diagonal = whole.diagonal;", "", "drift as a share of the cell"),
+    ("      is_at_gap[position] = true;", "      ;", "cells let borders at gaps drift as far as others"),
+)
+group(
+    "src/simplify/simplify_soup.cpp",
+    ("cells_test:Cells.GoAsFar*",),
+    ("[this] { m_simplification.begin(); }", "[] {}", "the error counts from what cells have left"),
 )
 group(
     "src/soup/Parts.cpp",
@@ -471,6 +477,26 @@ group(
     ("!is_shortly_followed(i, j, length) && !is_shortly_followed(j, i, length);", "true;", "a border is sewn to itself"),
     ("m_index.set(face, face_box(face));", "", "the index does not follow a snap"),
     ("p == q ? 0 : distance(m_sites[p], m_sites[q]));", "p == q ? 0 : least);", "gaps are closed only from their ends"),
+    ("m_distance = result.clear_length.value_or(0);", "m_distance = result.limit;", "gaps are held that are not clear"),
+    ("mutual_partners(true)", "mutual_partners()", "partners are not tied where one is frozen"),
+)
+group(
+    headers + "Surface_mesh_simplification/Border_rule.h",
+    ("snapping_test:Snapping.TheLimit*",),
+    ("state.squared_drift_of[kept] = state.pending->max_squared_drift;", ";",
+     "a place has the limit of whichever vertex the mesh keeps there"),
+    sources=("src/simplify/simplify_soup.cpp",),
+)
+group(
+    "src/simplify/simplify_soup.cpp",
+    ("snapping_test:Snapping.WhatIsHeld*",),
+    ("    if (m_options.loop == Collapse_loop::own)\n      hold_gaps", "    hold_gaps", "CGAL's loop gets ties that it cannot keep"),
+)
+group(
+    "src/simplify/prepare.cpp",
+    ("instances_test:Instances.Gaps*",),
+    ("find_open_seams(soup(), m_prepared.positions, transforms,", "find_open_seams(soup(), m_prepared.positions, {},",
+     "places of a scene are tied to each other"),
 )
 
 group(

@@ -40,6 +40,7 @@ struct Snapped
   Triangle_soup soup;
   std::vector<Index> positions;
   Snapping_notes notes;
+  Gaps_left left;
 };
 
 Snapped snap(Triangle_soup soup, const std::set<Index>& frozen = {}, double distance = s_distance)
@@ -48,9 +49,9 @@ Snapped snap(Triangle_soup soup, const std::set<Index>& frozen = {}, double dist
   std::vector<char> is_frozen(soup.triangles.size(), false);
   for (const Index t : frozen)
     is_frozen[t] = true;
-  Snapping_notes notes = snap_borders(soup, positions, is_frozen, distance).notes;
+  Snapped_borders snapped = snap_borders(soup, positions, is_frozen, distance);
   EXPECT_EQ(positions, number_positions(soup.points));
-  return {std::move(soup), std::move(positions), std::move(notes)};
+  return {std::move(soup), std::move(positions), std::move(snapped.notes), std::move(snapped.left)};
 }
 
 Border_gaps gaps_of(const Triangle_soup& soup)
@@ -176,6 +177,7 @@ TEST(Snapping_rules, FrozenVerticesDoNotSnap)
   EXPECT_EQ(result.soup.points[7], soup.points[7]);
   EXPECT_EQ(result.soup.points[16], soup.points[16]);
   EXPECT_EQ(result.notes.seam_edges, 1u);
+  EXPECT_EQ(result.left.tied, (std::vector<std::pair<Index, Index>>{{3, 16}, {7, 20}})) << "frozen or not";
 }
 
 TEST(Snapping_rules, OnlyUnderOneTransform)
@@ -185,9 +187,11 @@ TEST(Snapping_rules, OnlyUnderOneTransform)
   const std::vector<char> is_frozen(soup.triangles.size(), false);
   std::vector<Index> transforms(soup.points.size(), 7);
   std::fill(transforms.begin() + 16, transforms.end(), Index(8));
-  const Snapping_notes apart = snap_borders(soup, positions, is_frozen, s_distance, transforms).notes;
-  EXPECT_EQ(apart.left_foreign, 8u);
-  EXPECT_TRUE(apart.snaps.empty());
+  const Snapped_borders apart = snap_borders(soup, positions, is_frozen, s_distance, transforms);
+  EXPECT_EQ(apart.notes.left_foreign, 8u);
+  EXPECT_TRUE(apart.notes.snaps.empty());
+  EXPECT_TRUE(apart.left.tied.empty());
+  EXPECT_TRUE(apart.left.facing.empty());
   EXPECT_EQ(soup.points, two_sheets().points);
   std::fill(transforms.begin() + 16, transforms.end(), Index(7));
   EXPECT_EQ(snap_borders(soup, positions, is_frozen, s_distance, transforms).notes.snapped, 8u);

@@ -63,8 +63,7 @@ enum class Line_refusal : unsigned char {
 ///    line edges, and vertices where a border becomes a marked line never move.
 /// 3. No collapse removes a face whose three edges are all lines.
 /// 4. Every original vertex of a line lies within `max_drift`, or within its own limit of drift, of the
-/// segment
-///    that replaced it.
+///    segment that replaced it.
 ///
 /// **Preconditions** The mesh outlives the rule. Edges are marked and vertices are locked before the first
 /// collapse.
@@ -110,7 +109,8 @@ public:
   /// Locks a vertex, so that it never moves. Other vertices may move onto it.
   void lock(Vertex v) { m_state->raise(v, Freedom::none); }
 
-  /// Sets the largest drift for a vertex of a line, in place of `Border_rule_options::max_drift`.
+  /// Sets the largest drift for a vertex of a line, in place of `Border_rule_options::max_drift`. The vertex
+  /// of a place between two has the lesser of their limits.
   void limit_drift(Vertex v, double max_drift) { m_state->squared_drift_of[v] = max_drift * max_drift; }
 
   bool is_locked(Vertex v) const { return get(m_state->freedoms, v) == Freedom::none; }
@@ -211,6 +211,8 @@ public:
     if (!state.pending)
       return state.raise(kept, Freedom::none);
     put(state.freedoms, kept, state.pending->freedom);
+    if (!state.squared_drift_of.empty())
+      state.squared_drift_of[kept] = state.pending->max_squared_drift;
     for (const Pending_line& line : state.pending->lines) {
       const Edge e = edge(halfedge(kept, line.far_end, state.mesh).first, state.mesh);
       if (line.is_marked)
@@ -242,6 +244,7 @@ private:
   struct Pending_collapse
   {
     Freedom freedom;
+    double max_squared_drift = 0; // of the place; whichever vertex CGAL keeps
     std::vector<Pending_line> lines;
   };
 
@@ -370,6 +373,10 @@ private:
     pending.freedom = (std::max)(freedom_0, freedom_1);
     if (pending.freedom == Freedom::free)
       return pending;
+    pending.max_squared_drift = passed_at(collapse.goal()).max_squared_drift;
+    if (collapse.are_both_moved())
+      pending.max_squared_drift =
+          (std::min)(pending.max_squared_drift, passed_at(collapse.mover()).max_squared_drift);
 
     const Edge merged = edge(profile.v0_v1(), mesh);
     const bool is_along_line = is_line(merged);
