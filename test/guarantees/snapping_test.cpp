@@ -305,7 +305,7 @@ TEST(Snapping, BordersDriftLessWhereTheyFaceEdges)
     limited.max_border_drift = max_border_drift;
     return width_of_gap(simplify_soup(prepared, limited).soup, 3, 3 + gap);
   };
-  const double drift = 0.1 * options.max_border_drift * diagonal(soup);
+  const double drift = 0.1 * options.max_border_drift * distances(soup, soup).diagonal;
   EXPECT_LE(width(options.max_border_drift), 2 * gap + 2 * drift);
   prepared.facing.clear();
   EXPECT_GT(width(options.max_border_drift), 2 * gap + 2 * drift);
