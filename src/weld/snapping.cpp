@@ -78,10 +78,10 @@ public:
   Gaps_left left()
   {
     Gaps_left left;
-    std::vector<char> is_tied(m_sites.size(), false);
+    std::vector<double> reach(m_sites.size(), m_distance); // within which a site faces a border
     for (const Pair& pair : mutual_partners(true)) {
       left.tied.emplace_back(m_sites[pair.low].position, m_sites[pair.high].position);
-      is_tied[pair.low] = is_tied[pair.high] = true;
+      reach[pair.low] = reach[pair.high] = pair.distance / 2;
     }
     std::vector<Index> numbers(m_sides.size());
     std::iota(numbers.begin(), numbers.end(), Index(0));
@@ -89,12 +89,12 @@ public:
     sides.build(numbers, [&](Index side) { return segment(side).bbox(); });
     Cancellation_poll poll;
     for (Index i = 0; i < m_sites.size(); ++i) {
-      if (is_tied[i] || m_sites[i].next.empty())
+      if (m_sites[i].next.empty())
         continue;
       bool is_facing = false;
-      sides.visit_overlapping(box_around(point(m_sites[i]), m_distance), [&](Index side) {
+      sides.visit_overlapping(box_around(point(m_sites[i]), reach[i]), [&](Index side) {
         poll();
-        is_facing = is_facing || is_facing_side(i, side);
+        is_facing = is_facing || is_facing_side(i, side, reach[i]);
       });
       if (is_facing)
         left.facing.push_back(m_sites[i].position);
@@ -385,8 +385,8 @@ private:
     return {m_points[m_sides[side][0]], m_points[m_sides[side][1]]};
   }
 
-  // Whether a site is within the distance of a side at which the surface continues.
-  bool is_facing_side(Index i, Index side) const
+  // Whether a site is within some distance of a side at which the surface continues.
+  bool is_facing_side(Index i, Index side, double within) const
   {
     const std::array<Index, 2> ends = {m_site_at[m_sides[side][0]], m_site_at[m_sides[side][1]]};
     const auto is_apart = [&](Index j) {
@@ -395,7 +395,7 @@ private:
              !is_shortly_followed(j, i, m_distance);
     };
     return is_apart(ends[0]) && is_apart(ends[1]) && (is_continued(i, ends[0]) || is_continued(i, ends[1])) &&
-           CGAL::squared_distance(point(m_sites[i]), segment(side)) <= m_distance * m_distance;
+           CGAL::squared_distance(point(m_sites[i]), segment(side)) <= within * within;
   }
 
   double median_border_edge() const

@@ -361,6 +361,33 @@ TEST(Snapping, TheLimitOfDriftStaysWithThePlaceOfItsVertex)
   EXPECT_GT(of_others, limit);
 }
 
+TEST(Snapping, BordersDriftLessWherePartnersDoNotFaceEachOther)
+{
+  // The sides of the gap have 41 and 44 vertices: partners are up to half an edge apart along the seam.
+  const double gap = 1 / 64.;
+  const auto waved = [&](double from, double stretch) {
+    return [=](const Point_3& p) {
+      const double y = stretch * p.y();
+      return Point_3(from + p.x(), y, 0.2 * std::sin(y / 1.5));
+    };
+  };
+  const Triangle_soup soup =
+      joined(mapped(sheet(3, 40), waved(0, 1)), mapped(sheet(3, 43), waved(3 + gap, 40 / 43.)));
+  Prepared_soup prepared = prepare(soup, with_seams(Open_seams::hold));
+  EXPECT_EQ(prepared.tied.size(), 41u);
+  for (const auto& [a, b] : prepared.tied) {
+    const double apart = std::sqrt(CGAL::squared_distance(prepared.soup.points[a], prepared.soup.points[b]));
+    for (const Index v : {a, b})
+      EXPECT_EQ(std::count(prepared.facing.begin(), prepared.facing.end(), v), apart > 2.2 * gap) << apart;
+  }
+  const Simplify_options options = to_ratio(0.05);
+  const auto width = [&] { return width_of_gap(simplify_soup(prepared, options).soup, 3, 3 + gap); };
+  const double drift = 0.1 * options.max_border_drift * internal::diagonal(soup.points);
+  EXPECT_LE(width(), gap + 2 * drift);
+  prepared.facing.clear();
+  EXPECT_GT(width(), gap + 2 * drift);
+}
+
 TEST(Snapping, GapsAreHeldOrClosedUpToALengthThatIsEitherFoundOrGiven)
 {
   for (const Open_seams open_seams : {Open_seams::hold, Open_seams::weld}) {
