@@ -191,6 +191,22 @@ TEST(Doubles, CountAsOftenAsTheyOffend)
   EXPECT_TRUE(replay_text(soup, reduction.log).is_accepted());
 }
 
+TEST(Doubles, ThatMeetInOneEdgeDoNotComeApartThere)
+{
+  // A fan of four triangles around D, with a double of each. The two sides have C, D and the edge between
+  // them in common. If D went to C, they would meet in that vertex alone.
+  const Triangle_soup soup =
+      test::soup({{0, 0, 0}, {1, 0, 1}, {2, 0, 0}, {2, 1, 0}, {3, 2, 0}, {0, 0, 0}, {1, 0, 1}, {3, 2, 0}},
+                 {{0, 1, 3}, {1, 2, 3}, {0, 3, 4}, {4, 3, 2}, {3, 6, 5}, {2, 6, 3}, {3, 5, 7}, {7, 2, 3}});
+  const Prepared_soup prepared = prepare(soup);
+  ASSERT_EQ(prepared.doubles(), 4u);
+  Simplify_options options = to_ratio(0);
+  options.max_normal_change = 180;
+  options.min_aspect_ratio = 0;
+  const Simplified_soup result = simplify_soup(prepared, options);
+  EXPECT_TRUE(verify(result, prepared).same_topology());
+}
+
 TEST(Doubles, AreRefusedWhereDefectsAre)
 {
   EXPECT_THROW(prepare(double_sided(sheet(2, 2), Vertices::own), with(Defects::refuse)), Input_error);

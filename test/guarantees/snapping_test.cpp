@@ -337,7 +337,7 @@ TEST(Snapping, PairsGoByWhatBothCost)
     if (p.x() == 3 && p.y() != 20)
       ++left[p.y() > 20];
   EXPECT_LT(left[0], 15u);
-  EXPECT_EQ(left[1], 20u);
+  EXPECT_GE(left[1], 18u) << "ten, if the cheaper side decides";
 }
 
 // Whichever vertex the mesh keeps of the two that merge.
@@ -368,7 +368,7 @@ TEST(Snapping, BordersDriftLessWherePartnersDoNotFaceEachOther)
   const auto waved = [&](double from, double stretch) {
     return [=](const Point_3& p) {
       const double y = stretch * p.y();
-      return Point_3(from + p.x(), y, 0.2 * std::sin(y / 1.5));
+      return Point_3(from + p.x(), y, 0.8 * std::sin(y / 2));
     };
   };
   const Triangle_soup soup =
@@ -380,9 +380,13 @@ TEST(Snapping, BordersDriftLessWherePartnersDoNotFaceEachOther)
     for (const Index v : {a, b})
       EXPECT_EQ(std::count(prepared.facing.begin(), prepared.facing.end(), v), apart > 2.2 * gap) << apart;
   }
-  const Simplify_options options = to_ratio(0.05);
-  const auto width = [&] { return width_of_gap(simplify_soup(prepared, options).soup, 3, 3 + gap); };
-  const double drift = 0.1 * options.max_border_drift * internal::diagonal(soup.points);
+  const auto width = [&] {
+    double widest = 0;
+    for (const double ratio : {0.3, 0.2, 0.15, 0.1, 0.05})
+      widest = std::max(widest, width_of_gap(simplify_soup(prepared, to_ratio(ratio)).soup, 3, 3 + gap));
+    return widest;
+  };
+  const double drift = 0.1 * Simplify_options().max_border_drift * internal::diagonal(soup.points);
   EXPECT_LE(width(), gap + 2 * drift);
   prepared.facing.clear();
   EXPECT_GT(width(), gap + 2 * drift);
@@ -449,7 +453,7 @@ TEST(Snapping, ATiedVertexStaysWhereItsPartnerCannotFollow)
     else
       tied.erase(tied.begin() + i);
   ASSERT_EQ(places.size(), tied.size());
-  const Simplified_soup result = simplify_soup(prepared, to_ratio(0.3));
+  const Simplified_soup result = simplify_soup(prepared, to_ratio(0.15));
   EXPECT_LE(result.report.left_alone, 1u)
       << "one partner is refused by the guard; without ties, ten stay alone";
   std::size_t left = 0;
