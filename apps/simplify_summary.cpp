@@ -209,17 +209,19 @@ void print_border_gaps(std::ostream& stream, const Simplify_request& request, co
                        double diagonal)
 {
   const Border_gaps& gaps = prepared.border_gaps;
-  const bool are_closed = request.open_seams == Open_seams::weld;
-  if (gaps.clear_length) {
-    stream << (are_closed ? "  --weld auto: " : "  open seams: ") << partners_in_clear_gaps(gaps, diagonal)
-           << (are_closed ? ", which is the length chosen\n" : "; ");
-    if (request.open_seams == Open_seams::hold)
-      stream << (prepared.facing.empty() ? "they get no wider, and " : "they get hardly wider, and ");
-    stream << (are_closed ? "" : "--weld auto closes them\n");
-  } else if (are_closed)
-    stream
-        << "  --weld auto: nothing is closed, because no gaps in seams are clearly narrower than what lies "
-           "beside them; --weld EPS closes gaps up to a length\n";
+  const std::string found = gaps.clear_length ? partners_in_clear_gaps(gaps, diagonal) : "";
+  if (request.open_seams == Open_seams::weld)
+    stream << "  --weld auto: "
+           << (gaps.clear_length
+                   ? found + ", which is the length chosen\n"
+                   : "nothing is closed, because no gaps in seams are clearly narrower than what "
+                     "lies beside them; --weld EPS closes gaps up to a length\n");
+  else if (gaps.clear_length)
+    stream << "  open seams: " << found
+           << (request.open_seams != Open_seams::hold ? "; "
+               : prepared.facing.empty()              ? "; they get no wider, and "
+                                                      : "; they get hardly wider, and ")
+           << "--weld auto closes them\n";
 }
 
 // Says in which further pose pieces are nearest to each other.

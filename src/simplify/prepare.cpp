@@ -450,11 +450,10 @@ private:
     const std::size_t obstacle_triangles = obstacle().triangles.size();
     double distance = m_options.weld_distance;
     if (m_options.open_seams != Open_seams::ignore) {
-      Open_borders open =
-          find_open_seams(soup(), m_prepared.positions, transforms, obstacle_triangles, m_prepared.scale);
+      Open_borders open = find_open_seams(soup(), m_prepared.positions, transforms, obstacle_triangles,
+                                          m_prepared.scale, m_options.open_seams == Open_seams::hold);
       m_prepared.border_gaps = std::move(open.gaps);
-      if (m_options.open_seams == Open_seams::hold)
-        hold(std::move(open.left));
+      hold(std::move(open.left));
       if (m_options.open_seams == Open_seams::weld)
         distance = m_prepared.border_gaps.clear_length.value_or(0);
     }

@@ -681,13 +681,13 @@ Snapped_borders snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
 
 Open_borders find_open_seams(const Triangle_soup& soup, const std::vector<Index>& positions,
                              const std::vector<Index>& transforms, std::size_t obstacle_triangles,
-                             const Scale& scale)
+                             const Scale& scale, bool is_left_listed)
 {
   const std::vector<char> is_frozen(soup.triangles.size(), false);
   Border_snapping<Packed_R_tree> snapping(soup, positions, is_frozen, 0, transforms, obstacle_triangles,
                                           scale);
   Border_gaps gaps = snapping.gaps();
-  Gaps_left left = snapping.left();
+  Gaps_left left = is_left_listed && gaps.clear_length ? snapping.left() : Gaps_left();
   for (double& length : gaps.lengths)
     length = scale.undone(length);
   gaps.limit = scale.undone(gaps.limit);

@@ -32,7 +32,7 @@ struct Snapped_borders
   Gaps_left left;
 };
 
-/// The gaps between borders, and what is open within the clear length.
+/// The gaps between borders, and what is open within the clear length, if there is one.
 struct Open_borders
 {
   Border_gaps gaps;
@@ -93,16 +93,16 @@ Snapped_borders snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
 
 /// Finds, for every vertex on a border, the least distance within which it has a partner, as `snap_borders`
 /// defines partners, as far as that is at most the median length of border edges; which length is clear; and
-/// what is open within it. Nothing is moved. (A vertex may cease to have a partner within larger distances,
-/// because then a short stretch of border joins the two.) Vertices under different transforms are no
-/// partners. Frozen ones may be.
+/// what is open within it, if `is_left_listed`. Nothing is moved. (A vertex may cease to have a partner
+/// within larger distances, because then a short stretch of border joins the two.) Vertices under different
+/// transforms are no partners. Frozen ones may be.
 ///
 /// **Preconditions** and other parameters as for `snap_borders`. **Exactness** Distances are rounded to
 /// double. **Complexity** O(n log n) for n triangles, and as many steps as there are pairs of border vertices
 /// within twice the lengths found.
 Open_borders find_open_seams(const Triangle_soup& soup, const std::vector<Index>& positions,
                              const std::vector<Index>& transforms = {}, std::size_t obstacle_triangles = 0,
-                             const Scale& scale = Scale());
+                             const Scale& scale = Scale(), bool is_left_listed = true);
 
 } // namespace selvedge
 

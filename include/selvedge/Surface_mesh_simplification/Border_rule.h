@@ -211,7 +211,7 @@ public:
     if (!state.pending)
       return state.raise(kept, Freedom::none);
     put(state.freedoms, kept, state.pending->freedom);
-    if (!state.squared_drift_of.empty())
+    if (state.pending->freedom != Freedom::free && !state.squared_drift_of.empty())
       state.squared_drift_of[kept] = state.pending->max_squared_drift;
     for (const Pending_line& line : state.pending->lines) {
       const Edge e = edge(halfedge(kept, line.far_end, state.mesh).first, state.mesh);
