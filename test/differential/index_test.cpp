@@ -8,6 +8,8 @@
 #include "support/reduction.h"
 
 #include <selvedge/Surface_mesh_simplification/Intersection_filter.h>
+#include <selvedge/Surface_mesh_simplification/Visitor_chain.h>
+#include <selvedge/Surface_mesh_simplification/edge_collapse.h>
 #include <selvedge/Surface_mesh_simplification/stop_predicates.h>
 #include <selvedge/spatial/Brute_force_index.h>
 #include <selvedge/spatial/Clustered_AABB_tree.h>
@@ -17,8 +19,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 #include <utility>
+#include <vector>
 
 namespace selvedge::test {
 namespace {
@@ -109,6 +113,76 @@ TEST_P(Clusters_in_use, NeverMissAFaceThroughoutThousandsOfCollapses)
 TEST(Index, NeverMissesAFaceThroughoutThousandsOfCollapses)
 {
   expect_never_to_miss_a_face(Packed_R_tree());
+}
+
+// Visits the same faces in the opposite order.
+class Descending_index : public Brute_force_index
+{
+public:
+  template <class Visitor>
+  void visit_overlapping(const CGAL::Bbox_3& box, Visitor&& visit) const
+  {
+    std::vector<Id> found;
+    Brute_force_index::visit_overlapping(box, [&](Id face) { found.push_back(face); });
+    std::for_each(found.rbegin(), found.rend(), visit);
+  }
+};
+
+// Asks two filters, and counts the refusals for which they name other faces as blockers.
+template <class Filter, class Other>
+struct Compared_blockers
+{
+  template <class Profile, class OptionalPoint>
+  OptionalPoint operator()(const Profile& profile, const OptionalPoint& placement) const
+  {
+    const auto accepted = (*filter)(profile, placement);
+    EXPECT_EQ((*other)(profile, placement).has_value(), accepted.has_value());
+    counts->named += !filter->blockers().empty();
+    counts->differences += filter->blockers() != other->blockers();
+    return accepted;
+  }
+
+  struct Counts
+  {
+    std::size_t named = 0;
+    std::size_t differences = 0;
+  };
+  const Filter* filter;
+  const Other* other;
+  Counts* counts;
+};
+
+template <class Index>
+void expect_same_blockers(Index index, double clearance)
+{
+  const Prepared_soup prepared = prepare(sheets(3000, 4, 1e-5));
+  Working_mesh working(prepared.soup, prepared.positions, prepared.is_frozen);
+  Mesh& mesh = working.mesh();
+  using Filter = Intersection_filter<Mesh, No_filter, Brute_force_index>;
+  using Other = Intersection_filter<Mesh, No_filter, Index>;
+  const Filter filter(mesh, {}, Brute_force_index());
+  const Other other(mesh, {}, std::move(index));
+  if (clearance > 0) {
+    filter.keep_clearance(clearance);
+    other.keep_clearance(clearance);
+  }
+  typename Compared_blockers<Filter, Other>::Counts counts;
+  edge_collapse(mesh, Face_ratio_stop(0.2, mesh),
+                CGAL::parameters::filter(Compared_blockers<Filter, Other>{&filter, &other, &counts})
+                    .visitor(Visitor_chain(filter.visitor(), other.visitor())));
+  EXPECT_GT(counts.named, 100u);
+  EXPECT_EQ(counts.differences, 0u);
+}
+
+// The loop considers a refused edge again when one of its blockers changes: others would change the result.
+TEST(Index, WhichOneIsUsedDoesNotChangeTheBlockers)
+{
+  for (const double clearance : {0., 1e-4}) {
+    SCOPED_TRACE(clearance);
+    expect_same_blockers(Descending_index(), clearance);
+    expect_same_blockers(Packed_R_tree(), clearance);
+    expect_same_blockers(Clustered_AABB_tree(), clearance);
+  }
 }
 
 TEST(Index, WhichOneIsUsedDoesNotChangeTheResult)

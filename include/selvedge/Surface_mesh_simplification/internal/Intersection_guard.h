@@ -432,6 +432,7 @@ private:
     m_stationary.clear();
     if (m_permitted.is_any())
       m_permitted.begin_star(m_star, m_faces);
+    std::optional<Id> face_of_both_parts;
     // A vertex that does not merge with a neighbour must not come to the position of any other vertex.
     std::optional<Id> face_at_place;
     for (std::size_t i = 0; i < m_near.size(); ++i) {
@@ -442,12 +443,10 @@ private:
       if (!motion.target)
         for (const auto corner : face.corners)
           if (m_star[corner] == motion.place)
-            face_at_place = id;
+            face_at_place = lowest(face_at_place, id);
       if (m_permitted.is_any() && m_permitted.has_some(id)) {
-        if (motion.target && std::count(face.corners.begin(), face.corners.end(), Star::s_to) > 0) {
-          m_blockers.push_back(m_faces.descriptor(id)); // the merged star would have faces of both parts
-          return false;
-        }
+        if (motion.target && std::count(face.corners.begin(), face.corners.end(), Star::s_to) > 0)
+          face_of_both_parts = lowest(face_of_both_parts, id);
         if (m_permitted.has_all(id))
           continue;
       }
@@ -456,17 +455,34 @@ private:
       if (!m_view.has_view() || !is_clear_of_star_in_view(face))
         m_stationary.push_back(face);
     }
+    if (face_of_both_parts)
+      return refuse(*face_of_both_parts);
+    std::sort(m_stationary.begin(), m_stationary.end(),
+              [](const Stationary_face& f, const Stationary_face& g) { return f.id < g.id; });
     m_sweeps.clear();
     for (const Stationary_face& face : m_stationary)
-      for (std::size_t j = 0; j < m_star.link().size(); ++j)
-        if (is_unclear(j, face) && !m_star.is_contracted(j) && !m_permitted.has_at(j, face.id) &&
-            !is_sweep_clear(j, face)) {
-          m_blockers.push_back(m_faces.descriptor(face.id));
-          return false;
-        }
-    if (face_at_place)
-      m_blockers.push_back(m_faces.descriptor(*face_at_place));
-    return !face_at_place;
+      if (!are_sweeps_clear_of(face))
+        return refuse(face.id);
+    return !face_at_place || refuse(*face_at_place);
+  }
+
+  bool are_sweeps_clear_of(const Stationary_face& face)
+  {
+    for (std::size_t j = 0; j < m_star.link().size(); ++j)
+      if (is_unclear(j, face) && !m_star.is_contracted(j) && !m_permitted.has_at(j, face.id) &&
+          !is_sweep_clear(j, face))
+        return false;
+    return true;
+  }
+
+  // Indices find the same faces in different orders. Of several that are in the way, the one with the lowest
+  // number is named, so that every index leads to the same collapses.
+  static Id lowest(std::optional<Id> known, Id found) { return known ? std::min(*known, found) : found; }
+
+  bool refuse(Id blocker)
+  {
+    m_blockers.push_back(m_faces.descriptor(blocker));
+    return false;
   }
 
   // Finds the stationary faces that a moving face might meet.
@@ -540,16 +556,15 @@ private:
       return true; // all that it sweeps over is the star itself
     const auto mover = m_vertices.number(motion.mover);
     m_faces.find_near(m_clearance.reach(m_star.box()), mover, m_near);
+    std::sort(m_near.begin(), m_near.end());
     m_clearance.begin_motion(m_star.exact(), mover);
     for (const Id id : m_near) {
       const auto& [a, b, c] = m_faces.corners(id);
       if (m_clearance.is_own(id, a) || (m_is_descent_asked && m_descent.is_exempt(id)) ||
           (m_permitted.is_any() && m_permitted.has_some(id)))
         continue;
-      if (!m_clearance.is_kept(m_vertices.point(a), m_vertices.point(b), m_vertices.point(c))) {
-        m_blockers.push_back(m_faces.descriptor(id));
-        return false;
-      }
+      if (!m_clearance.is_kept(m_vertices.point(a), m_vertices.point(b), m_vertices.point(c)))
+        return refuse(id);
     }
     return true;
   }
