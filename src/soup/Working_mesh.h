@@ -133,6 +133,7 @@ public:
     return m_shared->are_apart(moving, companions);
   }
   bool is_led(Halfedge edge) const { return m_shared && m_shared->is_led(edge); }
+  bool adds_to_costs() const { return m_texture || m_shading; }
   double uv_cost(Halfedge moving) const { return m_texture ? m_texture->cost(moving) : 0; }
   double uv_cost_at(Halfedge edge, const Point_3& place) const
   {

@@ -467,6 +467,57 @@ TEST(Own_loop, AsksLaterAboutWhatCanWait)
   }
 }
 
+// A cost of which nothing can wait, with a bound if wished. It counts how often it is computed.
+template <bool is_bounded>
+struct Bounded_cost : Quadric_cost<Surface_mesh>
+{
+  Bounded_cost(const Surface_mesh& mesh, std::size_t& questions_) : Quadric_cost(mesh), questions(&questions_)
+  {
+  }
+
+  template <class Profile, class Halfedge>
+  auto cost_along(const Profile& profile, Halfedge moving) const
+  {
+    ++*questions;
+    return Quadric_cost::cost_along(profile, moving);
+  }
+  template <class Profile, class Halfedge>
+  internal::Optional<double> cost_bound(const Profile& profile, Halfedge moving) const
+  {
+    const int kind = int(source(moving, profile.surface_mesh()).idx() % 4);
+    if (!is_bounded || kind == 0)
+      return {};
+    return *Quadric_cost::cost_along(profile, moving) * (kind == 1 ? 1 : kind / 4.);
+  }
+  bool can_wait(Surface_mesh::Vertex_index, Surface_mesh::Edge_index) const { return false; }
+
+  std::size_t* questions;
+};
+
+TEST(Own_loop, ComputesACostWithABoundOnlyWhenTheEdgeIsTheCheapest)
+{
+  for (const auto& [name, mesh] : meshes()) {
+    SCOPED_TRACE(name);
+    const auto reduce = [&, &input = mesh](auto make_cost, std::size_t& questions) {
+      Surface_mesh reduced = input;
+      const auto cost = make_cost(reduced, questions);
+      const Halfedge_placement<Surface_mesh, std::decay_t<decltype(cost)>> placement(cost);
+      std::vector<Step> steps;
+      std::vector<double> costs;
+      selvedge::edge_collapse(
+          reduced, Edge_ratio_stop(ratio),
+          CGAL::parameters::get_cost(cost).get_placement(placement).visitor(Recorder(steps, costs)));
+      return steps;
+    };
+    std::size_t questions = 0, questions_with_bound = 0;
+    const auto steps = reduce([](auto&... of) { return Bounded_cost<false>(of...); }, questions);
+    const auto steps_with_bound =
+        reduce([](auto&... of) { return Bounded_cost<true>(of...); }, questions_with_bound);
+    EXPECT_EQ(steps_with_bound, steps);
+    EXPECT_LT(double(questions_with_bound), 0.8 * double(questions));
+  }
+}
+
 // The extras: what was refused because of a face elsewhere comes back when that face has changed.
 TEST(Own_loop, EndsOnlyWhenNothingIsPossibleAnyMore)
 {

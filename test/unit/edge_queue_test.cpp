@@ -117,6 +117,34 @@ TEST(Edge_queue, TakesTheCheapestEdgesTileByTileWhenTheirClassesAreMerged)
   }));
 }
 
+TEST(Edge_queue, KnowsWhichEdgeWouldBeItsFirst)
+{
+  constexpr std::uint32_t edges = 60000; // eight tiles
+  for (const bool is_relaxed : {false, true}) {
+    SCOPED_TRACE(is_relaxed);
+    std::mt19937 random(13);
+    const auto cost = [&] { return std::ldexp(1 + random() % 9, -int(random() % 4)); };
+    Queue queue(edges, is_relaxed);
+    for (std::uint32_t edge = 0; edge < edges; ++edge)
+      queue.append(edge, cost());
+    queue.sort();
+    queue.merge_classes(edges / 2);
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < edges / 4; ++i) {
+      const auto [least, edge] = queue.pop();
+      const double changed = random() % 2 == 0 ? least : cost();
+      const bool is_first = queue.would_be_first(edge, changed);
+      queue.set(edge, changed);
+      EXPECT_EQ(queue.pop().second == edge, is_first);
+      first += is_first;
+    }
+    EXPECT_GT(first, edges / 16);
+    while (!queue.is_empty())
+      queue.pop();
+    EXPECT_TRUE(queue.would_be_first(0, 1));
+  }
+}
+
 TEST(Edge_queue, MergesNothingInStrictOrder)
 {
   Queue queue(100, false);

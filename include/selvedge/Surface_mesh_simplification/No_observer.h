@@ -132,6 +132,9 @@ struct No_observer
     return false;
   }
 
+  /// Returns whether there are motions of which `uv_cost` or `normal_cost` is not 0.
+  bool adds_to_costs() const { return false; }
+
   /// Returns how much the motion adds to the displacement of the texture, as squared lengths with the weights
   /// of `relative_face_weight`.
   template <class Halfedge>

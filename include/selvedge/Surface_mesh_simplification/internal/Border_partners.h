@@ -52,10 +52,10 @@ public:
   /// one that cannot.
   std::optional<Halfedge> partner_motion(Halfedge moving) const
   {
-    if (m_partner_of.empty())
+    if (m_partner_of.empty() || !is_border_edge(moving))
       return std::nullopt;
     const auto from = partner_of(source(moving, m_mesh)), to = partner_of(target(moving, m_mesh));
-    if (!from || !to || *from == target(moving, m_mesh) || !is_border_edge(moving))
+    if (!from || !to || *from == target(moving, m_mesh))
       return std::nullopt;
     const auto [along, is_edge] = halfedge(*from, *to, m_mesh);
     return is_edge && is_border_edge(along) ? std::optional(along) : std::nullopt;

@@ -88,6 +88,18 @@ public:
     return cost;
   }
 
+  /// Returns the cost of the quadrics alone, which `cost_along` does not fall below. None where that would
+  /// save nothing: without texture and normals, in several poses, or for vertices that do not move alone.
+  template <class Profile>
+  Optional<double> cost_bound(const Profile& profile, Halfedge moving) const
+  {
+    if (!m_observer->adds_to_costs() || !m_poses->empty() || !m_targets.is_counted(moving) ||
+        m_observer->is_led(moving) || m_joint->is_joint(source(moving, *m_mesh)) ||
+        m_partners->partner_motion(moving))
+      return {};
+    return m_quadrics.cost_along(profile, moving);
+  }
+
   template <class Profile, class Point>
   Optional<double> cost_at(const Profile& profile, const Point& place) const
   {

@@ -66,6 +66,19 @@ struct Has_choice<Placement, Cost, std::void_t<typename Placement::Cost_policy>>
 {
 };
 
+// Whether a placement with choices has a bound of the cost of the first.
+template <class Placement, class Profile, class = void>
+struct Has_cost_bound : std::false_type
+{
+};
+template <class Placement, class Profile>
+struct Has_cost_bound<
+    Placement, Profile,
+    std::void_t<decltype(std::declval<const Placement&>().first_cost_bound(std::declval<const Profile&>()))>>
+    : std::true_type
+{
+};
+
 // Whether the visitor may name a motion that is tried next, after a collapse.
 template <class Visitor, class = void>
 struct Has_follow_up : std::false_type
@@ -204,7 +217,7 @@ private:
       selected_at = cost_of(of_edge, record);
       if (!selected_at)
         return true;
-      if (*selected_at > cost) {
+      if (*selected_at > cost && !m_queue.would_be_first(edge_id, *selected_at)) {
         enqueue(edge_id, *selected_at);
         return true;
       }
@@ -381,10 +394,22 @@ private:
     Edge_record& record = m_records[edge_id];
     record.rank = 0;
     record.is_outdated = false;
-    if (const Optional_cost cost = cost_of(profile(m_halfedges[edge_id]), record))
+    if (const Optional_cost cost = bound_or_cost_of(profile(m_halfedges[edge_id]), record))
       enqueue(edge_id, *cost);
     else
       dequeue(edge_id);
+  }
+
+  // Returns a bound of the cost of the first placement, and notes that the cost itself is still to be
+  // computed; or that cost where the placement has no bound.
+  Optional_cost bound_or_cost_of(const Profile& of_edge, Edge_record& record) const
+  {
+    if constexpr (Has_choice<Placement, Cost>::value && Has_cost_bound<Placement, Profile>::value)
+      if (const auto bound = m_placement.first_cost_bound(of_edge)) {
+        record.is_outdated = true;
+        return FT(*bound);
+      }
+    return cost_of(of_edge, record);
   }
 
   void enqueue(Id edge_id, const FT& cost)

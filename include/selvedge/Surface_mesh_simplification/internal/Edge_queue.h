@@ -128,6 +128,15 @@ public:
     return true;
   }
 
+  /// Whether an edge that is not in the queue would be its first with this cost.
+  bool would_be_first(Id edge, const FT& cost) const
+  {
+    const Id tile = edge >> m_tile_bits;
+    const Entry entry{cost, edge};
+    const Id key = key_of(entry, tile);
+    return key == m_keys[1] ? entry < m_entries[tile << m_tile_bits] : key < m_keys[1];
+  }
+
   /// Removes the first edge and returns it with its cost. The queue must not be empty.
   std::pair<FT, Id> pop()
   {
@@ -222,13 +231,16 @@ private:
   }
   Heap heap_of(Id edge) { return heap_at(edge >> m_tile_bits); }
 
+  // Returns the class of an edge, or the merged one, and the tile: the order in which tiles come.
+  Id key_of(const Entry& first, Id tile) const
+  {
+    return (std::max)(m_merged_class, class_of(first)) << s_bits_of_tiles | tile;
+  }
+
   // Tells the tournament which class the first edge of a tile has now.
   void update_key(std::size_t tile)
   {
-    Id key = s_nowhere;
-    if (m_sizes[tile] > 0)
-      key =
-          (std::max)(m_merged_class, class_of(m_entries[tile << m_tile_bits])) << s_bits_of_tiles | Id(tile);
+    Id key = m_sizes[tile] > 0 ? key_of(m_entries[tile << m_tile_bits], Id(tile)) : s_nowhere;
     std::size_t node = m_leaves + tile;
     while (m_keys[node] != key) {
       m_keys[node] = key;
