@@ -37,11 +37,11 @@ std::string bytes_of_file(const std::filesystem::path& path)
   if (std::filesystem::is_directory(status))
     throw Input_error(name + ": is a folder; name a mesh file in it");
   files::Input_descriptor file(path);
+  constexpr std::size_t least = 1 << 16, most = 1 << 24;
   std::string contents;
   if (const auto size = std::filesystem::file_size(path, error); !error)
-    contents.resize(size);
+    contents.resize(size + least); // with room for the question whether there is more
   // A file that grows meanwhile, or has no size beforehand (a pipe), is read to its end all the same.
-  constexpr std::size_t least = 1 << 16, most = 1 << 24;
   for (std::size_t read = 0;;) {
     Cancellation_scope::check();
     if (contents.size() - read < least)
@@ -245,7 +245,9 @@ std::vector<std::string> describe(const Read_notes& notes)
 std::string read_file(const std::filesystem::path& path)
 {
   std::string bytes = bytes_of_file(path);
-  return is_gzip(path) ? files::unpacked(bytes, path.string()) : bytes;
+  if (is_gzip(path))
+    return files::unpacked(bytes, path.string());
+  return bytes;
 }
 
 Mesh_file read_mesh(const std::filesystem::path& path, const Read_options& options)
