@@ -199,18 +199,22 @@ private:
     /// The square of the length of the longest side.
     double longest() const { return m_longest; }
 
-    double squared_distance(const Point& p) const { return CGAL::squared_distance(p, m_triangle); }
-
-    /// Returns whether `squared_distance(p)` is larger than a number: one-sided, in a fraction of its time.
-    bool is_beyond(const Point& p, double squared) const
+    /// Returns the squared distance of a point. Infinity may stand for any that is larger than `most`.
+    double squared_distance(const Point& p, double most = std::numeric_limits<double>::infinity()) const
     {
-      if (!m_is_bounded)
-        return false;
-      // The distance from the plane, and the largest distance beyond a side, in the plane.
-      const double height = distance(m_planes[3], p);
-      const double beside =
-          (std::max)({0., distance(m_planes[0], p), distance(m_planes[1], p), distance(m_planes[2], p)});
-      return height * height + beside * beside > squared * (1 + 1e-6) + 1e-24;
+      constexpr double rounding = 1e-24;
+      if (m_is_bounded) {
+        // The distance from the plane, and the largest distance beyond a side, in the plane.
+        const double height = distance(m_planes[3], p);
+        const double beside =
+            (std::max)({0., distance(m_planes[0], p), distance(m_planes[1], p), distance(m_planes[2], p)});
+        const double least = height * height + beside * beside;
+        if (least > most * (1 + 1e-6) + rounding)
+          return std::numeric_limits<double>::infinity();
+        if (beside == 0 && least > rounding)
+          return least; // nearest is the foot of the perpendicular
+      }
+      return CGAL::squared_distance(p, m_triangle);
     }
 
   private:
@@ -450,8 +454,7 @@ private:
         const Point& p = state.points[number];
         double squared = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < state.candidates.size() && is_far(squared); ++i) {
-          if (!state.candidates[likely].is_beyond(p, most))
-            squared = state.candidates[likely].squared_distance(p);
+          squared = state.candidates[likely].squared_distance(p, most);
           if (is_far(squared))
             likely = (likely + 1) % state.candidates.size();
         }
@@ -479,7 +482,7 @@ private:
     const auto& candidates = m_state->candidates;
     std::pair<std::size_t, double> nearest(candidates.size(), std::numeric_limits<double>::infinity());
     const auto ask = [&](std::size_t i) {
-      const double squared = candidates[i].squared_distance(p);
+      const double squared = candidates[i].squared_distance(p, nearest.second);
       if (squared < nearest.second ||
           (std::isfinite(squared) && squared == nearest.second && i < nearest.first))
         nearest = {i, squared};
@@ -487,7 +490,7 @@ private:
     if (likely < candidates.size())
       ask(likely);
     for (std::size_t i = 0; i < candidates.size(); ++i)
-      if (i != likely && !candidates[i].is_beyond(p, nearest.second))
+      if (i != likely)
         ask(i);
     return nearest;
   }
