@@ -222,6 +222,11 @@ void print_border_gaps(std::ostream& stream, const Simplify_request& request, co
                : prepared.facing.empty()              ? "; they get no wider, and "
                                                       : "; they get hardly wider, and ")
            << "--weld auto closes them\n";
+  if (gaps.clear_length_to_edges)
+    stream << "  open seams: " << edges_in_clear_gaps(gaps, diagonal)
+           << (request.open_seams == Open_seams::hold       ? "; they get hardly wider\n"
+               : request.options.loop == Collapse_loop::own ? "; --weld hold keeps them from getting wider\n"
+                                                            : "\n");
 }
 
 // Says in which further pose pieces are nearest to each other.

@@ -209,7 +209,7 @@ struct Prepared_soup
 
   /// Positions on borders at the same gaps that face an edge of another border, at which the surface
   /// continues, as at a seam whose two sides have other numbers of vertices: those that are tied to none
-  /// within the clear length, or the weld distance, of such an edge; and those that are tied to a vertex at
+  /// within a clear length, or the weld distance, of such an edge; and those that are tied to a vertex at
   /// least twice as far away as such an edge. Each is given by its first vertex. There, a reduction lets
   /// borders drift by a tenth of `Simplify_options::max_border_drift`.
   std::vector<Index> facing;
