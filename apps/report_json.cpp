@@ -250,6 +250,7 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
                     {"seam_edges", snap.seam_edges},
                     {"largest_distance", snap.largest_distance},
                     {"tied", prepared.tied.size()},
+                    {"untied", result.untied_pairs},
                     {"facing", prepared.facing.size()},
                     {"left_alone", done.left_alone}};
   report["rounding"] = {{"coordinates", prepared.rounding.coordinates},

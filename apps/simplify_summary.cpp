@@ -366,6 +366,10 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
         << "\ninstances: " << counted(result.apart_meshes, "mesh", "meshes")
         << " not the same in all places (snapped, rounded, degenerate or doubled in some), so each place was "
            "reduced by itself";
+  if (result.untied_pairs > 0)
+    stream << "\nopen seams: " << counted(result.untied_pairs, "pair")
+           << " of border vertices not held, because their meshes were reduced once for several places; "
+              "--instances apart holds them";
   if (const std::size_t turned = prepared.turned_faces(); turned > 0)
     stream << "\norientation: " << counted(turned, "face")
            << " turned to agree with the others of their surface, and turned back in the output";
