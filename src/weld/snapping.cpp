@@ -560,35 +560,21 @@ private:
       }
   }
 
-  // Adds what is open between the clear length and that to edges: pairs that have a pair beside them, so that
-  // no pair is alone among vertices that have no partner, and sites that face a side.
+  // Adds what is open between the clear length and that to edges: pairs of sites of seams, and sites that
+  // face a side.
   void add_seams_by_edges(Gaps_left& left, std::vector<double>& reach, std::vector<char>& is_facing)
   {
     std::vector<char> is_tied(m_sites.size(), false);
     for (const auto& [a, b] : left.tied)
       is_tied[m_site_at[a]] = is_tied[m_site_at[b]] = true;
     m_distance = m_distance_to_edges;
-    std::vector<Pair> pairs = mutual_partners(true);
-    pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
-                               [&](const Pair& pair) {
-                                 return is_tied[pair.low] || is_tied[pair.high] || !is_of_seam(pair.low) ||
-                                        !is_of_seam(pair.high);
-                               }),
-                pairs.end());
-    std::vector<Index> partner(m_sites.size(), s_no_place);
-    for (const Pair& pair : pairs) {
-      partner[pair.low] = pair.high;
-      partner[pair.high] = pair.low;
+    for (const Pair& pair : mutual_partners(true)) {
+      if (is_tied[pair.low] || is_tied[pair.high] || !is_of_seam(pair.low) || !is_of_seam(pair.high))
+        continue;
+      left.tied.emplace_back(m_sites[pair.low].position, m_sites[pair.high].position);
+      reach[pair.low] = reach[pair.high] = pair.distance / 2;
+      is_tied[pair.low] = is_tied[pair.high] = true;
     }
-    const auto has_pair_behind = [&](Index i, Index j) {
-      return partner[m_sites[i].next[0]] == m_sites[j].previous[0];
-    };
-    for (const Pair& pair : pairs)
-      if (has_pair_behind(pair.low, pair.high) || has_pair_behind(pair.high, pair.low)) {
-        left.tied.emplace_back(m_sites[pair.low].position, m_sites[pair.high].position);
-        reach[pair.low] = reach[pair.high] = pair.distance / 2;
-        is_tied[pair.low] = is_tied[pair.high] = true;
-      }
     for (Index i = 0; i < m_sites.size(); ++i)
       if (const Index side = m_opposite[i].side; side != s_no_place) {
         const auto [a, b] = ends_of(side);

@@ -477,8 +477,15 @@ group(
     ("!is_shortly_followed(i, j, length) && !is_shortly_followed(j, i, length);", "true;", "a border is sewn to itself"),
     ("m_index.set(face, face_box(face));", "", "the index does not follow a snap"),
     ("p == q ? 0 : distance(m_sites[p], m_sites[q]));", "p == q ? 0 : least);", "gaps are closed only from their ends"),
-    ("m_distance = result.clear_length.value_or(0);", "m_distance = result.limit;", "gaps are held that are not clear"),
-    ("mutual_partners(true)", "mutual_partners()", "partners are not tied where one is frozen"),
+    ("m_distance = clear.length.value_or(0);", "m_distance = result.limit;", "gaps are held that are not clear"),
+    ("    for (const Pair& pair : mutual_partners(true)) {\n      left.tied", "    for (const Pair& pair : mutual_partners()) {\n      left.tied", "partners are not tied where one is frozen"),
+    ("runs_opposite(i, side) &&", "", "borders that run the same way are seams"),
+    ("if (is_of_strip && pieces.is_strip(m_sides[side][0]))", "if (false)", "cards of hair are seams"),
+    ("least_row = 4;", "least_row = 1;", "corners that come near are seams"),
+    ("opposite.length > m_distance)", "true)", "what partners have found is found again by edges"),
+    ("(std::max)(opposite.length, least)", "opposite.length", "borders that touch hide gaps"),
+    ("|| !is_of_seam(pair.low) || !is_of_seam(pair.high))", ")", "layers are tied beside a seam that edges find"),
+    ("(is_of_seam(i) || is_of_seam(a) || is_of_seam(b)) &&", "", "what is no seam faces a border beside one"),
 )
 group(
     headers + "Surface_mesh_simplification/Border_rule.h",

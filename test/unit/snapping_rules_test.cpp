@@ -138,7 +138,8 @@ TEST(Border_gaps, AreMeasuredToEdgesWhereTheSidesHaveOtherNumbersOfVertices)
 TEST(Border_gaps, ToEdgesAreNoneBetweenWhatIsNoSeam)
 {
   const auto to_edges = [](const Triangle_soup& soup) { return gaps_of(soup).clear_length_to_edges; };
-  EXPECT_EQ(to_edges(uneven_sheets(0.125, 1, 2)), std::nullopt) << "cards of hair have little inside";
+  EXPECT_EQ(to_edges(joined(uneven_sheets(0.125, 1, 2), moved(sheet(8, 8), 30, 0, 0))), std::nullopt)
+      << "cards of hair have little inside";
   EXPECT_EQ(to_edges(uneven_sheets(0.125, 1, 8)), 0.125) << "a band at a panel";
   EXPECT_EQ(to_edges(uneven_sheets(0.125, 8, 8, 22.9)), std::nullopt) << "only three vertices face the other";
   EXPECT_EQ(to_edges(uneven_sheets(0.125, 8, 8, 20)), 0.125);
@@ -158,7 +159,7 @@ TEST(Border_gaps, ToEdgesAreNoneBetweenWhatIsNoSeam)
       << "the two sides of a double layer";
 }
 
-TEST(Border_gaps, PairsBeyondTheClearLengthAreTiedInRows)
+TEST(Border_gaps, PairsBeyondTheClearLengthAreTiedWhereEdgesFindASeam)
 {
   // Of two seams equally wide, one has as many vertices on both sides.
   const Triangle_soup even = joined(sheet(8, 24), moved(sheet(8, 24), 8.25, 0, 0));
@@ -170,6 +171,17 @@ TEST(Border_gaps, PairsBeyondTheClearLengthAreTiedInRows)
   for (const auto& [a, b] : open.left.tied)
     EXPECT_EQ(both.points[a].y(), both.points[b].y());
   EXPECT_EQ(open.left.facing.size(), 25u + 33);
+
+  // Beside the seam, two layers, and two panels along each other for three vertices.
+  Triangle_soup layer = sheet(8, 24, 0.125);
+  for (Index_triple& triangle : layer.triangles)
+    std::swap(triangle[0], triangle[1]);
+  const Triangle_soup others =
+      joined(joined(sheet(8, 24), layer), moved(uneven_sheets(0.125, 8, 8, 22.9), 30, 0, 0));
+  const Triangle_soup beside = joined(uneven_sheets(0.25), moved(others, 30, 0, 0));
+  const Gaps_left left = find_open_seams(beside, number_positions(beside.points)).left;
+  EXPECT_EQ(left.tied.size(), 0u);
+  EXPECT_EQ(left.facing.size(), 25u + 33);
 }
 
 TEST(Snapping_rules, TwoSheets)
