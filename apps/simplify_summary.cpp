@@ -219,8 +219,9 @@ void print_border_gaps(std::ostream& stream, const Simplify_request& request, co
   else if (gaps.clear_length)
     stream << "  open seams: " << found
            << (request.open_seams != Open_seams::hold ? "; "
-               : prepared.facing.empty()              ? "; they get no wider, and "
-                                                      : "; they get hardly wider, and ")
+               : !prepared.facing.empty()             ? "; they get hardly wider, and "
+               : !prepared.tied.empty()               ? "; they get no wider, and "
+                                                      : "; not held, as no piece there has a vertex inside; ")
            << "--weld auto closes them\n";
   if (gaps.clear_length_to_edges)
     stream << "  open seams: " << edges_in_clear_gaps(gaps, diagonal)

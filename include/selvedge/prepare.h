@@ -199,7 +199,8 @@ struct Prepared_soup
 
   /// Pairs of positions on the two sides of gaps: partners, each the nearest of the other, frozen or not.
   /// Each position is given by its first vertex. There are some where open seams are held, and where snapping
-  /// leaves them.
+  /// leaves them. Between two pieces that both have no vertex inside, such as cards of hair, there are none,
+  /// and nothing faces the other: they would lose hardly a face.
   ///
   /// A reduction lets a tied vertex leave its border only to a tied vertex, only if its partner could go to
   /// the partner of that, and lets the partner go next. While both do, the two sides are nowhere farther

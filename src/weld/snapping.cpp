@@ -81,8 +81,13 @@ public:
   {
     Gaps_left left;
     std::vector<double> reach(m_sites.size(), m_distance); // within which a site faces a border
-    for (const Pair& pair : mutual_partners(true)) {
-      left.tied.emplace_back(m_sites[pair.low].position, m_sites[pair.high].position);
+    const std::vector<Pair> pairs = mutual_partners(true);
+    const Pieces pieces = find_pieces();
+    for (const Pair& pair : pairs) {
+      const Index low = m_sites[pair.low].position, high = m_sites[pair.high].position;
+      if (pieces.are_cards(low, high))
+        continue;
+      left.tied.emplace_back(low, high);
       reach[pair.low] = reach[pair.high] = pair.distance / 2;
     }
     const FaceIndex sides = index_sides();
@@ -92,8 +97,9 @@ public:
       if (!m_sites[i].next.empty())
         sides.visit_overlapping(box_around(point(m_sites[i]), reach[i]), [&](Index side) {
           poll();
-          is_facing[i] =
-              is_facing[i] || (distance_to_side(i, side) <= reach[i] && is_facing_side(i, side, m_distance));
+          is_facing[i] = is_facing[i] || (distance_to_side(i, side) <= reach[i] &&
+                                          !pieces.are_cards(m_sites[i].position, m_sides[side][0]) &&
+                                          is_facing_side(i, side, m_distance));
         });
     if (m_distance_to_edges > m_distance)
       add_seams_by_edges(left, reach, is_facing);
@@ -473,6 +479,11 @@ private:
       const auto& [inside, on_borders] = counts[number[position]];
       return inside < on_borders;
     }
+    // Whether two positions are of different pieces that have nothing inside.
+    bool are_cards(Index a, Index b) const
+    {
+      return number[a] != number[b] && counts[number[a]][0] == 0 && counts[number[b]][0] == 0;
+    }
     bool are_all_strips() const
     {
       return std::all_of(counts.begin(), counts.end(), [](const std::array<Index, 2>& count) {
@@ -500,7 +511,8 @@ private:
       }
     for (Index position = 0; position < number.size(); ++position) {
       number[position] = root(position);
-      ++pieces.counts[number[position]][m_site_at[position] != s_no_place];
+      const Index site = m_site_at[position];
+      ++pieces.counts[number[position]][site != s_no_place && !m_sites[site].next.empty()];
     }
     return pieces;
   }

@@ -180,6 +180,13 @@ TEST(App_simplify, SaysWhereOpenSeamsAreFoundByTheirEdges)
 TEST(App_simplify, SaysWhereOpenSeamsAreNotHeld)
 {
   const Workspace folder;
+  write_mesh(folder / "cards.obj", joined(sheet(1, 8), moved(sheet(1, 8), 1.125, 0, 0)));
+  const App_result cards =
+      run_app({"simplify", folder / "cards.obj", "-o", folder / "out.obj", "--ratio", "0.5"});
+  EXPECT_NE(cards.out.find("; not held, as no piece there has a vertex inside; --weld auto closes them\n"),
+            std::string::npos)
+      << cards.out;
+
   write_mesh(folder / "in.gltf", joined(sheet(8, 8), moved(sheet(8, 8), 8.0625, 0, 0)));
   auto scene = nlohmann::json::parse(contents_of(folder / "in.gltf"));
   scene["nodes"].push_back({{"mesh", 0}, {"translation", {100, 0, 0}}});

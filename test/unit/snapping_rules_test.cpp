@@ -184,6 +184,34 @@ TEST(Border_gaps, PairsBeyondTheClearLengthAreTiedWhereEdgesFindASeam)
   EXPECT_EQ(left.facing.size(), 25u + 33);
 }
 
+TEST(Border_gaps, BetweenCardsOfHairAreNotHeld)
+{
+  const auto gaps = [](const Triangle_soup& soup) {
+    const Open_borders open = find_open_seams(soup, number_positions(soup.points));
+    EXPECT_EQ(open.gaps.clear_length, 0.125);
+    return std::pair(open.left.tied.size(), open.left.facing.size());
+  };
+  using Gaps = std::pair<std::size_t, std::size_t>;
+  // Where a vertex of the left one is elsewhere, four face edges.
+  const auto lower = [](const Point_3& p) { return p.y() == 1 ? Point_3(p.x(), 0.5, p.z()) : p; };
+  const auto beside = [&](const Triangle_soup& card, const Triangle_soup& other) {
+    return joined(mapped(card, lower), moved(other, 1.125, 0, 0));
+  };
+  EXPECT_EQ(gaps(joined(sheet(1, 8), moved(sheet(1, 8), 1.125, 0, 0))), Gaps(0, 0));
+  EXPECT_EQ(gaps(joined(sheet(1, 8), moved(sheet(2, 8), 1.125, 0, 0))), Gaps(9, 0)) << "a card at a panel";
+  EXPECT_EQ(gaps(beside(sheet(1, 8), sheet(2, 8))).second, 4u);
+  EXPECT_EQ(gaps(beside(sheet(1, 8), sheet(1, 8))), Gaps(0, 0));
+  // A cuff that is not closed.
+  const double step = std::asin(1 / 16.);
+  const Triangle_soup cuff = mapped(sheet(1, 12), [&](const Point_3& p) {
+    const double angle = step + (CGAL_PI - step) * p.y() / 6;
+    return Point_3(p.x() / 4, std::sin(angle), p.y() == 12 ? std::cos(step) : std::cos(angle));
+  });
+  const Open_borders open = find_open_seams(cuff, number_positions(cuff.points));
+  EXPECT_NEAR(open.gaps.clear_length.value_or(0), 0.125, 1e-12);
+  EXPECT_EQ(open.left.tied.size(), 2u);
+}
+
 TEST(Snapping_rules, TwoSheets)
 {
   const Snapped result = snap(two_sheets());
