@@ -227,7 +227,10 @@ void print_seams(const Inspection& mesh)
   if (gaps.clear_length)
     std::cout << "open seams: " << partners_in_clear_gaps(gaps, mesh.diagonal)
               << "; --weld auto closes them\n";
-  else if (!gaps.lengths.empty())
+  if (gaps.clear_length_to_edges)
+    std::cout << "open seams: " << edges_in_clear_gaps(gaps, mesh.diagonal)
+              << "; --weld hold keeps them from getting wider\n";
+  if (!gaps.clear_length && !gaps.clear_length_to_edges && !gaps.lengths.empty())
     std::cout << "open seams: none that are clearly narrower than what lies beside them\n";
 }
 

@@ -172,7 +172,10 @@ Json border_gaps_json(const Border_gaps& gaps)
           {"most_within", within(0.9)},
           {"all_within", within(1)},
           {"clear_length", gaps.clear_length ? Json(*gaps.clear_length) : Json(nullptr)},
-          {"within_clear_length", gaps.within_clear_length}};
+          {"within_clear_length", gaps.within_clear_length},
+          {"clear_length_to_edges",
+           gaps.clear_length_to_edges ? Json(*gaps.clear_length_to_edges) : Json(nullptr)},
+          {"within_clear_length_to_edges", gaps.within_clear_length_to_edges}};
 }
 
 void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified_soup& result)
@@ -247,6 +250,7 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
                     {"seam_edges", snap.seam_edges},
                     {"largest_distance", snap.largest_distance},
                     {"tied", prepared.tied.size()},
+                    {"untied", result.untied_pairs},
                     {"facing", prepared.facing.size()},
                     {"left_alone", done.left_alone}};
   report["rounding"] = {{"coordinates", prepared.rounding.coordinates},

@@ -219,9 +219,15 @@ void print_border_gaps(std::ostream& stream, const Simplify_request& request, co
   else if (gaps.clear_length)
     stream << "  open seams: " << found
            << (request.open_seams != Open_seams::hold ? "; "
-               : prepared.facing.empty()              ? "; they get no wider, and "
-                                                      : "; they get hardly wider, and ")
+               : !prepared.facing.empty()             ? "; they get hardly wider, and "
+               : !prepared.tied.empty()               ? "; they get no wider, and "
+                                                      : "; not held, as no piece there has a vertex inside; ")
            << "--weld auto closes them\n";
+  if (gaps.clear_length_to_edges)
+    stream << "  open seams: " << edges_in_clear_gaps(gaps, diagonal)
+           << (request.open_seams == Open_seams::hold       ? "; they get hardly wider\n"
+               : request.options.loop == Collapse_loop::own ? "; --weld hold keeps them from getting wider\n"
+                                                            : "\n");
 }
 
 // Says in which further pose pieces are nearest to each other.
@@ -361,6 +367,10 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
         << "\ninstances: " << counted(result.apart_meshes, "mesh", "meshes")
         << " not the same in all places (snapped, rounded, degenerate or doubled in some), so each place was "
            "reduced by itself";
+  if (result.untied_pairs > 0)
+    stream << "\nopen seams: " << counted(result.untied_pairs, "pair")
+           << " of border vertices not held, because their meshes were reduced once for several places; "
+              "--instances apart holds them";
   if (const std::size_t turned = prepared.turned_faces(); turned > 0)
     stream << "\norientation: " << counted(turned, "face")
            << " turned to agree with the others of their surface, and turned back in the output";

@@ -81,6 +81,14 @@ inline std::string partners_in_clear_gaps(const Border_gaps& gaps, double diagon
          percent(*gaps.clear_length / diagonal) + " of the size)";
 }
 
+/// The same of the clear length to edges.
+inline std::string edges_in_clear_gaps(const Border_gaps& gaps, double diagonal)
+{
+  return with_commas(gaps.within_clear_length_to_edges) + " of " + with_commas(gaps.border_vertices) +
+         " border vertices are within " + with_digits_up(*gaps.clear_length_to_edges) + " (" +
+         percent(*gaps.clear_length_to_edges / diagonal) + " of the size) of an edge of another border";
+}
+
 inline const char* name(Offence offence)
 {
   switch (offence) {

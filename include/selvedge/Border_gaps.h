@@ -39,6 +39,20 @@ struct Border_gaps
 
   /// How many vertices have a partner within it; 0 without it.
   std::size_t within_clear_length = 0;
+
+  /// The same of distances to edges, beyond the clear length, if there is one: seams whose two sides have
+  /// different numbers of vertices have no partners at clear distances. Such a gap is the distance of a
+  /// vertex to the nearest edge of another border (or of another part of its own) at which the surface
+  /// continues, and along which that border runs the opposite way, give or take 60°. It counts
+  /// - in rows of at least four vertices that face the border of one piece, and
+  /// - if at least half of the vertices of this piece, or of their own, are inside. (Else, cards of hair and
+  ///   small tiles would be seams.)
+  ///
+  /// Distances of less than 1/4096 of the limit count as that. This length closes nothing.
+  std::optional<double> clear_length_to_edges;
+
+  /// How many of the vertices that count have an edge within it; 0 without it.
+  std::size_t within_clear_length_to_edges = 0;
 };
 
 } // namespace selvedge

@@ -199,7 +199,8 @@ struct Prepared_soup
 
   /// Pairs of positions on the two sides of gaps: partners, each the nearest of the other, frozen or not.
   /// Each position is given by its first vertex. There are some where open seams are held, and where snapping
-  /// leaves them.
+  /// leaves them. Between two pieces that both have no vertex inside, such as cards of hair, there are none,
+  /// and nothing faces the other: they would lose hardly a face.
   ///
   /// A reduction lets a tied vertex leave its border only to a tied vertex, only if its partner could go to
   /// the partner of that, and lets the partner go next. While both do, the two sides are nowhere farther
@@ -209,7 +210,7 @@ struct Prepared_soup
 
   /// Positions on borders at the same gaps that face an edge of another border, at which the surface
   /// continues, as at a seam whose two sides have other numbers of vertices: those that are tied to none
-  /// within the clear length, or the weld distance, of such an edge; and those that are tied to a vertex at
+  /// within a clear length, or the weld distance, of such an edge; and those that are tied to a vertex at
   /// least twice as far away as such an edge. Each is given by its first vertex. There, a reduction lets
   /// borders drift by a tenth of `Simplify_options::max_border_drift`.
   std::vector<Index> facing;

@@ -242,10 +242,12 @@ private:
       });
     };
     auto& partners = m_working.constraints().partners;
+    const std::size_t tied = partners.size();
     partners.erase(
         std::remove_if(partners.begin(), partners.end(),
                        [&](const auto& pair) { return is_shared(pair.first) || is_shared(pair.second); }),
         partners.end());
+    m_untied_pairs = tied - partners.size();
   }
 
   void hold_gaps(Simplify_constraints<Working_mesh::Mesh>& constraints, const std::vector<Index>& of_soup)
@@ -370,6 +372,7 @@ private:
     result.shared_meshes = m_shared_meshes;
     result.shared_places = m_shared_places;
     result.apart_meshes = m_apart_meshes;
+    result.untied_pairs = m_untied_pairs;
     result.sewing = m_working.notes();
     result.report = report;
     // When the cells have reached the target, nothing was left for the run to be stopped in.
@@ -388,7 +391,7 @@ private:
   Stopwatch m_stopwatch;
   Working_mesh m_working;
   double m_seconds_sew;
-  std::size_t m_shared_meshes = 0, m_shared_places = 0, m_apart_meshes = 0;
+  std::size_t m_shared_meshes = 0, m_shared_places = 0, m_apart_meshes = 0, m_untied_pairs = 0;
   std::vector<Soup_collapse> m_collapses; // if they are needed to judge the result
   Progression m_progression;              // if it is recorded
   Reduction_history m_history;

@@ -26,6 +26,7 @@ namespace selvedge {
 namespace {
 
 constexpr Index s_no_place = std::numeric_limits<Index>::max();
+constexpr int s_halvings = 12; // a seam is usually far narrower than what it is looked for in
 
 /// Why two partners are not snapped together.
 enum class Obstacle { rival, frozen, foreign, unmanifold, folding, blocked };
@@ -38,7 +39,8 @@ public:
   Border_snapping(const Triangle_soup& soup, const std::vector<Index>& positions,
                   const std::vector<char>& is_frozen, double distance, const std::vector<Index>& transforms,
                   std::size_t obstacle_triangles, const Scale& scale)
-      : m_distance(distance), m_moved_to(soup.points.size(), s_no_place)
+      : m_distance(distance), m_own_triangles(soup.triangles.size() - obstacle_triangles),
+        m_moved_to(soup.points.size(), s_no_place)
   {
     m_points.reserve(soup.points.size());
     for (const Point_3& point : soup.points)
@@ -46,7 +48,7 @@ public:
     m_triangles.reserve(soup.triangles.size());
     for (const Index_triple& v : soup.triangles)
       m_triangles.push_back({positions[v[0]], positions[v[1]], positions[v[2]]});
-    find_borders(m_triangles.size() - obstacle_triangles);
+    find_borders();
     gather_faces(is_frozen);
     if (!transforms.empty())
       gather_transforms(soup, transforms);
@@ -79,26 +81,31 @@ public:
   {
     Gaps_left left;
     std::vector<double> reach(m_sites.size(), m_distance); // within which a site faces a border
-    for (const Pair& pair : mutual_partners(true)) {
-      left.tied.emplace_back(m_sites[pair.low].position, m_sites[pair.high].position);
+    const std::vector<Pair> pairs = mutual_partners(true);
+    const Pieces pieces = find_pieces();
+    for (const Pair& pair : pairs) {
+      const Index low = m_sites[pair.low].position, high = m_sites[pair.high].position;
+      if (pieces.are_cards(low, high))
+        continue;
+      left.tied.emplace_back(low, high);
       reach[pair.low] = reach[pair.high] = pair.distance / 2;
     }
-    std::vector<Index> numbers(m_sides.size());
-    std::iota(numbers.begin(), numbers.end(), Index(0));
-    FaceIndex sides;
-    sides.build(numbers, [&](Index side) { return segment(side).bbox(); });
+    const FaceIndex sides = index_sides();
+    std::vector<char> is_facing(m_sites.size(), false);
     Cancellation_poll poll;
-    for (Index i = 0; i < m_sites.size(); ++i) {
-      if (m_sites[i].next.empty())
-        continue;
-      bool is_facing = false;
-      sides.visit_overlapping(box_around(point(m_sites[i]), reach[i]), [&](Index side) {
-        poll();
-        is_facing = is_facing || is_facing_side(i, side, reach[i]);
-      });
-      if (is_facing)
+    for (Index i = 0; i < m_sites.size(); ++i)
+      if (!m_sites[i].next.empty())
+        sides.visit_overlapping(box_around(point(m_sites[i]), reach[i]), [&](Index side) {
+          poll();
+          is_facing[i] = is_facing[i] || (distance_to_side(i, side) <= reach[i] &&
+                                          !pieces.are_cards(m_sites[i].position, m_sides[side][0]) &&
+                                          is_facing_side(i, side, m_distance));
+        });
+    if (m_distance_to_edges > m_distance)
+      add_seams_by_edges(left, reach, is_facing);
+    for (Index i = 0; i < m_sites.size(); ++i)
+      if (is_facing[i])
         left.facing.push_back(m_sites[i].position);
-    }
     return left;
   }
 
@@ -113,8 +120,7 @@ public:
     std::vector<Gap> found;
     Cancellation_poll poll;
     for (const Index i : on_border) {
-      constexpr int halvings = 12; // a seam is usually far narrower than what it is looked for in
-      for (double within = std::ldexp(result.limit, -halvings);;
+      for (double within = std::ldexp(result.limit, -s_halvings);;
            within = (std::min)(result.limit, 16 * within)) {
         Gap least{std::numeric_limits<double>::infinity(), false};
         visit_near(index, i, within, [&](Index j) {
@@ -133,11 +139,14 @@ public:
           break;
       }
     }
-    std::sort(found.begin(), found.end(), [](const Gap& a, const Gap& b) { return a.length < b.length; });
+    std::sort(found.begin(), found.end());
     for (const Gap& gap : found)
       result.lengths.push_back(gap.length);
-    choose_clear_length(found, result);
-    m_distance = result.clear_length.value_or(0);
+    const Clear_length clear = clear_length(found, result.limit);
+    result.clear_length = clear.length;
+    result.within_clear_length = clear.within;
+    m_distance = clear.length.value_or(0);
+    measure_gaps_to_edges(result);
     return result;
   }
 
@@ -179,6 +188,22 @@ private:
   {
     double length;
     bool is_continued; // by the surface at the partner
+
+    bool operator<(const Gap& other) const { return length < other.length; }
+  };
+
+  struct Clear_length
+  {
+    std::optional<double> length;
+    std::size_t within = 0;
+  };
+
+  // The nearest side along which another border, or another part of the same, runs the opposite way.
+  struct Opposite_side
+  {
+    Index side = s_no_place;
+    double length = std::numeric_limits<double>::infinity();
+    bool is_of_seam = false; // the site is in a row of such sites
   };
 
   using Side = std::array<Index, 2>; // from position to position, as the triangle runs
@@ -203,10 +228,10 @@ private:
     sides.erase(kept, sides.end());
   }
 
-  void find_borders(std::size_t own_triangles)
+  void find_borders()
   {
-    m_sides.reserve(3 * own_triangles);
-    for (std::size_t face = 0; face < own_triangles; ++face)
+    m_sides.reserve(3 * m_own_triangles);
+    for (std::size_t face = 0; face < m_own_triangles; ++face)
       for (std::size_t k = 0; k < 3; ++k)
         m_sides.push_back({m_triangles[face][k], m_triangles[face][(k + 1) % 3]});
     Cancellation_scope::check();
@@ -385,17 +410,195 @@ private:
     return {m_points[m_sides[side][0]], m_points[m_sides[side][1]]};
   }
 
-  // Whether a site is within some distance of a side at which the surface continues.
-  bool is_facing_side(Index i, Index side, double within) const
+  double distance_to_side(Index i, Index side) const
   {
-    const std::array<Index, 2> ends = {m_site_at[m_sides[side][0]], m_site_at[m_sides[side][1]]};
+    return std::sqrt(CGAL::squared_distance(point(m_sites[i]), segment(side)));
+  }
+
+  std::array<Index, 2> ends_of(Index side) const
+  {
+    return {m_site_at[m_sides[side][0]], m_site_at[m_sides[side][1]]};
+  }
+
+  FaceIndex index_sides() const
+  {
+    std::vector<Index> numbers(m_sides.size());
+    std::iota(numbers.begin(), numbers.end(), Index(0));
+    FaceIndex index;
+    index.build(numbers, [&](Index side) { return segment(side).bbox(); });
+    return index;
+  }
+
+  // Whether the surface continues at a side to which no short stretch of border leads from a site.
+  bool is_facing_side(Index i, Index side, double distance_of_partners) const
+  {
+    const std::array<Index, 2> ends = ends_of(side);
     const auto is_apart = [&](Index j) {
       return j != i && m_sites[j].transform == m_sites[i].transform &&
-             !have_common_face(m_sites[i], m_sites[j]) && !is_shortly_followed(i, j, m_distance) &&
-             !is_shortly_followed(j, i, m_distance);
+             !have_common_face(m_sites[i], m_sites[j]) && !is_shortly_followed(i, j, distance_of_partners) &&
+             !is_shortly_followed(j, i, distance_of_partners);
     };
-    return is_apart(ends[0]) && is_apart(ends[1]) && (is_continued(i, ends[0]) || is_continued(i, ends[1])) &&
-           CGAL::squared_distance(point(m_sites[i]), segment(side)) <= within * within;
+    return is_apart(ends[0]) && is_apart(ends[1]) && (is_continued(i, ends[0]) || is_continued(i, ends[1]));
+  }
+
+  // Whether the border at a site, without a branch there, and a side run opposite ways, give or take 60°.
+  bool runs_opposite(Index i, Index side) const
+  {
+    const Site& site = m_sites[i];
+    if (site.next.size() != 1 || site.previous.size() != 1)
+      return false;
+    const Kernel::Vector_3 here = point(m_sites[site.next[0]]) - point(m_sites[site.previous[0]]);
+    const Kernel::Vector_3 there = segment(side).to_vector();
+    return here * there <= -0.5 * std::sqrt(here.squared_length()) * std::sqrt(there.squared_length());
+  }
+
+  // Looks for the seams of which `Border_gaps::clear_length_to_edges` tells.
+  void measure_gaps_to_edges(Border_gaps& result)
+  {
+    const double least = std::ldexp(result.limit, -s_halvings); // borders may touch, or all but touch
+    find_opposite_sides(result.limit);
+    std::vector<Gap> found;
+    for (const Opposite_side& opposite : m_opposite)
+      if (opposite.is_of_seam && opposite.length > m_distance)
+        found.push_back({(std::max)(opposite.length, least), true});
+    std::sort(found.begin(), found.end());
+    const Clear_length clear = clear_length(found, result.limit);
+    result.clear_length_to_edges = clear.length;
+    result.within_clear_length_to_edges = clear.within;
+    m_distance_to_edges = clear.length.value_or(0);
+  }
+
+  // Pieces are connected by positions. A strip has more than half of its positions on borders.
+  struct Pieces
+  {
+    std::vector<Index> number;                // by position
+    std::vector<std::array<Index, 2>> counts; // by number: positions inside, and on borders
+
+    bool is_strip(Index position) const
+    {
+      const auto& [inside, on_borders] = counts[number[position]];
+      return inside < on_borders;
+    }
+    // Whether two positions are of different pieces that have nothing inside.
+    bool are_cards(Index a, Index b) const
+    {
+      return number[a] != number[b] && counts[number[a]][0] == 0 && counts[number[b]][0] == 0;
+    }
+    bool are_all_strips() const
+    {
+      return std::all_of(counts.begin(), counts.end(), [](const std::array<Index, 2>& count) {
+        return count[1] == 0 || count[0] < count[1];
+      });
+    }
+  };
+
+  Pieces find_pieces() const
+  {
+    Pieces pieces{std::vector<Index>(m_points.size()), std::vector<std::array<Index, 2>>(m_points.size())};
+    std::vector<Index>& number = pieces.number;
+    std::iota(number.begin(), number.end(), Index(0));
+    const auto root = [&](Index position) {
+      while (number[position] != position)
+        position = number[position] = number[number[position]];
+      return position;
+    };
+    Cancellation_poll poll;
+    for (std::size_t face = 0; face < m_own_triangles; ++face)
+      for (const std::size_t k : {1, 2}) {
+        poll();
+        const Index a = root(m_triangles[face][0]), b = root(m_triangles[face][k]);
+        number[(std::max)(a, b)] = (std::min)(a, b);
+      }
+    for (Index position = 0; position < number.size(); ++position) {
+      number[position] = root(position);
+      const Index site = m_site_at[position];
+      ++pieces.counts[number[position]][site != s_no_place && !m_sites[site].next.empty()];
+    }
+    return pieces;
+  }
+
+  // Requires that sites know those before and behind them.
+  void find_opposite_sides(double limit)
+  {
+    m_opposite.assign(m_sites.size(), {});
+    const Pieces pieces = find_pieces();
+    if (pieces.are_all_strips())
+      return;
+    const FaceIndex sides = index_sides();
+    Cancellation_poll poll;
+    for (Index i = 0; i < m_sites.size(); ++i) {
+      if (m_sites[i].next.empty())
+        continue;
+      const bool is_of_strip = pieces.is_strip(m_sites[i].position);
+      Opposite_side& opposite = m_opposite[i];
+      for (double within = std::ldexp(limit, -s_halvings);; within = (std::min)(limit, 16 * within)) {
+        sides.visit_overlapping(box_around(point(m_sites[i]), within), [&](Index side) {
+          poll();
+          if (is_of_strip && pieces.is_strip(m_sides[side][0]))
+            return;
+          const double length = distance_to_side(i, side);
+          if (length <= within && length < opposite.length && runs_opposite(i, side) &&
+              is_facing_side(i, side, length))
+            opposite = {side, length};
+        });
+        if (opposite.side != s_no_place || within >= limit)
+          break;
+      }
+    }
+    find_rows(pieces);
+  }
+
+  // Finds the sites in rows of at least four that face the border of one piece.
+  void find_rows(const Pieces& pieces)
+  {
+    const auto piece_beyond = [&](Index i) {
+      return m_opposite[i].side == s_no_place ? s_no_place : pieces.number[m_sides[m_opposite[i].side][0]];
+    };
+    std::vector<char> is_seen(m_sites.size(), false);
+    for (const bool is_closed : {false, true}) // what is left after rows with a beginning goes around
+      for (Index first = 0; first < m_sites.size(); ++first) {
+        const Index beyond = piece_beyond(first);
+        if (beyond == s_no_place || is_seen[first] ||
+            (!is_closed && piece_beyond(m_sites[first].previous[0]) == beyond))
+          continue;
+        std::vector<Index> row;
+        for (Index i = first; piece_beyond(i) == beyond && !is_seen[i]; i = m_sites[i].next[0]) {
+          is_seen[i] = true;
+          row.push_back(i);
+        }
+        constexpr std::size_t least_row = 4;
+        for (const Index i : row)
+          m_opposite[i].is_of_seam = row.size() >= least_row;
+      }
+  }
+
+  // Adds what is open between the clear length and that to edges: pairs of sites of seams, and sites that
+  // face a side.
+  void add_seams_by_edges(Gaps_left& left, std::vector<double>& reach, std::vector<char>& is_facing)
+  {
+    std::vector<char> is_tied(m_sites.size(), false);
+    for (const auto& [a, b] : left.tied)
+      is_tied[m_site_at[a]] = is_tied[m_site_at[b]] = true;
+    m_distance = m_distance_to_edges;
+    for (const Pair& pair : mutual_partners(true)) {
+      if (is_tied[pair.low] || is_tied[pair.high] || !is_of_seam(pair.low) || !is_of_seam(pair.high))
+        continue;
+      left.tied.emplace_back(m_sites[pair.low].position, m_sites[pair.high].position);
+      reach[pair.low] = reach[pair.high] = pair.distance / 2;
+      is_tied[pair.low] = is_tied[pair.high] = true;
+    }
+    for (Index i = 0; i < m_sites.size(); ++i)
+      if (const Index side = m_opposite[i].side; side != s_no_place) {
+        const auto [a, b] = ends_of(side);
+        is_facing[i] |= (is_of_seam(i) || is_of_seam(a) || is_of_seam(b)) &&
+                        m_opposite[i].length <= (is_tied[i] ? reach[i] : m_distance) &&
+                        is_facing_side(i, side, m_distance);
+      }
+  }
+
+  bool is_of_seam(Index i) const
+  {
+    return m_opposite[i].is_of_seam && m_opposite[i].length <= m_distance_to_edges;
   }
 
   double median_border_edge() const
@@ -424,28 +627,28 @@ private:
     return sum;
   }
 
-  // `Border_gaps` says which lengths are clear.
-  static void choose_clear_length(const std::vector<Gap>& gaps, Border_gaps& result)
+  // `Border_gaps` says which lengths are clear. The gaps ascend.
+  static Clear_length clear_length(const std::vector<Gap>& gaps, double limit)
   {
-    const std::vector<double>& lengths = result.lengths;
     const auto number_within = [&](double length) {
-      return std::size_t(std::upper_bound(lengths.begin(), lengths.end(), length) - lengths.begin());
+      return std::size_t(std::upper_bound(gaps.begin(), gaps.end(), Gap{length, false}) - gaps.begin());
     };
-    const std::size_t near = number_within(result.limit / 2);
+    Clear_length result;
+    const std::size_t near = number_within(limit / 2);
     double largest_step = 0;
     std::size_t continued = 0;
     for (std::size_t within = 1; within <= near; ++within) {
       continued += gaps[within - 1].is_continued;
-      const double length = lengths[within - 1];
+      const double length = gaps[within - 1].length;
       const double step =
-          within == lengths.size() ? std::numeric_limits<double>::infinity() : lengths[within] / length;
+          within == gaps.size() ? std::numeric_limits<double>::infinity() : gaps[within].length / length;
       if (2 * within < near || !(step > (std::max)(1., largest_step)) || 3 * continued < within ||
           20 * (number_within(2 * length) - within) > within)
         continue;
       largest_step = step;
-      result.clear_length = length;
-      result.within_clear_length = within;
+      result = {length, within};
     }
+    return result;
   }
 
   // Whether the border leads from i to j within twice a distance, without a branch on the way.
@@ -628,6 +831,7 @@ private:
 
   std::vector<Point_3> m_points; // divided by the scale, as is the distance
   double m_distance;
+  std::size_t m_own_triangles;
   std::vector<Index_triple> m_triangles; // of positions
   std::vector<Side> m_sides;             // of borders
   std::vector<Site> m_sites;
@@ -635,6 +839,8 @@ private:
   std::vector<Index> m_moved_to; // by position
   FaceIndex m_index;
   Snapping_notes m_notes;
+  std::vector<Opposite_side> m_opposite; // by site
+  double m_distance_to_edges = 0;        // that is clear
 
   Vertex_motion<Point_3> m_star;
   std::vector<Index> m_stationary;
@@ -687,12 +893,14 @@ Open_borders find_open_seams(const Triangle_soup& soup, const std::vector<Index>
   Border_snapping<Packed_R_tree> snapping(soup, positions, is_frozen, 0, transforms, obstacle_triangles,
                                           scale);
   Border_gaps gaps = snapping.gaps();
-  Gaps_left left = is_left_listed && gaps.clear_length ? snapping.left() : Gaps_left();
+  const bool is_open = gaps.clear_length || gaps.clear_length_to_edges;
+  Gaps_left left = is_left_listed && is_open ? snapping.left() : Gaps_left();
   for (double& length : gaps.lengths)
     length = scale.undone(length);
   gaps.limit = scale.undone(gaps.limit);
-  if (gaps.clear_length)
-    gaps.clear_length = scale.undone(*gaps.clear_length);
+  for (std::optional<double>* length : {&gaps.clear_length, &gaps.clear_length_to_edges})
+    if (*length)
+      **length = scale.undone(**length);
   return {std::move(gaps), std::move(left)};
 }
 

@@ -18,7 +18,8 @@ namespace selvedge {
 
 /// What is left open within a distance: partners that are each the nearest of the other, frozen or not
 /// (`Prepared_soup::tied`), and the positions in no such pair that are within the distance of an edge of
-/// another border at which the surface continues (`Prepared_soup::facing`).
+/// another border at which the surface continues (`Prepared_soup::facing`). Nothing counts between two pieces
+/// that both have no position inside.
 struct Gaps_left
 {
   std::vector<std::pair<Index, Index>> tied;

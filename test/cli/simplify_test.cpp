@@ -147,6 +147,65 @@ TEST(App_simplify, HoldsOpenSeamsUnlessToldOtherwise)
                  2, "--weld hold");
 }
 
+TEST(App_simplify, SaysWhereOpenSeamsAreFoundByTheirEdges)
+{
+  const Workspace folder;
+  const auto narrower = [](const Point_3& p) { return Point_3(8.125 + p.x(), 0.75 * p.y(), 0); };
+  write_mesh(folder / "in.obj", joined(sheet(8, 24), mapped(sheet(8, 32), narrower)));
+  const std::string found = "  open seams: 58 of 144 border vertices are within 0.125 (";
+  const auto says = [&](std::vector<std::string> arguments, const std::string& end) {
+    const std::string out = run_app(arguments).out;
+    const std::size_t from = out.find(found.substr(arguments[0] == "info" ? 2 : 0));
+    ASSERT_NE(from, std::string::npos) << out;
+    const std::string line = out.substr(from, out.find('\n', from) - from);
+    EXPECT_EQ(line.substr(line.find(" of an edge")), " of an edge of another border" + end);
+  };
+  const std::vector<std::string> simplify{"simplify",         folder / "in.obj", "-o",
+                                          folder / "out.obj", "--ratio",         "0.5",
+                                          "--report",         folder / "r.json"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), simplify.begin(), simplify.end());
+    return more;
+  };
+  says(simplify, "; they get hardly wider");
+  const auto report = nlohmann::json::parse(contents_of(folder / "r.json"));
+  EXPECT_EQ(report["border_gaps"]["clear_length_to_edges"], 0.125);
+  EXPECT_EQ(report["border_gaps"]["within_clear_length_to_edges"], 58);
+  EXPECT_EQ(report["snap"]["facing"], 58);
+  says(with({"--weld", "none"}), "; --weld hold keeps them from getting wider");
+  says(with({"--loop", "cgal"}), "");
+  says({"info", folder / "in.obj"}, "; --weld hold keeps them from getting wider");
+}
+
+TEST(App_simplify, SaysWhereOpenSeamsAreNotHeld)
+{
+  const Workspace folder;
+  write_mesh(folder / "cards.obj", joined(sheet(1, 8), moved(sheet(1, 8), 1.125, 0, 0)));
+  const App_result cards =
+      run_app({"simplify", folder / "cards.obj", "-o", folder / "out.obj", "--ratio", "0.5"});
+  EXPECT_NE(cards.out.find("; not held, as no piece there has a vertex inside; --weld auto closes them\n"),
+            std::string::npos)
+      << cards.out;
+
+  write_mesh(folder / "in.gltf", joined(sheet(8, 8), moved(sheet(8, 8), 8.0625, 0, 0)));
+  auto scene = nlohmann::json::parse(contents_of(folder / "in.gltf"));
+  scene["nodes"].push_back({{"mesh", 0}, {"translation", {100, 0, 0}}});
+  scene["scenes"][0]["nodes"].push_back(scene["nodes"].size() - 1);
+  write_text(folder / "in.gltf", scene.dump());
+  for (const std::string instances : {"shared", "apart"}) {
+    const App_result result = run_app({"simplify", folder / "in.gltf", "-o", folder / "out.gltf", "--ratio",
+                                       "0.5", "--instances", instances, "--report", folder / "r.json"});
+    EXPECT_EQ(result.out.find("\nopen seams: 18 pairs of border vertices not held, because their meshes were "
+                              "reduced once for several places; --instances apart holds them\n") !=
+                  std::string::npos,
+              instances == "shared")
+        << result.out;
+    const auto snap = nlohmann::json::parse(contents_of(folder / "r.json"))["snap"];
+    EXPECT_EQ(snap["tied"], 18);
+    EXPECT_EQ(snap["untied"], instances == "shared" ? 18 : 0);
+  }
+}
+
 TEST(App_simplify, GoesThroughEveryFormat)
 {
   const Workspace folder;

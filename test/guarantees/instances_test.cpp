@@ -123,6 +123,8 @@ TEST(Instances, GapsThatAreHeldDoNotSetPlacesApart)
   EXPECT_EQ(shared.shared_meshes, 1u);
   EXPECT_EQ(shared.apart_meshes, 0u);
   EXPECT_EQ(shared.report.left_alone, 0u);
+  EXPECT_EQ(shared.untied_pairs, prepared.tied.size());
+  EXPECT_EQ(apart.untied_pairs, 0u);
   Prepared_soup welded = prepared;
   welded.snapping.distance = 1 / 64.;
   EXPECT_EQ(simplify_soup(welded, as_far_as_possible(Instances::shared)).shared_meshes, 0u);

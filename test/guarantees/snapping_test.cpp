@@ -392,6 +392,32 @@ TEST(Snapping, BordersDriftLessWherePartnersDoNotFaceEachOther)
   EXPECT_GT(width(), gap + 2 * drift);
 }
 
+TEST(Snapping, SeamsWithOtherNumbersOfVerticesAreHeldByTheirEdges)
+{
+  const double gap = 1 / 64.;
+  const auto waved = [&](double from, double stretch) {
+    return [=](const Point_3& p) {
+      const double y = stretch * p.y();
+      return Point_3(from + p.x(), y, 0.8 * std::sin(y / 2));
+    };
+  };
+  const Triangle_soup soup =
+      joined(mapped(sheet(8, 39), waved(0, 1)), mapped(sheet(8, 52), waved(8 + gap, 39 / 52.)));
+  const auto width = [&](const Prepared_soup& prepared) {
+    double widest = 0;
+    for (const double ratio : {0.3, 0.2, 0.1, 0.05})
+      widest = std::max(widest, width_of_gap(simplify_soup(prepared, to_ratio(ratio)).soup, 8, 8 + gap));
+    return widest;
+  };
+  const double drift = 0.1 * Simplify_options().max_border_drift * internal::diagonal(soup.points);
+  Prepared_soup prepared = prepare(soup, with_seams(Open_seams::hold));
+  EXPECT_EQ(prepared.border_gaps.clear_length, std::nullopt);
+  EXPECT_EQ(prepared.facing.size() + 2 * prepared.tied.size(), 40u + 53);
+  const double wide = width_of_gap(soup, 8, 8 + gap);
+  EXPECT_LE(width(prepared), wide + 2 * drift);
+  EXPECT_GT(width(prepare(soup)), wide + 2 * drift);
+}
+
 TEST(Snapping, GapsAreHeldOrClosedUpToALengthThatIsEitherFoundOrGiven)
 {
   for (const Open_seams open_seams : {Open_seams::hold, Open_seams::weld}) {

@@ -104,6 +104,114 @@ TEST(Border_gaps, AreClearWhereSeamsEndAndNothingElseBegins)
   EXPECT_EQ(layers.clear_length, std::nullopt);
 }
 
+/// Two sheets side by side along which the left one has 25 vertices and the right one 33.
+Triangle_soup uneven_sheets(double gap, Index left_width = 8, Index right_width = 8, double along = 0)
+{
+  return joined(sheet(left_width, 24), mapped(sheet(right_width, 32), [=](const Point_3& p) {
+                  return Point_3(left_width + gap + p.x(), along + 0.75 * p.y(), 0);
+                }));
+}
+
+TEST(Border_gaps, AreMeasuredToEdgesWhereTheSidesHaveOtherNumbersOfVertices)
+{
+  const Border_gaps gaps = gaps_of(uneven_sheets(0.125));
+  EXPECT_EQ(gaps.clear_length, std::nullopt);
+  EXPECT_EQ(gaps.clear_length_to_edges, 0.125);
+  EXPECT_EQ(gaps.within_clear_length_to_edges, 25u + 33);
+  EXPECT_EQ(gaps_of(uneven_sheets(0.625)).clear_length_to_edges, std::nullopt);
+  EXPECT_EQ(gaps_of(uneven_sheets(0x1p-20)).clear_length_to_edges, 0x1p-12) << "they all but touch";
+
+  // Beside a seam that has a clear length, and is narrower.
+  const Triangle_soup both = joined(joined(sheet(8, 70), moved(sheet(8, 70), 8 + 1 / 64., 0, 0)),
+                                    moved(uneven_sheets(0.125), 30, 0, 0));
+  const Open_borders open = find_open_seams(both, number_positions(both.points));
+  EXPECT_EQ(open.gaps.clear_length, 1 / 64.);
+  EXPECT_EQ(open.gaps.clear_length_to_edges, 0.125);
+  EXPECT_EQ(open.gaps.within_clear_length_to_edges, 25u + 33);
+  EXPECT_EQ(open.left.tied.size(), 71u);
+  EXPECT_EQ(open.left.facing.size(), 25u + 33);
+  const Triangle_soup even = joined(sheet(8, 24), moved(sheet(8, 24), 8.125, 0, 0));
+  EXPECT_EQ(gaps_of(even).clear_length, 0.125);
+  EXPECT_EQ(gaps_of(even).clear_length_to_edges, std::nullopt) << "nothing is left";
+}
+
+TEST(Border_gaps, ToEdgesAreNoneBetweenWhatIsNoSeam)
+{
+  const auto to_edges = [](const Triangle_soup& soup) { return gaps_of(soup).clear_length_to_edges; };
+  EXPECT_EQ(to_edges(joined(uneven_sheets(0.125, 1, 2), moved(sheet(8, 8), 30, 0, 0))), std::nullopt)
+      << "cards of hair have little inside";
+  EXPECT_EQ(to_edges(uneven_sheets(0.125, 1, 8)), 0.125) << "a band at a panel";
+  EXPECT_EQ(to_edges(uneven_sheets(0.125, 8, 8, 22.9)), std::nullopt) << "only three vertices face the other";
+  EXPECT_EQ(to_edges(uneven_sheets(0.125, 8, 8, 20)), 0.125);
+
+  const auto turned = [](Triangle_soup soup) {
+    for (Index_triple& triangle : soup.triangles)
+      std::swap(triangle[0], triangle[1]);
+    return soup;
+  };
+  const auto squeezed = [](const Triangle_soup& soup, double factor, double height) {
+    return mapped(soup, [=](const Point_3& p) { return Point_3(p.x(), factor * p.y(), height); });
+  };
+  EXPECT_EQ(to_edges(joined(sheet(8, 24), turned(moved(squeezed(sheet(8, 32), 0.75, 0), 8.125, 0, 0)))),
+            std::nullopt)
+      << "the borders run the same way";
+  EXPECT_EQ(to_edges(joined(sheet(8, 24), turned(squeezed(sheet(8, 32), 0.75, 0.125)))), std::nullopt)
+      << "the two sides of a double layer";
+}
+
+TEST(Border_gaps, PairsBeyondTheClearLengthAreTiedWhereEdgesFindASeam)
+{
+  // Of two seams equally wide, one has as many vertices on both sides.
+  const Triangle_soup even = joined(sheet(8, 24), moved(sheet(8, 24), 8.25, 0, 0));
+  const Triangle_soup both = joined(even, moved(uneven_sheets(0.25), 30, 0, 0));
+  const Open_borders open = find_open_seams(both, number_positions(both.points));
+  EXPECT_EQ(open.gaps.clear_length, std::nullopt);
+  EXPECT_EQ(open.gaps.clear_length_to_edges, 0.25);
+  ASSERT_EQ(open.left.tied.size(), 25u);
+  for (const auto& [a, b] : open.left.tied)
+    EXPECT_EQ(both.points[a].y(), both.points[b].y());
+  EXPECT_EQ(open.left.facing.size(), 25u + 33);
+
+  // Beside the seam, two layers, and two panels along each other for three vertices.
+  Triangle_soup layer = sheet(8, 24, 0.125);
+  for (Index_triple& triangle : layer.triangles)
+    std::swap(triangle[0], triangle[1]);
+  const Triangle_soup others =
+      joined(joined(sheet(8, 24), layer), moved(uneven_sheets(0.125, 8, 8, 22.9), 30, 0, 0));
+  const Triangle_soup beside = joined(uneven_sheets(0.25), moved(others, 30, 0, 0));
+  const Gaps_left left = find_open_seams(beside, number_positions(beside.points)).left;
+  EXPECT_EQ(left.tied.size(), 0u);
+  EXPECT_EQ(left.facing.size(), 25u + 33);
+}
+
+TEST(Border_gaps, BetweenCardsOfHairAreNotHeld)
+{
+  const auto gaps = [](const Triangle_soup& soup) {
+    const Open_borders open = find_open_seams(soup, number_positions(soup.points));
+    EXPECT_EQ(open.gaps.clear_length, 0.125);
+    return std::pair(open.left.tied.size(), open.left.facing.size());
+  };
+  using Gaps = std::pair<std::size_t, std::size_t>;
+  // Where a vertex of the left one is elsewhere, four face edges.
+  const auto lower = [](const Point_3& p) { return p.y() == 1 ? Point_3(p.x(), 0.5, p.z()) : p; };
+  const auto beside = [&](const Triangle_soup& card, const Triangle_soup& other) {
+    return joined(mapped(card, lower), moved(other, 1.125, 0, 0));
+  };
+  EXPECT_EQ(gaps(joined(sheet(1, 8), moved(sheet(1, 8), 1.125, 0, 0))), Gaps(0, 0));
+  EXPECT_EQ(gaps(joined(sheet(1, 8), moved(sheet(2, 8), 1.125, 0, 0))), Gaps(9, 0)) << "a card at a panel";
+  EXPECT_EQ(gaps(beside(sheet(1, 8), sheet(2, 8))).second, 4u);
+  EXPECT_EQ(gaps(beside(sheet(1, 8), sheet(1, 8))), Gaps(0, 0));
+  // A cuff that is not closed.
+  const double step = std::asin(1 / 16.);
+  const Triangle_soup cuff = mapped(sheet(1, 12), [&](const Point_3& p) {
+    const double angle = step + (CGAL_PI - step) * p.y() / 6;
+    return Point_3(p.x() / 4, std::sin(angle), p.y() == 12 ? std::cos(step) : std::cos(angle));
+  });
+  const Open_borders open = find_open_seams(cuff, number_positions(cuff.points));
+  EXPECT_NEAR(open.gaps.clear_length.value_or(0), 0.125, 1e-12);
+  EXPECT_EQ(open.left.tied.size(), 2u);
+}
+
 TEST(Snapping_rules, TwoSheets)
 {
   const Snapped result = snap(two_sheets());

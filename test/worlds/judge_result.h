@@ -38,6 +38,10 @@ Verdict judge_attributes(const World& world, const World_run& run, const Judged_
 /// Whether every piece keeps its boundary loops and its Euler number.
 Verdict judge_pieces(const World_run& run);
 
+/// Whether borders that face others across a gap drift by no more than a tenth of what borders may, by the
+/// list of collapses.
+Verdict judge_drift(const World& world, const World_run& run);
+
 /// Whether shared meshes have the same triangles of the same rows in all places.
 Verdict judge_sharing(const World_run& run);
 

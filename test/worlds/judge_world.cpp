@@ -148,6 +148,8 @@ Verdict judge_reduction(const World& world, const World_run& run, Judged_complex
     return broken;
   if (auto broken = judge_ties(world, run))
     return broken;
+  if (auto broken = judge_drift(world, run))
+    return broken;
   if (auto broken = judge_pieces(run))
     return broken;
   if (auto broken = judge_sharing(run))
@@ -160,6 +162,8 @@ Verdict judge_reduction(const World& world, const World_run& run, Judged_complex
     ++counts.options["picked_normals"];
   if (!run.prepared.tied.empty() && !run.collapses.empty())
     ++counts.options["ties"];
+  if (!run.prepared.facing.empty() && !run.collapses.empty())
+    ++counts.options["facing"];
   if (run.prepared.doubles() > 0 && !run.collapses.empty())
     ++counts.options["doubles"];
   if (auto broken = judge_stop(world, run))

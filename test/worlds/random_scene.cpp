@@ -433,6 +433,25 @@ constexpr Named_shape s_shapes[] = {{"grid layers", grid_layers},
 
 } // namespace
 
+Triangle_soup uneven_seam(Random& random)
+{
+  const double length = random.between(6, 9), gap = random.one_of({0.25, 0x1p-4, 0x1p-10, 0x1p-30}),
+               height = random.one_of({0., 1 / 32., 0.25, 1.}), sway = random.one_of({0., 1 / 16., 0.25});
+  Triangle_soup soup;
+  for (const int side : {0, 1}) {
+    const Index width = Index(random.between(4, 6)),
+                rows = Index(length) + Index(side * random.between(1, 5));
+    const double rough = random.one_of({0., 0., gap / 8});
+    soup = joined(std::move(soup), mapped(sheet(width, rows), [&](const Point_3& p) {
+                    const double y = p.y() * length / rows;
+                    const double x = side == 0 ? p.x() - width - gap / 2 : p.x() + gap / 2;
+                    return Point_3(x + sway * std::sin(y), y + rough * random.share(),
+                                   height * std::sin(0.8 * y) + rough * random.share() + x * x / 64);
+                  }));
+  }
+  return soup;
+}
+
 Scene random_scene(Random& random)
 {
   Scene scene;

@@ -22,6 +22,9 @@ struct Scene
 
 Scene random_scene(Random& random);
 
+/// Two curved sheets with a narrow gap, along which they have different numbers of vertices.
+Triangle_soup uneven_seam(Random& random);
+
 } // namespace selvedge::test
 
 #endif // SELVEDGE_TEST_WORLDS_RANDOM_SCENE_H

@@ -444,6 +444,12 @@ World random_world(std::uint64_t seed)
   world.scene = scene.name;
   Triangle_soup& soup = world.soup;
   soup = std::move(scene.soup);
+  if (world.seed % 16 == 7) {
+    Random others(seed + 5); // so that other worlds stay what they were in earlier versions
+    const Triangle_soup seam = uneven_seam(others);
+    soup = others.one_in(2) ? seam : joined(seam, moved(soup, 40, 0, 0));
+    world.scene = "uneven seam beside " + world.scene;
+  }
   if (random.one_in(3)) {
     spoil(soup, random);
     world.scene += ", spoiled";

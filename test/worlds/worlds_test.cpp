@@ -5,6 +5,7 @@
 
 #include "Hull.h"
 #include "Random.h"
+#include "judge_result.h"
 #include "judge_world.h"
 #include "random_world.h"
 #include "shrunk_world.h"
@@ -379,6 +380,30 @@ TEST(JudgeOfWorlds, SeesASheetThatPassesThroughALeaf)
   ASSERT_EQ(verdict(world, run), "kept");
   run.collapses = {{0, 1}};
   EXPECT_EQ(verdict(world, run), "motion");
+}
+
+TEST(JudgeOfWorlds, SeesABorderThatDriftsFromTheOneItFaces)
+{
+  World world;
+  const auto curved = [](double from, double stretch) {
+    return [=](const Point_3& p) {
+      return Point_3(from + p.x(), stretch * p.y(), 0.25 * std::sin(stretch * p.y()));
+    };
+  };
+  world.soup = joined(mapped(sheet(6, 12), curved(0, 1)), mapped(sheet(6, 9), curved(6.0625, 12 / 9.)));
+  world.options = without_limits(to_ratio(0));
+  world.options.max_border_drift = 0.03;
+  world.open_seams = Open_seams::hold;
+  const World_run run = test::run(world);
+  ASSERT_GT(run.prepared.facing.size(), 20u);
+  EXPECT_FALSE(judge_drift(world, run));
+  Prepared_soup forgotten = run.prepared;
+  forgotten.facing.clear();
+  forgotten.tied.clear();
+  World_run unlimited = run_again(world, forgotten);
+  EXPECT_GT(unlimited.collapses.size(), run.collapses.size());
+  unlimited.prepared = run.prepared;
+  EXPECT_TRUE(judge_drift(world, unlimited));
 }
 
 TEST(JudgeOfWorlds, SeesAnExchangedAttribute)
