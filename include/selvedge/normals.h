@@ -120,9 +120,9 @@ void keep_flat_normals(Triangle_soup& result, const std::vector<Index>& triangle
 
 /// Gives the corners of a result normals of the original, whose corners have `normals`. A triangle of which
 /// nothing has changed gets its own. Any other corner gets that normal at its vertex which is nearest to the
-/// normal of its triangle, or to that of its back if all three normals of the original point there. Triangle
-/// i is what is left of triangle `triangles[i]` of the original, and has its corners from the corners
-/// `corners[i]`, numbered as 3 × triangle + place.
+/// normal of its triangle, or to that of its back if the normals of the original point there on average.
+/// Triangle i is what is left of triangle `triangles[i]` of the original, and has its corners from the
+/// corners `corners[i]`, numbered as 3 × triangle + place.
 ///
 /// **Complexity** O(n) for n triangles, when the numbers of triangles at vertices are bounded.
 void pick_normals(Triangle_soup& result, const std::vector<Index>& triangles,
@@ -132,10 +132,9 @@ void pick_normals(Triangle_soup& result, const std::vector<Index>& triangles,
 /// Gives corners of a result new normals where those that they have kept belong to another side of the
 /// surface, so that no part of it is shaded as its inside or its edge. They come from across a hem, say: a
 /// vertex there brings its normal along when it comes to bound faces of this side. A normal is replaced where
-/// it is farther from that of its triangle than 60°, and than all three were in the original. Only triangles
-/// are mended whose three normals in the original all point to their front, or all to their back, which is
-/// then taken for the front. Triangle i is what is left of triangle `triangles[i]` of the original, whose
-/// corners have `normals`.
+/// it is farther from that of its triangle than 60°, and than all three were in the original. The back of a
+/// triangle is taken for its front where its normals in the original point there on average. Triangle i is
+/// what is left of triangle `triangles[i]` of the original, whose corners have `normals`.
 ///
 /// A new normal is the mean of those of the triangles around the vertex that need one and meet in edges,
 /// weighted by the angles there (Thürmer and Wüthrich 1998), or that of the triangle alone where these are

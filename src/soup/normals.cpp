@@ -206,12 +206,12 @@ std::array<double, 3> cosines(const Vector& front, const Corner_values<3>& norma
   return {cosine(0), cosine(1), cosine(2)};
 }
 
-// Returns 1 where these are the cosines of normals that all point to the front, -1 where all point to the
-// back, and 0 otherwise.
+// Returns 1 where these are the cosines of normals that point to the front on average, -1 where they point to
+// the back, and 0 where neither is so, as for a triangle without a direction.
 int side_of(const std::array<double, 3>& cosines)
 {
-  const auto [least, largest] = std::minmax({cosines[0], cosines[1], cosines[2]});
-  return least > 0 ? 1 : largest < 0 ? -1 : 0;
+  const double sum = cosines[0] + cosines[1] + cosines[2];
+  return sum > 0 ? 1 : sum < 0 ? -1 : 0;
 }
 
 void restore_flat(Triangle_soup& soup)
@@ -451,13 +451,10 @@ std::size_t mend_normals(Triangle_soup& result, const std::vector<Index>& triang
       continue;
     const Vector front = unit_normal(result, t);
     const std::array<double, 3> now = cosines(front, result.normals, t);
-    const auto is_right = [](double cosine) { return cosine >= s_cosine_of_shading; };
-    if (std::all_of(now.begin(), now.end(), is_right))
-      continue;
     const std::array<double, 3> before = cosines(unit_normal(original, triangles[t]), normals, triangles[t]);
     const int side = side_of(before);
     const double limit =
-        std::min({s_cosine_of_shading, std::abs(before[0]), std::abs(before[1]), std::abs(before[2])});
+        std::min({s_cosine_of_shading, side * before[0], side * before[1], side * before[2]});
     Shaded_triangle triangle{t, {}, {}};
     add(triangle.front, front, side);
     std::size_t wrong = 0;

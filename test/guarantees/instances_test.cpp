@@ -167,10 +167,10 @@ TEST(Instances, WhatOnePlaceRefusesIsDoneInNone)
   const Triangle_soup obstacle = test::soup(above.points, triangles);
   const auto free = faces(Instances::shared, {}), held = faces(Instances::shared, obstacle),
              apart = faces(Instances::apart, obstacle);
-  EXPECT_GT(held[0], free[0] + 50);
+  EXPECT_GT(held[0], free[0] + 30);
   EXPECT_EQ(held[0], held[1]);
   EXPECT_LT(apart[0], held[0]);
-  EXPECT_GT(apart[1], apart[0] + 50);
+  EXPECT_GT(apart[1], apart[0] + 30);
 }
 
 TEST(Instances, PlacesThatComeTooNearDoNotMove)

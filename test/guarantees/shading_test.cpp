@@ -223,6 +223,31 @@ TEST(Shading, IsSmoothWhereNormalsAreMended)
   EXPECT_EQ(count_of_wrong_sides(result), 0u);
 }
 
+// A small face on a rim may have a normal of its back before, and become large.
+TEST(Shading, IsMendedWhereOneNormalWasOfTheBackBefore)
+{
+  Triangle_soup original;
+  original.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  original.triangles = {{0, 1, 2}};
+  original.normals = {{{0, 0.1, 1}, {0.8, 0, 0.6}, {0, 1, -0.1}}, {{0, 1, 2}}};
+  for (const double side : {1, -1}) {
+    for (auto& normal : original.normals.values)
+      normal[2] = side * std::abs(normal[2]);
+    original.normals.values[2][2] *= -1;
+    Triangle_soup result = original;
+    EXPECT_EQ(mend_normals(result, {0}, original, original.normals), 0u);
+    result.normals.values[1] = {1, 0, -0.05 * side}; // no farther than the farthest was
+    EXPECT_EQ(mend_normals(result, {0}, original, original.normals), 0u);
+    result.normals.values[1] = {1, 0, -0.5 * side};
+    EXPECT_EQ(mend_normals(result, {0}, original, original.normals), 1u);
+    const auto normal = [&](std::size_t k) {
+      return result.normals.values[result.normals.of_triangle[0][k]];
+    };
+    EXPECT_EQ(normal(1), (std::array<double, 3>{0, 0, side}));
+    EXPECT_EQ(normal(2), original.normals.values[2]);
+  }
+}
+
 TEST(Shading, OfFacesThatHaveNoMeanIsTheirOwn)
 {
   // Two faces of a roof as steep as this have no common normal that is near to both.

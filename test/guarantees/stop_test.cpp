@@ -7,6 +7,8 @@
 #include "support/reduction.h"
 #include "support/soups.h"
 
+#include <selvedge/Reduction_limits.h>
+
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -25,6 +27,19 @@ TEST(Stop, TargetIsReachedOrTheReportSaysWhatHeldItBack)
   EXPECT_FALSE(stuck.simplified.report.is_reached());
   EXPECT_EQ(stuck.simplified.report.outcome(), "border");
   EXPECT_GT(stuck.simplified.report.hindrances.total(), 0u);
+}
+
+// Bumps are removed by collapses that turn their sides into the sheet.
+TEST(Stop, SmallSteepBumpsAreLetGoByDefault)
+{
+  const Triangle_soup bumpy = mapped(sheet(12, 12), [](const Point_3& p) {
+    const bool is_bump = int(p.x()) % 3 == 1 && int(p.y()) % 3 == 1;
+    return Point_3(p.x(), p.y(), is_bump ? 1.5 : 0);
+  });
+  Simplify_options options = to_ratio(0.1);
+  EXPECT_TRUE(reduce(bumpy, options).simplified.report.is_reached());
+  options.max_normal_change = limits_of_seed().normal_change.value();
+  EXPECT_EQ(reduce(bumpy, options).simplified.report.outcome(), "normal_change");
 }
 
 TEST(Stop, TheLargerOfTwoTargetsCounts)

@@ -231,9 +231,9 @@ for file, entry in (
     group("src/soup/" + file, ("placement_test", "worlds_test"), entry)
 
 group("src/soup/normals.cpp", ("shading_test",),
-      ("if (std::all_of(now.begin(), now.end(), is_right))", "if (true)", "normals that point to the back are not mended"),
+      ("if (wrong > 0)", "if (false)", "normals that point to the back are not mended"),
       ("side != 0 && side * now[k] < limit", "true", "normals that are near are mended"),
-      ("std::min({s_cosine_of_shading, std::abs(before[0]), std::abs(before[1]), std::abs(before[2])})", "s_cosine_of_shading", "normals that were as far are mended"),
+      ("std::min({s_cosine_of_shading, side * before[0], side * before[1], side * before[2]})", "s_cosine_of_shading", "normals that were as far are mended"),
       ("if (dot(mean, triangle.front) < s_cosine_of_shading)", "if (false)", "mended normals point to the back"),
       ("if (cosine > highest)", "if (false)", "each corner keeps the normals of its triangle"),
       ("corners[i] == Index_triple{3 * t, 3 * t + 1, 3 * t + 2}", "false", "triangles that have not changed pick other normals"),

@@ -124,19 +124,19 @@ const char* wrong_in_mended_normal(const Triangle_soup& result, Index i, std::si
   std::array<double, 3> before;
   for (std::size_t j = 0; j < 3; ++j)
     before[j] = cosine(normal_of(normals, t, j), original, t);
-  const auto is_in_front = [](double x) { return x > margin; };
-  const double limit = std::min({0.5, before[0], before[1], before[2]});
-  if (std::find(old.begin(), old.end(), now) != old.end())
-    return std::all_of(before.begin(), before.end(), is_in_front) && cosine(now, result, i) < limit - margin
+  const double sum = before[0] + before[1] + before[2];
+  if (std::find(old.begin(), old.end(), now) != old.end()) {
+    const double side = sum < 0 ? -1 : 1;
+    const double limit = std::min({0.5, side * before[0], side * before[1], side * before[2]});
+    return std::abs(sum) > margin && side * cosine(now, result, i) < limit - margin
                ? "a normal of another side"
                : nullptr;
+  }
   for (const int side : {1, -1}) {
-    const auto is_behind = [&](double x) { return side * x < -margin; };
     const auto may_be_wrong = [&](const Normal& normal) {
       return !(side * cosine(normal, result, i) > 0.5 + margin);
     };
-    if (std::none_of(before.begin(), before.end(), is_behind) &&
-        std::any_of(old.begin(), old.end(), may_be_wrong) &&
+    if (!(side * sum < -margin) && std::any_of(old.begin(), old.end(), may_be_wrong) &&
         !(side * cosine(now, result, i) < 0.5 - margin) && is_unit(result.normals, i, k))
       return nullptr;
   }
