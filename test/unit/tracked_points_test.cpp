@@ -319,6 +319,33 @@ TEST_F(Tracked_sheet, AtAVertexOfManyFacesThePointsGoToTheNearest)
   EXPECT_GT(errors.size(), 50u);
 }
 
+// Rounding does not grow with the distance from the origin.
+TEST_F(Tracked_sheet, ErrorsAreTheSameFarFromTheOrigin)
+{
+  std::uniform_int_distribution<int> shift(-300, 300);
+  const Triangle_soup near = mapped(sheet(9, 9), [&](const Point_3& p) {
+    const double unit = 1. / 1024; // which the shift does not round
+    return Point_3(p.x() + unit * shift(m_random), p.y() + unit * shift(m_random), unit * shift(m_random));
+  });
+  const Triangle_soup far = mapped(near, [](const Point_3& p) {
+    constexpr double away = 1 << 30;
+    return Point_3(p.x() + away, p.y() - away, p.z() + away);
+  });
+  Mesh mesh = mesh_of(near), mesh_far = mesh_of(far);
+  Tracked tracked(mesh), tracked_far(mesh_far);
+  tracked.begin(mesh.points(), 8);
+  tracked_far.begin(mesh_far.points(), 8);
+  std::size_t positive = 0;
+  for (const Mesh::Halfedge_index h : mesh.halfedges()) {
+    const double error = tracked.error_at(profile_of(mesh, h), mesh.point(mesh.target(h)));
+    const double error_far =
+        tracked_far.error_at(profile_of(mesh_far, h), mesh_far.point(mesh_far.target(h)));
+    EXPECT_NEAR(error_far, error, 1e-9 * error);
+    positive += error > 0;
+  }
+  EXPECT_GT(positive, 300u);
+}
+
 TEST(OriginalSurface, IsNearWhatAnyTriangleIsNear)
 {
   using Kernel = CGAL::Simple_cartesian<double>;

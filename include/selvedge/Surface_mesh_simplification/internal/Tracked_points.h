@@ -187,10 +187,10 @@ private:
       m_is_bounded = length > 1e-4 * longest;
       if (!m_is_bounded)
         return;
-      m_planes[3] = plane(normal, 1 / length, corners[0]);
+      m_planes[3] = plane(normal, 1 / length, {0, 0, 0});
       for (std::size_t i = 0; i < 3; ++i)
-        m_planes[i] =
-            plane(cross(sides[i], normal), 1 / (length * std::sqrt(dot(sides[i], sides[i]))), corners[i]);
+        m_planes[i] = plane(cross(sides[i], normal), 1 / (length * std::sqrt(dot(sides[i], sides[i]))),
+                            difference(corners[i], corners[0]));
     }
 
     Face face() const { return m_face; }
@@ -205,9 +205,10 @@ private:
       constexpr double rounding = 1e-24;
       if (m_is_bounded) {
         // The distance from the plane, and the largest distance beyond a side, in the plane.
-        const double height = distance(m_planes[3], p);
+        const Vector at = difference(vector(p), vector(m_triangle[0]));
+        const double height = distance(m_planes[3], at);
         const double beside =
-            (std::max)({0., distance(m_planes[0], p), distance(m_planes[1], p), distance(m_planes[2], p)});
+            (std::max)({0., distance(m_planes[0], at), distance(m_planes[1], at), distance(m_planes[2], at)});
         const double least = height * height + beside * beside;
         if (least > most * (1 + 1e-6) + rounding)
           return std::numeric_limits<double>::infinity();
@@ -218,7 +219,9 @@ private:
     }
 
   private:
-    using Plane = std::array<double, 4>; // a unit normal, and what its product with a point has in the plane
+    // A unit normal, and what its product with a point of the plane is, relative to the first corner: far
+    // from the origin, rounding would else be larger than distances.
+    using Plane = std::array<double, 4>;
 
     static Vector vector(const Point& p) { return {p.x(), p.y(), p.z()}; }
     static Plane plane(const Vector& normal, double scale, const Vector& at)
@@ -226,9 +229,9 @@ private:
       const Vector unit = {scale * normal[0], scale * normal[1], scale * normal[2]};
       return {unit[0], unit[1], unit[2], dot(unit, at)};
     }
-    static double distance(const Plane& plane, const Point& p)
+    static double distance(const Plane& plane, const Vector& p)
     {
-      return plane[0] * p.x() + plane[1] * p.y() + plane[2] * p.z() - plane[3];
+      return plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2] - plane[3];
     }
 
     Face m_face;
