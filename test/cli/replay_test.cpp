@@ -55,7 +55,7 @@ TEST(App_replay, AcceptsItsOwnLogAndMakesTheSameFile)
   EXPECT_NE(result.out.find("\nACCEPTED: limits of the log, input bound, result bound\n"), std::string::npos)
       << result.out;
   EXPECT_NE(result.out.find(
-                "\nlimits judged: normal_change 90°, aspect_ratio 0.05, border_turn 30°, seam_turn 90°, "
+                "\nlimits judged: normal_change 75°, aspect_ratio 0.05, border_turn 30°, seam_turn 90°, "
                 "border_drift 0.01 of the diagonal\n"),
             std::string::npos)
       << result.out;
@@ -106,28 +106,27 @@ TEST(App_replay, NamesWhatALogWithoutTermsLeavesOpen)
 
 TEST(App_replay, LimitsOfTheJudgeTakeThePlaceOfTheLogs)
 {
-  const Logged_run run({"--ratio", "0.4", "--error", "none", "--normal-change", "180", "--aspect-ratio",
+  const Logged_run run({"--ratio", "0.2", "--error", "none", "--normal-change", "120", "--aspect-ratio",
                         "0.2", "--border-turn", "8", "--seam-turn", "8"});
   const auto replay = [&](const std::string& limits) {
     return run_app({"replay", run.original, run.log, "--limits", limits});
   };
   EXPECT_EQ(run_app({"replay", run.original, run.log}).code, 0);
-  const App_result by_default = replay("default"), refused = replay("seed");
-  EXPECT_EQ(by_default.code, 0);
-  EXPECT_NE(by_default.out.find("\nlimits judged: normal_change 90°, aspect_ratio 0.05, border_turn 30°"),
-            std::string::npos)
-      << by_default.out;
-  EXPECT_EQ(refused.code, 1);
-  EXPECT_NE(refused.out.find("normal_change: the normal of a triangle turns by more than 45°\n"),
-            std::string::npos)
-      << refused.out;
+  for (const auto& [limits, degrees] : {std::pair("default", "75"), std::pair("seed", "45")}) {
+    const App_result refused = replay(limits);
+    EXPECT_EQ(refused.code, 1);
+    EXPECT_NE(refused.out.find("normal_change: the normal of a triangle turns by more than " +
+                               std::string(degrees) + "°\n"),
+              std::string::npos)
+        << refused.out;
+  }
   const std::string file = run.folder / "limits";
-  write_text(file, "limit normal_change 180\nlimit seam_turn 60\n");
+  write_text(file, "limit normal_change 120\nlimit seam_turn 60\n");
   const App_result accepted = replay(file);
   EXPECT_EQ(accepted.code, 0);
-  EXPECT_NE(accepted.out.find("\nlimits judged: normal_change 180°, seam_turn 60°\n"), std::string::npos)
+  EXPECT_NE(accepted.out.find("\nlimits judged: normal_change 120°, seam_turn 60°\n"), std::string::npos)
       << accepted.out;
-  EXPECT_NE(accepted.out.find("\nlimits declared by the log, but not judged: normal_change 180°"),
+  EXPECT_NE(accepted.out.find("\nlimits declared by the log, but not judged: normal_change 120°"),
             std::string::npos)
       << accepted.out;
   EXPECT_NE(accepted.out.find("\nACCEPTED: limits of the judge, input bound, result bound\n"),
@@ -187,7 +186,7 @@ TEST(App_replay, GivesTheVerdictAsJson)
   EXPECT_EQ(verdict["exit_code"], result.code);
   EXPECT_EQ(verdict["verdict"], "refused");
   EXPECT_EQ(verdict["terms"]["limits_of"], "log");
-  EXPECT_EQ(verdict["terms"]["limits"]["normal_change"], 90);
+  EXPECT_EQ(verdict["terms"]["limits"]["normal_change"], 75);
   EXPECT_TRUE(verdict["terms"]["limits"]["weld_distance"].is_null());
   EXPECT_EQ(verdict["terms"]["input_bound"], true);
   EXPECT_EQ(verdict["terms"]["not_judged"].size(), 1u);
