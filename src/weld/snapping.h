@@ -4,39 +4,21 @@
 #ifndef SELVEDGE_WELD_SNAPPING_H
 #define SELVEDGE_WELD_SNAPPING_H
 
-#include <selvedge/Border_gaps.h>
+#include "open_seams.h"
 #include <selvedge/Snapping_notes.h>
 #include <selvedge/Triangle_soup.h>
 #include <selvedge/internal/Scale.h>
 #include <selvedge/spatial/Packed_R_tree.h>
 
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace selvedge {
-
-/// What is left open within a distance: partners that are each the nearest of the other, frozen or not
-/// (`Prepared_soup::tied`), and the positions in no such pair that are within the distance of an edge of
-/// another border at which the surface continues (`Prepared_soup::facing`). Nothing counts between two pieces
-/// that both have no position inside.
-struct Gaps_left
-{
-  std::vector<std::pair<Index, Index>> tied;
-  std::vector<Index> facing;
-};
 
 /// What `snap_borders` did, and what it left open within the weld distance.
 struct Snapped_borders
 {
   Snapping_notes notes;
-  Gaps_left left;
-};
-
-/// The gaps between borders, and what is open within the clear length, if there is one.
-struct Open_borders
-{
-  Border_gaps gaps;
   Gaps_left left;
 };
 
@@ -91,19 +73,6 @@ Snapped_borders snap_borders(Triangle_soup& soup, std::vector<Index>& positions,
                              const std::vector<char>& is_frozen, double distance,
                              const std::vector<Index>& transforms = {}, std::size_t obstacle_triangles = 0,
                              const Scale& scale = Scale());
-
-/// Finds, for every vertex on a border, the least distance within which it has a partner, as `snap_borders`
-/// defines partners, as far as that is at most the median length of border edges; which length is clear; and
-/// what is open within it, if `is_left_listed`. Nothing is moved. (A vertex may cease to have a partner
-/// within larger distances, because then a short stretch of border joins the two.) Vertices under different
-/// transforms are no partners. Frozen ones may be.
-///
-/// **Preconditions** and other parameters as for `snap_borders`. **Exactness** Distances are rounded to
-/// double. **Complexity** O(n log n) for n triangles, and as many steps as there are pairs of border vertices
-/// within twice the lengths found.
-Open_borders find_open_seams(const Triangle_soup& soup, const std::vector<Index>& positions,
-                             const std::vector<Index>& transforms = {}, std::size_t obstacle_triangles = 0,
-                             const Scale& scale = Scale(), bool is_left_listed = true);
 
 } // namespace selvedge
 

@@ -152,7 +152,7 @@ group(
     loop + "Intersection_guard.h",
     ("guard_test",),
     ("if (is_held(motion) || !m_star.gather(motion)", "if (!m_star.gather(motion)", "coincident vertices move"),
-    ("return !face_at_place;", "return true;", "a place where another vertex is"),
+    ("return !face_at_place || refuse(*face_at_place);", "return true;", "a place where another vertex is"),
     ("return verdict != Star_verdict::refused;", "return true;", "what the star says is not heard"),
     ("return !m_is_mover_first || are_both_clear(collapse.mover(), collapse.goal());", "return true;",
      "a place that is clear in no order is taken"),
@@ -241,8 +241,10 @@ group("src/soup/normals.cpp", ("shading_test",),
 group(
     headers + "Surface_mesh_simplification/internal/Tracked_points.h",
     ("tracked_points_test",),
-    ("return height * height + beside * beside > squared * (1 + 1e-6) + 1e-24;",
-     "return 2 * (height * height + beside * beside) > squared;", "faces that are nearer are skipped"),
+    ("if (least > most * (1 + 1e-6) + rounding)", "if (2 * least > most)", "faces that are nearer are skipped"),
+    ("if (beside == 0 && least > rounding)", "if (least > rounding)", "beyond a corner, distances are too small"),
+    ("difference(vector(p), vector(m_triangle[0]))", "difference(vector(p), vector(m_triangle[1]))",
+     "planes are relative to another corner"),
     ("1 / (length * std::sqrt(dot(sides[i], sides[i])))", "1 / length", "distances beyond long sides are too large"),
     ("candidate.longest() <= 4 * squared", "candidate.longest() <= 16 * squared", "points far from all corners are near them"),
     ("likely = (likely + 1) % state.candidates.size();", "break;", "at a vertex of many faces only one face can take a point"),
@@ -465,20 +467,24 @@ group(
 )
 
 group(
-    "src/weld/snapping.cpp",
+    "src/weld/Border_sites.h",
     ("snapping_rules_test", "snapping_test"),
-    ("if (!are_partners(pair.low, pair.high))", "if (false)", "partners of before other joins are joined"),
-    ("if (!is_manifold(goes, stays))", "if (false)", "edges of three faces"),
-    (" || 3 * continued < within", "", "layers upon each other are taken for seams"),
-    ("20 * (number_within(2 * length) - within) > within", "false", "seams end where other gaps begin"),
-    ("if (!is_star_motion_clear<Kernel>(m_star))", "if (false)", "a star folds onto itself"),
-    ("if (!are_sweeps_clear(goes))", "if (false)", "a seam is closed through another layer"),
     ("if ((site.is_frozen || m_sites[j].is_frozen) && !are_frozen_named)", "if (site.is_frozen && !are_frozen_named)", "what moves may snap to a face that offends"),
     ("!is_shortly_followed(i, j, length) && !is_shortly_followed(j, i, length);", "true;", "a border is sewn to itself"),
-    ("m_index.set(face, face_box(face));", "", "the index does not follow a snap"),
+    sources=("src/weld/snapping.cpp", "src/weld/open_seams.cpp"),
+)
+group(
+    "src/weld/Border_sites.cpp",
+    ("snapping_rules_test", "snapping_test"),
     ("p == q ? 0 : distance(m_sites[p], m_sites[q]));", "p == q ? 0 : least);", "gaps are closed only from their ends"),
+)
+group(
+    "src/weld/open_seams.cpp",
+    ("snapping_rules_test", "snapping_test"),
+    (" || 3 * continued < within", "", "layers upon each other are taken for seams"),
+    ("20 * (number_within(2 * length) - within) > within", "false", "seams end where other gaps begin"),
     ("m_distance = clear.length.value_or(0);", "m_distance = result.limit;", "gaps are held that are not clear"),
-    ("pairs = mutual_partners(true);", "pairs = mutual_partners();", "partners are not tied where one is frozen"),
+    ("pairs = mutual_partners<Packed_R_tree>(true);", "pairs = mutual_partners<Packed_R_tree>();", "partners are not tied where one is frozen"),
     ("if (pieces.are_cards(low, high))", "if (false)", "cards of hair are tied"),
     ("!pieces.are_cards(m_sites[i].position, m_sides[side][0]) &&", "", "cards of hair face each other"),
     ("number[a] != number[b] && counts", "counts", "a ring is not tied to itself"),
@@ -489,6 +495,15 @@ group(
     ("(std::max)(opposite.length, least)", "opposite.length", "borders that touch hide gaps"),
     ("|| !is_of_seam(pair.low) || !is_of_seam(pair.high))", ")", "layers are tied beside a seam that edges find"),
     ("(is_of_seam(i) || is_of_seam(a) || is_of_seam(b)) &&", "", "what is no seam faces a border beside one"),
+)
+group(
+    "src/weld/snapping.cpp",
+    ("snapping_rules_test", "snapping_test"),
+    ("if (!are_partners(pair.low, pair.high))", "if (false)", "partners of before other joins are joined"),
+    ("if (!is_manifold(goes, stays))", "if (false)", "edges of three faces"),
+    ("if (!is_star_motion_clear<Kernel>(m_star))", "if (false)", "a star folds onto itself"),
+    ("if (!are_sweeps_clear(goes))", "if (false)", "a seam is closed through another layer"),
+    ("m_index.set(face, face_box(face));", "", "the index does not follow a snap"),
 )
 group(
     headers + "Surface_mesh_simplification/Border_rule.h",
@@ -786,11 +801,27 @@ group(
     ("edge_queue_test",),
     ("std::uint32_t(bits >> 49)", "std::uint32_t(bits >> 50)", "costs of a class differ by a quarter"),
     ("m_tile_bits(is_relaxed ? s_tile_bits : 31)", "m_tile_bits(31)", "no tiles"),
+    ("key == m_keys[1] ? entry < m_entries[tile << m_tile_bits] : key < m_keys[1];", "key <= m_keys[1];",
+     "an edge would be the first of its tile at any cost of its class"),
     ("(std::max)(m_merged_class, class_of(", "(std::max)(Id(0), class_of(", "no classes are merged"),
     ("m_merged_class = *last;", "m_merged_class = *(classes.end() - 1);", "all classes are merged"),
     ("if (i > 0 && entry < entries[parent(i)])", "if (false)", "an edge that gets cheaper stays where it is"),
     ("key = (std::min)(m_keys[2 * node], m_keys[2 * node + 1])", "key = (std::min)(key, m_keys[node / 2])",
      "a tile whose first edge has left stays the winner"),
+)
+group(
+    headers + "Surface_mesh_simplification/internal/Intersection_guard.h",
+    ("index_test",),
+    ("    std::sort(m_near.begin(), m_near.end());\n    m_clearance", "    m_clearance",
+     "the index says which face too near is the blocker"),
+    ("[](const Stationary_face& f, const Stationary_face& g) { return f.id < g.id; });",
+     "[](const Stationary_face&, const Stationary_face&) { return false; });", "the index says which face in the way is the blocker"),
+)
+group(
+    headers + "Surface_mesh_simplification/internal/Edge_collapse.h",
+    ("loop_test",),
+    ("*selected_at > cost && !m_queue.would_be_first(edge_id, *selected_at)", "false", "an edge comes at the bound of its cost"),
+    ("        record.is_outdated = true;\n        return FT(*bound);", "        return FT(*bound);", "the bound is taken for the cost"),
 )
 group(
     headers + "Surface_mesh_simplification/internal/Edge_collapse.h",
@@ -849,7 +880,7 @@ may_intersect = ("may_intersect_test",)
 group(
     headers + "Surface_mesh_simplification/internal/Intersection_guard.h",
     may_intersect,
-    ("!m_permitted.has_at(j, face.id) &&\n            ", "", "faces of parts that may intersect are kept apart in mixed stars"),
+    ("!m_permitted.has_at(j, face.id) &&\n          ", "", "faces of parts that may intersect are kept apart in mixed stars"),
     ("motion.target && std::count(face", "false && std::count(face", "parts that may intersect are joined"),
     ("if (!m_permitted.is_any()) {", "if (true) {", "faces at the target are left out before their parts are looked at"),
     sources=("src/simplify/simplify_soup.cpp",),
