@@ -117,13 +117,15 @@ public:
   auto first_cost_bound(const Profile& profile) const
       -> decltype(std::declval<const Policy&>().cost_bound(profile, profile.v0_v1()))
   {
+    const auto onto_v1 = m_cost.cost_bound(profile, profile.v0_v1());
+    if (!onto_v1)
+      return {};
     const bool may_move_v0 = m_rule.may_move(profile.v0_v1());
     const bool may_move_v1 = m_rule.may_move(profile.v1_v0());
-    if (may_move_v0 != may_move_v1)
-      return m_cost.cost_bound(profile, may_move_v0 ? profile.v0_v1() : profile.v1_v0());
+    if (may_move_v0 && !may_move_v1)
+      return onto_v1;
     const auto onto_v0 = m_cost.cost_bound(profile, profile.v1_v0());
-    const auto onto_v1 = m_cost.cost_bound(profile, profile.v0_v1());
-    return onto_v0 && onto_v1 ? (std::min)(onto_v0, onto_v1) : decltype(onto_v0)();
+    return may_move_v0 == may_move_v1 && onto_v0 ? (std::min)(onto_v0, onto_v1) : onto_v0;
   }
 
   /// Returns the collapse that a choice stands for.
