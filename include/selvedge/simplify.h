@@ -82,8 +82,7 @@ struct Simplified_soup
   std::size_t shared_meshes = 0; ///< that were reduced in all of their places alike, and
   std::size_t shared_places = 0; ///< in how many places these stand
   std::size_t apart_meshes = 0;  ///< that stand in several places, in which they were reduced one by one
-  std::size_t untied_pairs =
-      0; ///< of `Prepared_soup::tied`, with a vertex of a shared mesh: they are not held
+  std::size_t untied_pairs = 0;  ///< of `Prepared_soup::tied`, not held, since they are of shared meshes
 
   Sewing_notes sewing;
   Simplify_report report;

@@ -31,7 +31,7 @@ public:
     Gaps_left left;
     std::vector<double> reach(m_sites.size(), m_distance); // within which a site faces a border
     const std::vector<Pair> pairs = mutual_partners<Packed_R_tree>(true);
-    const Pieces pieces = find_pieces();
+    const Pieces& pieces = found_pieces();
     for (const Pair& pair : pairs) {
       const Index low = m_sites[pair.low].position, high = m_sites[pair.high].position;
       if (pieces.are_cards(low, high))
@@ -39,7 +39,7 @@ public:
       left.tied.emplace_back(low, high);
       reach[pair.low] = reach[pair.high] = pair.distance / 2;
     }
-    const Packed_R_tree sides = index_sides();
+    const Packed_R_tree& sides = index_of_sides();
     std::vector<char> is_facing(m_sites.size(), false);
     Cancellation_poll poll;
     for (Index i = 0; i < m_sites.size(); ++i)
@@ -68,9 +68,8 @@ public:
     const Packed_R_tree index = index_borders<Packed_R_tree>(on_border);
     std::vector<Gap> found;
     Cancellation_poll poll;
-    for (const Index i : on_border) {
-      for (double within = std::ldexp(result.limit, -s_halvings);;
-           within = (std::min)(result.limit, 16 * within)) {
+    for (const Index i : on_border)
+      search_outward(result.limit, [&](double within) {
         Gap least{std::numeric_limits<double>::infinity(), false};
         visit_near(index, i, within, [&](Index j) {
           poll();
@@ -82,12 +81,11 @@ public:
           least.is_continued = (length == least.length && least.is_continued) || is_continued(i, j);
           least.length = length;
         });
-        if (least.length <= within)
+        const bool is_found = least.length <= within;
+        if (is_found)
           found.push_back(least);
-        if (least.length <= within || within >= result.limit)
-          break;
-      }
-    }
+        return is_found;
+      });
     std::sort(found.begin(), found.end());
     for (const Gap& gap : found)
       result.lengths.push_back(gap.length);
@@ -122,6 +120,14 @@ private:
     bool is_of_seam = false; // the site is in a row of such sites
   };
 
+  // Calls search(distance) for larger and larger distances up to a limit, until it returns true.
+  template <class Search>
+  static void search_outward(double limit, const Search& search)
+  {
+    for (double within = std::ldexp(limit, -s_halvings); !search(within) && within < limit;)
+      within = (std::min)(limit, 16 * within);
+  }
+
   Kernel::Segment_3 segment(Index side) const
   {
     return {m_points[m_sides[side][0]], m_points[m_sides[side][1]]};
@@ -137,13 +143,15 @@ private:
     return {m_site_at[m_sides[side][0]], m_site_at[m_sides[side][1]]};
   }
 
-  Packed_R_tree index_sides() const
+  // Built when it is asked for first, as are the pieces.
+  const Packed_R_tree& index_of_sides()
   {
-    std::vector<Index> numbers(m_sides.size());
-    std::iota(numbers.begin(), numbers.end(), Index(0));
-    Packed_R_tree index;
-    index.build(numbers, [&](Index side) { return segment(side).bbox(); });
-    return index;
+    if (!m_index_of_sides) {
+      std::vector<Index> numbers(m_sides.size());
+      std::iota(numbers.begin(), numbers.end(), Index(0));
+      m_index_of_sides.emplace().build(numbers, [&](Index side) { return segment(side).bbox(); });
+    }
+    return *m_index_of_sides;
   }
 
   // Whether the surface continues at a side to which no short stretch of border leads from a site.
@@ -209,6 +217,14 @@ private:
     }
   };
 
+  // Requires that sites know those before and behind them.
+  const Pieces& found_pieces()
+  {
+    if (!m_pieces)
+      m_pieces = find_pieces();
+    return *m_pieces;
+  }
+
   Pieces find_pieces() const
   {
     Pieces pieces{std::vector<Index>(m_points.size()), std::vector<std::array<Index, 2>>(m_points.size())};
@@ -238,17 +254,17 @@ private:
   void find_opposite_sides(double limit)
   {
     m_opposite.assign(m_sites.size(), {});
-    const Pieces pieces = find_pieces();
+    const Pieces& pieces = found_pieces();
     if (pieces.are_all_strips())
       return;
-    const Packed_R_tree sides = index_sides();
+    const Packed_R_tree& sides = index_of_sides();
     Cancellation_poll poll;
     for (Index i = 0; i < m_sites.size(); ++i) {
       if (m_sites[i].next.empty())
         continue;
       const bool is_of_strip = pieces.is_strip(m_sites[i].position);
       Opposite_side& opposite = m_opposite[i];
-      for (double within = std::ldexp(limit, -s_halvings);; within = (std::min)(limit, 16 * within)) {
+      search_outward(limit, [&](double within) {
         sides.visit_overlapping(box_around(point(m_sites[i]), within), [&](Index side) {
           poll();
           if (is_of_strip && pieces.is_strip(m_sides[side][0]))
@@ -258,9 +274,8 @@ private:
               is_facing_side(i, side, length))
             opposite = {side, length};
         });
-        if (opposite.side != s_no_place || within >= limit)
-          break;
-      }
+        return opposite.side != s_no_place;
+      });
     }
     find_rows(pieces);
   }
@@ -368,6 +383,8 @@ private:
     return result;
   }
 
+  std::optional<Packed_R_tree> m_index_of_sides;
+  std::optional<Pieces> m_pieces;
   std::vector<Opposite_side> m_opposite; // by site
   double m_distance_to_edges = 0;        // that is clear
 };

@@ -361,16 +361,19 @@ TEST(Snapping, TheLimitOfDriftStaysWithThePlaceOfItsVertex)
   EXPECT_GT(of_others, limit);
 }
 
+// Moves a sheet along x, stretches it along y, and lays it in waves.
+auto waved(double from, double stretch)
+{
+  return [=](const Point_3& p) {
+    const double y = stretch * p.y();
+    return Point_3(from + p.x(), y, 0.8 * std::sin(y / 2));
+  };
+}
+
 TEST(Snapping, BordersDriftLessWherePartnersDoNotFaceEachOther)
 {
   // The sides of the gap have 41 and 44 vertices: partners are up to half an edge apart along the seam.
   const double gap = 1 / 64.;
-  const auto waved = [&](double from, double stretch) {
-    return [=](const Point_3& p) {
-      const double y = stretch * p.y();
-      return Point_3(from + p.x(), y, 0.8 * std::sin(y / 2));
-    };
-  };
   const Triangle_soup soup =
       joined(mapped(sheet(3, 40), waved(0, 1)), mapped(sheet(3, 43), waved(3 + gap, 40 / 43.)));
   Prepared_soup prepared = prepare(soup, with_seams(Open_seams::hold));
@@ -395,12 +398,6 @@ TEST(Snapping, BordersDriftLessWherePartnersDoNotFaceEachOther)
 TEST(Snapping, SeamsWithOtherNumbersOfVerticesAreHeldByTheirEdges)
 {
   const double gap = 1 / 64.;
-  const auto waved = [&](double from, double stretch) {
-    return [=](const Point_3& p) {
-      const double y = stretch * p.y();
-      return Point_3(from + p.x(), y, 0.8 * std::sin(y / 2));
-    };
-  };
   const Triangle_soup soup =
       joined(mapped(sheet(8, 39), waved(0, 1)), mapped(sheet(8, 52), waved(8 + gap, 39 / 52.)));
   const auto width = [&](const Prepared_soup& prepared) {

@@ -15,29 +15,6 @@
 namespace selvedge::test {
 namespace {
 
-using Vector = std::array<double, 3>;
-
-Vector difference(const Point_3& p, const Point_3& q)
-{
-  return {p.x() - q.x(), p.y() - q.y(), p.z() - q.z()};
-}
-
-double dot(const Vector& u, const Vector& v)
-{
-  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-}
-
-double distance_to_segment(const Point_3& p, const Point_3& a, const Point_3& b)
-{
-  const Vector along = difference(b, a);
-  Vector rest = difference(p, a);
-  const double square = dot(along, along);
-  const double share = square > 0 ? std::clamp(dot(rest, along) / square, 0., 1.) : 0;
-  for (std::size_t i = 0; i < 3; ++i)
-    rest[i] -= share * along[i];
-  return std::sqrt(dot(rest, rest));
-}
-
 /// The borders of the input, and what has become of their vertices: those that have merged are one.
 class Followed_borders
 {
@@ -77,8 +54,8 @@ public:
     if (!behind || !ahead)
       return std::nullopt;
     const Point_3 &p = m_before[position], &here = m_after[one(position)];
-    return std::min(distance_to_segment(p, m_after[*behind], here),
-                    distance_to_segment(p, here, m_after[*ahead]));
+    return std::sqrt(std::min(CGAL::squared_distance(p, Kernel::Segment_3(m_after[*behind], here)),
+                              CGAL::squared_distance(p, Kernel::Segment_3(here, m_after[*ahead]))));
   }
 
 private:
