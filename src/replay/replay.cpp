@@ -3,11 +3,9 @@
 
 #include <selvedge/replay.h>
 
-#include "Box_tree.h"
-#include "Complex.h"
+#include "Judged_mesh.h"
+#include "Motion_judge.h"
 #include "Start.h"
-#include "clearance.h"
-#include "contact.h"
 #include "inputs.h"
 #include "limits.h"
 #include "link.h"
@@ -18,9 +16,7 @@
 #include <selvedge/Sha256.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -70,14 +66,6 @@ double seconds_since(Clock::time_point start)
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// A motion of the vertices at a position: to another position, with which they merge, or to a place that is
-/// no position.
-struct Motion
-{
-  Index mover;
-  Place target;
-};
-
 /// Takes the steps of a log one after the other and judges each before it changes the mesh.
 class Replay
 {
@@ -85,7 +73,8 @@ public:
   Replay(const Triangle_soup& original, bool is_stl, Log_reader& log, const Replay_options& options)
       : m_numbering(original, is_stl), m_log(log), m_options(options),
         m_start(start_of(original, options.obstacle.value_or(Triangle_soup()), log.header(), options.pose)),
-        m_complex(m_start.soup, std::move(m_start.obstacle)), m_limits(judged_limits(log.header(), options))
+        m_mesh(m_start), m_limits(judged_limits(log.header(), options)),
+        m_motions(m_start, m_mesh, log.header().triangles, judged_limits(log.header(), options).clearance)
   {
     const Log_header& header = log.header();
     m_verdict.header = header;
@@ -97,13 +86,6 @@ public:
     m_verdict.limits_source = !options.are_limits_judged ? Limits_source::none
                               : options.limits           ? Limits_source::judge
                                                          : Limits_source::log;
-    m_boxes.resize(m_complex.size_with_obstacle());
-    Cancellation_poll poll;
-    for (Index f = 0; f < m_boxes.size(); ++f) {
-      poll();
-      m_boxes[f] = box_of(m_complex.triangle(f));
-    }
-    build_tree();
   }
 
   Replay_verdict run()
@@ -133,8 +115,8 @@ public:
     measure_snaps();
     m_verdict.soup = m_complex.result();
     m_verdict.seconds_steps = seconds_since(start);
-    m_verdict.pairs_judged = m_statistics.pairs;
-    m_verdict.pairs_judged_in_rationals = m_statistics.exact;
+    m_verdict.pairs_judged = m_mesh.statistics().pairs;
+    m_verdict.pairs_judged_in_rationals = m_mesh.statistics().exact;
     return std::move(m_verdict);
   }
 
@@ -147,26 +129,6 @@ private:
     Reduction_limits needed; // without the weld distance a snap could go anywhere
     needed.weld_distance = limits.weld_distance;
     return needed;
-  }
-
-  static Box box_of(const std::array<Place, 3>& triangle)
-  {
-    Box box;
-    for (const Place& corner : triangle)
-      box.add(corner.at);
-    return box;
-  }
-
-  void build_tree()
-  {
-    std::vector<Index> faces;
-    for (Index f = 0; f < m_complex.size(); ++f)
-      if (m_complex.face(f).is_alive)
-        faces.push_back(f);
-    m_faces_in_tree = faces.size();
-    for (Index f = Index(m_complex.size()); f < m_complex.size_with_obstacle(); ++f)
-      faces.push_back(f);
-    m_tree.build(faces, m_boxes);
   }
 
   void check_weld(const Log_step& step) const
@@ -203,29 +165,27 @@ private:
     Index removed = position(step.removed), kept = position(step.kept);
     if (!is_possible(is_snap, removed, kept))
       return;
-    m_changing.clear();
-    m_heritage.clear();
     if (is_snap) {
-      m_changing = m_complex.faces_at(removed);
+      m_mesh.begin_snap(removed);
       judge_lock(removed);
       judge_lock(kept);
       judge_partners(removed, kept);
       judge({removed, m_complex.place(kept)});
-      apply(removed, kept, true, {});
+      if (is_to_be_done())
+        m_mesh.snap(removed, kept, m_is_bad);
       return;
     }
     const std::array<Coordinates, 2> before{m_complex.point(removed), m_complex.point(kept)};
     const std::optional<Coordinates> place = place_of(step, kept);
+    std::vector<Index> changing;
     for (const Index end : {removed, kept})
       if (m_complex.point(end) != place.value_or(before[1]))
-        m_changing.insert(m_changing.end(), m_complex.faces_at(end).begin(), m_complex.faces_at(end).end());
-    m_heritage = m_start.lineage.united(m_changing);
-    m_rivals = m_start.lineage.rivals(m_heritage);
+        changing.insert(changing.end(), m_complex.faces_at(end).begin(), m_complex.faces_at(end).end());
+    m_mesh.begin_collapse(std::move(changing));
     if (!place) {
       judge_lock(removed, kept);
       judge_link(removed, kept);
-      judge({removed, m_complex.place(kept)});
-      judge_clearance({removed, m_complex.place(kept)});
+      judge_with_clearance({removed, m_complex.place(kept)});
       judge_limits(removed, kept, m_complex.point(kept), true);
     } else {
       judge_lock(removed);
@@ -237,27 +197,27 @@ private:
       const Index first = step.is_removed_first ? removed : kept,
                   second = step.is_removed_first ? kept : removed;
       if (is_at_removed) {
-        judge({kept, m_complex.place(removed)});
-        judge_clearance({kept, m_complex.place(removed)});
+        judge_with_clearance({kept, m_complex.place(removed)});
       } else {
-        judge({first, {no_position(), *place}});
-        judge_clearance({first, {no_position(), *place}});
-        shift(first, *place);
-        judge({second, m_complex.place(first)});
-        judge_clearance({second, m_complex.place(first)});
+        judge_with_clearance({first, {no_position(), *place}});
+        m_mesh.move(first, *place);
+        judge_with_clearance({second, m_complex.place(first)});
       }
-      shift(kept, *place);
+      m_mesh.move(kept, *place);
       report_pending_limit(removed);
     }
-    const std::size_t pairs_before = m_offences.count();
-    apply(removed, kept, false, before);
+    const std::size_t pairs_before = m_mesh.offending_pairs();
+    if (is_to_be_done())
+      m_mesh.collapse(removed, kept, before, m_is_bad);
     // The pairs with an obstacle that is not given, which may have become fewer instead, are not known.
-    if (!is_obstacle_missing() && m_offences.count() > pairs_before)
+    if (!is_obstacle_missing() && m_mesh.offending_pairs() > pairs_before)
       report(Violation_kind::intersection,
              "more pairs of triangles intersect afterwards than before, though all descend from pairs of the "
              "original",
              m_complex.faces_at(kept));
   }
+
+  bool is_to_be_done() const { return !m_is_bad || m_options.is_all_wanted; }
 
   bool is_obstacle_missing() const { return m_verdict.header.obstacle && !m_options.obstacle; }
 
@@ -280,7 +240,7 @@ private:
     measure_snaps();
     Box box;
     for (Index f = 0; f < m_complex.size(); ++f)
-      box.add(m_boxes[f]);
+      box.add(m_mesh.box(f));
     m_limits.set_size(box.low, box.high);
     if (m_options.pose) {
       Box of_first;
@@ -291,38 +251,34 @@ private:
         }
       m_limits.set_diagonal(of_first.low, of_first.high);
     }
-    m_complex.set_aside(m_start.fronts);
-    for (Index f = 0; f < m_complex.size(); ++f)
-      if (!m_complex.face(f).is_alive) {
-        m_offences.remove(f);
-        m_boxes[f] = Box();
-      }
-    build_tree();
+    m_mesh.set_doubles_aside();
     m_complex.find_seams();
-    if (m_verdict.limits.clearance)
-      m_pieces = pieces_of(m_complex);
+    m_motions.find_pieces();
   }
 
   // ---- Locks, snaps and links
 
-  void report(Violation_kind kind, const std::string& message, const std::vector<Index>& faces = {},
-              const std::string& point = {}, const std::string& scene = {})
+  // Counts the first objection to a step alone.
+  void report(const std::optional<Objection>& objection)
   {
-    if (m_is_bad)
+    if (!objection || std::exchange(m_is_bad, true))
       return;
-    m_is_bad = true;
     Violation violation;
-    violation.kind = kind;
+    violation.kind = objection->kind;
     violation.step = m_verdict.steps;
     violation.line = m_step->line;
     violation.removed = m_step->removed;
     violation.kept = m_step->kept;
-    for (const Index f : faces)
+    for (const Index f : objection->faces)
       violation.triangles.push_back(m_start.numbers[f]);
-    violation.message = message;
-    violation.point = point;
-    violation.scene = scene;
+    violation.message = objection->message;
+    violation.point = objection->point;
+    violation.scene = objection->scene;
     m_verdict.violations.push_back(std::move(violation));
+  }
+  void report(Violation_kind kind, const std::string& message, const std::vector<Index>& faces = {})
+  {
+    report(Objection{kind, message, faces});
   }
 
   bool is_possible(bool is_snap, Index removed, Index kept)
@@ -393,192 +349,18 @@ private:
       report(Violation_kind::link, objection);
   }
 
-  // ---- Contacts
-
-  // Whether a pair of a moving face and another need not be apart after this step: it offends already, which
-  // is no fault of this step, or it descends from an offending pair of the original, or the parts of the two
-  // may intersect.
-  bool is_exempt(Index moving, Index other) const
-  {
-    if (m_start.is_permitted(moving, other) || m_offences.has(moving, other))
-      return true;
-    if (m_heritage.empty())
-      return false;
-    return std::find(m_changing.begin(), m_changing.end(), other) != m_changing.end()
-               ? Lineage::have_common(m_heritage, m_rivals)
-               : m_start.lineage.descends_from_one(other, m_rivals);
-  }
+  // ---- Motions
 
   void judge(const Motion& motion)
   {
-    if (m_is_bad)
-      return;
-    const Place m = m_complex.place(motion.mover);
-    struct Moving
-    {
-      Index face;
-      Sweep sweep;
-      Box box;
-      std::array<Place, 3> after;
-    };
-    std::vector<Moving> moving;
-    std::vector<std::pair<Index, Standing>> sides; // of all faces at m, the sides opposite it
-    Box box;
-    box.add(m.at);
-    box.add(motion.target.at);
-    for (const Index f : m_complex.faces_at(motion.mover)) {
-      const auto [p, q] = m_complex.opposite_side(f, motion.mover);
-      const Place a = m_complex.place(p), b = m_complex.place(q);
-      const bool is_contracted = p == motion.target.id || q == motion.target.id;
-      if (is_contracted && is_degenerate({m, a, b})) {
-        // It stays within the segment that it is, and meets no more than before, unless it turns over.
-        if (is_between(m, p == motion.target.id ? b : a, motion.target))
-          return report(Violation_kind::degenerate,
-                        "a triangle without an area turns over: its corner passes over another", {f});
-        continue;
-      }
-      sides.push_back({f, {{a, b, b}, 2}});
-      if (is_contracted)
-        continue;
-      Box around = box;
-      around.low = m.at;
-      around.high = m.at;
-      around.add(motion.target.at);
-      around.add(a.at);
-      around.add(b.at);
-      moving.push_back({f, Sweep(m, motion.target, a, b, m_statistics), around, {motion.target, a, b}});
-    }
-    for (const Moving& face : moving)
-      box.add(face.box);
-    for (const Moving& face : moving)
-      if (face.sweep.degenerates())
-        return report(Violation_kind::degenerate, "a triangle has no area at some time on the way",
-                      {face.face}, {}, scene(m, motion.target, face.after, nullptr));
-
-    m_standing.clear();
-    m_tree.visit(box, [&](Index f) {
-      if (!m_complex.has(f, motion.mover))
-        m_standing.push_back(f);
-    });
-    // The end comes before the way, since what is wrong there is easier to see.
-    for (const Moving& face : moving) {
-      Cancellation_scope::check();
-      const Box end = box_of(face.after);
-      for (const Index f : m_standing)
-        if (end.overlaps(m_boxes[f]) && !is_exempt(face.face, f) &&
-            do_meet(face.after, m_complex.triangle(f), m_statistics))
-          return report_meeting(Violation_kind::intersection, motion, face.face, face.after, f,
-                                m_complex.triangle(f), meeting_point(face.after, m_complex.triangle(f)));
-      for (const Moving& other : moving)
-        if (other.face < face.face && !is_exempt(face.face, other.face) &&
-            do_meet(face.after, other.after, m_statistics))
-          return report_meeting(Violation_kind::intersection, motion, face.face, face.after, other.face,
-                                other.after, meeting_point(face.after, other.after));
-    }
-    for (const Moving& face : moving) {
-      Cancellation_scope::check();
-      for (const Index f : m_standing) {
-        if (!face.box.overlaps(m_boxes[f]) || is_exempt(face.face, f))
-          continue;
-        const Standing standing{m_complex.triangle(f), 3};
-        if (face.sweep.touches(standing))
-          return report_meeting(Violation_kind::tunnelling, motion, face.face, face.after, f,
-                                standing.corners, face.sweep.contact(standing));
-      }
-      for (const auto& [f, side] : sides)
-        if (f != face.face && !is_exempt(face.face, f) && face.sweep.touches(side))
-          return report_meeting(Violation_kind::tunnelling, motion, face.face, face.after, f,
-                                m_complex.triangle(f), face.sweep.contact(side));
-    }
+    if (!m_is_bad)
+      report(m_motions.meeting(motion));
   }
-
-  // Whether the motion, which meets nothing, keeps the clearance from other pieces.
-  void judge_clearance(const Motion& motion)
+  void judge_with_clearance(const Motion& motion)
   {
-    const std::optional<double>& limit = m_verdict.limits.clearance;
-    if (m_is_bad || !limit)
-      return;
-    const Coordinates from = m_complex.point(motion.mover), to = motion.target.at;
-    Clearance_question question{*limit, {}, {}};
-    Box box;
-    box.add(from);
-    box.add(to);
-    for (const Index f : m_complex.faces_at(motion.mover)) {
-      const auto [p, q] = m_complex.opposite_side(f, motion.mover);
-      const Coordinates a = m_complex.point(p), b = m_complex.point(q);
-      question.star.push_back({from, a, b});
-      box.add(a);
-      box.add(b);
-      if (p == motion.target.id || q == motion.target.id)
-        continue;
-      question.facets.push_back({to, a, b});
-      question.facets.push_back({from, to, a});
-      question.facets.push_back({from, to, b});
-    }
-    std::sort(question.facets.begin(), question.facets.end());
-    question.facets.erase(std::unique(question.facets.begin(), question.facets.end()), question.facets.end());
-    for (int axis = 0; axis < 3; ++axis) {
-      // A sum rounds by half of the last digit, and so by less than a step to the next number.
-      box.low[axis] = std::nextafter(box.low[axis] - *limit, -HUGE_VAL);
-      box.high[axis] = std::nextafter(box.high[axis] + *limit, HUGE_VAL);
-    }
-    const Index moving = m_complex.faces_at(motion.mover).front();
-    m_standing.clear();
-    m_tree.visit(box, [&](Index f) {
-      if (m_complex.is_of_obstacle(f) || m_pieces[m_complex.face(f).positions[0]] != m_pieces[motion.mover])
-        m_standing.push_back(f);
-    });
-    for (const Index f : m_standing) {
-      Cancellation_scope::check();
-      const std::array<Place, 3> standing = m_complex.triangle(f);
-      if (!is_exempt(moving, f) &&
-          !is_clearance_kept(question, {standing[0].at, standing[1].at, standing[2].at}))
-        return report(Violation_kind::clearance, m_limits.message(Violation_kind::clearance), {moving, f});
-    }
-  }
-
-  void report_meeting(Violation_kind kind, const Motion& motion, Index f, const std::array<Place, 3>& after,
-                      Index g, const std::array<Place, 3>& other, const std::optional<std::string>& point)
-  {
-    const auto name = [&](Index face) {
-      const std::size_t number = m_start.numbers[face] + 1;
-      return m_complex.is_of_obstacle(face)
-                 ? std::to_string(number - m_verdict.header.triangles) + " of the obstacle"
-                 : std::to_string(number);
-    };
-    const std::string both = "triangles " + name(f) + " and " + name(g);
-    report(kind,
-           both + (kind == Violation_kind::intersection ? " intersect afterwards"
-                                                        : " are apart afterwards, but meet on the way"),
-           {f, g}, point.value_or(""), scene(m_complex.place(motion.mover), motion.target, after, &other));
-  }
-
-  static std::string scene(const Place& m, const Place& t, const std::array<Place, 3>& after,
-                           const std::array<Place, 3>* other)
-  {
-    std::string text =
-        "# The moving triangle before and after, the triangle that it meets, and the way of the vertex.\n";
-    std::size_t vertices = 0;
-    const auto add = [&](const char* object, const char* element, const std::vector<Place>& places) {
-      text += std::string("o ") + object + '\n';
-      std::string numbers;
-      for (const Place& place : places) {
-        text += 'v';
-        for (const double coordinate : place.at) {
-          char digits[32];
-          text += ' ' + std::string(digits, std::to_chars(digits, digits + sizeof digits, coordinate).ptr);
-        }
-        text += '\n';
-        numbers += ' ' + std::to_string(++vertices);
-      }
-      text += element + numbers + '\n';
-    };
-    add("before", "f", {m, after[1], after[2]});
-    add("after", "f", {after[0], after[1], after[2]});
-    if (other)
-      add("other", "f", {(*other)[0], (*other)[1], (*other)[2]});
-    add("way", "l", {m, t});
-    return text;
+    judge(motion);
+    if (!m_is_bad)
+      report(m_motions.lack_of_clearance(motion));
   }
 
   // ---- Limits
@@ -602,68 +384,6 @@ private:
   {
     if (m_pending_limit)
       report(*m_pending_limit, m_limits.message(*m_pending_limit), m_complex.faces_at(removed));
-  }
-
-  // ---- Changes of the mesh
-
-  void shift(Index position, const Coordinates& place)
-  {
-    m_complex.move(position, place);
-    refit(m_complex.faces_at(position));
-  }
-
-  void refit(const std::vector<Index>& faces)
-  {
-    for (const Index f : faces) {
-      m_boxes[f] = box_of(m_complex.triangle(f));
-      m_tree.set(f, m_boxes[f]);
-    }
-  }
-
-  // `before` are the points of both before the collapse.
-  void apply(Index removed, Index kept, bool is_snap, const std::array<Coordinates, 2>& before)
-  {
-    if (m_is_bad && !m_options.is_all_wanted)
-      return;
-    if (is_snap) {
-      m_complex.snap(removed, kept);
-    } else {
-      for (const Index f : m_complex.collapse(removed, kept, before)) {
-        m_offences.remove(f);
-        m_start.lineage.remove(f);
-        m_boxes[f] = Box();
-        m_tree.set(f, Box());
-      }
-    }
-    refit(m_complex.faces_at(kept));
-    // Faces with both ends were listed twice where both have moved.
-    std::sort(m_changing.begin(), m_changing.end());
-    m_changing.erase(std::unique(m_changing.begin(), m_changing.end()), m_changing.end());
-    m_changing.erase(std::remove_if(m_changing.begin(), m_changing.end(),
-                                    [&](Index f) { return !m_complex.face(f).is_alive; }),
-                     m_changing.end());
-    if (!m_heritage.empty())
-      m_start.lineage.set(m_changing, m_heritage);
-    if (m_is_bad || !m_heritage.empty() ||
-        std::any_of(m_changing.begin(), m_changing.end(), [&](Index f) { return m_offences.has(f); }))
-      find_offences(m_changing);
-    if (2 * m_complex.face_count() < m_faces_in_tree)
-      build_tree();
-  }
-
-  void find_offences(const std::vector<Index>& faces)
-  {
-    for (const Index f : faces)
-      m_offences.remove(f);
-    for (const Index f : faces) {
-      if (is_degenerate(m_complex.triangle(f)))
-        m_offences.add(f, f);
-      m_tree.visit(m_boxes[f], [&](Index g) {
-        if (g != f && !m_start.is_permitted(f, g) &&
-            do_meet(m_complex.triangle(f), m_complex.triangle(g), m_statistics))
-          m_offences.add(f, g);
-      });
-    }
   }
 
   // ---- The result
@@ -714,25 +434,16 @@ private:
   Log_reader& m_log;
   const Replay_options& m_options;
   Start m_start;
-  Offences& m_offences = m_start.offences;
-  Complex m_complex;
+  Judged_mesh m_mesh;
+  Complex& m_complex = m_mesh.complex();
   Limits m_limits;
-  std::vector<Box> m_boxes; // by face
-  Box_tree m_tree;
-  std::size_t m_faces_in_tree = 0;
-  Contact_statistics m_statistics;
+  Motion_judge m_motions;
   Replay_verdict m_verdict;
 
   const Log_step* m_step = nullptr; // the present step, and what is known of it
   bool m_is_bad = false;
   bool m_are_snaps_measured = false;
   std::optional<Violation_kind> m_pending_limit;
-  std::vector<Index> m_standing;
-  std::vector<Index> m_pieces; // by position, if a clearance is to be kept
-
-  // Of a step: the faces that it changes or removes, their ancestors, and what offended with these.
-  std::vector<Index> m_changing;
-  Lineage::Faces m_heritage, m_rivals;
 };
 
 } // namespace

@@ -91,20 +91,19 @@ bool is_link_condition_met(const Complex& complex, Index moved, Index kept)
 
 } // namespace
 
-std::optional<Snap_objection> judge_snap(const Complex& complex, Index moved, Index kept,
-                                         const std::optional<double>& weld_distance)
+std::optional<Objection> judge_snap(const Complex& complex, Index moved, Index kept,
+                                    const std::optional<double>& weld_distance)
 {
   if (!weld_distance)
-    return Snap_objection{
-        Violation_kind::weld_distance,
-        "no snap is allowed without a limit weld_distance: the log must declare one, or the "
-        "judge impose one"};
+    return Objection{Violation_kind::weld_distance,
+                     "no snap is allowed without a limit weld_distance: the log must declare one, or the "
+                     "judge impose one"};
   const Partners partners(complex, *weld_distance);
   if (!partners.are_near(moved, kept))
-    return Snap_objection{Violation_kind::weld_distance,
-                          message_of_limit(Violation_kind::weld_distance, *weld_distance)};
+    return Objection{Violation_kind::weld_distance,
+                     message_of_limit(Violation_kind::weld_distance, *weld_distance)};
 
-  const auto are_no_partners = [](const char* why) { return Snap_objection{Violation_kind::partner, why}; };
+  const auto are_no_partners = [](const char* why) { return Objection{Violation_kind::partner, why}; };
   const Border of_moved(complex, moved), of_kept(complex, kept);
   if (of_moved.is_empty())
     return are_no_partners("the vertex that snaps is not on a border");
@@ -118,8 +117,8 @@ std::optional<Snap_objection> judge_snap(const Complex& complex, Index moved, In
     return are_no_partners("a stretch of border of at most twice the weld distance joins the two vertices");
 
   if (!is_link_condition_met(complex, moved, kept))
-    return Snap_objection{Violation_kind::link,
-                          "an edge would get a third triangle, or two triangles that face opposite ways"};
+    return Objection{Violation_kind::link,
+                     "an edge would get a third triangle, or two triangles that face opposite ways"};
   return std::nullopt;
 }
 

@@ -13,19 +13,12 @@
 
 namespace selvedge::reference {
 
-/// Why `replay` rejects a snap, apart from what its faces run into.
-struct Snap_objection
-{
-  Violation_kind kind;
-  std::string message;
-};
-
 /// Returns the first reason why the vertices at `moved` may not snap to `kept`, to which no edge leads: there
 /// is no weld distance; they lie farther apart; they are no partners; or an edge would get other faces than
 /// two that run along it in opposite directions. Distances are compared in floating point, with the tolerance
 /// of the limits.
-std::optional<Snap_objection> judge_snap(const Complex& complex, Index moved, Index kept,
-                                         const std::optional<double>& weld_distance);
+std::optional<Objection> judge_snap(const Complex& complex, Index moved, Index kept,
+                                    const std::optional<double>& weld_distance);
 
 } // namespace selvedge::reference
 

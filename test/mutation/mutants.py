@@ -566,9 +566,17 @@ group(
     "src/replay/replay.cpp",
     ("replay_all_test", "replay_test", "replay_mutation_test"),
     ("!m_complex.is_one_fan(position) &&", "false &&", "what holds sheets together moves"),
-    ("if (!m_complex.has(f, motion.mover))", "if (f % 2 == 0)", "half of what stands still is not seen"),
+)
+group(
+    "src/replay/Motion_judge.cpp",
+    ("replay_all_test", "replay_test", "replay_mutation_test"),
+    ("return !complex().has(f, motion.mover);", "return f % 2 == 0;", "half of what stands still is not seen"),
     ("if (face.sweep.touches(standing))", "if (false)", "tunnelling through what stands still"),
     ("face.sweep.touches(side))", "false)", "tunnelling within the star"),
+)
+group(
+    "src/replay/Judged_mesh.cpp",
+    ("replay_all_test", "replay_test", "replay_mutation_test"),
     ("m_tree.set(f, m_boxes[f]);", "", "the tree does not follow"),
 )
 group(
@@ -784,15 +792,23 @@ group(
 group(
     "src/replay/replay.cpp",
     ("descent_test",),
-    ("m_offences.count() > pairs_before)", "false)", "pairs may become more"),
+    ("m_mesh.offending_pairs() > pairs_before)", "false)", "pairs may become more"),
+    ("if (!is_obstacle_missing() && m_mesh", "if (m_mesh", "pairs are counted without those with the obstacle"),
+)
+group(
+    "src/replay/Judged_mesh.cpp",
+    ("descent_test",),
     ("m_heritage = m_start.lineage.united(m_changing);", "m_heritage = m_start.lineage.united({m_changing.front()});",
      "one triangle alone hands on ancestors"),
     (": m_start.lineage.descends_from_one(other, m_rivals);", ": true;", "whatever has ancestors may offend with all others"),
-    ("if (!is_obstacle_missing() && m_off", "if (m_off", "pairs are counted without those with the obstacle"),
+)
+group(
+    "src/replay/Motion_judge.cpp",
+    ("descent_test",),
     ("if (is_contracted && is_degenerate({m, a, b})) {", "if (false) {",
      "a degenerate face that is contracted is judged as a face with an area"),
-    ("if (face.sweep.degenerates())", "if (!m_offences.has(face.face, face.face) && face.sweep.degenerates())",
-     "degenerate faces move"),
+    ("if (face.sweep.degenerates())",
+     "if (!m_start.offences.has(face.face, face.face) && face.sweep.degenerates())", "degenerate faces move"),
 )
 
 # The order of edges, and the soups of callers
@@ -990,11 +1006,15 @@ group(
 
 obstacles = ("replay_test:Replay.*Obstacle*",)
 group(
-    "src/replay/replay.cpp",
+    "src/replay/Judged_mesh.cpp",
     obstacles,
-    ("    for (Index f = Index(m_complex.size()); f < m_complex.size_with_obstacle(); ++f)\n      faces.push_back(f);\n", "",
+    ("  for (Index f = Index(m_complex.size()); f < m_complex.size_with_obstacle(); ++f)\n    faces.push_back(f);\n", "",
      "the replay sees no obstacle"),
-    ("m_complex.is_of_obstacle(f) ||", "!m_complex.is_of_obstacle(f) &&", "the replay keeps no distance from an obstacle"),
+)
+group(
+    "src/replay/Motion_judge.cpp",
+    obstacles,
+    ("complex().is_of_obstacle(f) ||", "!complex().is_of_obstacle(f) &&", "the replay keeps no distance from an obstacle"),
 )
 group(
     "src/replay/inputs.cpp",
@@ -1101,9 +1121,9 @@ group(
     ("return exact() < other.exact();", "return false;", "the judge does not compare exactly"),
 )
 group(
-    "src/replay/replay.cpp",
+    "src/replay/Motion_judge.cpp",
     ("clearance_test:Clearance_of_pieces.*",),
-    ("m_pieces[m_complex.face(f).positions[0]] != m_pieces[motion.mover])", "false)",
+    ("m_pieces[complex().face(f).positions[0]] != m_pieces[motion.mover];", "false;",
      "the replay knows no clearance"),
 )
 
