@@ -738,21 +738,25 @@ group(
 # Pairs that offend already
 filter_of_pairs = ("descent_test", "descent_filter_test")
 group(
-    headers + "Surface_mesh_simplification/internal/Intersection_guard.h",
+    headers + "Surface_mesh_simplification/internal/Exempt_pairs.h",
     filter_of_pairs,
     ("        m_considered.push_back(id);\n      }", "        if (a != other && b != other)\n          m_considered.push_back(id);\n      }",
      "faces that are removed hand on no ancestors"),
     ("find_pairs_after(collapse, m_descent.pairs_now())", "find_pairs_after(collapse)", "pairs may become more"),
-    ("if (m_is_descent_asked && m_descent.is_exempt(id))\n        continue;\n      if (!m_view", "if (!m_view", "no pair is exempt"),
-    ("if (m_is_descent_asked && m_descent.is_exempt_inside()) {", "if (false) {",
-     "a star that meets itself is judged as a whole"),
-    ("[&](const auto& edge) { return is_face_kept(star, edge, m_traits); }", "[](const auto&) { return true; }",
-     "faces of a star that meets itself may degenerate"),
     ("    if (collapse.are_both_moved())\n      add_all_at(collapse.goal(), collapse.mover());", "",
      "only one end of two that move hands on ancestors"),
     ("m_faces.remove_at(m_vertices.number(collapse.goal()), m_near);", ";", "faces that change are also counted as they were"),
+)
+group(
+    headers + "Surface_mesh_simplification/internal/Intersection_guard.h",
+    filter_of_pairs,
+    ("if (m_exempt.is_exempt(id))\n        continue;\n      if (!m_view", "if (!m_view", "no pair is exempt"),
+    ("if (m_exempt.is_exempt_inside()) {", "if (false) {", "a star that meets itself is judged as a whole"),
+    ("[&](const auto& edge) { return is_face_kept(star, edge, m_traits); }", "[](const auto&) { return true; }",
+     "faces of a star that meets itself may degenerate"),
     ("may_degenerate_faces_go(collapse) && are_motions_clear", "are_motions_clear", "degenerate faces move"),
-    ("if (m_has_degenerate) {", "if (false) {", "a degenerate face that is contracted is judged as a face with an area"),
+    ("if (m_exempt.has_degenerate()) {", "if (false) {",
+     "a degenerate face that is contracted is judged as a face with an area"),
 )
 group(
     headers + "Surface_mesh_simplification/internal/Descent.h",

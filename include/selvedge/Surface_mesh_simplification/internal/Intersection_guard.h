@@ -8,14 +8,13 @@
 #include <selvedge/Surface_mesh_simplification/Intersection_statistics.h>
 #include <selvedge/Surface_mesh_simplification/internal/Clearance.h>
 #include <selvedge/Surface_mesh_simplification/internal/Collapse.h>
-#include <selvedge/Surface_mesh_simplification/internal/Descent.h>
+#include <selvedge/Surface_mesh_simplification/internal/Exempt_pairs.h>
 #include <selvedge/Surface_mesh_simplification/internal/Face_table.h>
 #include <selvedge/Surface_mesh_simplification/internal/Moving_star.h>
 #include <selvedge/Surface_mesh_simplification/internal/Permitted_pairs.h>
 #include <selvedge/Surface_mesh_simplification/internal/Star_view.h>
 #include <selvedge/Surface_mesh_simplification/internal/Vertex_table.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
-#include <selvedge/geometry/face_pair.h>
 #include <selvedge/geometry/star.h>
 #include <selvedge/geometry/sweep.h>
 #include <selvedge/internal/exact_predicates.h>
@@ -46,8 +45,9 @@ namespace internal {
 /// A collapse onto one end of its edge is one motion. Any other takes two: one end moves, and then the other.
 /// Coincident vertices move together, in one motion of the faces at all of them, or not at all.
 ///
-/// Conditions 1 and 2 are not asked of exempt pairs (`Descent`), but a collapse must not make more of them
-/// offend. A degenerate face does not move: it stays as it is until it is contracted onto an end of an edge.
+/// Conditions 1 and 2 are not asked of exempt pairs (`Exempt_pairs`), but a collapse must not make more of
+/// them offend. A degenerate face does not move: it stays as it is until it is contracted onto an end of an
+/// edge.
 ///
 /// Condition 1 is not asked of permitted pairs (`Permitted_pairs`) either; no star has faces of two
 /// parts that may intersect.
@@ -66,7 +66,6 @@ class Intersection_guard
   using Halfedge = typename boost::graph_traits<TriangleMesh>::halfedge_descriptor;
   using Id = typename Faces::Id;
   using Sweeps = typename Faces::Sweeps;
-  using Triangle = std::array<typename Vertices::Point, 3>;
 
 public:
   using Face = typename Faces::Face;
@@ -74,7 +73,8 @@ public:
   Intersection_guard(const TriangleMesh& mesh, const VertexPointMap& points, const GeomTraits& traits,
                      FaceIndex&& empty_index)
       : m_mesh(mesh), m_traits(traits), m_vertices(mesh, points),
-        m_faces(mesh, m_vertices, std::move(empty_index)), m_star(mesh, m_vertices), m_view(m_star)
+        m_faces(mesh, m_vertices, std::move(empty_index)), m_star(mesh, m_vertices), m_view(m_star),
+        m_exempt(mesh, m_vertices, m_faces, m_traits, m_permitted)
   {
     require_exact_predicates<GeomTraits>();
   }
@@ -84,12 +84,7 @@ public:
   void exempt(const std::vector<std::pair<Face, Face>>& offending,
               const std::vector<std::pair<Face, unsigned>>& multiplicities)
   {
-    std::vector<Descent::Pair> pairs;
-    for (const auto& [f, g] : offending)
-      pairs.push_back({m_faces.id(f), m_faces.id(g)});
-    m_descent.begin(pairs, m_faces.size());
-    for (const auto& [face, times] : multiplicities)
-      m_descent.count_times(m_faces.id(face), times);
+    m_exempt.begin(offending, multiplicities);
   }
 
   /// Permits pairs between two parts. Call it before the first question.
@@ -113,7 +108,7 @@ public:
   bool is_clear(const Collapse<Profile>& collapse)
   {
     refuse_missing_visitor();
-    m_is_descent_asked = m_descent.is_needed() && is_descent_concerned(collapse);
+    m_exempt.consider(collapse);
     m_is_announcement_due =
         may_degenerate_faces_go(collapse) && are_motions_clear(collapse) && is_number_of_pairs_kept(collapse);
     return m_is_announcement_due;
@@ -142,9 +137,11 @@ public:
     m_is_announcement_due = false;
     const bool is_with_another = m_others_left > 0; // then all changes of descent have been made
     m_others_left = is_with_another ? m_others_left - 1 : collapse.others().size();
-    m_is_descent_asked = !is_with_another && m_descent.is_needed() && is_descent_concerned(collapse);
-    if (m_is_descent_asked)
-      find_pairs_after(collapse);
+    if (is_with_another)
+      m_exempt.consider_done();
+    else
+      m_exempt.consider(collapse);
+    m_exempt.before_collapse(collapse);
     // Must be read before the collapse removes these faces.
     m_faces.on_removing(collapse.profile().v0_v1());
     m_faces.on_removing(collapse.profile().v1_v0());
@@ -155,8 +152,7 @@ public:
   {
     m_vertices.on_collapsed(m_goal, kept);
     m_faces.on_collapsed(kept);
-    if (m_is_descent_asked)
-      m_descent.on_collapsed(m_changed_ids, m_pairs_after);
+    m_exempt.after_collapse();
     if (m_vertices.point(m_vertices.number(kept)) != m_place)
       throw Argument_error(
           "the vertex point map holds another point than the one put into it and judged, perhaps because it "
@@ -221,135 +217,20 @@ private:
     return !m_is_mover_first || are_both_clear(collapse.mover(), collapse.goal());
   }
 
-  // Finds the faces that a collapse changes or removes. Returns whether they descend from offending ones.
-  template <class Profile>
-  bool is_descent_concerned(const Collapse<Profile>& collapse)
-  {
-    m_considered.clear();
-    m_changed.clear();
-    m_changed_ids.clear();
-    const auto add_all_at = [&](Vertex mover, Vertex other) {
-      for (const auto h : CGAL::halfedges_around_target(halfedge(mover, m_mesh), m_mesh)) {
-        if (CGAL::is_border(h, m_mesh))
-          continue;
-        const Id id = m_faces.id(face(h, m_mesh));
-        const Vertex a = target(next(h, m_mesh), m_mesh), b = source(h, m_mesh);
-        if (a != other && b != other) {
-          m_changed.push_back({collapse.place(), m_vertices.point(m_vertices.number(a)),
-                               m_vertices.point(m_vertices.number(b))});
-          m_changed_ids.push_back(id);
-        } else if (std::find(m_considered.begin(), m_considered.end(), id) != m_considered.end()) {
-          continue; // a contracted face of a collapse in which both ends move
-        }
-        m_considered.push_back(id);
-      }
-    };
-    add_all_at(collapse.mover(), collapse.goal());
-    for (const Halfedge h : collapse.others())
-      add_all_at(source(h, m_mesh), target(h, m_mesh));
-    if (collapse.are_both_moved())
-      add_all_at(collapse.goal(), collapse.mover());
-    return m_descent.consider(m_considered);
-  }
-
-  // Whether all degenerate faces at what moves are contracted, each within the segment that it is: the mover
-  // does not pass over the third corner.
   template <class Profile>
   bool may_degenerate_faces_go(const Collapse<Profile>& collapse)
   {
-    m_has_degenerate = false;
-    if (!m_is_descent_asked)
-      return true;
-    for (const Id id : m_considered) {
-      if (!m_descent.is_degenerate(id))
-        continue;
-      m_has_degenerate = true;
-      if (collapse.are_both_moved() ||
-          std::find(m_changed_ids.begin(), m_changed_ids.end(), id) != m_changed_ids.end() ||
-          is_third_corner_passed(id, collapse)) {
-        ++m_statistics.refused_by_star;
-        return false;
-      }
-    }
-    return true;
-  }
-
-  template <class Profile>
-  bool is_third_corner_passed(Id contracted, const Collapse<Profile>& collapse) const
-  {
-    const auto &from = m_vertices.point(m_vertices.number(collapse.mover())), &to = collapse.place();
-    const auto is_equal = m_traits.equal_3_object();
-    const auto& corners = m_faces.corners(contracted);
-    return std::any_of(corners.begin(), corners.end(), [&](auto corner) {
-      const auto& p = m_vertices.point(corner);
-      return !is_equal(p, from) && !is_equal(p, to) &&
-             m_traits.collinear_are_ordered_along_line_3_object()(from, p, to);
-    });
+    const bool may_go = m_exempt.may_degenerate_faces_go(collapse);
+    m_statistics.refused_by_star += !may_go;
+    return may_go;
   }
 
   template <class Profile>
   bool is_number_of_pairs_kept(const Collapse<Profile>& collapse)
   {
-    if (!m_is_descent_asked || find_pairs_after(collapse, m_descent.pairs_now()))
-      return true;
-    ++m_statistics.refused_by_descent;
-    for (const auto& [changed, other] : m_pairs_after)
-      if (std::find(m_considered.begin(), m_considered.end(), other) == m_considered.end())
-        m_blockers.push_back(m_faces.descriptor(other));
-    return false;
-  }
-
-  // Finds the exempt pairs with a changed face that offend after the collapse, in an order that does not
-  // depend on the index. When a limit is given, and there are more or two faces come to have the same
-  // corners, it stops there and returns false.
-  template <class Profile>
-  bool find_pairs_after(const Collapse<Profile>& collapse, std::optional<std::size_t> limit = {})
-  {
-    m_pairs_after.clear();
-    std::size_t count = 0;
-    const auto is_within_limit = [&](std::size_t i, const Triangle& other, Id id) {
-      if (!m_permitted.has(m_changed_ids[i], id) && do_faces_offend(m_changed[i], other, m_traits)) {
-        m_pairs_after.push_back({m_changed_ids[i], id});
-        count += m_descent.times(m_changed_ids[i], id);
-        if (limit && have_same_corners(m_changed[i], other))
-          return false;
-      }
-      return !limit || count <= *limit;
-    };
-    CGAL::Bbox_3 box;
-    for (std::size_t i = 0; i < m_changed.size(); ++i) {
-      box += box_of(m_changed[i]);
-      if (m_descent.is_exempt_inside())
-        for (std::size_t j = 0; j < i; ++j)
-          if (!is_within_limit(i, m_changed[j], m_changed_ids[j]))
-            return false;
-    }
-    m_faces.find_near(box, m_vertices.number(collapse.mover()), m_near);
-    remove_at_others(collapse.others());
-    if (collapse.are_both_moved())
-      m_faces.remove_at(m_vertices.number(collapse.goal()), m_near);
-    m_near.erase(
-        std::remove_if(m_near.begin(), m_near.end(), [&](Id id) { return !m_descent.is_exempt(id); }),
-        m_near.end());
-    std::sort(m_near.begin(), m_near.end());
-    for (const Id id : m_near) {
-      const auto& [a, b, c] = m_faces.corners(id);
-      const Triangle other{m_vertices.point(a), m_vertices.point(b), m_vertices.point(c)};
-      for (std::size_t i = 0; i < m_changed.size(); ++i)
-        if (CGAL::do_overlap(box_of(m_changed[i]), box_of(other)) && !is_within_limit(i, other, id))
-          return false;
-    }
-    return true;
-  }
-
-  static bool have_same_corners(const Triangle& f, const Triangle& g)
-  {
-    return std::is_permutation(f.begin(), f.end(), g.begin());
-  }
-
-  static CGAL::Bbox_3 box_of(const Triangle& triangle)
-  {
-    return triangle[0].bbox() + triangle[1].bbox() + triangle[2].bbox();
+    const bool is_kept = m_exempt.is_number_kept(collapse, m_blockers);
+    m_statistics.refused_by_descent += !is_kept;
+    return is_kept;
   }
 
   // Whether other vertices at the position of the mover do not move with it.
@@ -358,12 +239,6 @@ private:
     const auto mover = m_vertices.number(motion.mover);
     return m_vertices.is_coincident(mover) &&
            !(motion.is_joint() && m_vertices.all_at(mover).size() == motion.others->size() + 1);
-  }
-
-  void remove_at_others(const std::vector<Halfedge>& others)
-  {
-    for (const Halfedge h : others)
-      m_faces.remove_at(m_vertices.number(source(h, m_mesh)), m_near);
   }
 
   bool is_motion_clear(const Motion& motion)
@@ -392,14 +267,14 @@ private:
 
   bool is_star_clear(const Motion& motion)
   {
-    if (m_is_descent_asked && m_descent.is_exempt_inside()) {
+    if (m_exempt.is_exempt_inside()) {
       // No proof about the star as a whole holds where its faces may meet each other.
       m_view.begin_without_view();
       const auto& star = m_star.exact();
       return std::all_of(star.moving.begin(), star.moving.end(),
                          [&](const auto& edge) { return is_face_kept(star, edge, m_traits); });
     }
-    if (m_has_degenerate) {
+    if (m_exempt.has_degenerate()) {
       // What is contracted within a segment meets nothing on the way, and has no side in any view.
       m_view.begin_without_view();
       Vertex_motion<typename Vertices::Point> star = m_star.exact();
@@ -450,7 +325,7 @@ private:
         if (m_permitted.has_all(id))
           continue;
       }
-      if (m_is_descent_asked && m_descent.is_exempt(id))
+      if (m_exempt.is_exempt(id))
         continue;
       if (!m_view.has_view() || !is_clear_of_star_in_view(face))
         m_stationary.push_back(face);
@@ -491,7 +366,8 @@ private:
     const auto mover = m_vertices.number(motion.mover);
     m_faces.find_near(m_star.box(), m_star.points(), mover, m_near);
     if (motion.is_joint())
-      remove_at_others(*motion.others);
+      for (const Halfedge h : *motion.others)
+        m_faces.remove_at(m_vertices.number(source(h, m_mesh)), m_near);
     const std::size_t faces_near = m_near.size();
     m_statistics.faces_near += faces_near;
     m_unclear.clear();
@@ -552,7 +428,7 @@ private:
 
   bool is_clearance_kept(const Motion& motion)
   {
-    if (!m_is_descent_asked && is_star_flat())
+    if (!m_exempt.is_concerned() && is_star_flat())
       return true; // all that it sweeps over is the star itself
     const auto mover = m_vertices.number(motion.mover);
     m_faces.find_near(m_clearance.reach(m_star.box()), mover, m_near);
@@ -560,7 +436,7 @@ private:
     m_clearance.begin_motion(m_star.exact(), mover);
     for (const Id id : m_near) {
       const auto& [a, b, c] = m_faces.corners(id);
-      if (m_clearance.is_own(id, a) || (m_is_descent_asked && m_descent.is_exempt(id)) ||
+      if (m_clearance.is_own(id, a) || m_exempt.is_exempt(id) ||
           (m_permitted.is_any() && m_permitted.has_some(id)))
         continue;
       if (!m_clearance.is_kept(m_vertices.point(a), m_vertices.point(b), m_vertices.point(c)))
@@ -594,12 +470,10 @@ private:
   bool m_is_announcement_due = true;  // whether the mesh may have changed unannounced
   bool m_is_mover_first = false;
   std::size_t m_others_left = 0; // collapses that go along with the last one, and have not been done
-  Descent m_descent;
   Permitted_pairs<Id> m_permitted;
+  Exempt_pairs<TriangleMesh, Vertices, Faces, GeomTraits> m_exempt;
   Clearance<Vertices, GeomTraits> m_clearance;
   bool m_is_clearance_lacking = false;
-  bool m_is_descent_asked = false; // whether faces of the collapse in question have offending ancestors
-  bool m_has_degenerate = false;   // whether a face of it is degenerate, and so contracted
   std::vector<Face> m_blockers;
   Intersection_statistics m_statistics;
 
@@ -608,9 +482,6 @@ private:
   std::vector<Sweeps> m_unclear;             // the sweeps that each of them may meet
   std::vector<Stationary_face> m_stationary; // those of them not yet clear of the whole star
   std::vector<std::optional<Sweep_test<GeomTraits>>> m_sweeps; // by edge of the link, made when needed
-  std::vector<Id> m_considered, m_changed_ids; // the faces that a collapse changes or removes; changes alone
-  std::vector<Triangle> m_changed;             // these after the collapse
-  std::vector<Descent::Pair> m_pairs_after;    // exempt pairs with one of them that offend then
 };
 
 } // namespace internal
