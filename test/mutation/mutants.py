@@ -253,7 +253,7 @@ group(
 )
 group(
     "src/soup/Vertex_values.cpp",
-    ("gltf_test:Gltf.ValuesAtNewPlaces*:Gltf.NewPlaces*",),
+    ("gltf_writing_test:Gltf.ValuesAtNewPlaces*:Gltf.NewPlaces*",),
     ("if (number(joints, row.number, i) == joint)", "if (number(joints, own_row.number, i) == joint)",
      "weights are mixed by their places, not by their joints"),
     ("if (users[instance.block] > 1) {", "if (false) {", "nodes that share a mesh share new places"),
@@ -262,7 +262,7 @@ group(
 )
 group(
     "src/soup/Gltf_scene.cpp",
-    ("gltf_test:Gltf.NewPlaces*",),
+    ("gltf_writing_test:Gltf.NewPlaces*",),
     ("const Point_3 result = world_position(to_world, inverse(to_world, point));", "const Point_3 result = point;",
      "places that the file cannot hold"),
 )
@@ -699,12 +699,12 @@ group(
 )
 group(
     "src/files/gltf_writer.cpp",
-    ("gltf_test:Gltf.*", "instances_test"),
+    ("gltf_instances_test", "gltf_writing_test", "instances_test"),
     ("          *bytes += contents[i];", "", "copies are alike whatever they have become"),
 )
 group(
     "src/files/gltf_nodes.cpp",
-    ("gltf_test:Gltf.*:Gltf_levels.*", "instances_test"),
+    ("gltf_instances_test", "gltf_writing_test", "gltf_levels_test", "instances_test"),
     ("return mesh(i) == mesh(instances.front());", "return true;", "instances that differ stay instances"),
     ("meshes[*level.meshes[m]] == meshes[*finest]", "false", "a mesh that stays is there for every level"),
     ("if (!is_for_its_mesh_alone(node))", "if (false)", "a level takes away the children of its node"),
@@ -715,7 +715,7 @@ group(
 )
 group(
     "src/files/gltf_levels.cpp",
-    ("gltf_test:Gltf_levels.*",),
+    ("gltf_levels_test",),
     ("numbers[std::min(level, numbers.size()) - 1]", "numbers[0]", "a level is the second whichever is asked for"),
     ("    drop_channels(dropped);", "", "channels move nodes that have gone"),
     ("    drop_meshes(std::move(meshes));", "", "meshes of other levels stay"),
@@ -725,13 +725,13 @@ group(
 )
 group(
     "src/files/Gltf_output.cpp",
-    ("gltf_test:Gltf_levels.*",),
+    ("gltf_levels_test",),
     ("m_rows[range.first->second].bytes.compare(0, bytes.size(), bytes) == 0", "true", "rows that begin alike are taken for the same"),
     ("[\"byteStride\"] = rows.stride; // must", "; // must", "several accessors of a view without a stride"),
 )
 group(
     "src/files/united_levels.cpp",
-    ("gltf_test:Gltf_levels.*",),
+    ("gltf_levels_test",),
     ("const std::size_t number = count[key]++;", "const std::size_t number = 0;", "vertices at one position become one"),
 )
 

@@ -11,7 +11,7 @@ every test must pass. With ccache a second run compiles only what has changed. T
     test/mutation/run.py                       all mutants
     test/mutation/run.py --only Projected_star    those whose file, change or reason holds a word
     test/mutation/run.py --rows 82-               what an earlier run did not come to
-    test/mutation/run.py --list                only tells whether the tree still has every place that is to be changed
+    test/mutation/run.py --list                only tells whether the tree still has every place to change, and every test
 
 What becomes of a mutant:
 
@@ -21,7 +21,8 @@ What becomes of a mutant:
     not compiled the compiler refused it, which is as good
 
 Ends with status 0 when no mutant survived, 1 when one did, and 2 when the text that a mutant changes does not stand in
-its file exactly once, or the unchanged tree does not pass. Needs python 3.9, and what the tests need.
+its file exactly once, a test is not there, or the unchanged tree does not pass. Needs python 3.9, and what the tests
+need.
 """
 
 import argparse
@@ -190,6 +191,9 @@ def main():
         count = (TREE / mutant.file).read_text(encoding="utf-8").count(mutant.old) if (TREE / mutant.file).is_file() else 0
         if count != 1:
             stop(f"{mutant.file} has this text {count} times, not once; state the mutant anew:\n{mutant.old}")
+        for test in mutant.tests:
+            if not any(TREE.glob(f"test/*/{parts(test)[0]}.cpp")):
+                stop(f"no file of test/ has the tests that are to see a mutant of {mutant.file}: {test}")
     if arguments.list:
         for mutant in chosen.values():
             print(f"{mutant.file}: {mutant.reason}")
