@@ -1,12 +1,11 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "files/Binary_reader.h"
+#include "files/Ply_header.h"
 #include "files/Soup_builder.h"
-#include "files/Text_reader.h"
 #include "files/columns.h"
 #include "files/formats.h"
-#include "files/ply_types.h"
+#include "files/ply_values.h"
 
 #include <boost/container_hash/hash.hpp>
 
@@ -25,187 +24,26 @@ namespace {
 
 using Type = Attribute::Type;
 
-std::size_t size_of(Type type)
-{
-  return with_number(type, [](auto number) { return sizeof number; });
-}
-
-bool is_integer(Type type)
-{
-  return type != Type::float32 && type != Type::float64;
-}
-
-struct Property
-{
-  std::string name;
-  Type type = Type::float32;
-  std::optional<Type> count_type; // of a list
-};
-
-struct Element
-{
-  std::string name;
-  std::uint64_t count = 0;
-  std::vector<Property> properties;
-
-  std::size_t find(std::string_view property) const
-  {
-    const auto found = std::find_if(properties.begin(), properties.end(),
-                                    [&](const Property& candidate) { return candidate.name == property; });
-    return static_cast<std::size_t>(found - properties.begin());
-  }
-};
-
-/// Reads the values of a binary body, one after the other. Every function throws when the file ends before
-/// the value.
-class Binary_values
-{
-public:
-  Binary_values(std::string_view body, bool big_endian, const std::string& name)
-      : m_data(body, big_endian), m_name(&name)
-  {
-  }
-
-  static std::size_t least_bytes(Type type) { return size_of(type); }
-  std::size_t remaining() const { return m_data.remaining(); }
-
-  double real(Type type)
-  {
-    check(size_of(type));
-    switch (type) {
-    case Type::float32:
-      return m_data.take<float>();
-    case Type::float64:
-      return m_data.take<double>();
-    default:
-      return static_cast<double>(integer(type));
-    }
-  }
-
-  std::int64_t integer(Type type)
-  {
-    check(size_of(type));
-    switch (type) {
-    case Type::int8:
-      return m_data.take<std::int8_t>();
-    case Type::uint8:
-      return m_data.take<std::uint8_t>();
-    case Type::int16:
-      return m_data.take<std::int16_t>();
-    case Type::uint16:
-      return m_data.take<std::uint16_t>();
-    case Type::int32:
-      return m_data.take<std::int32_t>();
-    default:
-      return m_data.take<std::uint32_t>();
-    }
-  }
-
-  void append(Type type, std::vector<unsigned char>& rows)
-  {
-    check(size_of(type));
-    with_number(type, [&](auto zero) { append_number(rows, m_data.take<decltype(zero)>()); });
-  }
-
-  void skip(Type type, std::uint64_t count)
-  {
-    check(count * size_of(type)); // a list's count has at most 32 bits
-    m_data.skip(count * size_of(type));
-  }
-
-  bool end_row() const { return true; }
-
-  [[noreturn]] void fail(const std::string& message) const { throw Input_error(*m_name + ": " + message); }
-
-private:
-  void check(std::uint64_t bytes) const
-  {
-    if (bytes > m_data.remaining())
-      fail("the file ends before its last element; it is cut short");
-  }
-
-  Binary_reader m_data;
-  const std::string* m_name;
-};
-
-/// Reads the values of an ASCII body, one after the other.
-class Text_values
-{
-public:
-  Text_values(const Text_reader& text, bool is_row_a_line) : m_text(text), m_is_row_a_line(is_row_a_line) {}
-
-  static std::size_t least_bytes(Type) { return 2; }
-  std::size_t remaining() const { return m_text.remaining() + 1; } // the last value needs no blank after it
-
-  double real(Type)
-  {
-    m_text.skip_space();
-    return m_text.real();
-  }
-
-  std::int64_t integer(Type)
-  {
-    m_text.skip_space();
-    return m_text.integer();
-  }
-
-  void append(Type type, std::vector<unsigned char>& rows)
-  {
-    m_text.skip_space();
-    with_number(type, [&](auto zero) {
-      using Number = decltype(zero);
-      if constexpr (std::is_integral_v<Number>) {
-        const std::int64_t value = m_text.integer();
-        if (value < std::numeric_limits<Number>::min() || value > std::numeric_limits<Number>::max())
-          fail("the value " + std::to_string(value) + " is not of the type " +
-               std::string(ply_type_name(type)) + " that the header announces; correct the header");
-        append_number(rows, static_cast<Number>(value));
-      } else {
-        append_number(rows, m_text.real<Number>());
-      }
-    });
-  }
-
-  void skip(Type, std::uint64_t count)
-  {
-    for (; count != 0; --count) {
-      m_text.skip_space();
-      if (m_text.word().empty())
-        fail("a value is missing; the file is damaged or cut short");
-    }
-  }
-
-  /// Returns false when the line of the row has more values than the header announces, and passes them.
-  bool end_row()
-  {
-    if (!m_is_row_a_line || m_text.at_line_end())
-      return true;
-    m_text.skip_line();
-    return false;
-  }
-
-  [[noreturn]] void fail(const std::string& message) const { m_text.fail(message); }
-
-private:
-  Text_reader m_text;
-  bool m_is_row_a_line;
-};
+using Property = Ply_property;
+using Element = Ply_element;
 
 class Ply_reader
 {
 public:
   Ply_reader(std::string_view contents, const std::string& name)
-      : m_name(name), m_file_size(contents.size()), m_text(contents, name)
+      : m_name(name), m_file_size(contents.size()), m_text(contents, name), m_header(read_ply_header(m_text))
   {
   }
 
   Mesh_file read()
   {
-    read_header();
-    if (m_format == "ascii")
-      read_body(Text_values(m_text, is_row_a_line()));
+    m_builder.soup().header_comments = std::move(m_header.comments);
+    if (m_header.unknown_lines > 0)
+      m_builder.ignore("lines of the header that PLY does not know", m_header.unknown_lines);
+    if (m_header.format == "ascii")
+      read_body(Ply_text_values(m_text, is_row_a_line()));
     else
-      read_body(Binary_values(m_text.rest(), m_format == "binary_big_endian", m_name));
+      read_body(Ply_binary_values(m_text.rest(), m_header.format == "binary_big_endian", m_name));
     return m_builder.take(m_name);
   }
 
@@ -215,7 +53,7 @@ private:
   bool is_row_a_line() const
   {
     std::uint64_t rows = 0;
-    for (const Element& element : m_elements)
+    for (const Element& element : m_header.elements)
       rows += element.count;
     std::uint64_t lines = 0;
     for (Text_reader text = m_text; lines <= rows && text.to_next_statement(); text.skip_line())
@@ -230,97 +68,6 @@ private:
       m_builder.ignore("ends of rows, with values that the header does not announce");
   }
 
-  void read_header()
-  {
-    if (m_text.line() != "ply")
-      m_text.fail("the first line is not 'ply'; the file is no PLY file");
-    for (;;) {
-      next_line();
-      if (m_text.at_end())
-        m_text.fail("the file ends within its header; it is cut short");
-      const std::string_view keyword = m_text.word();
-      if (keyword == "end_header") {
-        next_line();
-        break;
-      }
-      if (keyword == "format")
-        read_format();
-      else if (keyword == "element")
-        read_element();
-      else if (keyword == "property")
-        read_property();
-      else if (keyword == "comment" || keyword == "obj_info")
-        read_comment(keyword);
-      else if (!keyword.empty() && m_elements.empty())
-        m_builder.ignore("lines of the header that PLY does not know"); // some programs sign their files so
-      else if (!keyword.empty())
-        m_text.fail("the header has an unknown statement " + in_quotes(keyword) + "; remove it");
-    }
-    if (m_format.empty())
-      m_text.fail("the header names no format; the file is damaged");
-  }
-
-  void next_line()
-  {
-    m_text.line();
-    if (m_text.at_end())
-      m_text.fail("the file ends within its header; it is cut short");
-    m_text.advance(1);
-  }
-
-  void read_comment(std::string_view keyword)
-  {
-    const std::string_view text = m_text.line();
-    if (text != "\\") // would continue the line when written
-      m_builder.soup().header_comments.push_back(std::string(keyword) + ' ' + std::string(text));
-  }
-
-  void read_format()
-  {
-    m_format = m_text.word();
-    if (m_format != "ascii" && m_format != "binary_little_endian" && m_format != "binary_big_endian")
-      m_text.fail("the format " + in_quotes(m_format) +
-                  " is none of ascii, binary_little_endian, binary_big_endian");
-  }
-
-  void read_element()
-  {
-    Element element;
-    element.name = m_text.word();
-    const std::int64_t count = m_text.integer();
-    if (count < 0)
-      m_text.fail("the element " + in_quotes(element.name) + " has a negative count");
-    element.count = static_cast<std::uint64_t>(count);
-    m_elements.push_back(std::move(element));
-  }
-
-  void read_property()
-  {
-    if (m_elements.empty())
-      m_text.fail("a property stands before the first element; the header is damaged");
-    Property property;
-    std::string_view type = m_text.word();
-    if (type == "list") {
-      property.count_type = read_type(m_text.word());
-      if (!is_integer(*property.count_type))
-        m_text.fail("the lengths of a list are no integers; the header is damaged");
-      type = m_text.word();
-    }
-    property.type = read_type(type);
-    property.name = m_text.word();
-    while (!property.name.empty() && property.name.back() == '\\') // would continue the line when written
-      property.name.pop_back();
-    m_elements.back().properties.push_back(std::move(property));
-  }
-
-  Type read_type(std::string_view name) const
-  {
-    for (std::size_t i = 0; i < ply_type_names.size(); ++i)
-      if (name == ply_type_names[i][0] || name == ply_type_names[i][1])
-        return static_cast<Type>(i);
-    m_text.fail("the header has an unknown type " + in_quotes(name) + "; convert the file");
-  }
-
   /// Reads the vertices before the faces, whichever come first in the file, because cutting polygons needs
   /// them.
   template <class Values>
@@ -329,7 +76,7 @@ private:
     std::optional<Values> faces_begin;
     const Element* faces = nullptr;
     bool has_vertices = false, has_faces = false;
-    for (const Element& element : m_elements) {
+    for (const Element& element : m_header.elements) {
       check_count(values, element);
       if (element.name == "vertex" && !has_vertices) {
         read_vertices(values, element);
@@ -424,7 +171,7 @@ private:
                              property.name == "alpha";
       const bool is_normalized = is_colour && (property.type == Type::uint8 || property.type == Type::uint16);
       attributes.push_back({property.name, property.type, 1, is_normalized, {}});
-      attributes.back().rows.reserve(element.count * size_of(property.type));
+      attributes.back().rows.reserve(element.count * ply_size_of(property.type));
       targets[i].attribute = &attributes.back();
     }
   }
@@ -481,9 +228,10 @@ private:
       targets[place].number = &position[axis];
     }
     m_has_normals = find_numbers<3>(element, {"nx", "ny", "nz"}, normal, targets);
-    const bool has_face_uvs = std::any_of(m_elements.begin(), m_elements.end(), [](const Element& candidate) {
-      return candidate.name == "face" && find_uv_list(candidate) != nullptr;
-    });
+    const bool has_face_uvs =
+        std::any_of(m_header.elements.begin(), m_header.elements.end(), [](const Element& candidate) {
+          return candidate.name == "face" && find_uv_list(candidate) != nullptr;
+        });
     m_has_uvs = !has_face_uvs && (find_numbers<2>(element, {"s", "t"}, uv, targets) ||
                                   find_numbers<2>(element, {"u", "v"}, uv, targets) ||
                                   find_numbers<2>(element, {"texture_u", "texture_v"}, uv, targets));
@@ -678,13 +426,13 @@ private:
   {
     constexpr std::size_t most_for_a_byte = 64;
     for (const Attribute& attribute : m_builder.soup().triangle_attributes)
-      m_repeated_bytes += triangles * size_of(attribute.type);
+      m_repeated_bytes += triangles * ply_size_of(attribute.type);
     if (m_repeated_bytes / most_for_a_byte > m_file_size)
       values.fail(
           "the attributes of the polygons take more than 64 times the size of the file when these are cut "
           "into triangles; cut them before");
     for (Attribute& attribute : m_builder.soup().triangle_attributes) {
-      const std::size_t size = size_of(attribute.type);
+      const std::size_t size = ply_size_of(attribute.type);
       attribute.rows.resize(attribute.rows.size() - (triangles == 0 ? size : 0));
       for (std::size_t i = 1; i < triangles; ++i) {
         attribute.rows.resize(attribute.rows.size() + size);
@@ -698,9 +446,8 @@ private:
   const std::string& m_name;
   std::size_t m_file_size;
   Text_reader m_text;
+  Ply_header m_header;
   Soup_builder m_builder{Mesh_format::ply};
-  std::string_view m_format;
-  std::vector<Element> m_elements;
   bool m_has_normals = false, m_has_uvs = false; // at vertices
   std::vector<std::array<double, 3>> m_normals;
   std::vector<std::array<double, 2>> m_uvs;

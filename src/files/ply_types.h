@@ -4,9 +4,12 @@
 #ifndef SELVEDGE_SRC_FILES_PLY_TYPES_H
 #define SELVEDGE_SRC_FILES_PLY_TYPES_H
 
+#include "soup/with_number.h"
+
 #include <selvedge/Triangle_soup.h>
 
 #include <array>
+#include <cstddef>
 #include <string_view>
 
 namespace selvedge::files {
@@ -25,6 +28,17 @@ constexpr std::array<std::array<std::string_view, 2>, 8> ply_type_names = {{{"ch
 constexpr std::string_view ply_type_name(Attribute::Type type)
 {
   return ply_type_names[static_cast<std::size_t>(type)][0];
+}
+
+constexpr bool is_integer(Attribute::Type type)
+{
+  return type != Attribute::Type::float32 && type != Attribute::Type::float64;
+}
+
+/// Returns the bytes of a number in a binary file.
+inline std::size_t ply_size_of(Attribute::Type type)
+{
+  return with_number(type, [](auto number) { return sizeof number; });
 }
 
 } // namespace selvedge::files

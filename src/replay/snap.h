@@ -5,11 +5,9 @@
 #define SELVEDGE_SRC_REPLAY_SNAP_H
 
 #include "Complex.h"
-
-#include <selvedge/replay.h>
+#include "Objection.h"
 
 #include <optional>
-#include <string>
 
 namespace selvedge::reference {
 
