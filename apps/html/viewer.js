@@ -439,17 +439,29 @@ class Viewer {
     this.renderer.autoClear = false;
     this.rings = document.querySelectorAll('.ring');
     this.camera = new PerspectiveCamera(32, 1, 0.001, 100);
-    this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.zoomSpeed = 1.4;
-    this.controls.addEventListener('change', () => this.request());
+    this.set_up(false);
     new ResizeObserver(() => this.resize()).observe($('#stage'));
     this.resize();
   }
 
+  // The controls read which way is up when they are made.
+  set_up(is_z_up) {
+    if (this.controls)
+      this.controls.dispose();
+    this.camera.up.set(0, is_z_up ? 0 : 1, is_z_up ? 1 : 0);
+    this.controls = new OrbitControls(this.camera, $('#canvas'));
+    this.controls.zoomSpeed = 1.4;
+    this.controls.addEventListener('change', () => this.request());
+  }
+
+  // Looks at the front from the right and from above, so that all is seen.
   reset_camera() {
-    const radius = Math.hypot(...this.data.extents) / 2 || 1;
-    this.radius = radius;
-    this.camera.position.set(0.55, 0.3, 1).setLength(radius / Math.sin(16 * Math.PI / 180) * Math.max(1, 0.8 / this.camera.aspect));
+    const [x, y, z] = this.data.extents, is_z_up = this.camera.up.z > 0;
+    this.radius = Math.hypot(x, y, z) / 2 || 1;
+    const across = Math.hypot(x, is_z_up ? y : z) / 2, height = (is_z_up ? z : y) / 2;
+    const reach = Math.max(height, across / this.camera.aspect) / Math.tan(this.camera.fov / 2 * Math.PI / 180) + across;
+    const from = is_z_up ? [0.55, -1, 0.3] : [0.55, 0.3, 1];
+    this.camera.position.set(...from).setLength(1.05 * reach || 1);
     this.controls.target.set(0, 0, 0);
     this.controls.update();
     this.request();
@@ -557,6 +569,10 @@ class Viewer {
       for (const model of this.models)
         model.uniforms.has_edges.value = $('#edges').checked;
       this.request();
+    };
+    $('#z_up').onchange = () => {
+      this.set_up($('#z_up').checked);
+      this.reset_camera();
     };
     if (this.obstacle) {
       $('#obstacle').hidden = false;

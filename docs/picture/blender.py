@@ -32,7 +32,7 @@ def make(folder):
     for one in list(bpy.data.objects):
         bpy.data.objects.remove(one)
     for place in (-0.75, 0, 0.75):
-        bpy.ops.import_scene.obj(filepath=path, use_split_objects=False, use_split_groups=True, axis_forward="Y", axis_up="Z")
+        bpy.ops.import_scene.obj(filepath=path, use_split_objects=False, use_split_groups=True, axis_forward="-Z", axis_up="Y")
         for one in bpy.context.selected_objects:
             one.location.y, one.rotation_euler.z = place, 0.4
             one.color = (*COLOURS.get(re.split(r"[_.]", one.name)[0], OUTSIDE), 1)

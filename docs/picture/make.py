@@ -25,9 +25,9 @@ COLOURS = {"lining": (0.85, 0.18, 0.20), "interlining": (0.98, 0.76, 0.20), "she
 PANEL = (400, 330)
 AZIMUTH = 0.4
 TOWARDS = (math.cos(AZIMUTH), math.sin(AZIMUTH))
-# Where the camera stands, where it looks, its angle of view in degrees. The garment stands along z.
-WHOLE = ((3 * TOWARDS[0], 3 * TOWARDS[1], 1.0), (0, 0, 0.9), 24)
-CLOSE_UP = ((3 * TOWARDS[0], 3 * TOWARDS[1], 1.20), (0.2 * TOWARDS[0], 0.2 * TOWARDS[1], 0.93), 5)
+# Where the camera stands, where it looks, its angle of view in degrees. The garment stands along y.
+WHOLE = ((3 * TOWARDS[0], 1.0, -3 * TOWARDS[1]), (0, 0.9, 0), 24)
+CLOSE_UP = ((3 * TOWARDS[0], 1.20, -3 * TOWARDS[1]), (0.2 * TOWARDS[0], 0.93, -0.2 * TOWARDS[1]), 5)
 
 
 def run(program, *arguments):
@@ -88,7 +88,7 @@ def panel(path, viewport, camera, shows_edges, caption):
     position, focus, angle = camera
     view.SetPosition(*position)
     view.SetFocalPoint(*focus)
-    view.SetViewUp(0, 0, 1)
+    view.SetViewUp(0, 1, 0)
     view.SetViewAngle(angle)
     renderer.ResetCameraClippingRange()
     return renderer

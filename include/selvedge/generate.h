@@ -53,7 +53,8 @@ struct Scene_description
 /// Returns every name that `generate` knows, garments first, with a description of one line.
 const std::vector<Scene_description>& scenes();
 
-/// Makes a garment of several layers, or a scene that is hard to reduce without intersections.
+/// Makes a garment of several layers, or a scene that is hard to reduce without intersections. A garment
+/// has y up and its front at z, as in glTF.
 ///
 /// **Guarantees**
 /// 1. *Embedded*: any two triangles meet exactly in the positions that they share, and none is degenerate.
@@ -73,7 +74,7 @@ const std::vector<Scene_description>& scenes();
 /// range.
 Triangle_soup generate(std::string_view name, const Generate_options& options = {});
 
-/// Returns poses of a mesh that moves, `count` of them, from slight to strong: it is twisted around the z
+/// Returns poses of a mesh that moves, `count` of them, from slight to strong: it is twisted around the y
 /// axis, to one side and the other in turn, by up to 62° over a height as large as its largest side, sways,
 /// and breathes. They are named "1", "2" and so on.
 ///

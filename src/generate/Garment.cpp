@@ -411,7 +411,10 @@ private:
 
 Triangle_soup make_garment(const Generate_options& options, std::vector<Part> parts)
 {
-  return Garment(options, std::move(parts)).make();
+  Triangle_soup soup = Garment(options, std::move(parts)).make();
+  for (Point_3& p : soup.points)
+    p = Point_3(p.x(), p.z(), 0 - p.y()); // -y, but never -0
+  return soup;
 }
 
 } // namespace selvedge::internal

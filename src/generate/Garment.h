@@ -93,7 +93,9 @@ Part tube(const Tube& shape, const Frame& frame, double width, double height);
 /// Returns the cells of a part that a pattern takes, one at least.
 Panel place(const Pattern& pattern, const std::string& name, const Division& division);
 
-/// Puts a garment together from its parts: cloths in layers, patches, buttons, and the bodies inside.
+/// Puts a garment together from its parts: cloths in layers, patches, buttons, and the bodies inside. Parts
+/// have z up and their fronts at -y. The garment has y up and its front at z, as in glTF and in most programs
+/// for garments; this turn is exact.
 Triangle_soup make_garment(const Generate_options& options, std::vector<Part> parts);
 
 } // namespace selvedge::internal

@@ -17,17 +17,17 @@ std::vector<Pose> moving_poses(const Triangle_soup& soup, std::size_t count)
   CGAL::Bbox_3 box;
   for (const Point_3& p : soup.points)
     box += p.bbox();
-  const double low = box.zmin(), height = std::max({box.x_span(), box.y_span(), box.z_span()});
+  const double low = box.ymin(), height = std::max({box.x_span(), box.y_span(), box.z_span()});
   for (std::size_t i = 1; i <= count; ++i) {
     const double share = double(i) / double(count), side = i % 2 == 0 ? -1 : 1;
     const auto moved = [&](const Point_3& p) {
-      const double up = (p.z() - low) / height;
+      const double up = (p.y() - low) / height;
       const double wider = 1 + 0.15 * share * 4 * up * (1 - up); // breathes
       const double t = 0.6 * side * share * up;                  // turns by 2 arctan t
       const double cosine = (1 - t * t) / (1 + t * t), sine = 2 * t / (1 + t * t);
-      const double x = wider * p.x(), y = wider * p.y();
+      const double x = wider * p.x(), z = wider * p.z();
       const double sway = 0.3 * share * up * up * height;
-      return Point_3(cosine * x - sine * y + sway, sine * x + cosine * y - side * sway, p.z());
+      return Point_3(cosine * x + sine * z + sway, p.y(), cosine * z - sine * x + side * sway);
     };
     Pose& pose = poses.emplace_back();
     pose.name = std::to_string(i);

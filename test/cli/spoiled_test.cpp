@@ -117,9 +117,9 @@ struct Result
   {
     const std::set<Index> found = vertices(triangles(piece));
     Point_3& top = soup.points[*std::max_element(found.begin(), found.end(), [&](Index a, Index b) {
-      return soup.points[a].z() < soup.points[b].z();
+      return soup.points[a].y() < soup.points[b].y();
     })];
-    top = Point_3(top.x(), top.y(), top.z() + by);
+    top = Point_3(top.x(), top.y() + by, top.z());
   }
 
   /// The triangles at every edge.
@@ -178,10 +178,10 @@ Point_3 moved(const Point_3& p, double x, double y, double z)
   return Point_3(p.x() + x, p.y() + y, p.z() + z);
 }
 
-/// From the axis of the garment, which is z.
+/// From the axis of the garment, which is y.
 Point_3 widened(const Point_3& p, double factor)
 {
-  return Point_3(factor * p.x(), factor * p.y(), p.z());
+  return Point_3(factor * p.x(), p.y(), factor * p.z());
 }
 
 struct Spoiled
@@ -245,7 +245,7 @@ const std::vector<Spoiled> ways = {
      }},
     {"APieceHasMovedByItsSize", "missing", true,
      [](Result& r) {
-       r.move(r.triangles("pocket_left"), [](const Point_3& p) { return moved(p, 0, -1, 0); });
+       r.move(r.triangles("pocket_left"), [](const Point_3& p) { return moved(p, 0, 0, 1); });
      }},
     {"TwoPiecesHaveExchangedPlaces", "name", true,
      [](Result& r) {
@@ -281,7 +281,7 @@ const std::vector<Spoiled> ways = {
      [](Result& r) {
        const std::vector<Index> piece = r.triangles("shell_front");
        const Point_3 middle = r.middle(piece);
-       r.move(piece, [&](const Point_3& p) { return Point_3(p.x(), p.y(), 2 * middle.z() - p.z()); });
+       r.move(piece, [&](const Point_3& p) { return Point_3(p.x(), 2 * middle.y() - p.y(), p.z()); });
      }},
     {"APieceHasItsPositionsShuffled", "pairs", true,
      [](Result& r) {
@@ -435,10 +435,10 @@ const std::vector<Spoiled> ways = {
     {"APieceIsCutWhereItStands", joins, false,
      [](Result& r) {
        const std::vector<Index> piece = r.triangles("shell_front");
-       const double height = r.middle(piece).z();
+       const double height = r.middle(piece).y();
        std::vector<Index> upper;
        for (const Index t : piece)
-         if (r.middle({t}).z() > height)
+         if (r.middle({t}).y() > height)
            upper.push_back(t);
        r.copy(upper);
        r.remove(upper);
@@ -446,17 +446,17 @@ const std::vector<Spoiled> ways = {
     {"APieceIsCutInTwo", "added", true,
      [](Result& r) {
        const std::vector<Index> piece = r.triangles("shell_back");
-       const double height = r.middle(piece).z();
+       const double height = r.middle(piece).y();
        std::vector<Index> upper;
        for (const Index t : piece)
-         if (r.middle({t}).z() > height)
+         if (r.middle({t}).y() > height)
            upper.push_back(t);
-       r.move(r.copy(upper), [](const Point_3& p) { return moved(p, 0, 0, 0.0001); });
+       r.move(r.copy(upper), [](const Point_3& p) { return moved(p, 0, 0.0001, 0); });
        r.remove(upper);
      }},
     {"ASeamHasOpened", parts, false,
      [](Result& r) {
-       r.move(r.triangles("waistband"), [](const Point_3& p) { return moved(p, 0, 0, 0.002); });
+       r.move(r.triangles("waistband"), [](const Point_3& p) { return moved(p, 0, 0.002, 0); });
      }},
 
     // ---- Names and attributes

@@ -70,6 +70,11 @@ async function probe() {
   q('#edges').click();
   found.without_edges = halves();
   q('#edges').click();
+  found.y_up = halves();
+  q('#z_up').click();
+  found.z_up = halves();
+  q('#z_up').click();
+  found.y_up_again = halves();
   if (viewer.obstacle) {
     q('#obstacle input').click();
     found.without_obstacle = halves();
@@ -183,6 +188,7 @@ class Pages:
             if "start" in level:
                 assert level["returns"] and level["middle"][1]["sum"] != level["start"][1]["sum"], (page, level)
         assert sums(found["without_edges"]) != sums(found["whole"])
+        assert sums(found["z_up"]) != sums(found["y_up"]) and found["y_up_again"] == found["y_up"], page
         assert sums(found["without_part"])[0] != sums(found["whole"])[0]
         assert found["all"] == found["whole"]
         assert not found["evil"]
