@@ -116,8 +116,8 @@ public:
 
   /// Returns the largest distance from a point that the changed faces carry to its new carrier, in units of
   /// the mesh; infinity when no face is left to carry it, or a changed face would be too far from the
-  /// original. When there are many changed faces, it may be another number, which is at most E when this one
-  /// is.
+  /// original. When it is larger than E, or when there are many changed faces, it may be another number,
+  /// which is at most E when this one is.
   template <class Profile, class Place>
   double error_at(const Profile& profile, const Place& place) const
   {
@@ -127,8 +127,9 @@ public:
     State& state = *m_state;
     find_candidates(collapse);
     if (state.candidates.size() <= s_few || !std::isfinite(state.max_error)) {
-      find_carriers();
-      state.found = question(collapse);
+      state.found.reset();
+      if (find_carriers(state.max_error))
+        state.found = question(collapse);
     } else {
       find_near_candidates();
       state.found.reset();
@@ -170,7 +171,7 @@ private:
   static constexpr std::size_t s_few = 32;
 
   // So many points of the original are compared with a point one by one, before the tree is asked.
-  static constexpr std::size_t s_few_points = 64;
+  static constexpr std::size_t s_few_points = 16;
 
   // A face that can take points, as it is after the collapse.
   class Candidate
@@ -382,8 +383,8 @@ private:
     const double squared = state.max_error * state.max_error * (1 + 1e-6) + s_rounding * s_rounding;
     std::size_t likely = 0;
     const auto is_near = [&](const Point& p) {
-      // The points that these faces carry are of the original, and at hand. At a vertex of many faces there
-      // are thousands of them, so that the tree answers sooner.
+      // The points that these faces carry are of the original, and at hand. Where none of the first is near,
+      // the tree answers sooner.
       for (std::size_t i = 0; i < (std::min)(state.moves.size(), s_few_points); ++i) {
         const std::size_t at = (likely + i) % state.moves.size();
         if (CGAL::squared_distance(state.points[state.moves[at].number], p) <= squared) {
@@ -467,8 +468,9 @@ private:
         }
   }
 
-  // Finds for each point the nearest candidate.
-  void find_carriers() const
+  // Finds for each point the nearest candidate, until one is farther away than `most`. Returns whether none
+  // was.
+  bool find_carriers(double most = std::numeric_limits<double>::infinity()) const
   {
     State& state = *m_state;
     state.moves.clear();
@@ -477,13 +479,18 @@ private:
       std::size_t likely = find_candidate(face);
       for (Number number = get(state.first_of_face, face); number != s_none; number = state.next[number]) {
         const auto [carrier, squared] = nearest_candidate(state.points[number], likely);
-        state.squared_error = (std::max)(state.squared_error, squared);
+        if (squared > state.squared_error) {
+          state.squared_error = squared;
+          if (std::sqrt(squared) > most)
+            return false;
+        }
         if (carrier == state.candidates.size())
           continue;
         state.moves.push_back({number, state.candidates[carrier].face()});
         likely = carrier;
       }
     }
+    return true;
   }
 
   // Finds for each point a candidate that is at most E away, until a point has none. At a vertex of many
