@@ -31,7 +31,9 @@ inline std::string fate_of_limit(double limit, const Bounds_over_poses& largest,
                 ? ""
                 : "; found in " + std::to_string(search->reductions()) +
                       " reductions, the last with --error " + with_digits(search->max_error()));
-  if (search && search->max_error() <= 0)
+  constexpr double rounding = 1e-12;
+  const bool is_none_left = search && search->max_error() <= 0; // of smaller limits
+  if (is_none_left && largest.lower <= limit + rounding)
     return "limit: whether " + percent(limit) +
            " holds at every point is not known: distances are measured to about a millionth of the size";
   if (limit <= 0 || largest.upper <= 1.01 * limit)
@@ -41,8 +43,9 @@ inline std::string fate_of_limit(double limit, const Bounds_over_poses& largest,
            (guarded.empty() ? "no other" : with_commas(guarded.size()) + " others") +
            ", in which every collapse was judged; --key-poses all keeps it in all";
   return holds + "at vertices and at points between them; " +
-         (search ? "the search for one that keeps it at every point did not end"
-                 : "--error-everywhere keeps it at every point");
+         (is_none_left ? "elsewhere it does not, nor with a smaller --error"
+          : search     ? "the search for one that keeps it at every point did not end"
+                       : "--error-everywhere keeps it at every point");
 }
 
 } // namespace selvedge::app

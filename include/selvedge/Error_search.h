@@ -19,7 +19,8 @@ namespace selvedge {
 /// The error is lowered until the limit is kept. Where it is kept by far, up to two larger ones are tried; if
 /// the last of them is too large, the best one is due again.
 ///
-/// **Complexity** At most ten reductions. Where nothing helps, the eighth is the last, with an error of 0.
+/// **Complexity** At most ten reductions. Where nothing helps, the eighth is the last, with an error of 0,
+/// with which what is covered stays covered, and nothing else is.
 class Error_search
 {
 public:

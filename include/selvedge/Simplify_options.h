@@ -66,9 +66,10 @@ struct Simplify_options
   /// vertex of the original to the result, and from the vertices of the result to the original; and both
   /// ways from points between, of grids that divide the sides of triangles into parts no longer than E, and
   /// into 8 at most (for an original of many long sides fewer, see internal/Tracked_points.h). Between these
-  /// points, the distance may be larger: where faces are long beside E, 1.3 E was seen. `distances_anywhere`
-  /// bounds it, and `Error_search` finds an E with which every point is within another. (The original is the
-  /// mesh as `prepare` left it.)
+  /// points, the distance may be larger: where faces are long beside E, 1.3 E was seen, and where a sheet
+  /// closes a hole that is smaller than the grids, it is as large as this hole. `distances_anywhere` bounds
+  /// it, and `Error_search` finds an E with which every point is within another. With an E of 0, no surface
+  /// is lost or gained anywhere. (The original is the mesh as `prepare` left it.)
   std::optional<double> max_error;
 
   /// The largest change of a face's normal in one collapse, in degrees from 0 to 180. The default lets small

@@ -58,17 +58,17 @@ double upper_bound(const Part& part, const Surface& to)
   return bound;
 }
 
-/// Returns a point of a segment that is equally far from two triangles, or none.
+/// Returns a point of a segment that is equally far from two triangles, or none. It is no nearer to either
+/// end than a share of the way.
 std::optional<Point_3> equally_far(const Point_3& from, const Point_3& to, const Triangle_3& of_from,
-                                   const Triangle_3& of_to)
+                                   const Triangle_3& of_to, double least_share)
 {
   const auto excess = [&](double position) {
     const Point_3 point = from + position * (to - from);
     return CGAL::squared_distance(point, nearest_on_triangle(point, of_from)) -
            CGAL::squared_distance(point, nearest_on_triangle(point, of_to));
   };
-  // A cut nearer to an end would leave a part almost as large as the whole.
-  double low = 1 / 16.0, high = 15 / 16.0;
+  double low = least_share, high = 1 - least_share;
   if (excess(low) > 0 || excess(high) <= 0)
     return std::nullopt;
   for (int i = 0; i < 50; ++i) {
@@ -80,7 +80,8 @@ std::optional<Point_3> equally_far(const Point_3& from, const Point_3& to, const
 
 /// Returns the side of a part to cut, by its first corner, and the point of the cut: where the nearest
 /// triangle changes, so that each half comes to lie over one triangle; else, and in every second cut, the
-/// middle of the longest side.
+/// middle of the longest side. A cut near an end leaves a part almost as large as the whole, so that others
+/// are preferred; but along a strip that is far narrower than the part, there is no other.
 std::pair<int, Point_3> cut_of(const Part& part, const Surface& to)
 {
   std::array<int, 3> sides = {0, 1, 2};
@@ -88,15 +89,16 @@ std::pair<int, Point_3> cut_of(const Part& part, const Surface& to)
     return CGAL::squared_distance(part.corners[side], part.corners[(side + 1) % 3]);
   };
   std::sort(sides.begin(), sides.end(), [&](int a, int b) { return length(a) > length(b); });
-  for (const int side : sides) {
-    if (part.cuts % 2 == 1)
-      break;
-    const int end = (side + 1) % 3;
-    if (part.nearest[side] != part.nearest[end] && part.corners[side] != part.corners[end])
-      if (const auto point = equally_far(part.corners[side], part.corners[end],
-                                         to.triangle(part.nearest[side]), to.triangle(part.nearest[end])))
-        return {side, *point};
-  }
+  if (part.cuts % 2 == 0)
+    for (const double least_share : {0x1p-4, 0x1p-20})
+      for (const int side : sides) {
+        const int end = (side + 1) % 3;
+        if (part.nearest[side] != part.nearest[end] && part.corners[side] != part.corners[end])
+          if (const auto point =
+                  equally_far(part.corners[side], part.corners[end], to.triangle(part.nearest[side]),
+                              to.triangle(part.nearest[end]), least_share))
+            return {side, *point};
+      }
   const int end = (sides[0] + 1) % 3;
   return {sides[0], CGAL::midpoint(part.corners[sides[0]], part.corners[end])};
 }

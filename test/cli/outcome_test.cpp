@@ -62,6 +62,10 @@ TEST(App_limit, IsSaidToHoldWhereItDoes)
   EXPECT_EQ(
       fate_of_limit(1e-7, largest, least, {}).rfind("limit: whether 1e-05 % holds at every point is not"),
       0u);
+  largest.lower = 9e-7;
+  EXPECT_EQ(fate_of_limit(1e-7, largest, least, {}),
+            "limit: 1e-05 % holds at vertices and at points between them; elsewhere it does not, nor with a "
+            "smaller --error");
 }
 
 TEST(App_outcome, AnUnguardedResultIsWrittenAndNeverVerified)

@@ -250,6 +250,15 @@ group(
     ("likely = (likely + 1) % state.candidates.size();", "break;", "at a vertex of many faces only one face can take a point"),
     ("find_near_candidates();\n      state.found.reset();", "find_near_candidates();\n      state.found = question(collapse);",
      "at a vertex of many faces points go to a face that is near, not nearest"),
+    ("if (state.max_error > s_rounding)", "if (true)", "without an error, holes between the points of grids are closed"),
+)
+group(
+    headers + "Surface_mesh_simplification/internal/Triangle_union.h",
+    ("triangle_union_test",),
+    ("covers(part, i + 1, cuts_left)", "true", "what lies beside one triangle is covered"),
+    ("if (!inside.empty() && is_near(inside, m_triangles[i].corners))", "if (!inside.empty())",
+     "triangles in another plane cover"),
+    ("if (height >= 0)", "if (height > m_distance)", "what is cut off loses the corners at the cut"),
 )
 group(
     "src/soup/Vertex_values.cpp",
@@ -1180,6 +1189,7 @@ group(
      "no triangle is covered, so that points run out"),
     ("        see(*farthest, part.nearest[0]);", "        m_lower = std::max(m_lower, part.upper);",
      "the bound counts as a distance that was seen"),
+    ("{0x1p-4, 0x1p-20}", "{0x1p-4}", "along narrow strips points run out"),
 )
 group(
     "src/verify/compare.cpp",

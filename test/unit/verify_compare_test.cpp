@@ -104,6 +104,26 @@ TEST(MaximumDistance, IsThatOfAPointThatWasLookedAt)
   EXPECT_LE(bounds.lower, std::sqrt(4.6));
 }
 
+// Between needles and a triangle are strips, up to a hundred thousand times as long as they are wide. To cut
+// off what is nearer to the one from what is nearer to the other, cuts go almost through the corners.
+TEST(MaximumDistance, IsTightAlongNarrowStrips)
+{
+  for (const double width : {0x1p-12, 0x1p-15, 0x1p-16}) {
+    const Triangle_soup triangle = soup({{3, 0, 0}, {1, 1, 0}, {1, 0, 0}}, {{0, 1, 2}}),
+                        rest = soup({{3, 2 * width, 0},
+                                     {1, 1 + 2 * width, 0},
+                                     {1, 2 * width, 0},
+                                     {3, width, 0},
+                                     {1, width, 0},
+                                     {3, 0, 0},
+                                     {1, 0, 0}},
+                                    {{0, 1, 2}, {3, 4, 4}, {5, 6, 6}});
+    const Bounds bounds = maximum_distance(triangle, rest);
+    EXPECT_GE(bounds.lower, 0.49 * width);
+    EXPECT_LE(bounds.upper, 0.505 * width + 2.1e-6);
+  }
+}
+
 // Needles a hundredth of a rounding wide, whose first side is the short one, along a ridge that rises in the
 // middle: both slopes are within rounding of not being below the needle at all.
 TEST(MaximumDistance, HoldsAlongNeedlesOverARidge)

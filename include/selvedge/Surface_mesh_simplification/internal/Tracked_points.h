@@ -6,6 +6,7 @@
 
 #include <selvedge/Surface_mesh_simplification/internal/Collapse.h>
 #include <selvedge/Surface_mesh_simplification/internal/Original_surface.h>
+#include <selvedge/Surface_mesh_simplification/internal/Triangle_union.h>
 #include <selvedge/internal/Vector_of_doubles.h>
 
 #include <CGAL/Dynamic_property_map.h>
@@ -47,7 +48,9 @@ namespace internal {
 /// 1. every vertex of the original, and every point of the grids of its triangles, is at most E away from the
 ///    mesh,
 /// 2. every point of the grid of each triangle that has changed is at most E away from the original, and so
-///    is every vertex that is at a new place.
+///    is every vertex that is at a new place,
+/// 3. when E is 0, or not more than rounding, the surface is the original as a set of points: each collapse
+///    leaves what its faces cover together. (Between the points of grids, holes could else be closed.)
 ///
 /// This also holds when the same collapses are found in parts of a mesh, and done to the whole.
 ///
@@ -113,8 +116,8 @@ public:
 
   /// Returns the largest distance from a point that the changed faces carry to its new carrier, in units of
   /// the mesh; infinity when no face is left to carry it, or a changed face would be too far from the
-  /// original. When there are many changed faces, it may be another number, which is at most E when this one
-  /// is.
+  /// original. When it is larger than E, or when there are many changed faces, it may be another number,
+  /// which is at most E when this one is.
   template <class Profile, class Place>
   double error_at(const Profile& profile, const Place& place) const
   {
@@ -124,14 +127,16 @@ public:
     State& state = *m_state;
     find_candidates(collapse);
     if (state.candidates.size() <= s_few || !std::isfinite(state.max_error)) {
-      find_carriers();
-      state.found = question(collapse);
+      state.found.reset();
+      if (find_carriers(state.max_error))
+        state.found = question(collapse);
     } else {
       find_near_candidates();
       state.found.reset();
     }
     const double error = std::sqrt(state.squared_error);
-    return error > state.max_error || are_changed_faces_near(collapse.are_both_moved())
+    const bool is_decided = error > state.max_error;
+    return is_decided || (are_changed_faces_near(collapse.are_both_moved()) && is_surface_kept(collapse))
                ? error / state.scale
                : std::numeric_limits<double>::infinity();
   }
@@ -159,11 +164,14 @@ private:
 
   static constexpr int s_most_parts = 8;
 
+  // Lengths that may come from rounding: the size of the mesh is about 1.
+  static constexpr double s_rounding = 1e-12;
+
   // Of so few candidates, the nearest are found at once: most collapses that are asked about are done.
   static constexpr std::size_t s_few = 32;
 
   // So many points of the original are compared with a point one by one, before the tree is asked.
-  static constexpr std::size_t s_few_points = 64;
+  static constexpr std::size_t s_few_points = 16;
 
   // A face that can take points, as it is after the collapse.
   class Candidate
@@ -202,7 +210,7 @@ private:
     /// Returns the squared distance of a point. Infinity may stand for any that is larger than `most`.
     double squared_distance(const Point& p, double most = std::numeric_limits<double>::infinity()) const
     {
-      constexpr double rounding = 1e-24;
+      constexpr double rounding = s_rounding * s_rounding;
       if (m_is_bounded) {
         // The distance from the plane, and the largest distance beyond a side, in the plane.
         const Vector at = difference(vector(p), vector(m_triangle[0]));
@@ -279,6 +287,7 @@ private:
     // What a collapse does: the faces whose points it hands on, the faces that can take them, and who does.
     std::vector<Face> emptied;
     std::vector<Candidate> candidates;
+    bool are_candidates_changed = false; // by this collapse
     std::vector<Move> moves;
     double squared_error = 0;
     std::optional<Question> found; // the collapse that this is about, until the next one is done
@@ -371,11 +380,11 @@ private:
     const State& state = *m_state;
     if (!std::isfinite(state.max_error))
       return true;
-    const double squared = state.max_error * state.max_error * (1 + 1e-6) + 1e-24; // with room for rounding
+    const double squared = state.max_error * state.max_error * (1 + 1e-6) + s_rounding * s_rounding;
     std::size_t likely = 0;
     const auto is_near = [&](const Point& p) {
-      // The points that these faces carry are of the original, and at hand. At a vertex of many faces there
-      // are thousands of them, so that the tree answers sooner.
+      // The points that these faces carry are of the original, and at hand. Where none of the first is near,
+      // the tree answers sooner.
       for (std::size_t i = 0; i < (std::min)(state.moves.size(), s_few_points); ++i) {
         const std::size_t at = (likely + i) % state.moves.size();
         if (CGAL::squared_distance(state.points[state.moves[at].number], p) <= squared) {
@@ -393,6 +402,41 @@ private:
       const bool is_near_corners = are_corners_original && candidate.longest() <= 4 * squared;
       return is_near_corners || visit_grid(candidate.corners(), s_most_parts, is_near);
     });
+  }
+
+  // Whether the faces of a collapse cover the same after it as before, if nothing else will do.
+  template <class Collapse>
+  bool is_surface_kept(const Collapse& collapse) const
+  {
+    const State& state = *m_state;
+    if (state.max_error > s_rounding)
+      return true;
+    const Point origin = point(collapse.place());
+    const auto triangle = [&](const std::array<Point, 3>& corners) {
+      Triangle_union::Triangle result;
+      for (std::size_t i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k)
+          result[i][std::size_t(k)] = corners[i][k] - origin[k];
+      return result;
+    };
+    std::vector<Triangle_union::Triangle> before, after;
+    for (const Face face : state.emptied) {
+      std::array<Point, 3> corners;
+      auto corner = corners.begin();
+      for (const Vertex v : CGAL::vertices_around_face(halfedge(face, state.mesh), state.mesh))
+        *corner++ = point(get(collapse.profile().vertex_point_map(), v));
+      before.push_back(triangle(corners));
+    }
+    for (const Candidate& candidate : state.candidates)
+      after.push_back(triangle(candidate.corners()));
+    const auto are_covered = [](const auto& triangles, const auto& others) {
+      Triangle_union all(s_rounding);
+      for (const auto& other : others)
+        all.add(other);
+      return std::all_of(triangles.begin(), triangles.end(),
+                         [&](const auto& each) { return all.covers(each); });
+    };
+    return are_covered(before, after) && (!state.are_candidates_changed || are_covered(after, before));
   }
 
   void give(Number number, Face face) const
@@ -413,7 +457,8 @@ private:
       find_faces(collapse, profile.v0_v1(), true);
     if (collapse.is_v1_moved())
       find_faces(collapse, profile.v1_v0(), !collapse.is_v0_moved());
-    if (state.candidates.empty())
+    state.are_candidates_changed = !state.candidates.empty();
+    if (!state.are_candidates_changed)
       for (const Halfedge h : {profile.v0_v1(), profile.v1_v0()})
         if (!CGAL::is_border(h, state.mesh)) {
           const Halfedge of_goal = collapse.moving() == h ? next(h, state.mesh) : prev(h, state.mesh);
@@ -423,8 +468,9 @@ private:
         }
   }
 
-  // Finds for each point the nearest candidate.
-  void find_carriers() const
+  // Finds for each point the nearest candidate, until one is farther away than `most`. Returns whether none
+  // was.
+  bool find_carriers(double most = std::numeric_limits<double>::infinity()) const
   {
     State& state = *m_state;
     state.moves.clear();
@@ -433,13 +479,18 @@ private:
       std::size_t likely = find_candidate(face);
       for (Number number = get(state.first_of_face, face); number != s_none; number = state.next[number]) {
         const auto [carrier, squared] = nearest_candidate(state.points[number], likely);
-        state.squared_error = (std::max)(state.squared_error, squared);
+        if (squared > state.squared_error) {
+          state.squared_error = squared;
+          if (std::sqrt(squared) > most)
+            return false;
+        }
         if (carrier == state.candidates.size())
           continue;
         state.moves.push_back({number, state.candidates[carrier].face()});
         likely = carrier;
       }
     }
+    return true;
   }
 
   // Finds for each point a candidate that is at most E away, until a point has none. At a vertex of many
