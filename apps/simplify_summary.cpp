@@ -38,6 +38,13 @@ std::vector<Hindrances::Description> reasons(const Hindrances& hindrances)
   return reasons;
 }
 
+/// Whether so many corners have new normals that others will be wrong on their large faces, too.
+bool is_much_mended(const Prepared_soup& prepared, const Simplified_soup& result)
+{
+  return prepared.normals == Normals_treatment::mended &&
+         20 * result.mended_normals > 3 * result.soup.triangles.size();
+}
+
 bool has_vertex_values(const Triangle_soup& soup)
 {
   return !soup.uvs.empty() || !soup.normals.empty() || !soup.vertex_attributes.empty() ||
@@ -385,9 +392,14 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
     stream << "\nvertices: " << with_commas(result.soup.points.size() - result.placed_vertices)
            << " kept bit for bit, " << with_commas(result.placed_vertices) << " at new places"
            << (has_vertex_values(prepared.soup) ? " with interpolated attributes" : "");
-  if (result.mended_normals > 0)
+  if (prepared.normals == Normals_treatment::fitted)
+    stream << "\nnormals: fitted to the shading of the input, other ones at "
+           << counted(std::max(result.fitted_normals, result.mended_normals), "corner") << " of "
+           << with_commas(3 * faces);
+  else if (result.mended_normals > 0)
     stream << "\nnormals: kept, but for " << counted(result.mended_normals, "corner")
-           << " with a new one, as the old one is too far from the normal of the face";
+           << " with a new one, as the old one is too far from the normal of the face"
+           << (is_much_mended(prepared, result) ? "; --normals fit shades nearer to the input" : "");
   if (polygons.input > 0)
     stream << "\npolygons: " << with_commas(polygons.output) << " of " << counted(polygons.input, "face")
            << " of more than three corners written as they were";

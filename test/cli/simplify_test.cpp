@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <set>
 
@@ -391,6 +392,27 @@ TEST(App_simplify, NamesWhatTheOutputLosesAlone)
   const App_result none = run_app({"simplify", stl, "-o", out, "--ratio", "0.5", "--placement", "optimal"});
   EXPECT_EQ(none.out.find("not in the output"), std::string::npos) << none.out;
   EXPECT_EQ(none.out.find("attributes"), std::string::npos) << none.out;
+}
+
+TEST(App_simplify, FitsNormalsToTheShadingOfTheInput)
+{
+  const Workspace folder;
+  Triangle_soup shaded = sheet(12, 12);
+  for (const Point_3& point : shaded.points)
+    shaded.normals.values.push_back({0.3 * std::sin(0.7 * point.x()), 0.3 * std::sin(0.5 * point.y()), 1});
+  shaded.normals.of_triangle = shaded.triangles;
+  write_mesh(folder / "in.obj", shaded);
+  const std::string report = folder / "report.json";
+  const App_result fitted = run_app({"simplify", folder / "in.obj", "-o", folder / "out.obj", "--ratio",
+                                     "0.2", "--normals", "fit", "--report", report});
+  EXPECT_EQ(fitted.code, 0) << fitted.err;
+  EXPECT_NE(fitted.out.find("\nnormals: fitted to the shading of the input, other ones at "),
+            std::string::npos)
+      << fitted.out;
+  const auto json = nlohmann::json::parse(contents_of(report));
+  EXPECT_EQ(json["output"]["normals"], "fitted");
+  EXPECT_GT(json["corners"]["fitted_normals"], 0);
+  EXPECT_EQ(run_app({"verify", folder / "out.obj", "--against", folder / "in.obj"}).code, 0);
 }
 
 TEST(App_simplify, StopsAtTheErrorAllowed)
