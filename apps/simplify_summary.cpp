@@ -38,6 +38,24 @@ std::vector<Hindrances::Description> reasons(const Hindrances& hindrances)
   return reasons;
 }
 
+/// Says, where a target is missed, that what nothing holds has been flattened for it, and what helps: many of
+/// the last faces are given for little.
+std::string what_is_flattened(const Simplify_request& request, const Level& level)
+{
+  constexpr double much = 0.5; // of the limit
+  const std::optional<double>& limit = request.options.max_error;
+  const bool is_asked_for_target = request.options.ratio || request.options.faces || !request.lods.empty();
+  if (!is_asked_for_target || !limit ||
+      level.verification.distances->original_to_result.maximum < much * *limit)
+    return "";
+  const std::size_t faces = level.result.soup.triangles.size();
+  return "\nflattened: all that nothing holds, as far as --error " + with_digits(*limit) +
+         " allows; a target of a tenth more faces, " +
+         (request.lods.empty() ? "--faces " + std::to_string(faces + (faces + 9) / 10) + ","
+                               : "a ratio that is larger by as much,") +
+         " keeps more of its shape";
+}
+
 /// Whether so many corners have new normals that others will be wrong on their large faces, too.
 bool is_much_mended(const Prepared_soup& prepared, const Simplified_soup& result)
 {
@@ -360,7 +378,7 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
   else
     stream << (done.is_stopped ? "interrupted" : "as far as the limits allow");
   if (!done.is_reached() && !done.is_stopped)
-    stream << "\nheld back: " << held_back(request, done);
+    stream << "\nheld back: " << held_back(request, done) << what_is_flattened(request, level);
   if (done.faces_fixed > 0)
     stream << "\nfixed: " << counted(done.faces_fixed, "face")
            << " with all corners frozen, locked or coincident; a ratio is of the other "
