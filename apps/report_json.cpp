@@ -192,7 +192,7 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
   report["hindrances"] = std::move(hindrances);
   report["vertices"] = {{"kept", result.soup.points.size() - result.placed_vertices},
                         {"placed", result.placed_vertices}};
-  report["corners"] = {{"mended_normals", result.mended_normals}};
+  report["corners"] = {{"mended_normals", result.mended_normals}, {"fitted_normals", result.fitted_normals}};
   report["collapses"] = done.collapses;
   report["passes"] = done.passes;
   report["instances"] = {{"meshes", result.shared_meshes},

@@ -38,6 +38,31 @@ std::vector<Hindrances::Description> reasons(const Hindrances& hindrances)
   return reasons;
 }
 
+/// Says, where a target is missed, that what nothing holds has been flattened for it, and what helps: many of
+/// the last faces are given for little.
+std::string what_is_flattened(const Simplify_request& request, const Level& level)
+{
+  constexpr double much = 0.5; // of the limit
+  const std::optional<double>& limit = request.options.max_error;
+  const bool is_asked_for_target = request.options.ratio || request.options.faces || !request.lods.empty();
+  if (!is_asked_for_target || !limit ||
+      level.verification.distances->original_to_result.maximum < much * *limit)
+    return "";
+  const std::size_t faces = level.result.soup.triangles.size();
+  return "\nflattened: all that nothing holds, as far as --error " + with_digits(*limit) +
+         " allows; a target of a tenth more faces, " +
+         (request.lods.empty() ? "--faces " + std::to_string(faces + (faces + 9) / 10) + ","
+                               : "a ratio that is larger by as much,") +
+         " keeps more of its shape";
+}
+
+/// Whether so many corners have new normals that others will be wrong on their large faces, too.
+bool is_much_mended(const Prepared_soup& prepared, const Simplified_soup& result)
+{
+  return prepared.normals == Normals_treatment::mended &&
+         20 * result.mended_normals > 3 * result.soup.triangles.size();
+}
+
 bool has_vertex_values(const Triangle_soup& soup)
 {
   return !soup.uvs.empty() || !soup.normals.empty() || !soup.vertex_attributes.empty() ||
@@ -353,7 +378,7 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
   else
     stream << (done.is_stopped ? "interrupted" : "as far as the limits allow");
   if (!done.is_reached() && !done.is_stopped)
-    stream << "\nheld back: " << held_back(request, done);
+    stream << "\nheld back: " << held_back(request, done) << what_is_flattened(request, level);
   if (done.faces_fixed > 0)
     stream << "\nfixed: " << counted(done.faces_fixed, "face")
            << " with all corners frozen, locked or coincident; a ratio is of the other "
@@ -385,9 +410,14 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
     stream << "\nvertices: " << with_commas(result.soup.points.size() - result.placed_vertices)
            << " kept bit for bit, " << with_commas(result.placed_vertices) << " at new places"
            << (has_vertex_values(prepared.soup) ? " with interpolated attributes" : "");
-  if (result.mended_normals > 0)
+  if (prepared.normals == Normals_treatment::fitted)
+    stream << "\nnormals: fitted to the shading of the input, other ones at "
+           << counted(std::max(result.fitted_normals, result.mended_normals), "corner") << " of "
+           << with_commas(3 * faces);
+  else if (result.mended_normals > 0)
     stream << "\nnormals: kept, but for " << counted(result.mended_normals, "corner")
-           << " with a new one, as the old one is too far from the normal of the face";
+           << " with a new one, as the old one is too far from the normal of the face"
+           << (is_much_mended(prepared, result) ? "; --normals fit shades nearer to the input" : "");
   if (polygons.input > 0)
     stream << "\npolygons: " << with_commas(polygons.output) << " of " << counted(polygons.input, "face")
            << " of more than three corners written as they were";

@@ -23,6 +23,8 @@ enum class Normals_choice {
   keep,      ///< every corner of the result has a normal that some corner of the input has, bit for bit
   loose,     ///< as `automatic`; but different normals make no lines: every corner gets that normal of its
              ///< vertex which suits its triangle best (`pick_normals`)
+  fit, ///< as `automatic`; but those that are kept then give way to others, with which the result shades
+       ///< most like the original (`fit_normals`)
   recompute, ///< the result gets new normals, made as those of the input seem to be made
   drop       ///< the result has no normals
 };
@@ -34,22 +36,24 @@ enum class Normals_treatment {
   mended, ///< as kept; but those that were nearly alike at a vertex are one, and a corner gets a new one
           ///< where its own is too far from that of its triangle
   picked, ///< every corner gets one of those that its vertex has in the input, or a new one as in mended
+  fitted, ///< as mended, and then fitted to the shading of the input
   flat,   ///< every corner gets the normal of its triangle, or of the polygon or face (`keep_flat_normals`)
           ///< that this is a part of, bit for bit that of the input where it has not changed
   smooth, ///< every corner gets the mean normal of the triangles around its vertex, up to hard edges
   dropped
 };
 
-/// Returns the word for this in options and reports: auto, keep, loose, recompute or drop.
+/// Returns the word for this in options and reports: auto, keep, loose, fit, recompute or drop.
 const char* name_of(Normals_choice choice);
 
-/// Returns the word for this in reports: none, kept, mended, picked, flat, smooth or dropped.
+/// Returns the word for this in reports: none, kept, mended, picked, fitted, flat, smooth or dropped.
 const char* name_of(Normals_treatment treatment);
 
-/// Returns whether a reduction keeps the normals: they are kept or mended.
+/// Returns whether a reduction keeps the normals: they are kept, mended or fitted.
 inline bool are_kept(Normals_treatment treatment)
 {
-  return treatment == Normals_treatment::kept || treatment == Normals_treatment::mended;
+  return treatment == Normals_treatment::kept || treatment == Normals_treatment::mended ||
+         treatment == Normals_treatment::fitted;
 }
 
 /// Returns whether normals are *flat*: those of 99 % of all corners differ from the normal of their triangle
@@ -143,6 +147,25 @@ void pick_normals(Triangle_soup& result, const std::vector<Index>& triangles,
 /// **Complexity** O(n) for n triangles, and O(n log n) if any corner needs a new normal. Computed in double.
 std::size_t mend_normals(Triangle_soup& result, const std::vector<Index>& triangles,
                          const Triangle_soup& original, const Corner_values<3>& normals);
+
+/// Gives corners of a result the normals with which its surface shades most like the original: those that,
+/// interpolated over each triangle, are nearest to those of the original there, in the sense of least
+/// squares. A normal that is kept is right at its vertex alone; on large triangles it also shades what was
+/// far from there. Triangle i is what is left of triangle `triangles[i]` of the original, and has its corners
+/// from the corners `corners[i]`, numbered as 3 × triangle + place.
+///
+/// The original is sampled at three points of every triangle. A sample counts for the triangle of the result
+/// that is nearest, of those of the same surface (what is connected by positions) that face the same side, if
+/// it is at most four times as far as any other. Corners that had one normal at one position have one again,
+/// so that hard edges stay hard and others smooth. A normal stays, bit for bit, where a triangle that has not
+/// changed has it, and where the new one would differ by at most 0.1°. No new one is farther from the normal
+/// of a triangle (or of its back, if the normals of the original point there on average) than 78.4°, of which
+/// the cosine is 0.2, unless the old one was farther: it is a mean with the old one then, or the old one. New
+/// ones have the length 1 and the precision of 32-bit floats. Returns how many corners have a new one.
+///
+/// **Complexity** O(n log n) as a rule for n triangles of the original. Computed in double.
+std::size_t fit_normals(Triangle_soup& result, const std::vector<Index>& triangles,
+                        const std::vector<Index_triple>& corners, const Triangle_soup& original);
 
 } // namespace selvedge
 

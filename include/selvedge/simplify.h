@@ -78,6 +78,7 @@ struct Simplified_soup
 
   std::size_t placed_vertices = 0; ///< how many vertices of `soup` are at new places
   std::size_t mended_normals = 0;  ///< how many corners of `soup` have a new normal (`mend_normals`)
+  std::size_t fitted_normals = 0;  ///< how many corners of `soup` have another normal (`fit_normals`)
 
   std::size_t shared_meshes = 0; ///< that were reduced in all of their places alike, and
   std::size_t shared_places = 0; ///< in how many places these stand

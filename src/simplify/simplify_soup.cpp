@@ -357,9 +357,12 @@ private:
       keep_flat_normals(result.soup, result.triangles, original, taken);
     if (m_prepared.normals == Normals_treatment::picked)
       pick_normals(result.soup, result.triangles, left.corners, original, taken);
-    if (m_prepared.normals == Normals_treatment::picked || m_prepared.normals == Normals_treatment::mended)
+    if (m_prepared.normals == Normals_treatment::picked || m_prepared.normals == Normals_treatment::mended ||
+        m_prepared.normals == Normals_treatment::fitted)
       result.mended_normals =
           mend_normals(result.soup, result.triangles, original, taken.empty() ? original.normals : taken);
+    if (m_prepared.normals == Normals_treatment::fitted)
+      result.fitted_normals = fit_normals(result.soup, result.triangles, left.corners, original);
     result.corners = std::move(left.corners);
     result.placed_vertices = left.placed_vertices;
     if (report.hindrances.total() > 0)

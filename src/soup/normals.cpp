@@ -7,9 +7,9 @@
 #include "near_normals.h"
 #include "number_positions.h"
 #include "selection.h"
+#include "triangle_normals.h"
 
 #include <selvedge/internal/Vector_of_doubles.h>
-#include <selvedge/rounding.h>
 
 #include <algorithm>
 #include <array>
@@ -27,9 +27,17 @@
 namespace selvedge {
 namespace {
 
-using Vector = internal::Vector_of_doubles;
 using internal::cross;
 using internal::dot;
+using shading::cosines;
+using shading::difference;
+using shading::normal_at;
+using shading::s_cosine_of_shading;
+using shading::side_of;
+using shading::stored;
+using shading::unit;
+using shading::unit_normal;
+using shading::Vector;
 
 // Cosines of 0.1°, 1°, 15° and 60°.
 constexpr double s_cosine_flat = 0.9999984769;
@@ -37,37 +45,7 @@ constexpr double s_cosine_smooth = 0.9998476952;
 constexpr double s_cosine_of_face = 0.9659258263;
 constexpr double s_cosine_of_polygon = 0.5;
 
-// Of 60°: normals that are farther from that of their triangle shade it like another.
-constexpr double s_cosine_of_shading = 0.5;
-
 constexpr Index s_no_normal = std::numeric_limits<Index>::max();
-
-Vector difference(const Point_3& a, const Point_3& b)
-{
-  return {a.x() - b.x(), a.y() - b.y(), a.z() - b.z()};
-}
-
-// Has the length 1, or 0 where the vector has no direction. A vector and its double have the same bits.
-Vector unit(Vector a)
-{
-  const double largest = std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
-  if (!(largest > 0 && std::isfinite(largest)))
-    return {};
-  for (double& x : a)
-    x = std::scalbn(x, -std::ilogb(largest));
-  const double norm = std::sqrt(dot(a, a));
-  for (double& x : a)
-    x /= norm;
-  return a;
-}
-
-Vector unit_normal(const Triangle_soup& soup, Index triangle)
-{
-  const auto& [p, q, r] = soup.triangles[triangle];
-  const Vector u = unit(difference(soup.points[q], soup.points[p]));
-  const Vector v = unit(difference(soup.points[r], soup.points[p]));
-  return unit(cross(u, v));
-}
 
 // Returns that of a face of several triangles: the direction of its area.
 Vector unit_normal(const Triangle_soup& soup, const std::vector<Index>& triangles)
@@ -101,14 +79,6 @@ Vector unit_normal(const Triangle_soup& soup, const std::vector<Index>& triangle
 bool is_within(const Vector& a, const Vector& b, double cosine)
 {
   return dot(unit(a), unit(b)) >= cosine;
-}
-
-// Rounds to what the formats that store floats hold, so that all formats show the same.
-Vector stored(const Vector& normal)
-{
-  if (normal == Vector{})
-    return {0, 0, 1};
-  return {nearest_float32(normal[0]), nearest_float32(normal[1]), nearest_float32(normal[2])};
 }
 
 // A side of a triangle. Corners have the numbers 3 × triangle + place.
@@ -192,28 +162,6 @@ void for_each_face(const Triangle_soup& soup, const Function& function)
   }
 }
 
-Vector normal_at(const Corner_values<3>& normals, Index triangle, std::size_t place)
-{
-  return normals.values[normals.of_triangle[triangle][place]];
-}
-
-// Returns the cosines of the angles between a normal vector of a triangle and the normals at its corners.
-std::array<double, 3> cosines(const Vector& front, const Corner_values<3>& normals, Index triangle)
-{
-  const auto cosine = [&](std::size_t place) {
-    return dot(front, unit(normal_at(normals, triangle, place)));
-  };
-  return {cosine(0), cosine(1), cosine(2)};
-}
-
-// Returns 1 where these are the cosines of normals that point to the front on average, -1 where they point to
-// the back, and 0 where neither is so, as for a triangle without a direction.
-int side_of(const std::array<double, 3>& cosines)
-{
-  const double sum = cosines[0] + cosines[1] + cosines[2];
-  return sum > 0 ? 1 : sum < 0 ? -1 : 0;
-}
-
 void restore_flat(Triangle_soup& soup)
 {
   soup.normals = {{}, std::vector<Index_triple>(soup.triangles.size())};
@@ -281,6 +229,8 @@ const char* name_of(Normals_choice choice)
     return "keep";
   case Normals_choice::loose:
     return "loose";
+  case Normals_choice::fit:
+    return "fit";
   case Normals_choice::recompute:
     return "recompute";
   default:
@@ -297,6 +247,8 @@ const char* name_of(Normals_treatment treatment)
     return "mended";
   case Normals_treatment::picked:
     return "picked";
+  case Normals_treatment::fitted:
+    return "fitted";
   case Normals_treatment::flat:
     return "flat";
   case Normals_treatment::smooth:
@@ -336,9 +288,9 @@ Normals_treatment take_normals(Triangle_soup& soup, Normals_choice choice, Corne
   if (choice == Normals_choice::keep)
     return Normals_treatment::kept;
   const bool is_flat = choice != Normals_choice::drop && has_flat_normals(soup);
-  if (choice == Normals_choice::automatic && !is_flat) {
+  if ((choice == Normals_choice::automatic || choice == Normals_choice::fit) && !is_flat) {
     join_near_normals(soup);
-    return Normals_treatment::mended;
+    return choice == Normals_choice::fit ? Normals_treatment::fitted : Normals_treatment::mended;
   }
   if (choice == Normals_choice::recompute && !is_flat) {
     join_fans(soup);

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <set>
 
@@ -391,6 +392,60 @@ TEST(App_simplify, NamesWhatTheOutputLosesAlone)
   const App_result none = run_app({"simplify", stl, "-o", out, "--ratio", "0.5", "--placement", "optimal"});
   EXPECT_EQ(none.out.find("not in the output"), std::string::npos) << none.out;
   EXPECT_EQ(none.out.find("attributes"), std::string::npos) << none.out;
+}
+
+// What it says is so: with the faces that it names, the result is nearer to the original.
+TEST(App_simplify, SaysThatWhatIsNotHeldHasBeenFlattened)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("nested", "in.obj", 2000), out = folder / "out.obj";
+  const auto rms = [](const App_result& run) {
+    const std::string before = "distance from the original's vertices: ";
+    const std::size_t place = run.out.find(before);
+    return place == std::string::npos ? -1 : std::stod(run.out.substr(place + before.size()));
+  };
+  const App_result missed = run_app({"simplify", in, "-o", out, "--ratio", "0.01"});
+  const std::string text =
+      "\nflattened: all that nothing holds, as far as --error 0.01 allows; a target of a "
+      "tenth more faces, --faces ";
+  const std::size_t place = missed.out.find(text);
+  ASSERT_NE(place, std::string::npos) << missed.out;
+  const std::string faces = std::to_string(std::stoul(missed.out.substr(place + text.size())));
+  const App_result helped = run_app({"simplify", in, "-o", out, "--faces", faces});
+  EXPECT_EQ(helped.out.find("\nflattened: "), std::string::npos) << helped.out;
+  EXPECT_GT(rms(helped), 0);
+  EXPECT_LT(rms(helped), 0.95 * rms(missed));
+  const App_result levels = run_app({"simplify", in, "-o", folder / "{lod}.obj", "--lods", "0.5,0.01"});
+  EXPECT_NE(levels.out.find("a ratio that is larger by as much, keeps"), std::string::npos) << levels.out;
+  for (const std::vector<std::string>& options : // there is no target, or no limit, or none is met
+       {std::vector<std::string>{"--error", "0.01"},
+        {"--ratio", "0.01", "--error", "none"},
+        {"--ratio", "0.5"}}) {
+    std::vector<std::string> arguments{"simplify", in, "-o", out};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    EXPECT_EQ(run_app(arguments).out.find("\nflattened: "), std::string::npos);
+  }
+}
+
+TEST(App_simplify, FitsNormalsToTheShadingOfTheInput)
+{
+  const Workspace folder;
+  Triangle_soup shaded = sheet(12, 12);
+  for (const Point_3& point : shaded.points)
+    shaded.normals.values.push_back({0.3 * std::sin(0.7 * point.x()), 0.3 * std::sin(0.5 * point.y()), 1});
+  shaded.normals.of_triangle = shaded.triangles;
+  write_mesh(folder / "in.obj", shaded);
+  const std::string report = folder / "report.json";
+  const App_result fitted = run_app({"simplify", folder / "in.obj", "-o", folder / "out.obj", "--ratio",
+                                     "0.2", "--normals", "fit", "--report", report});
+  EXPECT_EQ(fitted.code, 0) << fitted.err;
+  EXPECT_NE(fitted.out.find("\nnormals: fitted to the shading of the input, other ones at "),
+            std::string::npos)
+      << fitted.out;
+  const auto json = nlohmann::json::parse(contents_of(report));
+  EXPECT_EQ(json["output"]["normals"], "fitted");
+  EXPECT_GT(json["corners"]["fitted_normals"], 0);
+  EXPECT_EQ(run_app({"verify", folder / "out.obj", "--against", folder / "in.obj"}).code, 0);
 }
 
 TEST(App_simplify, StopsAtTheErrorAllowed)

@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <set>
 #include <utility>
 
 using namespace selvedge;
@@ -273,4 +275,278 @@ TEST(Shading, NeedsNoNormals)
             0u);
   result.normals = {};
   EXPECT_EQ(mend_normals(result, {}, original, {}), 0u);
+}
+
+namespace {
+
+using Vector = internal::Vector_of_doubles;
+
+// A sheet in gentle waves.
+double height(double x, double y)
+{
+  return 0.3 * std::sin(1.3 * x) * std::cos(0.9 * y) + 0.05 * std::sin(5 * x + 3 * y);
+}
+
+Vector direction(Vector a)
+{
+  const double length = std::sqrt(internal::dot(a, a));
+  for (double& x : a)
+    x /= length;
+  return a;
+}
+
+Vector normal_of_sheet(double x, double y)
+{
+  return direction({-0.39 * std::cos(1.3 * x) * std::cos(0.9 * y) - 0.25 * std::cos(5 * x + 3 * y),
+                    0.27 * std::sin(1.3 * x) * std::sin(0.9 * y) - 0.15 * std::cos(5 * x + 3 * y), 1});
+}
+
+Triangle_soup sheet()
+{
+  constexpr Index columns = 48;
+  Triangle_soup soup;
+  for (Index i = 0; i <= columns; ++i)
+    for (Index j = 0; j <= columns; ++j) {
+      const double x = 0.1 * i, y = 0.1 * j;
+      soup.points.emplace_back(x, y, height(x, y));
+      soup.normals.values.push_back(normal_of_sheet(x, y));
+    }
+  for (Index i = 0; i < columns; ++i)
+    for (Index j = 0; j < columns; ++j) {
+      const Index a = (columns + 1) * i + j, b = a + 1, c = a + columns + 1, d = c + 1;
+      soup.triangles.push_back({a, c, d});
+      soup.triangles.push_back({a, d, b});
+    }
+  soup.normals.of_triangle = soup.triangles;
+  return soup;
+}
+
+// Returns the mean angle between the normals with which a result is shaded and those of the sheet above it.
+double shading_error(const Triangle_soup& soup)
+{
+  double sum = 0, area = 0;
+  for (Index t = 0; t < soup.triangles.size(); ++t) {
+    std::array<Vector, 3> p;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point_3& point = soup.points[soup.triangles[t][k]];
+      p[k] = {point.x(), point.y(), point.z()};
+    }
+    const Vector doubled =
+        internal::cross(internal::difference(p[1], p[0]), internal::difference(p[2], p[0]));
+    constexpr int parts = 6;
+    for (int i = 1; i < parts; ++i)
+      for (int j = 1; i + j < parts; ++j) {
+        const std::array<double, 3> weights{double(i) / parts, double(j) / parts,
+                                            double(parts - i - j) / parts};
+        Vector place{}, normal{};
+        for (std::size_t k = 0; k < 3; ++k)
+          for (std::size_t axis = 0; axis < 3; ++axis) {
+            place[axis] += weights[k] * p[k][axis];
+            normal[axis] += weights[k] * soup.normals.values[soup.normals.of_triangle[t][k]][axis];
+          }
+        const double cosine = internal::dot(direction(normal), normal_of_sheet(place[0], place[1]));
+        sum += doubled[2] * std::acos(std::min(1.0, cosine));
+        area += doubled[2];
+      }
+  }
+  return sum / area;
+}
+
+Prepare_options fitting()
+{
+  Prepare_options options;
+  options.normals = Normals_choice::fit;
+  return options;
+}
+
+// A result beside its original, for what is called after a reduction.
+struct Reduced
+{
+  Triangle_soup original, result;
+  std::vector<Index> triangles;
+  std::vector<Index_triple> corners;
+};
+
+Reduced reduced(const Triangle_soup& soup, double ratio)
+{
+  const Reduction reduction = reduce(soup, to_ratio(ratio), mending());
+  const Simplified_soup& simplified = reduction.simplified;
+  return {soup, simplified.soup, simplified.triangles, simplified.corners};
+}
+
+void append(Triangle_soup& soup, const Triangle_soup& other)
+{
+  const Index points = Index(soup.points.size()), normals = Index(soup.normals.values.size());
+  soup.points.insert(soup.points.end(), other.points.begin(), other.points.end());
+  soup.normals.values.insert(soup.normals.values.end(), other.normals.values.begin(),
+                             other.normals.values.end());
+  for (const auto& [a, b, c] : other.triangles)
+    soup.triangles.push_back({points + a, points + b, points + c});
+  for (const auto& [a, b, c] : other.normals.of_triangle)
+    soup.normals.of_triangle.push_back({normals + a, normals + b, normals + c});
+}
+
+} // namespace
+
+TEST(FittedShading, IsNearerToThatOfTheOriginal)
+{
+  const Triangle_soup soup = sheet();
+  for (const Placement placement : {Placement::vertices, Placement::optimal})
+    for (const double ratio : {0.1, 0.03}) {
+      Simplify_options options = to_ratio(ratio);
+      options.placement = placement;
+      const Reduction fitted = reduce(soup, options, fitting()), kept = reduce(soup, options, mending());
+      EXPECT_EQ(fitted.prepared.normals, Normals_treatment::fitted);
+      EXPECT_GT(fitted.simplified.fitted_normals, 0u);
+      EXPECT_EQ(kept.simplified.fitted_normals, 0u);
+      EXPECT_EQ(fitted.simplified.soup.points, kept.simplified.soup.points);
+      EXPECT_EQ(fitted.simplified.soup.triangles, kept.simplified.soup.triangles);
+      EXPECT_LT(shading_error(fitted.simplified.soup), 0.8 * shading_error(kept.simplified.soup));
+    }
+}
+
+TEST(FittedShading, StaysBitForBitWhereNothingChanges)
+{
+  const Triangle_soup soup = sheet();
+  EXPECT_EQ(reduce(soup, to_ratio(1), fitting()).simplified.soup.normals.values, soup.normals.values);
+  const Reduction half = reduce(soup, to_ratio(0.6), fitting());
+  const Simplified_soup& result = half.simplified;
+  std::size_t unchanged = 0;
+  for (Index i = 0; i < result.triangles.size(); ++i) {
+    const Index t = result.triangles[i];
+    if (result.corners[i] != Index_triple{3 * t, 3 * t + 1, 3 * t + 2})
+      continue;
+    ++unchanged;
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_EQ(result.soup.normals.values[result.soup.normals.of_triangle[i][k]],
+                soup.normals.values[soup.normals.of_triangle[t][k]]);
+  }
+  EXPECT_GT(unchanged, 100u);
+  EXPECT_GT(result.fitted_normals, 0u);
+}
+
+TEST(FittedShading, PointsToTheBackOfNoFace)
+{
+  const Triangle_soup soup = hem();
+  for (const double ratio : {0.3, 0.1, 0.02})
+    EXPECT_EQ(count_of_wrong_sides(reduce(soup, to_ratio(ratio), fitting()).simplified.soup), 0u) << ratio;
+  // The large side of a steep ridge would turn the normals along it to the back of the small side.
+  Triangle_soup original;
+  original.points = {{0, 0, 0}, {0, 1, 0}, {-0.26, 0.5, -0.97}, {0.026, 0.5, -0.097}};
+  original.triangles = {{0, 1, 2}, {1, 0, 3}};
+  original.normals = {{{-0.97, 0, 0.26}, {0, 0, 1}}, {{0, 0, 0}, {1, 1, 1}}};
+  Triangle_soup result = original;
+  result.points[2] = {-0.26, 0.51, -0.97};
+  result.points[3] = {0.026, 0.51, -0.097};
+  result.normals.of_triangle = {{1, 1, 1}, {1, 1, 1}};
+  EXPECT_GT(fit_normals(result, {0, 1}, {{0, 1, 2}, {3, 4, 5}}, original), 0u);
+  EXPECT_EQ(count_of_wrong_sides(result), 0u);
+}
+
+// A layer that lies nearer than the result is to its original, with quite other normals.
+TEST(FittedShading, DoesNotDependOnOtherLayers)
+{
+  const Triangle_soup upper = sheet();
+  Triangle_soup lower = upper;
+  for (Point_3& point : lower.points)
+    point = {point.x(), point.y(), point.z() - 0.01};
+  for (auto& normal : lower.normals.values)
+    normal = direction({normal[0] + 0.5, normal[1] - 0.5, normal[2]});
+  Reduced alone = reduced(upper, 0.05), both = alone, other = reduced(lower, 0.03);
+  append(both.original, lower);
+  append(both.result, other.result);
+  const Index before = Index(upper.triangles.size());
+  for (const Index t : other.triangles)
+    both.triangles.push_back(before + t);
+  for (const auto& [a, b, c] : other.corners)
+    both.corners.push_back({3 * before + a, 3 * before + b, 3 * before + c});
+  fit_normals(alone.result, alone.triangles, alone.corners, alone.original);
+  fit_normals(both.result, both.triangles, both.corners, both.original);
+  for (Index i = 0; i < alone.result.triangles.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        EXPECT_NEAR(both.result.normals.values[both.result.normals.of_triangle[i][k]][axis],
+                    alone.result.normals.values[alone.result.normals.of_triangle[i][k]][axis], 1e-3);
+}
+
+// The other side of thin cloth is near, or just there, and what it is shaded with means nothing here.
+TEST(FittedShading, DoesNotDependOnTheOtherSide)
+{
+  const Triangle_soup upper = sheet();
+  for (const double thickness : {0.002, 0.}) {
+    Triangle_soup cloth = upper, back = upper;
+    for (Index_triple& triangle : back.triangles)
+      std::swap(triangle[1], triangle[2]);
+    back.normals.of_triangle = back.triangles;
+    for (auto& normal : back.normals.values)
+      normal = {-normal[0], -normal[1], -normal[2]};
+    for (Index v = 1; v < back.points.size(); ++v) // at least one vertex joins the two sides
+      back.points[v] = {back.points[v].x(), back.points[v].y(), back.points[v].z() - thickness};
+    append(cloth, back);
+    Prepare_options keeping = mending(), options = fitting();
+    keeping.defects = options.defects = Defects::descend;
+    const Triangle_soup result = reduce(cloth, to_ratio(0.05), options).simplified.soup;
+    const Triangle_soup kept = reduce(cloth, to_ratio(0.05), keeping).simplified.soup;
+    EXPECT_EQ(count_of_wrong_sides(result), 0u);
+    EXPECT_LT(kept.triangles.size(), 500u);
+    for (const double side : {1, -1}) {
+      // Returns what faces one side, seen from above.
+      const auto faces = [&](const Triangle_soup& soup) {
+        Triangle_soup seen = soup;
+        seen.triangles.clear();
+        seen.normals.of_triangle.clear();
+        for (Index t = 0; t < soup.triangles.size(); ++t) {
+          const Index_triple &triangle = soup.triangles[t], &normals = soup.normals.of_triangle[t];
+          if (side * soup.normals.values[normals[0]][2] <= 0)
+            continue;
+          const auto turned = [&](const Index_triple& triple) {
+            return side > 0 ? triple : Index_triple{triple[0], triple[2], triple[1]};
+          };
+          seen.triangles.push_back(turned(triangle));
+          seen.normals.of_triangle.push_back(turned(normals));
+        }
+        for (auto& normal : seen.normals.values)
+          for (double& x : normal)
+            x *= side;
+        return seen;
+      };
+      EXPECT_LT(shading_error(faces(result)), 0.8 * shading_error(faces(kept))) << thickness << ' ' << side;
+    }
+  }
+}
+
+// Hard edges stay hard, and seams of the texture, where vertices differ, stay smooth.
+TEST(FittedShading, KeepsEdgesHardOrSmooth)
+{
+  Triangle_soup left, right;
+  for (const auto& triangle : sheet().triangles)
+    (triangle[0] % 49 < 24 ? left : right).triangles.push_back(triangle);
+  for (Triangle_soup* const half : {&left, &right}) {
+    half->points = sheet().points;
+    half->normals = {sheet().normals.values, half->triangles};
+  }
+  for (const bool is_hard : {false, true}) {
+    if (is_hard)
+      for (auto& normal : right.normals.values)
+        normal = direction({normal[0], normal[1] + 0.3, normal[2]});
+    Triangle_soup soup = left;
+    append(soup, right);
+    const Triangle_soup result = reduce(soup, to_ratio(0.05), fitting()).simplified.soup;
+    std::map<std::array<double, 3>, std::set<std::array<double, 3>>> at_seam;
+    for (Index t = 0; t < result.triangles.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (const Point_3& p = result.points[result.triangles[t][k]]; p.y() == 0.1 * 24)
+          at_seam[{p.x(), p.y(), p.z()}].insert(result.normals.values[result.normals.of_triangle[t][k]]);
+    EXPECT_GT(at_seam.size(), 3u);
+    for (const auto& [place, normals] : at_seam)
+      EXPECT_EQ(normals.size(), is_hard ? 2u : 1u);
+  }
+}
+
+TEST(FittedShading, NeedsNoNormals)
+{
+  Triangle_soup result = sheet();
+  const Triangle_soup original = result;
+  result.normals = {};
+  EXPECT_EQ(fit_normals(result, {}, {}, original), 0u);
 }

@@ -35,7 +35,9 @@ struct World_run
   bool are_normals_kept() const
   {
     return prepared.normals == Normals_treatment::kept ||
-           (prepared.normals == Normals_treatment::mended && result.mended_normals == 0);
+           ((prepared.normals == Normals_treatment::mended ||
+             prepared.normals == Normals_treatment::fitted) &&
+            result.mended_normals == 0 && result.fitted_normals == 0);
   }
 };
 

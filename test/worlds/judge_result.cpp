@@ -143,6 +143,53 @@ const char* wrong_in_mended_normal(const Triangle_soup& result, Index i, std::si
   return "a new normal in place of one that is near, or one that is not";
 }
 
+// Judges the normals of a result that are fitted: those of triangles that have not changed are what they
+// were, and no other one is farther from that of its triangle than was promised.
+Verdict judge_fitted_normals(const World_run& run, const std::set<std::size_t>& placed)
+{
+  constexpr double margin = 1e-6, limit = 0.2; // NaN is beyond no limit
+  const Triangle_soup &result = run.result.soup, &original = run.prepared.soup;
+  if (run.prepared.normals != Normals_treatment::fitted)
+    return std::nullopt;
+  if (result.normals.of_triangle.size() != result.triangles.size())
+    return Broken_promise{Promise::attributes, "the result has no normals"};
+  for (Index i = 0; i < result.triangles.size(); ++i) {
+    const Index t = run.result.triangles[i];
+    const bool is_missing = result.normals.of_triangle[i][0] == result.normals.missing;
+    const auto broken = [&](const char* what) {
+      return Broken_promise{Promise::attributes, "triangle " + std::to_string(i) + " of the result: " + what};
+    };
+    if (is_missing != (original.normals.of_triangle[t][0] == original.normals.missing))
+      return broken("it has lost or got normals");
+    if (is_missing)
+      continue;
+    const Index_triple& corners = run.result.corners[i];
+    bool is_as_it_was = corners == Index_triple{3 * t, 3 * t + 1, 3 * t + 2};
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      is_as_it_was =
+          is_as_it_was && result.points[result.triangles[i][k]] == original.points[original.triangles[t][k]];
+      sum += cosine(normal_of(original.normals, t, k), original, t);
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index corner = corners[k];
+      const Normal now = normal_of(result.normals, i, k);
+      const Normal old = normal_of(original.normals, corner / 3, corner % 3);
+      if (now == old || placed.count(original.triangles[corner / 3][corner % 3]) > 0)
+        continue;
+      if (is_as_it_was)
+        return broken("another normal, and nothing has changed");
+      if (!is_unit(result.normals, i, k))
+        return broken("a new normal of another length");
+      const double side = sum < 0 ? -1 : 1;
+      if (std::abs(sum) > margin &&
+          side * cosine(now, result, i) < std::min(limit, side * cosine(old, result, i)) - margin)
+        return broken("a new normal of another side");
+    }
+  }
+  return std::nullopt;
+}
+
 // Judges the normals of a result that are kept, but for those that are mended, or picked.
 Verdict judge_mended_normals(const World_run& run, const std::set<std::size_t>& placed)
 {
@@ -285,6 +332,8 @@ Verdict judge_attributes(const World& world, const World_run& run, const Judged_
       return broken("turned over in the texture");
   }
   if (auto broken = judge_mended_normals(run, placed))
+    return broken;
+  if (auto broken = judge_fitted_normals(run, placed))
     return broken;
   if (placed_left != run.result.placed_vertices)
     return Broken_promise{Promise::attributes, "the result counts other vertices at new places"};

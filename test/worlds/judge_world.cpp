@@ -158,6 +158,8 @@ Verdict judge_reduction(const World& world, const World_run& run, Judged_complex
     ++counts.options["shared_meshes"];
   if (run.result.mended_normals > 0)
     ++counts.options["mended_normals"];
+  if (run.result.fitted_normals > 0)
+    ++counts.options["fitted_normals"];
   if (run.prepared.normals == Normals_treatment::picked && !run.collapses.empty())
     ++counts.options["picked_normals"];
   if (!run.prepared.tied.empty() && !run.collapses.empty())

@@ -1,0 +1,425 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <selvedge/normals.h>
+
+#include "Disjoint_sets.h"
+#include "Triangle_finder.h"
+#include "near_normals.h"
+#include "number_positions.h"
+#include "selection.h"
+#include "triangle_normals.h"
+
+#include <selvedge/Cancellation_scope.h>
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+// Finds the normals with which a result shades most like its original.
+
+namespace selvedge {
+namespace {
+
+using internal::cross;
+using internal::dot;
+using shading::cosines;
+using shading::normal_at;
+using shading::side_of;
+using shading::stored;
+using shading::unit;
+using shading::unit_normal;
+using shading::Vector;
+
+// The weight of the normals as they are, relative to that of the samples around. It decides where there are
+// few samples.
+constexpr double s_inertia = 0.05;
+
+// Of some 78°: a sample that is turned farther than that from the nearest triangle belongs to the other side
+// of the cloth, say.
+constexpr double s_cosine_of_sample = 0.2;
+
+// Where samples are in a triangle: quadratic functions are integrated exactly.
+constexpr std::array<double, 3> s_far = {1. / 6, 1. / 6, 2. / 3};
+
+class Normal_fit
+{
+public:
+  Normal_fit(Triangle_soup& result, const std::vector<Index>& triangles,
+             const std::vector<Index_triple>& corners, const Triangle_soup& original)
+      : m_result(result), m_triangles(triangles), m_original(original), m_exponent(exponent_of(original)),
+        m_is_changed(result.triangles.size()), m_is_left(original.triangles.size(), false)
+  {
+    for (Index i = 0; i < triangles.size(); ++i) {
+      m_is_changed[i] = is_changed(i, corners[i]);
+      if (!m_is_changed[i])
+        m_is_left[triangles[i]] = true;
+      const Index t = triangles[i];
+      m_sides.push_back(
+          has_normals(result, i) ? side_of(cosines(unit_normal(original, t), original.normals, t)) : 0);
+      m_fronts.push_back(unit_normal(result, i));
+    }
+    number_wedges();
+  }
+
+  std::size_t run()
+  {
+    if (std::all_of(m_is_fixed.begin(), m_is_fixed.end(), [](char is_fixed) { return is_fixed != 0; }))
+      return 0;
+    take_samples();
+    return assign(solution());
+  }
+
+private:
+  struct Sample
+  {
+    std::optional<Triangle_finder::Nearest> nearest;
+    Vector normal;
+    double weight;
+  };
+
+  // What the samples on a triangle come to: the sums of the products of weights of its corners, and of
+  // normals by these weights.
+  struct Moments
+  {
+    std::array<std::array<double, 3>, 3> products{};
+    std::array<Vector, 3> normals{};
+  };
+
+  // The power of two that brings the coordinates to a size at which fourth powers of them are numbers.
+  static int exponent_of(const Triangle_soup& soup)
+  {
+    double largest = 0;
+    for (const Point_3& point : soup.points)
+      for (int axis = 0; axis < 3; ++axis)
+        largest = std::max(largest, std::abs(point[axis]));
+    return largest > 0 ? -std::ilogb(largest) : 0;
+  }
+
+  static bool has_normals(const Triangle_soup& soup, Index triangle)
+  {
+    return soup.normals.of_triangle[triangle][0] != soup.normals.missing;
+  }
+
+  bool is_changed(Index i, const Index_triple& corners) const
+  {
+    const Index t = m_triangles[i];
+    if (corners != Index_triple{3 * t, 3 * t + 1, 3 * t + 2})
+      return true;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (m_result.points[m_result.triangles[i][k]] != m_original.points[m_original.triangles[t][k]])
+        return true;
+    return false;
+  }
+
+  std::array<Vector, 3> scaled(const Triangle_soup& soup, Index triangle) const
+  {
+    std::array<Vector, 3> result;
+    for (std::size_t k = 0; k < 3; ++k)
+      for (int axis = 0; axis < 3; ++axis)
+        result[k][axis] = std::scalbn(soup.points[soup.triangles[triangle][k]][axis], m_exponent);
+    return result;
+  }
+
+  // Returns a normal, or none where it is not finite.
+  static Vector finite(const Vector& normal)
+  {
+    return std::all_of(normal.begin(), normal.end(), [](double x) { return std::isfinite(x); }) ? normal
+                                                                                                : Vector{};
+  }
+
+  static double area(const std::array<Vector, 3>& corners)
+  {
+    const Vector doubled =
+        cross(internal::difference(corners[1], corners[0]), internal::difference(corners[2], corners[0]));
+    return std::sqrt(dot(doubled, doubled)) / 2;
+  }
+
+  // A wedge is what has one normal at one position: seams of the texture are no hard edges.
+  void number_wedges()
+  {
+    const std::vector<Index> positions = number_positions(m_result.points);
+    using Key = std::tuple<Index, Vector, Index>; // position, normal, corner
+    std::vector<Key> keys;
+    for (Index i = 0; i < m_result.triangles.size(); ++i)
+      if (has_normals(m_result, i))
+        for (Index k = 0; k < 3; ++k)
+          keys.emplace_back(positions[m_result.triangles[i][k]], finite(normal_at(m_result.normals, i, k)),
+                            3 * i + k);
+    std::sort(keys.begin(), keys.end());
+    m_wedges.assign(m_result.triangles.size(), {});
+    for (std::size_t j = 0; j < keys.size(); ++j) {
+      const auto& [position, normal, corner] = keys[j];
+      if (j == 0 ||
+          std::tie(position, normal) != std::tie(std::get<0>(keys[j - 1]), std::get<1>(keys[j - 1]))) {
+        m_old.push_back(unit(normal));
+        m_is_fixed.push_back(m_old.back() == Vector{});
+      }
+      m_wedges[corner / 3][corner % 3] = Index(m_old.size() - 1);
+      m_is_fixed.back() |= !m_is_changed[corner / 3];
+    }
+    m_mass.assign(m_old.size(), 0);
+    for (Index i = 0; i < m_result.triangles.size(); ++i)
+      if (has_normals(m_result, i))
+        for (const Index wedge : m_wedges[i])
+          m_mass[wedge] += area(scaled(m_result, i)) / 3;
+  }
+
+  // The number of the surface of each triangle of the original.
+  std::vector<std::size_t> surfaces() const
+  {
+    const std::vector<Index> positions = number_positions(m_original.points);
+    internal::Disjoint_sets sets(m_original.points.size());
+    for (const auto& [a, b, c] : m_original.triangles) {
+      sets.unite(positions[a], positions[b]);
+      sets.unite(positions[a], positions[c]);
+    }
+    std::vector<std::size_t> result;
+    for (const Index_triple& triangle : m_original.triangles)
+      result.push_back(sets.find(positions[triangle[0]]));
+    return result;
+  }
+
+  void take_samples()
+  {
+    const std::vector<std::size_t> of_original = surfaces();
+    std::vector<std::array<Vector, 3>> searched;
+    std::vector<std::size_t> of_searched;
+    std::vector<Index> numbers;
+    for (Index i = 0; i < m_result.triangles.size(); ++i)
+      if (m_fronts[i] != Vector{}) {
+        searched.push_back(scaled(m_result, i));
+        of_searched.push_back(of_original[m_triangles[i]]);
+        numbers.push_back(i);
+      }
+    const Triangle_finder finder(std::move(searched), of_searched);
+    m_moments.resize(m_result.triangles.size());
+    // What threads have found is summed up in the order of the triangles.
+    constexpr std::size_t at_once = 16384;
+    std::vector<std::array<Sample, 3>> samples(std::min(at_once, m_original.triangles.size()));
+    for (std::size_t first = 0; first < m_original.triangles.size(); first += at_once) {
+      const std::size_t count = std::min(at_once, m_original.triangles.size() - first);
+      const auto sample = [&](std::size_t j) {
+        const Index t = Index(first + j);
+        samples[j] = m_is_left[t] ? std::array<Sample, 3>{} : samples_of(t, finder, of_original[t]);
+      };
+      tbb::parallel_for(std::size_t(0), count, Cancellation_scope::inherited(sample));
+      Cancellation_scope::check();
+      for (std::size_t j = 0; j < count; ++j)
+        for (const Sample& found : samples[j])
+          if (found.nearest)
+            add(found, numbers[found.nearest->triangle]);
+    }
+  }
+
+  // Returns where the front of a triangle with such a normal points to.
+  static Vector direction(Vector normal, int side)
+  {
+    for (double& x : normal)
+      x *= side;
+    return normal;
+  }
+
+  std::array<Sample, 3> samples_of(Index t, const Triangle_finder& finder, std::size_t surface) const
+  {
+    std::array<Sample, 3> samples;
+    if (!has_normals(m_original, t))
+      return samples;
+    const std::array<Vector, 3> corners = scaled(m_original, t);
+    const double weight = area(corners) / 3;
+    const int side = side_of(cosines(unit_normal(m_original, t), m_original.normals, t));
+    std::array<Vector, 3> normals;
+    for (std::size_t k = 0; k < 3; ++k)
+      normals[k] = unit(finite(normal_at(m_original.normals, t, k)));
+    for (std::size_t j = 0; j < 3 && weight > 0; ++j) {
+      Vector place{}, normal{};
+      for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          place[axis] += s_far[(k + j) % 3] * corners[k][axis];
+          normal[axis] += s_far[(k + j) % 3] * normals[k][axis];
+        }
+      const Vector shown = unit(normal);
+      samples[j] = {finder.nearest(place, surface, direction(shown, side)), shown, weight};
+    }
+    return samples;
+  }
+
+  void add(const Sample& sample, Index i)
+  {
+    if (m_sides[i] == 0 || !(m_sides[i] * dot(m_fronts[i], sample.normal) >= s_cosine_of_sample))
+      return;
+    Moments& moments = m_moments[i];
+    const std::array<double, 3>& weights = sample.nearest->weights;
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t l = 0; l < 3; ++l)
+        moments.products[k][l] += sample.weight * weights[k] * weights[l];
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        moments.normals[k][axis] += sample.weight * weights[k] * sample.normal[axis];
+    }
+  }
+
+  // Returns the product of the matrix of the least squares with a vector, in its free rows.
+  std::vector<double> times(const std::vector<double>& x) const
+  {
+    std::vector<double> result(x.size());
+    for (std::size_t w = 0; w < x.size(); ++w)
+      result[w] = s_inertia * m_mass[w] * x[w];
+    for (std::size_t i = 0; i < m_moments.size(); ++i)
+      if (m_sides[i] != 0)
+        for (std::size_t k = 0; k < 3; ++k)
+          for (std::size_t l = 0; l < 3; ++l)
+            result[m_wedges[i][k]] += m_moments[i].products[k][l] * x[m_wedges[i][l]];
+    for (std::size_t w = 0; w < x.size(); ++w)
+      if (m_is_fixed[w])
+        result[w] = 0;
+    return result;
+  }
+
+  // Solves the least squares by conjugate gradients, from the normals as they are.
+  std::vector<Vector> solution() const
+  {
+    const std::size_t count = m_old.size();
+    std::vector<double> diagonal(count);
+    for (std::size_t w = 0; w < count; ++w)
+      diagonal[w] = s_inertia * m_mass[w];
+    for (std::size_t i = 0; i < m_moments.size(); ++i)
+      if (m_sides[i] != 0)
+        for (std::size_t k = 0; k < 3; ++k)
+          diagonal[m_wedges[i][k]] += m_moments[i].products[k][k];
+    std::vector<Vector> result = m_old;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      std::vector<double> x(count), right(count);
+      for (std::size_t w = 0; w < count; ++w) {
+        x[w] = m_old[w][axis];
+        right[w] = s_inertia * m_mass[w] * x[w];
+      }
+      for (std::size_t i = 0; i < m_moments.size(); ++i)
+        if (m_sides[i] != 0)
+          for (std::size_t k = 0; k < 3; ++k)
+            right[m_wedges[i][k]] += m_moments[i].normals[k][axis];
+      improve(x, right, diagonal);
+      for (std::size_t w = 0; w < count; ++w)
+        result[w][axis] = x[w];
+    }
+    return result;
+  }
+
+  void improve(std::vector<double>& x, const std::vector<double>& right,
+               const std::vector<double>& diagonal) const
+  {
+    constexpr int most_steps = 100;
+    constexpr double share_left = 1e-8; // of the squared residual
+    const std::size_t count = x.size();
+    std::vector<double> residual = times(x), direction(count), towards(count);
+    for (std::size_t w = 0; w < count; ++w)
+      residual[w] = m_is_fixed[w] ? 0 : right[w] - residual[w];
+    const auto precondition = [&] {
+      double sum = 0;
+      for (std::size_t w = 0; w < count; ++w) {
+        towards[w] = diagonal[w] > 0 ? residual[w] / diagonal[w] : 0;
+        sum += towards[w] * residual[w];
+      }
+      return sum;
+    };
+    double left = precondition();
+    const double enough = share_left * left;
+    direction = towards;
+    for (int step = 0; step < most_steps && left > enough; ++step) {
+      Cancellation_scope::check();
+      const std::vector<double> product = times(direction);
+      const double curvature = std::inner_product(direction.begin(), direction.end(), product.begin(), 0.0);
+      if (!(curvature > 0))
+        return;
+      const double length = left / curvature;
+      for (std::size_t w = 0; w < count; ++w) {
+        x[w] += length * direction[w];
+        residual[w] -= length * product[w];
+      }
+      const double before = std::exchange(left, precondition());
+      for (std::size_t w = 0; w < count; ++w)
+        direction[w] = towards[w] + left / before * direction[w];
+    }
+  }
+
+  // Whether no triangle would have a normal, in place of the old one, that is farther from its own than
+  // samples may be, and than the old one is.
+  std::vector<char> suit(const std::vector<Vector>& normals) const
+  {
+    std::vector<char> result(normals.size(), true);
+    for (Index i = 0; i < m_result.triangles.size(); ++i)
+      if (has_normals(m_result, i))
+        for (const Index w : m_wedges[i]) {
+          const double before = m_sides[i] * dot(m_fronts[i], m_old[w]);
+          result[w] &= m_sides[i] * dot(m_fronts[i], normals[w]) >= std::min(s_cosine_of_sample, before);
+        }
+    return result;
+  }
+
+  // Gives corners their new normals, or those halfway there that suit all triangles, but for those that would
+  // look like the old ones.
+  std::size_t assign(std::vector<Vector> fitted)
+  {
+    constexpr int most_halvings = 3;
+    for (int halvings = 0; halvings <= most_halvings; ++halvings) {
+      for (Vector& normal : fitted)
+        normal = unit(normal);
+      const std::vector<char> do_suit = suit(fitted);
+      for (std::size_t w = 0; w < fitted.size(); ++w)
+        for (std::size_t axis = 0; axis < 3 && !do_suit[w]; ++axis)
+          fitted[w][axis] = halvings < most_halvings ? fitted[w][axis] + m_old[w][axis] : m_old[w][axis];
+    }
+    std::vector<char> is_kept = m_is_fixed;
+    for (std::size_t w = 0; w < fitted.size(); ++w)
+      is_kept[w] |= fitted[w] == Vector{} || are_near_normals(fitted[w], m_old[w]);
+    std::vector<Index> numbers(fitted.size());
+    for (std::size_t w = 0; w < fitted.size(); ++w)
+      if (!is_kept[w]) {
+        numbers[w] = Index(m_result.normals.values.size());
+        m_result.normals.values.push_back(stored(fitted[w]));
+      }
+    std::size_t changed = 0;
+    for (Index i = 0; i < m_result.triangles.size(); ++i)
+      if (has_normals(m_result, i))
+        for (std::size_t k = 0; k < 3; ++k)
+          if (const Index w = m_wedges[i][k]; !is_kept[w]) {
+            m_result.normals.of_triangle[i][k] = numbers[w];
+            ++changed;
+          }
+    Corner_values<3>& normals = m_result.normals;
+    if (changed > 0)
+      normals = with_used(normals.values, std::move(normals.of_triangle), normals.missing);
+    return changed;
+  }
+
+  Triangle_soup& m_result;
+  const std::vector<Index>& m_triangles;
+  const Triangle_soup& m_original;
+  int m_exponent;
+  std::vector<char> m_is_changed;     // by triangle of the result
+  std::vector<char> m_is_left;        // by triangle of the original: it is in the result as it was
+  std::vector<int> m_sides;           // by triangle of the result
+  std::vector<Vector> m_fronts;       // likewise
+  std::vector<Index_triple> m_wedges; // likewise
+  std::vector<Moments> m_moments;     // likewise
+  std::vector<Vector> m_old;          // by wedge, of length 1
+  std::vector<char> m_is_fixed;       // by wedge
+  std::vector<double> m_mass;         // by wedge: the area around it
+};
+
+} // namespace
+
+std::size_t fit_normals(Triangle_soup& result, const std::vector<Index>& triangles,
+                        const std::vector<Index_triple>& corners, const Triangle_soup& original)
+{
+  return result.normals.empty() ? 0 : Normal_fit(result, triangles, corners, original).run();
+}
+
+} // namespace selvedge

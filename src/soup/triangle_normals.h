@@ -1,0 +1,84 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SRC_SOUP_TRIANGLE_NORMALS_H
+#define SELVEDGE_SRC_SOUP_TRIANGLE_NORMALS_H
+
+#include <selvedge/Triangle_soup.h>
+#include <selvedge/internal/Vector_of_doubles.h>
+#include <selvedge/rounding.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+// Normals of triangles and of their corners, for what mends and fits normals, in floating point.
+
+namespace selvedge::shading {
+
+using Vector = internal::Vector_of_doubles;
+
+/// Of 60°: normals that are farther from that of their triangle shade it like another.
+constexpr double s_cosine_of_shading = 0.5;
+
+inline Vector difference(const Point_3& a, const Point_3& b)
+{
+  return {a.x() - b.x(), a.y() - b.y(), a.z() - b.z()};
+}
+
+/// Has the length 1, or 0 where the vector has no direction. A vector and its double have the same bits.
+inline Vector unit(Vector a)
+{
+  const double largest = std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
+  if (!(largest > 0 && std::isfinite(largest)))
+    return {};
+  for (double& x : a)
+    x = std::scalbn(x, -std::ilogb(largest));
+  const double norm = std::sqrt(internal::dot(a, a));
+  for (double& x : a)
+    x /= norm;
+  return a;
+}
+
+inline Vector unit_normal(const Triangle_soup& soup, Index triangle)
+{
+  const auto& [p, q, r] = soup.triangles[triangle];
+  const Vector u = unit(difference(soup.points[q], soup.points[p]));
+  const Vector v = unit(difference(soup.points[r], soup.points[p]));
+  return unit(internal::cross(u, v));
+}
+
+/// Rounds to what the formats that store floats hold, so that all formats show the same.
+inline Vector stored(const Vector& normal)
+{
+  if (normal == Vector{})
+    return {0, 0, 1};
+  return {nearest_float32(normal[0]), nearest_float32(normal[1]), nearest_float32(normal[2])};
+}
+
+inline Vector normal_at(const Corner_values<3>& normals, Index triangle, std::size_t place)
+{
+  return normals.values[normals.of_triangle[triangle][place]];
+}
+
+/// Returns the cosines of the angles between a normal vector of a triangle and the normals at its corners.
+inline std::array<double, 3> cosines(const Vector& front, const Corner_values<3>& normals, Index triangle)
+{
+  const auto cosine = [&](std::size_t place) {
+    return internal::dot(front, unit(normal_at(normals, triangle, place)));
+  };
+  return {cosine(0), cosine(1), cosine(2)};
+}
+
+/// Returns 1 where these are the cosines of normals that point to the front on average, -1 where they point
+/// to the back, and 0 where neither is so, as for a triangle without a direction.
+inline int side_of(const std::array<double, 3>& cosines)
+{
+  const double sum = cosines[0] + cosines[1] + cosines[2];
+  return sum > 0 ? 1 : sum < 0 ? -1 : 0;
+}
+
+} // namespace selvedge::shading
+
+#endif // SELVEDGE_SRC_SOUP_TRIANGLE_NORMALS_H
