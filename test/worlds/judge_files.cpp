@@ -24,6 +24,19 @@
 namespace selvedge::test {
 namespace {
 
+// Numbers normals like vertices, as PLY does, where each vertex has one.
+Triangle_soup with_normals_of_vertices(Triangle_soup soup)
+{
+  Corner_values<3> normals;
+  normals.values.resize(soup.points.size(), {0, 0, 0});
+  for (Index t = 0; t < soup.triangles.size(); ++t)
+    for (Index k = 0; k < 3; ++k)
+      normals.values[soup.triangles[t][k]] = soup.normals.values[soup.normals.of_triangle[t][k]];
+  normals.of_triangle = soup.triangles;
+  soup.normals = std::move(normals);
+  return soup;
+}
+
 // Normals are compared by their values: of two that differ in the sign of a zero, a corner may have either.
 bool have_equal_normals(const Triangle_soup& a, const Triangle_soup& b)
 {
@@ -146,8 +159,8 @@ Verdict judge_file(const World& world, const World_run& run)
       for (Index k = 0; k < 3; ++k)
         if (!has_same_value(file.normals, i, result.normals, 3 * i + k, k))
           return Broken_promise{Promise::written, "the file has other normals"};
-    if (has_vertices_of_several_normals(result))
-      expected = split_by_normals(expected);
+    expected = has_vertices_of_several_normals(result) ? split_by_normals(expected)
+                                                       : with_normals_of_vertices(std::move(expected));
     share_split_vertices(expected);
   }
   if (file.triangles != expected.triangles || file.points.size() != expected.points.size() ||
