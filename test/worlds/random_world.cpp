@@ -6,6 +6,7 @@
 #include "random_scene.h"
 #include "soup/flat_shading.h"
 #include "support/Temporary_folder.h"
+#include "support/soups.h"
 
 #include <selvedge/mesh_files.h>
 #include <selvedge/rounding.h>
