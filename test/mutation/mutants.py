@@ -233,7 +233,6 @@ for file, entry in (
 group("src/soup/fit_normals.cpp", ("shading_test",),
       ("|= !m_is_changed[corner / 3];", "|= false;", "triangles that have not changed get other normals"),
       ("result.push_back(sets.find(positions[triangle[0]]));", "result.push_back(0);", "a layer is shaded as the one beside it"),
-      ("dot(m_fronts[i], sample.normal) >= s_cosine_of_sample", "dot(m_fronts[i], sample.normal) >= -2", "the inside of a hem is shaded as its outside"),
       ("std::min(s_cosine_of_sample, before)", "-2", "fitted normals point to the back"),
       ("keys.emplace_back(positions[m_result.triangles[i][k]]", "keys.emplace_back(m_result.triangles[i][k]", "seams of the texture are hard edges where normals are fitted"))
 group("src/soup/normals.cpp", ("shading_test",),
