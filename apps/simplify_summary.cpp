@@ -45,7 +45,7 @@ std::string what_is_flattened(const Simplify_request& request, const Level& leve
   constexpr double much = 0.5; // of the limit
   const std::optional<double>& limit = request.options.max_error;
   const bool is_asked_for_target = request.options.ratio || request.options.faces || !request.lods.empty();
-  if (!is_asked_for_target || !limit ||
+  if (!is_asked_for_target || !limit || *limit == 0 ||
       level.verification.distances->original_to_result.maximum < much * *limit)
     return "";
   const std::size_t faces = level.result.soup.triangles.size();

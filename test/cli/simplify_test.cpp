@@ -417,9 +417,10 @@ TEST(App_simplify, SaysThatWhatIsNotHeldHasBeenFlattened)
   EXPECT_LT(rms(helped), 0.95 * rms(missed));
   const App_result levels = run_app({"simplify", in, "-o", folder / "{lod}.obj", "--lods", "0.5,0.01"});
   EXPECT_NE(levels.out.find("a ratio that is larger by as much, keeps"), std::string::npos) << levels.out;
-  for (const std::vector<std::string>& options : // there is no target, or no limit, or none is met
+  for (const std::vector<std::string>& options : // there is no target or no room, or the target is met
        {std::vector<std::string>{"--error", "0.01"},
         {"--ratio", "0.01", "--error", "none"},
+        {"--ratio", "0.01", "--error", "0"},
         {"--ratio", "0.5"}}) {
     std::vector<std::string> arguments{"simplify", in, "-o", out};
     arguments.insert(arguments.end(), options.begin(), options.end());
