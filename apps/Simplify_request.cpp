@@ -588,10 +588,8 @@ void add_options(CLI::App& command, Simplify_request& request)
           "Normals of the input: keep them as they are, so that an edge with different normals on its "
           "two sides is a seam; loose makes no seams of such edges: each face gets those normals of its "
           "vertices that suit it best; fit them to the shading of the input, which is truer on large faces "
-          "than "
-          "what is kept at their corners; make them anew, with the hard edges of the input; or leave them "
-          "out, "
-          "so that vertices of PLY and glTF that differ in nothing else are one. "
+          "than what is kept at their corners; make them anew, with the hard edges of the input; or leave "
+          "them out, so that vertices of PLY and glTF that differ in nothing else are one. "
           "auto makes those anew that give every face its own normal, or that would come to belong to "
           "another side of the surface, and keeps others, but those that differ by at most 0.1 degrees at a "
           "vertex become one.")
