@@ -255,6 +255,14 @@ group(
     ("likely = (likely + 1) % state.candidates.size();", "break;", "at a vertex of many faces only one face can take a point"),
     ("find_near_candidates();\n      state.found.reset();", "find_near_candidates();\n      state.found = question(collapse);",
      "at a vertex of many faces points go to a face that is near, not nearest"),
+    ("nearest.second > m_state->squared_near; ++i)", "nearest.second > 1; ++i)", "points go to a face that is far"),
+    ("parts[own] > parts[other] : own < other;", "parts[own] > parts[other] : false;",
+     "where grids beside a side are alike, neither has its points"),
+    ("parts[own] != parts[other] ? parts[own] > parts[other]", "parts[own] != parts[other] ? parts[own] < parts[other]",
+     "a side has the points of the coarser grid"),
+    ("corners_before(), s_most_parts) < parts", "corners_before(), s_most_parts) < 0", "a side keeps its coarser grid"),
+    ("parts_of(before, s_most_parts) <= parts;", "parts_of(before, s_most_parts) < parts;",
+     "where grids of changed faces are alike, none has the points of the side between them"),
     ("if (state.max_error > s_rounding)", "if (true)", "without an error, holes between the points of grids are closed"),
 )
 group(
@@ -301,7 +309,9 @@ group(
     headers + "Surface_mesh_simplification/internal/Original_surface.h",
     ("tracked_points_test",),
     ("if (from <= at_c && at_c <= to)", "if (false)", "a corner of a sliver in none of its boxes"),
-    ("return m_last != last && is_found();", "return is_found() && false;", "nothing but the last triangle is near"),
+    ("return triangle != m_last && is_near(point, squared_distance, triangle);", "return false;",
+     "nothing in the index is near"),
+    ("(i < size - start && is_found(start + i))", "false", "before there is an index, triangles of higher numbers are not near"),
 )
 group(
     headers + "spatial/internal/Box_block.h",
@@ -1148,9 +1158,9 @@ group(
 group(
     headers + "Surface_mesh_simplification/internal/Value_quadric.h",
     ("uv_test:Uv.AQuadric*",),
-    ("linear -= value_motion[k] * m_gradients[k][i];", "linear += value_motion[k] * m_gradients[k][i];",
+    ("linear -= value_motion[k] *", "linear += value_motion[k] *",
      "a quadric says something else from another origin"),
-    ("displacement(k, motion) - m_weight * value_motion[k])", "displacement(k, motion))",
+    ("displacement(k, motion) - weight() * value_motion[k])", "displacement(k, motion))",
      "the value of the origin does not count"),
     ("sum -= displacement(k, motion) * displacement(k, motion)", "sum += displacement(k, motion) * displacement(k, motion)",
      "the best values are not the best"),

@@ -291,8 +291,8 @@ TEST_F(Tracked_sheet, AtAVertexOfManyFacesTheAnswerIsTheSame)
   EXPECT_GT(far, 50u);
 }
 
-// Whether it was asked before or not, a collapse hands each point to the nearest face.
-TEST_F(Tracked_sheet, AtAVertexOfManyFacesThePointsGoToTheNearest)
+// Whether it was asked before or not, a collapse hands each point to the same face.
+TEST_F(Tracked_sheet, AtAVertexOfManyFacesThePointsGoToTheSame)
 {
   constexpr double max_error = 0.1;
   Mesh mesh = cone(60, 0.05);

@@ -16,7 +16,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace selvedge {
@@ -24,11 +23,11 @@ namespace internal {
 
 /// The triangles of a mesh as it was, of which one can ask whether a point is near.
 ///
-/// The index that answers is made at the first question, since most reductions of dense meshes ask none. It
-/// has several boxes for a sliver askew to the axes, one for each part of its length: one box around all of
-/// it would say little about it.
+/// The index that answers is made when there have been some questions, since most reductions of dense meshes
+/// ask few. It has several boxes for a sliver askew to the axes, one for each part of its length: one box
+/// around all of it would say little about it.
 ///
-/// **Exactness** Floating point. **Complexity** O(n) for the first question about n triangles, and about
+/// **Exactness** Floating point. **Complexity** O(n) for the first questions about n triangles, and about
 /// O(log n) for others. Copies share nothing.
 class Original_surface
 {
@@ -50,31 +49,66 @@ public:
   std::size_t number_of_triangles() const { return m_triangles.size(); }
   const std::array<Number, 3>& triangle(std::size_t number) const { return m_triangles[number]; }
 
-  /// Returns whether a triangle is at most a squared distance away from a point. It is fast when the triangle
-  /// that was near the point before is near this one, too.
+  /// Whether the index has been made, which answers sooner than several triangles.
+  bool has_index() const { return m_index.has_value(); }
+
+  /// Returns whether this triangle is at most a squared distance away from a point.
+  bool is_near(const Point& point, double squared_distance, Number triangle) const
+  {
+    m_last = triangle;
+    m_compared += s_boxes_per_triangle;
+    return CGAL::do_intersect(Kernel::Sphere_3(point, squared_distance), triangle_at(triangle));
+  }
+
+  /// Returns whether any triangle is. It is fast when one is that has a number near that of the triangle that
+  /// was asked last, as neighbours have in most meshes.
   bool is_near(const Point& point, double squared_distance) const
   {
-    if (!m_index)
-      make_index();
-    const Kernel::Sphere_3 sphere(point, squared_distance);
-    const auto is_found = [&] { return CGAL::do_intersect(sphere, triangle_at(m_last)); };
-    if (is_found())
+    if (is_near(point, squared_distance, m_last))
       return true;
-    const auto is_found_within = [&](double radius) {
-      return m_index->has_overlapping(CGAL::Bbox_3(point.x() - radius, point.y() - radius, point.z() - radius,
-                                                   point.x() + radius, point.y() + radius,
-                                                   point.z() + radius),
-                                      [&](Number part) {
-                                        const Number last = std::exchange(m_last, triangle_of(part));
-                                        return m_last != last && is_found();
-                                      });
+    const double radius = (1 + 1e-9) * std::sqrt(squared_distance);
+    if (!m_index) {
+      if (m_compared < s_boxes_per_index * m_triangles.size())
+        return is_found_by_scan(point, squared_distance, radius);
+      make_index();
+    }
+    const auto is_found_within = [&](double distance) {
+      return m_index->has_overlapping(box_around(point, distance), [&](Number of_index) {
+        const Number triangle = triangle_of(of_index);
+        return triangle != m_last && is_near(point, squared_distance, triangle);
+      });
     };
     // Most points that are near are far nearer, and few boxes meet a small one.
-    const double radius = (1 + 1e-9) * std::sqrt(squared_distance);
     return is_found_within(radius / 8) || is_found_within(radius);
   }
 
 private:
+  // To ask one triangle takes about as long as to compare so many boxes, and to make the index as long as to
+  // compare so many for each triangle.
+  static constexpr std::size_t s_boxes_per_triangle = 8, s_boxes_per_index = 32;
+
+  static CGAL::Bbox_3 box_around(const Point& point, double radius)
+  {
+    return {point.x() - radius, point.y() - radius, point.z() - radius,
+            point.x() + radius, point.y() + radius, point.z() + radius};
+  }
+
+  // Asks the triangles with the numbers beside that of the last one, and those beside these.
+  bool is_found_by_scan(const Point& point, double squared_distance, double radius) const
+  {
+    const CGAL::Bbox_3 box = box_around(point, radius);
+    const auto is_found = [&](Number triangle) {
+      ++m_compared;
+      return CGAL::do_overlap(box, triangle_at(triangle).bbox()) &&
+             is_near(point, squared_distance, triangle);
+    };
+    const Number start = m_last, size = Number(m_triangles.size());
+    for (Number i = 1; i <= start || i < size - start; ++i)
+      if ((i <= start && is_found(start - i)) || (i < size - start && is_found(start + i)))
+        return true;
+    return false;
+  }
+
   Kernel::Triangle_3 triangle_at(Number number) const
   {
     const auto& [a, b, c] = m_triangles[number];
@@ -155,6 +189,7 @@ private:
   mutable std::optional<Packed_R_tree> m_index;   // of parts of triangles
   mutable std::vector<Number> m_triangle_of_part; // those of slivers
   mutable Number m_last = 0;                      // the triangle that was asked last
+  mutable std::size_t m_compared = 0;             // how many boxes, to decide when to make the index
 };
 
 } // namespace internal

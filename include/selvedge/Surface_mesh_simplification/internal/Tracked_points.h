@@ -34,14 +34,14 @@ namespace internal {
 /// mesh that is near it, its *carrier*; and so how far a collapse would leave them from the surface.
 ///
 /// The carrier of a vertex is at first the first face, in the order of `faces(mesh)`, at this vertex. A
-/// collapse hands the points of the faces that it changes or removes to the nearest of the faces that it
-/// changes; if it changes none, to those beyond the faces that it removes. A face that no collapse changes
-/// keeps its points.
+/// collapse hands the points of the faces that it changes or removes to one of the faces that it changes: one
+/// that is at most E / 8 away, or else the nearest. If it changes none, it hands them to those beyond the
+/// faces that it removes. A face that no collapse changes keeps its points.
 ///
 /// Between the points, surfaces are compared at the points of *grids*: a grid divides each side of a triangle
 /// into as many parts as it takes for none to be longer than E, and into 8 at most. For an original of many
 /// long sides it is less than 8, so that there are no more points of grids than 100,000, or twice as many as
-/// faces.
+/// faces. On a side between two triangles of the original, the points are those of the finer grid.
 ///
 /// **Guarantees** When `error_at` is at most E, as given to `begin`, for every collapse that is done, then at
 /// any time
@@ -91,6 +91,8 @@ public:
     if (diagonal > 0)
       state.scale = std::ldexp(1, -std::ilogb(diagonal));
     state.max_error = max_error * state.scale;
+    if (std::isfinite(max_error))
+      state.squared_near = s_near * s_near * state.max_error * state.max_error;
     state.is_tracking = true;
     state.reserve(num_vertices(state.mesh));
     state.original.reserve(num_faces(state.mesh));
@@ -104,7 +106,7 @@ public:
       for (const Vertex v : CGAL::vertices_around_face(halfedge(face, state.mesh), state.mesh)) {
         if (get(number_of, v) == s_none) {
           put(number_of, v, Number(state.points.size()));
-          track(point(get(points, v)), face);
+          track(point(get(points, v)), face, state.original.number_of_triangles());
         }
         *corner++ = get(number_of, v);
       }
@@ -167,10 +169,13 @@ private:
   // Lengths that may come from rounding: the size of the mesh is about 1.
   static constexpr double s_rounding = 1e-12;
 
-  // Of so few candidates, the nearest are found at once: most collapses that are asked about are done.
+  // Of so few candidates, carriers are found at once: most collapses that are asked about are done.
   static constexpr std::size_t s_few = 32;
 
-  // So many points of the original are compared with a point one by one, before the tree is asked.
+  // A candidate takes a point without a look at the others when its distance is at most this share of E.
+  static constexpr double s_near = 0.125;
+
+  // So many points of the original are compared with a point one by one, before an index is asked.
   static constexpr std::size_t s_few_points = 16;
 
   // A face that can take points, as it is after the collapse.
@@ -179,7 +184,9 @@ private:
     using Vector = Vector_of_doubles;
 
   public:
-    Candidate(Face face, const Point& a, const Point& b, const Point& c) : m_face(face), m_triangle(a, b, c)
+    /// The first corner was at `before`, until the collapse.
+    Candidate(Face face, const Point& a, const Point& b, const Point& c, const Point& before)
+        : m_face(face), m_triangle(a, b, c), m_before(before)
     {
       const std::array<Vector, 3> corners = {vector(a), vector(b), vector(c)};
       std::array<Vector, 3> sides;
@@ -203,6 +210,7 @@ private:
 
     Face face() const { return m_face; }
     std::array<Point, 3> corners() const { return {m_triangle[0], m_triangle[1], m_triangle[2]}; }
+    std::array<Point, 3> corners_before() const { return {m_before, m_triangle[1], m_triangle[2]}; }
 
     /// The square of the length of the longest side.
     double longest() const { return m_longest; }
@@ -244,6 +252,7 @@ private:
 
     Face m_face;
     Kernel::Triangle_3 m_triangle;
+    Point m_before;
     std::array<Plane, 4>
         m_planes; // through the sides, pointing out of the triangle, and that of the triangle
     double m_longest;
@@ -277,10 +286,12 @@ private:
     bool has_new_places = false; // of vertices: all others are of the original
     double scale = 1;
     double max_error = std::numeric_limits<double>::infinity(); // times the scale
-    std::vector<Point> points;                                  // of the original, times the scale
+    double squared_near = 0;   // up to which a candidate need not be the nearest one
+    std::vector<Point> points; // of the original, times the scale
     Original_surface original{points};
     // The points of a face are a list: the first one of the face, and for each point the next one.
     std::vector<Number> next;
+    std::vector<Number> triangles; // of the original, of each point one that has it
     typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<Number>>::const_type
         first_of_face;
 
@@ -296,6 +307,7 @@ private:
     {
       points.reserve(points_to_come);
       next.reserve(points_to_come);
+      triangles.reserve(points_to_come);
     }
   };
 
@@ -307,10 +319,11 @@ private:
                  scale * CGAL::to_double(p.z()));
   }
 
-  void track(const Point& p, Face face) const
+  void track(const Point& p, Face face, std::size_t triangle) const
   {
     m_state->points.push_back(p);
     m_state->next.push_back(s_none);
+    m_state->triangles.push_back(Number(triangle));
     give(Number(m_state->points.size() - 1), face);
   }
 
@@ -333,13 +346,36 @@ private:
       if (points <= (std::max)(std::size_t(100'000), 2 * triangles))
         break;
     }
-    state.reserve(state.points.size() + (most_parts > 1 ? points : 0));
-    std::size_t i = 0;
-    for (const Face face : faces(state.mesh))
-      visit_grid(corners(i++), most_parts, [&](const Point& p) {
-        track(p, face);
+    if (most_parts == 1 || points == 0)
+      return;
+    state.reserve(state.points.size() + points);
+    std::vector<unsigned char> parts; // of triangles
+    const auto number_of = get(CGAL::dynamic_face_property_t<Number>(), state.mesh);
+    for (const Face face : faces(state.mesh)) {
+      put(number_of, face, Number(parts.size()));
+      parts.push_back(static_cast<unsigned char>(parts_of(corners(parts.size()), most_parts)));
+    }
+    // Points on a side are those of the finer one of the grids beside it.
+    const auto has_side = [&](Halfedge h) {
+      const Halfedge beyond = opposite(h, state.mesh);
+      if (CGAL::is_border(beyond, state.mesh))
+        return true;
+      const Number own = get(number_of, face(h, state.mesh)),
+                   other = get(number_of, face(beyond, state.mesh));
+      return parts[own] != parts[other] ? parts[own] > parts[other] : own < other;
+    };
+    for (const Face face : faces(state.mesh)) {
+      const Number number = get(number_of, face);
+      if (parts[number] == 1)
+        continue;
+      const Halfedge to_first = halfedge(face, state.mesh), to_second = next(to_first, state.mesh);
+      const std::array<bool, 3> sides{has_side(to_second), has_side(next(to_second, state.mesh)),
+                                      has_side(to_first)};
+      visit_grid(corners(number), parts[number], sides, [&](const Point& p) {
+        track(p, face, number);
         return true;
       });
+    }
   }
 
   // Into how many parts the grid of a triangle divides its sides.
@@ -356,18 +392,20 @@ private:
   }
 
   // Calls function(point) for the points of the grid of a triangle, but the corners, until it returns false.
-  // Returns whether it never did.
+  // Returns whether it never did. Side i, from corner i to the next one, is left out unless `sides[i]`.
   template <class Function>
-  bool visit_grid(const std::array<Point, 3>& corners, int most_parts, const Function& function) const
+  static bool visit_grid(const std::array<Point, 3>& corners, int parts, const std::array<bool, 3>& sides,
+                         const Function& function)
   {
-    const int parts = parts_of(corners, most_parts);
     const auto along = [&](std::size_t to, int share) {
       return (double(share) / parts) * (corners[to] - corners[0]);
     };
     for (int i = 0; i <= parts; ++i)
       for (int j = 0; i + j <= parts; ++j) {
         const bool is_corner = i == parts || j == parts || i + j == 0;
-        if (!is_corner && !function(corners[0] + (along(1, i) + along(2, j))))
+        const bool is_left_out =
+            (j == 0 && !sides[0]) || (i + j == parts && !sides[1]) || (i == 0 && !sides[2]);
+        if (!is_corner && !is_left_out && !function(corners[0] + (along(1, i) + along(2, j))))
           return false;
       }
     return true;
@@ -381,27 +419,63 @@ private:
     if (!std::isfinite(state.max_error))
       return true;
     const double squared = state.max_error * state.max_error * (1 + 1e-6) + s_rounding * s_rounding;
+    const auto is_near_any = [&](const Point& p, const std::array<Point, 3>& points) {
+      return std::any_of(points.begin(), points.end(),
+                         [&](const Point& q) { return CGAL::squared_distance(p, q) <= squared; });
+    };
     std::size_t likely = 0;
     const auto is_near = [&](const Point& p) {
-      // The points that these faces carry are of the original, and at hand. Where none of the first is near,
-      // the tree answers sooner.
-      for (std::size_t i = 0; i < (std::min)(state.moves.size(), s_few_points); ++i) {
+      // The points that these faces carry are of the original, and at hand, and so are their triangles. Where
+      // none of the first is near, an index answers sooner, once there is one.
+      const bool has_index = state.original.has_index();
+      const std::size_t few = (std::min)(state.moves.size(), has_index ? s_few_points : 4 * s_few_points);
+      for (std::size_t i = 0; i < few; ++i) {
         const std::size_t at = (likely + i) % state.moves.size();
         if (CGAL::squared_distance(state.points[state.moves[at].number], p) <= squared) {
           likely = at;
           return true;
         }
       }
+      for (std::size_t i = 0; i < few && !has_index; ++i)
+        if (state.original.is_near(p, squared, state.triangles[state.moves[i].number]))
+          return true;
       return state.original.is_near(p, squared);
     };
     if (is_new_place && !state.candidates.empty() && !is_near(state.candidates.front().corners()[0]))
       return false;
     const bool are_corners_original = !is_new_place && !state.has_new_places;
-    return std::all_of(state.candidates.begin(), state.candidates.end(), [&](const Candidate& candidate) {
+    for (std::size_t i = 0; i < state.candidates.size(); ++i) {
+      const Candidate& candidate = state.candidates[i];
       // In a grid of two parts, all points are in the middle of a side.
-      const bool is_near_corners = are_corners_original && candidate.longest() <= 4 * squared;
-      return is_near_corners || visit_grid(candidate.corners(), s_most_parts, is_near);
-    });
+      if (are_corners_original && candidate.longest() <= 4 * squared)
+        continue;
+      const std::array<Point, 3> corners = candidate.corners();
+      const int parts = parts_of(corners, s_most_parts);
+      if (!visit_grid(corners, parts, new_sides(i, parts), [&](const Point& p) {
+            return (are_corners_original && is_near_any(p, corners)) || is_near(p);
+          }))
+        return false;
+    }
+    return true;
+  }
+
+  // Which sides of a candidate, whose grid has so many parts, have points that no other grid covers: that of
+  // the candidate before or after it, or that of the face as it was.
+  std::array<bool, 3> new_sides(std::size_t number, int parts) const
+  {
+    const std::vector<Candidate>& candidates = m_state->candidates;
+    const std::array<Point, 3> corners = candidates[number].corners();
+    std::array<bool, 3> are_new{true, parts_of(candidates[number].corners_before(), s_most_parts) < parts,
+                                true};
+    if (number + 1 < candidates.size()) {
+      const std::array<Point, 3> after = candidates[number + 1].corners();
+      are_new[0] = after[2] != corners[1] || parts_of(after, s_most_parts) < parts;
+    }
+    if (number > 0) {
+      const std::array<Point, 3> before = candidates[number - 1].corners();
+      are_new[2] = before[1] != corners[2] || parts_of(before, s_most_parts) <= parts;
+    }
+    return are_new;
   }
 
   // Whether the faces of a collapse cover the same after it as before, if nothing else will do.
@@ -468,17 +542,18 @@ private:
         }
   }
 
-  // Finds for each point the nearest candidate, until one is farther away than `most`. Returns whether none
-  // was.
+  // Finds for each point a candidate that takes it, until one is farther away than `most`. Returns whether
+  // none was.
   bool find_carriers(double most = std::numeric_limits<double>::infinity()) const
   {
     State& state = *m_state;
     state.moves.clear();
     state.squared_error = 0;
+    std::size_t likely = 0;
     for (const Face face : state.emptied) {
-      std::size_t likely = find_candidate(face);
+      likely = candidate_of(face, likely);
       for (Number number = get(state.first_of_face, face); number != s_none; number = state.next[number]) {
-        const auto [carrier, squared] = nearest_candidate(state.points[number], likely);
+        const auto [carrier, squared] = carrier_of(state.points[number], likely);
         if (squared > state.squared_error) {
           state.squared_error = squared;
           if (std::sqrt(squared) > most)
@@ -502,8 +577,9 @@ private:
     const auto is_far = [&](double squared) { return std::sqrt(squared) > state.max_error; };
     state.moves.clear();
     state.squared_error = 0;
+    std::size_t likely = 0;
     for (const Face face : state.emptied) {
-      std::size_t likely = find_candidate(face);
+      likely = candidate_of(face, likely);
       for (Number number = get(state.first_of_face, face); number != s_none; number = state.next[number]) {
         const Point& p = state.points[number];
         double squared = std::numeric_limits<double>::infinity();
@@ -520,18 +596,19 @@ private:
     }
   }
 
-  // Returns the candidate that is this face itself, or else the first.
-  std::size_t find_candidate(Face face) const
+  // Returns the candidate that is this face itself, or else the one that was likely for the face beside it.
+  std::size_t candidate_of(Face face, std::size_t likely) const
   {
     const auto& candidates = m_state->candidates;
     const auto found = std::find_if(candidates.begin(), candidates.end(),
                                     [&](const Candidate& candidate) { return candidate.face() == face; });
-    return found == candidates.end() ? 0 : std::size_t(found - candidates.begin());
+    return found == candidates.end() ? likely : std::size_t(found - candidates.begin());
   }
 
-  // Returns the first of the candidates that are nearest to a point, and its squared distance; the number of
-  // candidates and infinity when there are none. It asks the likely one before the others.
-  std::pair<std::size_t, double> nearest_candidate(const Point& p, std::size_t likely) const
+  // Returns a candidate that is near enough to a point to take it, or else the first of the nearest ones, and
+  // its squared distance; the number of candidates and infinity when there are none. It asks the likely one
+  // before the others.
+  std::pair<std::size_t, double> carrier_of(const Point& p, std::size_t likely) const
   {
     const auto& candidates = m_state->candidates;
     std::pair<std::size_t, double> nearest(candidates.size(), std::numeric_limits<double>::infinity());
@@ -543,7 +620,7 @@ private:
     };
     if (likely < candidates.size())
       ask(likely);
-    for (std::size_t i = 0; i < candidates.size(); ++i)
+    for (std::size_t i = 0; i < candidates.size() && nearest.second > m_state->squared_near; ++i)
       if (i != likely)
         ask(i);
     return nearest;
@@ -573,9 +650,9 @@ private:
   {
     const TriangleMesh& mesh = m_state->mesh;
     const auto points = profile.vertex_point_map();
-    m_state->candidates.emplace_back(face(h, mesh), point(place),
-                                     point(get(points, target(next(h, mesh), mesh))),
-                                     point(get(points, source(h, mesh))));
+    m_state->candidates.emplace_back(
+        face(h, mesh), point(place), point(get(points, target(next(h, mesh), mesh))),
+        point(get(points, source(h, mesh))), point(get(points, target(h, mesh))));
   }
 
   std::shared_ptr<State> m_state;

@@ -8,9 +8,11 @@
 #include <selvedge/Surface_mesh_simplification/internal/relative_face_weight.h>
 #include <selvedge/internal/saturated_float.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace selvedge {
 
@@ -57,24 +59,19 @@ public:
         gradient[i] = ((s[1][k] - s[0][k]) * of_e[i] + (s[2][k] - s[0][k]) * of_f[i]) / (4 * squared_area);
       matrix.add_square(gradient, weight);
       for (std::size_t i = 0; i < 3; ++i)
-        m_gradients[k][i] = internal::saturated_float(weight * gradient[i]);
+        m_numbers[s_gradients + 3 * k + i] = internal::saturated_float(weight * gradient[i]);
     }
-    set_matrix(matrix);
-    m_weight = internal::saturated_float(weight);
+    const std::array<double, 6> numbers{matrix.xx, matrix.xy, matrix.xz, matrix.yy, matrix.yz, matrix.zz};
+    std::transform(numbers.begin(), numbers.end(), m_numbers.begin(), internal::saturated_float);
+    m_numbers[s_weight] = internal::saturated_float(weight);
   }
 
   /// Adds one with the same origin.
   Value_quadric& operator+=(const Value_quadric& other)
   {
-    set_matrix(matrix() += other.matrix());
-    for (std::size_t i = 0; i < 3; ++i)
-      m_linear[i] = internal::saturated_float(double(m_linear[i]) + other.m_linear[i]);
-    for (std::size_t k = 0; k < dimension; ++k) {
-      for (std::size_t i = 0; i < 3; ++i)
-        m_gradients[k][i] = internal::saturated_float(double(m_gradients[k][i]) + other.m_gradients[k][i]);
-      m_displacements[k] = internal::saturated_float(double(m_displacements[k]) + other.m_displacements[k]);
-    }
-    m_weight = internal::saturated_float(double(m_weight) + other.m_weight);
+    constexpr float largest = (std::numeric_limits<float>::max)();
+    for (std::size_t i = 0; i < m_numbers.size(); ++i)
+      m_numbers[i] = (std::max)(-largest, (std::min)(largest, m_numbers[i] + other.m_numbers[i]));
     return *this;
   }
 
@@ -83,7 +80,7 @@ public:
   {
     double sum = growth_with_value_fixed(motion);
     for (std::size_t k = 0; k < dimension; ++k)
-      sum += value_motion[k] * (m_weight * value_motion[k] - 2 * displacement(k, motion));
+      sum += value_motion[k] * (weight() * value_motion[k] - 2 * displacement(k, motion));
     return sum;
   }
 
@@ -91,8 +88,8 @@ public:
   double least(const Vector& motion) const
   {
     double sum = growth_with_value_fixed(motion);
-    for (std::size_t k = 0; k < dimension && m_weight > 0; ++k)
-      sum -= displacement(k, motion) * displacement(k, motion) / m_weight;
+    for (std::size_t k = 0; k < dimension && weight() > 0; ++k)
+      sum -= displacement(k, motion) * displacement(k, motion) / weight();
     return sum;
   }
 
@@ -102,46 +99,48 @@ public:
     Value_quadric moved = *this;
     const Vector product = matrix() * motion;
     for (std::size_t i = 0; i < 3; ++i) {
-      double linear = m_linear[i] + product[i];
+      double linear = m_numbers[s_linear + i] + product[i];
       for (std::size_t k = 0; k < dimension; ++k)
-        linear -= value_motion[k] * m_gradients[k][i];
-      moved.m_linear[i] = internal::saturated_float(linear);
+        linear -= value_motion[k] * m_numbers[s_gradients + 3 * k + i];
+      moved.m_numbers[s_linear + i] = internal::saturated_float(linear);
     }
     for (std::size_t k = 0; k < dimension; ++k)
-      moved.m_displacements[k] =
-          internal::saturated_float(displacement(k, motion) - m_weight * value_motion[k]);
+      moved.m_numbers[s_displacements + k] =
+          internal::saturated_float(displacement(k, motion) - weight() * value_motion[k]);
     return moved;
   }
 
 private:
+  // Where its parts begin: the terms in the motion alone, in both motions, and in that of the value alone.
+  static constexpr std::size_t s_linear = 6, s_gradients = s_linear + 3,
+                               s_displacements = s_gradients + 3 * dimension,
+                               s_weight = s_displacements + dimension;
+
   internal::Symmetric_matrix matrix() const
   {
-    return {m_matrix[0], m_matrix[1], m_matrix[2], m_matrix[3], m_matrix[4], m_matrix[5]};
+    return {m_numbers[0], m_numbers[1], m_numbers[2], m_numbers[3], m_numbers[4], m_numbers[5]};
   }
-  void set_matrix(const internal::Symmetric_matrix& m)
-  {
-    m_matrix = {internal::saturated_float(m.xx), internal::saturated_float(m.xy),
-                internal::saturated_float(m.xz), internal::saturated_float(m.yy),
-                internal::saturated_float(m.yz), internal::saturated_float(m.zz)};
-  }
+  double weight() const { return m_numbers[s_weight]; }
 
   double growth_with_value_fixed(const Vector& motion) const
   {
-    return matrix().square(motion) + 2 * internal::dot(m_linear, motion);
+    return matrix().square(motion) + 2 * product(s_linear, motion);
   }
 
   // The sum of the displacements in one number, each with its weight.
   double displacement(std::size_t k, const Vector& motion) const
   {
-    return internal::dot(m_gradients[k], motion) + m_displacements[k];
+    return product(s_gradients + 3 * k, motion) + m_numbers[s_displacements + k];
   }
 
-  // The terms in the motion alone, in both motions, and in that of the value alone.
-  std::array<float, 6> m_matrix{};
-  std::array<float, 3> m_linear{};
-  std::array<std::array<float, 3>, dimension> m_gradients{};
-  std::array<float, dimension> m_displacements{};
-  float m_weight = 0;
+  // The scalar product of the three numbers from `first` on with a vector.
+  double product(std::size_t first, const Vector& v) const
+  {
+    return m_numbers[first] * v[0] + m_numbers[first + 1] * v[1] + m_numbers[first + 2] * v[2];
+  }
+
+  // In one array, since the compiler then adds several at once.
+  std::array<float, s_weight + 1> m_numbers{};
 };
 
 using Uv_quadric = Value_quadric<2>;
