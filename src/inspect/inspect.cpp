@@ -188,6 +188,7 @@ private:
       seams.by_labels += differences.in_label;
       seams.by_doubles += differences.in_doubles;
     }
+    seams.by_attributes = seams_of_attributes(m_soup, m_prepared.positions);
   }
 
   const Prepared_soup& m_prepared;
