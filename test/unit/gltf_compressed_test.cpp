@@ -830,6 +830,23 @@ TEST(Gltf_draco, KeepsPlacesThatItsQuantisationDoesNotHave)
   EXPECT_EQ(notes.begin()->second, 1u);
 }
 
+TEST(Gltf_draco, HasNewNormalsInTheBoxOfItsQuantisation)
+{
+  const auto notes_with = [](const std::array<double, 3>& normal) {
+    Mesh_file file = read(draco_sheet(true, true)); // whose box goes from (0.6, 0, 0.8) to (1.6, 1, 1.8)
+    file.soup.normals.values[7] = normal;
+    const Triangle_soup again = read_mesh(expect_written_by(file, {s_draco}), Mesh_format::glb, "again").soup;
+    double nearest = 1;
+    for (const auto& [x, y, z] : again.normals.values)
+      nearest = std::min(nearest, std::hypot(x - normal[0], y - normal[1], z - normal[2]));
+    EXPECT_LT(nearest, 1e-3);
+    const Temporary_folder folder;
+    return write_mesh(folder / "m.glb", file.soup).size();
+  };
+  EXPECT_EQ(notes_with({0.6, 0.17, 0.8}), 0u);
+  EXPECT_EQ(notes_with({0, 0, 1}), 1u) << "the control: held as floats";
+}
+
 TEST(Gltf_draco, KeepsTheOrderOfAMeshInSeveralPoses)
 {
   Mesh_file file = read(draco_sheet(true, true));
