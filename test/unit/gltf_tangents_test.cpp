@@ -7,6 +7,7 @@
 #include "support/Temporary_folder.h"
 #include "support/reduction.h"
 
+#include "files/Local_normals.h"
 #include "soup/Gltf_scene.h"
 #include <selvedge/inspect.h>
 #include <selvedge/normals.h>
@@ -227,6 +228,25 @@ TEST(Gltf_tangents, KeepTheirBytesWithTheNormalsOfTheirFaces)
   for (const char* name : {"NORMAL", "TANGENT"})
     EXPECT_EQ(rows_at_corners(after, written["targets"][0], name),
               rows_at_corners(document, primitive["targets"][0], name));
+}
+
+TEST(Gltf_tangents, AreThoseOfTheFaceWhoseNormalIsNearest)
+{
+  const Triangle_soup file = read_glb(document_of_corners(hills(Normals_treatment::flat), true)).soup;
+  const Gltf_scene::Instance& instance = file.scene->instances.at(0);
+  const Gltf_scene::Block& block = file.scene->blocks.at(instance.block);
+  files::Local_normals rows(*file.scene);
+  std::size_t others = 0;
+  for (Index t = 0; t < file.triangles.size(); ++t)
+    for (const Index v : file.triangles[t]) { // which may be that of another triangle
+      std::array<double, 3> normal = file.normals.values[file.normals.of_triangle[t][0]];
+      normal[0] += 1e-9; // is none of the file
+      const Index row = rows.row_at(*block.normals(), instance.first + v, normal);
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_NEAR(component(*block.normals(), row, k), normal[k], 1e-6);
+      others += row != v;
+    }
+  EXPECT_GT(others, file.triangles.size());
 }
 
 // What is plane in the file may get a ridge by a morph target.
