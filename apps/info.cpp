@@ -206,6 +206,9 @@ void print_seams(const Inspection& mesh)
           std::pair(seams.by_doubles, "numbers of faces with the same corners")})
       if (count > 0)
         std::cout << std::exchange(separator, ", ") << what << " (" << with_commas(count) << ')';
+    separator = "; where only vertex numbers differ, it is for ";
+    for (const auto& [name, count] : seams.by_attributes)
+      std::cout << std::exchange(separator, ", ") << name << " (" << with_commas(count) << ')';
   }
   if (mesh.normals == Normals_treatment::flat)
     std::cout << " (normals are made anew, and make no seams)";
@@ -340,10 +343,13 @@ void add_inspection(Json& report, const Inspection& mesh)
                      {"intersection", offences[int(Offence::intersection)]},
                      {"duplicate", offences[int(Offence::duplicate)]},
                      {"degenerate", offences[int(Offence::degenerate)]}};
+  Json by_attributes = Json::array();
+  for (const auto& [name, edges] : mesh.seams.by_attributes)
+    by_attributes.push_back({{"name", name}, {"edges", edges}});
   report["seams"] = {{"normals", name_of(mesh.normals)},      {"edges", mesh.seams.edges},
                      {"by_vertices", mesh.seams.by_vertices}, {"by_texture", mesh.seams.by_texture},
                      {"by_normals", mesh.seams.by_normals},   {"by_labels", mesh.seams.by_labels},
-                     {"by_doubles", mesh.seams.by_doubles}};
+                     {"by_doubles", mesh.seams.by_doubles},   {"by_attributes", std::move(by_attributes)}};
   report["borders"] = {{"edges", mesh.border_edges}};
   report["border_gaps"] = border_gaps_json(mesh.border_gaps);
   report["movable"] = {{"free", mesh.movable.free},

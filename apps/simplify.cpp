@@ -111,7 +111,7 @@ private:
   {
     if (!has_normals_of_vertices(file.format))
       return;
-    const std::size_t joined = share_vertices_without_normals(file.soup);
+    const std::size_t joined = share_vertices_without_normals(file.soup, m_request.normals);
     if (joined == 0)
       return;
     file.notes.remarks["corners joined, for their vertices differ in nothing but their normals"] += joined;

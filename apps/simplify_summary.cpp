@@ -9,6 +9,7 @@
 #include "text.h"
 
 #include <selvedge/Parts.h>
+#include <selvedge/inspect.h>
 #include <selvedge/normals.h>
 
 #include <algorithm>
@@ -17,6 +18,7 @@
 #include <optional>
 #include <ostream>
 #include <sstream>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -166,8 +168,23 @@ std::string remedies(const std::vector<Hindrances::Description>& all, const Hind
   return text;
 }
 
+/// Names the attribute that makes most of the seams that nothing else makes, if they are many.
+std::string seams_to_leave_out(const Prepared_soup& prepared, const Hindrances& hindrances)
+{
+  std::pair<std::string, std::size_t> most;
+  for (const auto& [name, count] : seams_of_attributes(prepared.soup, prepared.positions))
+    if (count > most.second)
+      most = {name, count};
+  if (10 * most.second < hindrances.total())
+    return "";
+  return "; " + counted(most.second, "edge") + " of the input " +
+         (most.second == 1 ? "is a seam" : "are seams") + " because of " + most.first +
+         " and nothing else: leave it out of the file if nobody needs it";
+}
+
 /// Says in a line what holds back a reduction that ended by itself, and what helps.
-std::string held_back(const Simplify_request& request, const Simplify_report& report)
+std::string held_back(const Simplify_request& request, const Prepared_soup& prepared,
+                      const Simplify_report& report)
 {
   const Hindrances& hindrances = report.hindrances;
   if (hindrances.total() == 0)
@@ -185,8 +202,10 @@ std::string held_back(const Simplify_request& request, const Simplify_report& re
   if (others > 0)
     text += ", " + with_commas(others) + " by other rules";
   const std::string options = remedies(all, hindrances, request);
-  return text + (options.empty() ? "; no option helps much: " + std::string(why_it_stays(all[0].reason))
-                                 : "; try " + options);
+  return text +
+         (options.empty() ? "; no option helps much: " + std::string(why_it_stays(all[0].reason))
+                          : "; try " + options) +
+         seams_to_leave_out(prepared, hindrances);
 }
 
 /// Says in a clause where a vertex of the original is.
@@ -378,7 +397,7 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
   else
     stream << (done.is_stopped ? "interrupted" : "as far as the limits allow");
   if (!done.is_reached() && !done.is_stopped)
-    stream << "\nheld back: " << held_back(request, done) << what_is_flattened(request, level);
+    stream << "\nheld back: " << held_back(request, prepared, done) << what_is_flattened(request, level);
   if (done.faces_fixed > 0)
     stream << "\nfixed: " << counted(done.faces_fixed, "face")
            << " with all corners frozen, locked or coincident; a ratio is of the other "

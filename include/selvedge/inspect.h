@@ -10,6 +10,7 @@
 #include <selvedge/verify.h>
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -119,6 +120,7 @@ struct Inspection
     std::size_t by_normals = 0;
     std::size_t by_labels = 0;  ///< groups, objects or materials
     std::size_t by_doubles = 0; ///< the number of faces with the same corners, or how they run
+    std::map<std::string, std::size_t> by_attributes; ///< `seams_of_attributes`
   };
   Seams seams;
 
@@ -127,6 +129,13 @@ struct Inspection
   /// The gaps between borders, and the length that `Open_seams::weld` would weld.
   Border_gaps border_gaps;
 };
+
+/// Returns the attributes because of which edges of two triangles are seams, and of how many: those that
+/// differ between the vertices on the two sides, where neither position, texture coordinates, normals nor
+/// labels do. They have the names of the file; those of morph targets are followed by "of morph targets".
+/// `positions` numbers the positions of vertices, as in `Prepared_soup`. **Complexity** O(n log n).
+std::map<std::string, std::size_t> seams_of_attributes(const Triangle_soup& soup,
+                                                       const std::vector<Index>& positions);
 
 /// Inspects a mesh as `prepare` and `simplify_soup` would treat it with default options, and with
 /// `Normals_choice::automatic`.

@@ -69,26 +69,30 @@ namespace selvedge {
 /// When a scene is written to glTF again, every vertex that is not at a new place keeps its rows of all
 /// accessors, morph targets included, bit for bit, and so its world position. Only NORMAL is what the soup
 /// says: the row of a vertex of the file that has this normal, where there is one, else the normal turned
-/// back into its node, and rounded to what the file can hold where it has them quantised; without normals,
-/// the file gets neither NORMAL nor TANGENT. The rest of the document stays as it is: images byte for byte,
-/// addresses of files, numbers of accessors and buffer views. Accessors that were quantised or compressed are
-/// so again, where reading them gives the same numbers; of a vertex at which fans of faces meet, Draco may
-/// make one for each fan. Exceptions: a mesh that stands in several places (nodes or instances) becomes
-/// several, one for all places in which it has the same triangles of the same vertices, with the normals of
-/// the first of them; instances that have come to differ become nodes, without the extension's own
-/// attributes; accessors of triangles are written without gaps, and in full unless the file has nothing but
-/// sparse values for them; those that shared a buffer view share one again, one behind the other or, if one
-/// level of detail is written, interleaved as they were; buffers become one, and bytes that nothing can refer
-/// to go, as do accessors and buffer views at the end of their lists. Primitives of points or lines, and
-/// meshes outside the scene, stay as they are. Those without a triangle left are removed.
+/// back into its node, and rounded to what the file can hold where it has them quantised. TANGENT goes with
+/// it, as does what morph targets add to both: they are those of the vertex with this normal or, of those
+/// that differ in nothing else, of the one whose normal is nearest; then the tangent is made perpendicular to
+/// the normal, and keeps its side. Without normals, the file gets neither NORMAL nor TANGENT. The rest of the
+/// document stays as it is: images byte for byte, addresses of files, numbers of accessors and buffer views.
+/// Accessors that were quantised or compressed are so again, where reading them gives the same numbers; of a
+/// vertex at which fans of faces meet, Draco may make one for each fan. Exceptions: a mesh that stands in
+/// several places (nodes or instances) becomes several, one for all places in which it has the same triangles
+/// of the same vertices, with the normals of the first of them; instances that have come to differ become
+/// nodes, without the extension's own attributes; accessors of triangles are written without gaps, and in
+/// full unless the file has nothing but sparse values for them; those that shared a buffer view share one
+/// again, one behind the other or, if one level of detail is written, interleaved as they were; buffers
+/// become one, and bytes that nothing can refer to go, as do accessors and buffer views at the end of their
+/// lists. Primitives of points or lines, and meshes outside the scene, stay as they are. Those without a
+/// triangle left are removed.
 ///
-/// **Normals.** PLY and glTF hold one normal for each vertex, so that a file with a normal for each face
-/// has several vertices at every corner of its mesh. Where the normals are flat (normals.h), triangles name
-/// the first of the vertices that differ in nothing but the normal, and each corner keeps its own normal, as
-/// in OBJ. The others are unused, and all keep their numbers: those of the file, in a log too. Vertices that
-/// differ in nothing at all stay apart unless another one differs from them in its normal, or every face has
-/// vertices of its own. Writers split such vertices again, in the order that they had, and all other vertices
-/// that have several normals.
+/// **Normals.** PLY and glTF hold one normal for each vertex, so that a file with a normal for each face has
+/// several vertices at every corner of its mesh. Where the normals are flat (normals.h), triangles name the
+/// first of the vertices that differ in nothing but the normal, and each corner keeps its own normal, as in
+/// OBJ. What goes with the normal need not be alike: the direction of TANGENT, and unless normals are the
+/// same, what morph targets add to NORMAL and TANGENT. The others are unused, and all keep their numbers:
+/// those of the file, in a log too. Vertices that differ in nothing at all stay apart unless another one
+/// differs from them in its normal, or every face has vertices of its own. Writers split such vertices again,
+/// in the order that they had, and all other vertices that have several normals.
 ///
 /// **Packed files.** A file whose name ends in `.gz` is unpacked by zlib when it is read, and packed when it
 /// is written; all else is as without `.gz`. A packed file that is damaged or truncated is refused, and so is

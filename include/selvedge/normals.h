@@ -92,7 +92,8 @@ void join_near_normals(Triangle_soup& soup);
 /// Triangles then name the first of such vertices, and the others are unused. Corners keep their normals.
 /// Alike, bit for bit, must be positions in all poses (where −0 is 0), attributes, and texture coordinates if
 /// they are those of vertices; in a glTF scene the node and all accessors but NORMAL and TANGENT, those of
-/// morph targets included.
+/// morph targets included; and with `Normals_choice::loose`, for which tangents stay, the side of TANGENT.
+/// Where vertices of different tangents become one, the scene alone has tangents then.
 /// Vertices that differ in nothing at all stay apart, as pieces that lie beside each other, unless a third
 /// one differs from them in its normal, or every face has vertices of its own (at least 100 triangles, and
 /// twice as many vertices).
@@ -101,7 +102,7 @@ void join_near_normals(Triangle_soup& soup);
 /// they are nearly alike (`join_near_normals`).
 ///
 /// **Complexity** O(n) expected for n triangles.
-std::size_t share_vertices_without_normals(Triangle_soup& soup);
+std::size_t share_vertices_without_normals(Triangle_soup& soup, Normals_choice choice = Normals_choice::drop);
 
 /// Makes the normals of a reduced soup where they are flat or smooth. They have the precision of 32-bit
 /// floats. A mean is weighted by the angles at the vertex (Thürmer and Wüthrich 1998). A triangle without an

@@ -7,6 +7,10 @@
 #include "gltf_encoding.h"
 #include "soup/flat_shading.h"
 
+#include <selvedge/internal/Vector_of_doubles.h>
+
+#include <limits>
+
 namespace selvedge::files {
 
 std::string bits_of(const std::array<double, 3>& normal)
@@ -14,48 +18,37 @@ std::string bits_of(const std::array<double, 3>& normal)
   return std::string(reinterpret_cast<const char*>(normal.data()), sizeof normal);
 }
 
-bool Local_normals::is_of_row(const Gltf_scene::Column& column, Index scene_vertex,
-                              const std::array<double, 3>& normal) const
+bool Local_normals::has_normal(const Gltf_scene::Column& column, std::size_t instance, Index row,
+                               const std::array<double, 3>& normal) const
 {
-  const Gltf_scene::Instance& own = m_scene.instances[m_scene.instance_of(scene_vertex)];
   return column.component_type != type_float32 ||
-         have_same_bits(world_normal(own, column, scene_vertex - own.first), normal);
+         have_same_bits(world_normal(m_scene.instances[instance], column, row), normal);
 }
 
-const Local_normals::Rows& Local_normals::rows_of(const Gltf_scene::Column& column, std::size_t number)
+const Local_normals::Rows& Local_normals::rows_of(const Gltf_scene::Column& column, std::size_t instance)
 {
-  const auto [rows, is_new] = m_rows.try_emplace(number);
-  const Gltf_scene::Instance& instance = m_scene.instances[number];
-  const Gltf_scene::Block& block = m_scene.blocks[instance.block];
-  for (Index row = 0; is_new && row < block.size; ++row)
-    rows->second.emplace(
-        bits_of(world_normal(instance, column, row)).append(block.attributes.front().row(row)), row);
+  const auto [rows, is_new] = m_rows.try_emplace(instance);
+  const Gltf_scene::Block& block = m_scene.blocks[m_scene.instances[instance].block];
+  for (Index row = 0; is_new && row < block.size; ++row) {
+    rows->second.by_position[block.attributes.front().row(row)].push_back(row);
+    rows->second.by_normal.emplace(bits_of(world_normal(m_scene.instances[instance], column, row)), row);
+  }
   return rows->second;
-}
-
-std::string Local_normals::key(Index scene_vertex, const std::array<double, 3>& normal) const
-{
-  const Gltf_scene::Instance& own = m_scene.instances[m_scene.instance_of(scene_vertex)];
-  const Gltf_scene::Column& positions = m_scene.blocks[own.block].attributes.front();
-  return bits_of(normal).append(positions.row(scene_vertex - own.first));
 }
 
 std::string Local_normals::bytes_of(const Gltf_scene::Column& column, Index scene_vertex,
                                     const std::array<double, 3>& normal)
 {
-  const std::size_t number = m_scene.instance_of(scene_vertex);
-  const Gltf_scene::Instance& own = m_scene.instances[number];
-  if (is_of_row(column, scene_vertex, normal))
-    return std::string(column.row(scene_vertex - own.first));
-  const Rows& rows = rows_of(column, number);
-  auto row = rows.find(key(scene_vertex, normal));
-  if (row == rows.end())
-    row = rows.lower_bound(bits_of(normal));
-  if (row != rows.end() && row->first.compare(0, sizeof normal, bits_of(normal)) == 0)
-    return std::string(column.row(row->second));
-  const std::array<double, 3> local = local_normal(own, normal);
+  const std::size_t instance = m_scene.instance_of(scene_vertex);
+  const Index row = row_at(column, scene_vertex, normal);
+  if (has_normal(column, instance, row, normal))
+    return std::string(column.row(row));
+  const Rows& rows = rows_of(column, instance);
+  if (const auto other = rows.by_normal.find(bits_of(normal)); other != rows.by_normal.end())
+    return std::string(column.row(other->second));
+  const std::array<double, 3> local = local_normal(m_scene.instances[instance], normal);
   std::string result;
-  for (const double coordinate : quantised_normal(column, local).value_or(local))
+  for (const double coordinate : quantised_direction(column, local).value_or(local))
     append_little_endian(result, static_cast<float>(coordinate));
   return result;
 }
@@ -64,12 +57,45 @@ Index Local_normals::row_at(const Gltf_scene::Column& column, Index scene_vertex
                             const std::array<double, 3>& normal)
 {
   const std::size_t number = m_scene.instance_of(scene_vertex);
-  const Index own = scene_vertex - m_scene.instances[number].first;
-  if (is_of_row(column, scene_vertex, normal))
+  const Gltf_scene::Instance& instance = m_scene.instances[number];
+  const Gltf_scene::Block& block = m_scene.blocks[instance.block];
+  const Index own = scene_vertex - instance.first;
+  if (has_normal(column, number, own, normal))
     return own;
-  const Rows& rows = rows_of(column, number);
-  const auto row = rows.find(key(scene_vertex, normal));
-  return row == rows.end() ? own : row->second;
+  const Row_bytes bytes = bytes_of_row(block, own);
+  Index best = own;
+  double highest = -std::numeric_limits<double>::infinity();
+  for (const Index row : rows_of(column, number).by_position.at(block.attributes.front().row(own))) {
+    const Row_bytes other = bytes_of_row(block, row);
+    if (other.others != bytes.others || other.side != bytes.side)
+      continue;
+    if (has_normal(column, number, row, normal))
+      return row;
+    const double cosine = internal::dot(world_normal(instance, column, row), normal);
+    if (cosine > highest) {
+      highest = cosine;
+      best = row;
+    }
+  }
+  return best;
+}
+
+std::string Local_normals::tangent_of(const Gltf_scene::Column& tangents, const Gltf_scene::Column& normals,
+                                      Index scene_vertex, const std::array<double, 3>& normal)
+{
+  const std::size_t instance = m_scene.instance_of(scene_vertex);
+  const Index row = row_at(normals, scene_vertex, normal);
+  std::string result(tangents.row(row));
+  if (has_normal(normals, instance, row, normal) || tangents.component_type != type_float32 ||
+      tangents.components != 4)
+    return result;
+  const std::array<double, 3> direction =
+      perpendicular({component(tangents, row, 0), component(tangents, row, 1), component(tangents, row, 2)},
+                    local_normal(m_scene.instances[instance], normal));
+  std::string turned;
+  for (const double coordinate : quantised_direction(tangents, direction).value_or(direction))
+    append_little_endian(turned, static_cast<float>(coordinate));
+  return result.replace(0, turned.size(), turned);
 }
 
 } // namespace selvedge::files

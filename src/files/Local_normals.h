@@ -10,11 +10,14 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
 
 namespace selvedge::files {
 
-/// Finds the bytes of normals in the nodes of a scene. From world space there is no way back without
-/// rounding, so a normal of the file keeps its bytes.
+/// Finds the bytes of normals in the nodes of a scene, and those of what goes with them. From world space
+/// there is no way back without rounding, so a normal of the file keeps its bytes.
 class Local_normals
 {
 public:
@@ -27,19 +30,27 @@ public:
   std::string bytes_of(const Gltf_scene::Column& column, Index scene_vertex,
                        const std::array<double, 3>& normal);
 
-  /// Returns the row of the instance in which tangents and what morph targets add belong to the normal of
-  /// such a vertex: its own where that has its normal, else another one with this normal at its position, or
-  /// else its own.
+  /// Returns the row of the instance whose tangent, and what morph targets add, suits the normal of such a
+  /// vertex best: its own where that has its normal; else, among the rows that differ from it in nothing but
+  /// what goes with normals, one with this normal, or the one whose normal is nearest.
   Index row_at(const Gltf_scene::Column& column, Index scene_vertex, const std::array<double, 3>& normal);
 
-private:
-  /// By the normals in world space and positions in the node, as bytes.
-  using Rows = std::map<std::string, Index>;
+  /// Returns the bytes in a column of tangents for such a vertex: those of `row_at` where it has this normal,
+  /// else turned to be perpendicular to it, as precise as the file has them. The side is that of the row.
+  std::string tangent_of(const Gltf_scene::Column& tangents, const Gltf_scene::Column& normals,
+                         Index scene_vertex, const std::array<double, 3>& normal);
 
-  bool is_of_row(const Gltf_scene::Column& column, Index scene_vertex,
-                 const std::array<double, 3>& normal) const;
+private:
+  /// The rows of an instance, by position in the node; and the first with a normal in world space.
+  struct Rows
+  {
+    std::unordered_map<std::string_view, std::vector<Index>> by_position;
+    std::unordered_map<std::string, Index> by_normal;
+  };
+
+  bool has_normal(const Gltf_scene::Column& column, std::size_t instance, Index row,
+                  const std::array<double, 3>& normal) const;
   const Rows& rows_of(const Gltf_scene::Column& column, std::size_t instance);
-  std::string key(Index scene_vertex, const std::array<double, 3>& normal) const;
 
   const Gltf_scene& m_scene;
   std::map<std::size_t, Rows> m_rows; // by instance

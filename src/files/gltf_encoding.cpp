@@ -364,28 +364,39 @@ std::optional<Draco_primitive> encoded_by_draco(const std::vector<Gltf_scene::Co
 #endif
 }
 
-std::optional<std::array<double, 3>> quantised_normal(const Gltf_scene::Column& column,
-                                                      const std::array<double, 3>& normal)
+std::optional<std::array<double, 3>> quantised_direction(const Gltf_scene::Column& column,
+                                                         const std::array<double, 3>& direction)
 {
   if (column.quantised_accessor && column.quantised_accessor->value("normalized", false))
     return with_number(attribute_type((*column.quantised_accessor)["componentType"]), [&](auto zero) {
       constexpr double one = double(std::numeric_limits<decltype(zero)>::max());
       std::array<double, 3> result;
       for (std::size_t k = 0; k < 3; ++k)
-        result[k] = float(std::round(normal[k] * one) / one + 0.); // -0 is no whole number
+        result[k] = float(std::round(direction[k] * one) / one + 0.); // -0 is no whole number
       return result;
     });
 #ifdef SELVEDGE_HAS_DRACO
-  if (column.compression && column.compression->quantisation &&
-      column.compression->quantisation->origin.empty()) {
-    draco::OctahedronToolBox directions;
-    std::int32_t s, t;
-    std::array<float, 3> result;
-    if (directions.SetQuantizationBits(column.compression->quantisation->bits)) {
-      directions.FloatVectorToQuantizedOctahedralCoords(normal.data(), &s, &t);
-      directions.QuantizedOctahedralCoordsToUnitVector(s, t, result.data());
-      return std::array<double, 3>{result[0], result[1], result[2]};
+  if (!column.compression || !column.compression->quantisation)
+    return std::nullopt;
+  const Gltf_scene::Compression::Quantisation& quantisation = *column.compression->quantisation;
+  if (!quantisation.origin.empty()) { // steps in a box, as Draco computes them
+    const float most = float((1u << quantisation.bits) - 1), size = quantisation.range / most;
+    std::array<double, 3> result;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double step = std::round((direction[k] - quantisation.origin[k]) / size);
+      if (!(step >= 0 && step <= most))
+        return std::nullopt;
+      result[k] = float(step) * size + quantisation.origin[k];
     }
+    return result;
+  }
+  draco::OctahedronToolBox directions;
+  std::int32_t s, t;
+  std::array<float, 3> result;
+  if (directions.SetQuantizationBits(quantisation.bits)) {
+    directions.FloatVectorToQuantizedOctahedralCoords(direction.data(), &s, &t);
+    directions.QuantizedOctahedralCoordsToUnitVector(s, t, result.data());
+    return std::array<double, 3>{result[0], result[1], result[2]};
   }
 #endif
   return std::nullopt;

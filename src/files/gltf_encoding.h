@@ -35,10 +35,11 @@ struct Draco_primitive
 std::optional<Draco_primitive> encoded_by_draco(const std::vector<Gltf_scene::Column>& columns,
                                                 const std::vector<Index>& corners, bool may_reorder);
 
-/// Returns the normal nearest to another one among those that its column could give in the file: of whole
-/// numbers by KHR_mesh_quantization, or quantised by Draco. Nothing where the column held floats.
-std::optional<std::array<double, 3>> quantised_normal(const Gltf_scene::Column& column,
-                                                      const std::array<double, 3>& normal);
+/// Returns the direction nearest to that of a normal or tangent among those that its column could give in the
+/// file: of whole numbers by KHR_mesh_quantization, or quantised by Draco. Nothing where the column held
+/// floats, or where the direction is not in the box in which Draco quantised it.
+std::optional<std::array<double, 3>> quantised_direction(const Gltf_scene::Column& column,
+                                                         const std::array<double, 3>& direction);
 
 /// Compresses the bytes of a buffer view as EXT_meshopt_compression has it: rows of so many bytes, or
 /// triangles of indices of so many bytes. Decoding gives the same bytes; where `may_rotate` is given, the

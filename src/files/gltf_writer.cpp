@@ -153,7 +153,7 @@ private:
     std::vector<std::unordered_set<std::string>> known;
     for (const Gltf_scene::Instance& instance : m_scene.instances) {
       const Column* const normals = block(instance).normals();
-      const bool are_quantised = normals && quantised_normal(*normals, {0, 0, 1});
+      const bool are_quantised = normals && quantised_direction(*normals, {0, 0, 1});
       columns.push_back(are_quantised && !m_normals.empty() ? normals : nullptr);
       known.emplace_back();
       for (Index row = 0; row < block(instance).size && columns.back(); ++row)
@@ -172,8 +172,9 @@ private:
         if (is_new && known[i].count(bits_of(normal)) == 0) {
           const Gltf_scene::Instance& own = m_scene.instances[i];
           number->second = Index(m_normals.values.size());
+          const std::array<double, 3> local = local_normal(own, normal);
           m_normals.values.push_back(
-              world_normal(own, *quantised_normal(*columns[i], local_normal(own, normal))));
+              world_normal(own, quantised_direction(*columns[i], local).value_or(local)));
         }
         corner = number->second;
       }
@@ -324,6 +325,7 @@ private:
       };
       const Column* const normals = m_soup.normals.empty() ? nullptr : block(instance).normals();
       const auto put_rows = [&](const Column& column) {
+        // NORMAL and TANGENT of a morph target go with the normal.
         const bool is_of_normals = normals && (column.name == "NORMAL" || column.name == "TANGENT");
         return put(column, [&](const Vertices_by_normal::Vertex& v) {
           return !is_of_normals || v.normal == m_normals.missing
@@ -344,6 +346,13 @@ private:
                        ? std::string(row_of(column, v))
                        : m_local_normals.bytes_of(column, m_soup.scene_vertices[v.vertex],
                                                   m_normals.values[v.normal]);
+          });
+        else if (normals && column.name == "TANGENT")
+          m_attributes[i][column.name] = put(column, [&](const Vertices_by_normal::Vertex& v) {
+            return v.normal == m_normals.missing
+                       ? std::string(row_of(column, v))
+                       : m_local_normals.tangent_of(column, *normals, m_soup.scene_vertices[v.vertex],
+                                                    m_normals.values[v.normal]);
           });
         else
           m_attributes[i][column.name] = put_rows(column);

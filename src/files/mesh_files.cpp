@@ -335,6 +335,7 @@ std::vector<std::string> not_carried(const Triangle_soup& soup, Mesh_format form
     say(!soup.header_comments.empty(), "comments of the header");
   }
   say(format == Mesh_format::stl && !soup.points.empty(), "vertex numbers");
+  say(has_tangents_in_scene_only(soup), "tangents");
   if (soup.scene)
     for (const std::string& name : files::only_in_gltf(*soup.scene))
       say(true, name);

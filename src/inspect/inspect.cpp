@@ -5,6 +5,7 @@
 
 #include "soup/Gltf_scene.h"
 #include "soup/Sewn_mesh.h"
+#include "soup/flat_shading.h"
 #include "surface_distances.h"
 #include "verify/Diagonal.h"
 #include "verify/pieces.h"
@@ -188,6 +189,7 @@ private:
       seams.by_labels += differences.in_label;
       seams.by_doubles += differences.in_doubles;
     }
+    seams.by_attributes = seams_of_attributes(m_soup, m_prepared.positions);
   }
 
   const Prepared_soup& m_prepared;
@@ -224,6 +226,8 @@ Contents contents_of(const Mesh_file& file)
   for (const auto* attributes : {&soup.vertex_attributes, &soup.triangle_attributes})
     for (const Attribute& attribute : *attributes)
       contents.attributes.push_back(attribute.name);
+  if (has_tangents_in_scene_only(soup))
+    contents.attributes.push_back("TANGENT");
   return contents;
 }
 

@@ -106,6 +106,26 @@ Attribute::Type attribute_type(int component_type)
   }
 }
 
+Row_bytes bytes_of_row(const Gltf_scene::Block& block, std::size_t row)
+{
+  Row_bytes result;
+  for (const Gltf_scene::Column& column : block.attributes) {
+    const std::string_view bytes = column.row(row);
+    if (column.name == "TANGENT" && column.components == 4) {
+      const std::size_t direction = bytes.size() / 4 * 3;
+      result.tangent += bytes.substr(0, direction);
+      result.side += bytes.substr(direction);
+    } else if (column.name != "NORMAL") {
+      result.others += bytes;
+    }
+  }
+  for (const std::vector<Gltf_scene::Column>& target : block.targets)
+    for (const Gltf_scene::Column& column : target)
+      (column.name == "NORMAL" || column.name == "TANGENT" ? result.targets : result.others) +=
+          column.row(row);
+  return result;
+}
+
 double component(const Gltf_scene::Column& column, std::size_t row, std::size_t place)
 {
   return with_number(attribute_type(column.component_type), [&](auto number) {
@@ -165,6 +185,25 @@ std::array<double, 3> local_normal(const Gltf_scene::Instance& instance, const s
   for (std::size_t i = 0; i < 3; ++i)
     result[i] = m[0][i] * normal[0] + m[1][i] * normal[1] + m[2][i] * normal[2];
   return unit(result, 1);
+}
+
+std::array<double, 3> perpendicular(const std::array<double, 3>& tangent, const std::array<double, 3>& normal)
+{
+  const std::array<double, 3> axis = unit(normal, 1);
+  const auto beside_axis = [&](std::array<double, 3> vector) {
+    const double along = product(vector, axis);
+    for (std::size_t i = 0; i < 3; ++i)
+      vector[i] -= along * axis[i];
+    return vector;
+  };
+  constexpr double least = 1e-6; // what is less has come from rounding
+  const std::array<double, 3> result = beside_axis(unit(tangent, 1));
+  if (product(result, result) > least * least)
+    return unit(result, 1);
+  const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  std::array<double, 3> other{};
+  other[std::size_t(std::min_element(axis.begin(), axis.end(), smaller) - axis.begin())] = 1;
+  return unit(beside_axis(other), 1);
 }
 
 Point_3 world_position(const Matrix& to_world, const std::array<double, 3>& local)

@@ -196,6 +196,17 @@ void append_little_endian(std::string& rows, Number number)
     rows += static_cast<char>(bits >> (8 * i) & 0xff);
 }
 
+/// What a vertex has in a row of its block, apart from its normal, as bytes.
+struct Row_bytes
+{
+  std::string others;  ///< everything that follows is no part of
+  std::string side;    ///< of its tangent: the sign that says whether the texture is mirrored
+  std::string tangent; ///< the direction of its tangent
+  std::string targets; ///< what morph targets add to its normal and its tangent
+};
+
+Row_bytes bytes_of_row(const Gltf_scene::Block& block, std::size_t row);
+
 /// Returns a component as a number; normalised integers are not divided.
 double component(const Gltf_scene::Column& column, std::size_t row, std::size_t place);
 
@@ -216,6 +227,11 @@ std::array<double, 3> world_normal(const Gltf_scene::Instance& instance, const G
 
 /// Returns a normal of length 1 whose direction in world space is about this one.
 std::array<double, 3> local_normal(const Gltf_scene::Instance& instance, const std::array<double, 3>& normal);
+
+/// Returns the direction of length 1 nearest to a tangent among those that are perpendicular to a normal.
+/// Where the tangent has no direction of its own there, it is any of them.
+std::array<double, 3> perpendicular(const std::array<double, 3>& tangent,
+                                    const std::array<double, 3>& normal);
 
 /// Returns ((m0 x + m1 y) + m2 z) + m3 in doubles, for each row m of the matrix.
 Point_3 world_position(const Gltf_scene::Matrix& to_world, const std::array<double, 3>& local);

@@ -240,9 +240,22 @@ Vertex_values::Numbers Vertex_values::mixed(const Shares& shares, const Share& o
   if (m_soup.scene) {
     const auto row_of = [this](const Share& share) { return scene_row(vertex_of(share.corner)); };
     mix_influences(row_of, shares, own, result);
-    for (const char* name : {"NORMAL", "TANGENT"})
-      if (const Column* const column = row_of(own).table->find(name, name[0] == 'N' ? 3 : 4))
-        normalize(*column, numbers_of_own, result);
+    const Column* const normal = row_of(own).table->find("NORMAL", 3);
+    const Column* const tangent = row_of(own).table->find("TANGENT", 4);
+    if (normal)
+      normalize(*normal, numbers_of_own, result);
+    if (normal && tangent) {
+      const auto direction = [&](const Column& column) {
+        return result.begin() + std::ptrdiff_t(column.first);
+      };
+      std::array<double, 3> axis, along;
+      std::copy_n(direction(*normal), 3, axis.begin());
+      std::copy_n(direction(*tangent), 3, along.begin());
+      const std::array<double, 3> beside = perpendicular(along, axis);
+      std::copy(beside.begin(), beside.end(), direction(*tangent));
+    }
+    if (tangent)
+      normalize(*tangent, numbers_of_own, result);
   }
   for (std::size_t i = 0; i < result.size(); ++i)
     if (!std::isfinite(result[i]))

@@ -54,51 +54,62 @@ std::vector<Index> normals_of_vertices(const Triangle_soup& soup)
   });
 }
 
-// What a vertex has, as bytes: on the one hand its normal, and what means nothing without it if normals are
-// dropped; on the other hand everything else.
-class Vertex_bytes
+// Which of the vertices that differ in nothing but what goes with their normals become one.
+enum class Sharing {
+  flat,           // all, unless morph targets tell those with one normal apart
+  near,           // those whose normals are nearly alike, unless tangents tell those with one normal apart
+  loose,          // all
+  without_normals // all, whatever the sides of their tangents
+};
+
+// What a vertex has, as bytes.
+struct Vertex_bytes
+{
+  std::string normal, tangent, targets; // as in `Row_bytes`
+  std::string others;                   // must be alike
+
+  bool is_same(const Vertex_bytes& other) const
+  {
+    return normal == other.normal && tangent == other.tangent && targets == other.targets;
+  }
+};
+
+class Vertex_reader
 {
 public:
-  Vertex_bytes(const Triangle_soup& soup, const std::vector<Index>& normals, const std::vector<Index>& uvs,
-               bool are_normals_dropped)
-      : m_soup(soup), m_normals(normals), m_uvs(uvs), m_are_normals_dropped(are_normals_dropped)
+  Vertex_reader(const Triangle_soup& soup, const std::vector<Index>& normals, const std::vector<Index>& uvs,
+                Sharing sharing)
+      : m_soup(soup), m_normals(normals), m_uvs(uvs), m_sharing(sharing)
   {
   }
 
-  struct Bytes
+  Vertex_bytes operator()(Index vertex) const
   {
-    std::string of_normals, others;
-  };
-
-  Bytes operator()(Index vertex) const
-  {
-    Bytes result;
+    Vertex_bytes result;
     std::string& bytes = result.others;
     const auto append = [](std::string& to, const auto& value) {
       to.append(reinterpret_cast<const char*>(&value), sizeof value);
     };
-    append(result.of_normals, m_soup.normals.values[m_normals[vertex]]);
+    append(result.normal, m_soup.normals.values[m_normals[vertex]]);
     const auto append_point = [&](const Point_3& point) {
       for (int i = 0; i < 3; ++i)
-        append(bytes, m_are_normals_dropped && point[i] == 0 ? 0.0 : point[i]);
+        append(bytes, m_sharing >= Sharing::loose && point[i] == 0 ? 0.0 : point[i]);
     };
     for (const Pose& pose : m_soup.poses)
       append_point(pose.points[vertex]);
     if (m_soup.scene) {
       const std::size_t number = m_soup.scene->instance_of(m_soup.scene_vertices[vertex]);
       const Gltf_scene::Instance& instance = m_soup.scene->instances[number];
-      const Gltf_scene::Block& block = m_soup.scene->blocks[instance.block];
-      const std::size_t row = m_soup.scene_vertices[vertex] - instance.first;
+      Row_bytes row =
+          bytes_of_row(m_soup.scene->blocks[instance.block], m_soup.scene_vertices[vertex] - instance.first);
       append(bytes, number);
-      const auto is_dropped = [&](const Gltf_scene::Column& column) {
-        return m_are_normals_dropped && (column.name == "NORMAL" || column.name == "TANGENT");
-      };
-      for (const Gltf_scene::Column& column : block.attributes)
-        if (column.name != "NORMAL")
-          (is_dropped(column) ? result.of_normals : bytes) += column.row(row);
-      for (const std::vector<Gltf_scene::Column>& target : block.targets)
-        for (const Gltf_scene::Column& column : target)
-          (is_dropped(column) ? result.of_normals : bytes) += column.row(row);
+      bytes += row.others;
+      if (m_sharing != Sharing::without_normals)
+        bytes += row.side;
+      if (m_sharing == Sharing::near)
+        bytes += row.targets;
+      result.tangent = std::move(row.tangent);
+      result.targets = std::move(row.targets);
       return result;
     }
     append_point(m_soup.points[vertex]);
@@ -115,16 +126,13 @@ private:
   const Triangle_soup& m_soup;
   const std::vector<Index>& m_normals; // by vertex
   const std::vector<Index>& m_uvs;     // by vertex; empty where corners have them
-  bool m_are_normals_dropped;
+  Sharing m_sharing;
 };
-
-// Which of the vertices that differ in nothing but their normals become one.
-enum class Sharing { all, near, without_normals };
 
 std::size_t share_vertices(Triangle_soup& soup, Sharing sharing)
 {
   const std::equal_to<Index> are_equal;
-  const std::vector<Index> normals = sharing == Sharing::without_normals
+  const std::vector<Index> normals = sharing >= Sharing::loose
                                          ? normals_of_vertices(soup)
                                          : numbers_of_vertices(soup, soup.normals.of_triangle, are_equal);
   if (normals.empty())
@@ -139,27 +147,50 @@ std::size_t share_vertices(Triangle_soup& soup, Sharing sharing)
   struct Shared_vertex
   {
     Index first;
-    std::string bytes_of_normals;
+    std::vector<Vertex_bytes> rows; // of the first vertex and, where there are morph targets, of all
+  };
+  const auto suits = [&](const Shared_vertex& shared, Index v, const Vertex_bytes& bytes) {
+    if (sharing == Sharing::flat)
+      return std::none_of(shared.rows.begin(), shared.rows.end(), [&](const Vertex_bytes& row) {
+        return row.normal == bytes.normal && row.targets != bytes.targets;
+      });
+    const Vertex_bytes& first = shared.rows.front();
+    return sharing != Sharing::near ||
+           (are_near_normals(soup.normals.values[normals[shared.first]], soup.normals.values[normals[v]]) &&
+            (first.normal != bytes.normal || first.tangent == bytes.tangent));
   };
   std::unordered_map<std::string, std::vector<Shared_vertex>> vertices; // by all other bytes
   std::vector<Index> first(soup.points.size(), s_no_number);
   std::vector<char> is_shared(soup.points.size(), false); // by first vertex
-  const Vertex_bytes bytes_of(soup, normals, uvs, sharing == Sharing::without_normals);
+  bool do_tangents_differ = false;
+  const Vertex_reader bytes_of(soup, normals, uvs, sharing);
   Cancellation_poll poll;
   for (Index v = 0; v < normals.size(); ++v) {
     poll();
     if (normals[v] == s_no_number)
       continue;
-    const Vertex_bytes::Bytes bytes = bytes_of(v);
-    std::vector<Shared_vertex>& alike = vertices[bytes.others];
-    auto found = alike.begin();
-    while (found != alike.end() && sharing == Sharing::near &&
-           !are_near_normals(soup.normals.values[normals[found->first]], soup.normals.values[normals[v]]))
-      ++found;
-    if (found == alike.end())
-      found = alike.insert(found, {v, bytes.of_normals});
+    Vertex_bytes bytes = bytes_of(v);
+    std::vector<Shared_vertex>& alike = vertices[std::exchange(bytes.others, {})];
+    const auto found = std::find_if(alike.begin(), alike.end(),
+                                    [&](const Shared_vertex& shared) { return suits(shared, v, bytes); });
+    if (found == alike.end()) {
+      first[v] = v;
+      is_shared[v] = have_faces_own;
+      alike.push_back({v, {std::move(bytes)}});
+      continue;
+    }
     first[v] = found->first;
-    is_shared[found->first] |= have_faces_own || found->bytes_of_normals != bytes.of_normals;
+    is_shared[found->first] |= !found->rows.front().is_same(bytes);
+    do_tangents_differ |= found->rows.front().tangent != bytes.tangent;
+    if (!bytes.targets.empty())
+      found->rows.push_back(std::move(bytes));
+  }
+  // What the scene alone holds then: other formats have one row for each vertex.
+  if (do_tangents_differ) {
+    auto& attributes = soup.vertex_attributes;
+    attributes.erase(std::remove_if(attributes.begin(), attributes.end(),
+                                    [](const Attribute& attribute) { return attribute.name == "TANGENT"; }),
+                     attributes.end());
   }
   std::size_t joined = 0;
   for (std::size_t t = 0; t < soup.triangles.size(); ++t)
@@ -179,12 +210,23 @@ std::size_t share_vertices(Triangle_soup& soup, Sharing sharing)
 
 std::size_t share_split_vertices(Triangle_soup& soup)
 {
-  return share_vertices(soup, has_flat_normals(soup) ? Sharing::all : Sharing::near);
+  return share_vertices(soup, has_flat_normals(soup) ? Sharing::flat : Sharing::near);
 }
 
-std::size_t share_vertices_without_normals(Triangle_soup& soup)
+std::size_t share_vertices_without_normals(Triangle_soup& soup, Normals_choice choice)
 {
-  return share_vertices(soup, Sharing::without_normals);
+  return share_vertices(soup, choice == Normals_choice::loose ? Sharing::loose : Sharing::without_normals);
+}
+
+bool has_tangents_in_scene_only(const Triangle_soup& soup)
+{
+  const auto is_tangent = [](const auto& values) { return values.name == "TANGENT"; };
+  const auto has_tangents = [&](const auto& list) {
+    return std::any_of(list.begin(), list.end(), is_tangent);
+  };
+  return soup.scene && !has_tangents(soup.vertex_attributes) &&
+         std::all_of(soup.scene->blocks.begin(), soup.scene->blocks.end(),
+                     [&](const Gltf_scene::Block& block) { return has_tangents(block.attributes); });
 }
 
 Vertices_by_normal vertices_by_normal(const Triangle_soup& soup, const Corner_values<3>& normals)

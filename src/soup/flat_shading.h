@@ -41,12 +41,18 @@ bool are_numbered_like_vertices(const Corner_values<dimension>& values, const Tr
 ///
 /// Alike, bit for bit, must be position, attributes, and texture coordinates if they are those of vertices;
 /// in a glTF scene the node and the rows of all accessors but NORMAL, those of morph targets included; and
-/// the position in all poses.
+/// the position in all poses. Of TANGENT, only the side (w) must be alike, and its direction where vertices
+/// that do not shade flat have one normal, bit for bit; where they shade flat, neither need be what morph
+/// targets add to NORMAL and TANGENT, unless the normals are one. Where vertices of different tangents become
+/// one, the scene alone has tangents then, and not `vertex_attributes`.
 ///
 /// Returns how many corners name another vertex now. Does nothing where a vertex has two normals.
 ///
 /// **Complexity** O(n) expected for n triangles and bounded numbers of such vertices at one place.
 std::size_t share_split_vertices(Triangle_soup& soup);
+
+/// Whether vertices that differed in their tangents are one, so that the scene alone has tangents.
+bool has_tangents_in_scene_only(const Triangle_soup& soup);
 
 /// The vertices of a soup as a file holds them that has one normal for each.
 struct Vertices_by_normal

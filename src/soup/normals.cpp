@@ -4,6 +4,7 @@
 #include <selvedge/normals.h>
 
 #include "Disjoint_sets.h"
+#include "inner_edges.h"
 #include "near_normals.h"
 #include "number_positions.h"
 #include "selection.h"
@@ -18,7 +19,6 @@
 #include <map>
 #include <numeric>
 #include <optional>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -29,6 +29,8 @@ namespace {
 
 using internal::cross;
 using internal::dot;
+using internal::for_each_inner_edge;
+using internal::Side;
 using shading::cosines;
 using shading::difference;
 using shading::normal_at;
@@ -79,38 +81,6 @@ Vector unit_normal(const Triangle_soup& soup, const std::vector<Index>& triangle
 bool is_within(const Vector& a, const Vector& b, double cosine)
 {
   return dot(unit(a), unit(b)) >= cosine;
-}
-
-// A side of a triangle. Corners have the numbers 3 × triangle + place.
-struct Side
-{
-  Index low, high;       // the vertices of the edge
-  Index at_low, at_high; // the corners there
-};
-
-// Visits every edge of two triangles, by the two sides there.
-template <class Function>
-void for_each_inner_edge(const std::vector<Index_triple>& triangles, const Function& function)
-{
-  std::vector<Side> sides;
-  for (Index t = 0; t < triangles.size(); ++t)
-    for (Index k = 0; k < 3; ++k) {
-      const Index l = (k + 1) % 3;
-      const Index a = triangles[t][k], b = triangles[t][l];
-      sides.push_back(a < b ? Side{a, b, 3 * t + k, 3 * t + l} : Side{b, a, 3 * t + l, 3 * t + k});
-    }
-  const auto edge = [](const Side& side) { return std::make_pair(side.low, side.high); };
-  std::sort(sides.begin(), sides.end(), [&](const Side& a, const Side& b) {
-    return std::make_tuple(a.low, a.high, a.at_low) < std::make_tuple(b.low, b.high, b.at_low);
-  });
-  for (std::size_t i = 0; i < sides.size();) {
-    std::size_t end = i + 1;
-    while (end < sides.size() && edge(sides[end]) == edge(sides[i]))
-      ++end;
-    if (end - i == 2)
-      function(sides[i], sides[i + 1]);
-    i = end;
-  }
 }
 
 // Gives the corners between two hard edges at a vertex the value of the first of them.

@@ -337,6 +337,33 @@ TEST(App_simplify, WritesWhenTheTargetIsOutOfReach)
   EXPECT_EQ(contents_of(out), written);
 }
 
+TEST(App_simplify, NamesTheAttributeThatMakesSeams)
+{
+  const Workspace folder;
+  Triangle_soup soup; // every triangle has vertices, and a heat, of its own
+  Attribute heat{"heat", Attribute::Type::uint16, 1, false, {}};
+  const Triangle_soup grid = sheet(20, 20);
+  for (const Index_triple& triangle : grid.triangles) {
+    const Index v = Index(soup.points.size()), t = v / 3;
+    soup.triangles.push_back({v, v + 1, v + 2});
+    for (const Index corner : triangle) {
+      soup.points.push_back(grid.points[corner]);
+      heat.rows.insert(heat.rows.end(), {static_cast<unsigned char>(t), static_cast<unsigned char>(t >> 8)});
+    }
+  }
+  write_mesh(folder / "cool.ply", soup);
+  soup.vertex_attributes.push_back(heat);
+  write_mesh(folder / "heat.ply", soup);
+  const auto says = [&](const std::string& in, const char* what) {
+    return run_app({"simplify", in, "-o", folder / "out.ply", "--faces", "1"}).out.find(what) !=
+           std::string::npos;
+  };
+  const char* const what = "; 1,160 edges of the input are seams because of heat and nothing else: ";
+  EXPECT_TRUE(says(folder / "heat.ply", what));
+  EXPECT_NE(run_app({"info", folder / "heat.ply"}).out.find("it is for heat (1,160)"), std::string::npos);
+  EXPECT_FALSE(says(folder / "cool.ply", "seams because of"));
+}
+
 // The options named are those that help: with them, the target is reached.
 TEST(App_simplify, NamesTheOptionsThatHelp)
 {

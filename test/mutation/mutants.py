@@ -207,9 +207,10 @@ group(
     ("||\n        is_cut_off(profile.v0_v1(), *this))", ")", "a face whose edges are all lines vanishes"),
 )
 for file, *entry in (
-    ("src/soup/flat_shading.cpp", 'if (column.name != "NORMAL")', "if (true)", "normals keep vertices of glTF apart"),
-    ("src/soup/flat_shading.cpp", "|= have_faces_own ||", "|= true ||", "pieces beside each other are joined"),
-    ("src/soup/flat_shading.cpp", "return m_are_normals_dropped && (column.name", "return false && (column.name",
+    ("src/soup/Gltf_scene.cpp", '} else if (column.name != "NORMAL") {', "} else {", "normals keep vertices of glTF apart"),
+    ("src/soup/flat_shading.cpp", "is_shared[v] = have_faces_own;", "is_shared[v] = true;",
+     "pieces beside each other are joined"),
+    ("src/soup/Gltf_scene.cpp", '(column.name == "NORMAL" || column.name == "TANGENT" ?', "(false ?",
      "normals of targets keep vertices apart whose normals are dropped"),
     ("src/soup/flat_shading.cpp", "append_point(pose.points[vertex]);", ";", "vertices that part in a pose are joined"),
     ("src/soup/normals.cpp", "is_in_its_place(t) || is_made_within(t, s_cosine_flat)", "true",
@@ -279,9 +280,23 @@ group(
     ("if (number(joints, row.number, i) == joint)", "if (number(joints, own_row.number, i) == joint)",
      "weights are mixed by their places, not by their joints"),
     ("if (users[instance.block] > 1) {", "if (false) {", "nodes that share a mesh share new places"),
-    ("*column, numbers_of_own, result);", "*column, result, result);", "the sign of a tangent is mixed"),
+    ("normalize(*tangent, numbers_of_own, result);", "normalize(*tangent, result, result);", "the sign of a tangent is mixed"),
     ("result[i] = i == 0 ? coordinate : 1 - coordinate;", "result[i] = coordinate;", "texture upside down"),
 )
+for file, *entry in (
+    ("src/soup/flat_shading.cpp", "row.normal == bytes.normal && row.targets != bytes.targets", "false",
+     "a ridge that a morph target makes is lost"),
+    ("src/soup/flat_shading.cpp", "if (m_sharing != Sharing::without_normals)", "if (false)",
+     "tangents of both sides of a mirrored texture become one"),
+    ("src/soup/flat_shading.cpp", "do_tangents_differ |=", "do_tangents_differ &=",
+     "other formats get one tangent of several"),
+    ("src/files/Local_normals.cpp", "if (cosine > highest)", "if (false)", "tangents are those of a face far away"),
+    ("src/files/Local_normals.cpp", "return result.replace(0, turned.size(), turned);", "return result;",
+     "tangents are not perpendicular to new normals"),
+    ("src/soup/Vertex_values.cpp", "if (normal && tangent) {", "if (false) {",
+     "tangents at new places are not perpendicular to normals"),
+):
+    group(file, ("gltf_tangents_test",), tuple(entry))
 group(
     "src/soup/Gltf_scene.cpp",
     ("gltf_writing_test:Gltf.NewPlaces*",),

@@ -830,6 +830,25 @@ TEST(Gltf_draco, KeepsPlacesThatItsQuantisationDoesNotHave)
   EXPECT_EQ(notes.begin()->second, 1u);
 }
 
+TEST(Gltf_draco, HasNewNormalsInTheBoxOfItsQuantisation)
+{
+  const auto is_held_as_floats = [](const std::array<double, 3>& normal) {
+    Mesh_file file = read(draco_sheet(true, true)); // whose box goes from (0.6, 0, 0.8) to (1.6, 1, 1.8)
+    file.soup.normals.values[7] = normal;
+    const Temporary_folder folder;
+    const Write_notes notes = write_mesh(folder / "m.glb", file.soup);
+    double nearest = 1;
+    for (const auto& [x, y, z] : read_mesh(folder / "m.glb").soup.normals.values)
+      nearest = std::min(nearest, std::hypot(x - normal[0], y - normal[1], z - normal[2]));
+    EXPECT_LT(nearest, 1e-3);
+    return std::any_of(notes.begin(), notes.end(), [](const auto& note) {
+      return note.first.find("attributes that Draco holds as floats") == 0;
+    });
+  };
+  EXPECT_FALSE(is_held_as_floats({0.6, 0.17, 0.8}));
+  EXPECT_TRUE(is_held_as_floats({0, 0, 1}));
+}
+
 TEST(Gltf_draco, KeepsTheOrderOfAMeshInSeveralPoses)
 {
   Mesh_file file = read(draco_sheet(true, true));

@@ -57,7 +57,7 @@ Triangle_soup input_of(const World& world)
 {
   Triangle_soup soup = world.soup;
   if (joins_vertices(world.normals))
-    share_vertices_without_normals(soup);
+    share_vertices_without_normals(soup, world.normals);
   return soup;
 }
 

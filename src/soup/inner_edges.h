@@ -1,0 +1,51 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_SRC_SOUP_INNER_EDGES_H
+#define SELVEDGE_SRC_SOUP_INNER_EDGES_H
+
+#include <selvedge/Triangle_soup.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace selvedge::internal {
+
+/// A side of a triangle. Corners have the numbers 3 × triangle + place.
+struct Side
+{
+  Index low, high;       ///< the vertices of the edge
+  Index at_low, at_high; ///< the corners there
+};
+
+/// Visits every edge of two triangles, by the two sides there. O(n log n).
+template <class Function>
+void for_each_inner_edge(const std::vector<Index_triple>& triangles, const Function& function)
+{
+  std::vector<Side> sides;
+  for (Index t = 0; t < triangles.size(); ++t)
+    for (Index k = 0; k < 3; ++k) {
+      const Index l = (k + 1) % 3;
+      const Index a = triangles[t][k], b = triangles[t][l];
+      sides.push_back(a < b ? Side{a, b, 3 * t + k, 3 * t + l} : Side{b, a, 3 * t + l, 3 * t + k});
+    }
+  const auto edge = [](const Side& side) { return std::make_pair(side.low, side.high); };
+  std::sort(sides.begin(), sides.end(), [&](const Side& a, const Side& b) {
+    return std::make_tuple(a.low, a.high, a.at_low) < std::make_tuple(b.low, b.high, b.at_low);
+  });
+  for (std::size_t i = 0; i < sides.size();) {
+    std::size_t end = i + 1;
+    while (end < sides.size() && edge(sides[end]) == edge(sides[i]))
+      ++end;
+    if (end - i == 2)
+      function(sides[i], sides[i + 1]);
+    i = end;
+  }
+}
+
+} // namespace selvedge::internal
+
+#endif // SELVEDGE_SRC_SOUP_INNER_EDGES_H
