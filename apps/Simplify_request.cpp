@@ -586,20 +586,20 @@ void add_options(CLI::App& command, Simplify_request& request)
       .add_option(
           "--normals", request.normals,
           "Normals of the input: keep them as they are, so that an edge with different normals on its "
-          "two sides is a seam; loose makes no seams of such edges: each face gets those normals of its "
-          "vertices that suit it best; fit them to the shading of the input, which is truer on large faces "
-          "than what is kept at their corners; make them anew, with the hard edges of the input; or leave "
-          "them out, so that vertices of PLY and glTF that differ in nothing else are one. "
-          "auto makes those anew that give every face its own normal, or that would come to belong to "
-          "another side of the surface, and keeps others, but those that differ by at most 0.1 degrees at a "
-          "vertex become one.")
+          "two sides is a seam; mend them: those that give every face its own normal, or that would come to "
+          "belong to another side of the surface, are made anew, and those that differ by at most 0.1 "
+          "degrees at a vertex become one; loose also makes no seams of edges: each face gets those normals "
+          "of its vertices that suit it best; recompute makes all anew, with the hard edges of the input; or "
+          "leave them out, so that vertices of PLY and glTF that differ in nothing else are one. "
+          "auto mends them, and then fits them to the shading of the input, which is truer on large faces "
+          "than what is kept at their corners.")
       ->transform(one_of<Normals_choice>({{"auto", Normals_choice::automatic},
                                           {"keep", Normals_choice::keep},
+                                          {"mend", Normals_choice::mend},
                                           {"loose", Normals_choice::loose},
-                                          {"fit", Normals_choice::fit},
                                           {"recompute", Normals_choice::recompute},
                                           {"drop", Normals_choice::drop}}))
-      ->type_name("auto|keep|loose|fit|recompute|drop")
+      ->type_name("auto|keep|mend|loose|recompute|drop")
       ->default_str("auto")
       ->group(seams);
 

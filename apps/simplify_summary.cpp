@@ -58,13 +58,6 @@ std::string what_is_flattened(const Simplify_request& request, const Level& leve
          " keeps more of its shape";
 }
 
-/// Whether so many corners have new normals that others will be wrong on their large faces, too.
-bool is_much_mended(const Prepared_soup& prepared, const Simplified_soup& result)
-{
-  return prepared.normals == Normals_treatment::mended &&
-         20 * result.mended_normals > 3 * result.soup.triangles.size();
-}
-
 bool has_vertex_values(const Triangle_soup& soup)
 {
   return !soup.uvs.empty() || !soup.normals.empty() || !soup.vertex_attributes.empty() ||
@@ -435,8 +428,7 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
            << with_commas(3 * faces);
   else if (result.mended_normals > 0)
     stream << "\nnormals: kept, but for " << counted(result.mended_normals, "corner")
-           << " with a new one, as the old one is too far from the normal of the face"
-           << (is_much_mended(prepared, result) ? "; --normals fit shades nearer to the input" : "");
+           << " with a new one, as the old one is too far from the normal of the face";
   if (polygons.input > 0)
     stream << "\npolygons: " << with_commas(polygons.output) << " of " << counted(polygons.input, "face")
            << " of more than three corners written as they were";

@@ -17,14 +17,14 @@ namespace selvedge {
 /// of a line move only along it. That is right for hard edges, and freezes a mesh in which every triangle has
 /// normals of its own.
 enum class Normals_choice {
-  automatic, ///< flat normals are made anew for the faces that change (`keep_flat_normals`); all others are
+  automatic, ///< as `mend`; but those that are kept then give way to others, with which the result shades
+             ///< most like the original (`fit_normals`)
+  keep,      ///< every corner of the result has a normal that some corner of the input has, bit for bit
+  mend,      ///< flat normals are made anew for the faces that change (`keep_flat_normals`); all others are
              ///< kept, those that are nearly alike at a vertex as one (`join_near_normals`), and mended
              ///< (`mend_normals`)
-  keep,      ///< every corner of the result has a normal that some corner of the input has, bit for bit
-  loose,     ///< as `automatic`; but different normals make no lines: every corner gets that normal of its
-             ///< vertex which suits its triangle best (`pick_normals`)
-  fit, ///< as `automatic`; but those that are kept then give way to others, with which the result shades
-       ///< most like the original (`fit_normals`)
+  loose,     ///< as `mend`; but different normals make no lines: every corner gets that normal of its vertex
+             ///< which suits its triangle best (`pick_normals`)
   recompute, ///< the result gets new normals, made as those of the input seem to be made
   drop       ///< the result has no normals
 };
@@ -43,17 +43,23 @@ enum class Normals_treatment {
   dropped
 };
 
-/// Returns the word for this in options and reports: auto, keep, loose, fit, recompute or drop.
+/// Returns the word for this in options and reports: auto, keep, mend, loose, recompute or drop.
 const char* name_of(Normals_choice choice);
 
 /// Returns the word for this in reports: none, kept, mended, picked, fitted, flat, smooth or dropped.
 const char* name_of(Normals_treatment treatment);
 
+/// Returns whether a reduction keeps the normals, but those that are nearly alike at a vertex as one, and
+/// then mends or fits them.
+inline bool are_joined(Normals_treatment treatment)
+{
+  return treatment == Normals_treatment::mended || treatment == Normals_treatment::fitted;
+}
+
 /// Returns whether a reduction keeps the normals: they are kept, mended or fitted.
 inline bool are_kept(Normals_treatment treatment)
 {
-  return treatment == Normals_treatment::kept || treatment == Normals_treatment::mended ||
-         treatment == Normals_treatment::fitted;
+  return treatment == Normals_treatment::kept || are_joined(treatment);
 }
 
 /// Returns whether normals are *flat*: those of 99 % of all corners differ from the normal of their triangle
@@ -159,10 +165,15 @@ std::size_t mend_normals(Triangle_soup& result, const std::vector<Index>& triang
 /// that is nearest, of those of the same surface (what is connected by positions) that face the same side, if
 /// it is at most four times as far as any other. Corners that had one normal at one position have one again,
 /// so that hard edges stay hard and others smooth. A normal stays, bit for bit, where a triangle that has not
-/// changed has it, and where the new one would differ by at most 0.1°. No new one is farther from the normal
-/// of a triangle (or of its back, if the normals of the original point there on average) than 78.4°, of which
-/// the cosine is 0.2, unless the old one was farther: it is a mean with the old one then, or the old one. New
-/// ones have the length 1 and the precision of 32-bit floats. Returns how many corners have a new one.
+/// changed has it, on borders, where a mesh of another file or the next place of this one may go on, and
+/// where the new one would differ by at most 0.1°. No new one is farther from the normal of a triangle (or of
+/// its back, if the normals of the original point there on average) than 78.4°, of which the cosine is 0.2,
+/// unless the old one was farther: it is a mean with the old one then, or the old one. New ones have the
+/// length 1 and the precision of 32-bit floats. Returns how many corners have a new one.
+///
+/// **Not promised** The further poses of a mesh are not asked, nor what morph targets add. Where a pose bends
+/// a surface as it is bent, or more, new normals are nearer to those of the original there, too; where it
+/// bends it the other way, they may be farther.
 ///
 /// **Complexity** O(n log n) as a rule for n triangles of the original. Computed in double.
 std::size_t fit_normals(Triangle_soup& result, const std::vector<Index>& triangles,

@@ -39,7 +39,7 @@ std::vector<Index> smallest_numbers(const std::vector<Point_3>& points, const Lo
 Log_header completed(Log_header header, const Prepared_soup& prepared, const Simplify_options& options)
 {
   header.limits = limits_of(options);
-  if (prepared.normals == Normals_treatment::mended || prepared.normals == Normals_treatment::fitted)
+  if (are_joined(prepared.normals))
     header.normals = Logged_normals::joined;
   else if (header.normals == Logged_normals::kept && prepared.normals != Normals_treatment::none &&
            !are_kept(prepared.normals))

@@ -357,8 +357,7 @@ private:
       keep_flat_normals(result.soup, result.triangles, original, taken);
     if (m_prepared.normals == Normals_treatment::picked)
       pick_normals(result.soup, result.triangles, left.corners, original, taken);
-    if (m_prepared.normals == Normals_treatment::picked || m_prepared.normals == Normals_treatment::mended ||
-        m_prepared.normals == Normals_treatment::fitted)
+    if (m_prepared.normals == Normals_treatment::picked || are_joined(m_prepared.normals))
       result.mended_normals =
           mend_normals(result.soup, result.triangles, original, taken.empty() ? original.normals : taken);
     if (m_prepared.normals == Normals_treatment::fitted)

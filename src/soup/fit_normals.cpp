@@ -143,6 +143,21 @@ private:
     return std::sqrt(dot(doubled, doubled)) / 2;
   }
 
+  // Returns which of these positions are on a border: an edge of one triangle ends there.
+  std::vector<char> are_on_border(const std::vector<Index>& positions) const
+  {
+    std::vector<std::pair<Index, Index>> edges;
+    for (const Index_triple& triangle : m_result.triangles)
+      for (std::size_t k = 0; k < 3; ++k)
+        edges.push_back(std::minmax({positions[triangle[k]], positions[triangle[(k + 1) % 3]]}));
+    std::sort(edges.begin(), edges.end());
+    std::vector<char> result(m_result.points.size(), false);
+    for (std::size_t i = 0; i < edges.size(); ++i)
+      if ((i == 0 || edges[i - 1] != edges[i]) && (i + 1 == edges.size() || edges[i + 1] != edges[i]))
+        result[edges[i].first] = result[edges[i].second] = true;
+    return result;
+  }
+
   // A wedge is what has one normal at one position: seams of the texture are no hard edges.
   void number_wedges()
   {
@@ -155,13 +170,14 @@ private:
           keys.emplace_back(positions[m_result.triangles[i][k]], finite(normal_at(m_result.normals, i, k)),
                             3 * i + k);
     std::sort(keys.begin(), keys.end());
+    const std::vector<char> is_on_border = are_on_border(positions);
     m_wedges.assign(m_result.triangles.size(), {});
     for (std::size_t j = 0; j < keys.size(); ++j) {
       const auto& [position, normal, corner] = keys[j];
       if (j == 0 ||
           std::tie(position, normal) != std::tie(std::get<0>(keys[j - 1]), std::get<1>(keys[j - 1]))) {
         m_old.push_back(unit(normal));
-        m_is_fixed.push_back(m_old.back() == Vector{});
+        m_is_fixed.push_back(m_old.back() == Vector{} || is_on_border[position]);
       }
       m_wedges[corner / 3][corner % 3] = Index(m_old.size() - 1);
       m_is_fixed.back() |= !m_is_changed[corner / 3];

@@ -197,10 +197,10 @@ const char* name_of(Normals_choice choice)
     return "auto";
   case Normals_choice::keep:
     return "keep";
+  case Normals_choice::mend:
+    return "mend";
   case Normals_choice::loose:
     return "loose";
-  case Normals_choice::fit:
-    return "fit";
   case Normals_choice::recompute:
     return "recompute";
   default:
@@ -258,9 +258,9 @@ Normals_treatment take_normals(Triangle_soup& soup, Normals_choice choice, Corne
   if (choice == Normals_choice::keep)
     return Normals_treatment::kept;
   const bool is_flat = choice != Normals_choice::drop && has_flat_normals(soup);
-  if ((choice == Normals_choice::automatic || choice == Normals_choice::fit) && !is_flat) {
+  if ((choice == Normals_choice::automatic || choice == Normals_choice::mend) && !is_flat) {
     join_near_normals(soup);
-    return choice == Normals_choice::fit ? Normals_treatment::fitted : Normals_treatment::mended;
+    return choice == Normals_choice::mend ? Normals_treatment::mended : Normals_treatment::fitted;
   }
   if (choice == Normals_choice::recompute && !is_flat) {
     join_fans(soup);

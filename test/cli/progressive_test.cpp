@@ -114,7 +114,7 @@ TEST_F(Progressive_file, WhatCannotBeIsRefused)
              "f 1//1 3//3 2//2\nf 1//1 2//2 4//4\nf 1//1 4//4 3//3\nf 2//2 3//3 4//4\n");
   expect_refused({"simplify", folder / "round.obj", "-o", out, "--ratio", "0.5", "--normals", "recompute",
                   "--progressive", folder / "a.glb"},
-                 2, "--normals keep or drop");
+                 2, "leave out --normals");
   expect_refused({"level", file, "-o", out}, 2, "--faces or --ratio");
   expect_refused({"level", file, "--faces", "9", "-o", file}, 2, "FILE");
   expect_refused({"level", folder / "least.glb", "--faces", "9", "-o", out}, 3, "no progressive file");

@@ -464,8 +464,8 @@ TEST(App_simplify, FitsNormalsToTheShadingOfTheInput)
   shaded.normals.of_triangle = shaded.triangles;
   write_mesh(folder / "in.obj", shaded);
   const std::string report = folder / "report.json";
-  const App_result fitted = run_app({"simplify", folder / "in.obj", "-o", folder / "out.obj", "--ratio",
-                                     "0.2", "--normals", "fit", "--report", report});
+  const App_result fitted = run_app(
+      {"simplify", folder / "in.obj", "-o", folder / "out.obj", "--ratio", "0.2", "--report", report});
   EXPECT_EQ(fitted.code, 0) << fitted.err;
   EXPECT_NE(fitted.out.find("\nnormals: fitted to the shading of the input, other ones at "),
             std::string::npos)
@@ -474,6 +474,10 @@ TEST(App_simplify, FitsNormalsToTheShadingOfTheInput)
   EXPECT_EQ(json["output"]["normals"], "fitted");
   EXPECT_GT(json["corners"]["fitted_normals"], 0);
   EXPECT_EQ(run_app({"verify", folder / "out.obj", "--against", folder / "in.obj"}).code, 0);
+  const App_result mended = run_app({"simplify", folder / "in.obj", "-o", folder / "out.obj", "--ratio",
+                                     "0.2", "--normals", "mend", "--report", report});
+  EXPECT_EQ(mended.out.find("\nnormals: fitted"), std::string::npos) << mended.out;
+  EXPECT_EQ(nlohmann::json::parse(contents_of(report))["output"]["normals"], "mended");
 }
 
 TEST(App_simplify, StopsAtTheErrorAllowed)

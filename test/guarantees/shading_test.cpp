@@ -80,7 +80,7 @@ std::size_t count_of_wrong_sides(const Triangle_soup& soup)
 Prepare_options mending()
 {
   Prepare_options options;
-  options.normals = Normals_choice::automatic;
+  options.normals = Normals_choice::mend;
   return options;
 }
 
@@ -295,10 +295,11 @@ Vector direction(Vector a)
   return a;
 }
 
-Vector normal_of_sheet(double x, double y)
+Vector normal_of_sheet(double x, double y, double steepness = 1)
 {
-  return direction({-0.39 * std::cos(1.3 * x) * std::cos(0.9 * y) - 0.25 * std::cos(5 * x + 3 * y),
-                    0.27 * std::sin(1.3 * x) * std::sin(0.9 * y) - 0.15 * std::cos(5 * x + 3 * y), 1});
+  const double u = -0.39 * std::cos(1.3 * x) * std::cos(0.9 * y) - 0.25 * std::cos(5 * x + 3 * y);
+  const double v = 0.27 * std::sin(1.3 * x) * std::sin(0.9 * y) - 0.15 * std::cos(5 * x + 3 * y);
+  return direction({steepness * u, steepness * v, 1});
 }
 
 Triangle_soup sheet()
@@ -322,7 +323,7 @@ Triangle_soup sheet()
 }
 
 // Returns the mean angle between the normals with which a result is shaded and those of the sheet above it.
-double shading_error(const Triangle_soup& soup)
+double shading_error(const Triangle_soup& soup, double steepness = 1)
 {
   double sum = 0, area = 0;
   for (Index t = 0; t < soup.triangles.size(); ++t) {
@@ -344,7 +345,8 @@ double shading_error(const Triangle_soup& soup)
             place[axis] += weights[k] * p[k][axis];
             normal[axis] += weights[k] * soup.normals.values[soup.normals.of_triangle[t][k]][axis];
           }
-        const double cosine = internal::dot(direction(normal), normal_of_sheet(place[0], place[1]));
+        const double cosine =
+            internal::dot(direction(normal), normal_of_sheet(place[0], place[1], steepness));
         sum += doubled[2] * std::acos(std::min(1.0, cosine));
         area += doubled[2];
       }
@@ -355,7 +357,7 @@ double shading_error(const Triangle_soup& soup)
 Prepare_options fitting()
 {
   Prepare_options options;
-  options.normals = Normals_choice::fit;
+  options.normals = Normals_choice::automatic;
   return options;
 }
 
@@ -433,13 +435,15 @@ TEST(FittedShading, PointsToTheBackOfNoFace)
   // The large side of a steep ridge would turn the normals along it to the back of the small side.
   Triangle_soup original;
   original.points = {{0, 0, 0}, {0, 1, 0}, {-0.26, 0.5, -0.97}, {0.026, 0.5, -0.097}};
-  original.triangles = {{0, 1, 2}, {1, 0, 3}};
-  original.normals = {{{-0.97, 0, 0.26}, {0, 0, 1}}, {{0, 0, 0}, {1, 1, 1}}};
+  original.triangles = {{0, 1, 2}, {1, 0, 3}, {0, 2, 3}, {2, 1, 3}}; // no border
+  original.normals = {
+      {{-0.97, 0, 0.26}, {0, 0, 1}, {9, 9, 9}}, {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {2, 2, 2}}, 2};
   Triangle_soup result = original;
   result.points[2] = {-0.26, 0.51, -0.97};
   result.points[3] = {0.026, 0.51, -0.097};
-  result.normals.of_triangle = {{1, 1, 1}, {1, 1, 1}};
-  EXPECT_GT(fit_normals(result, {0, 1}, {{0, 1, 2}, {3, 4, 5}}, original), 0u);
+  result.normals.of_triangle = {{1, 1, 1}, {1, 1, 1}, {2, 2, 2}, {2, 2, 2}};
+  EXPECT_GT(fit_normals(result, {0, 1, 2, 3}, {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}}, original), 0u);
+  result.triangles.resize(2);
   EXPECT_EQ(count_of_wrong_sides(result), 0u);
 }
 
@@ -540,6 +544,99 @@ TEST(FittedShading, KeepsEdgesHardOrSmooth)
     EXPECT_GT(at_seam.size(), 3u);
     for (const auto& [place, normals] : at_seam)
       EXPECT_EQ(normals.size(), is_hard ? 2u : 1u);
+  }
+}
+
+// So that it goes on in what lies beside, in another file or as the next place of the same mesh.
+TEST(FittedShading, StaysBitForBitOnBorders)
+{
+  const Triangle_soup soup = sheet();
+  const Simplified_soup result = reduce(soup, to_ratio(0.05), fitting()).simplified;
+  std::size_t on_border = 0, changed = 0;
+  for (Index i = 0; i < result.triangles.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point_3& p = result.soup.points[result.soup.triangles[i][k]];
+      const Vector normal = result.soup.normals.values[result.soup.normals.of_triangle[i][k]];
+      const bool is_as_it_was =
+          normal ==
+          soup.normals.values[soup.normals.of_triangle[result.corners[i][k] / 3][result.corners[i][k] % 3]];
+      if (std::min(p.x(), p.y()) == 0 || std::max(p.x(), p.y()) == 0.1 * 48) {
+        ++on_border;
+        EXPECT_TRUE(is_as_it_was) << p;
+      } else
+        changed += !is_as_it_was;
+    }
+  EXPECT_GT(on_border, 20u);
+  EXPECT_GT(changed, 100u);
+}
+
+TEST(FittedShading, LeavesPartsThatAreKept)
+{
+  Triangle_soup soup = sheet();
+  soup.groups.names = {"rest", "logo"};
+  for (const Index_triple& triangle : soup.triangles) {
+    const Point_3& p = soup.points[triangle[0]];
+    soup.groups.of_triangle.push_back(std::abs(p.x() - 2.4) < 0.8 && std::abs(p.y() - 2.4) < 0.8);
+  }
+  for (const bool is_locked : {false, true}) {
+    Simplify_intent intent;
+    (is_locked ? intent.locked : intent.kept) = {"logo"};
+    const Prepared_soup prepared = prepare(soup, fitting());
+    const Simplified_soup result = simplify_soup(prepared, to_ratio(0.1), intent);
+    std::size_t kept = 0;
+    for (Index i = 0; i < result.triangles.size(); ++i)
+      for (std::size_t k = 0; k < 3 && soup.groups.of_triangle[result.triangles[i]] == 1; ++k) {
+        ++kept;
+        EXPECT_EQ(result.soup.normals.values[result.soup.normals.of_triangle[i][k]],
+                  soup.normals.values[soup.normals.of_triangle[result.triangles[i]][k]]);
+      }
+    EXPECT_GT(kept, 300u);
+    EXPECT_GT(result.fitted_normals, 100u);
+  }
+}
+
+TEST(FittedShading, LeavesTrianglesWithoutNormals)
+{
+  Triangle_soup soup = sheet();
+  soup.normals.missing = Index(soup.normals.values.size());
+  soup.normals.values.push_back({9, 9, 9});
+  for (Index t = 0; t < soup.triangles.size(); ++t)
+    if (soup.points[soup.triangles[t][0]].x() < 1)
+      soup.normals.of_triangle[t].fill(*soup.normals.missing);
+  const Simplified_soup result = reduce(soup, to_ratio(0.1), fitting()).simplified;
+  EXPECT_GT(result.fitted_normals, 100u);
+  for (Index i = 0; i < result.triangles.size(); ++i)
+    EXPECT_EQ(result.soup.normals.of_triangle[i][0] == result.soup.normals.missing,
+              soup.normals.of_triangle[result.triangles[i]][0] == soup.normals.missing);
+}
+
+// A morph target adds to the normals what makes those of a steeper sheet, or a flatter one, of those of the
+// sheet.
+TEST(FittedShading, IsNearerInPosesToo)
+{
+  const Triangle_soup soup = sheet();
+  for (const double steepness : {0.6, 1.7}) {
+    const auto posed = [&](Triangle_soup result) {
+      Corner_values<3> normals;
+      for (Index t = 0; t < result.triangles.size(); ++t) {
+        Index_triple& numbers = normals.of_triangle.emplace_back();
+        for (std::size_t k = 0; k < 3; ++k) {
+          const Point_3& p = result.points[result.triangles[t][k]];
+          Vector normal = result.normals.values[result.normals.of_triangle[t][k]];
+          const Vector before = normal_of_sheet(p.x(), p.y()),
+                       after = normal_of_sheet(p.x(), p.y(), steepness);
+          for (std::size_t axis = 0; axis < 3; ++axis)
+            normal[axis] += after[axis] - before[axis];
+          numbers[k] = Index(normals.values.size());
+          normals.values.push_back(direction(normal));
+        }
+      }
+      result.normals = normals;
+      return result;
+    };
+    const Triangle_soup fitted = posed(reduce(soup, to_ratio(0.05), fitting()).simplified.soup);
+    const Triangle_soup kept = posed(reduce(soup, to_ratio(0.05), mending()).simplified.soup);
+    EXPECT_LT(shading_error(fitted, steepness), shading_error(kept, steepness)) << steepness;
   }
 }
 

@@ -233,6 +233,7 @@ for file, entry in (
 
 group("src/soup/fit_normals.cpp", ("shading_test",),
       ("|= !m_is_changed[corner / 3];", "|= false;", "triangles that have not changed get other normals"),
+      ("[edges[i].second] = true;", "[edges[i].second] = false;", "normals on borders are fitted"),
       ("result.push_back(sets.find(positions[triangle[0]]));", "result.push_back(0);", "a layer is shaded as the one beside it"),
       ("std::min(s_cosine_of_sample, before)", "-2", "fitted normals point to the back"),
       ("keys.emplace_back(positions[m_result.triangles[i][k]]", "keys.emplace_back(m_result.triangles[i][k]", "seams of the texture are hard edges where normals are fitted"))

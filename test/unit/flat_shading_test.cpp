@@ -342,7 +342,7 @@ TEST(Near_normals, VerticesThatDifferInTheirLastDigitsAreOne)
     EXPECT_EQ(vertices_used(file), 21u * 21);
     EXPECT_EQ(file.points.size(), 22u * 21) << "the vertices of the file keep their numbers";
     const Reduction result = reduced(file, 0.1);
-    EXPECT_EQ(result.prepared.normals, Normals_treatment::mended);
+    EXPECT_EQ(result.prepared.normals, Normals_treatment::fitted);
     EXPECT_TRUE(result.verification.accepted());
     EXPECT_LE(result.simplified.soup.triangles.size(), file.triangles.size() / 10);
     const Triangle_soup written = through(result.simplified.soup, name);
@@ -373,6 +373,24 @@ TEST(Flat_shading, PiecesBesideEachOtherStayPieces)
   ASSERT_TRUE(has_flat_normals(pieces));
   EXPECT_EQ(vertices_used(through(pieces, "m.ply")), pieces.points.size());
   EXPECT_EQ(vertices_used(through(pieces, "m.glb")), pieces.points.size());
+}
+
+// What a morph target adds is that of the vertex, whatever its normal is now.
+TEST(Fitted_normals, KeepWhatMorphTargetsAdd)
+{
+  Json json = Json::parse(written(ridge(), "m.gltf"));
+  Json& primitive = json["meshes"][0]["primitives"][0];
+  const Json positions = primitive["attributes"]["POSITION"]; // as numbers that tell which row it was
+  primitive["targets"] = {{{"POSITION", positions}, {"NORMAL", positions}}};
+  const Triangle_soup file = read_mesh(json.dump(), Mesh_format::gltf, "m.gltf").soup;
+  const Simplified_soup result = reduced(file, 0.2).simplified;
+  EXPECT_GT(result.fitted_normals, 50u);
+  const Triangle_soup out = through(result.soup, "m.gltf");
+  EXPECT_EQ(out.points.size(), vertices_used(result.soup));
+  const Gltf_scene::Block& block = out.scene->blocks.at(0);
+  for (const Gltf_scene::Column& column : block.targets.at(0)) {
+    EXPECT_EQ(column.rows, block.attributes.front().rows) << column.name;
+  }
 }
 
 } // namespace

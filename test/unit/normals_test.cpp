@@ -110,7 +110,8 @@ TEST(Normals, ThatAreNotFlatAreKeptUnlessAsked)
     soup.normals.values.push_back({-std::cos(p.x() / 4) / 4, std::sin(p.y() / 5) / 5, 1});
   soup.normals.of_triangle = soup.triangles;
   EXPECT_FALSE(has_flat_normals(soup));
-  const Prepared_soup original = prepared(soup, Normals_choice::automatic);
+  EXPECT_EQ(prepared(soup, Normals_choice::automatic).normals, Normals_treatment::fitted);
+  const Prepared_soup original = prepared(soup, Normals_choice::mend);
   EXPECT_EQ(original.normals, Normals_treatment::mended);
   const Simplified_soup result = simplify_soup(original, to_ratio(0.3));
   EXPECT_EQ(result.mended_normals, 0u);
@@ -139,7 +140,7 @@ TEST(Normals, ThatAreNearlyAlikeAtAVertexAreOne)
   }
   ASSERT_FALSE(has_flat_normals(soup));
   Prepare_options options;
-  options.normals = Normals_choice::automatic;
+  options.normals = Normals_choice::mend;
   const Logged_reduction reduction = reduce_and_log(soup, to_ratio(0.2), options);
   const Simplified_soup& result = reduction.simplified;
   EXPECT_LE(result.soup.triangles.size(), soup.triangles.size() / 5);

@@ -159,8 +159,8 @@ World read_world(const std::filesystem::path& folder)
   world.open_seams =
       json.value("open_seams", json.value("weld_auto", false) ? Open_seams::weld : Open_seams::ignore);
   const std::string normals = json.value("normals", "keep"); // worlds of earlier versions have none
-  for (const Normals_choice choice : {Normals_choice::automatic, Normals_choice::keep, Normals_choice::loose,
-                                      Normals_choice::fit, Normals_choice::recompute, Normals_choice::drop})
+  for (const Normals_choice choice : {Normals_choice::automatic, Normals_choice::keep, Normals_choice::mend,
+                                      Normals_choice::loose, Normals_choice::recompute, Normals_choice::drop})
     if (normals == name_of(choice))
       world.normals = choice;
   world.are_faces_oriented = json.value("orient", false);

@@ -109,8 +109,7 @@ World_run run(const World& world)
     if ((world.output_format == Mesh_format::glb || world.output_format == Mesh_format::gltf) &&
         !world.is_sewn && !run.result.progression.empty() &&
         run.prepared.normals != Normals_treatment::smooth &&
-        run.prepared.normals != Normals_treatment::picked &&
-        run.prepared.normals != Normals_treatment::fitted) {
+        run.prepared.normals != Normals_treatment::picked) {
       write_progressive(folder / "all.glb", run.prepared.soup, run.result.progression);
       const Progressive_mesh mesh = read_progressive(folder / "all.glb");
       run.last_level = level(mesh, mesh.step_count());

@@ -35,9 +35,7 @@ struct World_run
   bool are_normals_kept() const
   {
     return prepared.normals == Normals_treatment::kept ||
-           ((prepared.normals == Normals_treatment::mended ||
-             prepared.normals == Normals_treatment::fitted) &&
-            result.mended_normals == 0 && result.fitted_normals == 0);
+           (are_joined(prepared.normals) && result.mended_normals == 0 && result.fitted_normals == 0);
   }
 };
 

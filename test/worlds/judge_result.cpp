@@ -143,8 +143,31 @@ const char* wrong_in_mended_normal(const Triangle_soup& result, Index i, std::si
   return "a new normal in place of one that is near, or one that is not";
 }
 
+using Position = std::array<double, 3>;
+
+Position position(const Triangle_soup& soup, Index vertex)
+{
+  const Point_3& p = soup.points[vertex];
+  return {p.x() + 0.0, p.y() + 0.0, p.z() + 0.0}; // no −0
+}
+
+// Returns the positions at the ends of edges that one triangle has.
+std::set<Position> positions_on_borders(const Triangle_soup& soup)
+{
+  std::map<std::set<Position>, std::size_t> counts; // by edge
+  for (const Index_triple& triangle : soup.triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+      ++counts[{position(soup, triangle[k]), position(soup, triangle[(k + 1) % 3])}];
+  std::set<Position> result;
+  for (const auto& [edge, count] : counts)
+    if (count == 1)
+      result.insert(edge.begin(), edge.end());
+  return result;
+}
+
 // Judges the normals of a result that are fitted: those of triangles that have not changed are what they
-// were, and no other one is farther from that of its triangle than was promised.
+// were, those on borders are so too or mended, and no other one is farther from that of its triangle than was
+// promised.
 Verdict judge_fitted_normals(const World_run& run, const std::set<std::size_t>& placed)
 {
   constexpr double margin = 1e-6, limit = 0.2; // NaN is beyond no limit
@@ -153,6 +176,7 @@ Verdict judge_fitted_normals(const World_run& run, const std::set<std::size_t>& 
     return std::nullopt;
   if (result.normals.of_triangle.size() != result.triangles.size())
     return Broken_promise{Promise::attributes, "the result has no normals"};
+  const std::set<Position> on_borders = positions_on_borders(result);
   for (Index i = 0; i < result.triangles.size(); ++i) {
     const Index t = run.result.triangles[i];
     const bool is_missing = result.normals.of_triangle[i][0] == result.normals.missing;
@@ -179,6 +203,9 @@ Verdict judge_fitted_normals(const World_run& run, const std::set<std::size_t>& 
         continue;
       if (is_as_it_was)
         return broken("another normal, and nothing has changed");
+      if (on_borders.count(position(result, result.triangles[i][k])) > 0)
+        if (const char* what = wrong_in_mended_normal(result, i, k, original, original.normals, t, {old}))
+          return broken(what);
       if (!is_unit(result.normals, i, k))
         return broken("a new normal of another length");
       const double side = sum < 0 ? -1 : 1;

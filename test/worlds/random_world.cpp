@@ -513,8 +513,8 @@ World random_world(std::uint64_t seed)
   if (!world.soup.normals.empty())
     world.normals = random.one_of({Normals_choice::automatic, Normals_choice::keep, Normals_choice::loose,
                                    Normals_choice::recompute, Normals_choice::drop});
-  if (world.normals == Normals_choice::automatic && world.seed % 4 != 3) // no random number, as above
-    world.normals = Normals_choice::fit;
+  if (world.normals == Normals_choice::automatic && world.seed % 4 == 3) // no random number, as above
+    world.normals = Normals_choice::mend;
   if (joins_vertices(world.normals) && world.seed % 4 != 3 && !world.soup.scene) {
     Triangle_soup split = split_by_normals(world.soup);  // as a PLY file has it
     if (split.points.size() >= world.soup.points.size()) // else a vertex that is to be locked may be gone
