@@ -198,12 +198,12 @@ TEST(Gltf_tangents, ArePerpendicularToNormalsThatAreMadeAnew)
     const Triangle_soup read =
         read_glb(document_of_corners(hills(Normals_treatment::smooth), is_mirrored)).soup;
     for (const Normals_choice choice :
-         {Normals_choice::fit, Normals_choice::loose, Normals_choice::recompute}) {
+         {Normals_choice::automatic, Normals_choice::loose, Normals_choice::recompute}) {
       Triangle_soup file = read;
       if (joins_vertices(choice))
         share_vertices_without_normals(file, choice);
       const Reduction result = reduce(std::move(file), to_ratio(0.1), with_normals(choice));
-      EXPECT_TRUE(choice != Normals_choice::fit || result.simplified.fitted_normals > 20);
+      EXPECT_TRUE(choice != Normals_choice::automatic || result.simplified.fitted_normals > 20);
       expect_tangents(result.simplified.soup, is_mirrored);
     }
     Simplify_options optimal = to_ratio(0.1);
