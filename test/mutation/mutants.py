@@ -258,13 +258,11 @@ group(
     ("find_near_candidates();\n      state.found.reset();", "find_near_candidates();\n      state.found = question(collapse);",
      "at a vertex of many faces points go to a face that is near, not nearest"),
     ("nearest.second > m_state->squared_near; ++i)", "nearest.second > 1; ++i)", "points go to a face that is far"),
-    ("parts[own] > parts[other] : own < other;", "parts[own] > parts[other] : false;",
+    ("parts[own] != parts[other] || own < other;", "parts[own] != parts[other];",
      "where grids beside a side are alike, neither has its points"),
-    ("parts[own] != parts[other] ? parts[own] > parts[other]", "parts[own] != parts[other] ? parts[own] < parts[other]",
-     "a side has the points of the coarser grid"),
-    ("corners_before(), s_most_parts) < parts", "corners_before(), s_most_parts) < 0", "a side keeps its coarser grid"),
-    ("parts_of(before, s_most_parts) <= parts;", "parts_of(before, s_most_parts) < parts;",
-     "where grids of changed faces are alike, none has the points of the side between them"),
+    ("parts[own] != parts[other] || own < other;", "own < other;", "where grids beside a side differ, one lacks its points"),
+    ("return parts_of(corners, s_most_parts) == parts;", "return true;", "points on sides are never compared twice, though they differ"),
+    ("return {!is_next_beside || ", "return {", "a side that no other candidate has is not compared"),
     ("if (state.max_error > s_rounding)", "if (true)", "without an error, holes between the points of grids are closed"),
 )
 group(

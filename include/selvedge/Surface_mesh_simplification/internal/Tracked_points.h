@@ -41,7 +41,7 @@ namespace internal {
 /// Between the points, surfaces are compared at the points of *grids*: a grid divides each side of a triangle
 /// into as many parts as it takes for none to be longer than E, and into 8 at most. For an original of many
 /// long sides it is less than 8, so that there are no more points of grids than 100,000, or twice as many as
-/// faces. On a side between two triangles of the original, the points are those of the finer grid.
+/// faces.
 ///
 /// **Guarantees** When `error_at` is at most E, as given to `begin`, for every collapse that is done, then at
 /// any time
@@ -355,14 +355,14 @@ private:
       put(number_of, face, Number(parts.size()));
       parts.push_back(static_cast<unsigned char>(parts_of(corners(parts.size()), most_parts)));
     }
-    // Points on a side are those of the finer one of the grids beside it.
+    // Where the grids on both sides of an edge have the same points on it, one of them is enough.
     const auto has_side = [&](Halfedge h) {
       const Halfedge beyond = opposite(h, state.mesh);
       if (CGAL::is_border(beyond, state.mesh))
         return true;
       const Number own = get(number_of, face(h, state.mesh)),
                    other = get(number_of, face(beyond, state.mesh));
-      return parts[own] != parts[other] ? parts[own] > parts[other] : own < other;
+      return parts[own] != parts[other] || own < other;
     };
     for (const Face face : faces(state.mesh)) {
       const Number number = get(number_of, face);
@@ -459,23 +459,18 @@ private:
     return true;
   }
 
-  // Which sides of a candidate, whose grid has so many parts, have points that no other grid covers: that of
-  // the candidate before or after it, or that of the face as it was.
+  // Which sides of a candidate, whose grid has so many parts, have points that are not also those of the next
+  // candidate, or of the face as it was.
   std::array<bool, 3> new_sides(std::size_t number, int parts) const
   {
     const std::vector<Candidate>& candidates = m_state->candidates;
-    const std::array<Point, 3> corners = candidates[number].corners();
-    std::array<bool, 3> are_new{true, parts_of(candidates[number].corners_before(), s_most_parts) < parts,
-                                true};
-    if (number + 1 < candidates.size()) {
-      const std::array<Point, 3> after = candidates[number + 1].corners();
-      are_new[0] = after[2] != corners[1] || parts_of(after, s_most_parts) < parts;
-    }
-    if (number > 0) {
-      const std::array<Point, 3> before = candidates[number - 1].corners();
-      are_new[2] = before[1] != corners[2] || parts_of(before, s_most_parts) <= parts;
-    }
-    return are_new;
+    const auto has_same_parts = [&](const std::array<Point, 3>& corners) {
+      return parts_of(corners, s_most_parts) == parts;
+    };
+    const bool is_next_beside = number + 1 < candidates.size() &&
+                                candidates[number + 1].corners()[2] == candidates[number].corners()[1];
+    return {!is_next_beside || !has_same_parts(candidates[number + 1].corners()),
+            !has_same_parts(candidates[number].corners_before()), true};
   }
 
   // Whether the faces of a collapse cover the same after it as before, if nothing else will do.
