@@ -68,7 +68,7 @@ std::map<std::string, std::size_t> seams_of_attributes(const Triangle_soup& soup
     for (Index& v : triangle)
       v = positions[v];
   std::map<std::string, std::size_t> result;
-  internal::for_each_inner_edge(triangles, [&](const internal::Side& a, const internal::Side& b) {
+  internal::for_each_inner_edge(triangles, [&](const internal::Edge_side& a, const internal::Edge_side& b) {
     std::set<std::string> names;
     for (const auto& [c, d] : {std::pair(a.at_low, b.at_low), std::pair(a.at_high, b.at_high)}) {
       if (is_seam_of(soup.uvs, c, d) || is_seam_of(soup.normals, c, d) || is_seam_of(soup.groups, c, d) ||

@@ -15,7 +15,7 @@
 namespace selvedge::internal {
 
 /// A side of a triangle. Corners have the numbers 3 × triangle + place.
-struct Side
+struct Edge_side
 {
   Index low, high;       ///< the vertices of the edge
   Index at_low, at_high; ///< the corners there
@@ -25,15 +25,15 @@ struct Side
 template <class Function>
 void for_each_inner_edge(const std::vector<Index_triple>& triangles, const Function& function)
 {
-  std::vector<Side> sides;
+  std::vector<Edge_side> sides;
   for (Index t = 0; t < triangles.size(); ++t)
     for (Index k = 0; k < 3; ++k) {
       const Index l = (k + 1) % 3;
       const Index a = triangles[t][k], b = triangles[t][l];
-      sides.push_back(a < b ? Side{a, b, 3 * t + k, 3 * t + l} : Side{b, a, 3 * t + l, 3 * t + k});
+      sides.push_back(a < b ? Edge_side{a, b, 3 * t + k, 3 * t + l} : Edge_side{b, a, 3 * t + l, 3 * t + k});
     }
-  const auto edge = [](const Side& side) { return std::make_pair(side.low, side.high); };
-  std::sort(sides.begin(), sides.end(), [&](const Side& a, const Side& b) {
+  const auto edge = [](const Edge_side& side) { return std::make_pair(side.low, side.high); };
+  std::sort(sides.begin(), sides.end(), [&](const Edge_side& a, const Edge_side& b) {
     return std::make_tuple(a.low, a.high, a.at_low) < std::make_tuple(b.low, b.high, b.at_low);
   });
   for (std::size_t i = 0; i < sides.size();) {

@@ -29,8 +29,8 @@ namespace {
 
 using internal::cross;
 using internal::dot;
+using internal::Edge_side;
 using internal::for_each_inner_edge;
-using internal::Side;
 using shading::cosines;
 using shading::difference;
 using shading::normal_at;
@@ -94,7 +94,7 @@ void join_fans(Triangle_soup& soup)
             is_within(normals.values[value(a)], normals.values[value(b)], s_cosine_smooth));
   };
   internal::Disjoint_sets fans(3 * soup.triangles.size()); // of corners
-  for_each_inner_edge(soup.triangles, [&](const Side& a, const Side& b) {
+  for_each_inner_edge(soup.triangles, [&](const Edge_side& a, const Edge_side& b) {
     if (is_smooth_between(a.at_low, b.at_low) && is_smooth_between(a.at_high, b.at_high)) {
       fans.unite(a.at_low, b.at_low);
       fans.unite(a.at_high, b.at_high);
@@ -398,7 +398,7 @@ std::size_t mend_normals(Triangle_soup& result, const std::vector<Index>& triang
   }
   internal::Disjoint_sets fans(3 * shaded.size()); // of corners of `shaded`
   const auto is_wrong = [&](Index corner) { return shaded[corner / 3].is_wrong[corner % 3]; };
-  for_each_inner_edge(triples, [&](const Side& a, const Side& b) {
+  for_each_inner_edge(triples, [&](const Edge_side& a, const Edge_side& b) {
     if (is_wrong(a.at_low) && is_wrong(b.at_low))
       fans.unite(a.at_low, b.at_low);
     if (is_wrong(a.at_high) && is_wrong(b.at_high))
@@ -459,7 +459,7 @@ void keep_flat_normals(Triangle_soup& result, const std::vector<Index>& triangle
     for (const Index t : polygon)
       sets.unite(polygon[0], t);
   });
-  for_each_inner_edge(result.triangles, [&](const Side& a, const Side& b) {
+  for_each_inner_edge(result.triangles, [&](const Edge_side& a, const Edge_side& b) {
     const Index t = a.at_low / 3, u = b.at_low / 3;
     if (old(a.at_low) == old(b.at_low) && old(a.at_high) == old(b.at_high) &&
         is_made_within(t, s_cosine_of_face) && is_made_within(u, s_cosine_of_face))
