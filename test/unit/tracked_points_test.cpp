@@ -266,6 +266,29 @@ double farthest_point(const Mesh& mesh, Mesh::Halfedge_index h, const Point_3& p
   return std::sqrt(farthest);
 }
 
+// Points on sides too, of which one of the two triangles beside them has to take care.
+TEST_F(Tracked_sheet, EveryPointOfTheGridsAroundAVertexCounts)
+{
+  std::size_t near = 0, far = 0;
+  for (const double max_error : {0.2, 0.3, 0.4, 0.5}) {
+    Tracked tracked(m_mesh);
+    tracked.begin(m_mesh.points(), 1, max_error);
+    for (const Mesh::Halfedge_index h : m_mesh.halfedges()) {
+      if (m_mesh.is_border(m_mesh.source(h)))
+        continue;
+      const Point_3 place = m_mesh.point(m_mesh.target(h));
+      const double farthest = farthest_point(m_mesh, h, place, max_error);
+      ASSERT_GT(std::fabs(farthest - max_error), 1e-9) << "the test cannot tell";
+      const bool is_near =
+          farthest <= max_error && farthest_from(m_original, m_mesh, h, place, max_error) <= max_error;
+      EXPECT_EQ(tracked.error_at(profile_of(m_mesh, h), place) <= max_error, is_near) << h;
+      ++(is_near ? near : far);
+    }
+  }
+  EXPECT_GT(near, 100u);
+  EXPECT_GT(far, 100u);
+}
+
 TEST_F(Tracked_sheet, AtAVertexOfManyFacesTheAnswerIsTheSame)
 {
   std::size_t near = 0, far = 0;
