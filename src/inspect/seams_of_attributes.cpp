@@ -63,6 +63,8 @@ void add_differences(const Triangle_soup& soup, Index a, Index b, std::set<std::
 std::map<std::string, std::size_t> seams_of_attributes(const Triangle_soup& soup,
                                                        const std::vector<Index>& positions)
 {
+  if (!soup.scene && soup.vertex_attributes.empty())
+    return {};
   std::vector<Index_triple> triangles = soup.triangles; // of positions
   for (Index_triple& triangle : triangles)
     for (Index& v : triangle)

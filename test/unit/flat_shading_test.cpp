@@ -6,6 +6,7 @@
 #include "support/Temporary_folder.h"
 #include "support/reduction.h"
 #include "support/soups.h"
+#include "support/vertices_used.h"
 
 #include "soup/Gltf_scene.h"
 
@@ -66,14 +67,6 @@ Reduction reduced(Triangle_soup soup, double ratio, Normals_choice choice = Norm
   Prepare_options options;
   options.normals = choice;
   return reduce(std::move(soup), to_ratio(ratio), options);
-}
-
-std::size_t vertices_used(const Triangle_soup& soup)
-{
-  std::set<Index> used;
-  for (const Index_triple& triangle : soup.triangles)
-    used.insert(triangle.begin(), triangle.end());
-  return used.size();
 }
 
 // A document of one node, whose transform turns, scales and mirrors.

@@ -6,6 +6,7 @@
 #include "support/Gltf_document.h"
 #include "support/Temporary_folder.h"
 #include "support/reduction.h"
+#include "support/vertices_used.h"
 
 #include "files/Local_normals.h"
 #include "soup/Gltf_scene.h"
@@ -17,7 +18,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -108,14 +108,6 @@ void add_target(Document& document, const Value& value)
       {{"POSITION", primitive["attributes"]["POSITION"]}, {"NORMAL", rows}, {"TANGENT", rows}}};
 }
 
-std::size_t vertices_of_triangles(const Triangle_soup& soup)
-{
-  std::set<Index> used;
-  for (const Index_triple& triangle : soup.triangles)
-    used.insert(triangle.begin(), triangle.end());
-  return used.size();
-}
-
 Document document_of_result(const Triangle_soup& soup)
 {
   const Temporary_folder folder;
@@ -175,7 +167,7 @@ TEST(Gltf_tangents, KeepNoVerticesApartWhereNormalsAreFlat)
     Document document = document_of_corners(hills(Normals_treatment::flat), is_mirrored);
     const Triangle_soup file = read_glb(document).soup;
     ASSERT_TRUE(has_flat_normals(file));
-    EXPECT_EQ(vertices_of_triangles(file), places + (is_mirrored ? along_middle : 0));
+    EXPECT_EQ(vertices_used(file), places + (is_mirrored ? along_middle : 0));
     for (const Placement placement : {Placement::vertices, Placement::optimal}) {
       Simplify_options options = to_ratio(0.3);
       options.placement = placement;
@@ -188,7 +180,7 @@ TEST(Gltf_tangents, KeepNoVerticesApartWhereNormalsAreFlat)
     Json& attributes = document.json["meshes"][0]["primitives"][0]["attributes"];
     attributes["_DIRECTION"] = attributes["TANGENT"];
     attributes.erase("TANGENT");
-    EXPECT_GT(vertices_of_triangles(read_glb(document).soup), 2 * places);
+    EXPECT_GT(vertices_used(read_glb(document).soup), 2 * places);
   }
 }
 
@@ -218,7 +210,7 @@ TEST(Gltf_tangents, KeepTheirBytesWithTheNormalsOfTheirFaces)
   Document document = document_of_corners(hills(Normals_treatment::flat), true);
   add_target(document, [](std::size_t i, std::size_t k) { return 0.001 * double(i / 6) + double(k); });
   const Triangle_soup file = read_glb(document).soup;
-  EXPECT_EQ(vertices_of_triangles(file), places + along_middle);
+  EXPECT_EQ(vertices_used(file), places + along_middle);
   const Document after =
       document_of_result(reduce(file, to_ratio(1), with_normals(Normals_choice::automatic)).simplified.soup);
   const Json &primitive = document.json["meshes"][0]["primitives"][0],
@@ -254,10 +246,10 @@ TEST(Gltf_tangents, OfMorphTargetsKeepVerticesOfOneNormalApart)
 {
   const Triangle_soup soup = squares(0, Normals_treatment::flat);
   Document document = document_of_corners(soup, false);
-  EXPECT_EQ(vertices_of_triangles(read_glb(document).soup), places);
+  EXPECT_EQ(vertices_used(read_glb(document).soup), places);
   add_target(document,
              [&](std::size_t i, std::size_t) { return is_before_middle(soup, i / 3) ? -0.5 : 0.5; });
-  EXPECT_EQ(vertices_of_triangles(read_glb(document).soup), places + along_middle);
+  EXPECT_EQ(vertices_used(read_glb(document).soup), places + along_middle);
 }
 
 TEST(Gltf_tangents, AreApartOnTheTwoSidesOfAMirroredTexture)
@@ -266,12 +258,12 @@ TEST(Gltf_tangents, AreApartOnTheTwoSidesOfAMirroredTexture)
     const Triangle_soup file =
         read_glb(document_of_corners(hills(Normals_treatment::smooth), is_mirrored)).soup;
     const std::size_t apart = places + (is_mirrored ? along_middle : 0);
-    EXPECT_EQ(vertices_of_triangles(file), apart);
+    EXPECT_EQ(vertices_used(file), apart);
     Triangle_soup loose = file, dropped = file;
     share_vertices_without_normals(loose, Normals_choice::loose);
-    EXPECT_EQ(vertices_of_triangles(loose), apart);
+    EXPECT_EQ(vertices_used(loose), apart);
     share_vertices_without_normals(dropped);
-    EXPECT_EQ(vertices_of_triangles(dropped), places);
+    EXPECT_EQ(vertices_used(dropped), places);
     // That is why the middle is a seam.
     const auto seams = inspect(file).seams.by_attributes;
     EXPECT_EQ(seams.size(), is_mirrored ? 1u : 0u);
