@@ -6,56 +6,11 @@
 #include "selection.h"
 
 #include <selvedge/internal/Vector_of_doubles.h>
+#include <selvedge/internal/nearest_on_triangle.h>
 
 #include <optional>
 
 namespace selvedge {
-namespace {
-
-/// The point of a triangle that is nearest to another point.
-struct Nearest_point
-{
-  std::array<double, 3> weights; ///< of the corners
-  double squared_distance;
-};
-
-// Computed in floating point, in the order of the corners given (Ericson: Real-Time Collision Detection,
-// section 5.1.5).
-Nearest_point nearest_point(const std::array<internal::Vector_of_doubles, 3>& corners,
-                            const internal::Vector_of_doubles& p)
-{
-  using internal::difference;
-  using internal::dot;
-  const auto& [a, b, c] = corners;
-  const auto ab = difference(b, a), ac = difference(c, a), ap = difference(p, a), bp = difference(p, b),
-             cp = difference(p, c);
-  const double d1 = dot(ab, ap), d2 = dot(ac, ap), d3 = dot(ab, bp), d4 = dot(ac, bp), d5 = dot(ab, cp),
-               d6 = dot(ac, cp);
-  const double of_c = d1 * d4 - d3 * d2, of_b = d5 * d2 - d1 * d6, of_a = d3 * d6 - d5 * d4;
-  std::array<double, 3> weights{};
-  if (d1 <= 0 && d2 <= 0)
-    weights = {1, 0, 0};
-  else if (d3 >= 0 && d4 <= d3)
-    weights = {0, 1, 0};
-  else if (d6 >= 0 && d5 <= d6)
-    weights = {0, 0, 1};
-  else if (of_c <= 0 && d1 >= 0 && d3 <= 0)
-    weights = {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
-  else if (of_b <= 0 && d2 >= 0 && d6 <= 0)
-    weights = {1 - d2 / (d2 - d6), 0, d2 / (d2 - d6)};
-  else if (of_a <= 0 && d4 >= d3 && d5 >= d6)
-    weights = {0, 1 - (d4 - d3) / (d4 - d3 + d5 - d6), (d4 - d3) / (d4 - d3 + d5 - d6)};
-  else {
-    const double sum = of_a + of_b + of_c;
-    weights = {1 - of_b / sum - of_c / sum, of_b / sum, of_c / sum};
-  }
-  internal::Vector_of_doubles off;
-  for (std::size_t i = 0; i < 3; ++i)
-    off[i] = p[i] - (weights[0] * a[i] + weights[1] * b[i] + weights[2] * c[i]);
-  return {weights, dot(off, off)};
-}
-
-} // namespace
 
 const Placed_vertices::Placed_vertex* Placed_vertices::find(Index corner) const
 {
@@ -108,14 +63,14 @@ Placed_vertices::Mixture Placed_vertices::mixture_at(Halfedge moving, const Poin
     return {{own, share(own.corner, 0), share(own.corner, 0)}, own};
   const Corner_mesh::Mesh& mesh = m_corners.mesh();
   const auto vector = [](const Point_3& p) { return internal::Vector_of_doubles{p.x(), p.y(), p.z()}; };
-  std::optional<Nearest_point> nearest;
+  std::optional<internal::Nearest_on_triangle> nearest;
   Corner_mesh::Face face;
   for (const Halfedge end : {moving, mesh.opposite(moving)})
     for (const Halfedge h : mesh.halfedges_around_target(end)) {
       std::array<internal::Vector_of_doubles, 3> corners;
       for (const Halfedge g : {h, mesh.next(h), mesh.prev(h)})
         corners[m_corners.place(g)] = vector(mesh.point(mesh.target(g)));
-      const Nearest_point here = nearest_point(corners, vector(place));
+      const internal::Nearest_on_triangle here = internal::nearest_on_triangle(corners, vector(place));
       if (!nearest || std::make_pair(here.squared_distance, mesh.face(h)) <
                           std::make_pair(nearest->squared_distance, face)) {
         nearest = here;

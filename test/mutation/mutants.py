@@ -253,7 +253,7 @@ group(
     ("difference(vector(p), vector(m_triangle[0]))", "difference(vector(p), vector(m_triangle[1]))",
      "planes are relative to another corner"),
     ("1 / (length * std::sqrt(dot(sides[i], sides[i])))", "1 / length", "distances beyond long sides are too large"),
-    ("candidate.longest() <= 4 * squared", "candidate.longest() <= 16 * squared", "points far from all corners are near them"),
+    ("are_corners_original ? 4 * squared", "are_corners_original ? 16 * squared", "points far from all corners are near them"),
     ("likely = (likely + 1) % state.candidates.size();", "break;", "at a vertex of many faces only one face can take a point"),
     ("find_near_candidates();\n      state.found.reset();", "find_near_candidates();\n      state.found = question(collapse);",
      "at a vertex of many faces points go to a face that is near, not nearest"),
@@ -261,7 +261,7 @@ group(
     ("parts[own] != parts[other] || own < other;", "parts[own] != parts[other];",
      "where grids beside a side are alike, neither has its points"),
     ("parts[own] != parts[other] || own < other;", "own < other;", "where grids beside a side differ, one lacks its points"),
-    ("return parts_of(corners, s_most_parts) == parts;", "return true;", "points on sides are never compared twice, though they differ"),
+    ("return Triangle_grid::parts_of(corners, m_state->max_error) == parts;", "return true;", "points on sides are never compared twice, though they differ"),
     ("return {!is_next_beside || ", "return {", "a side that no other candidate has is not compared"),
     ("if (state.max_error > s_rounding)", "if (true)", "without an error, holes between the points of grids are closed"),
 )
@@ -321,11 +321,27 @@ group(
 )
 group(
     headers + "Surface_mesh_simplification/internal/Original_surface.h",
-    ("tracked_points_test",),
+    ("original_surface_test",),
     ("if (from <= at_c && at_c <= to)", "if (false)", "a corner of a sliver in none of its boxes"),
-    ("return triangle != m_last && is_near(point, squared_distance, triangle);", "return false;",
-     "nothing in the index is near"),
+    ("found = near_point(point, squared_distance, triangle_of(of_index));", "", "nothing in the index is near"),
     ("(i < size - start && is_found(start + i))", "false", "before there is an index, triangles of higher numbers are not near"),
+    ("m_neighbours[other->triangle][other->corner] = side.triangle;", "", "one of two neighbours does not know the other"),
+    ("here.weights[i] == 0 && m_neighbours", "m_neighbours", "a walk goes anywhere"),
+)
+group(
+    headers + "Surface_mesh_simplification/internal/Triangle_grid.h",
+    ("original_surface_test",),
+    ("at(k, l)) <= squared)", "at(k, l)) <= 2 * squared)", "points of a grid that are not near are removed"),
+    ("if (!sides[1] || i == 0)", "if (!sides[1])", "a corner is a point of the grid"),
+    ("(i == 0 && !sides[2])", "false", "a side that is left out has points"),
+    ("inverse_area * (cc * m_along[0] - bc * m_along[1])", "inverse_area * (cc * m_along[0])", "points are removed elsewhere"),
+)
+group(
+    headers + "internal/nearest_on_triangle.h",
+    ("original_surface_test",),
+    ("if (!(sum > 1e-8 * longest * longest))", "if (!(sum > 0))", "rounding moves what is nearest along a needle"),
+    ("of_c <= 0 && d1 >= 0 && d3 <= 0", "false", "beyond a side, the nearest point is beyond it"),
+    ("(std::max)(share, 0.), 1.)", "(std::max)(share, 0.), 2.)", "beyond the end of a needle, so is the nearest point"),
 )
 group(
     headers + "spatial/internal/Box_block.h",

@@ -407,48 +407,5 @@ TEST_F(Tracked_sheet, ErrorsAreTheSameFarFromTheOrigin)
   EXPECT_GT(positive, 300u);
 }
 
-TEST(OriginalSurface, IsNearWhatAnyTriangleIsNear)
-{
-  using Kernel = CGAL::Simple_cartesian<double>;
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> unit(-1, 1);
-  const auto vector = [&](double size) {
-    const double x = unit(random), y = unit(random), z = unit(random);
-    return Kernel::Vector_3(size * x, size * y, size * z);
-  };
-  std::size_t near = 0, far = 0;
-  for (int scene = 0; scene < 20; ++scene) {
-    std::vector<Kernel::Point_3> points;
-    const auto triangle = [&](std::size_t i) {
-      return Kernel::Triangle_3(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
-    };
-    internal::Original_surface surface(points);
-    for (std::uint32_t i = 0; i < 100; ++i) {
-      const Kernel::Point_3 start = CGAL::ORIGIN + vector(1) + Kernel::Vector_3(scene, 0, 0);
-      const Kernel::Vector_3 along = vector(1);
-      const double share = i % 4 == 0 ? 0 : i % 4 == 1 ? 1 : (1 + unit(random)) / 2;
-      points.insert(points.end(),
-                    {start, start + along, start + share * along + vector(i % 2 == 0 ? 0.01 : 0.5)});
-      surface.add({3 * i, 3 * i + 1, 3 * i + 2});
-    }
-    for (int i = 0; i < 2000; ++i) {
-      // On triangles, at their corners, and anywhere.
-      const auto& t = triangle(random() % 100);
-      const double a = (1 + unit(random)) / 2, b = (1 - a) * (1 + unit(random)) / 2;
-      const Kernel::Point_3 query =
-          i % 8 == 0 ? t[i / 8]
-                     : t[0] + a * (t[1] - t[0]) + b * (t[2] - t[0]) + vector(i % 2 == 0 ? 0.02 : 0.2);
-      const double squared = std::pow(10, -3 + unit(random));
-      bool is_near = false;
-      for (std::size_t k = 0; k < 100; ++k)
-        is_near |= CGAL::do_intersect(Kernel::Sphere_3(query, squared), triangle(k));
-      EXPECT_EQ(surface.is_near(query, squared), is_near);
-      ++(is_near ? near : far);
-    }
-  }
-  EXPECT_GT(near, 10000u);
-  EXPECT_GT(far, 1000u);
-}
-
 } // namespace
 } // namespace selvedge::test

@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_ORIGINAL_SURFACE_H
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_ORIGINAL_SURFACE_H
 
+#include <selvedge/internal/nearest_on_triangle.h>
 #include <selvedge/spatial/Packed_R_tree.h>
 
 #include <CGAL/Bbox_3.h>
@@ -15,13 +16,15 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <numeric>
 #include <optional>
 #include <vector>
 
 namespace selvedge {
 namespace internal {
 
-/// The triangles of a mesh as it was, of which one can ask whether a point is near.
+/// The triangles of a mesh as it was, of which one can ask for a point near another.
 ///
 /// The index that answers is made when there have been some questions, since most reductions of dense meshes
 /// ask few. It has several boxes for a sliver askew to the axes, one for each part of its length: one box
@@ -43,7 +46,7 @@ public:
   /// Makes room for triangles to come.
   void reserve(std::size_t triangles) { m_triangles.reserve(triangles); }
 
-  /// Adds a triangle, whose corners are among the points with these numbers. Call it before `is_near`.
+  /// Adds a triangle, whose corners are among the points with these numbers. Call it before any question.
   void add(const std::array<Number, 3>& triangle) { m_triangles.push_back(triangle); }
 
   std::size_t number_of_triangles() const { return m_triangles.size(); }
@@ -52,40 +55,85 @@ public:
   /// Whether the index has been made, which answers sooner than several triangles.
   bool has_index() const { return m_index.has_value(); }
 
-  /// Returns whether this triangle is at most a squared distance away from a point.
-  bool is_near(const Point& point, double squared_distance, Number triangle) const
+  /// Returns the point of this triangle that is nearest to `point`, unless it is farther away than the root
+  /// of `squared_distance`.
+  std::optional<Point> near_point(const Point& point, double squared_distance, Number triangle) const
   {
-    m_last = triangle;
-    m_compared += s_boxes_per_triangle;
-    return CGAL::do_intersect(Kernel::Sphere_3(point, squared_distance), triangle_at(triangle));
+    return point_within(squared_distance, nearest(point, triangle));
   }
 
-  /// Returns whether any triangle is. It is fast when one is that has a number near that of the triangle that
-  /// was asked last, as neighbours have in most meshes.
-  bool is_near(const Point& point, double squared_distance) const
+  /// Lets the next question begin at a triangle, as if it had been asked last.
+  void start_at(Number triangle) const { m_last = triangle; }
+
+  /// Returns such a point of the triangle that was asked last; or, once neighbours are known, of the one
+  /// beyond the side on which the nearest point of that is, and so on for a few steps. None says nothing of
+  /// other triangles.
+  std::optional<Point> near_point_beside(const Point& point, double squared_distance) const
   {
-    if (is_near(point, squared_distance, m_last))
-      return true;
+    Number triangle = m_last, before = s_none;
+    for (int step = 0; step < s_most_steps && triangle != s_none; ++step) {
+      const Nearest_on_triangle here = nearest(point, triangle);
+      if (const auto found = point_within(squared_distance, here); found || m_neighbours.empty())
+        return found;
+      Number beyond = s_none;
+      for (std::size_t i = 0; i < 3 && beyond == s_none; ++i)
+        if (here.weights[i] == 0 && m_neighbours[triangle][i] != before)
+          beyond = m_neighbours[triangle][i];
+      before = triangle;
+      triangle = beyond;
+    }
+    return {};
+  }
+
+  /// Returns such a point of any triangle. It is fast when one has a number near that of the triangle that
+  /// was asked last, as neighbours have in most meshes.
+  std::optional<Point> near_point(const Point& point, double squared_distance) const
+  {
+    if (m_neighbours.empty() && m_compared > s_boxes_per_side * m_triangles.size())
+      find_neighbours();
     const double radius = (1 + 1e-9) * std::sqrt(squared_distance);
     if (!m_index) {
       if (m_compared < s_boxes_per_index * m_triangles.size())
-        return is_found_by_scan(point, squared_distance, radius);
+        return found_by_scan(point, squared_distance, radius);
       make_index();
     }
-    const auto is_found_within = [&](double distance) {
+    std::optional<Point> found;
+    const auto find_within = [&](double distance) {
       return m_index->has_overlapping(box_around(point, distance), [&](Number of_index) {
-        const Number triangle = triangle_of(of_index);
-        return triangle != m_last && is_near(point, squared_distance, triangle);
+        found = near_point(point, squared_distance, triangle_of(of_index));
+        return found.has_value();
       });
     };
     // Most points that are near are far nearer, and few boxes meet a small one.
-    return is_found_within(radius / 8) || is_found_within(radius);
+    if (!find_within(radius / 8))
+      find_within(radius);
+    return found;
   }
 
 private:
   // To ask one triangle takes about as long as to compare so many boxes, and to make the index as long as to
-  // compare so many for each triangle.
-  static constexpr std::size_t s_boxes_per_triangle = 8, s_boxes_per_index = 32;
+  // compare so many for each triangle. To find neighbours takes less.
+  static constexpr std::size_t s_boxes_per_triangle = 8, s_boxes_per_side = 8, s_boxes_per_index = 32;
+
+  static constexpr int s_most_steps = 8; // of a walk
+  static constexpr Number s_none = std::numeric_limits<Number>::max();
+
+  Nearest_on_triangle nearest(const Point& point, Number triangle) const
+  {
+    m_last = triangle;
+    m_compared += s_boxes_per_triangle;
+    const auto vector = [](const Point& p) { return Vector_of_doubles{p.x(), p.y(), p.z()}; };
+    const auto& [a, b, c] = m_triangles[triangle];
+    return nearest_on_triangle({vector(m_points[a]), vector(m_points[b]), vector(m_points[c])},
+                               vector(point));
+  }
+
+  static std::optional<Point> point_within(double squared_distance, const Nearest_on_triangle& nearest)
+  {
+    if (!(nearest.squared_distance <= squared_distance))
+      return {};
+    return Point(nearest.point[0], nearest.point[1], nearest.point[2]);
+  }
 
   static CGAL::Bbox_3 box_around(const Point& point, double radius)
   {
@@ -93,20 +141,22 @@ private:
             point.x() + radius, point.y() + radius, point.z() + radius};
   }
 
-  // Asks the triangles with the numbers beside that of the last one, and those beside these.
-  bool is_found_by_scan(const Point& point, double squared_distance, double radius) const
+  // Asks the triangle that was asked last, those with the numbers beside its, and those beside these.
+  std::optional<Point> found_by_scan(const Point& point, double squared_distance, double radius) const
   {
     const CGAL::Bbox_3 box = box_around(point, radius);
+    std::optional<Point> found;
     const auto is_found = [&](Number triangle) {
       ++m_compared;
-      return CGAL::do_overlap(box, triangle_at(triangle).bbox()) &&
-             is_near(point, squared_distance, triangle);
+      if (CGAL::do_overlap(box, triangle_at(triangle).bbox()))
+        found = near_point(point, squared_distance, triangle);
+      return found.has_value();
     };
     const Number start = m_last, size = Number(m_triangles.size());
-    for (Number i = 1; i <= start || i < size - start; ++i)
+    for (Number i = 0; i <= start || i < size - start; ++i)
       if ((i <= start && is_found(start - i)) || (i < size - start && is_found(start + i)))
-        return true;
-    return false;
+        break;
+    return found;
   }
 
   Kernel::Triangle_3 triangle_at(Number number) const
@@ -140,6 +190,41 @@ private:
     m_index.emplace();
     m_index->build(parts, [&](Number part) {
       return part < triangles ? triangle_at(part).bbox() : boxes[part - triangles];
+    });
+  }
+
+  void find_neighbours() const
+  {
+    m_neighbours.assign(m_triangles.size(), {s_none, s_none, s_none});
+    // The sides by their lower corner: the higher one, the triangle, and the corner opposite.
+    struct Side
+    {
+      Number higher, triangle;
+      std::uint8_t corner;
+    };
+    std::vector<Number> first(m_points.size() + 1, 0);
+    const auto for_each_side = [&](const auto& function) {
+      for (Number triangle = 0; triangle < m_triangles.size(); ++triangle)
+        for (std::size_t i = 0; i < 3; ++i) {
+          const auto [lower, higher] =
+              std::minmax(m_triangles[triangle][(i + 1) % 3], m_triangles[triangle][(i + 2) % 3]);
+          function(lower, Side{higher, triangle, std::uint8_t(i)});
+        }
+    };
+    for_each_side([&](Number lower, const Side&) { ++first[lower + 1]; });
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<Side> sides(first.back());
+    std::vector<Number> beyond = first;
+    for_each_side([&](Number lower, const Side& side) {
+      const auto begin = sides.begin() + std::ptrdiff_t(first[lower]);
+      const auto end = sides.begin() + std::ptrdiff_t(beyond[lower]);
+      const auto other = std::find_if(begin, end, [&](const Side& s) { return s.higher == side.higher; });
+      if (other == end) {
+        sides[beyond[lower]++] = side;
+        return;
+      }
+      m_neighbours[side.triangle][side.corner] = other->triangle;
+      m_neighbours[other->triangle][other->corner] = side.triangle;
     });
   }
 
@@ -188,8 +273,10 @@ private:
   std::vector<std::array<Number, 3>> m_triangles;
   mutable std::optional<Packed_R_tree> m_index;   // of parts of triangles
   mutable std::vector<Number> m_triangle_of_part; // those of slivers
-  mutable Number m_last = 0;                      // the triangle that was asked last
-  mutable std::size_t m_compared = 0;             // how many boxes, to decide when to make the index
+  // Of each triangle, beyond the side opposite to each corner; empty until they are of use.
+  mutable std::vector<std::array<Number, 3>> m_neighbours;
+  mutable Number m_last = 0;          // the triangle that was asked last
+  mutable std::size_t m_compared = 0; // how many boxes, to decide when to make the index
 };
 
 } // namespace internal

@@ -6,6 +6,7 @@
 
 #include <selvedge/Surface_mesh_simplification/internal/Collapse.h>
 #include <selvedge/Surface_mesh_simplification/internal/Original_surface.h>
+#include <selvedge/Surface_mesh_simplification/internal/Triangle_grid.h>
 #include <selvedge/Surface_mesh_simplification/internal/Triangle_union.h>
 #include <selvedge/internal/Vector_of_doubles.h>
 
@@ -158,13 +159,11 @@ public:
     for (const Face face : state.emptied)
       put(state.first_of_face, face, s_none);
     for (const Move& move : state.moves)
-      give(move.number, move.carrier);
+      give(move.number, state.candidates[move.carrier].face());
   }
 
 private:
   static constexpr Number s_none = std::numeric_limits<Number>::max();
-
-  static constexpr int s_most_parts = 8;
 
   // Lengths that may come from rounding: the size of the mesh is about 1.
   static constexpr double s_rounding = 1e-12;
@@ -175,8 +174,9 @@ private:
   // A candidate takes a point without a look at the others when its distance is at most this share of E.
   static constexpr double s_near = 0.125;
 
-  // So many points of the original are compared with a point one by one, before an index is asked.
-  static constexpr std::size_t s_few_points = 16;
+  // So many points of the original, and triangles that have them, are compared with a point one by one,
+  // before an index of all is made.
+  static constexpr std::size_t s_few_moves = 64;
 
   // A face that can take points, as it is after the collapse.
   class Candidate
@@ -271,7 +271,7 @@ private:
   struct Move
   {
     Number number;
-    Face carrier;
+    Number carrier; // among the candidates
   };
 
   struct State
@@ -300,6 +300,7 @@ private:
     std::vector<Candidate> candidates;
     bool are_candidates_changed = false; // by this collapse
     std::vector<Move> moves;
+    std::vector<Triangle_grid> grids; // of candidates
     double squared_error = 0;
     std::optional<Question> found; // the collapse that this is about, until the next one is done
 
@@ -333,15 +334,15 @@ private:
     State& state = *m_state;
     const auto corners = [&](std::size_t i) {
       const auto& [a, b, c] = state.original.triangle(i);
-      return std::array<Point, 3>{state.points[a], state.points[b], state.points[c]};
+      return Triangle_grid::Triangle{state.points[a], state.points[b], state.points[c]};
     };
     const std::size_t triangles = state.original.number_of_triangles();
-    int most_parts = s_most_parts;
+    int most_parts = Triangle_grid::s_most_parts;
     std::size_t points = 0;
     for (; most_parts > 1; --most_parts) {
       points = 0;
       for (std::size_t i = 0; i < triangles; ++i)
-        if (const int parts = parts_of(corners(i), most_parts); parts > 1)
+        if (const int parts = Triangle_grid::parts_of(corners(i), state.max_error, most_parts); parts > 1)
           points += std::size_t((parts + 1) * (parts + 2) / 2 - 3);
       if (points <= (std::max)(std::size_t(100'000), 2 * triangles))
         break;
@@ -353,7 +354,8 @@ private:
     const auto number_of = get(CGAL::dynamic_face_property_t<Number>(), state.mesh);
     for (const Face face : faces(state.mesh)) {
       put(number_of, face, Number(parts.size()));
-      parts.push_back(static_cast<unsigned char>(parts_of(corners(parts.size()), most_parts)));
+      parts.push_back(static_cast<unsigned char>(
+          Triangle_grid::parts_of(corners(parts.size()), state.max_error, most_parts)));
     }
     // Where the grids on both sides of an edge have the same points on it, one of them is enough.
     const auto has_side = [&](Halfedge h) {
@@ -371,89 +373,65 @@ private:
       const Halfedge to_first = halfedge(face, state.mesh), to_second = next(to_first, state.mesh);
       const std::array<bool, 3> sides{has_side(to_second), has_side(next(to_second, state.mesh)),
                                       has_side(to_first)};
-      visit_grid(corners(number), parts[number], sides, [&](const Point& p) {
+      Triangle_grid(corners(number), parts[number], sides).all_of([&](const Point& p) {
         track(p, face, number);
         return true;
       });
     }
   }
 
-  // Into how many parts the grid of a triangle divides its sides.
-  int parts_of(const std::array<Point, 3>& corners, int most) const
-  {
-    double longest = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-      longest = (std::max)(longest, CGAL::squared_distance(corners[i], corners[(i + 1) % 3]));
-    longest = std::sqrt(longest);
-    int parts = 1;
-    while (parts < most && longest > parts * m_state->max_error)
-      ++parts;
-    return parts;
-  }
-
-  // Calls function(point) for the points of the grid of a triangle, but the corners, until it returns false.
-  // Returns whether it never did. Side i, from corner i to the next one, is left out unless `sides[i]`.
-  template <class Function>
-  static bool visit_grid(const std::array<Point, 3>& corners, int parts, const std::array<bool, 3>& sides,
-                         const Function& function)
-  {
-    const auto along = [&](std::size_t to, int share) {
-      return (double(share) / parts) * (corners[to] - corners[0]);
-    };
-    for (int i = 0; i <= parts; ++i)
-      for (int j = 0; i + j <= parts; ++j) {
-        const bool is_corner = i == parts || j == parts || i + j == 0;
-        const bool is_left_out =
-            (j == 0 && !sides[0]) || (i + j == parts && !sides[1]) || (i == 0 && !sides[2]);
-        if (!is_corner && !is_left_out && !function(corners[0] + (along(1, i) + along(2, j))))
-          return false;
-      }
-    return true;
-  }
-
   // Whether the grids of the faces that `find_carriers` has found, and their common corner if it is at a new
   // place, are near enough to the original.
   bool are_changed_faces_near(bool is_new_place) const
   {
-    const State& state = *m_state;
+    State& state = *m_state;
     if (!std::isfinite(state.max_error))
       return true;
     const double squared = state.max_error * state.max_error * (1 + 1e-6) + s_rounding * s_rounding;
-    const auto is_near_any = [&](const Point& p, const std::array<Point, 3>& points) {
-      return std::any_of(points.begin(), points.end(),
-                         [&](const Point& q) { return CGAL::squared_distance(p, q) <= squared; });
+    const auto near_point = [&](const Point& p) {
+      // The points that these faces carry are of the original, and so are triangles at hand. An index answers
+      // sooner, once there is one.
+      const std::size_t few = state.original.has_index() ? 0 : (std::min)(state.moves.size(), s_few_moves);
+      for (std::size_t i = 0; i < few; ++i)
+        if (const Point& of_original = state.points[state.moves[i].number];
+            CGAL::squared_distance(of_original, p) <= squared)
+          return std::make_optional(of_original);
+      std::optional<Point> found = state.original.near_point_beside(p, squared);
+      for (std::size_t i = 0; i < few && !found; ++i)
+        found = state.original.near_point(p, squared, state.triangles[state.moves[i].number]);
+      return found ? found : state.original.near_point(p, squared);
     };
-    std::size_t likely = 0;
-    const auto is_near = [&](const Point& p) {
-      // The points that these faces carry are of the original, and at hand, and so are their triangles. Where
-      // none of the first is near, an index answers sooner, once there is one.
-      const bool has_index = state.original.has_index();
-      const std::size_t few = (std::min)(state.moves.size(), has_index ? s_few_points : 4 * s_few_points);
-      for (std::size_t i = 0; i < few; ++i) {
-        const std::size_t at = (likely + i) % state.moves.size();
-        if (CGAL::squared_distance(state.points[state.moves[at].number], p) <= squared) {
-          likely = at;
-          return true;
-        }
-      }
-      for (std::size_t i = 0; i < few && !has_index; ++i)
-        if (state.original.is_near(p, squared, state.triangles[state.moves[i].number]))
-          return true;
-      return state.original.is_near(p, squared);
-    };
-    if (is_new_place && !state.candidates.empty() && !is_near(state.candidates.front().corners()[0]))
+    if (is_new_place && !state.candidates.empty() && !near_point(state.candidates.front().corners()[0]))
       return false;
     const bool are_corners_original = !is_new_place && !state.has_new_places;
+    // In a grid of two parts, all points are in the middle of a side.
+    const double squared_small = are_corners_original ? 4 * squared : state.max_error * state.max_error;
+    state.grids.clear();
     for (std::size_t i = 0; i < state.candidates.size(); ++i) {
-      const Candidate& candidate = state.candidates[i];
-      // In a grid of two parts, all points are in the middle of a side.
-      if (are_corners_original && candidate.longest() <= 4 * squared)
+      if (state.candidates[i].longest() <= squared_small)
         continue;
-      const std::array<Point, 3> corners = candidate.corners();
-      const int parts = parts_of(corners, s_most_parts);
-      if (!visit_grid(corners, parts, new_sides(i, parts), [&](const Point& p) {
-            return (are_corners_original && is_near_any(p, corners)) || is_near(p);
-          }))
+      state.grids.resize(state.candidates.size());
+      const std::array<Point, 3> corners = state.candidates[i].corners();
+      const int parts = Triangle_grid::parts_of(corners, state.max_error);
+      state.grids[i] = Triangle_grid(corners, parts, new_sides(i, parts));
+      if (are_corners_original)
+        for (const Point& corner : corners)
+          state.grids[i].remove_near(corner, squared);
+    }
+    if (state.grids.empty())
+      return true;
+    for (const Move& move : state.moves)
+      state.grids[move.carrier].remove_near(state.points[move.number], squared);
+    if (!state.moves.empty())
+      state.original.start_at(state.triangles[state.moves.front().number]);
+    for (Triangle_grid& grid : state.grids) {
+      const bool is_near = grid.all_of([&](const Point& p) {
+        const std::optional<Point> found = near_point(p);
+        if (found)
+          grid.remove_near(*found, squared);
+        return found.has_value();
+      });
+      if (!is_near)
         return false;
     }
     return true;
@@ -465,7 +443,7 @@ private:
   {
     const std::vector<Candidate>& candidates = m_state->candidates;
     const auto has_same_parts = [&](const std::array<Point, 3>& corners) {
-      return parts_of(corners, s_most_parts) == parts;
+      return Triangle_grid::parts_of(corners, m_state->max_error) == parts;
     };
     const bool is_next_beside = number + 1 < candidates.size() &&
                                 candidates[number + 1].corners()[2] == candidates[number].corners()[1];
@@ -556,7 +534,7 @@ private:
         }
         if (carrier == state.candidates.size())
           continue;
-        state.moves.push_back({number, state.candidates[carrier].face()});
+        state.moves.push_back({number, Number(carrier)});
         likely = carrier;
       }
     }
@@ -586,7 +564,7 @@ private:
         state.squared_error = (std::max)(state.squared_error, squared);
         if (is_far(squared))
           return;
-        state.moves.push_back({number, state.candidates[likely].face()});
+        state.moves.push_back({number, Number(likely)});
       }
     }
   }
