@@ -49,7 +49,11 @@ public:
     std::vector<std::size_t> next(m_first.begin(), m_first.end() - 1);
     for_each_side([&](Index from, Index to) { m_neighbours[next[from]++] = to; });
     remove_repetitions();
+    find_components();
   }
+
+  /// Returns a number below `size` that two positions share when one is reached from the other.
+  Index component(Index position) const { return m_components[position]; }
 
   Index size() const { return Index(m_first.size() - 1); }
   Index position(Index vertex) const { return m_positions[vertex]; }
@@ -77,9 +81,30 @@ private:
     m_neighbours.erase(beyond, m_neighbours.end());
   }
 
+  void find_components()
+  {
+    m_components.assign(size(), none);
+    std::vector<Index> to_visit;
+    for (Index start = 0; start < size(); ++start) {
+      if (m_components[start] != none)
+        continue;
+      const auto visit = [&](Index position) {
+        if (std::exchange(m_components[position], start) != start)
+          to_visit.push_back(position);
+      };
+      visit(start);
+      while (!to_visit.empty()) {
+        const Index position = to_visit.back();
+        to_visit.pop_back();
+        for_each_neighbour(position, visit);
+      }
+    }
+  }
+
   std::vector<Index> m_positions;   // of the vertices of the triangles
   std::vector<std::size_t> m_first; // of each position, and one more
   std::vector<Index> m_neighbours;
+  std::vector<Index> m_components; // by position
 };
 
 /// A search in the graph that starts at several triangles, one per layer, and tells from which of them a
@@ -87,7 +112,10 @@ private:
 class Flood
 {
 public:
-  explicit Flood(const Position_graph& graph) : m_graph(graph), m_marks(graph.size()) {}
+  explicit Flood(const Position_graph& graph)
+      : m_graph(graph), m_marks(graph.size()), m_starts(graph.size(), 0)
+  {
+  }
 
   /// Finds, for every wanted position, from which of some triangles it is reached over the fewest edges.
   /// Returns how many positions it has reached.
@@ -96,9 +124,11 @@ public:
     ++m_time;
     m_queue.clear();
     std::size_t missing = 0;
+    for (const Index_triple& triangle : triangles)
+      m_starts[m_graph.component(m_graph.position(triangle[0]))] = m_time;
     for (const Index position : wanted)
-      if (std::exchange(m_marks[position].wanted, m_time) != m_time)
-        ++missing;
+      if (m_starts[m_graph.component(position)] == m_time)
+        missing += std::exchange(m_marks[position].wanted, m_time) != m_time;
     const auto reach = [&](Index position, Index layer, Index ring) {
       Mark& mark = m_marks[position];
       if (mark.reached != m_time) {
@@ -141,7 +171,8 @@ private:
   };
 
   const Position_graph& m_graph;
-  std::vector<Mark> m_marks; // by position
+  std::vector<Mark> m_marks;   // by position
+  std::vector<Index> m_starts; // of components: number of the last search that began in one
   std::vector<Index> m_queue;
   Index m_time = 0;
 };
