@@ -370,14 +370,15 @@ void add_options(CLI::App& command, Simplify_request& request)
       .add_option(
           "--ratio", request.ratios,
           "Share of the faces to keep, from 0 to 1, of those that can be reduced: frozen and locked faces "
-          "stay and do not count. PART=R is the share of one group, object or material; R alone is then for "
-          "all "
-          "others. May be given several times.")
+          "stay and do not count. PART=R is the share of one group, object or material, as `selvedge info` "
+          "names them; R alone is then for all others. May be given several times.")
       ->type_name("[PART=]R")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->group(how_far);
-  command.add_option("--faces", options.faces, "Number of faces to keep, of all.")
+  command
+      .add_option("--faces", options.faces,
+                  "Number of faces to keep, of all; with --keep or --ratio PART=R, of all others.")
       ->transform(whole_number())
       ->type_name("N")
       ->group(how_far);
@@ -696,6 +697,7 @@ void add_options(CLI::App& command, Simplify_request& request)
       "  selvedge simplify jacket.obj -o jacket.obj --error 0.0005    # at most 0.05 % of the size away\n"
       "  selvedge simplify jacket.obj -o 'jacket_{lod}.obj' --lods 0.5,0.25,0.1\n"
       "  selvedge simplify jacket.glb -o levels.glb --lods 1,0.5,0.1      # all in one file\n"
+      "  selvedge simplify hero.glb -o small.glb --ratio 0.1 --ratio Head=0.2    # the face keeps more\n"
       "  selvedge simplify jacket.obj -o small.obj --ratio 0.2 --ratio collar=0.8 --keep logo --obstacle "
       "body.obj\n"
       "  selvedge simplify jacket.obj -o small.obj --ratio 0.1 --require-target || echo missed\n"

@@ -10,6 +10,7 @@
 #include "threads.h"
 
 #include <selvedge/Error.h>
+#include <selvedge/Parts.h>
 #include <selvedge/inspect.h>
 #include <selvedge/mesh_files.h>
 
@@ -36,7 +37,7 @@ struct Info_request
   std::optional<std::size_t> threads;
 };
 
-constexpr std::size_t most_printed = 5, most_listed = 100;
+constexpr std::size_t most_printed = 5, most_parts_printed = 12, most_listed = 100;
 
 const char* format_name(Mesh_format format)
 {
@@ -73,13 +74,12 @@ const char* normals_name(Normals_of_file normals)
 }
 
 /// Returns the first few of some words in a sentence.
-std::string listed(const std::vector<std::string>& words)
+std::string listed(const std::vector<std::string>& words, std::size_t most = most_printed)
 {
   std::string text;
-  for (std::size_t i = 0; i < (std::min)(most_printed, words.size()); ++i)
+  for (std::size_t i = 0; i < (std::min)(most, words.size()); ++i)
     text += (i == 0 ? "" : ", ") + words[i];
-  return words.size() > most_printed ? text + " and " + with_commas(words.size() - most_printed) + " more"
-                                     : text;
+  return words.size() > most ? text + " and " + with_commas(words.size() - most) + " more" : text;
 }
 
 /// Describes the kind of a piece or surface in words, such as "closed, of genus 1".
@@ -117,15 +117,37 @@ std::string kinds_of(const std::vector<Connected_surface>& surfaces)
              : text;
 }
 
-void print_content(const Contents& contents)
+/// Prints the names by which options such as `--ratio PART=R` know parts of a mesh, those of most faces
+/// first.
+void print_parts(const std::vector<Part_kind>& kinds)
+{
+  for (const Part_kind& kind : kinds) {
+    std::vector<std::size_t> faces(kind.count);
+    for (const Index part : kind.of_triangle)
+      ++faces[part];
+    std::vector<Index> with_faces;
+    for (Index part = 0; part < kind.names.size(); ++part)
+      if (!kind.names[part].empty() && faces[part] > 0)
+        with_faces.push_back(part);
+    std::stable_sort(with_faces.begin(), with_faces.end(),
+                     [&](Index a, Index b) { return faces[a] > faces[b]; });
+    std::vector<std::string> words;
+    for (const Index part : with_faces)
+      words.push_back(kind.names[part] + (words.empty() ? " with " + counted(faces[part], "face")
+                                                        : " with " + with_commas(faces[part])));
+    if (!words.empty())
+      std::cout << name(kind.name) << "s: " << with_commas(words.size()) << " ("
+                << listed(words, most_parts_printed) << ")\n";
+  }
+}
+
+void print_content(const Contents& contents, const std::vector<Part_kind>& parts)
 {
   const auto print = [](const char* what, const std::vector<std::string>& names) {
     if (!names.empty())
       std::cout << what << ": " << with_commas(names.size()) << " (" << listed(names) << ")\n";
   };
-  print("groups", contents.groups);
-  print("objects", contents.objects);
-  print("materials", contents.materials);
+  print_parts(parts);
   print("images", contents.images);
   print("material libraries", contents.material_libraries);
   std::vector<std::string> attributes;
@@ -256,7 +278,7 @@ void print_freedom(const Inspection& mesh)
 }
 
 void print(const Info_request& request, const Contents& contents, const std::vector<std::string>& notes,
-           const Inspection& mesh)
+           const std::vector<Part_kind>& parts, const Inspection& mesh)
 {
   std::cout << input_name(request.mesh) << ": " << format_name(contents.format) << ", "
             << with_commas(contents.vertices) << (contents.vertices == 1 ? " vertex, " : " vertices, ")
@@ -269,7 +291,7 @@ void print(const Info_request& request, const Contents& contents, const std::vec
               << " with two corners at one position, which count for nothing below\n";
   if (mesh.unused_vertices > 0)
     std::cout << "  " << with_commas(mesh.unused_vertices) << " of the vertices belong to no face\n";
-  print_content(contents);
+  print_content(contents, parts);
   print_surfaces(mesh);
   print_seams(mesh);
   print_freedom(mesh);
@@ -370,6 +392,7 @@ Exit_code run(const Info_request& request)
   Json report = new_report("info");
   report["input"] = input_json(request.mesh, file);
   const Contents contents = contents_of(file);
+  const std::vector<Part_kind> parts = part_kinds(file.soup);
   Inspection mesh;
   try {
     mesh = inspect(std::move(file.soup));
@@ -380,7 +403,7 @@ Exit_code run(const Info_request& request)
   add_inspection(report, mesh);
   report["memory"] = {{"peak_bytes", peak_memory_bytes()}};
   report["exit_code"] = int(exit_done);
-  put_report(request, report, [&] { print(request, contents, describe(file.notes), mesh); });
+  put_report(request, report, [&] { print(request, contents, describe(file.notes), parts, mesh); });
   return exit_done;
 }
 

@@ -3,6 +3,7 @@
 
 #include "simplify_summary.h"
 
+#include "coarse_part.h"
 #include "fate_of_limit.h"
 #include "output_files.h"
 #include "standard_streams.h"
@@ -51,10 +52,11 @@ std::string what_is_flattened(const Simplify_request& request, const Level& leve
       level.verification.distances->original_to_result.maximum < much * *limit)
     return "";
   const std::size_t faces = level.result.soup.triangles.size();
+  const bool is_of_all = request.lods.empty() && request.intent.ratios.empty() && request.intent.kept.empty();
   return "\nflattened: all that nothing holds, as far as --error " + with_digits(*limit) +
          " allows; a target of a tenth more faces, " +
-         (request.lods.empty() ? "--faces " + std::to_string(faces + (faces + 9) / 10) + ","
-                               : "a ratio that is larger by as much,") +
+         (is_of_all ? "--faces " + std::to_string(faces + (faces + 9) / 10) + ","
+                    : "a ratio that is larger by as much,") +
          " keeps more of its shape";
 }
 
@@ -86,8 +88,6 @@ std::string remedy(Hindrance reason, const Simplify_request& request)
            with_digits(options.max_border_drift > 0 ? 5 * options.max_border_drift : 0.01);
   case Hindrance::gap:
     return request.open_seams == Open_seams::hold ? "--weld auto or none" : "";
-  case Hindrance::target:
-    return "smaller ratios for the parts that have their own";
   case Hindrance::aspect_ratio:
     return options.min_aspect_ratio > 0 ? "--aspect-ratio 0" : "";
   case Hindrance::normal_change:
@@ -137,16 +137,18 @@ std::string why_it_stays(Hindrance reason)
   }
 }
 
-/// Returns the option against the most frequent reason that has one and holds a tenth of the edges, and that
-/// against the next, if it is half as frequent: an edge that one of them lets go may be held by the other.
+/// Returns the option against the most frequent reason that has one and holds a tenth of the edges, of those
+/// that are not in parts at their target, and that against the next, if it is half as frequent: an edge that
+/// one of them lets go may be held by the other.
 std::string remedies(const std::vector<Hindrances::Description>& all, const Hindrances& hindrances,
                      const Simplify_request& request)
 {
   std::string text;
   std::size_t first = 0;
+  const std::size_t total = hindrances.total() - hindrances[Hindrance::target];
   for (const Hindrances::Description& description : all) {
     const std::string option = remedy(description.reason, request);
-    if (option.empty() || 10 * hindrances[description.reason] < hindrances.total())
+    if (option.empty() || 10 * hindrances[description.reason] < total)
       continue;
     if (first > 0 && 2 * hindrances[description.reason] < first)
       return text;
@@ -460,6 +462,8 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
   if (distance.maximum > far_off)
     stream << "worst deviation " << percent(distance.maximum) << " of the size, "
            << place_of(distance.farthest, prepared.soup) << '\n';
+  if (const std::string sentence = coarse_part(request, prepared, result); !sentence.empty())
+    stream << "parts: " << sentence << '\n';
   stream << (outcome.is_written() ? "written: " : "NOT written: ") << name_of(level) << std::endl;
   if (const std::string sentence = enlargement(request, level); !sentence.empty())
     stream << sentence << std::endl;

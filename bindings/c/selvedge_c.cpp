@@ -46,13 +46,15 @@ static_assert(std::is_same_v<Index, unsigned int>);
 static_assert(sizeof(Point_3) == 3 * sizeof(double), "points are read as three doubles each");
 
 thread_local std::optional<std::string> last_error;
+thread_local std::string error_before; // the last one of an earlier call
 
 /// Returns what `function` returns; when it throws, remembers why and returns `failed`.
 template <class Result, class Function>
 Result guarded(Result failed, Function function) noexcept
 {
   try {
-    last_error.reset();
+    if (last_error)
+      error_before = *std::exchange(last_error, std::nullopt);
     try {
       return function();
     } catch (const std::bad_alloc&) {
@@ -69,11 +71,13 @@ Result guarded(Result failed, Function function) noexcept
   return failed;
 }
 
+/// Whoever passes a null pointer mostly got it from a call that failed.
 template <class Object>
 Object& required(Object* object, const char* name)
 {
   if (!object)
-    throw Argument_error(std::string(name) + " is a null pointer");
+    throw Argument_error(std::string(name) + " is a null pointer" +
+                         (error_before.empty() ? "" : "; the error before this one: " + error_before));
   return *object;
 }
 

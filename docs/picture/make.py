@@ -17,7 +17,7 @@ from pathlib import Path
 from vtkmodules.all import (vtkActor, vtkCellArray, vtkPNGWriter, vtkPoints, vtkPolyData, vtkPolyDataMapper,
                             vtkRenderer, vtkRenderWindow, vtkTextActor, vtkWindowToImageFilter)
 
-GENERATE = ["generate", "skirt", "--faces", "60000", "--layers", "3", "--thickness", "0", "--fold-depth", "0.03"]
+GENERATE = ["generate", "skirt", "--faces", "60000", "--layers", "3", "--thickness", "0", "--fold-depth", "0.03", "--gap", "0.0005"]
 RATIO = "0.1"
 COLOURS = {"lining": (0.85, 0.18, 0.20), "interlining": (0.98, 0.76, 0.20), "shell": (0.22, 0.40, 0.62),
            "pocket": (0.22, 0.40, 0.62), "waistband": (0.15, 0.28, 0.46), "loop": (0.15, 0.28, 0.46),

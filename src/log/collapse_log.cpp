@@ -308,8 +308,8 @@ private:
   {
     const Index value = number<Index>(word);
     if (value >= count)
-      fail("there is no " + (what + std::to_string(value)) + "; they are numbered from 0 to " +
-           std::to_string(count) + " - 1");
+      fail("there is no " + (what + std::to_string(value)) + "; there are " + std::to_string(count) +
+           ", counted from 0");
     return value;
   }
 

@@ -236,6 +236,22 @@ TEST(C_interface, RefusesWithAWordAndLeavesTheDestination)
   EXPECT_EQ(selvedge_last_error(), nullptr);
 }
 
+// A program that checks only its last call learns what failed first.
+TEST(C_interface, SaysWithANullPointerWhatFailedBefore)
+{
+  selvedge_mesh* mesh = selvedge_mesh_read("absent.obj");
+  EXPECT_EQ(mesh, nullptr);
+  selvedge_options* options = selvedge_options_new();
+  EXPECT_EQ(selvedge_last_error(), nullptr);
+  EXPECT_EQ(selvedge_reduce(mesh, options), nullptr);
+  ASSERT_NE(selvedge_last_error(), nullptr);
+  EXPECT_NE(std::string(selvedge_last_error())
+                .find("mesh is a null pointer; the error before this one: absent.obj"),
+            std::string::npos)
+      << selvedge_last_error();
+  selvedge_options_free(options);
+}
+
 TEST(C_interface, ReducesByOptionsWithLogReportAndVerdict)
 {
   selvedge_mesh* const mesh = selvedge_mesh_generate("sheets", 2000, 3);

@@ -69,6 +69,16 @@ TEST(App_info, WritesTheReportThatItPrints)
   EXPECT_EQ(written, printed);
 }
 
+TEST(App_info, NamesThePartsOfMostFacesFirst)
+{
+  const Workspace folder;
+  const std::string mesh = folder / "mesh.obj";
+  write_text(mesh,
+             "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 2 2 0\ng button\nf 1 2 3\ng coat\nf 2 4 3\nf 4 5 3\n");
+  EXPECT_NE(run_app({"info", mesh}).out.find("\ngroups: 2 (coat with 2 faces, button with 1)\n"),
+            std::string::npos);
+}
+
 TEST(App_info, RefusesWhatIsNoMesh)
 {
   const Workspace folder;

@@ -444,6 +444,8 @@ TEST(App_simplify, SaysThatWhatIsNotHeldHasBeenFlattened)
   EXPECT_LT(rms(helped), 0.95 * rms(missed));
   const App_result levels = run_app({"simplify", in, "-o", folder / "{lod}.obj", "--lods", "0.5,0.01"});
   EXPECT_NE(levels.out.find("a ratio that is larger by as much, keeps"), std::string::npos) << levels.out;
+  const App_result part = run_app({"simplify", in, "-o", out, "--ratio", "0.01", "--ratio", "sphere_0=0.5"});
+  EXPECT_NE(part.out.find("a ratio that is larger by as much, keeps"), std::string::npos) << part.out;
   for (const std::vector<std::string>& options : // there is no target or no room, or the target is met
        {std::vector<std::string>{"--error", "0.01"},
         {"--ratio", "0.01", "--error", "none"},
@@ -453,6 +455,63 @@ TEST(App_simplify, SaysThatWhatIsNotHeldHasBeenFlattened)
     arguments.insert(arguments.end(), options.begin(), options.end());
     EXPECT_EQ(run_app(arguments).out.find("\nflattened: "), std::string::npos);
   }
+}
+
+// The limit is small for the whole and large for the part. What the message names keeps more of the part; it
+// is said of no part that has a ratio of its own, and of none where all keep the same share.
+TEST(App_simplify, NamesThePartThatHasLostItsShape)
+{
+  const Workspace folder;
+  const std::string ball = folder.generate("nested", "ball.obj", 2000, 1), in = folder / "in.obj",
+                    out = folder / "out.obj", report = folder / "report.json";
+  const Triangle_soup soup = read_mesh(ball).soup;
+  const auto write = [&](double size_of_head) {
+    std::ofstream stream(in);
+    std::size_t first = 1;
+    for (const auto& [name, size] : {std::pair("body", 1.0), std::pair("head", size_of_head)}) {
+      stream << "g " << name << '\n';
+      for (const Point_3& p : soup.points)
+        stream << "v " << size * p.x() << ' ' << size * p.y() << ' ' << size * p.z() + 8 * first << '\n';
+      for (const auto& [a, b, c] : soup.triangles)
+        stream << "f " << first + a << ' ' << first + b << ' ' << first + c << '\n';
+      first += soup.points.size();
+    }
+  };
+  const auto run = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"simplify", in, "-o", out, "--ratio", "0.1", "--report", report};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return run_app(arguments).out;
+  };
+  const auto faces_of_head = [&] {
+    const nlohmann::json written = nlohmann::json::parse(contents_of(report));
+    for (const nlohmann::json& part : written["parts"])
+      if (part["name"] == "head")
+        return part["faces"]["output"].get<std::size_t>();
+    return std::size_t(0);
+  };
+  write(0.05);
+  const std::string coarse = run({});
+  EXPECT_NE(coarse.find("\nparts: group 'head' keeps "), std::string::npos) << coarse;
+  EXPECT_NE(coarse.find("; --ratio 'head=0.2' keeps more of it\n"), std::string::npos) << coarse;
+  const std::size_t few = faces_of_head();
+  const std::string helped = run({"--ratio", "head=0.2"});
+  EXPECT_EQ(helped.find("\nparts: "), std::string::npos) << helped;
+  EXPECT_GT(faces_of_head(), 4 * few);
+  EXPECT_EQ(run({"--cells"}).find("\nparts: "), std::string::npos);
+  write(1);
+  EXPECT_EQ(run({}).find("\nparts: "), std::string::npos);
+}
+
+// The target of the whole is for what belongs to no part with a ratio of its own.
+TEST(App_simplify, BlamesNoPartThatIsAtItsOwnTarget)
+{
+  const Workspace folder;
+  const std::string in = folder / "in.obj", out = folder / "out.obj";
+  write_text(in, contents_of(folder.generate("grid", "grid.obj", 200)) +
+                     "g rest\nv 9 9 9\nv 8 9 9\nv 9 8 9\nf -3 -2 -1\n");
+  const std::string held = run_app({"simplify", in, "-o", out, "--ratio", "0", "--ratio", "grid=0.5"}).out;
+  EXPECT_NE(held.find(" by parts at their target, "), std::string::npos) << held;
+  EXPECT_EQ(held.find("; try "), std::string::npos) << held;
 }
 
 TEST(App_simplify, FitsNormalsToTheShadingOfTheInput)
