@@ -158,7 +158,20 @@ private:
     return result;
   }
 
-  // A wedge is what has one normal at one position: seams of the texture are no hard edges.
+  // Returns the first wedge from `first` on that has such a normal, or a new one.
+  Index wedge_from(Index first, const Vector& normal, bool is_on_border)
+  {
+    Index wedge = first;
+    while (wedge < m_old.size() && !are_near_normals(normal, m_old[wedge]))
+      ++wedge;
+    if (wedge == m_old.size()) {
+      m_old.push_back(normal);
+      m_is_fixed.push_back(normal == Vector{} || is_on_border);
+    }
+    return wedge;
+  }
+
+  // A wedge is what has one normal at one position, up to 0.1°: seams of the texture are no hard edges.
   void number_wedges()
   {
     const std::vector<Index> positions = number_positions(m_result.points);
@@ -172,15 +185,16 @@ private:
     std::sort(keys.begin(), keys.end());
     const std::vector<char> is_on_border = are_on_border(positions);
     m_wedges.assign(m_result.triangles.size(), {});
+    Index first = 0, number = 0; // of the wedges at the position
     for (std::size_t j = 0; j < keys.size(); ++j) {
       const auto& [position, normal, corner] = keys[j];
-      if (j == 0 ||
-          std::tie(position, normal) != std::tie(std::get<0>(keys[j - 1]), std::get<1>(keys[j - 1]))) {
-        m_old.push_back(unit(normal));
-        m_is_fixed.push_back(m_old.back() == Vector{} || is_on_border[position]);
-      }
-      m_wedges[corner / 3][corner % 3] = Index(m_old.size() - 1);
-      m_is_fixed.back() |= !m_is_changed[corner / 3];
+      const bool is_elsewhere = j == 0 || position != std::get<0>(keys[j - 1]);
+      if (is_elsewhere)
+        first = Index(m_old.size());
+      if (is_elsewhere || normal != std::get<1>(keys[j - 1]))
+        number = wedge_from(first, unit(normal), is_on_border[position]);
+      m_wedges[corner / 3][corner % 3] = number;
+      m_is_fixed[number] |= !m_is_changed[corner / 3];
     }
     m_mass.assign(m_old.size(), 0);
     for (Index i = 0; i < m_result.triangles.size(); ++i)
@@ -372,8 +386,10 @@ private:
     std::vector<char> result(normals.size(), true);
     for (Index i = 0; i < m_result.triangles.size(); ++i)
       if (has_normals(m_result, i))
-        for (const Index w : m_wedges[i]) {
-          const double before = m_sides[i] * dot(m_fronts[i], m_old[w]);
+        for (std::size_t k = 0; k < 3; ++k) {
+          const Index w = m_wedges[i][k];
+          const double before =
+              m_sides[i] * dot(m_fronts[i], unit(finite(normal_at(m_result.normals, i, k))));
           result[w] &= m_sides[i] * dot(m_fronts[i], normals[w]) >= std::min(s_cosine_of_sample, before);
         }
     return result;

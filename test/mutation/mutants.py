@@ -236,7 +236,8 @@ group("src/soup/fit_normals.cpp", ("shading_test",),
       ("[edges[i].second] = true;", "[edges[i].second] = false;", "normals on borders are fitted"),
       ("result.push_back(sets.find(positions[triangle[0]]));", "result.push_back(0);", "a layer is shaded as the one beside it"),
       ("std::min(s_cosine_of_sample, before)", "-2", "fitted normals point to the back"),
-      ("keys.emplace_back(positions[m_result.triangles[i][k]]", "keys.emplace_back(m_result.triangles[i][k]", "seams of the texture are hard edges where normals are fitted"))
+      ("keys.emplace_back(positions[m_result.triangles[i][k]]", "keys.emplace_back(m_result.triangles[i][k]", "seams of the texture are hard edges where normals are fitted"),
+      ("!are_near_normals(normal, m_old[wedge])", "true", "normals that differ in their last digits across a seam are fitted apart"))
 group("src/soup/normals.cpp", ("shading_test",),
       ("if (wrong > 0)", "if (false)", "normals that point to the back are not mended"),
       ("side != 0 && side * now[k] < limit", "true", "normals that are near are mended"),

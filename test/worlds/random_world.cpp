@@ -9,6 +9,7 @@
 #include "support/soups.h"
 
 #include <selvedge/mesh_files.h>
+#include <selvedge/normals.h>
 #include <selvedge/rounding.h>
 
 #include <nlohmann/json.hpp>
@@ -513,6 +514,11 @@ World random_world(std::uint64_t seed)
   if (!world.soup.normals.empty())
     world.normals = random.one_of({Normals_choice::automatic, Normals_choice::keep, Normals_choice::loose,
                                    Normals_choice::recompute, Normals_choice::drop});
+  else if (world.seed % 8 == 4 && world.input_format == Mesh_format::obj) { // no random number, as above
+    world.soup.normals.values = {{0, 0, 1}};
+    world.soup.normals.of_triangle.assign(world.soup.triangles.size(), {0, 0, 0});
+    restore_normals(world.soup, Normals_treatment::smooth);
+  }
   if (world.normals == Normals_choice::automatic && world.seed % 4 == 3) // no random number, as above
     world.normals = Normals_choice::mend;
   if (joins_vertices(world.normals) && world.seed % 4 != 3 && !world.soup.scene) {
