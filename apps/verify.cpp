@@ -99,7 +99,10 @@ void print(const Verification& verification, const Comparison& comparison)
     if (const std::size_t compared = attribute.combinations - attribute.at_new_places;
         attribute.original < compared)
       std::cout << attribute.name << ": " << with_commas(compared - attribute.original) << " of "
-                << with_commas(compared) << " values are NOT the original's\n";
+                << with_commas(compared)
+                << (attribute.name == "normal" || attribute.name == "TANGENT"
+                        ? " values are not the original's, as where they were fitted to new faces\n"
+                        : " values are NOT the original's\n");
   if (!comparison.lost_attributes.empty()) {
     std::cout << "attributes LOST:";
     const char* separator = " ";
