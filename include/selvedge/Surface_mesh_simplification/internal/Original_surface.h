@@ -26,9 +26,9 @@ namespace internal {
 
 /// The triangles of a mesh as it was, of which one can ask for a point near another.
 ///
-/// The index that answers is made when there have been some questions, since most reductions of dense meshes
-/// ask few. It has several boxes for a sliver askew to the axes, one for each part of its length: one box
-/// around all of it would say little about it.
+/// The neighbours of triangles are found when there have been some questions, and an index is made when there
+/// have been more, since most reductions of dense meshes ask few. It has several boxes for a sliver askew to
+/// the axes, one for each part of its length: one box around all of it would say little about it.
 ///
 /// **Exactness** Floating point. **Complexity** O(n) for the first questions about n triangles, and about
 /// O(log n) for others. Copies share nothing.
