@@ -7,6 +7,7 @@
 #include "face_samples.h"
 #include "for_each_chunk.h"
 #include "positions.h"
+#include "soup/Disjoint_sets.h"
 
 #include <selvedge/Cancellation_scope.h>
 
@@ -49,7 +50,7 @@ public:
     std::vector<std::size_t> next(m_first.begin(), m_first.end() - 1);
     for_each_side([&](Index from, Index to) { m_neighbours[next[from]++] = to; });
     remove_repetitions();
-    find_components();
+    find_components(triangles);
   }
 
   /// Returns a number below `size` that two positions share when one is reached from the other.
@@ -81,24 +82,15 @@ private:
     m_neighbours.erase(beyond, m_neighbours.end());
   }
 
-  void find_components()
+  void find_components(const std::vector<Index_triple>& triangles)
   {
-    m_components.assign(size(), none);
-    std::vector<Index> to_visit;
-    for (Index start = 0; start < size(); ++start) {
-      if (m_components[start] != none)
-        continue;
-      const auto visit = [&](Index position) {
-        if (std::exchange(m_components[position], start) != start)
-          to_visit.push_back(position);
-      };
-      visit(start);
-      while (!to_visit.empty()) {
-        const Index position = to_visit.back();
-        to_visit.pop_back();
-        for_each_neighbour(position, visit);
-      }
+    Disjoint_sets components(size());
+    for (const auto& [a, b, c] : triangles) {
+      components.unite(m_positions[a], m_positions[b]);
+      components.unite(m_positions[a], m_positions[c]);
     }
+    for (Index position = 0; position < size(); ++position)
+      m_components.push_back(Index(components.find(position)));
   }
 
   std::vector<Index> m_positions;   // of the vertices of the triangles
