@@ -30,7 +30,11 @@ public:
   /// Restricts places to those for which `is_allowed` returns true.
   void restrict(std::function<bool(const Point_3&)> is_allowed) { m_is_allowed = std::move(is_allowed); }
 
-  /// Returns the place at which a vertex of the soup will be stored, at the scale, or none.
+  /// Whether places depend on the vertex.
+  bool is_by_vertex() const { return m_are_places_in_scene; }
+
+  /// Returns the place at which a vertex of the soup will be stored, at the scale, or none. It does not ask
+  /// for the vertex unless places depend on it.
   internal::Optional<Point_3> operator()(const Point_3& place, Index vertex) const;
 
 private:

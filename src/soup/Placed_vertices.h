@@ -10,7 +10,6 @@
 #include <array>
 #include <cstddef>
 #include <memory>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -53,7 +52,11 @@ public:
   void merge_at(Halfedge moving, const Point_3& place, const Point_3& point);
 
   /// Forgets a vertex of the soup, of which no corner is left.
-  void erase(Index vertex) { m_placed.erase(vertex); }
+  void erase(Index vertex)
+  {
+    if (!m_placed.empty())
+      m_placed[vertex].reset();
+  }
 
   /// Puts the vertices into a soup that was selected from that of the mesh, whose triangles have these
   /// corners. Returns their number.
@@ -76,7 +79,8 @@ private:
 
   const Corner_mesh& m_corners;
   std::shared_ptr<const Vertex_values> m_values;
-  std::unordered_map<Index, Placed_vertex> m_placed; // by the number that the vertex has in the soup
+  std::vector<std::unique_ptr<Placed_vertex>>
+      m_placed; // of the vertices of the soup; empty until one is placed
 };
 
 } // namespace selvedge

@@ -112,10 +112,12 @@ void Working_mesh::before_placement(Halfedge moving, const Point_3& place, bool 
 
 internal::Optional<Point_3> Working_mesh::rounded_place(Halfedge edge, const Point_3& place) const
 {
-  const Face face(side(edge).triangle);
-  if (!m_rounding || is_shared(face) || has_doubles(face))
+  if (!m_rounding)
     return {};
-  return (*m_rounding)(place, vertex_of(corner_at(edge)));
+  if (m_shared || has_doubles())
+    if (const Face face(side(edge).triangle); is_shared(face) || has_doubles(face))
+      return {};
+  return (*m_rounding)(place, m_rounding->is_by_vertex() ? vertex_of(corner_at(edge)) : 0);
 }
 
 void Working_mesh::on_refused(Halfedge moving, const Refusals& refusals)

@@ -1197,6 +1197,14 @@ group(
      "the best values are not the best"),
 )
 group(
+    headers + "Surface_mesh_simplification/Quadric_cost.h",
+    ("quadric_cost_test",),
+    ("enclosure.is_known = false;", "(void)enclosure;", "what faces enclose is not forgotten when they change"),
+    ("    m_state->enclosures.reset();\n", "", "what faces enclose is kept when everything is computed anew"),
+    ("return least ? positive(sum(*least)) : 0;", "return least ? 1.5 * positive(sum(*least)) : 0;",
+     "a bound of the cost is too high"),
+)
+group(
     headers + "internal/saturated_float.h",
     ("uv_test:Uv.AQuadric*", "quadric_cost_test"),
     ("return float((std::max)(-largest, (std::min)(largest, number)));", "return float(number);",

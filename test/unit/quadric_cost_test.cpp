@@ -200,40 +200,93 @@ TEST(QuadricCost, IsFiniteForTheLargestWeights)
   EXPECT_GT(highest, 1e290);
 }
 
+double volume(const Mesh& mesh)
+{
+  double sum = 0;
+  for (const auto face : mesh.faces()) {
+    const auto h = mesh.halfedge(face);
+    sum += CGAL::volume(Point_3(0, 0, 0), mesh.point(mesh.source(h)), mesh.point(mesh.target(h)),
+                        mesh.point(mesh.target(mesh.next(h))));
+  }
+  return sum;
+}
+
+// Returns by which share a collapse changes the volume at most, of all that are possible.
+double largest_change_of_volume(Mesh& mesh, const Quadric_cost<Mesh>& cost)
+{
+  const Kernel traits;
+  const auto points = get(CGAL::vertex_point, mesh);
+  cost.initialize(mesh, points, traits);
+  double largest = 0;
+  for (const auto e : mesh.edges()) {
+    const internal::Lazy_edge_profile<Mesh, decltype(points), Kernel> edge(mesh.halfedge(e), mesh, points,
+                                                                           traits);
+    const auto place = cost.least_place(edge, 1);
+    EXPECT_TRUE(place);
+    if (!place || !CGAL::Euler::does_satisfy_link_condition(e, mesh))
+      continue;
+    Mesh merged = mesh;
+    const auto kept = CGAL::Euler::collapse_edge(e, merged);
+    merged.point(kept) = Point_3((*place)[0], (*place)[1], (*place)[2]);
+    largest = std::max(largest, std::fabs(volume(merged) / volume(mesh) - 1));
+  }
+  return largest;
+}
+
 TEST(QuadricCost, PlacesKeepTheVolume)
 {
-  const auto volume = [](const Mesh& mesh) {
-    double sum = 0;
-    for (const auto face : mesh.faces()) {
-      const auto h = mesh.halfedge(face);
-      sum += CGAL::volume(Point_3(0, 0, 0), mesh.point(mesh.source(h)), mesh.point(mesh.target(h)),
-                          mesh.point(mesh.target(mesh.next(h))));
-    }
-    return sum;
-  };
-  const auto largest_change = [&](double memory) {
+  const auto largest_change = [](double memory) {
     Mesh mesh = mesh_of(nested_spheres(300, 1, 1e-3));
-    const Quadric_cost<Mesh> cost(mesh, with_memory(memory));
-    const Kernel traits;
-    const auto points = get(CGAL::vertex_point, mesh);
-    cost.initialize(mesh, points, traits);
-    double largest = 0;
-    for (const auto e : mesh.edges()) {
-      const internal::Lazy_edge_profile<Mesh, decltype(points), Kernel> edge(mesh.halfedge(e), mesh, points,
-                                                                             traits);
-      const auto place = cost.least_place(edge, 1);
-      EXPECT_TRUE(place);
-      if (!place || !CGAL::Euler::does_satisfy_link_condition(e, mesh))
-        continue;
-      Mesh merged = mesh;
-      const auto kept = CGAL::Euler::collapse_edge(e, merged);
-      merged.point(kept) = Point_3((*place)[0], (*place)[1], (*place)[2]);
-      largest = std::max(largest, std::fabs(volume(merged) / volume(mesh) - 1));
-    }
-    return largest;
+    return largest_change_of_volume(mesh, Quadric_cost<Mesh>(mesh, with_memory(memory)));
   };
   EXPECT_LT(largest_change(0.03), 1e-12);
   EXPECT_GT(largest_change(1), 1e-6) << "which knows nothing of volumes";
+}
+
+TEST(QuadricCost, PlacesKeepTheVolumeOfWhatCollapsesHaveLeft)
+{
+  const Reduced_sphere scene(0.03);
+  EXPECT_LT(largest_change_of_volume(scene.mesh, scene.cost), 1e-12);
+
+  Mesh mesh = mesh_of(nested_spheres(300, 1, 1e-3));
+  const Quadric_cost<Mesh> cost(mesh, with_memory(0.03));
+  largest_change_of_volume(mesh, cost);
+  const Kernel traits;
+  const auto points = get(CGAL::vertex_point, mesh);
+  for (const auto e : mesh.edges()) {
+    if (mesh.is_removed(e) || !CGAL::Euler::does_satisfy_link_condition(e, mesh))
+      continue;
+    const internal::Lazy_edge_profile<Mesh, decltype(points), Kernel> edge(mesh.halfedge(e), mesh, points,
+                                                                           traits);
+    cost.accumulate(edge, CGAL::Euler::collapse_edge(e, mesh));
+    if (mesh.number_of_vertices() <= 100)
+      break;
+  }
+  EXPECT_EQ(mesh.number_of_vertices(), 100u);
+  cost.recompute(mesh, points);
+  EXPECT_LT(largest_change_of_volume(mesh, cost), 1e-12);
+}
+
+TEST(QuadricCost, NoPlaceCostsLessThanTheLeastCost)
+{
+  for (const double memory : {0., 0.03, 1.}) {
+    const Reduced_sphere scene(memory);
+    const Kernel traits;
+    const auto points = get(CGAL::vertex_point, scene.mesh);
+    std::size_t edges = 0, half_as_much = 0;
+    for (const auto e : scene.mesh.edges()) {
+      const internal::Lazy_edge_profile<Mesh, decltype(points), Kernel> edge(scene.mesh.halfedge(e),
+                                                                             scene.mesh, points, traits);
+      const double least = scene.cost.least_cost(edge);
+      const auto place = scene.cost.least_place(edge, 1);
+      ASSERT_TRUE(place);
+      const double at_place = scene.cost.cost_at(edge, Point_3((*place)[0], (*place)[1], (*place)[2]));
+      EXPECT_LE(least, (1 + 1e-9) * at_place + 1e-18) << memory << ' ' << e;
+      ++edges;
+      half_as_much += 2 * least > at_place;
+    }
+    EXPECT_GT(half_as_much, edges / 10) << memory;
+  }
 }
 
 TEST(QuadricCost, GivesSmallFacesMoreThanTheirShareOfTheArea)

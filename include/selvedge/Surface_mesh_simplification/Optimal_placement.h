@@ -8,6 +8,9 @@
 #include <selvedge/Surface_mesh_simplification/internal/Collapse.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
 
+#include <algorithm>
+#include <utility>
+
 namespace selvedge {
 
 /// Takes every place as it is: the default of `Optimal_placement`.
@@ -90,6 +93,21 @@ public:
     return rank == 0 ? end : m_ends.choice(profile, rank);
   }
 
+  /// Returns a cost that the first choice does not fall below, apart from rounding, and that takes less time
+  /// to compute. None where the cost policy has no `least_cost_bound`, or no bound for the ends.
+  template <class Profile, class Policy = Cost>
+  auto first_cost_bound(const Profile& profile) const
+      -> decltype(std::declval<const Policy&>().least_cost_bound(profile), internal::Optional<double>())
+  {
+    auto bound = m_ends.first_cost_bound(profile);
+    if (!are_ends_free(profile))
+      return bound;
+    if (!bound)
+      if (const auto end = m_ends.choice(profile, 0))
+        bound = end->cost;
+    return bound ? (std::min)(*bound, m_cost.least_cost_bound(profile)) : bound;
+  }
+
   /// Returns the collapse that a choice stands for.
   template <class Profile>
   internal::Optional<internal::Collapse<Profile>> collapse(const Profile& profile,
@@ -108,12 +126,18 @@ public:
   bool can_wait(Vertex kept, Edge edge) const { return m_ends.can_wait(kept, edge); }
 
 private:
+  template <class Profile>
+  bool are_ends_free(const Profile& profile) const
+  {
+    return m_rule.is_free(profile.v0()) && m_rule.is_free(profile.v1());
+  }
+
   // Returns the place of least cost as it will be stored; none where it is an end, or may not be used.
   template <class Profile>
   internal::Optional<typename Profile::Point> least_place(const Profile& profile) const
   {
     using Point = typename Profile::Point;
-    if (!m_rule.is_free(profile.v0()) || !m_rule.is_free(profile.v1()))
+    if (!are_ends_free(profile))
       return {};
     const auto least = m_cost.least_place(profile, s_reach);
     if (!least)

@@ -68,8 +68,8 @@ struct No_line_map
 /// statement about intersections depends on it. Coordinates are taken relative to a vertex or to the centre
 /// of the mesh, so that a mesh far from the origin loses no precision. Normals of faces, and with them their
 /// weights, are kept in single precision: relative to the vertex, through which their planes pass, what is
-/// rounded changes a cost by far less than the weight of the vertices does. A vertex takes 144 bytes, and a
-/// face 12.
+/// rounded changes a cost by far less than the weight of the vertices does. A vertex takes 144 bytes, 32
+/// more when a place is asked for, and a face 12.
 ///
 /// **Complexity** Linear in the size of the mesh to initialise; constant for a cost or an error; the number
 /// of faces at the neighbours of the merged vertex for an update.
@@ -87,25 +87,18 @@ class Quadric_cost
   using Vertex = typename Graph_traits::vertex_descriptor;
   using Halfedge = typename Graph_traits::halfedge_descriptor;
 
-  // The faces around a vertex: the sum of their normals, each as long as twice its area, and that of their
-  // scalar products with a corner. Where both are of all faces that change, a merged vertex x encloses the
-  // same volume as before when normals * x = products.
+  // The faces around a vertex: the sum of their normals, each as long as twice its area, unless the vertex is
+  // on a border. It is computed when it is asked for, and forgotten when one of the faces changes.
   struct Enclosure
   {
     Vector normals{0, 0, 0};
-    double products = 0;
+    bool is_known = false;
     bool is_closed = true;
 
-    void add(const Vector& normal, double product, double factor = 1)
+    void add(const Vector& normal)
     {
       for (std::size_t i = 0; i < 3; ++i)
-        normals[i] += factor * normal[i];
-      products += factor * product;
-    }
-    void add(const Enclosure& other)
-    {
-      add(other.normals, other.products);
-      is_closed &= other.is_closed;
+        normals[i] += normal[i];
     }
   };
 
@@ -245,25 +238,27 @@ public:
   template <class Profile>
   std::optional<internal::Vector_of_doubles> least_place(const Profile& profile, double reach) const
   {
+    using internal::cross;
     using internal::difference;
     using internal::dot;
     // All of this is relative to one end.
     const Vector origin = vector(profile.p0()), along = difference(vector(profile.p1()), origin);
-    Quadric sum = get(m_state->growths, profile.v0()).quadric(m_state->unit);
-    sum += get(m_state->growths, profile.v1()).quadric(m_state->unit).moved_by(along);
+    const Quadric sum = sum_from(profile, along);
     std::optional<Vector> least;
-    Enclosure both;
     if (m_state->options.memory < 1) {
-      both.add(enclosure_of(profile.v0(), profile, origin));
-      both.add(enclosure_of(profile.v1(), profile, origin));
-    }
-    if (m_state->options.memory < 1 && both.is_closed) {
-      for (const Halfedge h : {profile.v0_v1(), profile.v1_v0()}) { // its face is in both
-        const auto [corners, normal] =
-            corners_and_normal(h, profile.surface_mesh(), profile.vertex_point_map());
-        both.add(normal, dot(normal, difference(corners[0], origin)), -1);
+      Enclosure both = enclosure_of(profile.v0(), profile);
+      const Enclosure second = enclosure_of(profile.v1(), profile);
+      if (both.is_closed && second.is_closed) {
+        // A merged vertex x encloses the same volume as before when normals * x is the sum of the products of
+        // each normal with a corner. This is an end of the edge, which is 0 for the first.
+        both.add(second.normals);
+        const auto third = [&](Halfedge h) { // the corner beside the edge, of a face that is in both
+          const auto& mesh = profile.surface_mesh();
+          return difference(vector(get(profile.vertex_point_map(), target(next(h, mesh), mesh))), origin);
+        };
+        both.add(cross(along, difference(third(profile.v1_v0()), third(profile.v0_v1()))));
+        least = sum.least_point_on_plane(both.normals, dot(second.normals, along), {0, 0, 0});
       }
-      least = sum.least_point_on_plane(both.normals, both.products, {0, 0, 0});
     }
     if (!least)
       least = sum.least_point();
@@ -285,6 +280,16 @@ public:
     for (std::size_t i = 0; i < 3; ++i)
       (*least)[i] += origin[i];
     return least;
+  }
+
+  /// Returns what the merged vertex costs at the place of least cost, whatever volume it leaves, or 0 where
+  /// this is not one point; faster than `least_place`.
+  template <class Profile>
+  double least_cost(const Profile& profile) const
+  {
+    const Quadric sum = sum_from(profile, internal::difference(vector(profile.p1()), vector(profile.p0())));
+    const auto least = sum.least_point();
+    return least ? positive(sum(*least)) : 0;
   }
 
   /// Returns the root mean square distance of `point` to the planes accumulated at both ends of the edge, in
@@ -325,6 +330,8 @@ public:
     accumulate(profile, kept);
     const auto update = [&](Vertex v) {
       change(m_state->growths, v, [&](Growth& growth) { compute_growth(v, mesh, points, memory, growth); });
+      if (m_state->enclosures)
+        change(*m_state->enclosures, v, [](Enclosure& enclosure) { enclosure.is_known = false; });
     };
     update(kept);
     if (memory < 1)
@@ -350,6 +357,7 @@ public:
   void recompute(const TriangleMesh& mesh, const VertexPointMap& points) const
   {
     compute_planes(mesh, points);
+    m_state->enclosures.reset();
     Cancellation_poll poll;
     for (const Vertex v : vertices(mesh)) {
       poll();
@@ -379,9 +387,10 @@ private:
     Quadric_cost_options options;
     EdgeIsLineMap edge_is_line;
     Plane_map planes;
-    Vertex_map<Growth> growths;                // which every cost asks for, apart from the rest
-    Vertex_map<Quadric> accumulated;           // relative to the origin
-    std::optional<Vertex_map<double>> weights; // none when all are 1
+    Vertex_map<Growth> growths;                      // which every cost asks for, apart from the rest
+    Vertex_map<Quadric> accumulated;                 // relative to the origin
+    std::optional<Vertex_map<Enclosure>> enclosures; // none until a place is asked for
+    std::optional<Vertex_map<double>> weights;       // none when all are 1
     Vector origin{0, 0, 0};
     double diagonal = 0; // not known yet
     double unit = 1;     // the power of two below the diagonal
@@ -450,24 +459,14 @@ private:
     return length;
   }
 
-  // Returns the corners of the face of a halfedge, from the source of the halfedge on, and its normal, which
-  // is as long as twice its area.
-  template <class VertexPointMap>
-  std::pair<std::array<Vector, 3>, Vector> corners_and_normal(Halfedge h, const TriangleMesh& mesh,
-                                                              const VertexPointMap& points) const
-  {
-    const std::array<Vector, 3> corners{vector(get(points, source(h, mesh))),
-                                        vector(get(points, target(h, mesh))),
-                                        vector(get(points, target(next(h, mesh), mesh)))};
-    return {corners, internal::cross(internal::difference(corners[1], corners[0]),
-                                     internal::difference(corners[2], corners[0]))};
-  }
-
   template <class VertexPointMap>
   void compute_plane(typename Graph_traits::face_descriptor face, const TriangleMesh& mesh,
                      const VertexPointMap& points) const
   {
-    Vector normal = corners_and_normal(halfedge(face, mesh), mesh, points).second;
+    const Halfedge h = halfedge(face, mesh);
+    const Vector corner = vector(get(points, source(h, mesh)));
+    const auto side_to = [&](Vertex v) { return internal::difference(vector(get(points, v)), corner); };
+    Vector normal = internal::cross(side_to(target(h, mesh)), side_to(target(next(h, mesh), mesh)));
     const double length = std::sqrt(weight_of_area(0.5 * normalise(normal)));
     Face_plane plane;
     for (std::size_t i = 0; i < 3; ++i)
@@ -487,20 +486,40 @@ private:
     return get(m_state->growths, v)(motion, m_state->unit);
   }
 
-  // Relative to `origin`.
+  // Returns the cost of merging the ends of an edge, relative to the first; `along` is the edge.
   template <class Profile>
-  Enclosure enclosure_of(Vertex v, const Profile& profile, const Vector& origin) const
+  Quadric sum_from(const Profile& profile, const Vector& along) const
+  {
+    Quadric sum = get(m_state->growths, profile.v0()).quadric(m_state->unit);
+    sum += get(m_state->growths, profile.v1()).quadric(m_state->unit).moved_by(along);
+    return sum;
+  }
+
+  template <class Profile>
+  Enclosure enclosure_of(Vertex v, const Profile& profile) const
   {
     const auto& mesh = profile.surface_mesh();
-    Enclosure result;
+    std::optional<Vertex_map<Enclosure>>& enclosures = m_state->enclosures;
+    if (!enclosures)
+      enclosures = get(CGAL::dynamic_vertex_property_t<Enclosure>(), mesh);
+    Enclosure result = get(*enclosures, v);
+    if (result.is_known)
+      return result;
+    result = {};
+    result.is_known = true;
+    const auto& points = profile.vertex_point_map();
+    const Vector at_v = vector(get(points, v));
+    const auto spoke_to = [&](Vertex w) { return internal::difference(vector(get(points, w)), at_v); };
+    Vector spoke = spoke_to(source(halfedge(v, mesh), mesh));
     for (const Halfedge to_v : CGAL::halfedges_around_target(v, mesh)) {
-      if (CGAL::is_border(to_v, mesh)) {
-        result.is_closed = false;
-        continue;
-      }
-      const auto [corners, normal] = corners_and_normal(to_v, mesh, profile.vertex_point_map());
-      result.add(normal, internal::dot(normal, internal::difference(corners[0], origin)));
+      result.is_closed &= !CGAL::is_border(to_v, mesh);
+      if (!result.is_closed)
+        break;
+      const Vector next_spoke = spoke_to(target(next(to_v, mesh), mesh));
+      result.add(internal::cross(next_spoke, spoke));
+      spoke = next_spoke;
     }
+    put(*enclosures, v, result);
     return result;
   }
 

@@ -119,6 +119,13 @@ public:
     return m_quadrics.least_place(profile, reach);
   }
 
+  /// Returns a cost that `cost_at` does not fall below anywhere, apart from rounding.
+  template <class Profile>
+  double least_cost_bound(const Profile& profile) const
+  {
+    return m_quadrics.least_cost(profile);
+  }
+
   bool reaches_neighbours(Vertex kept) const { return m_quadrics.reaches_neighbours(kept); }
   bool reaches(Vertex kept, Edge edge) const { return m_quadrics.reaches(kept, edge); }
   bool can_wait(Vertex kept, Edge edge) const { return m_quadrics.can_wait(kept, edge); }
