@@ -110,15 +110,14 @@ public:
     }
   }
 
-  /// Adds all faces at `vertex`, each once, except those at `mover`: for a vertex that is judged as if it
-  /// stood elsewhere than in the index.
+  /// Adds all faces at `vertex` except those at `mover` to a list that has none of them: for a vertex that is
+  /// judged as if it stood elsewhere than in the index.
   void add_all_at(Vertex vertex, Number mover, std::vector<Id>& near) const
   {
-    remove_at(m_vertices.number(vertex), near);
     for (const Halfedge h : CGAL::halfedges_around_target(halfedge(vertex, m_mesh), m_mesh))
       if (!CGAL::is_border(h, m_mesh))
-        near.push_back(id(face(h, m_mesh)));
-    remove_at(mover, near);
+        if (const Id of_h = id(face(h, m_mesh)); !is_at(of_h, mover))
+          near.push_back(of_h);
   }
 
   /// The sweeps of a star, one bit for each, that are not known to be clear of a face.

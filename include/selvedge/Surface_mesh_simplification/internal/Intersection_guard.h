@@ -368,6 +368,8 @@ private:
     if (motion.is_joint())
       for (const Halfedge h : *motion.others)
         m_faces.remove_at(m_vertices.number(source(h, m_mesh)), m_near);
+    if (motion.is_target_moved) // its faces are in the table where it was
+      m_faces.remove_at(m_vertices.number(*motion.target), m_near);
     const std::size_t faces_near = m_near.size();
     m_statistics.faces_near += faces_near;
     m_unclear.clear();
@@ -376,11 +378,8 @@ private:
       m_faces.remove_clear(m_view.pack_filter(), m_near, m_unclear);
       m_statistics.faces_clear_in_packs += faces_near - m_near.size();
     }
-    // These are in the table where the target was.
-    if (motion.is_target_moved) {
+    if (motion.is_target_moved)
       m_faces.add_all_at(*motion.target, mover, m_near);
-      m_unclear.clear();
-    }
     m_unclear.resize(m_near.size(), ~Sweeps(0));
   }
 
