@@ -6,13 +6,11 @@
 #include "text.h"
 
 #include <selvedge/Parts.h>
-#include <selvedge/verify.h>
-
-#include <CGAL/Bbox_3.h>
+#include <selvedge/part_report.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -21,27 +19,6 @@ namespace {
 
 constexpr double far_fewer = 0.5;   // of the share of faces that the whole keeps
 constexpr double shapeless = 0.005; // root mean square distance, as a share of the size of the part
-
-/// Returns the geometry of some triangles, with three points for each.
-Triangle_soup geometry(const Triangle_soup& soup, const std::vector<Index>& triangles, const Scale& scale)
-{
-  Triangle_soup cut;
-  for (const Index t : triangles) {
-    const Index first = Index(cut.points.size());
-    for (const Index vertex : soup.triangles[t])
-      cut.points.push_back(scale(soup.points[vertex]));
-    cut.triangles.push_back({first, first + 1, first + 2});
-  }
-  return cut;
-}
-
-double diagonal(const Triangle_soup& soup)
-{
-  CGAL::Bbox_3 box;
-  for (const Point_3& point : soup.points)
-    box += point.bbox();
-  return std::hypot(box.x_span(), box.y_span(), box.z_span());
-}
 
 /// Returns one flag per triangle: whether the user has given a ratio for a part to which it belongs.
 std::vector<char> triangles_with_ratio(const Simplify_request& request, const Triangle_soup& soup)
@@ -76,34 +53,40 @@ std::string coarse_part(const Simplify_request& request, const Prepared_soup& or
     return "";
   const std::vector<char> has_ratio = triangles_with_ratio(request, original.soup);
   const double share_of_whole = share_kept(request, has_ratio, result.triangles);
-  std::string text;
-  std::size_t most = 0;
-  for (const Part_kind& kind : part_kinds(original.soup)) {
+  struct Suspect
+  {
+    std::string_view kind, name;
+    double share;
+  };
+  std::vector<Suspect> suspects;
+  std::vector<Part_triangles> of_suspects;
+  const std::vector<Part_kind> kinds = part_kinds(original.soup);
+  for (const Part_kind& kind : kinds) {
     if (kind.names.empty())
       continue;
-    std::vector<std::vector<Index>> before(kind.count), after(kind.count);
-    for (Index t = 0; t < kind.of_triangle.size(); ++t)
-      before[kind.of_triangle[t]].push_back(t);
-    for (Index i = 0; i < result.triangles.size(); ++i)
-      after[kind.of_triangle[result.triangles[i]]].push_back(i);
-    for (Index part = 0; part < kind.count; ++part) {
-      const double share = double(after[part].size()) / double(before[part].size());
-      if (kind.names[part].empty() || before[part].size() <= most || has_ratio[before[part].front()] ||
-          !(share < far_fewer * share_of_whole))
+    std::vector<Part_triangles> parts = triangles_of_parts(kind, result);
+    for (Index i = 0; i < kind.count; ++i) {
+      const double share = double(parts[i].after.size()) / double(parts[i].before.size());
+      if (!(share < far_fewer * share_of_whole) || kind.names[i].empty() ||
+          has_ratio[parts[i].before.front()])
         continue;
-      const Triangle_soup shape = geometry(original.soup, before[part], original.scale);
-      const double off = // infinite when nothing is left
-          distance(shape, geometry(result.soup, after[part], original.scale)).root_mean_square /
-          diagonal(shape);
-      if (!(off > shapeless))
-        continue;
-      most = before[part].size();
-      text = std::string(name(kind.name)) + " '" + kind.names[part] + "' keeps " + percent(share) +
-             " of its faces" +
-             (after[part].empty() ? "" : " and is off by " + percent(off) + " of its own size (RMS)") +
-             "; --ratio '" + kind.names[part] + '=' +
-             with_digits((std::min)(1.0, 2 * share_of_whole), "%.2g") + "' keeps more of it";
+      suspects.push_back({name(kind.name), kind.names[i], share});
+      of_suspects.push_back(std::move(parts[i]));
     }
+  }
+  const std::vector<Part_distance> distances = part_distances(result, original, of_suspects);
+  std::string text;
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < suspects.size(); ++i) {
+    const auto& [kind, name, share] = suspects[i];
+    const double off = distances[i].distance.root_mean_square / distances[i].diagonal;
+    if (!(off > shapeless) || of_suspects[i].before.size() <= most)
+      continue;
+    most = of_suspects[i].before.size();
+    text = std::string(kind) + " '" + std::string(name) + "' keeps " + percent(share) + " of its faces" +
+           (of_suspects[i].after.empty() ? "" : " and is off by " + percent(off) + " of its own size (RMS)") +
+           "; --ratio '" + std::string(name) + '=' +
+           with_digits((std::min)(1.0, 2 * share_of_whole), "%.2g") + "' keeps more of it";
   }
   return text;
 }

@@ -30,6 +30,28 @@ struct Uv_deviation
 /// **Exactness** Floating point. **Complexity** O(n log n) in practice.
 std::optional<Uv_deviation> uv_deviation(const Simplified_soup& result, const Prepared_soup& original);
 
+/// The triangles of one part of a soup, and those of a result that are left of them.
+struct Part_triangles
+{
+  std::vector<Index> before, after;
+};
+
+/// Returns the triangles of each part, in the order of their numbers.
+std::vector<Part_triangles> triangles_of_parts(const Part_kind& kind, const Simplified_soup& result);
+
+/// How far a part is from what is left of it, both divided by the scale of the original.
+struct Part_distance
+{
+  Distance distance;   ///< from the original's vertices; infinite when nothing is left
+  double diagonal = 0; ///< of the part, in the original
+};
+
+/// Returns this for each of some parts.
+///
+/// **Exactness** Floating point. **Complexity** O(n log n) in practice for all parts together, in parallel.
+std::vector<Part_distance> part_distances(const Simplified_soup& result, const Prepared_soup& original,
+                                          const std::vector<Part_triangles>& parts);
+
 /// What became of one part of a soup.
 struct Part_report
 {

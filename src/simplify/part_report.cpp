@@ -183,35 +183,77 @@ std::optional<Uv_deviation> deviation_of_all(const std::vector<double>& displace
   return deviation_of(displacements, original, all);
 }
 
-/// Returns the geometry of some parts, each as a soup of its own.
-std::vector<Triangle_soup> submesh(const Triangle_soup& soup,
-                                   const std::vector<std::vector<Index>>& triangles_of_part,
-                                   const std::vector<Index>& parts, const Scale& scale)
+/// Cuts parts out of a soup, one after another, in time linear in the part.
+class Cutter
 {
-  constexpr Index none = std::numeric_limits<Index>::max();
-  std::vector<Index> last_users(soup.points.size(), none), numbers(soup.points.size());
-  std::vector<Triangle_soup> cuts(parts.size());
-  for (Index i = 0; i < parts.size(); ++i)
-    for (const Index t : triangles_of_part[parts[i]]) {
-      Index_triple corners = soup.triangles[t];
+public:
+  Cutter(const Triangle_soup& soup, const Scale& scale)
+      : m_soup(soup), m_scale(scale), m_numbers(soup.points.size(), s_none)
+  {
+  }
+
+  /// Returns the geometry of some triangles.
+  Triangle_soup cut(const std::vector<Index>& triangles)
+  {
+    Triangle_soup part;
+    std::vector<Index> vertices;
+    for (const Index t : triangles) {
+      Index_triple corners = m_soup.triangles[t];
       for (Index& v : corners) {
-        if (last_users[v] != i) {
-          last_users[v] = i;
-          numbers[v] = Index(cuts[i].points.size());
-          cuts[i].points.push_back(scale(soup.points[v]));
+        if (m_numbers[v] == s_none) {
+          m_numbers[v] = Index(vertices.size());
+          vertices.push_back(v);
+          part.points.push_back(m_scale(m_soup.points[v]));
         }
-        v = numbers[v];
+        v = m_numbers[v];
       }
-      cuts[i].triangles.push_back(corners);
+      part.triangles.push_back(corners);
     }
-  return cuts;
-}
+    for (const Index v : vertices)
+      m_numbers[v] = s_none;
+    return part;
+  }
+
+private:
+  static constexpr Index s_none = std::numeric_limits<Index>::max();
+
+  const Triangle_soup& m_soup;
+  const Scale& m_scale;
+  std::vector<Index> m_numbers; // in the part; s_none where a vertex is not known to be in it
+};
 
 } // namespace
 
 std::optional<Uv_deviation> uv_deviation(const Simplified_soup& result, const Prepared_soup& original)
 {
   return deviation_of_all(uv_displacements(result, original), original);
+}
+
+std::vector<Part_triangles> triangles_of_parts(const Part_kind& kind, const Simplified_soup& result)
+{
+  std::vector<Part_triangles> parts(kind.count);
+  for (Index t = 0; t < kind.of_triangle.size(); ++t)
+    parts[kind.of_triangle[t]].before.push_back(t);
+  for (Index i = 0; i < result.triangles.size(); ++i)
+    parts[kind.of_triangle[result.triangles[i]]].after.push_back(i);
+  return parts;
+}
+
+std::vector<Part_distance> part_distances(const Simplified_soup& result, const Prepared_soup& original,
+                                          const std::vector<Part_triangles>& parts)
+{
+  Cutter original_cutter(original.soup, original.scale), result_cutter(result.soup, original.scale);
+  std::vector<Triangle_soup> before, after;
+  for (const Part_triangles& part : parts) {
+    before.push_back(original_cutter.cut(part.before));
+    after.push_back(result_cutter.cut(part.after));
+  }
+  std::vector<Part_distance> distances(parts.size());
+  const auto measure = [&](std::size_t i) {
+    distances[i] = {distance(before[i], after[i]), internal::diagonal(before[i].points)};
+  };
+  tbb::parallel_for(std::size_t(0), parts.size(), Cancellation_scope::inherited(measure));
+  return distances;
 }
 
 Part_reports part_reports(const Simplified_soup& result, const Prepared_soup& original)
@@ -224,37 +266,32 @@ Part_reports part_reports(const Simplified_soup& result, const Prepared_soup& or
   std::map<std::vector<Index>, std::size_t> report_of; // what is a part of two kinds is measured once
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     const Part_kind& kind = kinds[k];
-    std::vector<std::vector<Index>> triangles_before(kind.count), triangles_after(kind.count);
-    for (Index t = 0; t < kind.of_triangle.size(); ++t)
-      triangles_before[kind.of_triangle[t]].push_back(t);
-    for (Index i = 0; i < result.triangles.size(); ++i)
-      triangles_after[kind.of_triangle[result.triangles[i]]].push_back(i);
-
+    std::vector<Part_triangles> triangles = triangles_of_parts(kind, result);
     std::vector<Index> parts(kind.count);
     std::iota(parts.begin(), parts.end(), Index(0));
     if (kind.name == Part_kind::Name::piece && parts.size() > s_pieces_reported) {
       std::stable_sort(parts.begin(), parts.end(), [&](Index a, Index b) {
-        return triangles_before[a].size() > triangles_before[b].size();
+        return triangles[a].before.size() > triangles[b].before.size();
       });
       parts.resize(s_pieces_reported);
     }
     parts.erase(std::remove_if(parts.begin(), parts.end(),
-                               [&](Index part) { return triangles_before[part].empty(); }),
+                               [&](Index part) { return triangles[part].before.empty(); }),
                 parts.end());
-    std::vector<Index> unmeasured;
+    std::vector<Part_triangles> unmeasured;
     std::vector<std::size_t> their_reports;
     for (const Index part : parts) {
       Part_report report{kind.name,
                          kind.names.empty() ? "" : kind.names[part],
-                         triangles_before[part].front(),
-                         triangles_before[part].size(),
-                         triangles_after[part].size(),
+                         triangles[part].before.front(),
+                         triangles[part].before.size(),
+                         triangles[part].after.size(),
                          result.refused_by_part[k][part],
                          {},
                          {}};
-      const auto [known, is_new] = report_of.emplace(triangles_before[part], reports.size());
+      const auto [known, is_new] = report_of.emplace(triangles[part].before, reports.size());
       if (is_new) {
-        unmeasured.push_back(part);
+        unmeasured.push_back(std::move(triangles[part]));
         their_reports.push_back(reports.size());
       } else {
         report.distance = reports[known->second].distance;
@@ -262,18 +299,14 @@ Part_reports part_reports(const Simplified_soup& result, const Prepared_soup& or
       }
       reports.push_back(std::move(report));
     }
-    const std::vector<Triangle_soup> before =
-        submesh(original.soup, triangles_before, unmeasured, original.scale);
-    const std::vector<Triangle_soup> after =
-        submesh(result.soup, triangles_after, unmeasured, original.scale);
-    const auto measure = [&](std::size_t i) {
+    const std::vector<Part_distance> distances = part_distances(result, original, unmeasured);
+    for (std::size_t i = 0; i < unmeasured.size(); ++i) {
       Part_report& report = reports[their_reports[i]];
-      report.distance = distance(before[i], after[i]);
+      report.distance = distances[i].distance;
       report.distance.root_mean_square /= unit;
       report.distance.maximum /= unit;
-      report.uv_deviation = deviation_of(displacements, original, triangles_before[unmeasured[i]]);
-    };
-    tbb::parallel_for(std::size_t(0), unmeasured.size(), Cancellation_scope::inherited(measure));
+      report.uv_deviation = deviation_of(displacements, original, unmeasured[i].before);
+    }
   }
   return all;
 }
