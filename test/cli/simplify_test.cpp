@@ -421,16 +421,19 @@ TEST(App_simplify, NamesWhatTheOutputLosesAlone)
   EXPECT_EQ(none.out.find("attributes"), std::string::npos) << none.out;
 }
 
+// Returns the root mean square distance that a summary has, in per cent; -1 where it has none.
+double rms_of(const std::string& summary)
+{
+  const std::string before = "distance from the original's vertices: ";
+  const std::size_t place = summary.find(before);
+  return place == std::string::npos ? -1 : std::stod(summary.substr(place + before.size()));
+}
+
 // What it says is so: with the faces that it names, the result is nearer to the original.
 TEST(App_simplify, SaysThatWhatIsNotHeldHasBeenFlattened)
 {
   const Workspace folder;
   const std::string in = folder.generate("nested", "in.obj", 2000), out = folder / "out.obj";
-  const auto rms = [](const App_result& run) {
-    const std::string before = "distance from the original's vertices: ";
-    const std::size_t place = run.out.find(before);
-    return place == std::string::npos ? -1 : std::stod(run.out.substr(place + before.size()));
-  };
   const App_result missed = run_app({"simplify", in, "-o", out, "--ratio", "0.01"});
   const std::string text =
       "\nflattened: all that nothing holds, as far as --error 0.01 allows; a target of a "
@@ -440,8 +443,8 @@ TEST(App_simplify, SaysThatWhatIsNotHeldHasBeenFlattened)
   const std::string faces = std::to_string(std::stoul(missed.out.substr(place + text.size())));
   const App_result helped = run_app({"simplify", in, "-o", out, "--faces", faces});
   EXPECT_EQ(helped.out.find("\nflattened: "), std::string::npos) << helped.out;
-  EXPECT_GT(rms(helped), 0);
-  EXPECT_LT(rms(helped), 0.95 * rms(missed));
+  EXPECT_GT(rms_of(helped.out), 0);
+  EXPECT_LT(rms_of(helped.out), 0.95 * rms_of(missed.out));
   const App_result levels = run_app({"simplify", in, "-o", folder / "{lod}.obj", "--lods", "0.5,0.01"});
   EXPECT_NE(levels.out.find("a ratio that is larger by as much, keeps"), std::string::npos) << levels.out;
   const App_result part = run_app({"simplify", in, "-o", out, "--ratio", "0.01", "--ratio", "sphere_0=0.5"});
@@ -455,6 +458,28 @@ TEST(App_simplify, SaysThatWhatIsNotHeldHasBeenFlattened)
     arguments.insert(arguments.end(), options.begin(), options.end());
     EXPECT_EQ(run_app(arguments).out.find("\nflattened: "), std::string::npos);
   }
+}
+
+// What it says is so; it is said where few faces are left, and where new places are allowed.
+TEST(App_simplify, NamesThePlacementThatComesNearer)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("nested", "in.obj", 20000), out = folder / "out.obj";
+  const auto run = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"simplify", in, "-o", out});
+    return run_app(options).out;
+  };
+  const std::string advice = "; --placement optimal comes nearer\n";
+  const std::string advised = run({"--ratio", "0.2"}),
+                    followed = run({"--ratio", "0.2", "--placement", "optimal"});
+  EXPECT_NE(advised.find(advice), std::string::npos) << advised;
+  EXPECT_EQ(followed.find(advice), std::string::npos) << followed;
+  EXPECT_LT(rms_of(followed), 0.8 * rms_of(advised));
+  EXPECT_GT(rms_of(followed), 0);
+  EXPECT_EQ(run({"--ratio", "0.3"}).find(advice), std::string::npos);
+  EXPECT_EQ(run({"--ratio", "0.2", "--progressive", folder / "p.glb"}).find(advice), std::string::npos);
+  const App_result levels = run_app({"simplify", in, "-o", folder / "{lod}.obj", "--lods", "0.2,0.1"});
+  EXPECT_EQ(levels.out.find(advice), std::string::npos) << levels.out;
 }
 
 // The limit is small for the whole and large for the part. What the message names keeps more of the part; it
