@@ -325,7 +325,7 @@ group(
     ("original_surface_test",),
     ("if (from <= at_c && at_c <= to)", "if (false)", "a corner of a sliver in none of its boxes"),
     ("found = near_point(point, squared_distance, triangle_of(of_index));", "", "nothing in the index is near"),
-    ("(i < size - start && is_found(start + i))", "false", "before there is an index, triangles of higher numbers are not near"),
+    ("(i > 0 && i < size - start && is_found(start + i))", "false", "before there is an index, triangles of higher numbers are not near"),
     ("m_neighbours[other->triangle][other->corner] = side.triangle;", "", "one of two neighbours does not know the other"),
     ("here.weights[i] == 0 && m_neighbours", "m_neighbours", "a walk goes anywhere"),
 )

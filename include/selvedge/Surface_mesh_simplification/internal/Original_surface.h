@@ -154,7 +154,7 @@ private:
     };
     const Number start = m_last, size = Number(m_triangles.size());
     for (Number i = 0; i <= start || i < size - start; ++i)
-      if ((i <= start && is_found(start - i)) || (i < size - start && is_found(start + i)))
+      if ((i <= start && is_found(start - i)) || (i > 0 && i < size - start && is_found(start + i)))
         break;
     return found;
   }

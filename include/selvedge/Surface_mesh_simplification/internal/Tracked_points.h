@@ -343,7 +343,7 @@ private:
       points = 0;
       for (std::size_t i = 0; i < triangles; ++i)
         if (const int parts = Triangle_grid::parts_of(corners(i), state.max_error, most_parts); parts > 1)
-          points += std::size_t((parts + 1) * (parts + 2) / 2 - 3);
+          points += std::size_t(Triangle_grid::size_of(parts));
       if (points <= (std::max)(std::size_t(100'000), 2 * triangles))
         break;
     }

@@ -46,6 +46,9 @@ public:
     return parts;
   }
 
+  /// Returns the number of points of a grid with all sides.
+  static int size_of(int parts) { return (parts + 1) * (parts + 2) / 2 - 3; }
+
   /// Makes a grid without points.
   Triangle_grid() = default;
 
@@ -66,7 +69,7 @@ public:
       m_rows[std::size_t(i)] = Row(row);
     }
     const int of_side = (std::max)(parts - 1, 0), sides_left_out = !sides[0] + !sides[1] + !sides[2];
-    m_size = (parts + 1) * (parts + 2) / 2 - 3 - of_side * sides_left_out;
+    m_size = size_of(parts) - of_side * sides_left_out;
     const double bb = m_along[0] * m_along[0], bc = m_along[0] * m_along[1], cc = m_along[1] * m_along[1];
     const double inverse_area = 1 / (bb * cc - bc * bc);
     m_inverse[0] = inverse_area * (cc * m_along[0] - bc * m_along[1]);
