@@ -14,7 +14,10 @@ namespace selvedge {
 
 const Placed_vertices::Placed_vertex* Placed_vertices::find(Index corner) const
 {
-  return m_placed.empty() ? nullptr : m_placed[m_corners.vertex_of(corner)].get();
+  if (m_placed.empty())
+    return nullptr;
+  const auto found = m_placed.find(m_corners.vertex_of(corner));
+  return found == m_placed.end() ? nullptr : &found->second;
 }
 
 Placed_vertices::Uv Placed_vertices::uv_at(Index corner) const
@@ -40,9 +43,8 @@ void Placed_vertices::merge_at(Halfedge moving, const Point_3& place, const Poin
   const Mixture mixture = mixture_at(moving, place);
   Vertex_values::Numbers values = m_values->mixed(mixture.shares, mixture.own);
   const auto [removed, kept] = m_corners.ends_in_soup(moving);
-  m_placed.resize(m_corners.soup().points.size());
-  m_placed[removed].reset();
-  m_placed[kept] = std::make_unique<Placed_vertex>(Placed_vertex{point, std::move(values)});
+  m_placed.erase(removed);
+  m_placed[kept] = {point, std::move(values)};
 }
 
 Vertex_values::Share Placed_vertices::share(Index corner, double weight) const

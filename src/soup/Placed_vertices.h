@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -52,11 +53,7 @@ public:
   void merge_at(Halfedge moving, const Point_3& place, const Point_3& point);
 
   /// Forgets a vertex of the soup, of which no corner is left.
-  void erase(Index vertex)
-  {
-    if (!m_placed.empty())
-      m_placed[vertex].reset();
-  }
+  void erase(Index vertex) { m_placed.erase(vertex); }
 
   /// Puts the vertices into a soup that was selected from that of the mesh, whose triangles have these
   /// corners. Returns their number.
@@ -79,8 +76,7 @@ private:
 
   const Corner_mesh& m_corners;
   std::shared_ptr<const Vertex_values> m_values;
-  std::vector<std::unique_ptr<Placed_vertex>>
-      m_placed; // of the vertices of the soup; empty until one is placed
+  std::unordered_map<Index, Placed_vertex> m_placed; // by the number that the vertex has in the soup
 };
 
 } // namespace selvedge
