@@ -154,6 +154,10 @@ group(
     ("if (is_held(motion) || !m_star.gather(motion)", "if (!m_star.gather(motion)", "coincident vertices move"),
     ("return !face_at_place || refuse(*face_at_place);", "return true;", "a place where another vertex is"),
     ("return verdict != Star_verdict::refused;", "return true;", "what the star says is not heard"),
+    ("      m_faces.add_all_at(*motion.target, mover, m_near);", "      ;",
+     "faces at a target that has moved are not in the way"),
+    ("m_unclear.resize(m_near.size(), ~Sweeps(0));", "m_unclear.resize(m_near.size(), Sweeps(0));",
+     "of faces that no pack has judged, all sweeps are clear"),
     ("return !m_is_mover_first || are_both_clear(collapse.mover(), collapse.goal());", "return true;",
      "a place that is clear in no order is taken"),
 )
