@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -53,40 +52,35 @@ std::string coarse_part(const Simplify_request& request, const Prepared_soup& or
     return "";
   const std::vector<char> has_ratio = triangles_with_ratio(request, original.soup);
   const double share_of_whole = share_kept(request, has_ratio, result.triangles);
-  struct Suspect
-  {
-    std::string_view kind, name;
-    double share;
-  };
-  std::vector<Suspect> suspects;
-  std::vector<Part_triangles> of_suspects;
-  const std::vector<Part_kind> kinds = part_kinds(original.soup);
-  for (const Part_kind& kind : kinds) {
+  std::string text;
+  std::size_t most = 0;
+  for (const Part_kind& kind : part_kinds(original.soup)) {
     if (kind.names.empty())
       continue;
     std::vector<Part_triangles> parts = triangles_of_parts(kind, result);
-    for (Index i = 0; i < kind.count; ++i) {
-      const double share = double(parts[i].after.size()) / double(parts[i].before.size());
-      if (!(share < far_fewer * share_of_whole) || kind.names[i].empty() ||
-          has_ratio[parts[i].before.front()])
+    const auto share_of = [](const Part_triangles& part) {
+      return double(part.after.size()) / double(part.before.size());
+    };
+    std::vector<std::string> names; // of the parts that may have lost their shape
+    std::vector<Part_triangles> suspects;
+    for (Index i = 0; i < kind.count; ++i)
+      if (parts[i].before.size() > most && share_of(parts[i]) < far_fewer * share_of_whole &&
+          !kind.names[i].empty() && !has_ratio[parts[i].before.front()]) {
+        names.push_back(kind.names[i]);
+        suspects.push_back(std::move(parts[i]));
+      }
+    const std::vector<Part_distance> distances = part_distances(result, original, suspects);
+    for (std::size_t i = 0; i < suspects.size(); ++i) {
+      const double off = distances[i].distance.root_mean_square / distances[i].diagonal;
+      if (!(off > shapeless) || suspects[i].before.size() <= most)
         continue;
-      suspects.push_back({name(kind.name), kind.names[i], share});
-      of_suspects.push_back(std::move(parts[i]));
+      most = suspects[i].before.size();
+      text = std::string(name(kind.name)) + " '" + names[i] + "' keeps " + percent(share_of(suspects[i])) +
+             " of its faces" +
+             (suspects[i].after.empty() ? "" : " and is off by " + percent(off) + " of its own size (RMS)") +
+             "; --ratio '" + names[i] + '=' + with_digits((std::min)(1.0, 2 * share_of_whole), "%.2g") +
+             "' keeps more of it";
     }
-  }
-  const std::vector<Part_distance> distances = part_distances(result, original, of_suspects);
-  std::string text;
-  std::size_t most = 0;
-  for (std::size_t i = 0; i < suspects.size(); ++i) {
-    const auto& [kind, name, share] = suspects[i];
-    const double off = distances[i].distance.root_mean_square / distances[i].diagonal;
-    if (!(off > shapeless) || of_suspects[i].before.size() <= most)
-      continue;
-    most = of_suspects[i].before.size();
-    text = std::string(kind) + " '" + std::string(name) + "' keeps " + percent(share) + " of its faces" +
-           (of_suspects[i].after.empty() ? "" : " and is off by " + percent(off) + " of its own size (RMS)") +
-           "; --ratio '" + std::string(name) + '=' +
-           with_digits((std::min)(1.0, 2 * share_of_whole), "%.2g") + "' keeps more of it";
   }
   return text;
 }

@@ -183,44 +183,29 @@ std::optional<Uv_deviation> deviation_of_all(const std::vector<double>& displace
   return deviation_of(displacements, original, all);
 }
 
-/// Cuts parts out of a soup, one after another, in time linear in the part.
-class Cutter
+/// Returns the geometry of each part, as a soup of its own. `of_part` says which triangles it is made of.
+std::vector<Triangle_soup> cut_out(const Triangle_soup& soup, const Scale& scale,
+                                   const std::vector<Part_triangles>& parts,
+                                   std::vector<Index> Part_triangles::*of_part)
 {
-public:
-  Cutter(const Triangle_soup& soup, const Scale& scale)
-      : m_soup(soup), m_scale(scale), m_numbers(soup.points.size(), s_none)
-  {
-  }
-
-  /// Returns the geometry of some triangles.
-  Triangle_soup cut(const std::vector<Index>& triangles)
-  {
-    Triangle_soup part;
-    std::vector<Index> vertices;
-    for (const Index t : triangles) {
-      Index_triple corners = m_soup.triangles[t];
+  constexpr Index none = std::numeric_limits<Index>::max();
+  std::vector<Index> last_users(soup.points.size(), none), numbers(soup.points.size());
+  std::vector<Triangle_soup> cuts(parts.size());
+  for (Index i = 0; i < parts.size(); ++i)
+    for (const Index t : parts[i].*of_part) {
+      Index_triple corners = soup.triangles[t];
       for (Index& v : corners) {
-        if (m_numbers[v] == s_none) {
-          m_numbers[v] = Index(vertices.size());
-          vertices.push_back(v);
-          part.points.push_back(m_scale(m_soup.points[v]));
+        if (last_users[v] != i) {
+          last_users[v] = i;
+          numbers[v] = Index(cuts[i].points.size());
+          cuts[i].points.push_back(scale(soup.points[v]));
         }
-        v = m_numbers[v];
+        v = numbers[v];
       }
-      part.triangles.push_back(corners);
+      cuts[i].triangles.push_back(corners);
     }
-    for (const Index v : vertices)
-      m_numbers[v] = s_none;
-    return part;
-  }
-
-private:
-  static constexpr Index s_none = std::numeric_limits<Index>::max();
-
-  const Triangle_soup& m_soup;
-  const Scale& m_scale;
-  std::vector<Index> m_numbers; // in the part; s_none where a vertex is not known to be in it
-};
+  return cuts;
+}
 
 } // namespace
 
@@ -242,12 +227,10 @@ std::vector<Part_triangles> triangles_of_parts(const Part_kind& kind, const Simp
 std::vector<Part_distance> part_distances(const Simplified_soup& result, const Prepared_soup& original,
                                           const std::vector<Part_triangles>& parts)
 {
-  Cutter original_cutter(original.soup, original.scale), result_cutter(result.soup, original.scale);
-  std::vector<Triangle_soup> before, after;
-  for (const Part_triangles& part : parts) {
-    before.push_back(original_cutter.cut(part.before));
-    after.push_back(result_cutter.cut(part.after));
-  }
+  const std::vector<Triangle_soup> before =
+                                       cut_out(original.soup, original.scale, parts, &Part_triangles::before),
+                                   after =
+                                       cut_out(result.soup, original.scale, parts, &Part_triangles::after);
   std::vector<Part_distance> distances(parts.size());
   const auto measure = [&](std::size_t i) {
     distances[i] = {distance(before[i], after[i]), internal::diagonal(before[i].points)};
