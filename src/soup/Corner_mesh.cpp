@@ -138,16 +138,14 @@ Index_triple Corner_mesh::corners_in_soup(Face face, Index i) const
 
 std::pair<Index, Index> Corner_mesh::ends_in_soup(Halfedge moving) const
 {
-  const auto [to_mover, to_goal] =
-      halfedges_to_ends(moving, m_mesh.is_border(moving) ? m_mesh.opposite(moving) : moving);
+  const auto [to_mover, to_goal] = halfedges_to_ends(moving, with_face(moving));
   return {vertex_of(corner_at(to_mover)), vertex_of(corner_at(to_goal))};
 }
 
 Corner_mesh::Side Corner_mesh::side(Halfedge h) const
 {
-  const bool is_beyond = m_mesh.is_border(h);
-  const Halfedge own = is_beyond ? m_mesh.opposite(h) : h;
-  return {m_mesh.face(own), m_places[m_mesh.prev(own)], is_beyond};
+  const Halfedge own = with_face(h);
+  return {m_mesh.face(own), m_places[m_mesh.prev(own)], own != h};
 }
 
 Corner_mesh::Halfedge Corner_mesh::halfedge(const Side& side) const

@@ -81,6 +81,9 @@ public:
   /// The same in the order that the triangle of the ply has in the soup.
   Index_triple corners_in_soup(Face face, Index i) const;
 
+  /// The halfedge itself, or its opposite where it is on a border: the one that has a face.
+  Halfedge with_face(Halfedge h) const { return m_mesh.is_border(h) ? m_mesh.opposite(h) : h; }
+
   /// The corner that a ply of the face beside a halfedge has at the target of the halfedge.
   Corner corner_at(Halfedge h, Index i = 0) const { return corners(m_mesh.face(h), i)[m_places[h]]; }
 

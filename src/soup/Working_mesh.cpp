@@ -112,17 +112,15 @@ void Working_mesh::before_placement(Halfedge moving, const Point_3& place, bool 
 
 internal::Optional<Point_3> Working_mesh::rounded_place(Halfedge edge, const Point_3& place) const
 {
-  if (!m_rounding)
+  const Face face = mesh().face(with_face(edge));
+  if (!m_rounding || is_shared(face) || has_doubles(face))
     return {};
-  if (m_shared || has_doubles())
-    if (const Face face(side(edge).triangle); is_shared(face) || has_doubles(face))
-      return {};
   return (*m_rounding)(place, m_rounding->is_by_vertex() ? vertex_of(corner_at(edge)) : 0);
 }
 
 void Working_mesh::on_refused(Halfedge moving, const Refusals& refusals)
 {
-  const Face face = mesh().face(mesh().is_border(moving) ? mesh().opposite(moving) : moving);
+  const Face face = mesh().face(with_face(moving));
   if (!is_own(face))
     return;
   for (std::size_t kind = 0; kind < m_kinds.size(); ++kind)
