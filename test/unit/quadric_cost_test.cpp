@@ -27,6 +27,7 @@ namespace selvedge::test {
 namespace {
 
 using Vertex = Mesh::Vertex_index;
+using Edge_profile = internal::Lazy_edge_profile<Mesh, Mesh::Property_map<Vertex, Point_3>, Kernel>;
 
 /// A flat sheet of 8 × 8 squares with a peak of height 1 in it, and the cost of its collapses.
 struct Peak
@@ -51,8 +52,7 @@ struct Peak
   auto profile(Index from, Index to) const
   {
     const auto moving = mesh.halfedge(Vertex(from), Vertex(to));
-    return internal::Lazy_edge_profile<Mesh, Mesh::Property_map<Vertex, Point_3>, Kernel>(moving, mesh,
-                                                                                          points, traits);
+    return Edge_profile(moving, mesh, points, traits);
   }
 
   double cost_of(Index from, Index to) const
@@ -111,7 +111,7 @@ struct Reduced_sphere
     const auto points = get(CGAL::vertex_point, mesh);
     other.initialize(mesh, points, traits);
     for (const auto h : mesh.halfedges()) {
-      const internal::Lazy_edge_profile<Mesh, decltype(points), Kernel> edge(h, mesh, points, traits);
+      const Edge_profile edge(h, mesh, points, traits);
       compare(*cost.cost_along(edge, h), *other.cost_along(edge, h));
     }
   }
@@ -151,9 +151,7 @@ TEST(QuadricCost, RecomputedOnceIsWhatUpdatesAfterEachCollapseMakeIt)
     const Quadric_cost<Mesh> updated(mesh, with_memory(memory)), recomputed(mesh, with_memory(memory));
     for (const auto& cost : {updated, recomputed})
       cost.initialize(mesh, points, traits);
-    const auto profile = [&](Mesh::Halfedge_index h) {
-      return internal::Lazy_edge_profile<Mesh, decltype(points), Kernel>(h, mesh, points, traits);
-    };
+    const auto profile = [&](Mesh::Halfedge_index h) { return Edge_profile(h, mesh, points, traits); };
     int collapses = 0;
     for (const auto e : mesh.edges()) {
       if (mesh.is_removed(e) || !CGAL::Euler::does_satisfy_link_condition(e, mesh))
@@ -186,9 +184,7 @@ TEST(QuadricCost, IsFiniteForTheLargestWeights)
   const Kernel traits;
   const auto points = get(CGAL::vertex_point, mesh);
   cost.initialize(mesh, points, traits);
-  const auto profile = [&](Mesh::Halfedge_index h) {
-    return internal::Lazy_edge_profile<Mesh, decltype(points), Kernel>(h, mesh, points, traits);
-  };
+  const auto profile = [&](Mesh::Halfedge_index h) { return Edge_profile(h, mesh, points, traits); };
   const auto edge = profile(mesh.halfedge(Vertex(Peak::peak), Vertex(Peak::peak + 1)));
   cost.update_after_collapse(edge, CGAL::Euler::collapse_edge(mesh.edge(edge.v0_v1()), mesh));
   double highest = 0;
@@ -219,8 +215,7 @@ double largest_change_of_volume(Mesh& mesh, const Quadric_cost<Mesh>& cost)
   cost.initialize(mesh, points, traits);
   double largest = 0;
   for (const auto e : mesh.edges()) {
-    const internal::Lazy_edge_profile<Mesh, decltype(points), Kernel> edge(mesh.halfedge(e), mesh, points,
-                                                                           traits);
+    const Edge_profile edge(mesh.halfedge(e), mesh, points, traits);
     const auto place = cost.least_place(edge, 1);
     EXPECT_TRUE(place);
     if (!place || !CGAL::Euler::does_satisfy_link_condition(e, mesh))
@@ -256,8 +251,7 @@ TEST(QuadricCost, PlacesKeepTheVolumeOfWhatCollapsesHaveLeft)
   for (const auto e : mesh.edges()) {
     if (mesh.is_removed(e) || !CGAL::Euler::does_satisfy_link_condition(e, mesh))
       continue;
-    const internal::Lazy_edge_profile<Mesh, decltype(points), Kernel> edge(mesh.halfedge(e), mesh, points,
-                                                                           traits);
+    const Edge_profile edge(mesh.halfedge(e), mesh, points, traits);
     cost.accumulate(edge, CGAL::Euler::collapse_edge(e, mesh));
     if (mesh.number_of_vertices() <= 100)
       break;
@@ -275,8 +269,7 @@ TEST(QuadricCost, NoPlaceCostsLessThanTheLeastCost)
     const auto points = get(CGAL::vertex_point, scene.mesh);
     std::size_t edges = 0, half_as_much = 0;
     for (const auto e : scene.mesh.edges()) {
-      const internal::Lazy_edge_profile<Mesh, decltype(points), Kernel> edge(scene.mesh.halfedge(e),
-                                                                             scene.mesh, points, traits);
+      const Edge_profile edge(scene.mesh.halfedge(e), scene.mesh, points, traits);
       const double least = scene.cost.least_cost(edge);
       const auto place = scene.cost.least_place(edge, 1);
       ASSERT_TRUE(place);
