@@ -402,7 +402,7 @@ TEST(Snapping, SeamsWithOtherNumbersOfVerticesAreHeldByTheirEdges)
       joined(mapped(sheet(8, 39), waved(0, 1)), mapped(sheet(8, 52), waved(8 + gap, 39 / 52.)));
   const auto width = [&](const Prepared_soup& prepared) {
     double widest = 0;
-    for (const double ratio : {0.3, 0.2, 0.1, 0.05})
+    for (const double ratio : {0.3, 0.2, 0.1, 0.05, 0.03})
       widest = std::max(widest, width_of_gap(simplify_soup(prepared, to_ratio(ratio)).soup, 8, 8 + gap));
     return widest;
   };

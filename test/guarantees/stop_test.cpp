@@ -36,7 +36,7 @@ TEST(Stop, SmallSteepBumpsAreLetGoByDefault)
     const bool is_bump = int(p.x()) % 3 == 1 && int(p.y()) % 3 == 1;
     return Point_3(p.x(), p.y(), is_bump ? 1.5 : 0);
   });
-  Simplify_options options = to_ratio(0.1);
+  Simplify_options options = to_ratio(0.05);
   EXPECT_TRUE(reduce(bumpy, options).simplified.report.is_reached());
   options.max_normal_change = limits_of_seed().normal_change.value();
   EXPECT_EQ(reduce(bumpy, options).simplified.report.outcome(), "normal_change");

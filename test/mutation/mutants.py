@@ -1205,8 +1205,14 @@ group(
     ("quadric_cost_test",),
     ("enclosure.is_known = false;", "(void)enclosure;", "what faces enclose is not forgotten when they change"),
     ("    m_state->enclosures.reset();\n", "", "what faces enclose is kept when everything is computed anew"),
-    ("return least ? positive(sum(*least)) : 0;", "return least ? 1.5 * positive(sum(*least)) : 0;",
+    ("? m_state->weight_unit * positive(sum(*least)) : 0;", "? 1.5 * m_state->weight_unit * positive(sum(*least)) : 0;",
      "a bound of the cost is too high"),
+    ("return m_state->weight_unit * get(m_state->growths, v)", "return get(m_state->growths, v)",
+     "the unit of the weights is left out of the cost"),
+    ("growth.quadric(m_state->unit).moved_by(from_kept)", "growth.quadric(m_state->unit)",
+     "what a vertex has accumulated begins at the rounded place"),
+    ("internal::difference(doubles(of_gone.place, unit), doubles(merged.place, unit))", "{0, 0, 0}",
+     "quadrics relative to two places are added up as they are"),
 )
 group(
     headers + "internal/saturated_float.h",

@@ -176,6 +176,63 @@ TEST(QuadricCost, RecomputedOnceIsWhatUpdatesAfterEachCollapseMakeIt)
   }
 }
 
+// What is kept in single precision is relative to the vertices, wherever they are.
+TEST(QuadricCost, IsTheSameForASmallThingInALargeScene)
+{
+  const Triangle_soup of_layers = nested_spheres(400, 1, 1e-3);
+  Triangle_soup sphere;
+  sphere.triangles = of_layers.triangles;
+  const auto rounded = [](double x) { return std::ldexp(std::round(std::ldexp(x, 20)), -20); };
+  for (const Point_3& p : of_layers.points)
+    sphere.points.emplace_back(rounded(p.x()), rounded(p.y()), rounded(p.z()));
+  const double away = 300'001.375; // the sum of it and a coordinate is exact
+  const Triangle_soup scene = joined(moved(sphere, away, away, away), sheet(1, 1));
+
+  const Kernel traits;
+  Mesh alone = mesh_of(sphere), in_scene = mesh_of(scene);
+  const auto points_alone = get(CGAL::vertex_point, alone),
+             points_in_scene = get(CGAL::vertex_point, in_scene);
+  const Quadric_cost<Mesh> of_alone(alone, with_memory(0.5)), of_scene(in_scene, with_memory(0.5));
+  for (Quadric_cost<Mesh> cost : {of_alone, of_scene})
+    cost.measure_by(1);
+  of_alone.initialize(alone, points_alone, traits);
+  of_scene.initialize(in_scene, points_in_scene, traits);
+  int collapses = 0;
+  for (const auto e : alone.edges()) {
+    if (alone.is_removed(e) || !CGAL::Euler::does_satisfy_link_condition(e, alone))
+      continue;
+    const auto h = alone.halfedge(e);
+    const Edge_profile edge(h, alone, points_alone, traits), same(h, in_scene, points_in_scene, traits);
+    const double cost = *of_alone.cost_along(edge, h), error = of_alone.error_at(edge, edge.p1());
+    EXPECT_NEAR(*of_scene.cost_along(same, h), cost, 1e-4 * cost) << collapses;
+    EXPECT_NEAR(of_scene.error_at(same, same.p1()), error, 1e-4 * error) << collapses;
+    of_alone.update_after_collapse(edge, CGAL::Euler::collapse_edge(e, alone));
+    of_scene.update_after_collapse(same, CGAL::Euler::collapse_edge(e, in_scene));
+    if (++collapses == 100)
+      break;
+  }
+  EXPECT_EQ(collapses, 100);
+}
+
+TEST(QuadricCost, IsMultipliedByTheWeightOfAllVertices)
+{
+  const Kernel traits;
+  Mesh mesh = mesh_of(nested_spheres(100, 1, 1e-3));
+  const auto points = get(CGAL::vertex_point, mesh);
+  const Quadric_cost<Mesh> plain(mesh);
+  Quadric_cost<Mesh> weighed(mesh);
+  weighed.weigh(mesh, std::vector<double>(mesh.number_of_vertices(), 0.01));
+  for (const auto& cost : {plain, weighed})
+    cost.initialize(mesh, points, traits);
+  for (const auto h : mesh.halfedges()) {
+    const Edge_profile edge(h, mesh, points, traits);
+    const double along = 0.01 * *plain.cost_along(edge, h), least = 0.01 * plain.least_cost(edge);
+    EXPECT_NEAR(*weighed.cost_along(edge, h), along, 1e-5 * along) << h;
+    EXPECT_NEAR(weighed.least_cost(edge), least, 1e-3 * least) << h;
+    EXPECT_GT(least, 0) << h;
+  }
+}
+
 TEST(QuadricCost, IsFiniteForTheLargestWeights)
 {
   Mesh mesh = Peak::made(1);

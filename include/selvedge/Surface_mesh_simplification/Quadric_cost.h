@@ -66,10 +66,10 @@ struct No_line_map
 ///
 /// **Exactness** Floating point. The cost orders the collapses, and its error can limit their quality; no
 /// statement about intersections depends on it. Coordinates are taken relative to a vertex or to the centre
-/// of the mesh, so that a mesh far from the origin loses no precision. Normals of faces, and with them their
-/// weights, are kept in single precision: relative to the vertex, through which their planes pass, what is
-/// rounded changes a cost by far less than the weight of the vertices does. A vertex takes 144 bytes, 32
-/// more when a place is asked for, and a face 12.
+/// of the mesh, so that a mesh far from the origin loses no precision. Normals of faces and quadrics are kept
+/// in single precision: relative to the vertex, through which the planes of its faces pass, or to a place
+/// near it, what is rounded changes a cost by far less than the weight of the vertices does. A vertex takes
+/// 92 bytes, 32 more when a place is asked for, and a face 12.
 ///
 /// **Complexity** Linear in the size of the mesh to initialise; constant for a cost or an error; the number
 /// of faces at the neighbours of the merged vertex for an update.
@@ -102,22 +102,49 @@ class Quadric_cost
     }
   };
 
+  // A vector as it is kept, in the unit of the state.
+  using Float_vector = std::array<float, 3>;
+  static Float_vector floats(const Vector& v, double unit)
+  {
+    return {internal::saturated_float(v[0] / unit), internal::saturated_float(v[1] / unit),
+            internal::saturated_float(v[2] / unit)};
+  }
+  static Vector doubles(const Float_vector& v, double unit)
+  {
+    return {unit * v[0], unit * v[1], unit * v[2]};
+  }
+
   // How much the quadrics of a vertex grow with its motion d: dᵀ M d + 2u l · d, where u is the unit of the
   // state. (The planes of the mesh as it is pass through the vertex, so that l is of the others alone.)
   struct Growth
   {
-    Matrix matrix;
-    std::array<float, 3> linear{0, 0, 0};
+    internal::Float_symmetric_matrix matrix;
+    Float_vector linear{0, 0, 0};
     bool has_lines = false; // whether a border or another line meets the vertex, or may have met it
 
     double operator()(const Vector& motion, double unit) const
     {
-      return matrix.square(motion) + 2 * unit * internal::dot(linear, motion);
+      return Matrix(matrix).square(motion) + 2 * unit * internal::dot(linear, motion);
     }
-    Quadric quadric(double unit) const
+    Quadric quadric(double unit) const { return {matrix, doubles(linear, unit), 0}; }
+  };
+  // The sum of the quadrics that a vertex has accumulated, relative to a place near it, which never changes.
+  // Lengths are in the unit of the state.
+  struct Accumulated
+  {
+    internal::Float_symmetric_matrix matrix;
+    Float_vector linear{0, 0, 0};
+    float constant = 0;
+    Float_vector place{0, 0, 0}; // relative to the origin
+
+    void set(const Quadric& quadric, double unit)
     {
-      return {matrix, {unit * linear[0], unit * linear[1], unit * linear[2]}, 0};
+      const Vector at_place{0, 0, 0};
+      matrix = internal::Float_symmetric_matrix(quadric.matrix());
+      linear = floats(quadric.half_gradient(at_place), unit);
+      constant = internal::saturated_float(quadric(at_place) / (unit * unit));
     }
+    Quadric quadric(double unit) const { return {matrix, doubles(linear, unit), unit * unit * constant}; }
   };
   // What a face gives to the quadrics at its corners: kept, since each is asked for many times.
   struct Face_plane
@@ -149,7 +176,8 @@ public:
 
   /// Multiplies the quadric of every vertex by a factor; a merged vertex has the larger one of both.
   /// `weights` has one finite factor of at least 0 for each vertex, in the order of `vertices(mesh)`, or is
-  /// empty for all 1; otherwise it throws `Argument_error`. Call it before the first run.
+  /// empty for all 1; otherwise it throws `Argument_error`. A factor below 1e-38 of the largest one may count
+  /// as 0. Call it before the first run.
   void weigh(const TriangleMesh& mesh, const std::vector<double>& weights)
   {
     const std::size_t wanted = vertices(mesh).size();
@@ -158,12 +186,15 @@ public:
       throw Argument_error("weights of vertices are finite numbers of at least 0, one for each of " +
                            std::to_string(wanted) + " vertices");
     m_state->weights.reset();
+    m_state->weight_unit = 1;
     if (weights.empty())
       return;
     m_state->weights = get(CGAL::dynamic_vertex_property_t<double>(), mesh);
+    if (const double largest = *std::max_element(weights.begin(), weights.end()); largest > 0)
+      m_state->weight_unit = std::ldexp(1, std::ilogb(largest));
     auto weight = weights.begin();
     for (const Vertex v : vertices(mesh))
-      put(*m_state->weights, v, *weight++);
+      put(*m_state->weights, v, *weight++ / m_state->weight_unit);
   }
 
   /// Sets the length D to which areas are relative; by default, it is the diagonal of the mesh. A mesh that
@@ -194,7 +225,12 @@ public:
       growth.has_lines = is_at_line(v, mesh);
       compute_growth(v, mesh, points, 0, growth);
       put(m_state->growths, v, growth);
-      put(m_state->accumulated, v, growth.quadric(m_state->unit).moved_by(m_state->vector(get(points, v))));
+      Accumulated accumulated;
+      const Vector place = m_state->vector(get(points, v));
+      accumulated.place = floats(place, m_state->unit);
+      const Vector from_kept = internal::difference(place, doubles(accumulated.place, m_state->unit));
+      accumulated.set(growth.quadric(m_state->unit).moved_by(from_kept), m_state->unit);
+      put(m_state->accumulated, v, accumulated);
     }
     m_state->is_initialised = true;
   }
@@ -289,7 +325,7 @@ public:
   {
     const Quadric sum = sum_from(profile, internal::difference(vector(profile.p1()), vector(profile.p0())));
     const auto least = sum.least_point();
-    return least ? positive(sum(*least)) : 0;
+    return least ? m_state->weight_unit * positive(sum(*least)) : 0;
   }
 
   /// Returns the root mean square distance of `point` to the planes accumulated at both ends of the edge, in
@@ -298,10 +334,14 @@ public:
   double error_at(const Profile& profile, const Point& point) const
   {
     const Vector x = m_state->vector(point);
-    const Quadric &first = get(m_state->accumulated, profile.v0()),
-                  &second = get(m_state->accumulated, profile.v1());
-    const double weight = first.trace() + second.trace();
-    return weight > 0 ? std::sqrt(positive(first(x) + second(x)) / weight) : 0;
+    double sum = 0, weight = 0;
+    for (const Vertex v : {profile.v0(), profile.v1()}) {
+      const Accumulated& accumulated = get(m_state->accumulated, v);
+      const Quadric quadric = accumulated.quadric(m_state->unit);
+      sum += quadric(internal::difference(x, doubles(accumulated.place, m_state->unit)));
+      weight += quadric.trace();
+    }
+    return weight > 0 ? std::sqrt(positive(sum) / weight) : 0;
   }
 
   /// See `Collapse_locality`: what a collapse changes around its vertex changes the costs at its neighbours,
@@ -345,7 +385,14 @@ public:
   void accumulate(const Profile& profile, Vertex kept) const
   {
     const Vertex gone = kept == profile.v0() ? profile.v1() : profile.v0();
-    change(m_state->accumulated, kept, [&](Quadric& merged) { merged += get(m_state->accumulated, gone); });
+    const double unit = m_state->unit;
+    const Accumulated& of_gone = get(m_state->accumulated, gone);
+    change(m_state->accumulated, kept, [&](Accumulated& merged) {
+      Quadric sum = of_gone.quadric(unit).moved_by(
+          internal::difference(doubles(of_gone.place, unit), doubles(merged.place, unit)));
+      sum += merged.quadric(unit);
+      merged.set(sum, unit);
+    });
     change(m_state->growths, kept,
            [&](Growth& merged) { merged.has_lines |= get(m_state->growths, gone).has_lines; });
     if (m_state->weights)
@@ -373,7 +420,7 @@ private:
         : options(options_), edge_is_line(edge_is_line_),
           planes(get(CGAL::dynamic_face_property_t<Face_plane>(), mesh)),
           growths(get(CGAL::dynamic_vertex_property_t<Growth>(), mesh)),
-          accumulated(get(CGAL::dynamic_vertex_property_t<Quadric>(), mesh))
+          accumulated(get(CGAL::dynamic_vertex_property_t<Accumulated>(), mesh))
     {
     }
 
@@ -387,10 +434,11 @@ private:
     Quadric_cost_options options;
     EdgeIsLineMap edge_is_line;
     Plane_map planes;
-    Vertex_map<Growth> growths;                      // which every cost asks for, apart from the rest
-    Vertex_map<Quadric> accumulated;                 // relative to the origin
+    Vertex_map<Growth> growths; // which every cost asks for, apart from the rest
+    Vertex_map<Accumulated> accumulated;
     std::optional<Vertex_map<Enclosure>> enclosures; // none until a place is asked for
-    std::optional<Vertex_map<double>> weights;       // none when all are 1
+    std::optional<Vertex_map<double>> weights;       // in their unit; none when all are 1
+    double weight_unit = 1;                          // the power of two below the largest
     Vector origin{0, 0, 0};
     double diagonal = 0; // not known yet
     double unit = 1;     // the power of two below the diagonal
@@ -483,7 +531,7 @@ private:
 
   double growth(Vertex v, const Vector& motion) const
   {
-    return get(m_state->growths, v)(motion, m_state->unit);
+    return m_state->weight_unit * get(m_state->growths, v)(motion, m_state->unit);
   }
 
   // Returns the cost of merging the ends of an edge, relative to the first; `along` is the edge.
@@ -554,14 +602,15 @@ private:
     }
     growth.linear = {0, 0, 0};
     if (memory > 0) {
-      Quadric remembered = get(state.accumulated, v);
+      const Accumulated& accumulated = get(state.accumulated, v);
+      Quadric remembered = accumulated.quadric(state.unit);
       remembered *= memory;
       matrix += remembered.matrix();
-      const Vector half_gradient = remembered.half_gradient(state.vector(get(points, v)));
-      for (std::size_t i = 0; i < 3; ++i)
-        growth.linear[i] = internal::saturated_float(half_gradient[i] / state.unit);
+      const Vector from_place =
+          internal::difference(state.vector(get(points, v)), doubles(accumulated.place, state.unit));
+      growth.linear = floats(remembered.half_gradient(from_place), state.unit);
     }
-    growth.matrix = matrix;
+    growth.matrix = internal::Float_symmetric_matrix(matrix);
   }
 
   bool is_at_line(Vertex v, const TriangleMesh& mesh) const

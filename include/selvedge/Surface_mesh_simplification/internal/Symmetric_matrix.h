@@ -5,6 +5,9 @@
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_SYMMETRIC_MATRIX_H
 
 #include <selvedge/internal/Vector_of_doubles.h>
+#include <selvedge/internal/saturated_float.h>
+
+#include <array>
 
 namespace selvedge {
 namespace internal {
@@ -66,6 +69,27 @@ struct Symmetric_matrix
   }
 
   double trace() const { return xx + yy + zz; }
+};
+
+/// A symmetric matrix that is kept in single precision, for what there is one of for each vertex. Numbers too
+/// large for that are the largest ones.
+class Float_symmetric_matrix
+{
+public:
+  Float_symmetric_matrix() = default;
+  explicit Float_symmetric_matrix(const Symmetric_matrix& m)
+      : m_numbers{saturated_float(m.xx), saturated_float(m.xy), saturated_float(m.xz),
+                  saturated_float(m.yy), saturated_float(m.yz), saturated_float(m.zz)}
+  {
+  }
+
+  operator Symmetric_matrix() const
+  {
+    return {m_numbers[0], m_numbers[1], m_numbers[2], m_numbers[3], m_numbers[4], m_numbers[5]};
+  }
+
+private:
+  std::array<float, 6> m_numbers{};
 };
 
 } // namespace internal
