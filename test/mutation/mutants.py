@@ -1209,9 +1209,9 @@ group(
      "a bound of the cost is too high"),
     ("return m_state->weight_unit * get(m_state->growths, v)", "return get(m_state->growths, v)",
      "the unit of the weights is left out of the cost"),
-    ("growth.quadric(m_state->unit).moved_by(from_kept)", "growth.quadric(m_state->unit)",
+    ("growth.quadric(m_state->unit).moved_by(from_place)", "growth.quadric(m_state->unit)",
      "what a vertex has accumulated begins at the rounded place"),
-    ("internal::difference(doubles(of_gone.place, unit), doubles(merged.place, unit))", "{0, 0, 0}",
+    ("merged.from_place(doubles(of_gone.place, unit), unit)", "{0, 0, 0}",
      "quadrics relative to two places are added up as they are"),
 )
 group(

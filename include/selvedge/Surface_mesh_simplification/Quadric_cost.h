@@ -137,6 +137,10 @@ class Quadric_cost
     float constant = 0;
     Float_vector place{0, 0, 0}; // relative to the origin
 
+    Vector from_place(const Vector& point, double unit) const
+    {
+      return internal::difference(point, doubles(place, unit));
+    }
     void set(const Quadric& quadric, double unit)
     {
       const Vector at_place{0, 0, 0};
@@ -149,7 +153,7 @@ class Quadric_cost
   // What a face gives to the quadrics at its corners: kept, since each is asked for many times.
   struct Face_plane
   {
-    std::array<float, 3> normal{0, 0, 0}; // as long as the square root of the weight
+    Float_vector normal{0, 0, 0}; // as long as the square root of the weight
   };
   using Plane_map =
       typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<Face_plane>>::const_type;
@@ -228,8 +232,8 @@ public:
       Accumulated accumulated;
       const Vector place = m_state->vector(get(points, v));
       accumulated.place = floats(place, m_state->unit);
-      const Vector from_kept = internal::difference(place, doubles(accumulated.place, m_state->unit));
-      accumulated.set(growth.quadric(m_state->unit).moved_by(from_kept), m_state->unit);
+      const Vector from_place = accumulated.from_place(place, m_state->unit);
+      accumulated.set(growth.quadric(m_state->unit).moved_by(from_place), m_state->unit);
       put(m_state->accumulated, v, accumulated);
     }
     m_state->is_initialised = true;
@@ -338,7 +342,7 @@ public:
     for (const Vertex v : {profile.v0(), profile.v1()}) {
       const Accumulated& accumulated = get(m_state->accumulated, v);
       const Quadric quadric = accumulated.quadric(m_state->unit);
-      sum += quadric(internal::difference(x, doubles(accumulated.place, m_state->unit)));
+      sum += quadric(accumulated.from_place(x, m_state->unit));
       weight += quadric.trace();
     }
     return weight > 0 ? std::sqrt(positive(sum) / weight) : 0;
@@ -388,8 +392,7 @@ public:
     const double unit = m_state->unit;
     const Accumulated& of_gone = get(m_state->accumulated, gone);
     change(m_state->accumulated, kept, [&](Accumulated& merged) {
-      Quadric sum = of_gone.quadric(unit).moved_by(
-          internal::difference(doubles(of_gone.place, unit), doubles(merged.place, unit)));
+      Quadric sum = of_gone.quadric(unit).moved_by(merged.from_place(doubles(of_gone.place, unit), unit));
       sum += merged.quadric(unit);
       merged.set(sum, unit);
     });
@@ -606,8 +609,7 @@ private:
       Quadric remembered = accumulated.quadric(state.unit);
       remembered *= memory;
       matrix += remembered.matrix();
-      const Vector from_place =
-          internal::difference(state.vector(get(points, v)), doubles(accumulated.place, state.unit));
+      const Vector from_place = accumulated.from_place(state.vector(get(points, v)), state.unit);
       growth.linear = floats(remembered.half_gradient(from_place), state.unit);
     }
     growth.matrix = internal::Float_symmetric_matrix(matrix);
