@@ -11,7 +11,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <iostream>
 #include <map>
 
@@ -33,11 +32,8 @@ TEST(Replay_all, ListsTheBadStepsThatTheOracleFinds)
 {
   std::map<Violation_kind, int> counts;
   const auto compare = [&](const Triangle_soup& scene, double ratio) {
-    // In few bits, which keeps the rationals of the oracle short.
-    const Triangle_soup soup = mapped(scene, [](const Point_3& p) {
-      const auto rounded = [](double x) { return std::round(x * 1048576) / 1048576; };
-      return Point_3(rounded(p.x()), rounded(p.y()), rounded(p.z()));
-    });
+    // Few bits keep the rationals of the oracle short.
+    const Triangle_soup soup = in_steps(scene, 1048576);
     ASSERT_TRUE(is_embedded(soup));
     const Logged_reduction reduction = reduce_and_log(soup, without_check(without_limits(to_ratio(ratio))));
     const std::vector<Verdict> found = all_violations(soup, reduction.log);

@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iostream>
 #include <map>
 #include <random>
@@ -172,11 +171,8 @@ TEST(Mutation, OfLogsIsJudgedAsTheOracleDoes)
   unsigned seed = 1;
   for (const Triangle_soup& scene :
        {sheets(160, 2, 2e-3), nested_spheres(110, 1, 1e-2), folded_cloth(120, 2, 2e-3)}) {
-    // In few bits, which keeps the rationals of the oracle short.
-    const Triangle_soup soup = mapped(scene, [](const Point_3& p) {
-      const auto rounded = [](double x) { return std::round(x * 65536) / 65536; };
-      return Point_3(rounded(p.x()), rounded(p.y()), rounded(p.z()));
-    });
+    // Few bits keep the rationals of the oracle short.
+    const Triangle_soup soup = in_steps(scene, 65536);
     ASSERT_TRUE(is_embedded(soup));
     const Logged_reduction reduction = reduce_and_log(soup, without_limits(to_ratio(0.5)));
     Mutations mutations(soup, reduction.log);

@@ -7,6 +7,7 @@
 #include <selvedge/Triangle_soup.h>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <map>
@@ -47,6 +48,14 @@ Triangle_soup mapped(Triangle_soup soup, Function function)
 inline Triangle_soup moved(const Triangle_soup& soup, double x, double y, double z)
 {
   return mapped(soup, [&](const Point_3& p) { return Point_3(p.x() + x, p.y() + y, p.z() + z); });
+}
+
+/// The same with every coordinate rounded to a multiple of 1 / `steps`, so that it has few bits.
+inline Triangle_soup in_steps(const Triangle_soup& soup, double steps)
+{
+  const auto rounded = [&](double x) { return std::round(x * steps) / steps; };
+  return mapped(soup,
+                [&](const Point_3& p) { return Point_3(rounded(p.x()), rounded(p.y()), rounded(p.z())); });
 }
 
 /// No two triangles share a vertex number any more; the positions stay.

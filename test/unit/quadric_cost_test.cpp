@@ -179,12 +179,8 @@ TEST(QuadricCost, RecomputedOnceIsWhatUpdatesAfterEachCollapseMakeIt)
 // What is kept in single precision is relative to the vertices, wherever they are.
 TEST(QuadricCost, IsTheSameForASmallThingInALargeScene)
 {
-  const Triangle_soup of_layers = nested_spheres(400, 1, 1e-3);
-  Triangle_soup sphere;
-  sphere.triangles = of_layers.triangles;
-  const auto rounded = [](double x) { return std::ldexp(std::round(std::ldexp(x, 20)), -20); };
-  for (const Point_3& p : of_layers.points)
-    sphere.points.emplace_back(rounded(p.x()), rounded(p.y()), rounded(p.z()));
+  const Triangle_soup layer = nested_spheres(400, 1, 1e-3);
+  const Triangle_soup sphere = in_steps(soup(layer.points, layer.triangles), 1048576);
   const double away = 300'001.375; // the sum of it and a coordinate is exact
   const Triangle_soup scene = joined(moved(sphere, away, away, away), sheet(1, 1));
 

@@ -143,10 +143,9 @@ class Quadric_cost
     }
     void set(const Quadric& quadric, double unit)
     {
-      const Vector at_place{0, 0, 0};
       matrix = internal::Float_symmetric_matrix(quadric.matrix());
-      linear = floats(quadric.half_gradient(at_place), unit);
-      constant = internal::saturated_float(quadric(at_place) / (unit * unit));
+      linear = floats(quadric.b(), unit);
+      constant = internal::saturated_float(quadric.c() / (unit * unit));
     }
     Quadric quadric(double unit) const { return {matrix, doubles(linear, unit), unit * unit * constant}; }
   };

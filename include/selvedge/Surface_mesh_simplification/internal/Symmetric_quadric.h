@@ -56,6 +56,8 @@ public:
   double operator()(const Vector_of_doubles& x) const { return m_matrix.square(x) + 2 * dot(m_b, x) + m_c; }
 
   const Symmetric_matrix& matrix() const { return m_matrix; }
+  const Vector_of_doubles& b() const { return m_b; }
+  double c() const { return m_c; }
 
   /// Returns half of the gradient at a point.
   Vector_of_doubles half_gradient(const Vector_of_doubles& x) const
