@@ -138,6 +138,7 @@ void check_poses(const Simplify_request& request)
       throw Argument_error("--poses-out: the name must contain " + std::string(mark) + ", which stands for " +
                            what + ": --poses-out 'small_{pose}.obj'");
   };
+  require_avatar(request.poses_output, {}); // what is written there is a new document
   if (!is_one_file)
     require_mark(pose_mark, "the name of the pose");
   if (!request.lods.empty())

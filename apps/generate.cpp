@@ -62,6 +62,8 @@ Exit_code run(const Generate_request& request)
   check_streams({}, {{"--output", request.output}}, request.mesh_format);
   const Mesh_format format = format_of(request.output, request.mesh_format);
   require_writable(request.output);
+  for (const std::string& name : {request.output, request.poses_output})
+    require_avatar(name, {});
   if ((request.poses > 0) != !request.poses_output.empty())
     throw Argument_error("--poses N says how many, and --poses-out PATTERN where; give both or none");
   const bool is_cache = is_point_cache(request.poses_output);

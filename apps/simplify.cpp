@@ -194,6 +194,8 @@ private:
       m_log_header.obstacle = {obstacle.points.size(), obstacle.triangles.size(), obstacle_input.sha256()};
     }
 
+    for (const std::string& name : {m_request.output, m_request.progressive})
+      require_avatar(name, file.soup);
     m_references = relocate(file.soup, output_format(), m_request.input, m_request.output);
 
     m_bar.begin("judging the input" + in_poses(file.soup.poses.size()));

@@ -24,7 +24,7 @@
 namespace selvedge::app {
 
 /// What the help says of the names of meshes.
-constexpr char mesh_endings[] = ".obj, .off, .ply, .stl, .glb or .gltf, each also with .gz";
+constexpr char mesh_endings[] = ".obj, .off, .ply, .stl, .glb, .gltf or .vrm, each also with .gz";
 
 /// Adds `--format`.
 CLI::Option* add_format_option(CLI::App& command, std::optional<Mesh_format>& format);

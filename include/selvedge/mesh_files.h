@@ -107,9 +107,14 @@ namespace selvedge {
 
 enum class Mesh_format { obj, off, ply, stl, glb, gltf };
 
-/// Returns the format that a path's extension names (`.obj`, `.off`, `.ply`, `.stl`, `.glb`, `.gltf`, in
-/// upper or lower case, also followed by `.gz`). Throws `Input_error` when it names none of them.
+/// Returns the format that a path's extension names (`.obj`, `.off`, `.ply`, `.stl`, `.glb`, `.gltf`, or
+/// `.vrm`, which is a GLB file that holds a VRM avatar; in upper or lower case, also followed by `.gz`).
+/// Throws `Input_error` when it names none of them.
 Mesh_format mesh_format(const std::filesystem::path& path);
+
+/// Throws `Argument_error` when a path ends in `.vrm`, but the soup comes from no VRM avatar: from a glTF file
+/// with the extension `VRM` (version 0) or `VRMC_vrm` (version 1). The functions that write files call it.
+void require_avatar(const std::filesystem::path& path, const Triangle_soup& soup);
 
 /// Returns whether a path's extension is `.gz`, in upper or lower case: the file is packed.
 bool is_gzip(const std::filesystem::path& path);

@@ -598,6 +598,7 @@ void write_gltf_poses(const std::filesystem::path& path, const Triangle_soup& me
   const Mesh_format format = mesh_format(path);
   if (format != Mesh_format::glb && format != Mesh_format::gltf)
     throw Argument_error("only glTF files show a mesh in several poses");
+  require_avatar(path, {}); // what is written is a new document
   if (mesh.poses.empty())
     throw Argument_error("there is no pose to write");
   if (!has_float32_points(mesh.points))

@@ -12,6 +12,7 @@
 #include "files/columns.h"
 #include "files/formats.h"
 #include "files/gzip.h"
+#include "soup/Gltf_scene.h"
 #include "soup/first_alike.h"
 #include "soup/flat_shading.h"
 
@@ -61,6 +62,22 @@ std::string lower_case_extension(const std::filesystem::path& path)
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   return extension;
+}
+
+constexpr char avatar_extension[] = ".vrm";
+
+// Returns the extension that says the format of a file, packed or not.
+std::string extension_of_mesh(const std::filesystem::path& path)
+{
+  return lower_case_extension(is_gzip(path) ? path.stem() : path);
+}
+
+bool is_avatar(const Triangle_soup& soup)
+{
+  if (!soup.scene || !soup.scene->document.contains("extensions"))
+    return false;
+  const auto& extensions = soup.scene->document["extensions"];
+  return extensions.contains("VRM") || extensions.contains("VRMC_vrm");
 }
 
 bool is_gltf(Mesh_format format)
@@ -191,7 +208,7 @@ bool is_gzip(const std::filesystem::path& path)
 
 Mesh_format mesh_format(const std::filesystem::path& path)
 {
-  const std::string extension = lower_case_extension(is_gzip(path) ? path.stem() : path);
+  const std::string extension = extension_of_mesh(path);
   if (extension == ".obj")
     return Mesh_format::obj;
   if (extension == ".off")
@@ -200,14 +217,22 @@ Mesh_format mesh_format(const std::filesystem::path& path)
     return Mesh_format::ply;
   if (extension == ".stl")
     return Mesh_format::stl;
-  if (extension == ".glb")
+  if (extension == ".glb" || extension == avatar_extension)
     return Mesh_format::glb;
   if (extension == ".gltf")
     return Mesh_format::gltf;
   throw Input_error(
       path.string() +
-      ": the name does not end in .obj, .off, .ply, .stl, .glb or .gltf, with or without .gz; rename or "
-      "convert the file");
+      ": the name does not end in .obj, .off, .ply, .stl, .glb, .gltf or .vrm, with or without .gz; "
+      "rename or convert the file");
+}
+
+void require_avatar(const std::filesystem::path& path, const Triangle_soup& soup)
+{
+  if (extension_of_mesh(path) == avatar_extension && !is_avatar(soup))
+    throw Argument_error(
+        path.string() + ": a .vrm file holds a VRM avatar, and this mesh comes from none; choose a name that "
+                        "ends in .glb");
 }
 
 bool has_normals_of_vertices(Mesh_format format)
@@ -268,6 +293,7 @@ Write_notes write_mesh(const std::filesystem::path& path, const Triangle_soup& s
                        const Write_options& options)
 {
   const Mesh_format format = options.format ? *options.format : mesh_format(path);
+  require_avatar(path, soup);
   check_writable(soup, format, options);
   files::Byte_writer out(path);
   switch (format) {
@@ -300,6 +326,7 @@ Write_notes write_levels_of_detail(const std::filesystem::path& path,
     throw Argument_error("there is no level of detail to write");
   std::vector<const Triangle_soup*> soups;
   for (const Triangle_soup& level : levels) {
+    require_avatar(path, level);
     check_writable(level, format, options);
     soups.push_back(&level);
   }

@@ -114,6 +114,11 @@ TEST(App_usage, RefusesWhatMakesNoSense)
       {{"simplify", in, "-o", folder / "out.xyz", "--ratio", "0.5"}, "out.xyz"},
       {{"simplify", folder / "absent.obj", "-o", folder / "out.xyz", "--ratio", "0.5"},
        "out.xyz"}, // before any work
+      {{"simplify", in, "-o", folder / "a.vrm", "--ratio", "0.5"}, "a.vrm: a .vrm file holds a VRM avatar"},
+      {{"simplify", in, "-o", out, "--ratio", "0.5", "--progressive", folder / "a.vrm"}, "a.vrm"},
+      {{"simplify", in, "-o", out, "--ratio", "0.5", "--pose", in, "--poses-out", folder / "{pose}.vrm"},
+       "{pose}.vrm"},
+      {{"generate", "grid", "-o", folder / "a.vrm"}, "a.vrm"},
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--report", out}, "--report"},
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--report", in}, "--report and IN"},
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--log", in}, "--log and IN"},

@@ -9,6 +9,7 @@
 #include "soup/selection.h"
 #include "soup/transforms_of_vertices.h"
 #include <selvedge/Error.h>
+#include <selvedge/gltf_poses.h>
 #include <selvedge/mesh_files.h>
 #include <selvedge/simplify.h>
 
@@ -246,6 +247,44 @@ TEST(Gltf, TextFormHoldsTheSame)
   EXPECT_EQ(again.soup.triangles, file.soup.triangles);
   write_mesh(folder / "a.glb", again.soup);
   expect_everything_kept(from_glb(contents(folder / "a.glb")), before, false);
+}
+
+// What the extension says about expressions names meshes, nodes and morph targets by their numbers.
+TEST(Gltf, AvatarsAreReducedUnderTheirOwnNames)
+{
+  const Temporary_folder folder;
+  for (const char* extension : {"VRM", "VRMC_vrm"}) {
+    Document before = everything();
+    before.json["extensionsUsed"].push_back(extension);
+    before.json["extensions"][extension] = {{"expressions", {{"node", 1}, {"index", 0}, {"weight", 1}}}};
+    const Simplified_soup reduced =
+        reduce(read_glb(before).soup, 0.4, Placement::vertices, Instances::shared);
+    write_mesh(folder / "small.vrm", reduced.soup);
+    const Document after = from_glb(contents(folder / "small.vrm"));
+    expect_everything_kept(after, before, false);
+    for (const char* key : {"extensions", "extensionsUsed"})
+      EXPECT_EQ(after.json[key], before.json[key]);
+    EXPECT_TRUE(read_mesh(folder / "small.vrm").soup.triangles == reduced.soup.triangles);
+    EXPECT_NO_THROW(write_levels_of_detail(folder / "levels.vrm", {reduced.soup}));
+  }
+}
+
+TEST(Gltf, NothingElseIsWrittenUnderTheNameOfAnAvatar)
+{
+  const Temporary_folder folder;
+  const Triangle_soup soup = read_glb(everything()).soup;
+  Triangle_soup bare = soup;
+  bare.scene = nullptr;
+  bare.scene_vertices.clear();
+  for (const char* name : {"a.vrm", "a.VRM.gz"}) {
+    for (const Triangle_soup& mesh : {soup, bare})
+      EXPECT_THROW(write_mesh(folder / name, mesh), Argument_error);
+    EXPECT_THROW(write_levels_of_detail(folder / name, {soup}), Argument_error);
+    bare.poses = {{"one", bare.points}};
+    EXPECT_THROW(write_gltf_poses(folder / name, bare), Argument_error);
+    EXPECT_FALSE(std::filesystem::exists(folder / name));
+  }
+  EXPECT_NO_THROW(write_mesh(folder / "a.glb", soup)) << "the control";
 }
 
 TEST(Gltf, PrimitivesThatAreGoneLeaveAValidFile)

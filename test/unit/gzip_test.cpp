@@ -52,6 +52,7 @@ TEST(Gzip, NamesAFormatAsTheNameWithoutItDoes)
 {
   EXPECT_EQ(mesh_format("a.obj/x.Off.GZ"), Mesh_format::off);
   EXPECT_EQ(mesh_format("x.y.ply.gz"), Mesh_format::ply);
+  EXPECT_EQ(mesh_format("x.vrm.gz"), Mesh_format::glb);
   for (const char* path : {"x.gz", ".obj.gz", "x.obj.gz.gz", "x.obj.zip", "gz", "x.objgz"})
     EXPECT_THROW(mesh_format(path), Input_error) << path;
 }

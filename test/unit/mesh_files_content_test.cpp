@@ -410,6 +410,7 @@ TEST(Formats, AreNamedByTheExtensionInAnyCase)
   EXPECT_EQ(mesh_format("x.Off"), Mesh_format::off);
   EXPECT_EQ(mesh_format("x.y.ply"), Mesh_format::ply);
   EXPECT_EQ(mesh_format("x.stL"), Mesh_format::stl);
+  EXPECT_EQ(mesh_format("x.Vrm"), Mesh_format::glb);
   for (const char* path : {"obj", ".obj", "x.", "x.fbx", "", "x.obj/y", "x.obj "})
     EXPECT_THROW(mesh_format(path), Input_error) << path;
 }
