@@ -75,10 +75,15 @@ Result guarded(Result failed, Function function) noexcept
 template <class Object>
 Object& required(Object* object, const char* name)
 {
-  if (!object)
-    throw Argument_error(std::string(name) + " is a null pointer" +
-                         (error_before.empty() ? "" : "; the error before this one: " + error_before));
-  return *object;
+  if (object)
+    return *object;
+  const std::string before = "; the error before this one: ";
+  // After several null pointers in a row, the first error is the cause of all.
+  const std::size_t last = error_before.rfind(before);
+  throw Argument_error(std::string(name) + " is a null pointer" +
+                       (error_before.empty()        ? ""
+                        : last != std::string::npos ? error_before.substr(last)
+                                                    : before + error_before));
 }
 
 } // namespace

@@ -249,6 +249,10 @@ TEST(C_interface, SaysWithANullPointerWhatFailedBefore)
                 .find("mesh is a null pointer; the error before this one: absent.obj"),
             std::string::npos)
       << selvedge_last_error();
+  const std::string first = selvedge_last_error();
+  for (int i = 0; i < 3; ++i)
+    EXPECT_EQ(selvedge_reduce(mesh, options), nullptr);
+  EXPECT_EQ(selvedge_last_error(), first) << "the text grows with every call";
   selvedge_options_free(options);
 }
 
