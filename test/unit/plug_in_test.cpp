@@ -29,6 +29,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -139,6 +140,47 @@ TEST(Intersection_filter, IsRefusedAfterOneCollapseThatItsVisitorWasNotTold)
     EXPECT_EQ(collapses, 1);
     EXPECT_TRUE(is_embedded(soup_of(mesh)));
   }
+}
+
+// Throws within the first collapse, before the visitors after it in a chain are told that it is done.
+struct Throwing_visitor : internal::No_visitor
+{
+  template <class Profile, class Vertex>
+  void OnCollapsed(const Profile&, const Vertex&)
+  {
+    throw std::length_error("of somebody's own");
+  }
+};
+
+// Onto the end that CGAL keeps, so that no vertex is elsewhere than the filter has it.
+struct Placement_at_v1
+{
+  template <class Profile>
+  internal::Optional<typename Profile::Point> operator()(const Profile& profile) const
+  {
+    return profile.p1();
+  }
+};
+
+TEST(Intersection_filter, IsRefusedAfterARunThatAnExceptionHasLeftWithinACollapse)
+{
+  for (const bool is_own : {true, false})
+    for (const bool is_told : {true, false}) {
+      Mesh mesh = waves();
+      const Intersection_filter<Mesh> filter(mesh);
+      const auto collapse_with = [&](const auto& visitor) {
+        collapse(is_own, mesh,
+                 CGAL::parameters::get_placement(Placement_at_v1()).filter(filter).visitor(visitor));
+      };
+      if (is_told) {
+        EXPECT_THROW(collapse_with(Visitor_chain(filter.visitor(), Throwing_visitor())), std::length_error);
+        EXPECT_NO_THROW(collapse_with(filter.visitor()));
+      } else {
+        EXPECT_THROW(collapse_with(Visitor_chain(Throwing_visitor(), filter.visitor())), std::length_error);
+        EXPECT_THROW(collapse_with(filter.visitor()), Argument_error);
+      }
+      EXPECT_TRUE(is_embedded(soup_of(mesh)));
+    }
 }
 
 TEST(Intersection_filter, IsRefusedForAMeshThatHasChangedSinceItWasMade)

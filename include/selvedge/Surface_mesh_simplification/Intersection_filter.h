@@ -47,7 +47,8 @@ namespace selvedge {
 /// - at the construction: all faces are triangles, all coordinates are finite, no edge has length zero
 ///   (CGAL's loop would collapse such an edge without asking a filter), and the faces around every vertex
 ///   form one fan (`duplicate_non_manifold_vertices()` of `CGAL::Polygon_mesh_processing` separates several);
-/// - when the loop begins: its mesh is that of the filter, and its vertices are where they were;
+/// - when the loop begins: its mesh is that of the filter, its vertices are where they were, and no earlier
+///   run was left by an exception within a collapse, before the filter's visitor was told that it is done;
 /// - when the loop asks the filter for the first time, before any collapse: it has called the visitor's
 ///   `OnStarted`, as both loops do before they ask. Nothing earlier tells a loop without the visitor from one
 ///   that has not begun. A program that asks the filter itself calls `filter.visitor().OnStarted(mesh)`

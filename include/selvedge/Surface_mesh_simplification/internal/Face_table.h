@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_FACE_TABLE_H
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_FACE_TABLE_H
 
+#include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
 #include <selvedge/geometry/internal/Star_pack_filter.h>
 #include <selvedge/internal/Vector_of_doubles.h>
 #include <selvedge/internal/instructions.h>
@@ -162,12 +163,22 @@ public:
         else
           m_index.set(id, box(id));
       }
+    m_is_number_current = m_is_number_current || std::size_t(num_faces(m_mesh)) == m_size;
   }
 
   const FaceIndex& index() const { return m_index; }
 
   /// Returns the number of faces that have not been removed.
   std::size_t size() const { return m_size; }
+
+  /// Returns whether the mesh has as many faces as have not been removed here.
+  ///
+  /// num_faces() of some meshes counts removed faces as well. It does not where it has once gone down with
+  /// the number here; until then, all faces are counted, which takes long.
+  bool are_all_in_mesh() const
+  {
+    return (m_is_number_current ? std::size_t(num_faces(m_mesh)) : current_faces(m_mesh)) == m_size;
+  }
 
 private:
   void remove_clear_in_packs(Star_pack_filter& filter, std::vector<Id>& near, std::vector<Sweeps>& unclear)
@@ -242,8 +253,9 @@ private:
   FaceIndex m_index;
   typename boost::property_map<TriangleMesh, CGAL::dynamic_face_property_t<Id>>::const_type m_ids;
   std::size_t m_size = 0;
-  std::vector<Face> m_faces;                   // by number
-  std::vector<Corners> m_corners;              // by number: in the mesh, they are five look-ups away
+  bool m_is_number_current = false; // whether num_faces() counts no removed faces, as far as is known
+  std::vector<Face> m_faces;        // by number
+  std::vector<Corners> m_corners;   // by number: in the mesh, they are five look-ups away
   std::vector<Star_pack_filter::Pack> m_packs; // a buffer
 };
 

@@ -125,7 +125,7 @@ public:
       throw Argument_error(
           "the loop runs on another mesh than that of its intersection filter; make the filter "
           "of the mesh that the loop changes, not of a copy");
-    if (!m_vertices.are_in_place(mesh))
+    if (m_is_collapsing || !m_vertices.are_in_place(mesh))
       refuse_changed_mesh();
     m_is_run_announced = m_is_announcement_due = true;
   }
@@ -135,6 +135,7 @@ public:
   void before_collapse(const Collapse<Profile>& collapse)
   {
     m_is_announcement_due = false;
+    m_is_collapsing = true;
     const bool is_with_another = m_others_left > 0; // then all changes of descent have been made
     m_others_left = is_with_another ? m_others_left - 1 : collapse.others().size();
     if (is_with_another)
@@ -158,6 +159,7 @@ public:
           "the vertex point map holds another point than the one put into it and judged, perhaps because it "
           "rounds; let the placement return points that the map can hold, such as an end of the edge, or use "
           "a map of doubles");
+    m_is_collapsing = m_others_left > 0;
   }
 
   /// Returns the faces that kept motions from being clear since `forget_blockers`: one at most for each
@@ -191,7 +193,7 @@ private:
     if (!m_is_run_announced)
       throw Argument_error("the loop has not called the visitor of its intersection filter; give the loop "
                            "this visitor as well, `visitor(filter.visitor())`, or a `Visitor_chain` with it");
-    if (m_is_announcement_due && current_faces(m_mesh) != m_faces.size())
+    if (m_is_announcement_due && !m_faces.are_all_in_mesh())
       refuse_changed_mesh();
   }
   [[noreturn]] static void refuse_changed_mesh()
@@ -467,6 +469,7 @@ private:
   typename Vertices::Point m_place{}; // likewise
   bool m_is_run_announced = false;    // whether a loop that calls the visitor is running
   bool m_is_announcement_due = true;  // whether the mesh may have changed unannounced
+  bool m_is_collapsing = false;       // whether a collapse has been announced, and not what it has left
   bool m_is_mover_first = false;
   std::size_t m_others_left = 0; // collapses that go along with the last one, and have not been done
   Permitted_pairs<Id> m_permitted;
