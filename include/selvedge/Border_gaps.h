@@ -23,7 +23,8 @@ namespace selvedge {
 ///   of cloth lie upon each other, or folds of one.)
 ///
 /// Of several clear lengths, the one counts that is followed by the largest step, as a quotient, to the next
-/// distance, which is infinite after the last; and of those with as large a step the least.
+/// distance, which is infinite after the last; and of those with as large a step the least. From 0, which is
+/// the distance of lips that part in some pose alone, every step to another distance is the least of all.
 struct Border_gaps
 {
   std::size_t border_vertices = 0;

@@ -372,8 +372,10 @@ private:
     for (std::size_t within = 1; within <= near; ++within) {
       continued += gaps[within - 1].is_continued;
       const double length = gaps[within - 1].length;
-      const double step =
-          within == gaps.size() ? std::numeric_limits<double>::infinity() : gaps[within].length / length;
+      const double infinity = std::numeric_limits<double>::infinity();
+      const double step = within == gaps.size() ? infinity
+                          : length == 0         ? std::nextafter(1., infinity)
+                                                : gaps[within].length / length;
       if (2 * within < near || !(step > (std::max)(1., largest_step)) || 3 * continued < within ||
           20 * (number_within(2 * length) - within) > within)
         continue;

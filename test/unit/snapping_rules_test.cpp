@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <set>
 #include <vector>
 
@@ -102,6 +103,20 @@ TEST(Border_gaps, AreClearWhereSeamsEndAndNothingElseBegins)
   const Border_gaps layers = gaps_of(joined(sheet(3, 3), below));
   EXPECT_EQ(layers.lengths, std::vector<double>(24, 0.125));
   EXPECT_EQ(layers.clear_length, std::nullopt);
+}
+
+// Borders that meet here and part in some pose, as lips do, lie at distance 0 and are no one position.
+TEST(Border_gaps, AreClearBesideBordersThatPartInSomePoseAlone)
+{
+  const auto clear_length = [](const Triangle_soup& soup) {
+    std::vector<Index> positions(soup.points.size());
+    std::iota(positions.begin(), positions.end(), 0);
+    return find_open_seams(soup, positions).gaps.clear_length;
+  };
+  const Triangle_soup lips = joined(sheet(1, 8), moved(sheet(1, 8), 1, 0, 0)),
+                      seam = joined(sheet(1, 3), moved(sheet(1, 3), 1.125, 0, 0));
+  EXPECT_EQ(clear_length(joined(lips, moved(seam, 9, 0, 0))), 0.125);
+  EXPECT_EQ(clear_length(lips), 0);
 }
 
 /// Two sheets side by side along which the left one has 25 vertices and the right one 33.
