@@ -55,6 +55,14 @@ bool has_word(const std::string& text, const std::string& word)
   return false;
 }
 
+/// Whether the text is the name, a slash, and a number.
+bool is_numbered(const std::string& text, const std::string& name)
+{
+  return text.size() > name.size() + 1 && text.compare(0, name.size(), name) == 0 &&
+         text[name.size()] == '/' &&
+         text.find_first_not_of("0123456789", name.size() + 1) == std::string::npos;
+}
+
 /// Whether the attribute says yes (1) or no (0) of every triangle.
 bool is_flag(const Attribute& attribute)
 {
@@ -94,10 +102,12 @@ std::vector<char> triangles_named(const Triangle_soup& soup, const std::string& 
 {
   std::vector<char> is_named(soup.triangles.size(), false);
   std::set<std::string> known;
-  for_each_label(soup, [&](Part_kind::Name, const Triangle_labels& labels) {
+  for_each_label(soup, [&](Part_kind::Name kind, const Triangle_labels& labels) {
+    const bool are_primitives = soup.scene && kind == Part_kind::Name::group;
     std::vector<char> is_meant;
     for (const std::string& label : labels.names)
-      is_meant.push_back(!name.empty() && (label == name || has_word(label, name)));
+      is_meant.push_back(!name.empty() && (label == name || has_word(label, name) ||
+                                           (are_primitives && is_numbered(label, name))));
     std::vector<char> is_used(labels.names.size(), false);
     for (std::size_t t = 0; t < labels.of_triangle.size(); ++t) {
       is_named[t] |= is_meant[labels.of_triangle[t]];

@@ -7,6 +7,7 @@
 #include "support/Temporary_folder.h"
 
 #include <selvedge/Error.h>
+#include <selvedge/Parts.h>
 #include <selvedge/mesh_files.h>
 
 #include <gtest/gtest.h>
@@ -16,6 +17,7 @@
 #include <filesystem>
 #include <functional>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -88,6 +90,27 @@ TEST(Gltf, GroupsMaterialsAndNotes)
   for (const char* word : {"several nodes or instances share", "bind pose", "morph targets",
                            "points or lines", "files of their own"})
     EXPECT_TRUE(says(word)) << word;
+}
+
+TEST(Gltf, NodesNameAllTheirPrimitives)
+{
+  Triangle_soup soup = read_glb(everything()).soup;
+  const auto named = [&soup](const std::string& name) {
+    std::set<std::string> groups;
+    const std::vector<char> is_named = triangles_named(soup, name);
+    for (std::size_t t = 0; t < is_named.size(); ++t)
+      if (is_named[t])
+        groups.insert(soup.groups.names[soup.groups.of_triangle[t]]);
+    return groups;
+  };
+  using Names = std::set<std::string>;
+  EXPECT_EQ(named("left"), (Names{"left/0", "left/1"}));
+  EXPECT_EQ(named("left/1"), Names{"left/1"});
+  EXPECT_EQ(named("arm"), Names{"arm"});
+  for (const char* name : {"lef", "left/", "eft", "/0"})
+    EXPECT_THROW(named(name), Argument_error) << name;
+  soup.scene = nullptr;
+  EXPECT_THROW(named("left"), Argument_error) << "slashes in other files mean nothing";
 }
 
 TEST(Gltf, LayersInDifferentNodesSeeEachOther)
