@@ -10,6 +10,7 @@
 #include "text.h"
 
 #include <selvedge/Parts.h>
+#include <selvedge/gltf_poses.h>
 #include <selvedge/inspect.h>
 #include <selvedge/normals.h>
 
@@ -255,13 +256,15 @@ void print_border_gaps(std::ostream& stream, const Simplify_request& request, co
                    ? found + ", which is the length chosen\n"
                    : "nothing is closed, because no gaps in seams are clearly narrower than what "
                      "lies beside them; --weld EPS closes gaps up to a length\n");
-  else if (gaps.clear_length)
+  else if (gaps.clear_length) {
+    const bool may_weld = prepared.soup.poses.empty(); // `check_poses` refuses it then
     stream << "  open seams: " << found
-           << (request.open_seams != Open_seams::hold ? "; "
-               : !prepared.facing.empty()             ? "; they get hardly wider, and "
-               : !prepared.tied.empty()               ? "; they get no wider, and "
-                                                      : "; not held, as no piece there has a vertex inside; ")
-           << "--weld auto closes them\n";
+           << (request.open_seams != Open_seams::hold ? ""
+               : !prepared.facing.empty()             ? "; they get hardly wider"
+               : !prepared.tied.empty()               ? "; they get no wider"
+                                                      : "; not held, as no piece there has a vertex inside")
+           << (may_weld ? "; --weld auto closes them\n" : "\n");
+  }
   if (gaps.clear_length_to_edges)
     stream << "  open seams: " << edges_in_clear_gaps(gaps, diagonal)
            << (request.open_seams == Open_seams::hold       ? "; they get hardly wider\n"
@@ -329,6 +332,9 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
   stream << '\n';
   for (const Json& note : notes)
     stream << "  " << note.get<std::string>() << '\n';
+  if (!request.poses.are_morphs && has_morph_targets(prepared.soup))
+    stream << "  morph targets: nothing is promised in the shapes that they make; --morphs guards these, "
+              "too\n";
   if (prepared.rounding.coordinates > 0)
     stream << "  " << counted(prepared.rounding.coordinates, "coordinate")
            << " rounded to 32-bit floats, because the output's format stores nothing more precise\n";

@@ -27,9 +27,12 @@ namespace selvedge {
 ///
 /// **Not promised** What a GPU shows: it computes in 32-bit floats, and may round every operation otherwise.
 ///
-/// Both functions throw `Input_error` when the mesh was not read from glTF, the file has none of what is
-/// asked for, what it says is not valid, a coordinate is not finite, or the poses would have more than 2^28
-/// vertices in all.
+/// The functions that return poses throw `Input_error` when the mesh was not read from glTF, the file has
+/// none of what is asked for, what it says is not valid, a coordinate is not finite, or the poses would have
+/// more than 2^28 vertices in all.
+
+/// Returns whether the mesh was read from glTF and has morph targets.
+bool has_morph_targets(const Triangle_soup& mesh);
 
 /// Returns a pose for each name of a morph target: every target of this name has weight 1, on all meshes that
 /// have it, and all others have weight 0. Skinned meshes stay in their bind pose, and nodes where they are.

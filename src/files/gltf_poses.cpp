@@ -615,6 +615,12 @@ std::vector<Pose> poses_of(const Triangle_soup& mesh, const std::string& name, c
 
 } // namespace
 
+bool has_morph_targets(const Triangle_soup& mesh)
+{
+  return mesh.scene && std::any_of(mesh.scene->blocks.begin(), mesh.scene->blocks.end(),
+                                   [](const auto& block) { return !block.targets.empty(); });
+}
+
 std::vector<Pose> morph_poses(const Triangle_soup& mesh, const std::string& name)
 {
   return poses_of(mesh, name, [](Gltf_poser& poser) { return poser.morphs(); });

@@ -259,7 +259,7 @@ private:
       m_scene->parts.push_back({own, mesh, m_first_alike[mesh], p, it->second, 0, Json::object()});
       m_sources.push_back(&primitive);
       if (!primitive.targets.empty())
-        remark("primitives with morph targets, which are kept (they can be given as poses)");
+        remark("primitives with morph targets, which are kept");
       soup().groups.names.push_back(group_name(place.node, mesh, p, parts));
     }
   }

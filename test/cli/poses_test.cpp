@@ -113,6 +113,19 @@ TEST_F(Waving_sheets, PierceEachOtherInAPoseThatIsNotGiven)
   EXPECT_NE(result.out.find("pose 'up_waves': "), std::string::npos) << result.out;
 }
 
+TEST_F(Waving_sheets, AreSaidToMorphWithoutAPromise)
+{
+  const auto says_so = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"simplify", gltf, "-o", folder / "small.glb", "--ratio", "0.2"});
+    const App_result result = run_app(arguments);
+    EXPECT_EQ(result.code, 0) << result.err;
+    return result.out.find("; --morphs guards these") != std::string::npos;
+  };
+  EXPECT_TRUE(says_so({}));
+  EXPECT_TRUE(says_so({"--animation", "wave"}));
+  EXPECT_FALSE(says_so({"--morphs"}));
+}
+
 TEST_F(Waving_sheets, AreLegalInMorphTargetsAndKeyframes)
 {
   for (const std::vector<std::string>& poses : {std::vector<std::string>{"--morphs"},

@@ -137,7 +137,7 @@ TEST(App_simplify, HoldsOpenSeamsUnlessToldOtherwise)
     EXPECT_NE(result.out.find(says), std::string::npos) << result.out;
     return nlohmann::json::parse(contents_of(folder / "r.json"))["snap"]["tied"].get<int>();
   };
-  const std::string holds = "; they get no wider, and --weld auto closes them\n";
+  const std::string holds = "; they get no wider; --weld auto closes them\n";
   EXPECT_EQ(tied({}, holds), 3);
   EXPECT_EQ(tied({"--weld", "hold"}, holds), 3);
   EXPECT_EQ(tied({"--weld", "none"}, "; --weld auto closes them\n"), 0);
