@@ -14,6 +14,7 @@
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
 #include <selvedge/Sha256.h>
+#include <selvedge/internal/exact_predicates.h>
 
 #include <algorithm>
 #include <chrono>
@@ -452,6 +453,7 @@ private:
 Replay_verdict replay(const Triangle_soup& original, bool is_stl, Log_reader& log,
                       const Replay_options& options)
 {
+  internal::require_default_arithmetic();
   const bool is_obstacle_stated = reference::check_inputs(original, is_stl, log.header(), options);
   const auto start = reference::Clock::now();
   reference::Replay run(original, is_stl, log, options);

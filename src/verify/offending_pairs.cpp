@@ -4,6 +4,7 @@
 #include "verify/Triangle_tree.h"
 
 #include <selvedge/Cancellation_scope.h>
+#include <selvedge/internal/exact_predicates.h>
 #include <selvedge/verify.h>
 
 #include <CGAL/intersections.h>
@@ -157,6 +158,7 @@ class Judge
 public:
   explicit Judge(const Triangle_soup& soup) : m_soup(soup), m_degenerate(soup.triangles.size())
   {
+    internal::require_default_arithmetic();
     Cancellation_scope::check();
     const tbb::blocked_range<std::size_t> all(0, soup.triangles.size(), 4096);
     tbb::parallel_for(all, [&](const tbb::blocked_range<std::size_t>& range) {

@@ -26,13 +26,19 @@
 
 #include <gtest/gtest.h>
 
+#include <cfenv>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <vector>
+
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
 
 namespace selvedge::test {
 namespace {
@@ -181,6 +187,29 @@ TEST(Intersection_filter, IsRefusedAfterARunThatAnExceptionHasLeftWithinACollaps
       }
       EXPECT_TRUE(is_embedded(soup_of(mesh)));
     }
+}
+
+TEST(Intersection_filter, IsRefusedToThreadsThatRoundOtherwiseOrFlushToZero)
+{
+  std::vector<std::function<void()>> settings = {[] { std::fesetround(FE_UPWARD); },
+                                                 [] { std::fesetround(FE_TOWARDZERO); }};
+#ifdef __SSE2__ // as code that was compiled with -ffast-math sets it
+  settings.push_back([] { _mm_setcsr(_mm_getcsr() | 0x8000); }); // results that are subnormal become 0
+  settings.push_back([] { _mm_setcsr(_mm_getcsr() | 0x0040); }); // so do operands
+#endif
+  Mesh mesh = waves();
+  const Triangle_soup soup = soup_of(mesh);
+  for (const auto& set : settings) {
+    const Intersection_filter<Mesh> filter(mesh);
+    set();
+    EXPECT_THROW(Intersection_filter<Mesh> other(mesh), Argument_error);
+    EXPECT_THROW(filter.visitor().OnStarted(mesh), Argument_error);
+    EXPECT_THROW(offending_pairs(soup), Argument_error);
+    EXPECT_THROW(is_embedded(soup), Argument_error);
+    std::fesetenv(FE_DFL_ENV);
+    EXPECT_NO_THROW(filter.visitor().OnStarted(mesh));
+    EXPECT_TRUE(is_embedded(soup));
+  }
 }
 
 TEST(Intersection_filter, IsRefusedForAMeshThatHasChangedSinceItWasMade)

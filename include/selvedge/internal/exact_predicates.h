@@ -4,8 +4,12 @@
 #ifndef SELVEDGE_INTERNAL_EXACT_PREDICATES_H
 #define SELVEDGE_INTERNAL_EXACT_PREDICATES_H
 
+#include <selvedge/Error.h>
+
 #include <CGAL/Algebraic_structure_traits.h>
 
+#include <cfenv>
+#include <limits>
 #include <type_traits>
 
 // Selvedge and CGAL prove signs by such bounds.
@@ -39,6 +43,20 @@ constexpr void require_exact_predicates()
                 "the predicates of this kernel are not exact, so the answers would be wrong: use points of "
                 "CGAL::Exact_predicates_inexact_constructions_kernel (EPICK), or of another kernel with "
                 "filtered predicates or an exact number type");
+}
+
+/// Throws `Argument_error` when the calling thread does not compute as IEEE 754 has it by default: when it
+/// rounds otherwise than to the nearest, or takes subnormal numbers for 0. A shared library that was compiled
+/// with `-ffast-math` may have set this for the whole program.
+inline void require_default_arithmetic()
+{
+  const volatile double least = std::numeric_limits<double>::min(); // of those that are not subnormal
+  const volatile double half = least / 2;
+  if (!(half > 0) || std::fegetround() != FE_TONEAREST)
+    throw Argument_error(
+        "this thread rounds otherwise than to the nearest, or takes subnormal numbers for 0, which voids the "
+        "bounds on rounding errors; call std::fesetenv(FE_DFL_ENV) first, and link nothing that was compiled "
+        "with -ffast-math");
 }
 
 } // namespace internal

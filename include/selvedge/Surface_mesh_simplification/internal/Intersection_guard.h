@@ -77,6 +77,7 @@ public:
         m_exempt(mesh, m_vertices, m_faces, m_traits, m_permitted)
   {
     require_exact_predicates<GeomTraits>();
+    require_default_arithmetic();
   }
 
   /// Exempts all pairs that descend from these, which offend at the start. A face of several triangles makes
@@ -121,6 +122,7 @@ public:
   /// Called at the start and at the end of each run of a loop.
   void on_started(const TriangleMesh& mesh)
   {
+    require_default_arithmetic();
     if (&mesh != &m_mesh)
       throw Argument_error(
           "the loop runs on another mesh than that of its intersection filter; make the filter "
