@@ -71,19 +71,22 @@ namespace selvedge {
 /// says: the row of a vertex of the file that has this normal, where there is one, else the normal turned
 /// back into its node, and rounded to what the file can hold where it has them quantised. TANGENT goes with
 /// it, as does what morph targets add to both: they are those of the vertex with this normal or, of those
-/// that differ in nothing else, of the one whose normal is nearest; then the tangent is made perpendicular to
-/// the normal, and keeps its side. Without normals, the file gets neither NORMAL nor TANGENT. The rest of the
-/// document stays as it is: images byte for byte, addresses of files, numbers of accessors and buffer views.
-/// Accessors that were quantised or compressed are so again, where reading them gives the same numbers; of a
-/// vertex at which fans of faces meet, Draco may make one for each fan. Exceptions: a mesh that stands in
-/// several places (nodes or instances) becomes several, one for all places in which it has the same triangles
-/// of the same vertices, with the normals of the first of them; instances that have come to differ become
-/// nodes, without the extension's own attributes; accessors of triangles are written without gaps, and in
-/// full unless the file has nothing but sparse values for them; those that shared a buffer view share one
-/// again, one behind the other or, if one level of detail is written, interleaved as they were; buffers
-/// become one, and bytes that nothing can refer to go, as do accessors and buffer views at the end of their
-/// lists. Primitives of points or lines, and meshes outside the scene, stay as they are. Those without a
-/// triangle left are removed.
+/// that differ in nothing else, of the one whose normal is nearest. Then the tangent is made perpendicular to
+/// the normal, and keeps its side; and what morph targets add is turned by the shortest rotation that takes
+/// the old normal to the new one, for TANGENT also the tangent, and scaled as their lengths are, so that the
+/// sum is the sum of the file, turned, whatever the weights (negated if the two are opposite; zero stays
+/// zero; numbers that the file has quantised are cut off at -1 and 1). Without normals, the file gets neither
+/// NORMAL nor TANGENT. The rest of the document stays as it is: images byte for byte, addresses of files,
+/// numbers of accessors and buffer views. Accessors that were quantised or compressed are so again, where
+/// reading them gives the same numbers; of a vertex at which fans of faces meet, Draco may make one for each
+/// fan. Exceptions: a mesh that stands in several places (nodes or instances) becomes several, one for all
+/// places in which it has the same triangles of the same vertices, with the normals of the first of them;
+/// instances that have come to differ become nodes, without the extension's own attributes; accessors of
+/// triangles are written without gaps, and in full unless the file has nothing but sparse values for them;
+/// those that shared a buffer view share one again, one behind the other or, if one level of detail is
+/// written, interleaved as they were; buffers become one, and bytes that nothing can refer to go, as do
+/// accessors and buffer views at the end of their lists. Primitives of points or lines, and meshes outside
+/// the scene, stay as they are. Those without a triangle left are removed.
 ///
 /// **Normals.** PLY and glTF hold one normal for each vertex, so that a file with a normal for each face has
 /// several vertices at every corner of its mesh. Where the normals are flat (normals.h), triangles name the
@@ -112,8 +115,9 @@ enum class Mesh_format { obj, off, ply, stl, glb, gltf };
 /// Throws `Input_error` when it names none of them.
 Mesh_format mesh_format(const std::filesystem::path& path);
 
-/// Throws `Argument_error` when a path ends in `.vrm`, but the soup comes from no VRM avatar: from a glTF file
-/// with the extension `VRM` (version 0) or `VRMC_vrm` (version 1). The functions that write files call it.
+/// Throws `Argument_error` when a path ends in `.vrm`, but the soup comes from no VRM avatar: from a glTF
+/// file with the extension `VRM` (version 0) or `VRMC_vrm` (version 1). The functions that write files call
+/// it.
 void require_avatar(const std::filesystem::path& path, const Triangle_soup& soup);
 
 /// Returns whether a path's extension is `.gz`, in upper or lower case: the file is packed.

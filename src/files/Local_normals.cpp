@@ -9,6 +9,7 @@
 
 #include <selvedge/internal/Vector_of_doubles.h>
 
+#include <cstring>
 #include <limits>
 
 namespace selvedge::files {
@@ -17,6 +18,18 @@ std::string bits_of(const std::array<double, 3>& normal)
 {
   return std::string(reinterpret_cast<const char*>(normal.data()), sizeof normal);
 }
+
+namespace {
+
+/// Returns the first three of the floats in a row.
+std::array<double, 3> direction(std::string_view row)
+{
+  std::array<float, 3> result;
+  std::memcpy(result.data(), row.data(), sizeof result);
+  return {result[0], result[1], result[2]};
+}
+
+} // namespace
 
 bool Local_normals::has_normal(const Gltf_scene::Column& column, std::size_t instance, Index row,
                                const std::array<double, 3>& normal) const
@@ -36,8 +49,17 @@ const Local_normals::Rows& Local_normals::rows_of(const Gltf_scene::Column& colu
   return rows->second;
 }
 
-std::string Local_normals::bytes_of(const Gltf_scene::Column& column, Index scene_vertex,
+std::string Local_normals::bytes_of(const Gltf_scene::Column& column, bool is_of_target, Index scene_vertex,
                                     const std::array<double, 3>& normal)
+{
+  const Gltf_scene::Block& block = m_scene.blocks[m_scene.instances[m_scene.instance_of(scene_vertex)].block];
+  return is_of_target               ? displacement_of(column, block, scene_vertex, normal)
+         : column.name == "TANGENT" ? tangent_of(column, *block.normals(), scene_vertex, normal)
+                                    : normal_of(column, scene_vertex, normal);
+}
+
+std::string Local_normals::normal_of(const Gltf_scene::Column& column, Index scene_vertex,
+                                     const std::array<double, 3>& normal)
 {
   const std::size_t instance = m_scene.instance_of(scene_vertex);
   const Index row = row_at(column, scene_vertex, normal);
@@ -96,6 +118,32 @@ std::string Local_normals::tangent_of(const Gltf_scene::Column& tangents, const 
   for (const double coordinate : quantised_direction(tangents, direction).value_or(direction))
     append_little_endian(turned, static_cast<float>(coordinate));
   return result.replace(0, turned.size(), turned);
+}
+
+std::string Local_normals::displacement_of(const Gltf_scene::Column& column, const Gltf_scene::Block& block,
+                                           Index scene_vertex, const std::array<double, 3>& normal)
+{
+  const Gltf_scene::Column& normals = *block.normals();
+  const std::size_t instance = m_scene.instance_of(scene_vertex);
+  const Index row = row_at(normals, scene_vertex, normal);
+  std::string bytes(column.row(row));
+  if (has_normal(normals, instance, row, normal) || column.component_type != type_float32 ||
+      column.components != 3)
+    return bytes;
+  const std::array<double, 3> added = direction(bytes);
+  if (added == std::array<double, 3>{})
+    return bytes;
+  const std::array<double, 3> before = direction(normals.row(row)),
+                              after = direction(normal_of(normals, scene_vertex, normal));
+  std::array<double, 3> result = turned(added, before, after);
+  const Gltf_scene::Column* const tangents = block.tangents();
+  if (column.name == "TANGENT" && tangents && tangents->component_type == type_float32)
+    result = turned(result, turned(direction(tangents->row(row)), before, after),
+                    direction(tangent_of(*tangents, normals, scene_vertex, normal)));
+  bytes.clear();
+  for (const double coordinate : quantised_direction(column, result).value_or(result))
+    append_little_endian(bytes, static_cast<float>(coordinate));
+  return bytes;
 }
 
 } // namespace selvedge::files

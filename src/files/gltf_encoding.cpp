@@ -372,7 +372,8 @@ std::optional<std::array<double, 3>> quantised_direction(const Gltf_scene::Colum
       constexpr double one = double(std::numeric_limits<decltype(zero)>::max());
       std::array<double, 3> result;
       for (std::size_t k = 0; k < 3; ++k)
-        result[k] = float(std::round(direction[k] * one) / one + 0.); // -0 is no whole number
+        result[k] =
+            float(std::round(std::clamp(direction[k], -1., 1.) * one) / one + 0.); // -0 is no whole number
       return result;
     });
 #ifdef SELVEDGE_HAS_DRACO

@@ -323,15 +323,14 @@ private:
       const auto row_of = [&](const Column& column, const Vertices_by_normal::Vertex& v) {
         return column.row(m_soup.scene_vertices[v.vertex] - instance.first);
       };
-      const Column* const normals = m_soup.normals.empty() ? nullptr : block(instance).normals();
-      const auto put_rows = [&](const Column& column) {
-        // NORMAL and TANGENT of a morph target go with the normal.
-        const bool is_of_normals = normals && (column.name == "NORMAL" || column.name == "TANGENT");
+      const bool has_normals = !m_soup.normals.empty() && block(instance).normals();
+      const auto put_rows = [&](const Column& column, bool is_of_target) {
+        const bool is_of_normals = has_normals && (column.name == "NORMAL" || column.name == "TANGENT");
         return put(column, [&](const Vertices_by_normal::Vertex& v) {
           return !is_of_normals || v.normal == m_normals.missing
-                     ? row_of(column, v)
-                     : column.row(m_local_normals.row_at(*normals, m_soup.scene_vertices[v.vertex],
-                                                         m_normals.values[v.normal]));
+                     ? std::string(row_of(column, v))
+                     : m_local_normals.bytes_of(column, is_of_target, m_soup.scene_vertices[v.vertex],
+                                                m_normals.values[v.normal]);
         });
       };
       for (const Column& column : block(instance).attributes)
@@ -340,26 +339,12 @@ private:
               put(column, [&](const Vertices_by_normal::Vertex& v) { return local_position_of(v.vertex); });
         else if (is_dropped(column))
           m_attributes[i][column.name] = nullptr;
-        else if (&column == normals)
-          m_attributes[i][column.name] = put(column, [&](const Vertices_by_normal::Vertex& v) {
-            return v.normal == m_normals.missing
-                       ? std::string(row_of(column, v))
-                       : m_local_normals.bytes_of(column, m_soup.scene_vertices[v.vertex],
-                                                  m_normals.values[v.normal]);
-          });
-        else if (normals && column.name == "TANGENT")
-          m_attributes[i][column.name] = put(column, [&](const Vertices_by_normal::Vertex& v) {
-            return v.normal == m_normals.missing
-                       ? std::string(row_of(column, v))
-                       : m_local_normals.tangent_of(column, *normals, m_soup.scene_vertices[v.vertex],
-                                                    m_normals.values[v.normal]);
-          });
         else
-          m_attributes[i][column.name] = put_rows(column);
+          m_attributes[i][column.name] = put_rows(column, false);
       for (const std::vector<Column>& target : block(instance).targets) {
         Json& accessors = m_targets[i].emplace_back(Json::object());
         for (const Column& column : target)
-          accessors[column.name] = is_dropped(column) ? Json() : Json(put_rows(column));
+          accessors[column.name] = is_dropped(column) ? Json() : Json(put_rows(column, true));
       }
     }
   }

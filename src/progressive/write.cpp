@@ -214,21 +214,25 @@ private:
         rows.push_back(scene_soup().scene_vertices[vertex_in_scene(m_order[v])] - instance.first);
       Gltf_scene::Block& block = blocks.emplace_back(before.blocks[instance.block]);
       block.size = Index(rows.size());
-      const auto select = [&](Gltf_scene::Column& column) {
-        const bool is_of_normals = &column == block.normals();
+      const bool has_normals = before.blocks[instance.block].normals();
+      const auto select = [&](Gltf_scene::Column& column, bool is_of_target) {
+        const bool is_of_normals = has_normals && (column.name == "NORMAL" || column.name == "TANGENT");
         std::string selected;
         for (std::size_t k = 0; k < rows.size(); ++k)
           if (const auto normal = is_of_normals ? normal_at(m_order[first + k]) : std::nullopt)
-            selected += local_normals.bytes_of(column, Index(instance.first + rows[k]), *normal);
+            selected +=
+                local_normals.bytes_of(column, is_of_target, Index(instance.first + rows[k]), *normal);
           else
             selected += column.row(rows[k]);
         column.rows = std::move(selected);
         column.compression.reset();
         column.place.reset();
       };
-      std::for_each(block.attributes.begin(), block.attributes.end(), select);
+      for (Gltf_scene::Column& column : block.attributes)
+        select(column, false);
       for (std::vector<Gltf_scene::Column>& target : block.targets)
-        std::for_each(target.begin(), target.end(), select);
+        for (Gltf_scene::Column& column : target)
+          select(column, true);
       m_firsts.push_back(first);
     }
     for (std::size_t i = 0; i < m_firsts.size(); ++i) {

@@ -206,6 +206,26 @@ std::array<double, 3> perpendicular(const std::array<double, 3>& tangent, const 
   return unit(beside_axis(other), 1);
 }
 
+std::array<double, 3> turned(const std::array<double, 3>& vector, const std::array<double, 3>& from,
+                             const std::array<double, 3>& to)
+{
+  const double scale = std::sqrt(product(to, to) / product(from, from));
+  if (!(scale > 0 && std::isfinite(scale)))
+    return vector;
+  const std::array<double, 3> a = unit(from, 1), b = unit(to, 1);
+  const std::array<double, 3> middle = {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+  const double square = product(middle, middle);
+  constexpr double least = 1e-6; // what is less has come from rounding
+  const bool are_opposite = !(square > least * least);
+  // Two reflections: by the plane perpendicular to `middle`, and then by the one perpendicular to `b`.
+  std::array<double, 3> result;
+  for (std::size_t i = 0; i < 3; ++i)
+    result[i] = scale * (are_opposite ? -vector[i]
+                                      : vector[i] - 2 * product(middle, vector) / square * middle[i] +
+                                            2 * product(a, vector) * b[i]);
+  return result;
+}
+
 Point_3 world_position(const Matrix& to_world, const std::array<double, 3>& local)
 {
   const auto coordinate = [&](const std::array<double, 4>& m) {

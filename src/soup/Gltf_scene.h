@@ -96,10 +96,16 @@ struct Gltf_scene
     std::vector<std::vector<Column>> targets;
 
     /// Returns the column of the normals; null where there is none of three components.
-    const Column* normals() const
+    const Column* normals() const { return find("NORMAL", 3); }
+
+    /// Returns the column of the tangents; null where there is none of four components.
+    const Column* tangents() const { return find("TANGENT", 4); }
+
+  private:
+    const Column* find(const char* name, std::size_t components) const
     {
-      const auto found = std::find_if(attributes.begin(), attributes.end(), [](const Column& column) {
-        return column.name == "NORMAL" && column.components == 3;
+      const auto found = std::find_if(attributes.begin(), attributes.end(), [&](const Column& column) {
+        return column.name == name && column.components == components;
       });
       return found == attributes.end() ? nullptr : &*found;
     }
@@ -232,6 +238,12 @@ std::array<double, 3> local_normal(const Gltf_scene::Instance& instance, const s
 /// Where the tangent has no direction of its own there, it is any of them.
 std::array<double, 3> perpendicular(const std::array<double, 3>& tangent,
                                     const std::array<double, 3>& normal);
+
+/// Returns a vector turned by the shortest rotation that takes the direction of `from` to that of `to`, and
+/// scaled as their lengths. The vector is negated where these directions are opposite, and stays as it is
+/// where one of them has no direction.
+std::array<double, 3> turned(const std::array<double, 3>& vector, const std::array<double, 3>& from,
+                             const std::array<double, 3>& to);
 
 /// Returns ((m0 x + m1 y) + m2 z) + m3 in doubles, for each row m of the matrix.
 Point_3 world_position(const Gltf_scene::Matrix& to_world, const std::array<double, 3>& local);

@@ -240,22 +240,31 @@ Vertex_values::Numbers Vertex_values::mixed(const Shares& shares, const Share& o
   if (m_soup.scene) {
     const auto row_of = [this](const Share& share) { return scene_row(vertex_of(share.corner)); };
     mix_influences(row_of, shares, own, result);
-    const Column* const normal = row_of(own).table->find("NORMAL", 3);
-    const Column* const tangent = row_of(own).table->find("TANGENT", 4);
+    const Table& table = *row_of(own).table;
+    const Column* const normal = table.find("NORMAL", 3);
+    const Column* const tangent = table.find("TANGENT", 4);
+    const auto direction = [&](const Column& column) {
+      const double* const numbers = result.data() + column.first;
+      return std::array<double, 3>{numbers[0], numbers[1], numbers[2]};
+    };
+    const auto set = [&](const Column& column, const std::array<double, 3>& numbers) {
+      std::copy(numbers.begin(), numbers.end(), result.begin() + std::ptrdiff_t(column.first));
+    };
+    // Gives a direction the length 1. What morph targets add to it is turned and scaled with it.
+    const auto finish = [&](const Column& column, const std::array<double, 3>& before) {
+      normalize(column, numbers_of_own, result);
+      for (const Column& added : table.columns)
+        if (added.target != s_none && added.name == column.name && added.components == 3)
+          set(added, turned(direction(added), before, direction(column)));
+    };
     if (normal)
-      normalize(*normal, numbers_of_own, result);
-    if (normal && tangent) {
-      const auto direction = [&](const Column& column) {
-        return result.begin() + std::ptrdiff_t(column.first);
-      };
-      std::array<double, 3> axis, along;
-      std::copy_n(direction(*normal), 3, axis.begin());
-      std::copy_n(direction(*tangent), 3, along.begin());
-      const std::array<double, 3> beside = perpendicular(along, axis);
-      std::copy(beside.begin(), beside.end(), direction(*tangent));
+      finish(*normal, direction(*normal));
+    if (tangent) {
+      const std::array<double, 3> before = direction(*tangent);
+      if (normal)
+        set(*tangent, perpendicular(before, direction(*normal)));
+      finish(*tangent, before);
     }
-    if (tangent)
-      normalize(*tangent, numbers_of_own, result);
   }
   for (std::size_t i = 0; i < result.size(); ++i)
     if (!std::isfinite(result[i]))

@@ -45,9 +45,9 @@ public:
   bool is_empty() const { return m_own.size == 0 && m_of_blocks.empty(); }
 
   /// Returns mixed numbers, for a vertex that keeps from `own` what cannot be mixed. They are such that the
-  /// soup can store them: normals get the length 1; texture coordinates and normals become 32-bit floats
-  /// where those of the soup are, and in glTF what its accessors hold. A number that is not finite is
-  /// replaced by that of `own`.
+  /// soup can store them: normals get the length 1, and what morph targets add to them is scaled likewise;
+  /// texture coordinates and normals become 32-bit floats where those of the soup are, and in glTF what its
+  /// accessors hold. A number that is not finite is replaced by that of `own`.
   Numbers mixed(const Shares& shares, const Share& own) const;
 
   /// Returns the texture coordinates alone among such numbers. The soup must have some.

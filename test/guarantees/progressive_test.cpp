@@ -9,6 +9,7 @@
 #include "support/soups.h"
 
 #include "progressive/lists.h"
+#include "soup/Gltf_scene.h"
 #include "soup/selection.h"
 #include <selvedge/Error.h>
 #include <selvedge/generate.h>
@@ -240,6 +241,8 @@ TEST(Progressive, FacesThatShadeFlatKeepTheirNormalsInATurnedNode)
   write_mesh(folder / "a.gltf", soup);
   Json json = Json::parse(read_file(folder / "a.gltf"));
   json["nodes"][0]["rotation"] = {0, 0, 0.6, 0.8};
+  Json& primitive = json["meshes"][0]["primitives"][0];
+  primitive["targets"] = {{{"NORMAL", primitive["attributes"]["NORMAL"]}}}; // goes with the normals
   write_file(folder / "a.gltf", json.dump());
   Prepare_options options;
   options.normals = Normals_choice::keep;
@@ -249,6 +252,8 @@ TEST(Progressive, FacesThatShadeFlatKeepTheirNormalsInATurnedNode)
   const Progressive_mesh mesh = read_again(prepared.soup, least.progression);
   expect_same(level(mesh, 0), read_back(prepared.soup));
   expect_same(level(mesh, mesh.step_count()), read_back(least.soup));
+  const Gltf_scene::Block& block = mesh.soup.scene->blocks.at(0);
+  EXPECT_EQ(block.targets.at(0).at(0).rows, block.normals()->rows);
 }
 
 TEST(Progressive, PosesGoWithTheirVertices)

@@ -6,6 +6,7 @@
 #include "support/Temporary_folder.h"
 #include "support/vertices_used.h"
 
+#include "soup/Gltf_scene.h"
 #include "soup/selection.h"
 #include <selvedge/Error.h>
 #include <selvedge/mesh_files.h>
@@ -519,6 +520,35 @@ TEST(Gltf_quantised, HasNewNormalsAsTheFileCanHoldThem)
   EXPECT_NE(std::find(plain.normals.values.begin(), plain.normals.values.end(),
                       std::array<double, 3>{float(0.6), float(0.001), float(0.8)}),
             plain.normals.values.end());
+}
+
+// What morph targets add turns with the normals, and is cut off where the file has no such numbers.
+TEST(Gltf_quantised, HasTurnedTargetsAsTheFileCanHoldThem)
+{
+  Document_of_sheet document = quantised_sheet();
+  std::vector<std::int8_t> added;
+  for (std::uint32_t i = 0; i < s_vertices; ++i)
+    added.insert(added.end(), {std::int8_t(i == 0 ? 0 : -127), 0, std::int8_t(i == 0 ? 0 : -127), 0});
+  const std::size_t view = document.add_view(bytes_of(added));
+  document.json["bufferViews"][view]["byteStride"] = 4;
+  const std::size_t accessor = document.add_accessor(view, s_vertices, 5120, "VEC3");
+  document.json["accessors"][accessor]["normalized"] = true;
+  document.primitive()["targets"][0]["NORMAL"] = accessor;
+  Mesh_file file = read(document);
+  for (std::array<double, 3>& normal : file.soup.normals.values)
+    normal = {1, 0, 0};
+  const Temporary_folder folder;
+  EXPECT_TRUE(write_mesh(folder / "m.glb", file.soup).empty()) << "none of them has become floats";
+  const Triangle_soup written = read_mesh(folder / "m.glb").soup;
+  const std::vector<Gltf_scene::Column>& target = written.scene->blocks.at(0).targets.at(0);
+  const auto normals = std::find_if(target.begin(), target.end(),
+                                    [](const Gltf_scene::Column& column) { return column.name == "NORMAL"; });
+  ASSERT_NE(normals, target.end());
+  for (std::uint32_t i = 0; i < s_vertices; ++i) {
+    EXPECT_EQ(component(*normals, i, 0), i == 0 ? 0 : -1); // where it would be -1.4
+    EXPECT_EQ(component(*normals, i, 1), 0);
+    EXPECT_NEAR(component(*normals, i, 2), i == 0 ? 0 : 0.2, 0.5 / 127 + 1e-3);
+  }
 }
 
 TEST(Gltf_quantised, NeedsNoExtensionWhereNothingIsQuantisedAnyMore)

@@ -96,16 +96,22 @@ Document document_of_corners(const Triangle_soup& soup, bool is_mirrored)
   return document;
 }
 
-/// Adds a morph target whose rows of NORMAL and TANGENT are these.
-template <class Value>
-void add_target(Document& document, const Value& value)
+/// Adds a morph target with these rows of NORMAL and TANGENT.
+template <class Normal, class Tangent>
+void add_target(Document& document, const Normal& normal, const Tangent& tangent)
 {
   Json& primitive = document.json["meshes"][0]["primitives"][0];
   const std::size_t count =
       document.json["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()]["count"];
-  const std::size_t rows = add_rows<float>(document, count, 3, 5126, value);
-  primitive["targets"] = {
-      {{"POSITION", primitive["attributes"]["POSITION"]}, {"NORMAL", rows}, {"TANGENT", rows}}};
+  primitive["targets"].push_back({{"POSITION", primitive["attributes"]["POSITION"]},
+                                  {"NORMAL", add_rows<float>(document, count, 3, 5126, normal)},
+                                  {"TANGENT", add_rows<float>(document, count, 3, 5126, tangent)}});
+}
+
+template <class Value>
+void add_target(Document& document, const Value& value)
+{
+  add_target(document, value, value);
 }
 
 Document document_of_result(const Triangle_soup& soup)
@@ -203,6 +209,97 @@ TEST(Gltf_tangents, ArePerpendicularToNormalsThatAreMadeAnew)
     expect_tangents(reduce(read, optimal, with_normals(Normals_choice::automatic)).simplified.soup,
                     is_mirrored);
   }
+}
+
+using Directions = std::vector<std::array<double, 3>>;
+
+Directions directions_at_corners(const Document& document, const Json& attributes, const char* name)
+{
+  Directions result;
+  for (const std::string& row : rows_at_corners(document, attributes, name))
+    result.push_back({get<float>(row, 0), get<float>(row, 4), get<float>(row, 8)});
+  return result;
+}
+
+double length(const std::array<double, 3>& v)
+{
+  return std::hypot(v[0], v[1], v[2]);
+}
+
+// A viewer adds what the targets hold to normals and tangents: where these are new, it must fit the new ones.
+TEST(Gltf_tangents, OfMorphTargetsTurnWithNormalsThatAreMadeAnew)
+{
+  const Triangle_soup soup = hills(Normals_treatment::smooth);
+  Document document = document_of_corners(soup, false);
+  const double c = std::sqrt(3) / 2, s = 0.5; // the first target turns every frame by 30° beyond the middle
+  const auto normal = [&](std::size_t i, std::size_t k) {
+    return soup.normals.values[soup.normals.of_triangle[i / 3][i % 3]][k];
+  };
+  const auto tangent = [&](std::size_t i, std::size_t k) { return tangent_at(soup, i, false)[k]; };
+  const auto share = [&](std::size_t i) {
+    return soup.points[soup.triangles[i / 3][i % 3]].x() > 10 ? 1 : 0;
+  };
+  add_target(
+      document, [&](auto i, auto k) { return share(i) * ((c - 1) * normal(i, k) + s * tangent(i, k)); },
+      [&](auto i, auto k) { return share(i) * ((c - 1) * tangent(i, k) - s * normal(i, k)); });
+  add_target( // the second one makes them shorter
+      document, [&](auto i, auto k) { return -0.5 * normal(i, k); },
+      [&](auto i, auto k) { return -0.5 * tangent(i, k); });
+  const Triangle_soup read = read_glb(document).soup;
+  for (const Placement placement : {Placement::vertices, Placement::optimal})
+    for (const Normals_choice choice :
+         {Normals_choice::keep, Normals_choice::automatic, Normals_choice::recompute}) {
+      Simplify_options options = to_ratio(0.1);
+      options.placement = placement;
+      const Document after = document_of_result(reduce(read, options, with_normals(choice)).simplified.soup);
+      const Json& primitive = after.json["meshes"][0]["primitives"][0];
+      const auto at_corners = [&](const Json& attributes, const char* name) {
+        return directions_at_corners(after, attributes, name);
+      };
+      const Json &base = primitive["attributes"], &targets = primitive["targets"];
+      const Directions points = at_corners(base, "POSITION"), normals = at_corners(base, "NORMAL"),
+                       tangents = at_corners(base, "TANGENT"), turns = at_corners(targets[0], "NORMAL"),
+                       tangent_turns = at_corners(targets[0], "TANGENT"),
+                       half = at_corners(targets[1], "NORMAL"),
+                       tangent_half = at_corners(targets[1], "TANGENT");
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          ASSERT_NEAR(half[i][k], -0.5 * normals[i][k], 1e-6);
+          if (placement == Placement::vertices) {
+            ASSERT_NEAR(tangent_half[i][k], -0.5 * tangents[i][k], 1e-6);
+          }
+        }
+        if (placement == Placement::optimal)
+          continue;
+        if (points[i][0] <= 10) {
+          ASSERT_EQ(turns[i], (std::array<double, 3>{}));
+          ASSERT_EQ(tangent_turns[i], (std::array<double, 3>{}));
+          continue;
+        }
+        std::array<double, 3> turned;
+        for (std::size_t k = 0; k < 3; ++k) {
+          turned[k] = normals[i][k] + turns[i][k];
+          ASSERT_NEAR(tangents[i][k] + tangent_turns[i][k], c * tangents[i][k] - s * normals[i][k], 1e-6);
+        }
+        ASSERT_NEAR(length(turned), 1, 1e-6);
+        ASSERT_NEAR(turned[0] * normals[i][0] + turned[1] * normals[i][1] + turned[2] * normals[i][2], c,
+                    1e-6);
+      }
+    }
+}
+
+TEST(Gltf_tangents, OfMorphTargetsTurnByTheShortestRotation)
+{
+  const auto expect_near = [](const std::array<double, 3>& a, const std::array<double, 3>& b) {
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(a[k], b[k], 1e-12);
+  };
+  expect_near(turned({1, 2, 3}, {2, 0, 0}, {0, 4, 0}), {-4, 2, 6}); // and twice as long
+  expect_near(turned({1, 2, 3}, {0, 0, 1}, {0, 0, 1}), {1, 2, 3});
+  const double third = 1 / std::sqrt(3);
+  expect_near(turned({1, 2, 3}, {third, third, third}, {-third, -third, -third}), {-1, -2, -3});
+  expect_near(turned({1, 2, 3}, {0, 0, 0}, {0, 0, 1}), {1, 2, 3});
+  expect_near(turned({1, 2, 3}, {0, 0, 1}, {0, 0, 0}), {1, 2, 3});
 }
 
 TEST(Gltf_tangents, KeepTheirBytesWithTheNormalsOfTheirFaces)
