@@ -313,6 +313,7 @@ Json options_json(const Simplify_request& request)
           {"morphs", request.poses.are_morphs},
           {"animation", request.poses.animation.empty() ? Json(nullptr) : Json(request.poses.animation)},
           {"every", request.poses.every},
+          {"without_pose", request.poses.left_out},
           {"obstacle_pose", request.obstacle_poses.files},
           {"obstacle_animation",
            request.obstacle_poses.animation.empty() ? Json(nullptr) : Json(request.obstacle_poses.animation)},

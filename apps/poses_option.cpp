@@ -51,6 +51,14 @@ void add_pose_options(CLI::App& command, Pose_sources& sources, const std::strin
       ->needs(animation)
       ->capture_default_str()
       ->group(group);
+  command
+      .add_option("--without-pose", sources.left_out,
+                  "Leaves out one of these poses, such as a morph target in which a face has no area, by the "
+                  "name that summary and report give it. May be given several times.")
+      ->type_name("NAME")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group(group);
 }
 
 void add_obstacle_pose_options(CLI::App& command, Pose_sources& sources, const std::string& mesh,
@@ -94,6 +102,18 @@ void read_poses(const Pose_sources& sources, const std::string& mesh_file, Trian
     append(morph_poses(mesh, mesh_file));
   if (!sources.animation.empty())
     append(animation_poses(mesh, sources.animation, sources.every, mesh_file));
+  for (const std::string& name : sources.left_out) {
+    const auto found = std::find_if(mesh.poses.begin(), mesh.poses.end(),
+                                    [&](const Pose& pose) { return pose.name == name; });
+    if (found == mesh.poses.end()) {
+      std::string names;
+      for (const Pose& pose : mesh.poses)
+        names += (names.empty() ? "'" : ", '") + pose.name + "'";
+      throw Input_error(mesh_file + ": has no further pose '" + name + "' to leave out; there " +
+                        (names.empty() ? "is none" : "are " + names));
+    }
+    mesh.poses.erase(found);
+  }
 }
 
 } // namespace selvedge::app

@@ -17,10 +17,11 @@ namespace selvedge::app {
 /// Where the further poses of a mesh come from. They are taken in the order of the members.
 struct Pose_sources
 {
-  std::vector<std::string> files; ///< meshes and point caches, and patterns of such
-  bool are_morphs = false;        ///< whether each morph target of the glTF file is one
-  std::string animation;          ///< name of an animation of the glTF file, or "all"
-  std::size_t every = 1;          ///< one in so many keyframes of it
+  std::vector<std::string> files;    ///< meshes and point caches, and patterns of such
+  bool are_morphs = false;           ///< whether each morph target of the glTF file is one
+  std::string animation;             ///< name of an animation of the glTF file, or "all"
+  std::size_t every = 1;             ///< one in so many keyframes of it
+  std::vector<std::string> left_out; ///< names of poses that do not count
 
   bool empty() const { return files.empty() && !are_morphs && animation.empty(); }
 };
@@ -29,8 +30,8 @@ struct Pose_sources
 CLI::Option* add_poses_option(CLI::App& command, const std::string& option, std::vector<std::string>& names,
                               const std::string& description);
 
-/// Declares --pose, with this description, and --morphs, --animation and --every, in a group of the help.
-/// `mesh` says in the help which file they are of.
+/// Declares --pose, with this description, and --morphs, --animation, --every and --without-pose, in a group
+/// of the help. `mesh` says in the help which file they are of.
 void add_pose_options(CLI::App& command, Pose_sources& sources, const std::string& mesh,
                       const std::string& description, const std::string& group);
 
@@ -43,7 +44,8 @@ void add_obstacle_pose_options(CLI::App& command, Pose_sources& sources, const s
 void check_obstacle_poses(const Pose_sources& of_obstacle, const std::string& obstacle,
                           const Pose_sources& of_mesh);
 
-/// Reads the further poses of a mesh that was read from a file.
+/// Reads the further poses of a mesh that was read from a file. Throws `Input_error` when one that is to be
+/// left out is none of them.
 void read_poses(const Pose_sources& sources, const std::string& mesh_file, Triangle_soup& mesh);
 
 } // namespace selvedge::app

@@ -113,6 +113,28 @@ TEST_F(Waving_sheets, PierceEachOtherInAPoseThatIsNotGiven)
   EXPECT_NE(result.out.find("pose 'up_waves': "), std::string::npos) << result.out;
 }
 
+TEST_F(Waving_sheets, MayBeLeftOutByName)
+{
+  const std::string out = folder / "small.glb", alone = folder / "alone.glb";
+  simplify(gltf, alone, {});
+  simplify(gltf, out, {"--morphs", "--without-pose", "up_waves"});
+  EXPECT_EQ(contents_of(out), contents_of(alone));
+  simplify(gltf, out, {"--morphs"});
+  EXPECT_NE(contents_of(out), contents_of(alone)) << "the control";
+  const std::vector<std::string> verify{"verify", alone, "--against", gltf, "--morphs", "--without-pose"};
+  const auto verify_without = [&](const std::string& name) {
+    std::vector<std::string> arguments = verify;
+    arguments.push_back(name);
+    return run_app(arguments);
+  };
+  EXPECT_EQ(verify_without("up_waves").code, 0);
+  const App_result result = verify_without("down");
+  EXPECT_EQ(result.code, 3);
+  EXPECT_NE(result.err.find("has no further pose 'down' to leave out; there are 'up_waves'"),
+            std::string::npos)
+      << result.err;
+}
+
 TEST_F(Waving_sheets, AreSaidToMorphWithoutAPromise)
 {
   const auto says_so = [&](std::vector<std::string> arguments) {
