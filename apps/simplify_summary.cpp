@@ -257,7 +257,7 @@ void print_border_gaps(std::ostream& stream, const Simplify_request& request, co
                    : "nothing is closed, because no gaps in seams are clearly narrower than what "
                      "lies beside them; --weld EPS closes gaps up to a length\n");
   else if (gaps.clear_length) {
-    const bool may_weld = prepared.soup.poses.empty(); // `check_poses` refuses it then
+    const bool may_weld = prepared.soup.poses.empty(); // with further ones, `check_poses` refuses --weld
     stream << "  open seams: " << found
            << (request.open_seams != Open_seams::hold ? ""
                : !prepared.facing.empty()             ? "; they get hardly wider"

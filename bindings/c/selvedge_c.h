@@ -123,7 +123,7 @@ typedef struct selvedge_mesh selvedge_mesh;
 SELVEDGE_C_API selvedge_mesh* selvedge_mesh_new(const double* positions, size_t vertex_count,
                                                 const unsigned int* indices, size_t index_count);
 
-/* Reads a file (.obj, .off, .ply, .stl, .glb, .gltf, .vrm, or these with .gz). Returns null when that fails. */
+/* Reads a file (.obj, .off, .ply, .stl, .glb, .gltf, .vrm, also with .gz). Returns null when that fails. */
 SELVEDGE_C_API selvedge_mesh* selvedge_mesh_read(const char* path);
 
 /* Makes a scene of `selvedge generate` with about this many triangles and this many layers. Returns null when
