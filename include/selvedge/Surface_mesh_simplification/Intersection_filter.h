@@ -67,8 +67,9 @@ namespace selvedge {
 /// **Exactness** The predicates of `GeomTraits` decide. They must be exact, as those of
 /// `Exact_predicates_inexact_constructions_kernel` are; kernels for which they are not do not compile, nor
 /// does any of this with -ffast-math. A thread that rounds otherwise than to the nearest or takes subnormal
-/// numbers for 0, as code that was compiled so may have set it, is refused when the filter is made and when a
-/// loop begins (`Argument_error`). Tolerances and constructed points take no part.
+/// numbers for 0, as code that was compiled so may have set it, or that does not round upwards when told to,
+/// as under Valgrind, is refused when the filter is made and when a loop begins (`Argument_error`). Tolerances
+/// and constructed points take no part.
 ///
 /// **Complexity** For each motion of a vertex: one query of the index for the box of the vertex's star, then
 /// a constant number of predicates for each pair of a moving face and a face whose box meets its sweep. The k

@@ -7,8 +7,10 @@
 #include <selvedge/Error.h>
 
 #include <CGAL/Algebraic_structure_traits.h>
+#include <CGAL/Interval_nt.h>
 
 #include <cfenv>
+#include <cmath>
 #include <limits>
 #include <type_traits>
 
@@ -45,9 +47,32 @@ constexpr void require_exact_predicates()
                 "filtered predicates or an exact number type");
 }
 
+/// Returns whether CGAL's interval arithmetic, by which filtered predicates decide, rounds outwards. It does
+/// not where the machine does not round as it is told to (Valgrind, WebAssembly), or where the compiler takes
+/// all rounding to be to the nearest. CGAL itself asks this in debug builds alone.
+inline bool do_intervals_hold_their_values()
+{
+#ifdef CGAL_DISABLE_ROUNDING_MATH_CHECK
+  return true;
+#else
+  using Interval = CGAL::Interval_nt<false>;
+  const volatile double one = 1, two = 2, ten = 10, least = std::numeric_limits<double>::min();
+  const Interval::Protector protector;
+  // No double has the value of any of these.
+  for (const Interval& value :
+       {Interval(one) + Interval(least), Interval(one) - Interval(least), Interval(one) / Interval(ten),
+        sqrt(Interval(two)), Interval(std::nextafter(one, two)) * Interval(std::nextafter(one, two))})
+    if (!(value.inf() < value.sup()))
+      return false;
+  return true;
+#endif
+}
+
 /// Throws `Argument_error` when the calling thread does not compute as IEEE 754 has it by default: when it
-/// rounds otherwise than to the nearest, or takes subnormal numbers for 0. A shared library that was compiled
-/// with `-ffast-math` may have set this for the whole program.
+/// rounds otherwise than to the nearest, or takes subnormal numbers for 0 (a shared library that was compiled
+/// with `-ffast-math` may have set this for the whole program), or does not round otherwise when it is told
+/// to, unless `CGAL_DISABLE_ROUNDING_MATH_CHECK` is defined, which is for profiles under Valgrind: their
+/// results may be wrong.
 inline void require_default_arithmetic()
 {
   const volatile double least = std::numeric_limits<double>::min(); // of those that are not subnormal
@@ -57,6 +82,10 @@ inline void require_default_arithmetic()
         "this thread rounds otherwise than to the nearest, or takes subnormal numbers for 0, which voids the "
         "bounds on rounding errors; call std::fesetenv(FE_DFL_ENV) first, and link nothing that was compiled "
         "with -ffast-math");
+  if (!do_intervals_hold_their_values())
+    throw Argument_error(
+        "this machine, emulator or build does not round upwards when told to, so that exact predicates would "
+        "answer wrongly; run outside of Valgrind and the like, and compile with -frounding-math");
 }
 
 } // namespace internal
