@@ -322,6 +322,7 @@ Json options_json(const Simplify_request& request)
           {"weld", weld_json(request)},
           {"sewn", request.is_sewn},
           {"normals", name_of(request.normals)},
+          {"drop_attribute", request.dropped_attributes},
           {"orient", request.are_faces_oriented ? "auto" : "keep"},
           {"polygons", request.are_polygons_split ? "split" : "keep"},
           {"threads", optional(request.threads)},
@@ -604,6 +605,16 @@ void add_options(CLI::App& command, Simplify_request& request)
                                           {"drop", Normals_choice::drop}}))
       ->type_name("auto|keep|mend|loose|recompute|drop")
       ->default_str("auto")
+      ->group(seams);
+  command
+      .add_option("--drop-attribute", request.dropped_attributes,
+                  "Leaves out an attribute of IN, and the seams that it makes: texture (with the textures "
+                  "of glTF materials), colors, or a vertex attribute by the name that info gives it. For "
+                  "textures that are baked anew, and those of which every face has its own piece. May be "
+                  "given several times.")
+      ->type_name("NAME")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->group(seams);
 
   const char* const tuning = "Tuning";

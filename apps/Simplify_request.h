@@ -45,6 +45,7 @@ struct Simplify_request
   double weld_distance = 0; // 0 unless EPS is given; then open seams are ignored
   Open_seams open_seams = Open_seams::hold;
   Normals_choice normals = Normals_choice::automatic;
+  std::vector<std::string> dropped_attributes;
   bool are_faces_oriented = true;
   bool is_sewn = false;
   std::optional<Defects> defects; // none: the default

@@ -21,6 +21,7 @@
 #include <selvedge/Error.h>
 #include <selvedge/Reduction_log.h>
 #include <selvedge/Sha256.h>
+#include <selvedge/attributes.h>
 #include <selvedge/collapse_log.h>
 #include <selvedge/key_poses.h>
 #include <selvedge/merge.h>
@@ -106,6 +107,19 @@ private:
                         [](const Pose& pose) { return has_float32_points(pose.points); });
   }
 
+  void drop_attributes_of(Mesh_file& file)
+  {
+    try {
+      const std::size_t joined = drop_attributes(file.soup, m_request.dropped_attributes);
+      if (joined > 0)
+        file.notes.remarks["corners joined, for their vertices differ in nothing but what is left out"] +=
+            joined;
+    } catch (const Input_error& error) {
+      throw Input_error(input_name(m_request.input) + ": " + error.what() + " (--drop-attribute)");
+    }
+    m_log_header.dropped = m_request.dropped_attributes;
+  }
+
   // OBJ has normals apart from vertices: there, several vertices at one place mean something.
   void join_without_normals(Mesh_file& file)
   {
@@ -163,6 +177,7 @@ private:
     Mesh_file file = input.read();
     m_seconds["read"] = seconds_since(start);
     read_poses(m_request.poses, m_request.input, file.soup);
+    drop_attributes_of(file);
     if (joins_vertices(m_request.normals))
       join_without_normals(file);
     m_report["input"] = input_json(m_request.input, file);

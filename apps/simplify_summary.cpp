@@ -173,9 +173,21 @@ std::string seams_to_leave_out(const Prepared_soup& prepared, const Hindrances& 
       most = {name, count};
   if (10 * most.second < hindrances.total())
     return "";
+  const auto is_one_of = [&](std::initializer_list<const char*> starts) {
+    return std::any_of(starts.begin(), starts.end(),
+                       [&](const std::string& start) { return most.first.rfind(start, 0) == 0; });
+  };
+  const bool can_be_dropped =
+      !is_one_of({"JOINTS_", "WEIGHTS_"}) && most.first.find(' ') == std::string::npos;
   return "; " + counted(most.second, "edge") + " of the input " +
          (most.second == 1 ? "is a seam" : "are seams") + " because of " + most.first +
-         " and nothing else: leave it out of the file if nobody needs it";
+         " and nothing else: " +
+         (can_be_dropped ? "--drop-attribute " +
+                               (is_one_of({"red", "green", "blue", "alpha", "COLOR_"}) ? std::string("colors")
+                                                                                       : most.first) +
+                               " lets them go"
+                         : "leave it out of the file") +
+         ", if nobody needs it";
 }
 
 /// Says in a line what holds back a reduction that ended by itself, and what helps.
@@ -197,11 +209,13 @@ std::string held_back(const Simplify_request& request, const Prepared_soup& prep
   }
   if (others > 0)
     text += ", " + with_commas(others) + " by other rules";
-  const std::string options = remedies(all, hindrances, request);
-  return text +
-         (options.empty() ? "; no option helps much: " + std::string(why_it_stays(all[0].reason))
-                          : "; try " + options) +
-         seams_to_leave_out(prepared, hindrances);
+  const std::string options = remedies(all, hindrances, request),
+                    seams = seams_to_leave_out(prepared, hindrances);
+  if (!options.empty())
+    text += "; try " + options;
+  else if (seams.empty())
+    text += "; no option helps much: " + std::string(why_it_stays(all[0].reason));
+  return text + seams;
 }
 
 /// Says in a clause where a vertex of the original is.

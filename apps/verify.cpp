@@ -15,6 +15,7 @@
 
 #include <selvedge/Error.h>
 #include <selvedge/Parts.h>
+#include <selvedge/attributes.h>
 #include <selvedge/compare.h>
 #include <selvedge/mesh_files.h>
 #include <selvedge/normals.h>
@@ -41,6 +42,7 @@ struct Verify_request
   std::string html;
   std::optional<Mesh_format> format;
   double weld_distance = 0;
+  std::vector<std::string> dropped_attributes;
   std::vector<std::string> may_intersect;
   std::optional<double> clearance;
   bool is_json = false;
@@ -318,6 +320,11 @@ Exit_code run(const Verify_request& request)
     Pose_sources of_original = request.poses;
     of_original.files = request.files_of_poses_of_original;
     read_poses(of_original, request.original, original.soup);
+    try {
+      drop_attributes(original.soup, request.dropped_attributes);
+    } catch (const Input_error& error) {
+      throw Input_error(input_name(request.original) + ": " + error.what() + " (--drop-attribute)");
+    }
     report["original"] = input_json(request.original, original);
     if (has_normals_of_vertices(mesh.format) || has_normals_of_vertices(original.format)) {
       // Vertices that a file has for its normals alone make no pieces.
@@ -364,6 +371,13 @@ Action add_verify(CLI::App& command)
       ->type_name("");
   command.add_option("--against", request->original, "Original mesh, of which MESH is a reduction.")
       ->type_name("FILE");
+  command
+      .add_option("--drop-attribute", request->dropped_attributes,
+                  "Attribute of the original that MESH has lost by this option of simplify. May be given "
+                  "several times.")
+      ->type_name("NAME")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   add_level_option(command, request->level, "MESH");
   const char* const poses = "Poses (the same vertices and faces at other places)";
   add_pose_options(command, request->poses, "MESH, and of its original",

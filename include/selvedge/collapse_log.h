@@ -30,6 +30,7 @@ namespace selvedge {
 ///     input VERTICES TRIANGLES SHA256
 ///     rounding none|float32                  once at most; none where it is missing
 ///     normals kept|joined|ignored|dropped    once at most; kept where it is missing
+///     dropped NAME                           any number of them
 ///     defects freeze|descend                 once at most; freeze where it is missing
 ///     may_intersect PART PART                any number of them
 ///     obstacle VERTICES TRIANGLES SHA256     once at most
@@ -54,6 +55,9 @@ namespace selvedge {
 ///   texture coordinates or materials do. Normals that are nearly alike at a vertex may have become one
 ///   first (`join_near_normals`). They are ignored when the writer makes the normals anew. Where they
 ///   are dropped, vertices that differ in nothing else are one as well (`share_vertices_without_normals`).
+/// - *dropped*: an attribute that the writer left out, before anything else (`drop_attributes`).
+///   Vertices that differ in nothing else are one, and no edge is a line because of it. NAME is written as in
+///   *may_intersect*.
 /// - *defects*: what becomes of the offending pairs of the input. Their triangles stay as they are, or the
 ///   pairs and all that descend from them are exempt (`pairs_without_descent` of verify.h says which do). A
 ///   degenerate triangle is then removed or stays as it is.
@@ -143,6 +147,7 @@ struct Log_header
   std::string sha256; ///< of the file; empty when unknown
   bool is_rounded_to_float32 = false;
   Logged_normals normals = Logged_normals::kept;
+  std::vector<std::string> dropped; ///< attributes that were left out (`drop_attributes`)
   bool may_pairs_descend = false; ///< the policy for offending pairs is `descend`
 
   /// The names of parts that may intersect each other.

@@ -120,7 +120,7 @@ struct Inspection
     std::size_t by_normals = 0;
     std::size_t by_labels = 0;  ///< groups, objects or materials
     std::size_t by_doubles = 0; ///< the number of faces with the same corners, or how they run
-    std::map<std::string, std::size_t> by_attributes; ///< `seams_of_attributes`
+    std::map<std::string, std::size_t> by_attributes; ///< `seams_of_attributes`, but for texture
   };
   Seams seams;
 
@@ -131,8 +131,9 @@ struct Inspection
 };
 
 /// Returns the attributes because of which edges of two triangles are seams, and of how many: those that
-/// differ between the vertices on the two sides, where neither position, texture coordinates, normals nor
-/// labels do. They have the names of the file; those of morph targets are followed by "of morph targets".
+/// differ between the vertices on the two sides, where neither position, normals nor labels do. They have the
+/// names of the file, and texture coordinates are `texture`, as `drop_attributes` takes them; those of morph
+/// targets are followed by "of morph targets".
 /// `positions` numbers the positions of vertices, as in `Prepared_soup`. **Complexity** O(n log n).
 std::map<std::string, std::size_t> seams_of_attributes(const Triangle_soup& soup,
                                                        const std::vector<Index>& positions);

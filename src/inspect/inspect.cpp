@@ -190,6 +190,7 @@ private:
       seams.by_doubles += differences.in_doubles;
     }
     seams.by_attributes = seams_of_attributes(m_soup, m_prepared.positions);
+    seams.by_attributes.erase("texture"); // which `by_texture` counts
   }
 
   const Prepared_soup& m_prepared;

@@ -63,7 +63,7 @@ void add_differences(const Triangle_soup& soup, Index a, Index b, std::set<std::
 std::map<std::string, std::size_t> seams_of_attributes(const Triangle_soup& soup,
                                                        const std::vector<Index>& positions)
 {
-  if (!soup.scene && soup.vertex_attributes.empty())
+  if (!soup.scene && soup.vertex_attributes.empty() && soup.uvs.empty())
     return {};
   std::vector<Index_triple> triangles = soup.triangles; // of positions
   for (Index_triple& triangle : triangles)
@@ -73,9 +73,11 @@ std::map<std::string, std::size_t> seams_of_attributes(const Triangle_soup& soup
   internal::for_each_inner_edge(triangles, [&](const internal::Edge_side& a, const internal::Edge_side& b) {
     std::set<std::string> names;
     for (const auto& [c, d] : {std::pair(a.at_low, b.at_low), std::pair(a.at_high, b.at_high)}) {
-      if (is_seam_of(soup.uvs, c, d) || is_seam_of(soup.normals, c, d) || is_seam_of(soup.groups, c, d) ||
-          is_seam_of(soup.objects, c, d) || is_seam_of(soup.materials, c, d))
+      if (is_seam_of(soup.normals, c, d) || is_seam_of(soup.groups, c, d) || is_seam_of(soup.objects, c, d) ||
+          is_seam_of(soup.materials, c, d))
         return;
+      if (is_seam_of(soup.uvs, c, d))
+        names.insert("texture");
       add_differences(soup, soup.triangles[c / 3][c % 3], soup.triangles[d / 3][d % 3], names);
     }
     for (const std::string& name : names)

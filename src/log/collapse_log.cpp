@@ -95,6 +95,8 @@ Log_writer::Log_writer(std::ostream& stream, const Log_header& header) : m_strea
   m_stream << "rounding " << (header.is_rounded_to_float32 ? "float32" : "none") << '\n';
   if (header.normals != Logged_normals::kept)
     m_stream << "normals " << s_words_for_normals[std::size_t(header.normals)] << '\n';
+  for (const std::string& name : header.dropped)
+    m_stream << "dropped " << text_of_name(name) << '\n';
   if (header.may_pairs_descend)
     m_stream << "defects descend\n";
   for (const auto& [a, b] : header.may_intersect)
@@ -157,6 +159,9 @@ public:
       } else if (m_words[0] == "normals" && !are_normals_known) {
         header.normals = Logged_normals(second_word(s_words_for_normals));
         are_normals_known = true;
+      } else if (m_words[0] == "dropped") {
+        expect_words(2, 2, "dropped NAME");
+        header.dropped.push_back(part_name(1));
       } else if (m_words[0] == "defects" && !are_defects_known) {
         header.may_pairs_descend = second_word({"freeze", "descend"}) == 1;
         are_defects_known = true;

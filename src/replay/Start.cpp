@@ -9,6 +9,7 @@
 #include "soup/selection.h"
 #include "verify/triangles_of_part.h"
 #include <selvedge/Error.h>
+#include <selvedge/attributes.h>
 #include <selvedge/normals.h>
 #include <selvedge/rounding.h>
 #include <selvedge/verify.h>
@@ -127,6 +128,7 @@ Start start_of(const Triangle_soup& original, const Triangle_soup& obstacle, con
 {
   Start start;
   start.soup = original;
+  drop_attributes(start.soup, header.dropped);
   if (header.normals == Logged_normals::dropped)
     share_vertices_without_normals(start.soup);
   start.soup.poses.clear();

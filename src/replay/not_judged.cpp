@@ -31,6 +31,10 @@ std::vector<Not_judged> not_judged(const Replay_verdict& verdict)
         {"normals", std::string("whether edges across which normals differ move only along themselves: the "
                                 "log says that normals are ") +
                         (normals == Logged_normals::dropped ? "dropped" : "ignored")});
+  for (const std::string& name : verdict.header.dropped)
+    result.push_back(
+        {"dropped", "whether edges across which the attribute '" + name +
+                        "' differs move only along themselves: the log says that it is left out"});
   for (const auto& [a, b] : verdict.header.may_intersect)
     result.push_back({"may_intersect", "whether the parts '" + a + "' and '" + b +
                                            "' keep clear of each other: the log says that they may "

@@ -172,7 +172,7 @@ private:
           if (has_two_corners_at_one_position({a + first_vertex, b + first_vertex, c + first_vertex}, here))
             throw Input_error("triangle " + std::to_string(&triangle - triangles.data() + 1) + whose +
                               " has two corners at one position " + where +
-                              " and not in all poses; leave out this pose, or part the corners");
+                              " and not in all poses; leave out this pose (--without-pose), or part the corners");
         }
       };
       refuse_if_degenerate(soup().triangles, 0, "");

@@ -184,6 +184,12 @@ enum Component_type {
 
 constexpr Gltf_scene::Matrix identity_matrix = Gltf_scene::identity_matrix;
 
+/// Whether the name of an attribute begins with this, as those of numbered sets do: `TEXCOORD_`.
+inline bool begins_with(const std::string& name, const char* start)
+{
+  return name.rfind(start, 0) == 0;
+}
+
 /// Returns the number of bytes of a component; zero for types that glTF does not know.
 std::size_t component_size(int component_type);
 

@@ -21,11 +21,6 @@
 namespace selvedge {
 namespace {
 
-bool begins_with(const std::string& name, const char* prefix)
-{
-  return name.rfind(prefix, 0) == 0;
-}
-
 template <class Values>
 bool are_float32(const Values& values)
 {

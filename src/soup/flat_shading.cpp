@@ -139,8 +139,7 @@ std::size_t share_vertices(Triangle_soup& soup, Sharing sharing)
     return 0;
   const std::size_t used =
       normals.size() - std::size_t(std::count(normals.begin(), normals.end(), s_no_number));
-  constexpr std::size_t few = 100;
-  const bool have_faces_own = soup.triangles.size() >= few && used >= 2 * soup.triangles.size();
+  const bool have_faces_own = have_faces_own_vertices(soup, used);
   std::vector<Index> uvs;
   if (soup.scene || are_numbered_like_vertices(soup.uvs, soup))
     uvs = numbers_of_vertices(soup, soup.uvs.of_triangle, are_equal);
@@ -207,6 +206,12 @@ std::size_t share_vertices(Triangle_soup& soup, Sharing sharing)
 }
 
 } // namespace
+
+bool have_faces_own_vertices(const Triangle_soup& soup, std::size_t used)
+{
+  constexpr std::size_t few = 100;
+  return soup.triangles.size() >= few && used >= 2 * soup.triangles.size();
+}
 
 std::size_t share_split_vertices(Triangle_soup& soup)
 {

@@ -36,8 +36,8 @@ bool are_numbered_like_vertices(const Corner_values<dimension>& values, const Tr
 /// that writes vertices that differ would have written one, but for its arithmetic. Triangles then name the
 /// first of such vertices, and the others are unused; vertices keep their numbers, and corners their normals.
 /// Vertices that differ in nothing at all stay apart, because pieces may lie beside each other, unless a
-/// third one differs from them in its normal, or every face has vertices of its own (at least 100 triangles,
-/// and twice as many vertices).
+/// third one differs from them in its normal, or every face has vertices of its own
+/// (`have_faces_own_vertices`).
 ///
 /// Alike, bit for bit, must be position, attributes, and texture coordinates if they are those of vertices;
 /// in a glTF scene the node and the rows of all accessors but NORMAL, those of morph targets included; and
@@ -50,6 +50,10 @@ bool are_numbered_like_vertices(const Corner_values<dimension>& values, const Tr
 ///
 /// **Complexity** O(n) expected for n triangles and bounded numbers of such vertices at one place.
 std::size_t share_split_vertices(Triangle_soup& soup);
+
+/// Whether every face has vertices of its own: at least 100 triangles, and twice as many vertices, of which
+/// `used` are in use.
+bool have_faces_own_vertices(const Triangle_soup& soup, std::size_t used);
 
 /// Whether vertices that differed in their tangents are one, so that the scene alone has tangents.
 bool has_tangents_in_scene_only(const Triangle_soup& soup);

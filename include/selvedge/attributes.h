@@ -1,0 +1,36 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SELVEDGE_ATTRIBUTES_H
+#define SELVEDGE_ATTRIBUTES_H
+
+#include <selvedge/Triangle_soup.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace selvedge {
+
+/// Leaves out attributes of a mesh, so that no line is kept where nothing else differs, and returns how many
+/// corners name another vertex then. A name is one of these:
+/// - `texture`: texture coordinates, and in glTF all sets of them, the tangents that follow from them, and
+///   the textures of all materials, which would have no place any more;
+/// - `colors`: the colours of vertices, in glTF all sets of them;
+/// - otherwise, the name that a vertex attribute has in the file, such as `quality` or `TEXCOORD_1`.
+///
+/// Where a file has one value for each vertex (PLY, glTF), vertices that differ in nothing else become one:
+/// triangles name the first of them, and the others are unused. Alike, bit for bit, must be positions in all
+/// poses, normals and texture coordinates that all corners of a vertex share, and attributes; in a glTF scene
+/// the node and all accessors, those of morph targets included. Vertices that differ in nothing at all stay
+/// apart, as pieces that lie beside each other, unless a third one differs from them in what is left out.
+///
+/// Throws `Input_error` where the mesh has nothing of a name, and `Argument_error` for `POSITION`, `NORMAL`
+/// (`Normals_choice::drop`) and what a skin needs.
+///
+/// **Complexity** O(n) expected for n corners and bytes of attributes.
+std::size_t drop_attributes(Triangle_soup& soup, const std::vector<std::string>& names);
+
+} // namespace selvedge
+
+#endif // SELVEDGE_ATTRIBUTES_H

@@ -1,0 +1,276 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <selvedge/attributes.h>
+
+#include "Gltf_scene.h"
+#include "flat_shading.h"
+#include "selection.h"
+#include <selvedge/Cancellation_scope.h>
+#include <selvedge/Error.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <set>
+#include <unordered_map>
+#include <utility>
+
+namespace selvedge {
+namespace {
+
+using Json = Gltf_scene::Json;
+
+constexpr Index s_none = std::numeric_limits<Index>::max();
+constexpr Index s_several = s_none - 1;
+
+// Whether a name asks for an attribute. In a scene, only sets of texture coordinates have tangents.
+bool means(const std::string& name, const std::string& attribute)
+{
+  if (name == "texture")
+    return begins_with(attribute, "TEXCOORD_") || attribute == "TANGENT";
+  if (name == "colors")
+    return begins_with(attribute, "COLOR_") || attribute == "red" || attribute == "green" ||
+           attribute == "blue" || attribute == "alpha";
+  return name == attribute;
+}
+
+// Removes the references of materials to textures whose coordinates are left out.
+template <class Is_dropped>
+void drop_textures(Json& json, const Is_dropped& is_dropped)
+{
+  if (!json.is_structured())
+    return;
+  for (auto entry = json.begin(); entry != json.end();) {
+    const std::string key = json.is_object() ? entry.key() : "";
+    const bool is_texture = key.size() >= 7 && key.compare(key.size() - 7, 7, "Texture") == 0 &&
+                            entry->is_object() && entry->contains("index");
+    if (is_texture) {
+      Json number = entry->value("texCoord", Json(0));
+      if (entry->contains("extensions") && (*entry)["extensions"].contains("KHR_texture_transform"))
+        number = (*entry)["extensions"]["KHR_texture_transform"].value("texCoord", number);
+      if (is_dropped("TEXCOORD_" + number.dump())) {
+        entry = json.erase(entry);
+        continue;
+      }
+    }
+    drop_textures(*entry, is_dropped);
+    ++entry;
+  }
+}
+
+class Attribute_dropper
+{
+public:
+  Attribute_dropper(Triangle_soup& soup, const std::vector<std::string>& names)
+      : m_soup(soup), m_names(names),
+        m_are_uvs_dropped(soup.scene ? is_dropped("TEXCOORD_0") : is_in(names, "texture"))
+  {
+    for (const std::string& name : names)
+      require(name);
+  }
+
+  std::size_t drop()
+  {
+    const std::size_t joined = share_vertices();
+    auto& attributes = m_soup.vertex_attributes;
+    attributes.erase(std::remove_if(attributes.begin(), attributes.end(),
+                                    [&](const Attribute& attribute) { return is_dropped(attribute.name); }),
+                     attributes.end());
+    if (m_are_uvs_dropped)
+      m_soup.uvs = {};
+    if (m_soup.scene)
+      drop_in_scene();
+    return joined;
+  }
+
+private:
+  static bool is_in(const std::vector<std::string>& names, const char* name)
+  {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  }
+
+  bool is_dropped(const std::string& attribute) const
+  {
+    return std::any_of(m_names.begin(), m_names.end(),
+                       [&](const std::string& name) { return means(name, attribute); });
+  }
+
+  std::set<std::string> attributes() const
+  {
+    std::set<std::string> result;
+    for (const Attribute& attribute : m_soup.vertex_attributes)
+      result.insert(attribute.name);
+    if (m_soup.scene)
+      for (const Gltf_scene::Block& block : m_soup.scene->blocks)
+        for (const Gltf_scene::Column& column : block.attributes)
+          result.insert(column.name);
+    return result;
+  }
+
+  void require(const std::string& name) const
+  {
+    for (const char* needed : {"POSITION", "NORMAL", "JOINTS_", "WEIGHTS_"})
+      if (begins_with(name, needed))
+        throw Argument_error(
+            "attribute '" + name + "' cannot be left out alone: " +
+            (name == "NORMAL" ? "normals are dropped by --normals drop" : "positions and skins need it"));
+    const std::set<std::string> all = attributes();
+    const bool is_here =
+        std::any_of(all.begin(), all.end(), [&](const std::string& one) { return means(name, one); }) ||
+        (name == "texture" && !m_soup.uvs.empty());
+    if (is_here)
+      return;
+    std::string here = m_soup.uvs.empty() ? "" : "texture";
+    for (const std::string& one : all)
+      if (!begins_with(one, "POSITION") && !begins_with(one, "NORMAL") && !begins_with(one, "JOINTS_") &&
+          !begins_with(one, "WEIGHTS_"))
+        here += (here.empty() ? "" : ", ") + one;
+    throw Input_error("the mesh has no attribute '" + name + "' to leave out; " +
+                      (here.empty() ? "it has none" : "it has " + here));
+  }
+
+  // Returns the number of the value that all corners of a vertex have, or `s_several`.
+  template <std::size_t dimension>
+  std::vector<Index> values_of_vertices(const Corner_values<dimension>& values) const
+  {
+    std::vector<Index> result(values.empty() ? 0 : m_soup.points.size(), s_none);
+    for (std::size_t t = 0; t < values.of_triangle.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        Index& of_vertex = result[m_soup.triangles[t][k]];
+        const Index value = values.of_triangle[t][k];
+        of_vertex = of_vertex == s_none || of_vertex == value ? value : s_several;
+      }
+    return result;
+  }
+
+  std::size_t share_vertices()
+  {
+    const std::vector<Index> uvs = values_of_vertices(m_soup.uvs),
+                             normals = values_of_vertices(m_soup.normals);
+    struct Shared_vertex
+    {
+      Index first;
+      std::string dropped;
+    };
+    std::unordered_map<std::string, Shared_vertex> vertices; // by the bytes that stay
+    std::vector<char> is_used(m_soup.points.size(), false);
+    for (const Index_triple& triangle : m_soup.triangles)
+      for (const Index v : triangle)
+        is_used[v] = true;
+    const bool have_faces_own =
+        have_faces_own_vertices(m_soup, std::size_t(std::count(is_used.begin(), is_used.end(), true)));
+    std::vector<Index> first(m_soup.points.size(), s_none);
+    std::vector<char> is_shared(m_soup.points.size(), have_faces_own); // by first vertex
+    Cancellation_poll poll;
+    for (Index v = 0; v < m_soup.points.size(); ++v) {
+      poll();
+      if (!is_used[v])
+        continue;
+      std::string kept, dropped;
+      append_vertex(v, uvs, normals, kept, dropped);
+      const Shared_vertex& found = vertices.emplace(std::move(kept), Shared_vertex{v, dropped}).first->second;
+      first[v] = found.first;
+      is_shared[first[v]] |= found.dropped != dropped;
+    }
+    std::size_t joined = 0;
+    for (std::size_t t = 0; t < m_soup.triangles.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        Index& v = m_soup.triangles[t][k];
+        if (first[v] == v || !is_shared[first[v]])
+          continue;
+        v = first[v];
+        ++joined;
+        if (!uvs.empty() && uvs[v] != s_several)
+          m_soup.uvs.of_triangle[t][k] = uvs[v];
+        if (!normals.empty() && normals[v] != s_several)
+          m_soup.normals.of_triangle[t][k] = normals[v];
+      }
+    return joined;
+  }
+
+  void append_vertex(Index v, const std::vector<Index>& uvs, const std::vector<Index>& normals,
+                     std::string& kept, std::string& dropped) const
+  {
+    const auto append = [](std::string& to, const auto& value) {
+      to.append(reinterpret_cast<const char*>(&value), sizeof value);
+    };
+    const auto append_point = [&](const Point_3& point) {
+      for (int i = 0; i < 3; ++i)
+        append(kept, point[i] == 0 ? 0.0 : point[i]);
+    };
+    append_point(m_soup.points[v]);
+    for (const Pose& pose : m_soup.poses)
+      append_point(pose.points[v]);
+    if (!normals.empty() && normals[v] != s_several)
+      append(kept, m_soup.normals.values[normals[v]]);
+    if (!uvs.empty() && uvs[v] != s_several)
+      append(m_are_uvs_dropped ? dropped : kept, m_soup.uvs.values[uvs[v]]);
+    if (!m_soup.scene) {
+      for (const Attribute& attribute : m_soup.vertex_attributes) {
+        const std::size_t size = row_size(attribute);
+        (is_dropped(attribute.name) ? dropped : kept)
+            .append(reinterpret_cast<const char*>(attribute.rows.data()) + v * size, size);
+      }
+      return;
+    }
+    const std::size_t number = m_soup.scene->instance_of(m_soup.scene_vertices[v]);
+    append(kept, number);
+    const Gltf_scene::Instance& instance = m_soup.scene->instances[number];
+    const Gltf_scene::Block& block = m_soup.scene->blocks[instance.block];
+    const std::size_t row = m_soup.scene_vertices[v] - instance.first;
+    for (const Gltf_scene::Column& column : block.attributes)
+      if (column.name != "POSITION" && column.name != "NORMAL") // which are above
+        (is_dropped(column.name) ? dropped : kept) += column.row(row);
+    for (const std::vector<Gltf_scene::Column>& target : block.targets)
+      for (const Gltf_scene::Column& column : target)
+        (is_dropped(column.name) ? dropped : kept) += column.row(row);
+  }
+
+  void drop_in_scene()
+  {
+    auto scene = std::make_shared<Gltf_scene>(*m_soup.scene);
+    const auto drop_columns = [&](std::vector<Gltf_scene::Column>& columns) {
+      columns.erase(std::remove_if(columns.begin(), columns.end(),
+                                   [&](const Gltf_scene::Column& column) { return is_dropped(column.name); }),
+                    columns.end());
+    };
+    for (Gltf_scene::Block& block : scene->blocks) {
+      drop_columns(block.attributes);
+      for (std::vector<Gltf_scene::Column>& target : block.targets)
+        drop_columns(target);
+    }
+    const auto drop_members = [&](Json& attributes) {
+      for (auto member = attributes.begin(); member != attributes.end();)
+        member = is_dropped(member.key()) ? attributes.erase(member) : std::next(member);
+    };
+    for (const Gltf_scene::Part& part : scene->parts) {
+      Json& primitive = scene->document["meshes"][part.mesh]["primitives"][part.primitive];
+      drop_members(primitive["attributes"]);
+      if (primitive.contains("targets"))
+        for (Json& target : primitive["targets"])
+          drop_members(target);
+    }
+    auto& names = scene->only_in_gltf; // such as "COLOR_1, which not every vertex has"
+    names.erase(
+        std::remove_if(names.begin(), names.end(),
+                       [&](const std::string& name) { return is_dropped(name.substr(0, name.find(','))); }),
+        names.end());
+    if (scene->document.contains("materials"))
+      drop_textures(scene->document["materials"], [&](const std::string& set) { return is_dropped(set); });
+    m_soup.scene = std::move(scene);
+  }
+
+  Triangle_soup& m_soup;
+  const std::vector<std::string>& m_names;
+  bool m_are_uvs_dropped;
+};
+
+} // namespace
+
+std::size_t drop_attributes(Triangle_soup& soup, const std::vector<std::string>& names)
+{
+  return names.empty() ? 0 : Attribute_dropper(soup, names).drop();
+}
+
+} // namespace selvedge
