@@ -164,12 +164,14 @@ std::string remedies(const std::vector<Hindrances::Description>& all, const Hind
   return text;
 }
 
-/// Names the attribute that makes most of the seams that nothing else makes, if they are many.
-std::string seams_to_leave_out(const Prepared_soup& prepared, const Hindrances& hindrances)
+/// Names the attribute that makes most of the seams that nothing else makes, if they are many. A texture is
+/// named where no option helps.
+std::string seams_to_leave_out(const Prepared_soup& prepared, const Hindrances& hindrances,
+                               bool does_option_help)
 {
   std::pair<std::string, std::size_t> most;
   for (const auto& [name, count] : seams_of_attributes(prepared.soup, prepared.positions))
-    if (count > most.second)
+    if (count > most.second && !(does_option_help && name == "texture"))
       most = {name, count};
   if (10 * most.second < hindrances.total())
     return "";
@@ -210,7 +212,7 @@ std::string held_back(const Simplify_request& request, const Prepared_soup& prep
   if (others > 0)
     text += ", " + with_commas(others) + " by other rules";
   const std::string options = remedies(all, hindrances, request),
-                    seams = seams_to_leave_out(prepared, hindrances);
+                    seams = seams_to_leave_out(prepared, hindrances, !options.empty());
   if (!options.empty())
     text += "; try " + options;
   else if (seams.empty())

@@ -151,7 +151,7 @@ struct Replay_verdict
 /// Something that a verdict says nothing about.
 struct Not_judged
 {
-  /// The key of a limit, or "lines", "limits_of_snaps", "normals", "may_intersect", "poses",
+  /// The key of a limit, or "lines", "limits_of_snaps", "normals", "dropped", "may_intersect", "poses",
   /// "obstacle", "pairs", "input", "result" or "attributes".
   std::string key;
 

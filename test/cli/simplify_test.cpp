@@ -360,8 +360,42 @@ TEST(App_simplify, NamesTheAttributeThatMakesSeams)
   };
   const char* const what = "; 1,160 edges of the input are seams because of heat and nothing else: ";
   EXPECT_TRUE(says(folder / "heat.ply", what));
+  EXPECT_TRUE(says(folder / "heat.ply", "--drop-attribute heat lets them go, if nobody needs it\n"));
   EXPECT_NE(run_app({"info", folder / "heat.ply"}).out.find("it is for heat (1,160)"), std::string::npos);
   EXPECT_FALSE(says(folder / "cool.ply", "seams because of"));
+}
+
+// With what was left out, the reduction is logged, replayed, and compared with the original.
+TEST(App_simplify, LeavesOutATextureOfWhichEveryFaceHasItsOwnPiece)
+{
+  const Workspace folder;
+  Triangle_soup soup = sheet(20, 20);
+  for (Index t = 0; t < soup.triangles.size(); ++t)
+    for (Index k = 0; k < 3; ++k) {
+      soup.uvs.values.push_back({t / 800., k / 4.});
+      if (k == 0)
+        soup.uvs.of_triangle.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    }
+  for (const char* ending : {"obj", "ply", "glb"}) {
+    const std::string in = folder / ("in." + std::string(ending)),
+                      out = folder / ("out." + std::string(ending)), log = folder / "steps.log";
+    write_mesh(in, soup);
+    const App_result held = run_app({"simplify", in, "-o", out, "--ratio", "0.1"});
+    EXPECT_NE(held.out.find("because of texture and nothing else: --drop-attribute texture lets them go"),
+              std::string::npos)
+        << held.out;
+    const App_result reduced =
+        run_app({"simplify", in, "-o", out, "--ratio", "0.1", "--drop-attribute", "texture", "--log", log});
+    EXPECT_NE(reduced.out.find("target 80 reached"), std::string::npos) << reduced.out;
+    EXPECT_TRUE(read_mesh(out).soup.uvs.empty());
+    const App_result replayed = run_app({"replay", in, log});
+    EXPECT_EQ(replayed.code, 0) << replayed.err;
+    EXPECT_NE(replayed.out.find("not judged: dropped: "), std::string::npos) << replayed.out;
+    EXPECT_EQ(run_app({"verify", out, "--against", in, "--drop-attribute", "texture"}).code, 0);
+  }
+  expect_refused(
+      {"simplify", folder / "in.ply", "-o", folder / "out.ply", "--ratio", "0.1", "--drop-attribute", "heat"},
+      3, "no attribute 'heat' to leave out; it has texture");
 }
 
 // The options named are those that help: with them, the target is reached.

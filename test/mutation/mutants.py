@@ -1293,3 +1293,13 @@ group(
     ("covering_test",),
     ("corner = positions[corner];", ";", "seams are borders"),
 )
+group(
+    "src/soup/drop_attributes.cpp",
+    ("attributes_test",),
+    ("is_shared[first[v]] |= found.dropped != dropped;", "is_shared[first[v]] = true;",
+     "pieces that lie beside each other become one"),
+    ("append(kept, m_soup.normals.values[normals[v]]);", "append(dropped, m_soup.normals.values[normals[v]]);",
+     "vertices of different normals become one"),
+    ("number = (*entry)", "(void)(*entry)", "the set that a texture's transform names is not asked for"),
+    ("m_soup.uvs.of_triangle[t][k] = uvs[v];", ";", "texture coordinates stay those of vertices that are gone"),
+)

@@ -92,6 +92,7 @@ void write_world(const World& world, const std::filesystem::path& folder)
                      {"defects", name_of(world.defects)},
                      {"weld", world.weld_distance},
                      {"open_seams", world.open_seams},
+                     {"dropped", world.dropped},
                      {"normals", name_of(world.normals)},
                      {"orient", world.are_faces_oriented},
                      {"may_intersect", world.may_intersect},
@@ -158,6 +159,7 @@ World read_world(const std::filesystem::path& folder)
   // Worlds of earlier versions say only whether they are welded.
   world.open_seams =
       json.value("open_seams", json.value("weld_auto", false) ? Open_seams::weld : Open_seams::ignore);
+  world.dropped = json.value("dropped", world.dropped);
   const std::string normals = json.value("normals", "keep"); // worlds of earlier versions have none
   for (const Normals_choice choice : {Normals_choice::automatic, Normals_choice::keep, Normals_choice::mend,
                                       Normals_choice::loose, Normals_choice::recompute, Normals_choice::drop})
@@ -262,6 +264,8 @@ std::string command_line(const World& world)
     add("--weld", "auto");
   if (world.open_seams == Open_seams::ignore && world.weld_distance == 0)
     add("--weld", "none");
+  for (const std::string& name : world.dropped)
+    add("--drop-attribute", name);
   if (world.normals != Normals_choice::automatic)
     add("--normals", name_of(world.normals));
   if (!world.are_faces_oriented)

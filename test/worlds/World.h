@@ -34,6 +34,7 @@ struct World
   Defects defects = Defects::freeze;
   double weld_distance = 0;
   Open_seams open_seams = Open_seams::ignore; ///< if the distance is not 0, they are ignored
+  std::vector<std::string> dropped; ///< attributes
   Normals_choice normals = Normals_choice::automatic;
   bool are_faces_oriented = true;
   std::vector<std::pair<std::string, std::string>> may_intersect; ///< names of objects

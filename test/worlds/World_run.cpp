@@ -7,6 +7,7 @@
 #include "weld/snapping.h"
 #include <selvedge/Error.h>
 #include <selvedge/Reduction_log.h>
+#include <selvedge/attributes.h>
 #include <selvedge/collapse_log.h>
 #include <selvedge/merge.h>
 #include <selvedge/progressive.h>
@@ -56,6 +57,7 @@ const char* file_name(const World& world)
 Triangle_soup input_of(const World& world)
 {
   Triangle_soup soup = world.soup;
+  drop_attributes(soup, world.dropped);
   if (joins_vertices(world.normals))
     share_vertices_without_normals(soup, world.normals);
   return soup;
@@ -90,6 +92,7 @@ World_run run(const World& world)
   header.vertices = numbering.size();
   header.triangles = world.soup.triangles.size();
   header.is_rounded_to_float32 = prepare_options.round_to_float32;
+  header.dropped = world.dropped;
   if (joins_vertices(world.normals))
     header.normals = Logged_normals::dropped;
   if (!world.obstacle.triangles.empty())

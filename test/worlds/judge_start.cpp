@@ -96,6 +96,7 @@ World in_pose(const World& world, std::size_t pose)
 {
   World posed = world;
   posed.soup = input_of(world);
+  posed.dropped.clear();                // already are
   posed.normals = Normals_choice::keep; // what is joined is joined in all poses
   posed.soup.points = world.soup.poses[pose].points;
   if (!world.obstacle.poses.empty())

@@ -545,6 +545,11 @@ World random_world(std::uint64_t seed)
       world.weld_distance == 0 && world.open_seams != Open_seams::weld)
     let_objects_intersect(world);
   choose_clearance(world, 0);
+  if (world.seed % 4 == 1 && !world.soup.uvs.empty()) // no random number, as above
+    world.dropped.push_back("texture");
+  if (world.seed % 4 <= 1 && world.intent.weights.empty() && !world.soup.vertex_attributes.empty() &&
+      !world.soup.scene)
+    world.dropped.push_back(world.soup.vertex_attributes.back().name);
   return world;
 }
 

@@ -1,0 +1,263 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Attributes that are left out, and the vertices that become one then.
+
+#include "support/Temporary_folder.h"
+#include "support/reduction.h"
+#include "support/soups.h"
+#include "support/vertices_used.h"
+
+#include <selvedge/Error.h>
+#include <selvedge/attributes.h>
+#include <selvedge/inspect.h>
+#include <selvedge/mesh_files.h>
+#include <selvedge/normals.h>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace selvedge::test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Every face has its own piece of the texture.
+Triangle_soup shredded_sheet()
+{
+  Triangle_soup soup = sheet(12, 12);
+  for (Index t = 0; t < soup.triangles.size(); ++t) {
+    Index_triple& corners = soup.uvs.of_triangle.emplace_back();
+    for (Index k = 0; k < 3; ++k) {
+      corners[k] = Index(soup.uvs.values.size());
+      soup.uvs.values.push_back({t / 512., k / 4.});
+    }
+  }
+  return soup;
+}
+
+// The same with one vertex for each corner, as a file has it that keeps one value for each vertex.
+Triangle_soup shredded_by_vertices()
+{
+  Triangle_soup soup = unshared(sheet(12, 12));
+  soup.uvs = shredded_sheet().uvs;
+  return soup;
+}
+
+void add_attribute(Triangle_soup& soup, const char* name, const std::vector<unsigned char>& values)
+{
+  Attribute attribute;
+  attribute.name = name;
+  attribute.type = Attribute::Type::uint8;
+  attribute.rows = values;
+  soup.vertex_attributes.push_back(attribute);
+}
+
+std::string message_of(Triangle_soup soup, const std::string& name)
+{
+  try {
+    drop_attributes(soup, {name});
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Attributes, WithoutItsTextureAMeshOfShreddedTextureIsReduced)
+{
+  for (Triangle_soup soup : {shredded_sheet(), shredded_by_vertices()}) {
+    const std::size_t faces = soup.triangles.size();
+    EXPECT_EQ(reduce(soup, to_ratio(0.1)).simplified.soup.triangles.size(), faces);
+    drop_attributes(soup, {"texture"});
+    EXPECT_TRUE(soup.uvs.empty());
+    const Reduction reduction = reduce(soup, to_ratio(0.1));
+    EXPECT_LE(10 * reduction.simplified.soup.triangles.size(), faces);
+    EXPECT_TRUE(reduction.verification.accepted());
+  }
+}
+
+TEST(Attributes, VerticesThatDifferInNothingElseBecomeTheFirstOfThem)
+{
+  Triangle_soup soup = shredded_by_vertices();
+  const Triangle_soup before = soup;
+  const std::size_t positions = vertices_used(sheet(12, 12)), corners = 3 * soup.triangles.size();
+  EXPECT_EQ(drop_attributes(soup, {"texture"}), corners - positions);
+  EXPECT_EQ(vertices_used(soup), positions);
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_LE(soup.triangles[t][k], before.triangles[t][k]);
+      EXPECT_EQ(soup.points[soup.triangles[t][k]], before.points[before.triangles[t][k]]);
+    }
+}
+
+// Two squares that meet in an edge, with vertices of their own, and what each of these has.
+class Attributes_of_two_squares : public testing::Test
+{
+protected:
+  Triangle_soup soup = joined(sheet(1, 1), moved(sheet(1, 1), 1, 0, 0));
+
+  std::size_t joined_without(const std::vector<std::string>& names) { return drop_attributes(soup, names); }
+};
+
+TEST_F(Attributes_of_two_squares, WhatDiffersInNothingAtAllStaysApart)
+{
+  add_attribute(soup, "heat", std::vector<unsigned char>(8, 7));
+  EXPECT_EQ(joined_without({"heat"}), 0u);
+  EXPECT_TRUE(soup.vertex_attributes.empty());
+}
+
+TEST_F(Attributes_of_two_squares, WhatDiffersInWhatIsLeftOutIsJoined)
+{
+  add_attribute(soup, "heat", {1, 1, 1, 1, 2, 2, 2, 2});
+  EXPECT_GT(joined_without({"heat"}), 0u);
+  EXPECT_EQ(vertices_used(soup), 6u);
+}
+
+TEST_F(Attributes_of_two_squares, WhatDiffersInAnotherAttributeStaysApart)
+{
+  add_attribute(soup, "heat", {1, 1, 1, 1, 2, 2, 2, 2});
+  add_attribute(soup, "red", {1, 1, 1, 1, 2, 2, 2, 2});
+  Triangle_soup other = soup;
+  EXPECT_EQ(joined_without({"heat"}), 0u);
+  soup = other;
+  EXPECT_EQ(joined_without({"colors"}), 0u);
+  soup = other;
+  EXPECT_GT(joined_without({"colors", "heat"}), 0u);
+}
+
+TEST_F(Attributes_of_two_squares, WhatDiffersInNormalsOrInAPoseStaysApart)
+{
+  add_attribute(soup, "heat", {1, 1, 1, 1, 2, 2, 2, 2});
+  const Triangle_soup other = soup;
+  soup.normals.values = {{0, 0, 1}, {0, 1, 0}};
+  soup.normals.of_triangle = {{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, {1, 1, 1}};
+  EXPECT_EQ(joined_without({"heat"}), 0u);
+  soup = other;
+  soup.poses.push_back({"apart", moved(soup, 0, 0, 0).points});
+  for (std::size_t v = 4; v < 8; ++v)
+    soup.poses[0].points[v] = Point_3(9, double(v), 9);
+  EXPECT_EQ(joined_without({"heat"}), 0u);
+}
+
+TEST_F(Attributes_of_two_squares, TextureCoordinatesThatStayAreThoseOfTheVertex)
+{
+  add_attribute(soup, "heat", {1, 1, 1, 1, 2, 2, 2, 2});
+  for (const Point_3& p : soup.points)
+    soup.uvs.values.push_back({p.x() / 2, p.y()});
+  soup.uvs.of_triangle = soup.triangles;
+  EXPECT_GT(joined_without({"heat"}), 0u);
+  EXPECT_EQ(soup.uvs.of_triangle, soup.triangles); // as a file needs it that has one for each vertex
+}
+
+TEST(Attributes, NamesOfNothingAreRefused)
+{
+  Triangle_soup soup = shredded_sheet();
+  add_attribute(soup, "heat", std::vector<unsigned char>(soup.points.size(), 0));
+  EXPECT_NE(message_of(soup, "cold").find("no attribute 'cold' to leave out; it has texture, heat"),
+            std::string::npos)
+      << message_of(soup, "cold");
+  EXPECT_NE(message_of(sheet(2, 2), "texture").find("it has none"), std::string::npos);
+  EXPECT_NE(message_of(soup, "NORMAL").find("--normals drop"), std::string::npos);
+  EXPECT_NE(message_of(soup, "JOINTS_0").find("skins need it"), std::string::npos);
+}
+
+TEST(Attributes, SeamsOfTheTextureAreCounted)
+{
+  const Triangle_soup soup = shredded_sheet();
+  const std::size_t inner = (3 * soup.triangles.size() - 4 * 12) / 2;
+  const Reduction reduction = reduce(soup, to_ratio(1));
+  const auto seams = seams_of_attributes(reduction.prepared.soup, reduction.prepared.positions);
+  EXPECT_EQ(seams.at("texture"), inner);
+}
+
+// A glTF file in which each face has vertices of its own, with textures of both sets, as JSON and as read.
+class Attributes_of_gltf : public testing::Test
+{
+protected:
+  Attributes_of_gltf()
+  {
+    Triangle_soup soup = shredded_by_vertices();
+    add_attribute(soup, "red", std::vector<unsigned char>(soup.points.size(), 9));
+    add_attribute(soup, "green", std::vector<unsigned char>(soup.points.size(), 9));
+    add_attribute(soup, "blue", std::vector<unsigned char>(soup.points.size(), 9));
+    write_mesh(folder / "in.gltf", soup);
+    Json json = json_of("in.gltf");
+    Json& primitive = json["meshes"][0]["primitives"][0];
+    primitive["attributes"]["TEXCOORD_1"] = primitive["attributes"]["TEXCOORD_0"];
+    primitive["material"] = 0;
+    json["textures"] = {{{"source", 0}}};
+    json["images"] = {{{"uri", "data:image/png;base64,"}}};
+    json["materials"] = Json::parse(R"([{
+      "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "metallicFactor": 0},
+      "normalTexture": {"index": 0, "texCoord": 1},
+      "emissiveTexture": {"index": 0, "texCoord": 1, "extensions": {"KHR_texture_transform": {"texCoord": 0}}},
+      "extensions": {"KHR_materials_specular": {"specularTexture": {"index": 0}, "specularFactor": 0.5}}}])");
+    std::ofstream(folder / "in.gltf") << json;
+    mesh = read_mesh(folder / "in.gltf").soup;
+  }
+
+  Json json_of(const char* name) const { return Json::parse(std::ifstream(folder / name)); }
+
+  // What the file has that is written without these attributes.
+  Json written_without(const std::vector<std::string>& names)
+  {
+    joined = drop_attributes(mesh, names);
+    write_mesh(folder / "out.gltf", mesh);
+    return json_of("out.gltf");
+  }
+
+  static std::set<std::string> attributes_in(const Json& json)
+  {
+    std::set<std::string> result;
+    for (const auto& entry : json["meshes"][0]["primitives"][0]["attributes"].items())
+      result.insert(entry.key());
+    return result;
+  }
+
+  Temporary_folder folder;
+  Triangle_soup mesh;
+  std::size_t joined = 0;
+};
+
+TEST_F(Attributes_of_gltf, AllSetsOfTheTextureGoAndSoDoTheTexturesOfMaterials)
+{
+  const Json json = written_without({"texture"});
+  EXPECT_EQ(attributes_in(json), (std::set<std::string>{"POSITION", "COLOR_0"}));
+  EXPECT_EQ(json["materials"], Json::parse(R"([{
+      "pbrMetallicRoughness": {"metallicFactor": 0},
+      "extensions": {"KHR_materials_specular": {"specularFactor": 0.5}}}])"));
+  EXPECT_GT(joined, 0u);
+  EXPECT_EQ(vertices_used(mesh), vertices_used(sheet(12, 12)));
+  EXPECT_TRUE(read_mesh(folder / "out.gltf").soup.uvs.empty());
+}
+
+TEST_F(Attributes_of_gltf, OneSetGoesWithTheTexturesThatItPlaces)
+{
+  const Json json = written_without({"TEXCOORD_1"});
+  EXPECT_EQ(attributes_in(json), (std::set<std::string>{"POSITION", "TEXCOORD_0", "COLOR_0"}));
+  const Json& material = json["materials"][0];
+  EXPECT_FALSE(material.contains("normalTexture"));
+  EXPECT_TRUE(material["pbrMetallicRoughness"].contains("baseColorTexture"));
+  EXPECT_TRUE(material.contains("emissiveTexture")); // its transform says that it lies in the other set
+  EXPECT_EQ(joined, 0u);
+  EXPECT_FALSE(mesh.uvs.empty());
+}
+
+TEST_F(Attributes_of_gltf, ColoursGo)
+{
+  const Json json = written_without({"colors"});
+  EXPECT_EQ(attributes_in(json), (std::set<std::string>{"POSITION", "TEXCOORD_0", "TEXCOORD_1"}));
+  EXPECT_TRUE(mesh.vertex_attributes.size() == 1 && mesh.vertex_attributes[0].name == "TEXCOORD_1");
+  EXPECT_EQ(json["materials"], json_of("in.gltf")["materials"]);
+}
+
+} // namespace
+} // namespace selvedge::test
