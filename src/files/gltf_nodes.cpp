@@ -119,6 +119,37 @@ private:
       for (std::optional<Index>& mesh : level.meshes)
         if (mesh)
           mesh = numbers[*mesh];
+    number_meshes_of_avatar();
+  }
+
+  // VRM 0 names meshes by their numbers, in expressions and for the view through the eyes; VRM 1 names nodes.
+  void number_meshes_of_avatar()
+  {
+    if (!member(m_document, "extensions").contains("VRM"))
+      return;
+    Json& avatar = m_document["extensions"]["VRM"];
+    const std::vector<std::optional<Index>>& meshes = m_levels.front().meshes;
+    const auto number = [&](Json& entries) {
+      Json left = Json::array();
+      for (Json& entry : entries) {
+        const Json mesh = entry.value("mesh", Json());
+        const bool is_known = mesh.is_number_unsigned() && mesh.get<std::size_t>() < meshes.size();
+        if (is_known && !meshes[mesh.get<std::size_t>()])
+          continue; // all its faces are gone
+        if (is_known)
+          entry["mesh"] = *meshes[mesh.get<std::size_t>()];
+        left.push_back(std::move(entry));
+      }
+      entries = std::move(left);
+    };
+    const Json::json_pointer annotations("/firstPerson/meshAnnotations"),
+        groups("/blendShapeMaster/blendShapeGroups");
+    if (avatar.contains(annotations))
+      number(avatar[annotations]);
+    if (avatar.contains(groups))
+      for (Json& group : avatar[groups])
+        if (group.contains("binds"))
+          number(group["binds"]);
   }
 
   static void set_mesh(Json& node, const std::optional<Index>& mesh)

@@ -290,7 +290,17 @@ TEST(Gltf, NothingElseIsWrittenUnderTheNameOfAnAvatar)
 TEST(Gltf, PrimitivesThatAreGoneLeaveAValidFile)
 {
   const Temporary_folder folder;
-  const Mesh_file file = read_glb(everything());
+  Document document = everything();
+  const auto of_meshes = [](std::initializer_list<int> meshes) {
+    Json list = Json::array();
+    for (const int mesh : meshes)
+      list.push_back({{"mesh", mesh}, {"index", 0}});
+    return Json{
+        {"firstPerson", {{"meshAnnotations", list}}},
+        {"blendShapeMaster", {{"blendShapeGroups", {{{"name", "A"}, {"binds", list}}, {{"name", "B"}}}}}}};
+  };
+  document.json["extensions"]["VRM"] = of_meshes({2, 1, 0, -1});
+  const Mesh_file file = read_glb(document);
   std::vector<Index> triangles;
   std::vector<Index_triple> corners;
   for (Index t = 0; t < file.soup.triangles.size(); ++t)
@@ -306,6 +316,8 @@ TEST(Gltf, PrimitivesThatAreGoneLeaveAValidFile)
   EXPECT_FALSE(after.json["nodes"][3].contains("skin"));
   EXPECT_FALSE(after.json["nodes"][2].contains("mesh"));
   EXPECT_EQ(after.json["nodes"][6]["mesh"], 1) << "the points have moved up";
+  EXPECT_EQ(document.json["nodes"][6]["mesh"], 2);
+  EXPECT_EQ(after.json["extensions"]["VRM"], of_meshes({1, 0, -1}));
 }
 
 TEST(Gltf, PositionsThatTheFileDoesNotHaveAreRefused)
