@@ -114,14 +114,14 @@ void read_ratios(Simplify_request& request)
 void check_poses(const Simplify_request& request)
 {
   const auto refuse_with = [](const char* option, const char* why) {
-    throw Argument_error(std::string(option) + ": " + why +
-                         "; leave it out, or the further poses (--pose, --morphs, --animation)");
+    throw Argument_error(std::string(option) + ": " + why + "; leave it out, or the further poses (" +
+                         options_of_poses + ")");
   };
   check_obstacle_poses(request.obstacle_poses, request.obstacle, request.poses);
   if (request.poses.empty()) {
     if (!request.poses_output.empty() || request.are_key_poses_chosen)
       throw Argument_error(std::string(request.poses_output.empty() ? "--key-poses" : "--poses-out") +
-                           ": the mesh has no further poses; give them by --pose, --morphs or --animation");
+                           ": the mesh has no further poses; give them by " + options_of_poses);
     return;
   }
   if (request.is_in_cells)
@@ -313,10 +313,12 @@ Json options_json(const Simplify_request& request)
           {"morphs", request.poses.are_morphs},
           {"animation", request.poses.animation.empty() ? Json(nullptr) : Json(request.poses.animation)},
           {"every", request.poses.every},
+          {"humanoid_poses", request.poses.are_of_humanoid},
           {"without_pose", request.poses.left_out},
           {"obstacle_pose", request.obstacle_poses.files},
           {"obstacle_animation",
            request.obstacle_poses.animation.empty() ? Json(nullptr) : Json(request.obstacle_poses.animation)},
+          {"obstacle_humanoid_poses", request.obstacle_poses.are_of_humanoid},
           {"key_poses", request.are_key_poses_chosen ? "auto" : "all"},
           {"poses_out", request.poses_output.empty() ? Json(nullptr) : Json(request.poses_output)},
           {"weld", weld_json(request)},
@@ -343,7 +345,6 @@ Defects defects_of(const Simplify_request& request)
 
 void complete(Simplify_request& request)
 {
-  request.obstacle_poses.every = request.poses.every;
   if (are_levels_in_one_file(request)) // from fine to coarse
     std::sort(request.lods.begin(), request.lods.end(), std::greater<>());
   request.options.check_intersections = !request.is_unguarded;

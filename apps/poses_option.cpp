@@ -52,6 +52,12 @@ void add_pose_options(CLI::App& command, Pose_sources& sources, const std::strin
       ->capture_default_str()
       ->group(group);
   command
+      .add_flag("--humanoid-poses", sources.are_of_humanoid,
+                "Poses that clothes meet, made of the skeleton of a human figure in " + mesh +
+                    " (glTF, VRM), are further poses: arms down, elbows bent, arms forward, arms up, a step, "
+                    "sitting, bowing.")
+      ->group(group);
+  command
       .add_option("--without-pose", sources.left_out,
                   "Leaves out one of these poses, such as a morph target in which a face has no area, by the "
                   "name that summary and report give it. May be given several times.")
@@ -75,6 +81,11 @@ void add_obstacle_pose_options(CLI::App& command, Pose_sources& sources, const s
           "obstacle, one in so many as --every says.")
       ->type_name("NAME|all")
       ->group(group);
+  command
+      .add_flag(
+          "--obstacle-humanoid-poses", sources.are_of_humanoid,
+          "The poses of --humanoid-poses, made of the skeleton of the obstacle, are poses of the obstacle.")
+      ->group(group);
 }
 
 void check_obstacle_poses(const Pose_sources& of_obstacle, const std::string& obstacle,
@@ -82,10 +93,11 @@ void check_obstacle_poses(const Pose_sources& of_obstacle, const std::string& ob
 {
   if (of_obstacle.empty())
     return;
-  const std::string option = of_obstacle.files.empty() ? "--obstacle-animation" : "--obstacle-pose";
+  const std::string option = !of_obstacle.files.empty()       ? "--obstacle-pose"
+                             : !of_obstacle.animation.empty() ? "--obstacle-animation"
+                                                              : "--obstacle-humanoid-poses";
   if (of_mesh.empty())
-    throw Argument_error(option +
-                         ": the mesh has no further poses; give them by --pose, --morphs or --animation");
+    throw Argument_error(option + ": the mesh has no further poses; give them by " + options_of_poses);
   if (obstacle.empty())
     throw Argument_error(option + ": there is no obstacle; give --obstacle FILE");
 }
@@ -102,6 +114,8 @@ void read_poses(const Pose_sources& sources, const std::string& mesh_file, Trian
     append(morph_poses(mesh, mesh_file));
   if (!sources.animation.empty())
     append(animation_poses(mesh, sources.animation, sources.every, mesh_file));
+  if (sources.are_of_humanoid)
+    append(humanoid_poses(mesh, mesh_file));
   for (const std::string& name : sources.left_out) {
     const auto found = std::find_if(mesh.poses.begin(), mesh.poses.end(),
                                     [&](const Pose& pose) { return pose.name == name; });
@@ -114,6 +128,19 @@ void read_poses(const Pose_sources& sources, const std::string& mesh_file, Trian
     }
     mesh.poses.erase(found);
   }
+}
+
+void read_obstacle_poses(const Pose_sources& of_obstacle, const std::string& obstacle_file,
+                         const Pose_sources& of_mesh, Triangle_soup& obstacle)
+{
+  Pose_sources sources = of_obstacle;
+  sources.every = of_mesh.every;
+  read_poses(sources, obstacle_file, obstacle);
+  const auto is_left_out = [&](const Pose& pose) {
+    return std::find(of_mesh.left_out.begin(), of_mesh.left_out.end(), pose.name) != of_mesh.left_out.end();
+  };
+  obstacle.poses.erase(std::remove_if(obstacle.poses.begin(), obstacle.poses.end(), is_left_out),
+                       obstacle.poses.end());
 }
 
 } // namespace selvedge::app

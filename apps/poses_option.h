@@ -21,22 +21,26 @@ struct Pose_sources
   bool are_morphs = false;           ///< whether each morph target of the glTF file is one
   std::string animation;             ///< name of an animation of the glTF file, or "all"
   std::size_t every = 1;             ///< one in so many keyframes of it
+  bool are_of_humanoid = false;      ///< whether those that its skeleton can take are some
   std::vector<std::string> left_out; ///< names of poses that do not count
 
-  bool empty() const { return files.empty() && !are_morphs && animation.empty(); }
+  bool empty() const { return files.empty() && !are_morphs && animation.empty() && !are_of_humanoid; }
 };
+
+/// For messages.
+inline constexpr const char* options_of_poses = "--pose, --morphs, --animation or --humanoid-poses";
 
 /// Declares an option that names further poses of a mesh by files.
 CLI::Option* add_poses_option(CLI::App& command, const std::string& option, std::vector<std::string>& names,
                               const std::string& description);
 
-/// Declares --pose, with this description, and --morphs, --animation, --every and --without-pose, in a group
-/// of the help. `mesh` says in the help which file they are of.
+/// Declares --pose, with this description, and --morphs, --animation, --every, --humanoid-poses and
+/// --without-pose, in a group of the help. `mesh` says in the help which file they are of.
 void add_pose_options(CLI::App& command, Pose_sources& sources, const std::string& mesh,
                       const std::string& description, const std::string& group);
 
-/// Declares --obstacle-pose and --obstacle-animation, in a group of the help. `mesh` says in the help of
-/// which file the others are.
+/// Declares --obstacle-pose, --obstacle-animation and --obstacle-humanoid-poses, in a group of the help.
+/// `mesh` says in the help of which file the others are.
 void add_obstacle_pose_options(CLI::App& command, Pose_sources& sources, const std::string& mesh,
                                const std::string& group);
 
@@ -47,6 +51,11 @@ void check_obstacle_poses(const Pose_sources& of_obstacle, const std::string& ob
 /// Reads the further poses of a mesh that was read from a file. Throws `Input_error` when one that is to be
 /// left out is none of them.
 void read_poses(const Pose_sources& sources, const std::string& mesh_file, Triangle_soup& mesh);
+
+/// Reads the poses of an obstacle: one in so many keyframes as of the mesh, and none of a name that is left
+/// out there.
+void read_obstacle_poses(const Pose_sources& of_obstacle, const std::string& obstacle_file,
+                         const Pose_sources& of_mesh, Triangle_soup& obstacle);
 
 } // namespace selvedge::app
 

@@ -262,9 +262,7 @@ Exit_code run(const Replay_request& request)
   if (!request.obstacle.empty()) {
     Mesh_input obstacle_input(request.obstacle, request.format);
     options.obstacle = obstacle_input.read().soup;
-    Pose_sources poses = request.obstacle_poses;
-    poses.every = request.poses.every;
-    read_poses(poses, request.obstacle, *options.obstacle);
+    read_obstacle_poses(request.obstacle_poses, request.obstacle, request.poses, *options.obstacle);
     options.sha256_of_obstacle = obstacle_input.sha256();
   }
 

@@ -205,7 +205,7 @@ private:
     if (!m_request.obstacle.empty()) {
       Mesh_input obstacle_input(m_request.obstacle, m_request.format);
       obstacle = obstacle_input.read().soup;
-      read_poses(m_request.obstacle_poses, m_request.obstacle, obstacle);
+      read_obstacle_poses(m_request.obstacle_poses, m_request.obstacle, m_request.poses, obstacle);
       m_log_header.obstacle = {obstacle.points.size(), obstacle.triangles.size(), obstacle_input.sha256()};
     }
 

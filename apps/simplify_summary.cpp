@@ -348,9 +348,14 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
   stream << '\n';
   for (const Json& note : notes)
     stream << "  " << note.get<std::string>() << '\n';
+  std::string unguarded;
   if (!request.poses.are_morphs && has_morph_targets(prepared.soup))
-    stream << "  morph targets: nothing is promised in the shapes that they make; --morphs guards these, "
-              "too\n";
+    unguarded = "the shapes of morph targets (--morphs guards these, too)";
+  if (request.poses.animation.empty() && !request.poses.are_of_humanoid && has_humanoid(prepared.soup))
+    unguarded += (unguarded.empty() ? "" : " and ") +
+                 std::string("poses such as arms down (--humanoid-poses guards some)");
+  if (!unguarded.empty())
+    stream << "  nothing is promised in " << unguarded << '\n';
   if (prepared.rounding.coordinates > 0)
     stream << "  " << counted(prepared.rounding.coordinates, "coordinate")
            << " rounded to 32-bit floats, because the output's format stores nothing more precise\n";

@@ -14,7 +14,8 @@
 namespace selvedge {
 
 /// \file
-/// Poses that a glTF file makes of its own meshes, by morph targets and by animations.
+/// Poses that a glTF file makes of its own meshes, by morph targets, by animations, and by the skeleton of a
+/// human figure.
 ///
 /// Everything is computed in doubles from the numbers of the file, in the space of the scene, as the
 /// positions of the mesh are (mesh_files.h, **Scenes**), and is not rounded further. Vertices with the same
@@ -67,6 +68,32 @@ std::vector<Pose> morph_poses(const Triangle_soup& mesh, const std::string& name
 /// **Complexity** O(n + m + log k) for each pose, with m nodes of the scene and k keyframes.
 std::vector<Pose> animation_poses(const Triangle_soup& mesh, const std::string& animation, std::size_t every,
                                   const std::string& name);
+
+/// Returns whether the mesh was read from glTF and has a skin and all bones that `humanoid_poses` needs.
+bool has_humanoid(const Triangle_soup& mesh);
+
+/// Returns poses that clothes meet, of a figure that stands in any pose, such as with its arms out:
+/// `arms_down`, `elbows_bent`, `arms_forward`, `arms_up`, `step`, `sit`, `bow`.
+///
+/// The bones are upper arms, lower arms, hands, upper legs, lower legs and feet: those of the extension
+/// VRMC_vrm or VRM, else the joints of skins whose names are usual for them (docs/poses.md). Without a joint
+/// above both arms that is above no leg, there is no `bow`.
+/// - Left is from the right upper leg to the left one, seen from above; up is the y-axis; forward is
+///   left × up.
+/// - Each bone of a pose, the upper ones first, turns about its own place by the smallest turn after which it
+///   points to a fixed direction of the figure; so the pose that it is turned from does not count. What is
+///   below it turns along: T R T⁻¹ × global transform. The lower arm points to the hand, the spine to the
+///   middle of both upper arms. Bones that a pose does not name are as in the file.
+/// - Morph targets and skins are as in an animation that moves no weights.
+///
+/// Only + - * / and square roots are used: the last bits are the same on all systems.
+///
+/// **Not promised** That a figure would be animated so: constraints of nodes, springs, and bones beside
+/// these, such as shoulders and twisted ones, stay as they are to the bones above them. If a scene has
+/// several figures, one moves.
+///
+/// **Complexity** O(n + m log m) for each pose, with m nodes of the scene.
+std::vector<Pose> humanoid_poses(const Triangle_soup& mesh, const std::string& name);
 
 /// Writes a mesh and its further poses to a glTF file, as a new document in the space of the mesh
 /// (`write_mesh` for meshes that were not read from glTF). Each pose is a morph target of its name, with a

@@ -65,7 +65,7 @@ struct Progressive_mesh
 struct Progressive_notes
 {
   std::size_t fixed_faces = 0;     ///< `Simplify_report::faces_fixed`
-  bool are_poses_written = true;   ///< false when the document holds them, as morph targets or animations
+  bool are_poses_written = true;   ///< false when the document makes them, by targets, animations or skins
   std::vector<std::size_t> levels; ///< numbers of faces of which the file has index buffers, too
   std::vector<std::size_t> guarded_poses; ///< by number, as in `Simplify_options::guarded_poses`
 };

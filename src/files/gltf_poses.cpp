@@ -5,6 +5,7 @@
 
 #include "files/gltf_column_reader.h"
 #include "files/gltf_document.h"
+#include "files/humanoid.h"
 
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
@@ -138,6 +139,7 @@ struct Changes
 {
   std::map<Index, tinygltf::Node> nodes;                                    // with transforms
   std::map<Index, Channel::Value> weights;                                  // of nodes
+  std::vector<files::Bone_turn> turns;                                      // one after another
   std::optional<std::vector<std::vector<std::size_t>>> targets_at_one = {}; // of instances, in the bind pose
 };
 
@@ -147,7 +149,7 @@ public:
   Gltf_poser(const Triangle_soup& mesh, const std::string& name) : m_mesh(mesh), m_name(name)
   {
     if (!mesh.scene)
-      fail("is no glTF file, and only these have morph targets and animations of their own");
+      fail("is no glTF file, and only these have morph targets, animations and skeletons of their own");
   }
 
   std::vector<Pose> morphs()
@@ -214,6 +216,32 @@ public:
     }
     if (result.empty())
       fail("its animation '" + wanted + "' moves no node");
+    return result;
+  }
+
+  std::vector<Pose> humanoids()
+  {
+    const files::Humanoid figure = files::find_humanoid(scene());
+    std::string missing;
+    for (const std::string& bone : figure.missing)
+      missing += (missing.empty() ? "" : ", ") + bone;
+    if (!missing.empty())
+      fail("its skeleton is not known to be that of a human figure: there is no " + missing +
+           "; name the joints as VRM or Mixamo does, or give poses by --animation");
+    read_skins();
+    if (m_skins.empty())
+      fail("has no skin that a figure could move");
+    const std::vector<files::Posture> postures = files::humanoid_postures(figure, to_world({}));
+    if (postures.empty())
+      fail("both legs of its figure begin at one place; correct nodes " +
+           std::to_string(figure.legs[0].front()) + " and " + std::to_string(figure.legs[1].front()));
+    limit(postures.size(), "give poses by --animation");
+    std::vector<Pose> result;
+    for (const files::Posture& posture : postures) {
+      Changes changes;
+      changes.turns = posture.turns;
+      result.push_back({unique(posture.name), points(changes)});
+    }
     return result;
   }
 
@@ -510,6 +538,9 @@ private:
           files::product(parent ? result[*parent] : identity_matrix,
                          files::local_matrix(moved == changes.nodes.end() ? transform_of(n) : moved->second));
     }
+    for (const files::Bone_turn& bone : changes.turns)
+      if (!files::turn(bone, scene().placed_nodes, result))
+        fail("node " + std::to_string(bone.node) + " is a bone without length; correct its skeleton");
     return result;
   }
 
@@ -624,6 +655,25 @@ bool has_morph_targets(const Triangle_soup& mesh)
 std::vector<Pose> morph_poses(const Triangle_soup& mesh, const std::string& name)
 {
   return poses_of(mesh, name, [](Gltf_poser& poser) { return poser.morphs(); });
+}
+
+bool has_humanoid(const Triangle_soup& mesh)
+{
+  try {
+    return mesh.scene &&
+           std::any_of(mesh.scene->instances.begin(), mesh.scene->instances.end(),
+                       [&](const Gltf_scene::Instance& instance) {
+                         return member(mesh.scene->document, "nodes")[instance.node].contains("skin");
+                       }) &&
+           files::find_humanoid(*mesh.scene).missing.empty();
+  } catch (const nlohmann::json::exception&) {
+    return false;
+  }
+}
+
+std::vector<Pose> humanoid_poses(const Triangle_soup& mesh, const std::string& name)
+{
+  return poses_of(mesh, name, [](Gltf_poser& poser) { return poser.humanoids(); });
 }
 
 std::vector<Pose> animation_poses(const Triangle_soup& mesh, const std::string& animation, std::size_t every,
