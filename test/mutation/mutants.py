@@ -773,6 +773,21 @@ group(
     ("if (key++ % every == 0)", "if (++key % every == 0)", "the first keyframe is left out"),
 )
 group(
+    "src/files/humanoid.cpp",
+    ("humanoid_poses_test",),
+    ("return found.empty() || is_below(node, found.back());", "return true;", "a hand hangs on no arm"),
+    ("!is_below(left_leg[0], *node) &&\n          !is_below(right_leg[0], *node))", "true)", "legs bow with the spine"),
+    ("outwards * v[0] * left[0] - v[2] * left[2]", "outwards * v[0] * left[0] + v[2] * left[2]",
+     "what looks along x bends its elbows backwards"),
+    ("outwards * v[0] * left[2] + v[2] * left[0]", "outwards * v[0] * left[2] + v[2]", "figures of VRM 0 sit backwards"),
+    ("return are_opposite ? turned(turned(v, from, third), third, to) : turned(v, from, to);",
+     "return turned(v, from, to);", "what points the other way is mirrored"),
+    ("const Vector origin = column == 3 ? pivot : Vector{};", "const Vector origin = {};", "bones turn about the origin"),
+    ("if (place.parent && moved.count(*place.parent) > 0)", "if (false)", "what hangs on a bone stays behind"),
+    ("result.back() += is_upper(i) ? char(name[i] - 'A' + 'a') : name[i];", "result.back() += name[i];",
+     "names in capitals are others"),
+)
+group(
     "src/files/gltf_writer.cpp",
     ("gltf_instances_test", "gltf_writing_test", "instances_test"),
     ("          *bytes += contents[i];", "", "copies are alike whatever they have become"),

@@ -21,11 +21,10 @@
 namespace selvedge::test {
 namespace {
 
-using Json = Figure::Json;
-using Vector = Kernel::Vector_3;
+using Direction = Kernel::Vector_3;
 
 // Each coordinate is the result of some hundred operations on numbers below 32.
-constexpr double tolerance = 1e-12;
+constexpr double rounding_of_bones = 1e-12;
 
 Figure figure_with_corners()
 {
@@ -34,28 +33,29 @@ Figure figure_with_corners()
   return figure;
 }
 
-Triangle_soup soup_of(const Json& document)
+Triangle_soup soup_of_figure(const Figure::Json& document)
 {
   return read_mesh(document.dump(), Mesh_format::gltf, "figure.gltf").soup;
 }
 
-std::vector<Pose> poses_of(const Json& document)
+std::vector<Pose> poses_of_figure(const Figure::Json& document)
 {
-  return humanoid_poses(soup_of(document), "figure.gltf");
+  return humanoid_poses(soup_of_figure(document), "figure.gltf");
 }
 
-Point_3 place(const Pose& pose, std::size_t bone)
+Point_3 place_of(const Pose& pose, std::size_t bone)
 {
   return pose.points[4 * bone];
 }
 
-Vector direction(const Pose& pose, std::size_t from, std::size_t to)
+Direction direction_between(const Pose& pose, std::size_t from, std::size_t to)
 {
-  const Vector v = place(pose, to) - place(pose, from);
+  const Direction v = place_of(pose, to) - place_of(pose, from);
   return v / std::sqrt(v.squared_length());
 }
 
-void expect_same(const std::vector<Pose>& found, const std::vector<Pose>& expected, double largest_difference)
+void expect_same_poses(const std::vector<Pose>& found, const std::vector<Pose>& expected,
+                       double largest_difference)
 {
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -68,21 +68,23 @@ void expect_same(const std::vector<Pose>& found, const std::vector<Pose>& expect
 }
 
 // Every bone keeps its length, and what hangs on it its shape and its sides.
-void expect_rigid(const std::vector<Pose>& poses, const Figure& figure)
+void expect_rigid_bones(const std::vector<Pose>& poses, const Figure& figure)
 {
   for (const Pose& pose : poses)
     for (std::size_t bone = 0; bone < Figure::bones; ++bone) {
-      std::array<Vector, 3> edges;
+      std::array<Direction, 3> edges;
       for (std::size_t k = 0; k < 3; ++k)
-        edges[k] = pose.points[4 * bone + k + 1] - place(pose, bone);
+        edges[k] = pose.points[4 * bone + k + 1] - place_of(pose, bone);
       for (std::size_t k = 0; k < 3; ++k) {
-        EXPECT_NEAR(edges[k] * edges[k], 1, tolerance) << pose.name << ' ' << bone;
-        EXPECT_NEAR(edges[k] * edges[(k + 1) % 3], 0, tolerance) << pose.name << ' ' << bone;
+        EXPECT_NEAR(edges[k] * edges[k], 1, rounding_of_bones) << pose.name << ' ' << bone;
+        EXPECT_NEAR(edges[k] * edges[(k + 1) % 3], 0, rounding_of_bones) << pose.name << ' ' << bone;
       }
-      EXPECT_NEAR(CGAL::determinant(edges[0], edges[1], edges[2]), 1, tolerance) << pose.name << ' ' << bone;
+      EXPECT_NEAR(CGAL::determinant(edges[0], edges[1], edges[2]), 1, rounding_of_bones)
+          << pose.name << ' ' << bone;
       const auto &at = figure.joints[bone].place, &from = figure.joints[figure.joints[bone].parent].place;
-      EXPECT_NEAR((place(pose, bone) - place(pose, figure.joints[bone].parent)).squared_length(),
-                  Vector(at[0] - from[0], at[1] - from[1], at[2] - from[2]).squared_length(), 64 * tolerance)
+      EXPECT_NEAR((place_of(pose, bone) - place_of(pose, figure.joints[bone].parent)).squared_length(),
+                  Direction(at[0] - from[0], at[1] - from[1], at[2] - from[2]).squared_length(),
+                  64 * rounding_of_bones)
           << pose.name << ' ' << bone;
     }
 }
@@ -90,15 +92,17 @@ void expect_rigid(const std::vector<Pose>& poses, const Figure& figure)
 TEST(Humanoid_poses, AreThoseTheyAreNamedAfter)
 {
   const Figure figure = figure_with_corners();
-  ASSERT_TRUE(has_humanoid(soup_of(figure.document())));
-  const std::vector<Pose> poses = poses_of(figure.document());
+  ASSERT_TRUE(has_humanoid(soup_of_figure(figure.document())));
+  const std::vector<Pose> poses = poses_of_figure(figure.document());
   std::vector<std::string> names;
   for (const Pose& pose : poses)
     names.push_back(pose.name);
   ASSERT_EQ(names, (std::vector<std::string>{"arms_down", "elbows_bent", "arms_forward", "arms_up", "step",
                                              "sit", "bow"}));
-  expect_rigid(poses, figure);
-  const auto along = [](const Pose& pose, std::size_t bone) { return direction(pose, bone, bone + 1); };
+  expect_rigid_bones(poses, figure);
+  const auto along = [](const Pose& pose, std::size_t bone) {
+    return direction_between(pose, bone, bone + 1);
+  };
   constexpr double nearly = 0.9;
   for (const auto& [upper_arm, upper_leg, outwards] :
        {std::tuple(Figure::left_upper_arm, Figure::left_upper_leg, 1),
@@ -117,15 +121,15 @@ TEST(Humanoid_poses, AreThoseTheyAreNamedAfter)
     EXPECT_LT(along(poses[5], upper_leg + 1).y(), -nearly);
     EXPECT_LT(along(poses[6], upper_arm).y(), -nearly);
     for (const std::size_t pose : {0u, 1u, 2u, 3u, 6u})
-      EXPECT_EQ(place(poses[pose], upper_leg + 2).y(), 1) << "stands on its feet";
+      EXPECT_EQ(place_of(poses[pose], upper_leg + 2).y(), 1) << "stands on its feet";
   }
-  EXPECT_GT(place(poses[4], Figure::left_foot).z(), place(poses[4], Figure::right_foot).z());
-  EXPECT_LT(place(poses[4], Figure::left_hand).z(), place(poses[4], Figure::right_hand).z());
-  const Point_3 between = CGAL::midpoint(place(poses[6], Figure::left_upper_arm), //
-                                         place(poses[6], Figure::right_upper_arm));
-  const Vector back = between - place(poses[6], Figure::spine);
+  EXPECT_GT(place_of(poses[4], Figure::left_foot).z(), place_of(poses[4], Figure::right_foot).z());
+  EXPECT_LT(place_of(poses[4], Figure::left_hand).z(), place_of(poses[4], Figure::right_hand).z());
+  const Point_3 between = CGAL::midpoint(place_of(poses[6], Figure::left_upper_arm), //
+                                         place_of(poses[6], Figure::right_upper_arm));
+  const Direction back = between - place_of(poses[6], Figure::spine);
   EXPECT_NEAR(std::atan2(back.z(), back.y()) * 180 / std::acos(-1), 40, 1);
-  EXPECT_NEAR(back.x(), 0, tolerance);
+  EXPECT_NEAR(back.x(), 0, rounding_of_bones);
 }
 
 TEST(Humanoid_poses, DoNotDependOnThePoseOfTheFile)
@@ -133,13 +137,14 @@ TEST(Humanoid_poses, DoNotDependOnThePoseOfTheFile)
   Figure lowered;
   lowered.stand_with_arms_lowered();
   lowered.wear_corners();
-  const std::vector<Pose> found = poses_of(lowered.document()),
-                          expected = poses_of(figure_with_corners().document());
-  expect_rigid(found, lowered);
+  const std::vector<Pose> found = poses_of_figure(lowered.document()),
+                          expected = poses_of_figure(figure_with_corners().document());
+  expect_rigid_bones(found, lowered);
   for (std::size_t pose = 0; pose < expected.size(); ++pose)
     for (std::size_t bone = 0; bone < Figure::bones; ++bone)
       for (int axis = 0; axis < 3; ++axis)
-        EXPECT_NEAR(place(found[pose], bone)[axis], place(expected[pose], bone)[axis], tolerance)
+        EXPECT_NEAR(place_of(found[pose], bone)[axis], place_of(expected[pose], bone)[axis],
+                    rounding_of_bones)
             << expected[pose].name << ' ' << bone;
 }
 
@@ -149,12 +154,12 @@ TEST(Humanoid_poses, FaceWhereTheFigureDoes)
   for (Figure::Joint& joint : turned.joints)
     joint.place = {-joint.place[0], joint.place[1], -joint.place[2]};
   turned.wear_corners();
-  const std::vector<Pose> found = poses_of(turned.document()),
-                          expected = poses_of(figure_with_corners().document());
+  const std::vector<Pose> found = poses_of_figure(turned.document()),
+                          expected = poses_of_figure(figure_with_corners().document());
   for (std::size_t pose = 0; pose < expected.size(); ++pose)
     for (std::size_t bone = 0; bone < Figure::bones; ++bone) {
-      const Point_3 p = place(expected[pose], bone);
-      EXPECT_EQ(place(found[pose], bone), Point_3(-p.x(), p.y(), -p.z()))
+      const Point_3 p = place_of(expected[pose], bone);
+      EXPECT_EQ(place_of(found[pose], bone), Point_3(-p.x(), p.y(), -p.z()))
           << expected[pose].name << ' ' << bone;
     }
 }
@@ -167,17 +172,17 @@ TEST(Humanoid_poses, TurnByAnyWayWhereABonePointsTheOtherWay)
     for (std::size_t i = 1; i <= 2; ++i)
       figure.joints[bone + i].place = {side * (3 - float(i)), 24 + 4 * float(i), more * float(i)};
   figure.wear_corners();
-  const std::vector<Pose> poses = poses_of(figure.document()),
-                          expected = poses_of(figure_with_corners().document());
-  expect_rigid(poses, figure);
+  const std::vector<Pose> poses = poses_of_figure(figure.document()),
+                          expected = poses_of_figure(figure_with_corners().document());
+  expect_rigid_bones(poses, figure);
   for (const std::size_t bone : {Figure::left_upper_arm, Figure::right_upper_arm})
     for (int axis = 0; axis < 3; ++axis)
-      EXPECT_NEAR(direction(poses[0], bone, bone + 1)[axis], direction(expected[0], bone, bone + 1)[axis],
-                  tolerance);
+      EXPECT_NEAR(direction_between(poses[0], bone, bone + 1)[axis],
+                  direction_between(expected[0], bone, bone + 1)[axis], rounding_of_bones);
 }
 
 // Names a bone as rigs do: {l} is replaced by l or r, and so are {L}, {left} and {Left}.
-std::string named(std::string pattern, bool is_left)
+std::string name_in_rig(std::string pattern, bool is_left)
 {
   for (const auto& [mark, left, right] :
        {std::tuple("{l}", "l", "r"), std::tuple("{L}", "L", "R"), std::tuple("{left}", "left", "right"),
@@ -189,7 +194,7 @@ std::string named(std::string pattern, bool is_left)
 
 TEST(Humanoid_poses, KnowTheNamesOfManyRigs)
 {
-  const std::vector<Pose> expected = poses_of(figure_with_corners().document());
+  const std::vector<Pose> expected = poses_of_figure(figure_with_corners().document());
   const std::vector<std::array<const char*, 6>> rigs = {
       {"{Left}Arm", "{Left}ForeArm", "{Left}Hand", "{Left}UpLeg", "{Left}Leg", "{Left}Foot"},
       {"mixamorig1:{Left}Arm_09", "mixamorig1:{Left}ForeArm_010", "mixamorig1:{Left}Hand_011",
@@ -214,19 +219,19 @@ TEST(Humanoid_poses, KnowTheNamesOfManyRigs)
     Figure figure = figure_with_corners();
     for (std::size_t i = 0; i < 6; ++i) {
       const std::size_t limbs = i < 3 ? Figure::left_upper_arm : Figure::left_upper_leg - 3;
-      figure.joints[limbs + i].name = named(rig[i], true);
-      figure.joints[limbs + i + 3].name = named(rig[i], false);
+      figure.joints[limbs + i].name = name_in_rig(rig[i], true);
+      figure.joints[limbs + i + 3].name = name_in_rig(rig[i], false);
     }
     SCOPED_TRACE(rig[0]);
-    expect_same(poses_of(figure.document()), expected, 0);
+    expect_same_poses(poses_of_figure(figure.document()), expected, 0);
   }
 }
 
 /// The same figure, with names that say nothing, and the bones in an extension.
-Json with_extension(Figure figure, const char* extension)
+Figure::Json in_extension(Figure figure, const char* extension)
 {
   const char* const bones[] = {"UpperArm", "LowerArm", "Hand", "UpperLeg", "LowerLeg", "Foot"};
-  Json list;
+  Figure::Json list;
   const bool is_of_1 = extension == std::string("VRMC_vrm");
   for (std::size_t i = 0; i < figure.joints.size(); ++i) {
     figure.joints[i].name = "mixamorig:RightHand";
@@ -239,7 +244,7 @@ Json with_extension(Figure figure, const char* extension)
     else
       list.push_back({{"bone", name}, {"node", i + 1}, {"useDefaultValues", true}});
   }
-  Json document = figure.document();
+  Figure::Json document = figure.document();
   document["extensions"][extension]["humanoid"]["humanBones"] = list;
   return document;
 }
@@ -247,17 +252,17 @@ Json with_extension(Figure figure, const char* extension)
 TEST(Humanoid_poses, TakeTheBonesThatVrmNames)
 {
   const Figure figure = figure_with_corners();
-  const std::vector<Pose> expected = poses_of(figure.document());
+  const std::vector<Pose> expected = poses_of_figure(figure.document());
   for (const char* extension : {"VRM", "VRMC_vrm"}) {
     SCOPED_TRACE(extension);
-    expect_same(poses_of(with_extension(figure, extension)), expected, 0);
-    Json document = with_extension(figure, extension);
-    Json& bones = document["extensions"][extension]["humanoid"]["humanBones"];
+    expect_same_poses(poses_of_figure(in_extension(figure, extension)), expected, 0);
+    Figure::Json document = in_extension(figure, extension);
+    Figure::Json& bones = document["extensions"][extension]["humanoid"]["humanBones"];
     (bones.is_array() ? bones[5] : bones["rightHand"])["node"] = 99;
-    EXPECT_FALSE(has_humanoid(soup_of(document)));
+    EXPECT_FALSE(has_humanoid(soup_of_figure(document)));
     (bones.is_array() ? bones[5] : bones["rightHand"])["node"] = "none";
-    EXPECT_FALSE(has_humanoid(soup_of(document)));
-    EXPECT_THROW(poses_of(document), Input_error);
+    EXPECT_FALSE(has_humanoid(soup_of_figure(document)));
+    EXPECT_THROW(poses_of_figure(document), Input_error);
   }
 }
 
@@ -267,35 +272,35 @@ TEST(Humanoid_poses, TurnTheFirstOfSeveralJointsOfOneName)
   figure.joints.push_back({figure.joints[Figure::left_upper_arm].name, Figure::hips, {0, 17, 0}});
   figure.joints.push_back({figure.joints[Figure::left_hand].name, Figure::hips, {1, 17, 0}});
   figure.wear_corners();
-  const std::vector<Pose> poses = poses_of(figure.document());
-  expect_same(poses, poses_of(figure_with_corners().document()), 0);
-  EXPECT_EQ(place(poses[0], Figure::bones), Point_3(0, 17, 0));
+  const std::vector<Pose> poses = poses_of_figure(figure.document());
+  expect_same_poses(poses, poses_of_figure(figure_with_corners().document()), 0);
+  EXPECT_EQ(place_of(poses[0], Figure::bones), Point_3(0, 17, 0));
 }
 
 TEST(Humanoid_poses, TakeNodesWithMatricesAndScales)
 {
   const Figure figure = figure_with_corners();
-  Json document = figure.document();
-  for (Json& node : document["nodes"])
+  Figure::Json document = figure.document();
+  for (Figure::Json& node : document["nodes"])
     if (node.contains("translation")) {
-      const Json t = node["translation"];
+      const Figure::Json t = node["translation"];
       node.erase("translation");
       node["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, t[0], t[1], t[2], 1};
     }
-  const std::vector<Pose> expected = poses_of(figure.document());
-  expect_same(poses_of(document), expected, 0);
+  const std::vector<Pose> expected = poses_of_figure(figure.document());
+  expect_same_poses(poses_of_figure(document), expected, 0);
 
   // As large as four, and turned by a quarter about y: (x, y, z) goes to (4 z, 4 y, -4 x).
   document["nodes"].push_back(
       {{"children", {1}}, {"matrix", {0, 0, -4, 0, 0, 4, 0, 0, 4, 0, 0, 0, 0, 0, 0, 1}}});
   document["scenes"][0]["nodes"] = {0, document["nodes"].size() - 1};
-  const std::vector<Pose> found = poses_of(document);
+  const std::vector<Pose> found = poses_of_figure(document);
   for (std::size_t pose = 0; pose < expected.size(); ++pose)
     for (std::size_t v = 0; v < expected[pose].points.size(); ++v) {
       const Point_3 &p = expected[pose].points[v], &q = found[pose].points[v];
-      EXPECT_NEAR(q.x(), 4 * p.z(), 4 * tolerance);
-      EXPECT_NEAR(q.y(), 4 * p.y(), 4 * tolerance);
-      EXPECT_NEAR(q.z(), -4 * p.x(), 4 * tolerance);
+      EXPECT_NEAR(q.x(), 4 * p.z(), 4 * rounding_of_bones);
+      EXPECT_NEAR(q.y(), 4 * p.y(), 4 * rounding_of_bones);
+      EXPECT_NEAR(q.z(), -4 * p.x(), 4 * rounding_of_bones);
     }
 }
 
@@ -308,7 +313,7 @@ TEST(Humanoid_poses, KeepCoincidentVerticesTogether)
   figure.vertices.push_back(
       {{5.5f, 24.3f, 0.7f}, {4, 9, Figure::chest, Figure::left_upper_arm}, {0.1f, 0, 0.6f, 0.3f}});
   figure.corners.insert(figure.corners.end(), {0, 1, first, 0, 2, first + 1});
-  for (const Pose& pose : poses_of(figure.document()))
+  for (const Pose& pose : poses_of_figure(figure.document()))
     EXPECT_EQ(pose.points[first], pose.points[first + 1]) << pose.name;
 }
 
@@ -318,7 +323,7 @@ TEST(Humanoid_poses, DoNotBowWithoutASpine)
   figure.joints[Figure::left_upper_arm].parent = Figure::hips;
   figure.joints[Figure::right_upper_arm].parent = Figure::hips;
   figure.wear_corners();
-  const std::vector<Pose> poses = poses_of(figure.document());
+  const std::vector<Pose> poses = poses_of_figure(figure.document());
   ASSERT_EQ(poses.size(), 6u);
   EXPECT_EQ(poses.back().name, "sit");
 }
@@ -326,15 +331,15 @@ TEST(Humanoid_poses, DoNotBowWithoutASpine)
 TEST(Humanoid_poses, OfOtherFilesAreRefused)
 {
   const auto refused = [](const char* what, const std::function<void(Figure&)>& spoil,
-                          const std::function<void(Json&)>& change = {}) {
+                          const std::function<void(Figure::Json&)>& change = {}) {
     Figure figure;
     spoil(figure);
     figure.wear_corners();
-    Json document = figure.document();
+    Figure::Json document = figure.document();
     if (change)
       change(document);
     try {
-      poses_of(document);
+      poses_of_figure(document);
       ADD_FAILURE() << what;
     } catch (const Input_error& error) {
       EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
@@ -346,7 +351,7 @@ TEST(Humanoid_poses, OfOtherFilesAreRefused)
   refused("there is no rightLowerLeg, rightFoot;",
           [](Figure& figure) { figure.joints[Figure::right_lower_leg].parent = Figure::hips; });
   refused("there is no rightHand", as_it_is,
-          [](Json& json) { json["nodes"][Figure::right_hand + 1].erase("name"); });
+          [](Figure::Json& json) { json["nodes"][Figure::right_hand + 1].erase("name"); });
   refused("node 4 is a bone without length", [](Figure& figure) {
     figure.joints[Figure::left_lower_arm].place = figure.joints[Figure::left_upper_arm].place;
   });
@@ -354,9 +359,9 @@ TEST(Humanoid_poses, OfOtherFilesAreRefused)
     figure.joints[Figure::right_upper_leg].place = {2, 14, 0};
   });
   refused("has no skin that a figure could move", as_it_is,
-          [](Json& json) { json["nodes"][0].erase("skin"); });
+          [](Figure::Json& json) { json["nodes"][0].erase("skin"); });
 
-  Triangle_soup soup = soup_of(figure_with_corners().document());
+  Triangle_soup soup = soup_of_figure(figure_with_corners().document());
   soup.scene = nullptr;
   EXPECT_FALSE(has_humanoid(soup));
   EXPECT_THROW(humanoid_poses(soup, "x"), Input_error);
