@@ -564,6 +564,8 @@ World with_other_options(const World& world, std::uint64_t number)
   choose_options(other, random);
   if (!world.may_intersect.empty())
     other.options.faces_per_cell = 0;
+  if (std::count(other.dropped.begin(), other.dropped.end(), other.intent.weights) > 0)
+    other.intent.weights.clear();
   fit_options_to_poses(other);
   choose_clearance(other, number);
   return other;
