@@ -3,6 +3,7 @@
 
 #include "Simplify_request.h"
 
+#include "attributes_option.h"
 #include "html_report.h"
 #include "output_files.h"
 #include "part_pairs.h"
@@ -607,15 +608,11 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->type_name("auto|keep|mend|loose|recompute|drop")
       ->default_str("auto")
       ->group(seams);
-  command
-      .add_option("--drop-attribute", request.dropped_attributes,
-                  "Leaves out an attribute of IN, and the seams that it makes: texture (with the textures "
-                  "of glTF materials), colors, or a vertex attribute by the name that info gives it. For "
-                  "textures that are baked anew, and those of which every face has its own piece. May be "
-                  "given several times.")
-      ->type_name("NAME")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+  add_attributes_option(command, request.dropped_attributes,
+                        "Leaves out an attribute of IN, and the seams that it makes: texture (with the "
+                        "textures of glTF materials), colors, or a vertex attribute by the name that info "
+                        "gives it. For textures that are baked anew, and those of which every face has its "
+                        "own piece.")
       ->group(seams);
 
   const char* const tuning = "Tuning";

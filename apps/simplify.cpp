@@ -4,6 +4,7 @@
 #include "Outcome.h"
 #include "Progress_bar.h"
 #include "Simplify_request.h"
+#include "attributes_option.h"
 #include "cost_of_poses.h"
 #include "html_report.h"
 #include "interruption.h"
@@ -21,7 +22,6 @@
 #include <selvedge/Error.h>
 #include <selvedge/Reduction_log.h>
 #include <selvedge/Sha256.h>
-#include <selvedge/attributes.h>
 #include <selvedge/collapse_log.h>
 #include <selvedge/key_poses.h>
 #include <selvedge/merge.h>
@@ -109,14 +109,10 @@ private:
 
   void drop_attributes_of(Mesh_file& file)
   {
-    try {
-      const std::size_t joined = drop_attributes(file.soup, m_request.dropped_attributes);
-      if (joined > 0)
-        file.notes.remarks["corners joined, for their vertices differ in nothing but what is left out"] +=
-            joined;
-    } catch (const Input_error& error) {
-      throw Input_error(input_name(m_request.input) + ": " + error.what() + " (--drop-attribute)");
-    }
+    const std::size_t joined = drop_attributes(file.soup, m_request.dropped_attributes, m_request.input);
+    if (joined > 0)
+      file.notes.remarks["corners joined, for their vertices differ in nothing but what is left out"] +=
+          joined;
     m_log_header.dropped = m_request.dropped_attributes;
   }
 

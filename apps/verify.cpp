@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include "attributes_option.h"
 #include "blind_spots.h"
 #include "html_report.h"
 #include "output_files.h"
@@ -15,7 +16,6 @@
 
 #include <selvedge/Error.h>
 #include <selvedge/Parts.h>
-#include <selvedge/attributes.h>
 #include <selvedge/compare.h>
 #include <selvedge/mesh_files.h>
 #include <selvedge/normals.h>
@@ -320,11 +320,7 @@ Exit_code run(const Verify_request& request)
     Pose_sources of_original = request.poses;
     of_original.files = request.files_of_poses_of_original;
     read_poses(of_original, request.original, original.soup);
-    try {
-      drop_attributes(original.soup, request.dropped_attributes);
-    } catch (const Input_error& error) {
-      throw Input_error(input_name(request.original) + ": " + error.what() + " (--drop-attribute)");
-    }
+    drop_attributes(original.soup, request.dropped_attributes, request.original);
     report["original"] = input_json(request.original, original);
     if (has_normals_of_vertices(mesh.format) || has_normals_of_vertices(original.format)) {
       // Vertices that a file has for its normals alone make no pieces.
@@ -371,13 +367,8 @@ Action add_verify(CLI::App& command)
       ->type_name("");
   command.add_option("--against", request->original, "Original mesh, of which MESH is a reduction.")
       ->type_name("FILE");
-  command
-      .add_option("--drop-attribute", request->dropped_attributes,
-                  "Attribute of the original that MESH has lost by this option of simplify. May be given "
-                  "several times.")
-      ->type_name("NAME")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_attributes_option(command, request->dropped_attributes,
+                        "Attribute of the original that MESH has lost by this option of simplify.");
   add_level_option(command, request->level, "MESH");
   const char* const poses = "Poses (the same vertices and faces at other places)";
   add_pose_options(command, request->poses, "MESH, and of its original",

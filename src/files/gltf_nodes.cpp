@@ -125,14 +125,13 @@ private:
   // VRM 0 names meshes by their numbers, in expressions and for the view through the eyes; VRM 1 names nodes.
   void number_meshes_of_avatar()
   {
-    if (!member(m_document, "extensions").contains("VRM"))
-      return;
-    Json& avatar = m_document["extensions"]["VRM"];
     const std::vector<std::optional<Index>>& meshes = m_levels.front().meshes;
     const auto number = [&](Json& entries) {
+      if (!entries.is_array())
+        return;
       Json left = Json::array();
       for (Json& entry : entries) {
-        const Json mesh = entry.value("mesh", Json());
+        const Json mesh = member(entry, "mesh");
         const bool is_known = mesh.is_number_unsigned() && mesh.get<std::size_t>() < meshes.size();
         if (is_known && !meshes[mesh.get<std::size_t>()])
           continue; // all its faces are gone
@@ -142,12 +141,12 @@ private:
       }
       entries = std::move(left);
     };
-    const Json::json_pointer annotations("/firstPerson/meshAnnotations"),
-        groups("/blendShapeMaster/blendShapeGroups");
-    if (avatar.contains(annotations))
-      number(avatar[annotations]);
-    if (avatar.contains(groups))
-      for (Json& group : avatar[groups])
+    const Json::json_pointer annotations("/extensions/VRM/firstPerson/meshAnnotations"),
+        groups("/extensions/VRM/blendShapeMaster/blendShapeGroups");
+    if (m_document.contains(annotations))
+      number(m_document[annotations]);
+    if (m_document.contains(groups))
+      for (Json& group : m_document[groups])
         if (group.contains("binds"))
           number(group["binds"]);
   }

@@ -47,8 +47,9 @@ void drop_textures(Json& json, const Is_dropped& is_dropped)
                             entry->is_object() && entry->contains("index");
     if (is_texture) {
       Json number = entry->value("texCoord", Json(0));
-      if (entry->contains("extensions") && (*entry)["extensions"].contains("KHR_texture_transform"))
-        number = (*entry)["extensions"]["KHR_texture_transform"].value("texCoord", number);
+      const Json::json_pointer moved("/extensions/KHR_texture_transform/texCoord");
+      if (entry->contains(moved))
+        number = (*entry)[moved];
       if (is_dropped("TEXCOORD_" + number.dump())) {
         entry = json.erase(entry);
         continue;
@@ -96,6 +97,12 @@ private:
                        [&](const std::string& name) { return means(name, attribute); });
   }
 
+  static bool is_needed(const std::string& attribute)
+  {
+    return attribute == "POSITION" || attribute == "NORMAL" || begins_with(attribute, "JOINTS_") ||
+           begins_with(attribute, "WEIGHTS_");
+  }
+
   std::set<std::string> attributes() const
   {
     std::set<std::string> result;
@@ -110,11 +117,10 @@ private:
 
   void require(const std::string& name) const
   {
-    for (const char* needed : {"POSITION", "NORMAL", "JOINTS_", "WEIGHTS_"})
-      if (begins_with(name, needed))
-        throw Argument_error(
-            "attribute '" + name + "' cannot be left out alone: " +
-            (name == "NORMAL" ? "normals are dropped by --normals drop" : "positions and skins need it"));
+    if (is_needed(name))
+      throw Argument_error(
+          "attribute '" + name + "' cannot be left out alone: " +
+          (name == "NORMAL" ? "normals are dropped by --normals drop" : "positions and skins need it"));
     const std::set<std::string> all = attributes();
     const bool is_here =
         std::any_of(all.begin(), all.end(), [&](const std::string& one) { return means(name, one); }) ||
@@ -123,8 +129,7 @@ private:
       return;
     std::string here = m_soup.uvs.empty() ? "" : "texture";
     for (const std::string& one : all)
-      if (!begins_with(one, "POSITION") && !begins_with(one, "NORMAL") && !begins_with(one, "JOINTS_") &&
-          !begins_with(one, "WEIGHTS_"))
+      if (!is_needed(one))
         here += (here.empty() ? "" : ", ") + one;
     throw Input_error("the mesh has no attribute '" + name + "' to leave out; " +
                       (here.empty() ? "it has none" : "it has " + here));

@@ -395,7 +395,7 @@ TEST(App_simplify, LeavesOutATextureOfWhichEveryFaceHasItsOwnPiece)
   }
   expect_refused(
       {"simplify", folder / "in.ply", "-o", folder / "out.ply", "--ratio", "0.1", "--drop-attribute", "heat"},
-      3, "no attribute 'heat' to leave out; it has texture");
+      3, "--drop-attribute: the mesh has no attribute 'heat' to leave out; it has texture");
 }
 
 // The options named are those that help: with them, the target is reached.
