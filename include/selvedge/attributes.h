@@ -23,7 +23,8 @@ namespace selvedge {
 /// triangles name the first of them, and the others are unused. Alike, bit for bit, must be positions in all
 /// poses, normals and texture coordinates that all corners of a vertex share, and attributes; in a glTF scene
 /// the node and all accessors, those of morph targets included. Vertices that differ in nothing at all stay
-/// apart, as pieces that lie beside each other, unless a third one differs from them in what is left out.
+/// apart, as pieces that lie beside each other, unless a third one differs from them in what is left out, or
+/// every face has vertices of its own (at least 100 triangles, and twice as many vertices).
 ///
 /// Throws `Input_error` where the mesh has nothing of a name, and `Argument_error` for `POSITION`, `NORMAL`
 /// (`Normals_choice::drop`) and what a skin needs.
