@@ -1,0 +1,277 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// What the summary of `simplify` says held a reduction back, or cost it its shape, and which option it names.
+
+#include "App_run.h"
+#include "support/soups.h"
+
+#include <selvedge/mesh_files.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace selvedge::test {
+namespace {
+
+TEST(App_simplify, WritesWhenTheTargetIsOutOfReach)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("sheets", "in.obj", 1000);
+  const std::string out = folder / "out.obj";
+  const App_result lenient = run_app({"simplify", in, "-o", out, "--faces", "1", "--error", "none"});
+  EXPECT_EQ(lenient.code, 0);
+  EXPECT_EQ(lenient.err, "");
+  EXPECT_NE(lenient.out.find("target 1 not reached\nheld back: of "), std::string::npos) << lenient.out;
+  const std::string written = contents_of(out);
+  std::filesystem::remove(out);
+  expect_refused(
+      {"simplify", in, "-o", out, "--faces", "1", "--error", "none", "--require-target", "--quiet"}, 1,
+      "was missed: ");
+  EXPECT_EQ(contents_of(out), written);
+}
+
+TEST(App_simplify, NamesTheAttributeThatMakesSeams)
+{
+  const Workspace folder;
+  Triangle_soup soup; // every triangle has vertices, and a heat, of its own
+  Attribute heat{"heat", Attribute::Type::uint16, 1, false, {}};
+  const Triangle_soup grid = sheet(20, 20);
+  for (const Index_triple& triangle : grid.triangles) {
+    const Index v = Index(soup.points.size()), t = v / 3;
+    soup.triangles.push_back({v, v + 1, v + 2});
+    for (const Index corner : triangle) {
+      soup.points.push_back(grid.points[corner]);
+      heat.rows.insert(heat.rows.end(), {static_cast<unsigned char>(t), static_cast<unsigned char>(t >> 8)});
+    }
+  }
+  write_mesh(folder / "cool.ply", soup);
+  soup.vertex_attributes.push_back(heat);
+  write_mesh(folder / "heat.ply", soup);
+  const auto says = [&](const std::string& in, const char* what) {
+    return run_app({"simplify", in, "-o", folder / "out.ply", "--faces", "1"}).out.find(what) !=
+           std::string::npos;
+  };
+  const char* const what = "; 1,160 edges of the input are seams because of heat and nothing else: ";
+  EXPECT_TRUE(says(folder / "heat.ply", what));
+  EXPECT_TRUE(says(folder / "heat.ply", "--drop-attribute heat lets them go, if nobody needs it\n"));
+  EXPECT_NE(run_app({"info", folder / "heat.ply"}).out.find("it is for heat (1,160)"), std::string::npos);
+  EXPECT_FALSE(says(folder / "cool.ply", "seams because of"));
+}
+
+// With what was left out, the reduction is logged, replayed, and compared with the original.
+TEST(App_simplify, LeavesOutATextureOfWhichEveryFaceHasItsOwnPiece)
+{
+  const Workspace folder;
+  Triangle_soup soup = sheet(20, 20);
+  for (Index t = 0; t < soup.triangles.size(); ++t)
+    for (Index k = 0; k < 3; ++k) {
+      soup.uvs.values.push_back({t / 800., k / 4.});
+      if (k == 0)
+        soup.uvs.of_triangle.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    }
+  for (const char* ending : {"obj", "ply", "glb"}) {
+    const std::string in = folder / ("in." + std::string(ending)),
+                      out = folder / ("out." + std::string(ending)), log = folder / "steps.log";
+    write_mesh(in, soup);
+    const App_result held = run_app({"simplify", in, "-o", out, "--ratio", "0.1"});
+    EXPECT_NE(held.out.find("because of texture and nothing else: --drop-attribute texture lets them go"),
+              std::string::npos)
+        << held.out;
+    const App_result reduced =
+        run_app({"simplify", in, "-o", out, "--ratio", "0.1", "--drop-attribute", "texture", "--log", log});
+    EXPECT_NE(reduced.out.find("target 80 reached"), std::string::npos) << reduced.out;
+    EXPECT_TRUE(read_mesh(out).soup.uvs.empty());
+    const App_result replayed = run_app({"replay", in, log});
+    EXPECT_EQ(replayed.code, 0) << replayed.err;
+    EXPECT_NE(replayed.out.find("not judged: dropped: "), std::string::npos) << replayed.out;
+    EXPECT_EQ(run_app({"verify", out, "--against", in, "--drop-attribute", "texture"}).code, 0);
+  }
+  expect_refused(
+      {"simplify", folder / "in.ply", "-o", folder / "out.ply", "--ratio", "0.1", "--drop-attribute", "heat"},
+      3, "--drop-attribute: the mesh has no attribute 'heat' to leave out; it has texture");
+}
+
+// The options named are those that help: with them, the target is reached.
+TEST(App_simplify, NamesTheOptionsThatHelp)
+{
+  const Workspace folder;
+  const std::string in = folder / "in.obj", out = folder / "out.obj";
+  ASSERT_EQ(run_app({"generate", "skirt", "-o", in, "--faces", "14000", "--quiet"}).code, 0);
+  const App_result held = run_app({"simplify", in, "-o", out, "--ratio", "0.1", "--normal-change", "45"});
+  ASSERT_NE(held.out.find("target 1,400 not reached"), std::string::npos) << held.out;
+  EXPECT_NE(held.out.find("; try --normal-change 90 against the turn of normals and --error 0.05 against the "
+                          "error bound\n"),
+            std::string::npos)
+      << held.out;
+  const App_result helped = run_app({"simplify", in, "-o", out, "--ratio", "0.1", "--error", "0.05"});
+  EXPECT_NE(helped.out.find("target 1,400 reached"), std::string::npos) << helped.out;
+}
+
+// Where each vertex has one normal, leaving the normals out would join none of them.
+TEST(App_simplify, NamesTheOptionThatMakesNoSeamsOfNormals)
+{
+  const Workspace folder;
+  Triangle_soup shaded = unshared(sheet(4, 4));
+  for (Index t = 0; t < shaded.triangles.size(); ++t)
+    for (Index k = 0; k < 3; ++k)
+      shaded.normals.values.push_back({0.1 * k, 0.01 * t, 1});
+  shaded.normals.of_triangle = shaded.triangles;
+  write_mesh(folder / "in.ply", shaded);
+  const App_result apart =
+      run_app({"simplify", folder / "in.ply", "-o", folder / "out.ply", "--ratio", "0.1"});
+  EXPECT_NE(apart.out.find("by normals that differ across edges, "), std::string::npos) << apart.out;
+  EXPECT_NE(apart.out.find("; try --normals loose\n"), std::string::npos) << apart.out;
+  const std::string report = folder / "report.json";
+  const App_result loose = run_app({"simplify", folder / "in.ply", "-o", folder / "out.ply", "--ratio", "0.1",
+                                    "--normals", "loose", "--report", report});
+  EXPECT_NE(loose.out.find("target 3 reached"), std::string::npos) << loose.out;
+  EXPECT_EQ(nlohmann::json::parse(contents_of(report))["output"]["normals"], "picked");
+  EXPECT_EQ(run_app({"verify", folder / "out.ply", "--against", folder / "in.ply"}).code, 0);
+  for (const std::string name : {"out.glb", "out.ply"}) {
+    const std::string dropped =
+        run_app({"simplify", folder / "in.ply", "-o", folder / name, "--ratio", "0.1", "--normals", "drop"})
+            .out;
+    EXPECT_EQ(dropped.find("shade every face flat") != std::string::npos, name == "out.glb") << dropped;
+  }
+}
+
+// Nor does it name as lost what the input does not have.
+TEST(App_simplify, NamesWhatTheOutputLosesAlone)
+{
+  const Workspace folder;
+  const std::string obj = folder.generate("grid", "in.obj", 200), stl = folder / "in.stl",
+                    out = folder / "out.stl";
+  const App_result lost = run_app({"simplify", obj, "-o", stl, "--ratio", "1"});
+  EXPECT_NE(lost.out.find("vertex numbers"), std::string::npos) << lost.out;
+  const App_result none = run_app({"simplify", stl, "-o", out, "--ratio", "0.5", "--placement", "optimal"});
+  EXPECT_EQ(none.out.find("not in the output"), std::string::npos) << none.out;
+  EXPECT_EQ(none.out.find("attributes"), std::string::npos) << none.out;
+}
+
+// Returns the root mean square distance that a summary has, in per cent; -1 where it has none.
+double rms_of(const std::string& summary)
+{
+  const std::string before = "distance from the original's vertices: ";
+  const std::size_t place = summary.find(before);
+  return place == std::string::npos ? -1 : std::stod(summary.substr(place + before.size()));
+}
+
+// What it says is so: with the faces that it names, the result is nearer to the original.
+TEST(App_simplify, SaysThatWhatIsNotHeldHasBeenFlattened)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("nested", "in.obj", 2000), out = folder / "out.obj";
+  const App_result missed = run_app({"simplify", in, "-o", out, "--ratio", "0.01"});
+  const std::string text =
+      "\nflattened: all that nothing holds, as far as --error 0.01 allows; a target of a "
+      "tenth more faces, --faces ";
+  const std::size_t place = missed.out.find(text);
+  ASSERT_NE(place, std::string::npos) << missed.out;
+  const std::string faces = std::to_string(std::stoul(missed.out.substr(place + text.size())));
+  const App_result helped = run_app({"simplify", in, "-o", out, "--faces", faces});
+  EXPECT_EQ(helped.out.find("\nflattened: "), std::string::npos) << helped.out;
+  EXPECT_GT(rms_of(helped.out), 0);
+  EXPECT_LT(rms_of(helped.out), 0.95 * rms_of(missed.out));
+  const App_result levels = run_app({"simplify", in, "-o", folder / "{lod}.obj", "--lods", "0.5,0.01"});
+  EXPECT_NE(levels.out.find("a ratio that is larger by as much, keeps"), std::string::npos) << levels.out;
+  const App_result part = run_app({"simplify", in, "-o", out, "--ratio", "0.01", "--ratio", "sphere_0=0.5"});
+  EXPECT_NE(part.out.find("a ratio that is larger by as much, keeps"), std::string::npos) << part.out;
+  for (const std::vector<std::string>& options : // there is no target or no room, or the target is met
+       {std::vector<std::string>{"--error", "0.01"},
+        {"--ratio", "0.01", "--error", "none"},
+        {"--ratio", "0.01", "--error", "0"},
+        {"--ratio", "0.5"}}) {
+    std::vector<std::string> arguments{"simplify", in, "-o", out};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    EXPECT_EQ(run_app(arguments).out.find("\nflattened: "), std::string::npos);
+  }
+}
+
+// What it says is so; it is said where few faces are left, and where new places are allowed.
+TEST(App_simplify, NamesThePlacementThatComesNearer)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("nested", "in.obj", 20000), out = folder / "out.obj";
+  const auto run = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"simplify", in, "-o", out});
+    return run_app(options).out;
+  };
+  const std::string advice = "; --placement optimal comes nearer\n";
+  const std::string advised = run({"--ratio", "0.2"}),
+                    followed = run({"--ratio", "0.2", "--placement", "optimal"});
+  EXPECT_NE(advised.find(advice), std::string::npos) << advised;
+  EXPECT_EQ(followed.find(advice), std::string::npos) << followed;
+  EXPECT_LT(rms_of(followed), 0.8 * rms_of(advised));
+  EXPECT_GT(rms_of(followed), 0);
+  EXPECT_EQ(run({"--ratio", "0.3"}).find(advice), std::string::npos);
+  EXPECT_EQ(run({"--ratio", "0.2", "--progressive", folder / "p.glb"}).find(advice), std::string::npos);
+  const App_result levels = run_app({"simplify", in, "-o", folder / "{lod}.obj", "--lods", "0.2,0.1"});
+  EXPECT_EQ(levels.out.find(advice), std::string::npos) << levels.out;
+}
+
+// The limit is small for the whole and large for the part. What the message names keeps more of the part; it
+// is said of no part that has a ratio of its own, and of none where all keep the same share.
+TEST(App_simplify, NamesThePartThatHasLostItsShape)
+{
+  const Workspace folder;
+  const std::string ball = folder.generate("nested", "ball.obj", 2000, 1), in = folder / "in.obj",
+                    out = folder / "out.obj", report = folder / "report.json";
+  const Triangle_soup soup = read_mesh(ball).soup;
+  const auto write = [&](double size_of_head) {
+    std::ofstream stream(in);
+    std::size_t first = 1;
+    for (const auto& [name, size] : {std::pair("body", 1.0), std::pair("head", size_of_head)}) {
+      stream << "g " << name << '\n';
+      for (const Point_3& p : soup.points)
+        stream << "v " << size * p.x() << ' ' << size * p.y() << ' ' << size * p.z() + 8 * first << '\n';
+      for (const auto& [a, b, c] : soup.triangles)
+        stream << "f " << first + a << ' ' << first + b << ' ' << first + c << '\n';
+      first += soup.points.size();
+    }
+  };
+  const auto run = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"simplify", in, "-o", out, "--ratio", "0.1", "--report", report};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return run_app(arguments).out;
+  };
+  const auto faces_of_head = [&] {
+    const nlohmann::json written = nlohmann::json::parse(contents_of(report));
+    for (const nlohmann::json& part : written["parts"])
+      if (part["name"] == "head")
+        return part["faces"]["output"].get<std::size_t>();
+    return std::size_t(0);
+  };
+  write(0.05);
+  const std::string coarse = run({});
+  EXPECT_NE(coarse.find("\nparts: group 'head' keeps "), std::string::npos) << coarse;
+  EXPECT_NE(coarse.find("; --ratio 'head=0.2' keeps more of it\n"), std::string::npos) << coarse;
+  const std::size_t few = faces_of_head();
+  const std::string helped = run({"--ratio", "head=0.2"});
+  EXPECT_EQ(helped.find("\nparts: "), std::string::npos) << helped;
+  EXPECT_GT(faces_of_head(), 4 * few);
+  EXPECT_EQ(run({"--cells"}).find("\nparts: "), std::string::npos);
+  write(1);
+  EXPECT_EQ(run({}).find("\nparts: "), std::string::npos);
+}
+
+// The target of the whole is for what belongs to no part with a ratio of its own.
+TEST(App_simplify, BlamesNoPartThatIsAtItsOwnTarget)
+{
+  const Workspace folder;
+  const std::string in = folder / "in.obj", out = folder / "out.obj";
+  write_text(in, contents_of(folder.generate("grid", "grid.obj", 200)) +
+                     "g rest\nv 9 9 9\nv 8 9 9\nv 9 8 9\nf -3 -2 -1\n");
+  const std::string held = run_app({"simplify", in, "-o", out, "--ratio", "0", "--ratio", "grid=0.5"}).out;
+  EXPECT_NE(held.find(" by parts at their target, "), std::string::npos) << held;
+  EXPECT_EQ(held.find("; try "), std::string::npos) << held;
+}
+
+} // namespace
+} // namespace selvedge::test
