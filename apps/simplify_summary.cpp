@@ -10,6 +10,7 @@
 #include "text.h"
 
 #include <selvedge/Parts.h>
+#include <selvedge/attributes.h>
 #include <selvedge/gltf_poses.h>
 #include <selvedge/inspect.h>
 #include <selvedge/normals.h>
@@ -175,20 +176,11 @@ std::string seams_to_leave_out(const Prepared_soup& prepared, const Hindrances& 
       most = {name, count};
   if (10 * most.second < hindrances.total())
     return "";
-  const auto is_one_of = [&](std::initializer_list<const char*> starts) {
-    return std::any_of(starts.begin(), starts.end(),
-                       [&](const std::string& start) { return most.first.rfind(start, 0) == 0; });
-  };
-  const bool can_be_dropped =
-      !is_one_of({"JOINTS_", "WEIGHTS_"}) && most.first.find(' ') == std::string::npos;
+  const std::string name = name_to_drop(most.first);
   return "; " + counted(most.second, "edge") + " of the input " +
          (most.second == 1 ? "is a seam" : "are seams") + " because of " + most.first +
          " and nothing else: " +
-         (can_be_dropped ? "--drop-attribute " +
-                               (is_one_of({"red", "green", "blue", "alpha", "COLOR_"}) ? std::string("colors")
-                                                                                       : most.first) +
-                               " lets them go"
-                         : "leave it out of the file") +
+         (name.empty() ? "leave it out of the file" : "--drop-attribute " + name + " lets them go") +
          ", if nobody needs it";
 }
 

@@ -32,6 +32,11 @@ namespace selvedge {
 /// **Complexity** O(n) expected for n corners and bytes of attributes.
 std::size_t drop_attributes(Triangle_soup& soup, const std::vector<std::string>& names);
 
+/// Returns the name by which `drop_attributes` leaves out an attribute of this name (`seams_of_attributes`):
+/// `colors` for colours, and itself for others; empty where it leaves none out, as for what a skin needs and
+/// for morph targets.
+std::string name_to_drop(const std::string& attribute);
+
 } // namespace selvedge
 
 #endif // SELVEDGE_ATTRIBUTES_H

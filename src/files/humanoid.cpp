@@ -5,6 +5,8 @@
 
 #include "files/gltf_document.h"
 
+#include <selvedge/internal/Vector_of_doubles.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -196,15 +198,10 @@ const Directions s_postures[] = {
     {"bow", {hanging_in_bow, hanging_in_bow}, {}, {{0, 0.77, 0.64}}},
 };
 
-double product(const Vector& a, const Vector& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 // Returns false, and changes nothing, when the vector has no direction.
 bool normalise(Vector& vector)
 {
-  const double length = std::sqrt(product(vector, vector));
+  const double length = std::sqrt(internal::dot(vector, vector));
   if (!(length > 0 && std::isfinite(length)))
     return false;
   for (double& number : vector)
@@ -215,18 +212,6 @@ bool normalise(Vector& vector)
 Vector place(const Matrix& to_world)
 {
   return {to_world[0][3], to_world[1][3], to_world[2][3]};
-}
-
-// Returns a unit vector perpendicular to another: across the axis to which this is least parallel.
-Vector across(const Vector& unit)
-{
-  const auto less = [](double a, double b) { return std::abs(a) < std::abs(b); };
-  const std::size_t axis = std::size_t(std::min_element(unit.begin(), unit.end(), less) - unit.begin());
-  Vector result = {};
-  result[(axis + 1) % 3] = -unit[(axis + 2) % 3];
-  result[(axis + 2) % 3] = unit[(axis + 1) % 3];
-  normalise(result);
-  return result;
 }
 
 } // namespace
@@ -284,8 +269,8 @@ bool turn(const Bone_turn& bone, const std::vector<Gltf_scene::Placed_node>& nod
     return false;
   // Between opposite directions there are many ways: this one leads over a third direction.
   constexpr double nearly_opposite = -1 + 1e-6;
-  const bool are_opposite = product(from, to) < nearly_opposite;
-  const Vector third = across(to);
+  const bool are_opposite = internal::dot(from, to) < nearly_opposite;
+  const Vector third = perpendicular({}, to);
   const auto turn_vector = [&](const Vector& v) {
     return are_opposite ? turned(turned(v, from, third), third, to) : turned(v, from, to);
   };

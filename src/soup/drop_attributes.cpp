@@ -35,6 +35,13 @@ bool means(const std::string& name, const std::string& attribute)
   return name == attribute;
 }
 
+// Whether an attribute cannot be left out alone.
+bool is_needed(const std::string& attribute)
+{
+  return attribute == "POSITION" || attribute == "NORMAL" || begins_with(attribute, "JOINTS_") ||
+         begins_with(attribute, "WEIGHTS_");
+}
+
 // Removes the references of materials to textures whose coordinates are left out.
 template <class Is_dropped>
 void drop_textures(Json& json, const Is_dropped& is_dropped)
@@ -64,8 +71,7 @@ class Attribute_dropper
 {
 public:
   Attribute_dropper(Triangle_soup& soup, const std::vector<std::string>& names)
-      : m_soup(soup), m_names(names),
-        m_are_uvs_dropped(soup.scene ? is_dropped("TEXCOORD_0") : is_in(names, "texture"))
+      : m_soup(soup), m_names(names), m_are_uvs_dropped(is_dropped("TEXCOORD_0"))
   {
     for (const std::string& name : names)
       require(name);
@@ -86,21 +92,10 @@ public:
   }
 
 private:
-  static bool is_in(const std::vector<std::string>& names, const char* name)
-  {
-    return std::find(names.begin(), names.end(), name) != names.end();
-  }
-
   bool is_dropped(const std::string& attribute) const
   {
     return std::any_of(m_names.begin(), m_names.end(),
                        [&](const std::string& name) { return means(name, attribute); });
-  }
-
-  static bool is_needed(const std::string& attribute)
-  {
-    return attribute == "POSITION" || attribute == "NORMAL" || begins_with(attribute, "JOINTS_") ||
-           begins_with(attribute, "WEIGHTS_");
   }
 
   std::set<std::string> attributes() const
@@ -272,6 +267,12 @@ private:
 };
 
 } // namespace
+
+std::string name_to_drop(const std::string& attribute)
+{
+  const bool is_of_targets = attribute.find(" of morph targets") != std::string::npos;
+  return is_needed(attribute) || is_of_targets ? "" : means("colors", attribute) ? "colors" : attribute;
+}
 
 std::size_t drop_attributes(Triangle_soup& soup, const std::vector<std::string>& names)
 {
