@@ -146,8 +146,11 @@ private:
 
   std::size_t share_vertices()
   {
-    const std::vector<Index> uvs = values_of_vertices(m_soup.uvs),
-                             normals = values_of_vertices(m_soup.normals);
+    const std::vector<Index> normals = values_of_vertices(m_soup.normals);
+    // Where corners have numbers of their own, as in OBJ, several vertices at one place mean something.
+    std::vector<Index> uvs;
+    if (m_soup.scene || are_numbered_like_vertices(m_soup.uvs, m_soup))
+      uvs = values_of_vertices(m_soup.uvs);
     struct Shared_vertex
     {
       Index first;

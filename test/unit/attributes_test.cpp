@@ -147,6 +147,23 @@ TEST_F(Attributes_of_two_squares, WhatDiffersInNormalsOrInAPoseStaysApart)
   EXPECT_EQ(joined_without({"heat"}), 0u);
 }
 
+// In OBJ, pieces lie beside each other that have vertices of their own; so it stays without their texture.
+TEST_F(Attributes_of_two_squares, WhatDiffersInTextureCoordinatesWithNumbersOfTheirOwnStaysApart)
+{
+  const auto with_uvs = [this](std::size_t unused) {
+    soup.uvs.values.assign(soup.points.size() + unused, {9, 9});
+    for (std::size_t v = 0; v < soup.points.size(); ++v)
+      soup.uvs.values[v] = {double(v), 0};
+    soup.uvs.of_triangle = soup.triangles;
+  };
+  const Triangle_soup other = soup;
+  with_uvs(1);
+  EXPECT_EQ(joined_without({"texture"}), 0u);
+  EXPECT_EQ(soup.triangles, other.triangles);
+  with_uvs(0);
+  EXPECT_GT(joined_without({"texture"}), 0u) << "the control";
+}
+
 TEST_F(Attributes_of_two_squares, TextureCoordinatesThatStayAreThoseOfTheVertex)
 {
   add_attribute(soup, "heat", {1, 1, 1, 1, 2, 2, 2, 2});
