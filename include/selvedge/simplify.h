@@ -134,7 +134,7 @@ Simplified_soup simplify_soup(const Prepared_soup& prepared, const Simplify_opti
 
 /// Makes levels of detail. For each of `ratios`, which replace `Simplify_options::ratio`, the result is
 /// exactly what `simplify_soup` returns for this ratio alone, apart from the seconds, if the mesh has at most
-/// 131,072 edges. Larger ones are reduced to a single target in an order that depends on it (see
+/// 8,192 edges. Larger ones are reduced to a single target in an order that depends on it (see
 /// `parameters::expected_collapses`), and to several levels in one that does not.
 ///
 /// All levels are states through which one reduction passes. Only in cells, and when parts have ratios of

@@ -80,12 +80,11 @@ private:
   std::atomic<bool> m_is_stopped = false;
 };
 
-/// A box, and all triangles whose bounding boxes meet its closure. Triangles of the obstacle follow those of
-/// the soup.
+/// A box, and all faces whose bounding boxes meet its closure, in ascending order.
 struct Cell
 {
   Box box;
-  std::vector<Index> triangles;
+  std::vector<Index> faces;
 };
 
 /// Divides space into cells at medians of vertices, unless it is stopped. Each division at least halves the
@@ -94,20 +93,16 @@ class Division
 {
 public:
   Division(const Cell_context& whole, Shared_stop& stop)
-      : m_soup(whole.prepared.soup), m_obstacle(whole.prepared.obstacle), m_scale(whole.prepared.scale),
+      : m_soup(whole.prepared.soup), m_mesh(whole.working.mesh()), m_scale(whole.prepared.scale),
         m_vertices_per_cell(whole.options.faces_per_cell / 2 + whole.options.faces_per_cell % 2), m_stop(stop)
   {
     std::vector<Index> vertices;
     for (Index v = 0; v < m_soup.points.size(); ++v)
       if (whole.prepared.positions[v] == v)
         vertices.push_back(v);
-    std::vector<Index> triangles(m_soup.triangles.size() + m_obstacle.triangles.size());
-    std::iota(triangles.begin(), triangles.end(), Index(0));
-    const std::vector<Index>& fronts = whole.prepared.fronts;
-    triangles.erase(std::remove_if(triangles.begin(), triangles.end(),
-                                   [&](Index t) { return t < fronts.size() && fronts[t] != t; }),
-                    triangles.end());
-    m_cells = divide({}, vertices.begin(), vertices.end(), std::move(triangles));
+    std::vector<Index> faces(m_mesh.number_of_faces());
+    std::iota(faces.begin(), faces.end(), Index(0));
+    m_cells = divide({}, vertices.begin(), vertices.end(), std::move(faces));
   }
 
   std::vector<Cell> take() { return std::move(m_cells); }
@@ -115,13 +110,13 @@ public:
 private:
   using Iterator = std::vector<Index>::iterator;
 
-  std::vector<Cell> divide(const Box& box, Iterator first, Iterator beyond, std::vector<Index> triangles)
+  std::vector<Cell> divide(const Box& box, Iterator first, Iterator beyond, std::vector<Index> faces)
   {
     std::vector<Cell> cells;
     const std::size_t count = beyond - first;
     if (count <= m_vertices_per_cell) {
       if (count > 0)
-        cells.push_back({box, std::move(triangles)});
+        cells.push_back({box, std::move(faces)});
       return cells;
     }
     if (m_stop.ask())
@@ -138,20 +133,20 @@ private:
 
     Box below = box, above = box;
     below.high[axis] = above.low[axis] = plane;
-    std::vector<Index> triangles_below, triangles_above;
-    for (const Index t : triangles) {
-      const auto [low, high] = extent(t, axis);
+    std::vector<Index> faces_below, faces_above;
+    for (const Index face : faces) {
+      const auto [low, high] = extent(face, axis);
       if (low <= plane)
-        triangles_below.push_back(t);
+        faces_below.push_back(face);
       if (high >= plane)
-        triangles_above.push_back(t);
+        faces_above.push_back(face);
     }
-    triangles = {};
+    faces = {};
     std::vector<Cell> cells_above;
     tbb::parallel_invoke(Cancellation_scope::inherited(
-                             [&] { cells = divide(below, first, first_part, std::move(triangles_below)); }),
+                             [&] { cells = divide(below, first, first_part, std::move(faces_below)); }),
                          Cancellation_scope::inherited([&] {
-                           cells_above = divide(above, second_part, beyond, std::move(triangles_above));
+                           cells_above = divide(above, second_part, beyond, std::move(faces_above));
                          }));
     std::move(cells_above.begin(), cells_above.end(), std::back_inserter(cells));
     return cells;
@@ -169,17 +164,16 @@ private:
     return longest;
   }
 
-  std::pair<double, double> extent(Index t, int axis) const
+  std::pair<double, double> extent(Index face, int axis) const
   {
-    const bool is_own = t < m_soup.triangles.size();
-    const Triangle_soup& soup = is_own ? m_soup : m_obstacle;
-    const auto& [a, b, c] = soup.triangles[is_own ? t : t - m_soup.triangles.size()];
-    return std::minmax(
-        {m_scale(soup.points[a][axis]), m_scale(soup.points[b][axis]), m_scale(soup.points[c][axis])});
+    const auto h = m_mesh.halfedge(Working_mesh::Face(face));
+    const auto coordinate = [&](auto v) { return m_mesh.point(v)[axis]; };
+    return std::minmax({coordinate(m_mesh.source(h)), coordinate(m_mesh.target(h)),
+                        coordinate(m_mesh.target(m_mesh.next(h)))});
   }
 
   const Triangle_soup& m_soup;
-  const Triangle_soup& m_obstacle;
+  const Working_mesh::Mesh& m_mesh;
   const Scale& m_scale;
   std::size_t m_vertices_per_cell;
   Shared_stop& m_stop;
@@ -206,7 +200,7 @@ std::size_t lock_outside(Working_mesh& working, const Cell& cell, const std::vec
   for (const auto v : locked)
     is_locked[v] = true;
   for (const auto f : mesh.faces())
-    if (stays[cell.triangles[f]])
+    if (stays[cell.faces[f]])
       for (const auto v : mesh.vertices_around_face(mesh.halfedge(f)))
         if (!std::exchange(is_locked[v], true))
           locked.push_back(v);
@@ -227,7 +221,7 @@ Cell_run run_cell(const Cell_context& whole, const Cell& cell, const std::vector
   Cell_run run;
   if (stop.ask())
     return run;
-  Working_mesh working(whole.working, whole.rule, cell.triangles);
+  Working_mesh working(whole.working, whole.rule, cell.faces);
   run.movable_vertices = lock_outside(working, cell, stays);
   const std::size_t wanted = std::size_t(whole.share * double(run.movable_vertices));
   if (wanted == 0)
@@ -236,7 +230,7 @@ Cell_run run_cell(const Cell_context& whole, const Cell& cell, const std::vector
   working.constraints().diagonal = whole.diagonal;
   Simplify_options options = whole.options;
   options.ratio.reset();
-  const std::size_t faces = cell.triangles.size() - working.constraints().uncounted_faces.size();
+  const std::size_t faces = cell.faces.size() - working.constraints().uncounted_faces.size();
   options.faces = faces - std::min(faces, 2 * wanted);
   options.should_stop = stop.of_cell();
   internal::Simplification<Working_mesh::Mesh, Working_mesh> simplification(working.mesh(), options,
@@ -244,8 +238,8 @@ Cell_run run_cell(const Cell_context& whole, const Cell& cell, const std::vector
   double highest_cost = 0;
   working.restrict_new_places([&](const Point_3& place) { return cell.box.contains(place); });
   working.record([&](Working_mesh::Collapse collapse) {
-    Index& triangle = collapse.moving.triangle;
-    triangle = cell.triangles[triangle]; // one of the soup: nothing moves at an obstacle
+    Index& face = collapse.moving.face;
+    face = cell.faces[face];
     highest_cost = std::max(highest_cost, simplification.cost());
     run.collapses.push_back({std::move(collapse), simplification.cost()});
   });
@@ -302,16 +296,20 @@ Cell_collapses reduce_in_cells(const Cell_context& whole)
   // face moves in a cell: only the reduction of the whole makes descendants. A double offends with its front
   // alone, wherever the two go, or else its front offends as well.
   const Prepared_soup& prepared = whole.prepared;
-  std::vector<char> stays(prepared.soup.triangles.size() + prepared.obstacle.triangles.size(), false);
-  const auto is_double = [&](Index t) { return t < prepared.fronts.size() && prepared.fronts[t] != t; };
-  for (const Offending_pair& pair : prepared.offending_pairs)
-    if (!is_double(pair.first) && !is_double(pair.second))
-      stays[pair.first] = stays[pair.second] = true;
+  const auto null_face = Working_mesh::Mesh::null_face();
+  const Working_mesh::Mesh& mesh = whole.working.mesh();
+  const std::vector<Working_mesh::Face> face_of = whole.working.faces_of_triangles();
+  std::vector<char> stays(mesh.number_of_faces(), false);
+  for (const Offending_pair& pair : prepared.offending_pairs) {
+    const auto a = face_of[pair.first], b = face_of[pair.second];
+    if (a != null_face && b != null_face)
+      stays[a] = stays[b] = true;
+  }
   // So are vertices that move together, since a cell does not see whether all at a position are in it.
   for (const auto& group : whole.working.constraints().joint_vertices)
     for (const auto v : group)
-      for (const auto f : whole.working.mesh().faces_around_target(whole.working.mesh().halfedge(v)))
-        if (f != Working_mesh::Mesh::null_face())
+      for (const auto f : mesh.faces_around_target(mesh.halfedge(v)))
+        if (f != null_face)
           stays[f] = true;
   // Partners leave their borders together, and may lie in two cells. Other vertices at gaps have limits that
   // cells do not know.
@@ -321,13 +319,14 @@ Cell_collapses reduce_in_cells(const Cell_context& whole)
       is_at_gap[a] = is_at_gap[b] = true;
     for (const Index position : prepared.facing)
       is_at_gap[position] = true;
-    for (Index t = 0; t < prepared.soup.triangles.size(); ++t)
-      for (const Index v : prepared.soup.triangles[t])
-        stays[t] |= is_at_gap[prepared.positions[v]];
+    for (const auto f : mesh.faces())
+      if (whole.working.is_own(f))
+        for (const Index v : prepared.soup.triangles[whole.working.triangle(f)])
+          stays[f] |= is_at_gap[prepared.positions[v]];
   }
   // The places of a shared mesh lie in several cells.
-  for (Index t = 0; t < prepared.soup.triangles.size(); ++t)
-    stays[t] |= !is_double(t) && whole.working.is_shared(Working_mesh::Mesh::Face_index(t));
+  for (const auto f : mesh.faces())
+    stays[f] |= whole.working.is_shared(f);
   const auto reduce = [&](std::size_t i) { runs[i] = run_cell(whole, cells[i], stays, stop); };
   tbb::parallel_for(std::size_t(0), cells.size(), Cancellation_scope::inherited(reduce),
                     tbb::simple_partitioner());

@@ -96,41 +96,30 @@ private:
     return is_frozen;
   }
 
-  // Whether the working mesh has a face of the number of a triangle. (The obstacle follows the soup.)
-  bool is_face(Index triangle) const
-  {
-    return triangle >= m_prepared.fronts.size() || m_prepared.fronts[triangle] == triangle;
-  }
-
   const Simplify_constraints<Working_mesh::Mesh>& constraints(const Triangle_soup& soup,
                                                               const Simplify_intent& intent)
   {
     auto& constraints = m_working.constraints();
     m_working.lock_by_wish(intent.locked_vertices, m_prepared.positions);
-    const auto add_share = [&](const std::string& name, double ratio) {
+    const auto faces_named = [&](const std::string& name) {
       const std::vector<char> is_named = triangles_named(soup, name);
-      constraints.shares.push_back({{}, ratio});
-      for (Index t = 0; t < is_named.size(); ++t)
-        if (is_named[t] && is_face(t))
-          constraints.shares.back().faces.emplace_back(t);
+      std::vector<Working_mesh::Face> faces;
+      for (const Working_mesh::Face face : m_working.mesh().faces())
+        if (m_working.is_own(face) && is_named[m_working.triangle(face)])
+          faces.push_back(face);
+      return faces;
+    };
+    const auto add_share = [&](const std::string& name, double ratio) {
+      constraints.shares.push_back({faces_named(name), ratio});
     };
     for (const Simplify_intent::Part_ratio& part : intent.ratios)
       add_share(part.name, part.ratio);
     for (const std::string& name : intent.kept)
       add_share(name, 1);
     if (m_prepared.defects == Defects::descend)
-      for (const Offending_pair& pair : m_prepared.offending_pairs)
-        if (is_face(pair.first) && is_face(pair.second))
-          constraints.offending_pairs.emplace_back(pair.first, pair.second);
-    for (const auto& [a, b] : m_prepared.may_intersect) {
-      auto& [of_a, of_b] = constraints.may_intersect.emplace_back();
-      for (const auto& [name, faces] : {std::make_pair(&a, &of_a), std::make_pair(&b, &of_b)}) {
-        const std::vector<char> is_named = triangles_named(soup, *name);
-        for (Index t = 0; t < is_named.size(); ++t)
-          if (is_named[t] && is_face(t))
-            faces->emplace_back(t);
-      }
-    }
+      constraints.offending_pairs = pairs_of_faces(m_prepared.offending_pairs);
+    for (const auto& [a, b] : m_prepared.may_intersect)
+      constraints.may_intersect.emplace_back(faces_named(a), faces_named(b));
     const std::vector<Index> of_soup = m_working.vertices_of_soup(m_prepared.obstacle);
     if (m_options.loop == Collapse_loop::own)
       hold_gaps(constraints, of_soup);
@@ -166,6 +155,22 @@ private:
           m_options.on_collapse(collapse);
       });
     return constraints;
+  }
+
+  // Returns the pairs of faces in the working mesh, which has none for doubles.
+  std::vector<std::pair<Working_mesh::Face, Working_mesh::Face>>
+  pairs_of_faces(const std::vector<Offending_pair>& pairs) const
+  {
+    std::vector<std::pair<Working_mesh::Face, Working_mesh::Face>> result;
+    if (pairs.empty())
+      return result;
+    const std::vector<Working_mesh::Face> face_of = m_working.faces_of_triangles();
+    for (const Offending_pair& pair : pairs) {
+      const auto a = face_of[pair.first], b = face_of[pair.second];
+      if (a != Working_mesh::Mesh::null_face() && b != Working_mesh::Mesh::null_face())
+        result.emplace_back(a, b);
+    }
+    return result;
   }
 
   void add_to_history()
@@ -279,9 +284,7 @@ private:
             m_prepared.scale(of_soup[v] < own_vertices ? soup.poses[i].points[of_soup[v]]
                                                        : beside[of_soup[v] - own_vertices]));
       if (m_prepared.defects == Defects::descend)
-        for (const Offending_pair& pair : m_prepared.offending_pairs_in_poses[i])
-          if (is_face(pair.first) && is_face(pair.second))
-            pose.offending_pairs.emplace_back(pair.first, pair.second);
+        pose.offending_pairs = pairs_of_faces(m_prepared.offending_pairs_in_poses[i]);
     }
   }
 

@@ -12,13 +12,19 @@
 namespace selvedge {
 
 Corner_mesh::Corner_mesh(const Triangle_soup& soup, const std::vector<Index>& positions,
-                         const std::vector<char>& is_turned, const std::vector<Index>& fronts)
-    : m_soup(soup), m_is_turned(is_turned)
+                         const std::vector<char>& is_turned, const std::vector<Index>& fronts,
+                         std::vector<Index> triangles)
+    : m_soup(soup), m_triangles(std::move(triangles))
 {
-  m_corners.reserve(soup.triangles.size());
-  for (Index t = 0; t < soup.triangles.size(); ++t) {
+  m_corners.reserve(m_triangles.size());
+  for (const Index t : m_triangles) {
+    if (t >= soup.triangles.size())
+      break; // those of the obstacle come last
     m_corners.push_back({3 * t, 3 * t + 1, 3 * t + 2});
-    if (this->is_turned(Face(t)))
+    if (is_turned.empty())
+      continue;
+    m_is_turned.push_back(is_turned[t]);
+    if (is_turned[t])
       turn(m_corners.back());
   }
   find_plies(fronts, positions);
@@ -30,8 +36,9 @@ Corner_mesh::Corner_mesh(const Corner_mesh& whole, const std::vector<Index>& fac
     m_first_ply.assign(1, 0);
   for (const Index number : faces) {
     const Face face(number);
+    m_triangles.push_back(whole.m_triangles[face]);
     if (!whole.is_own(face))
-      break; // the faces of the obstacle come last
+      continue;
     m_corners.push_back(whole.m_corners[face]);
     if (whole.m_first_ply.empty())
       continue;
@@ -41,6 +48,14 @@ Corner_mesh::Corner_mesh(const Corner_mesh& whole, const std::vector<Index>& fac
   }
 }
 
+std::vector<Corner_mesh::Face> Corner_mesh::faces_of_triangles() const
+{
+  std::vector<Face> result(m_soup.triangles.size() + m_triangles.size() - own_face_count());
+  for (Index face = 0; face < m_triangles.size(); ++face)
+    result[m_triangles[face]] = Face(face);
+  return result;
+}
+
 // Finds the triangles for which each front stands. Those that run as the face does come first, so that
 // their order is the same in all faces of one surface, in whatever order the soup has them.
 void Corner_mesh::find_plies(const std::vector<Index>& fronts, const std::vector<Index>& positions)
@@ -48,15 +63,20 @@ void Corner_mesh::find_plies(const std::vector<Index>& fronts, const std::vector
   if (fronts.empty())
     return;
   const auto position_of = [&](Corner corner) { return positions[vertex_of(corner)]; };
-  m_first_ply.assign(fronts.size() + 1, 0);
+  std::vector<Index> face_of(fronts.size()); // by front
+  for (Index face = 0; face < own_face_count(); ++face)
+    face_of[m_triangles[face]] = face;
+  m_first_ply.assign(own_face_count() + 1, 0);
   for (Index t = 0; t < fronts.size(); ++t)
-    if (fronts[t] != t)
-      m_first_ply[fronts[t] + 1] += m_first_ply[fronts[t] + 1] == 0 ? 2 : 1;
+    if (fronts[t] != t) {
+      Index& count = m_first_ply[face_of[fronts[t]] + 1];
+      count += count == 0 ? 2 : 1;
+    }
   std::partial_sum(m_first_ply.begin(), m_first_ply.end(), m_first_ply.begin());
   m_plies.resize(m_first_ply.back());
   std::vector<Index> next = m_first_ply;
   for (Index t = 0; t < fronts.size(); ++t) {
-    const Face face(fronts[t]);
+    const Face face(face_of[fronts[t]]);
     if (!has_doubles(face))
       continue;
     Ply& ply = m_plies[next[face]++];
@@ -68,17 +88,17 @@ void Corner_mesh::find_plies(const std::vector<Index>& fronts, const std::vector
           ply.corners[k] = 3 * t + place;
         }
   }
-  for (Index t = 0; t < fronts.size(); ++t)
-    if (has_doubles(Face(t))) {
-      const auto first = m_plies.begin() + m_first_ply[t];
-      std::stable_partition(first, m_plies.begin() + m_first_ply[t + 1],
+  for (Index face = 0; face < own_face_count(); ++face)
+    if (has_doubles(Face(face))) {
+      const auto first = m_plies.begin() + m_first_ply[face];
+      std::stable_partition(first, m_plies.begin() + m_first_ply[face + 1],
                             [](const Ply& ply) { return !ply.is_against_face(); });
-      m_corners[t] = first->corners;
+      m_corners[face] = first->corners;
     }
 }
 
 // `Surface_mesh::add_face` would make the same, but has to search for what is known here.
-std::vector<Corner_mesh::Halfedge> Corner_mesh::build(const Sewing& sewing, const std::vector<Index>& faces,
+std::vector<Corner_mesh::Halfedge> Corner_mesh::build(const Sewing& sewing,
                                                       const std::function<Point_3(Index)>& point_of)
 {
   const Index side_count = sewing.side_count();
@@ -97,15 +117,10 @@ std::vector<Corner_mesh::Halfedge> Corner_mesh::build(const Sewing& sewing, cons
     m_mesh.set_halfedge(vertex(end), halfedges[side]);
   }
   std::vector<Halfedge> border_from(m_mesh.number_of_vertices());
-  std::vector<Face> unused; // a mesh gives removed numbers to the faces that it makes next
   for (Index side = 0; side < side_count; ++side) {
-    if (side % 3 == 0) {
-      Face face = m_mesh.add_face();
-      for (; face < Face(faces[side / 3]); face = m_mesh.add_face())
-        unused.push_back(face);
-      m_mesh.set_halfedge(face, halfedges[Sewing::previous(side)]);
-    }
-    m_mesh.set_face(halfedges[side], Face(faces[side / 3]));
+    if (side % 3 == 0)
+      m_mesh.set_halfedge(m_mesh.add_face(), halfedges[Sewing::previous(side)]);
+    m_mesh.set_face(halfedges[side], Face(side / 3));
     m_mesh.set_next(halfedges[side], halfedges[Sewing::next(side)]);
     if (sewing.mate(side) == Sewing::none)
       border_from[vertex(Sewing::next(side))] = m_mesh.opposite(halfedges[side]);
@@ -117,8 +132,6 @@ std::vector<Corner_mesh::Halfedge> Corner_mesh::build(const Sewing& sewing, cons
     m_mesh.set_halfedge(vertex(side), border); // by this, CGAL sees at once that the vertex is on a border
     m_mesh.set_next(border, border_from[vertex(side)]);
   }
-  for (const Face face : unused)
-    m_mesh.remove_face(face);
   m_places.resize(m_mesh.number_of_halfedges());
   for (Index side = 0; side < side_count; ++side)
     m_places[halfedges[side]] = Sewing::next(side) % 3;
@@ -150,7 +163,7 @@ Corner_mesh::Side Corner_mesh::side(Halfedge h) const
 
 Corner_mesh::Halfedge Corner_mesh::halfedge(const Side& side) const
 {
-  const Face face(side.triangle);
+  const Face face(side.face);
   if (!has_face(face))
     throw std::logic_error("a side of a face that is gone");
   Halfedge h = m_mesh.halfedge(face);

@@ -29,6 +29,9 @@ class Sewing;
 /// collapse moves alike. All of them are the plies of the face; any other face has one.
 ///
 /// Faces that follow those of the soup belong to an obstacle and have no corners.
+///
+/// Faces, edges and vertices are numbered along a curve that fills space, so that what is near in the mesh is
+/// mostly near in memory, whatever the order of the triangles.
 class Corner_mesh
 {
 public:
@@ -62,12 +65,20 @@ public:
   {
     return !m_first_ply.empty() && is_own(face) && m_first_ply[face] < m_first_ply[face + 1];
   }
-  bool has_doubles() const { return !m_plies.empty(); } ///< in any face
   Index ply_count(Face face) const
   {
     return has_doubles(face) ? m_first_ply[face + 1] - m_first_ply[face] : 1;
   }
-  Index triangle(Face face, Index i) const { return has_doubles(face) ? ply(face, i).triangle : Index(face); }
+
+  /// The triangle of a ply. Triangles of an obstacle are numbered after those of the soup.
+  Index triangle(Face face, Index i = 0) const
+  {
+    return has_doubles(face) ? ply(face, i).triangle : m_triangles[face];
+  }
+
+  /// Returns the face of each triangle, of the soup and then of the obstacle; the null face for doubles. Some
+  /// faces may be gone. **Precondition** This is no part of another mesh.
+  std::vector<Face> faces_of_triangles() const;
 
   /// The place of the target of a halfedge among the corners of its face.
   unsigned char place(Halfedge h) const { return m_places[h]; }
@@ -102,7 +113,7 @@ public:
   /// collapses have been done to both.
   struct Side
   {
-    Index triangle;      ///< the number of a face beside the edge
+    Index face;          ///< the number of a face beside the edge
     unsigned char place; ///< at which corner of that face its halfedge of the edge begins
     bool is_beyond;      ///< whether the halfedge is the opposite of that one
   };
@@ -134,18 +145,17 @@ public:
   void for_each_changed_face(Halfedge moving, const Function& function) const;
 
 protected:
-  /// Gives the faces corners; they become a mesh when `build` is called. The arguments are those of
-  /// `Sewn_mesh`.
+  /// Gives the faces corners; they become a mesh when `build` is called. `triangles` has the triangle of each
+  /// face, those of an obstacle last. The other arguments are those of `Sewn_mesh`.
   Corner_mesh(const Triangle_soup& soup, const std::vector<Index>& positions,
-              const std::vector<char>& is_turned, const std::vector<Index>& fronts);
+              const std::vector<char>& is_turned, const std::vector<Index>& fronts,
+              std::vector<Index> triangles);
 
   /// Takes the corners of some faces of another mesh.
   Corner_mesh(const Corner_mesh& whole, const std::vector<Index>& faces);
 
-  /// Makes vertices, edges in the order of the sides, and faces, of the numbers `faces`, which ascend.
-  /// Returns the halfedge of each side.
-  std::vector<Halfedge> build(const Sewing& sewing, const std::vector<Index>& faces,
-                              const std::function<Point_3(Index vertex)>& point_of);
+  /// Makes vertices, edges in the order of the sides, and faces. Returns the halfedge of each side.
+  std::vector<Halfedge> build(const Sewing& sewing, const std::function<Point_3(Index vertex)>& point_of);
 
   /// Gives all plies at the target of h the corners that those beside `from` have at the target of `from`.
   void carry(Halfedge h, Halfedge from);
@@ -168,6 +178,7 @@ private:
 
   const Triangle_soup& m_soup;
   Mesh m_mesh;
+  std::vector<Index> m_triangles;      // by face, the first of its plies
   std::vector<Index_triple> m_corners; // by face
   std::vector<Ply> m_plies;            // by face, if it has doubles
   std::vector<Index> m_first_ply;      // by face, and one more; or empty

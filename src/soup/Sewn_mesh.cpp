@@ -9,6 +9,7 @@
 #include <selvedge/Error.h>
 #include <selvedge/Parts.h>
 #include <selvedge/Surface_mesh_simplification/internal/mesh_diagonal.h>
+#include <selvedge/spatial/internal/order_along_curve.h>
 
 #include <algorithm>
 #include <map>
@@ -18,58 +19,84 @@
 
 namespace selvedge {
 
+namespace {
+
+// Returns the triangles of which there are faces, in an order in which neighbours mostly follow each other:
+// first those of the soup, without doubles, then those of the obstacle.
+std::vector<Index> triangles_in_space(const Triangle_soup& soup, const std::vector<Index>& fronts,
+                                      const Triangle_soup& obstacle, const Scale& scale)
+{
+  const Index own_count = Index(soup.triangles.size());
+  std::vector<Index> triangles, result;
+  const auto append_in_space = [&](const Triangle_soup& of, Index first) {
+    for (const Index i : internal::order_along_curve(triangles.size(), [&](std::size_t i) {
+           return scale(of.points[of.triangles[triangles[i] - first].front()]);
+         }))
+      result.push_back(triangles[i]);
+  };
+  for (Index t = 0; t < own_count; ++t)
+    if (fronts.empty() || fronts[t] == t)
+      triangles.push_back(t);
+  result.reserve(triangles.size() + obstacle.triangles.size());
+  append_in_space(soup, 0);
+  triangles.resize(obstacle.triangles.size());
+  std::iota(triangles.begin(), triangles.end(), own_count);
+  append_in_space(obstacle, own_count);
+  return result;
+}
+
+} // namespace
+
 Sewn_mesh::Sewn_mesh(const Triangle_soup& soup, const std::vector<Index>& positions,
                      const std::vector<char>& is_frozen, const Triangle_soup& obstacle, const Scale& scale,
                      const std::vector<char>& is_turned, const std::vector<Index>& fronts)
-    : Corner_mesh(soup, positions, is_turned, fronts)
+    : Corner_mesh(soup, positions, is_turned, fronts, triangles_in_space(soup, fronts, obstacle, scale))
 {
-  const Index own_vertices = Index(soup.points.size());
-  std::vector<Index_triple> triangles; // of positions
-  std::vector<Index> faces;            // their numbers in the mesh
-  std::vector<char> is_used(soup.points.size(), false);
-  triangles.reserve(soup.triangles.size() + obstacle.triangles.size());
-  m_is_frozen.assign(is_frozen.begin(), is_frozen.begin() + std::ptrdiff_t(soup.triangles.size()));
-  for (Index t = 0; t < soup.triangles.size(); ++t) {
-    for (const Index i : soup.triangles[t])
-      is_used[i] = true;
-    if (const Index front = fronts.empty() ? t : fronts[t]; front != t) {
-      if (m_is_frozen[front] == 0)
-        m_is_frozen[front] = m_is_frozen[t];
-      continue;
+  const Index own_vertices = Index(soup.points.size()), own_triangles = Index(soup.triangles.size());
+  const Index face_count = Index(own_face_count() + obstacle.triangles.size());
+  const auto obstacle_triangle = [&](Index face) -> const Index_triple& {
+    return obstacle.triangles[triangle(Face(face)) - own_triangles];
+  };
+  std::vector<Index_triple> triangles; // of positions, by face
+  triangles.reserve(face_count);
+  for (Index number = 0; number < face_count; ++number) {
+    const Face face(number);
+    m_is_frozen.push_back(is_frozen[triangle(face)]);
+    if (is_own(face)) {
+      const auto& [a, b, c] = corners(face);
+      triangles.push_back({positions[vertex_of(a)], positions[vertex_of(b)], positions[vertex_of(c)]});
+      for (Index i = 1; i < ply_count(face) && m_is_frozen[face] == 0; ++i)
+        m_is_frozen[face] = is_frozen[triangle(face, i)];
+      if (has_doubles(face))
+        m_constraints.multiplicities.emplace_back(face, ply_count(face));
+    } else {
+      const auto& [a, b, c] = obstacle_triangle(number);
+      triangles.push_back(
+          {positions[own_vertices + a], positions[own_vertices + b], positions[own_vertices + c]});
+      m_constraints.uncounted_faces.push_back(face);
     }
-    const Face face(t);
-    const auto& [a, b, c] = corners(face);
-    faces.push_back(t);
-    triangles.push_back({positions[vertex_of(a)], positions[vertex_of(b)], positions[vertex_of(c)]});
-    if (has_doubles(face))
-      m_constraints.multiplicities.emplace_back(face, ply_count(face));
   }
-  const Index own_corners = Index(3 * triangles.size()); // of faces
+  const Index own_corners = Index(3 * own_face_count());
+  std::vector<char> is_used(soup.points.size(), false);
+  for (const Index_triple& corners_of_triangle : soup.triangles)
+    for (const Index i : corners_of_triangle)
+      is_used[i] = true;
   for (Index v = 0; v < is_used.size(); ++v) {
     m_notes.unused_vertices += !is_used[v];
     m_notes.coincident_vertices += is_used[v] && positions[v] != v && is_used[positions[v]];
   }
-  for (const auto& [a, b, c] : obstacle.triangles) {
-    faces.push_back(Index(soup.triangles.size() + triangles.size()) - own_corners / 3);
-    m_constraints.uncounted_faces.emplace_back(faces.back());
-    triangles.push_back(
-        {positions[own_vertices + a], positions[own_vertices + b], positions[own_vertices + c]});
-  }
 
   const Index corner_count = Index(3 * triangles.size());
-
-  const auto own_corner = [&](Index corner) { return corners(Face(faces[corner / 3]))[corner % 3]; };
+  const auto own_corner = [&](Index corner) { return corners(Face(corner / 3))[corner % 3]; };
   const Sewing sewing(triangles, own_corners, Index(positions.size()), m_notes);
   Cancellation_scope::check();
   std::vector<Corner> corner_of(sewing.vertex_count()); // the first corner of each vertex
   for (Corner corner = corner_count; corner-- > 0;)
     corner_of[sewing.vertex(corner)] = corner;
-  const std::vector<Halfedge> halfedges = build(sewing, faces, [&](Index vertex) {
+  const std::vector<Halfedge> halfedges = build(sewing, [&](Index vertex) {
     const Corner corner = corner_of[vertex];
-    if (corner < own_corners)
-      return scale(soup.points[vertex_of(own_corner(corner))]);
-    const Corner beside = corner - own_corners;
-    return scale(obstacle.points[obstacle.triangles[beside / 3][beside % 3]]);
+    return scale(corner < own_corners ? soup.points[vertex_of(own_corner(corner))]
+                                      : obstacle.points[obstacle_triangle(corner / 3)[corner % 3]]);
   });
 
   std::vector<Index> vertices_at(positions.size(), 0); // the number of vertices, by position
@@ -90,8 +117,8 @@ Sewn_mesh::Sewn_mesh(const Triangle_soup& soup, const std::vector<Index>& positi
     is_locked[v] = vertices_at[position_of(v)] > 1;
   std::vector<char> is_in_frozen_face(corner_of.size(), false), moves_alone(corner_of.size(), false);
   for (Corner corner = 0; corner < corner_count; ++corner) {
-    const Face face(faces[corner / 3]);
-    is_in_frozen_face[sewing.vertex(corner)] |= is_own(face) ? m_is_frozen[face] : is_frozen[face];
+    const Face face(corner / 3);
+    is_in_frozen_face[sewing.vertex(corner)] |= m_is_frozen[face];
     moves_alone[sewing.vertex(corner)] |= is_in_frozen_face[sewing.vertex(corner)] || has_doubles(face);
   }
   find_joint_vertices(is_locked, moves_alone, vertices_at, position_of);
@@ -102,7 +129,7 @@ Sewn_mesh::Sewn_mesh(const Triangle_soup& soup, const std::vector<Index>& positi
   for (const Index side : sewing.misoriented_sides()) {
     if (side >= own_corners)
       continue;
-    m_misoriented_sides.push_back(3 * faces[side / 3] + side % 3);
+    m_misoriented_sides.push_back(3 * triangle(Face(side / 3)) + side % 3);
     for (const Corner end : {side, Sewing::next(side)})
       m_is_misoriented[vertex_of(own_corner(end))] = true;
   }
@@ -152,8 +179,8 @@ Sewn_mesh::Sewn_mesh(const Sewn_mesh& whole, const Border_rule<Mesh>& rule, cons
         continue;
       const Side beyond = whole.side(opposite);
       const auto found =
-          beyond.triangle < face ? faces.end() : std::lower_bound(next_face, faces.end(), beyond.triangle);
-      if (found != faces.end() && *found == beyond.triangle) {
+          beyond.face < face ? faces.end() : std::lower_bound(next_face, faces.end(), beyond.face);
+      if (found != faces.end() && *found == beyond.face) {
         mates[side] = Index(3 * (found - faces.begin())) + beyond.place;
         mates[mates[side]] = side;
       } else
@@ -162,13 +189,11 @@ Sewn_mesh::Sewn_mesh(const Sewn_mesh& whole, const Border_rule<Mesh>& rule, cons
   }
 
   const Sewing sewing(std::move(mates));
-  std::vector<Index> numbers(faces.size());
-  std::iota(numbers.begin(), numbers.end(), Index(0));
   std::vector<Mesh::Vertex_index> vertices(sewing.vertex_count()); // of the whole
   for (Index side = 0; side < originals.size(); ++side)
     vertices[sewing.vertex(side)] = of_whole.source(originals[side]);
   const std::vector<Halfedge> halfedges =
-      build(sewing, numbers, [&](Index vertex) { return of_whole.point(vertices[vertex]); });
+      build(sewing, [&](Index vertex) { return of_whole.point(vertices[vertex]); });
 
   std::vector<char> is_locked(vertices.size(), false);
   for (Index v = 0; v < vertices.size(); ++v) {
@@ -296,9 +321,9 @@ std::vector<Index> Sewn_mesh::vertices_of_soup(const Triangle_soup& obstacle) co
       continue;
     const Face face = mesh().face(h);
     result[mesh().target(h)] =
-        is_own(face)
-            ? vertex_of(corner_at(h))
-            : Index(soup().points.size()) + obstacle.triangles[face - soup().triangles.size()][place(h)];
+        is_own(face) ? vertex_of(corner_at(h))
+                     : Index(soup().points.size()) +
+                           obstacle.triangles[triangle(face) - soup().triangles.size()][place(h)];
   }
   return result;
 }

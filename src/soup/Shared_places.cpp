@@ -16,16 +16,18 @@ Shared_places::Shared_places(const Corner_mesh& corners, std::vector<Shared_mesh
     : m_corners(corners), m_meshes(std::move(meshes)), m_clearance(clearance),
       m_copies(corners.own_face_count(), {s_no_mesh, 0, 0})
 {
+  const std::vector<Face> face_of = corners.faces_of_triangles();
   for (Index m = 0; m < m_meshes.size(); ++m) {
-    const std::vector<Shared_mesh::Place>& places = m_meshes[m].places;
+    std::vector<Shared_mesh::Place>& places = m_meshes[m].places;
     std::vector<std::pair<CGAL::Bbox_3, Index>> boxes;
     for (Index p = 0; p < places.size(); ++p) {
       CGAL::Bbox_3 box;
       for (Index row = 0; row < places[p].triangles.size(); ++row) {
-        const Face face(places[p].triangles[row]);
-        m_copies[face] = {m, p, row};
-        if (!m_corners.has_face(face))
+        const Face face = face_of[places[p].triangles[row]];
+        places[p].triangles[row] = face;
+        if (face == Mesh::null_face())
           continue;
+        m_copies[face] = {m, p, row};
         for (const Mesh::Vertex_index v : mesh().vertices_around_face(mesh().halfedge(face)))
           box += mesh().point(v).bbox();
       }
@@ -46,9 +48,9 @@ Shared_places::Shared_places(const Corner_mesh& corners, std::vector<Shared_mesh
 // over, its halfedges run the other way.
 Corner_mesh::Side Shared_places::in_place(const Corner_mesh::Side& side, Index place) const
 {
-  const Copy& copy = m_copies[side.triangle];
+  const Copy& copy = m_copies[side.face];
   const Index image = m_meshes[copy.mesh].places[place].triangles[copy.row];
-  if (is_flipped(side.triangle) == is_flipped(image))
+  if (is_flipped(side.face) == is_flipped(image))
     return {image, side.place, side.is_beyond};
   return {image, static_cast<unsigned char>(2 - side.place), !side.is_beyond};
 }
@@ -135,9 +137,9 @@ std::vector<Shared_places::Halfedge> Shared_places::companions(Halfedge moving) 
 {
   std::vector<Halfedge> result;
   const Corner_mesh::Side here = m_corners.side(moving);
-  if (!is_shared(Face(here.triangle)))
+  if (!is_shared(Face(here.face)))
     return result;
-  const Copy& copy = m_copies[here.triangle];
+  const Copy& copy = m_copies[here.face];
   for (Index p = 0; p < m_meshes[copy.mesh].places.size(); ++p)
     if (p != copy.place)
       result.push_back(m_corners.halfedge(in_place(here, p)));
@@ -147,18 +149,18 @@ std::vector<Shared_places::Halfedge> Shared_places::companions(Halfedge moving) 
 bool Shared_places::is_led(Halfedge edge) const
 {
   const Corner_mesh::Side here = m_corners.side(edge);
-  return is_shared(Face(here.triangle)) && m_copies[here.triangle].place > 0;
+  return is_shared(Face(here.face)) && m_copies[here.face].place > 0;
 }
 
 bool Shared_places::are_apart(Halfedge moving, const std::vector<Halfedge>& companions) const
 {
-  const Copy& copy = m_copies[m_corners.side(moving).triangle];
+  const Copy& copy = m_copies[m_corners.side(moving).face];
   const auto& near = m_near_places[copy.mesh];
   if (near.empty())
     return true;
   std::vector<CGAL::Bbox_3> boxes(companions.size() + 1); // of stars, by place
   const auto set_box = [&](Halfedge h) {
-    CGAL::Bbox_3& box = boxes[m_copies[m_corners.side(h).triangle].place];
+    CGAL::Bbox_3& box = boxes[m_copies[m_corners.side(h).face].place];
     for (const Halfedge in : mesh().halfedges_around_target(mesh().opposite(h)))
       box += mesh().point(mesh().source(in)).bbox();
     box += mesh().point(mesh().source(h)).bbox();

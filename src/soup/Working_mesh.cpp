@@ -124,7 +124,7 @@ void Working_mesh::on_refused(Halfedge moving, const Refusals& refusals)
   if (!is_own(face))
     return;
   for (std::size_t kind = 0; kind < m_kinds.size(); ++kind)
-    m_refused[kind][m_kinds[kind].of_triangle[face]] += refusals;
+    m_refused[kind][m_kinds[kind].of_triangle[triangle(face)]] += refusals;
 }
 
 void Working_mesh::on_hindered(Mesh::Edge_index e, Hindrance reason)
@@ -160,8 +160,7 @@ Working_mesh::Result Working_mesh::result() const
     for (Index i = 0; i < ply_count(face); ++i)
       left.push_back({triangle(face, i), face, i});
   }
-  if (has_doubles())
-    std::sort(left.begin(), left.end(), [](const Left& a, const Left& b) { return a.triangle < b.triangle; });
+  std::sort(left.begin(), left.end(), [](const Left& a, const Left& b) { return a.triangle < b.triangle; });
   for (const auto& [triangle, face, i] : left) {
     result.triangles.push_back(triangle);
     result.corners.push_back(corners_in_soup(face, i));

@@ -481,13 +481,25 @@ struct Bounded_cost : Quadric_cost<Surface_mesh>
     ++*questions;
     return Quadric_cost::cost_along(profile, moving);
   }
-  template <class Profile, class Halfedge>
-  internal::Optional<double> cost_bound(const Profile& profile, Halfedge moving) const
+  template <class Profile>
+  auto costs_along(const Profile& profile) const
   {
-    const int kind = int(source(moving, profile.surface_mesh()).idx() % 4);
-    if (!is_bounded || kind == 0)
-      return {};
-    return *Quadric_cost::cost_along(profile, moving) * (kind == 1 ? 1 : kind / 4.);
+    *questions += 2;
+    return Quadric_cost::costs_along(profile);
+  }
+  template <class Profile>
+  auto cost_bounds(const Profile& profile) const
+  {
+    auto bounds = Quadric_cost::costs_along(profile);
+    for (const auto& [moving, bound] :
+         {std::make_pair(profile.v0(), &bounds[0]), std::make_pair(profile.v1(), &bounds[1])}) {
+      const int kind = int(moving.idx() % 4);
+      if (!is_bounded || kind == 0)
+        bound->reset();
+      else
+        **bound *= kind == 1 ? 1 : kind / 4.;
+    }
+    return bounds;
   }
   bool can_wait(Surface_mesh::Vertex_index, Surface_mesh::Edge_index) const { return false; }
 

@@ -36,7 +36,7 @@ TEST(Lods, EachLevelIsWhatARunToItAloneGives)
 {
   for (const char* const name : {"jacket", "skirt"}) {
     SCOPED_TRACE(name);
-    const Prepared_soup prepared = prepare(garment(name, 6000));
+    const Prepared_soup prepared = prepare(garment(name, 5000));
     const std::vector<Simplified_soup> levels = simplify_lods(prepared, {}, ratios);
     ASSERT_EQ(levels.size(), ratios.size());
     for (std::size_t i = 0; i < ratios.size(); ++i) {

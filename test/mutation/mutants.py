@@ -325,6 +325,25 @@ group(
 )
 
 group(
+    headers + "spatial/internal/order_along_curve.h",
+    ("hilbert_curve_test:OrderAlongCurve*",),
+    ("shift < 3 * Hilbert_curve::bits", "shift < bits", "points are sorted by the last digit alone"),
+    ("std::uint32_t((point[axis] - lower[axis]) * cells)", "std::uint32_t(point[axis] * cells)", "the curve begins at the origin"),
+    ("upper[axis] = i == 0 ? point[axis] : (std::max)(upper[axis], double(point[axis]));", "upper[axis] = point[axis];",
+     "the last point bounds all"),
+)
+group(
+    "src/soup/Sewn_mesh.cpp",
+    ("working_mesh_part_test:WorkingMesh.*",),
+    ("return scale(of.points[of.triangles[triangles[i] - first].front()]);", "return scale(of.points.front());",
+     "faces are numbered as the triangles come"),
+)
+group(
+    "src/soup/Working_mesh.cpp",
+    ("working_mesh_part_test:WorkingMesh.*",),
+    ("return a.triangle < b.triangle;", "return a.face < b.face;", "the result is in the order of the curve"),
+)
+group(
     headers + "spatial/Packed_R_tree.h",
     ("spatial_index_test",),
     ("if (bounds.contains(box))", "if (true)", "nodes do not grow"),
@@ -911,6 +930,10 @@ group(
     ("edge_queue_test",),
     ("std::uint32_t(bits >> 49)", "std::uint32_t(bits >> 50)", "costs of a class differ by a quarter"),
     ("m_tile_bits(is_relaxed ? s_tile_bits : 31)", "m_tile_bits(31)", "no tiles"),
+    ("if (place_before == 0 || m_places[edge] == 0)", "if (m_places[edge] == 0)",
+     "a tile is not told that its first edge has become dearer"),
+    ("    heap_of(edge).erase_at(place);\n    if (place == 0)", "    heap_of(edge).erase_at(place);\n    if (place == 1)",
+     "a tile is not told that its first edge has gone"),
     ("key == m_keys[1] ? entry < m_entries[tile << m_tile_bits] : key < m_keys[1];", "key <= m_keys[1];",
      "an edge would be the first of its tile at any cost of its class"),
     ("(std::max)(m_merged_class, class_of(", "(std::max)(Id(0), class_of(", "no classes are merged"),

@@ -8,15 +8,34 @@
 #include <selvedge/Surface_mesh_simplification/simplify_mesh.h>
 #include <selvedge/simplify.h>
 
+#include <vector>
+
 namespace selvedge::test {
 
 using Mesh = Working_mesh::Mesh;
 
-/// A soup as a mesh that knows nothing of it.
+/// A soup as a mesh that knows nothing of it. It has the faces in the order of the triangles, and the
+/// vertices in the order in which these come by them.
 inline Mesh mesh_of(const Triangle_soup& soup)
 {
   const Prepared_soup prepared = prepare(soup);
-  return Working_mesh(prepared.soup, prepared.positions, prepared.is_frozen).mesh();
+  const Working_mesh working(prepared.soup, prepared.positions, prepared.is_frozen);
+  std::vector<Mesh::Vertex_index> numbers(working.mesh().number_of_vertices());
+  Mesh mesh;
+  for (const Mesh::Face_index face : working.faces_of_triangles()) {
+    if (face == Mesh::null_face())
+      continue; // of a double
+    std::vector<Mesh::Vertex_index> corners;
+    Mesh::Halfedge_index h = working.halfedge({face, 0, false});
+    for (int i = 0; i < 3; ++i, h = working.mesh().next(h)) {
+      Mesh::Vertex_index& number = numbers[working.mesh().source(h)];
+      if (number == Mesh::null_vertex())
+        number = mesh.add_vertex(working.mesh().point(working.mesh().source(h)));
+      corners.push_back(number);
+    }
+    mesh.add_face(corners);
+  }
+  return mesh;
 }
 
 /// The faces of a mesh as it stands in the middle of a reduction.

@@ -2,10 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <selvedge/spatial/internal/Hilbert_curve.h>
+#include <selvedge/spatial/internal/order_along_curve.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdlib>
+#include <random>
 #include <vector>
 
 namespace {
@@ -40,6 +45,39 @@ TEST(HilbertCurve, TellsTheLastCellsApart)
   const std::uint64_t a = curve.place_of({last, last, last}), b = curve.place_of({last, last, last - 1});
   EXPECT_NE(a, b);
   EXPECT_LT(std::max(a, b), std::uint64_t(1) << 3 * Hilbert_curve::bits);
+}
+
+using Place_in_space = std::array<double, 3>;
+
+TEST(OrderAlongCurve, HasEveryNumberOnceAndGoesFromNeighbourToNeighbour)
+{
+  constexpr int size = 16;
+  std::vector<Place_in_space> points;
+  for (int i = 0; i < size * size * size; ++i)
+    points.push_back({100. + i % size, 10. + i / size % size, -3. - i / size / size});
+  std::shuffle(points.begin(), points.end(), std::mt19937(1));
+  const std::vector<std::uint32_t> order =
+      selvedge::internal::order_along_curve(points.size(), [&](std::size_t i) { return points[i]; });
+  std::vector<std::uint32_t> sorted = order;
+  std::sort(sorted.begin(), sorted.end());
+  ASSERT_EQ(sorted.size(), points.size());
+  for (std::uint32_t i = 0; i < sorted.size(); ++i)
+    ASSERT_EQ(sorted[i], i);
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    const Place_in_space &a = points[order[i - 1]], &b = points[order[i]];
+    ASSERT_EQ(std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]), 1) << i;
+  }
+}
+
+TEST(OrderAlongCurve, KeepsTheOrderOfPointsThatAreOne)
+{
+  const std::vector<Place_in_space> points = {{1, 1, 1}, {0, 0, 0}, {1, 1, 1}, {0, 0, 0}, {1, 1, 1}};
+  const auto order = [&](std::size_t size) {
+    return selvedge::internal::order_along_curve(size, [&](std::size_t i) { return points[i]; });
+  };
+  EXPECT_EQ(order(5), (std::vector<std::uint32_t>{1, 3, 0, 2, 4}));
+  EXPECT_EQ(order(1), std::vector<std::uint32_t>{0});
+  EXPECT_TRUE(order(0).empty());
 }
 
 } // namespace

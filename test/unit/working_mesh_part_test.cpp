@@ -4,6 +4,7 @@
 // A part of a working mesh is what its whole is, wherever it has all faces.
 
 #include "support/mesh_of.h"
+#include "support/meshes.h"
 #include "support/reduction.h"
 #include "support/soups.h"
 
@@ -77,7 +78,7 @@ void expect_is_part(const Whole_mesh& whole, const Working_mesh& part, const std
       ASSERT_EQ(!mesh.is_border(across), is_beyond_here);
       if (!is_beyond_here)
         continue;
-      ASSERT_EQ(faces[part.side(across).triangle], beyond);
+      ASSERT_EQ(faces[part.side(across).face], beyond);
       ASSERT_EQ(part.side(across).place, whole.working.side(across_there).place);
       ASSERT_EQ(bool(is_line[mesh.edge(here)]), whole.rule.is_line(mesh_of_whole.edge(there)));
     }
@@ -119,7 +120,7 @@ TEST(WorkingMeshPart, IsNotWhatItsTrianglesAreAlone)
     Triangle_soup alone;
     alone.points = soup.points;
     for (const Index face : faces)
-      alone.triangles.push_back(soup.triangles[face]);
+      alone.triangles.push_back(soup.triangles[whole.working.triangle(Mesh::Face_index(face))]);
     const Working_mesh part(whole.working, whole.rule, faces);
     const Whole_mesh of_alone(std::move(alone));
     different += part.mesh().number_of_vertices() != of_alone.working.mesh().number_of_vertices();
@@ -137,6 +138,30 @@ TEST(WorkingMeshPart, OfAllFacesIsTheWhole)
   EXPECT_EQ(part.result().corners, whole.working.result().corners);
   EXPECT_EQ(part.constraints().locked_vertices, whole.working.constraints().locked_vertices);
   EXPECT_EQ(part.constraints().line_edges, whole.working.constraints().line_edges);
+}
+
+// Faces are numbered by where they are, and the result has the triangles in the order in which they came.
+TEST(WorkingMesh, NumbersFacesAlikeInWhateverOrderTheTrianglesCome)
+{
+  const Triangle_soup soup = skirt(1500);
+  Triangle_soup shuffled = soup;
+  std::shuffle(shuffled.triangles.begin(), shuffled.triangles.end(), std::mt19937(1));
+  const Whole_mesh one(soup), other(shuffled);
+  const auto first_corner = [](const Whole_mesh& whole, Index face) {
+    return whole.prepared.soup
+        .points[whole.working.vertex_of(3 * whole.working.triangle(Mesh::Face_index(face)))];
+  };
+  const Index count = Index(soup.triangles.size());
+  Index moved = 0;
+  for (Index face = 0; face < count; ++face) {
+    ASSERT_EQ(first_corner(one, face), first_corner(other, face));
+    moved += one.working.triangle(Mesh::Face_index(face)) != face;
+  }
+  EXPECT_GT(moved, count / 2) << "the control: the skirt has its triangles in another order";
+  EXPECT_EQ(other.working.result().soup.triangles, other.prepared.soup.triangles);
+  const std::vector<Mesh::Face_index> face_of = other.working.faces_of_triangles();
+  for (Index t = 0; t < count; ++t)
+    ASSERT_EQ(other.working.triangle(face_of[t]), t);
 }
 
 } // namespace

@@ -136,7 +136,10 @@ public:
   friend bool get(const Border_rule& rule, Edge e) { return rule.is_line(e); }
 
   /// Returns whether the source of `h` may move onto its target.
-  bool may_move(Halfedge h) const { return refusal(h) == Line_refusal::none; }
+  bool may_move(Halfedge h) const
+  {
+    return is_free(source(h, m_state->mesh)) || refusal(h) == Line_refusal::none;
+  }
 
   /// Returns why the source of `h` may not move onto its target: the first reason, in their order.
   Line_refusal refusal(Halfedge h) const

@@ -55,8 +55,9 @@ struct No_border_rule
 ///
 /// A model of CGAL's concept `GetPlacement`. `Cost` is a model of `GetCost` with a further function
 /// `cost_along(profile, halfedge)`, as `Quadric_cost` has: the same cost, for moving the source of a halfedge
-/// of the profile's edge onto its target. With `cost_bound(profile, halfedge)`, an optional cost that the
-/// former does not fall below, a loop computes most costs only when an edge comes to be the cheapest. `Rule`
+/// of the profile's edge onto its target. It may also have `costs_along(profile)`, which returns the costs of
+/// moving v0 onto v1 and v1 onto v0 in less time. With `cost_bounds(profile)`, two optional costs that these
+/// do not fall below, a loop computes most costs only when an edge comes to be the cheapest. `Rule`
 /// has `may_move(halfedge)`, `reaches_neighbours(vertex)` and `reaches(vertex, edge)`, as `Border_rule` has.
 ///
 /// **Reference** Derichs, Misiak, Fuhrmann, section 3 and figure 4.
@@ -106,26 +107,26 @@ public:
     if (may_move_v0 != may_move_v1)
       return may_move_v0 ? Choice{Merged_at::v1, cost_along(profile, profile.v0_v1())}
                          : Choice{Merged_at::v0, cost_along(profile, profile.v1_v0())};
-    const auto onto_v0 = cost_along(profile, profile.v1_v0()), onto_v1 = cost_along(profile, profile.v0_v1());
+    const auto [onto_v1, onto_v0] = costs_along(profile, m_cost, 0);
     return (onto_v0 < onto_v1) == (rank == 0) ? Choice{Merged_at::v0, onto_v0}
                                               : Choice{Merged_at::v1, onto_v1};
   }
 
   /// Returns a cost that the first choice does not fall below, and that takes less time to compute: the least
-  /// `cost_bound` of the cost policy for a motion that the rule allows. None where the policy has no bound.
+  /// of `cost_bounds` of the cost policy for a motion that the rule allows. None where the policy has no
+  /// bound.
   template <class Profile, class Policy = Cost>
-  auto first_cost_bound(const Profile& profile) const
-      -> decltype(std::declval<const Policy&>().cost_bound(profile, profile.v0_v1()))
+  auto first_cost_bound(const Profile& profile) const ->
+      typename std::decay_t<decltype(std::declval<const Policy&>().cost_bounds(profile))>::value_type
   {
-    const auto onto_v1 = m_cost.cost_bound(profile, profile.v0_v1());
-    if (!onto_v1)
+    const auto [onto_v1, onto_v0] = m_cost.cost_bounds(profile);
+    if (!onto_v0 || !onto_v1)
       return {};
     const bool may_move_v0 = m_rule.may_move(profile.v0_v1());
     const bool may_move_v1 = m_rule.may_move(profile.v1_v0());
-    if (may_move_v0 && !may_move_v1)
-      return onto_v1;
-    const auto onto_v0 = m_cost.cost_bound(profile, profile.v1_v0());
-    return may_move_v0 == may_move_v1 && onto_v0 ? (std::min)(onto_v0, onto_v1) : onto_v0;
+    if (may_move_v0 != may_move_v1)
+      return may_move_v0 ? onto_v1 : onto_v0;
+    return (std::min)(onto_v0, onto_v1);
   }
 
   /// Returns the collapse that a choice stands for.
@@ -169,10 +170,25 @@ private:
     return m_cost.cost_along(profile, moving);
   }
 
+  // Returns the costs of moving v0 onto v1, and v1 onto v0.
+  template <class Profile, class Policy>
+  static auto costs_along(const Profile& profile, const Policy& cost, int)
+      -> decltype(cost.costs_along(profile))
+  {
+    return cost.costs_along(profile);
+  }
+  template <class Profile, class Policy>
+  static std::array<internal::Optional<double>, 2> costs_along(const Profile& profile, const Policy& cost,
+                                                               long)
+  {
+    return {cost.cost_along(profile, profile.v0_v1()), cost.cost_along(profile, profile.v1_v0())};
+  }
+
   template <class Profile>
   bool is_v0_cheaper(const Profile& profile) const
   {
-    return cost_along(profile, profile.v1_v0()) < cost_along(profile, profile.v0_v1());
+    const auto [onto_v1, onto_v0] = costs_along(profile, m_cost, 0);
+    return onto_v0 < onto_v1;
   }
 
   Cost m_cost;

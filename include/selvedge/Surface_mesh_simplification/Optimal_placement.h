@@ -41,7 +41,7 @@ struct No_place_rounding
 /// A model of CGAL's concept `GetPlacement`; CGAL's own loop sees the first choice alone, unless
 /// `Filtered_halfedge_placement` decorates this one. `Cost` has, beyond what `Halfedge_placement` needs,
 /// `least_place(profile, reach)` and `cost_at(profile, point)`, as `Quadric_cost` has. It may also have
-/// `least_cost_bound(profile)`, a number that `cost_at` does not fall below, beside the `cost_bound` of
+/// `least_cost_bound(profile)`, a number that `cost_at` does not fall below, beside the `cost_bounds` of
 /// `Halfedge_placement`. `Rule` also has `is_free(vertex)`, as `Border_rule` has. `Rounding` is a function
 /// `Optional<Point>(halfedge, point)`: it returns the point as it will be stored, or none where no vertex may
 /// be.

@@ -268,6 +268,16 @@ public:
                                               : growth(profile.v1(), internal::difference(p0, p1)));
   }
 
+  /// Returns the costs of both motions along the profile's edge: of v0 onto v1, and of v1 onto v0. They are
+  /// those of `cost_along`, and take less time than two calls of it.
+  template <class Profile>
+  std::array<internal::Optional<double>, 2> costs_along(const Profile& profile) const
+  {
+    const Vector p0 = vector(profile.p0()), p1 = vector(profile.p1());
+    return {positive(growth(profile.v0(), internal::difference(p1, p0))),
+            positive(growth(profile.v1(), internal::difference(p0, p1)))};
+  }
+
   /// Returns where the merged vertex costs least among the points that leave the volume on both sides of the
   /// surface as it is, in coordinates, or none when that is at an end of the edge.
   ///

@@ -53,7 +53,9 @@ namespace selvedge {
 /// **Exactness** Exact predicates alone decide everything about intersections. Everything about quality is in
 /// floating point.
 ///
-/// **Complexity** O(n log n) for n faces as a rule; more where layers are very close.
+/// **Complexity** O(n log n) for n faces as a rule; more where layers are very close. Where neighbours in the
+/// mesh have far numbers, as in most files, it takes up to 1.3 times the time, and results are up to 3 %
+/// farther off: `simplify_soup` numbers its mesh along a Hilbert curve.
 ///
 /// In a `CGAL::Surface_mesh`, the removed elements stay as garbage; `mesh.collect_garbage()` removes them.
 ///

@@ -8,9 +8,9 @@
 #include <selvedge/internal/instructions.h>
 #include <selvedge/spatial/Index_statistics.h>
 #include <selvedge/spatial/internal/Box_block.h>
-#include <selvedge/spatial/internal/Hilbert_curve.h>
 #include <selvedge/spatial/internal/Monotone_box.h>
 #include <selvedge/spatial/internal/Rod_block.h>
+#include <selvedge/spatial/internal/order_along_curve.h>
 
 #include <CGAL/Bbox_3.h>
 
@@ -184,71 +184,6 @@ private:
     internal::Monotone_box box;
     Id face;
   };
-  struct Place
-  {
-    std::uint64_t on_curve;
-    Slot index; // of the entry
-  };
-
-  // Returns the places of entries on a curve, in their order.
-  template <class Entry_at>
-  static std::vector<Place> places_along_curve(std::size_t size, const Entry_at& entry_at)
-  {
-    using Hilbert_curve = internal::Hilbert_curve;
-    static constexpr Hilbert_curve curve;
-    using Centre = std::array<double, 3>;
-    const auto centre = [](const Entry& entry) {
-      Centre result;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        result[axis] = 0.5 * entry.box.lower[axis] + 0.5 * entry.box.upper[axis];
-      return result;
-    };
-    std::vector<Place> places;
-    if (size == 0)
-      return places;
-    Centre lower = centre(entry_at(0)), upper = lower;
-    for (std::size_t i = 1; i < size; ++i) {
-      const Centre c = centre(entry_at(i));
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        lower[axis] = (std::min)(lower[axis], c[axis]);
-        upper[axis] = (std::max)(upper[axis], c[axis]);
-      }
-    }
-    const double extent = (std::max)({upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]});
-    const double cells = extent > 0 ? ((1 << Hilbert_curve::bits) - 1) / extent : 0;
-
-    places.reserve(size);
-    for (Slot i = 0; i < size; ++i) {
-      const Centre c = centre(entry_at(i));
-      Hilbert_curve::Cell cell;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        cell[axis] = std::uint32_t((c[axis] - lower[axis]) * cells);
-      places.push_back({curve.place_of(cell), i});
-    }
-    radix_sort(places);
-    return places;
-  }
-
-  // Sorts digit by digit, from the last one, and keeps the order of equal places.
-  static void radix_sort(std::vector<Place>& places)
-  {
-    constexpr int bits = 11;
-    constexpr std::size_t digits = 1 << bits;
-    std::vector<Place> sorted(places.size());
-    for (int shift = 0; shift < 3 * internal::Hilbert_curve::bits; shift += bits) {
-      const auto digit = [shift](const Place& place) { return place.on_curve >> shift & (digits - 1); };
-      std::array<std::size_t, digits> first{};
-      for (const Place& place : places)
-        ++first[digit(place)];
-      std::size_t sum = 0;
-      for (std::size_t& count : first)
-        sum += std::exchange(count, sum);
-      for (const Place& place : places)
-        sorted[first[digit(place)]++] = place;
-      places.swap(sorted);
-    }
-  }
-
   void rebuild()
   {
     ++m_statistics.top_rebuilds;
@@ -281,8 +216,14 @@ private:
   template <class Entry_at>
   void fill_along_curve(std::size_t size, const Entry_at& entry_at)
   {
-    const std::vector<Place> places = places_along_curve(size, entry_at);
-    fill(size, [&](std::size_t i) { return entry_at(places[i].index); });
+    const std::vector<std::uint32_t> order = internal::order_along_curve(size, [&](std::size_t i) {
+      const internal::Monotone_box box = entry_at(i).box;
+      std::array<double, 3> centre;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        centre[axis] = 0.5 * box.lower[axis] + 0.5 * box.upper[axis];
+      return centre;
+    });
+    fill(size, [&](std::size_t i) { return entry_at(order[i]); });
   }
 
   // Puts entries into new leaves, in their order.

@@ -52,13 +52,7 @@ public:
   /// one that cannot.
   std::optional<Halfedge> partner_motion(Halfedge moving) const
   {
-    if (m_partner_of.empty() || !is_border_edge(moving))
-      return std::nullopt;
-    const auto from = partner_of(source(moving, m_mesh)), to = partner_of(target(moving, m_mesh));
-    if (!from || !to || *from == target(moving, m_mesh))
-      return std::nullopt;
-    const auto [along, is_edge] = halfedge(*from, *to, m_mesh);
-    return is_edge && is_border_edge(along) ? std::optional(along) : std::nullopt;
+    return m_partner_of.empty() ? std::nullopt : motion_of_partner(moving);
   }
 
   /// Call these before and after each collapse, with the halfedge from the vertex that goes, and with the
@@ -99,6 +93,17 @@ public:
   }
 
 private:
+  std::optional<Halfedge> motion_of_partner(Halfedge moving) const
+  {
+    if (!is_border_edge(moving))
+      return std::nullopt;
+    const auto from = partner_of(source(moving, m_mesh)), to = partner_of(target(moving, m_mesh));
+    if (!from || !to || *from == target(moving, m_mesh))
+      return std::nullopt;
+    const auto [along, is_edge] = halfedge(*from, *to, m_mesh);
+    return is_edge && is_border_edge(along) ? std::optional(along) : std::nullopt;
+  }
+
   std::optional<Vertex> partner_of(Vertex v) const
   {
     const auto found = m_partner_of.find(v);

@@ -73,7 +73,7 @@ public:
   template <class Profile>
   Optional<double> cost_along(const Profile& profile, Halfedge moving) const
   {
-    if (!m_targets.is_counted(moving) || m_observer->is_led(moving))
+    if (!has_cost(moving))
       return {};
     const double cost = cost_alone(profile, moving);
     if (m_joint->is_joint(source(moving, *m_mesh))) {
@@ -88,16 +88,30 @@ public:
     return cost;
   }
 
-  /// Returns the cost of the quadrics alone, which `cost_along` does not fall below. None where that would
+  /// Returns the costs of moving v0 onto v1, and v1 onto v0: those of `cost_along`, in less time.
+  template <class Profile>
+  std::array<Optional<double>, 2> costs_along(const Profile& profile) const
+  {
+    const std::array<Halfedge, 2> motions{profile.v0_v1(), profile.v1_v0()};
+    if (!has_cost(motions[0]))
+      return {};
+    if (!has_motions_alone(profile))
+      return {cost_along(profile, motions[0]), cost_along(profile, motions[1])};
+    auto costs = m_quadrics.costs_along(profile);
+    if (m_observer->adds_to_costs())
+      for (std::size_t i = 0; i < 2; ++i)
+        *costs[i] += cost_of_attributes(motions[i]);
+    return costs;
+  }
+
+  /// Returns the costs of the quadrics alone, below which `costs_along` does not fall. None where that would
   /// save nothing: without texture and normals, in several poses, or for vertices that do not move alone.
   template <class Profile>
-  Optional<double> cost_bound(const Profile& profile, Halfedge moving) const
+  std::array<Optional<double>, 2> cost_bounds(const Profile& profile) const
   {
-    if (!m_observer->adds_to_costs() || !m_poses->empty() || !m_targets.is_counted(moving) ||
-        m_observer->is_led(moving) || m_joint->is_joint(source(moving, *m_mesh)) ||
-        m_partners->partner_motion(moving))
+    if (!m_observer->adds_to_costs() || !has_cost(profile.v0_v1()) || !has_motions_alone(profile))
       return {};
-    return m_quadrics.cost_along(profile, moving);
+    return m_quadrics.costs_along(profile);
   }
 
   template <class Profile, class Point>
@@ -138,6 +152,16 @@ public:
   }
 
 private:
+  bool has_cost(Halfedge edge) const { return m_targets.is_counted(edge) && !m_observer->is_led(edge); }
+
+  // Whether either end of the edge would move without any other vertex, and there is one pose.
+  template <class Profile>
+  bool has_motions_alone(const Profile& profile) const
+  {
+    return m_poses->empty() && !m_joint->is_joint(profile.v0()) && !m_joint->is_joint(profile.v1()) &&
+           !m_partners->partner_motion(profile.v0_v1()) && !m_partners->partner_motion(profile.v1_v0());
+  }
+
   // The cost of another motion in the same mesh.
   template <class Profile>
   double cost_beside(const Profile& profile, Halfedge moving) const
@@ -154,6 +178,12 @@ private:
     double cost = *m_quadrics.cost_along(profile, moving);
     if (!m_poses->empty())
       cost = m_poses->mean_cost(cost, Collapse<Profile>::along(profile, moving));
+    return cost + cost_of_attributes(moving);
+  }
+
+  double cost_of_attributes(Halfedge moving) const
+  {
+    double cost = 0;
     if (m_uv_weight > 0)
       cost += m_uv_weight * m_observer->uv_cost(moving);
     if (m_normal_weight > 0)

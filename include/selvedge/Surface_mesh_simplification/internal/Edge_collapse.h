@@ -339,19 +339,20 @@ private:
                          Collapse_locality<Placement>::reaches_neighbours(m_placement, kept);
     for (const Halfedge h : CGAL::halfedges_around_target(halfedge(kept, m_mesh), m_mesh)) {
       refresh(h);
-      const Vertex neighbour = source(h, m_mesh);
+      const Halfedge to_neighbour = opposite(h, m_mesh);
+      const Vertex neighbour = target(to_neighbour, m_mesh);
       if (!is_wide && !get(m_has_stale_edges, neighbour))
         continue;
-      for (const Halfedge g : CGAL::halfedges_around_target(opposite(h, m_mesh), m_mesh)) {
-        if (g == opposite(h, m_mesh))
+      // An edge between two neighbours is looked at from one of them.
+      const Halfedge looked_at_beyond =
+          CGAL::is_border(to_neighbour, m_mesh) ? to_neighbour : next(to_neighbour, m_mesh);
+      for (const Halfedge g : CGAL::halfedges_around_target(to_neighbour, m_mesh)) {
+        if (g == to_neighbour)
           continue;
-        // An edge between two neighbours is looked at from one of them.
-        const bool is_due = is_wide && (opposite(g, m_mesh) != next(opposite(h, m_mesh), m_mesh) ||
-                                        CGAL::is_border(opposite(h, m_mesh), m_mesh));
         Edge_record& record = m_records[id(g)];
         if (is_stale(record))
           refresh(g);
-        else if (is_due && is_reached(kept, edge(g, m_mesh))) {
+        else if (is_wide && opposite(g, m_mesh) != looked_at_beyond && is_reached(kept, edge(g, m_mesh))) {
           if (record.cost > s_near * m_front && can_wait(kept, edge(g, m_mesh)))
             record.is_outdated = true;
           else

@@ -82,20 +82,24 @@ public:
   void set(Id edge, const FT& cost)
   {
     Heap heap = heap_of(edge);
-    if (contains(edge))
-      heap.replace(m_places[edge], {cost, edge});
+    const Id place_before = m_places[edge];
+    if (place_before != s_nowhere)
+      heap.replace(place_before, {cost, edge});
     else
       heap.rise(heap.size++, {cost, edge});
-    update_key(edge >> m_tile_bits);
+    if (place_before == 0 || m_places[edge] == 0)
+      update_key(edge >> m_tile_bits);
   }
 
   /// Removes an edge if it is in the queue.
   void erase(Id edge)
   {
-    if (!contains(edge))
+    const Id place = m_places[edge];
+    if (place == s_nowhere)
       return;
-    heap_of(edge).erase_at(m_places[edge]);
-    update_key(edge >> m_tile_bits);
+    heap_of(edge).erase_at(place);
+    if (place == 0)
+      update_key(edge >> m_tile_bits);
   }
 
   /// Whether no edge is left of the classes that have been merged.

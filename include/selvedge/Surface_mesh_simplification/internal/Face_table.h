@@ -244,8 +244,15 @@ private:
 
   CGAL::Bbox_3 box(Id id) const
   {
-    const auto& [a, b, c] = corners(id);
-    return m_vertices.point(a).bbox() + m_vertices.point(b).bbox() + m_vertices.point(c).bbox();
+    const Point &a = m_vertices.point(corners(id)[0]), &b = m_vertices.point(corners(id)[1]),
+                &c = m_vertices.point(corners(id)[2]);
+    if constexpr (s_are_coordinates_doubles) { // the same in a third of the instructions
+      const auto least = [&](int axis) { return (std::min)((std::min)(a[axis], b[axis]), c[axis]); };
+      const auto most = [&](int axis) { return (std::max)((std::max)(a[axis], b[axis]), c[axis]); };
+      return {least(0), least(1), least(2), most(0), most(1), most(2)};
+    } else {
+      return a.bbox() + b.bbox() + c.bbox();
+    }
   }
 
   const TriangleMesh& m_mesh;

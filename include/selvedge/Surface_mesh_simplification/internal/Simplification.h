@@ -200,20 +200,18 @@ private:
         is_promising = run_pass();
       }
     };
-    // Of a smaller mesh, most lies in the cache in any order.
-    const bool is_order_relaxed = num_edges(m_mesh) > std::size_t(1) << 17;
     if (m_options.loop == Collapse_loop::own) {
       run_passes([&] {
         const std::size_t collapses_before = m_report.collapses;
-        selvedge::edge_collapse(m_mesh, is_over(),
-                                parameters::expected_collapses(
-                                    is_target_known() ? targets().total_excess() / 2 : 0,
-                                    parameters::geometric_test(false, CGAL::parameters::get_cost(costs)
-                                                                          .get_placement(places)
-                                                                          .vertex_point_map(m_points)
-                                                                          .use_relaxed_order(is_order_relaxed)
-                                                                          .filter(Filter{this})
-                                                                          .visitor(Visitor(*this)))));
+        selvedge::edge_collapse(
+            m_mesh, is_over(),
+            parameters::expected_collapses(is_target_known() ? targets().total_excess() / 2 : 0,
+                                           parameters::geometric_test(false, CGAL::parameters::get_cost(costs)
+                                                                                 .get_placement(places)
+                                                                                 .vertex_point_map(m_points)
+                                                                                 .use_relaxed_order(true)
+                                                                                 .filter(Filter{this})
+                                                                                 .visitor(Visitor(*this)))));
         // The loop leaves no collapse undone that a change nearby or of a blocker has made possible. Should a
         // rule look farther, as from one place of a shared mesh to another, another pass finds what it
         // allows.
