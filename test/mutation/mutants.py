@@ -329,8 +329,6 @@ group(
     ("hilbert_curve_test:OrderAlongCurve*",),
     ("shift < 3 * Hilbert_curve::bits", "shift < bits", "points are sorted by the last digit alone"),
     ("std::uint32_t((point[axis] - lower[axis]) * cells)", "std::uint32_t(point[axis] * cells)", "the curve begins at the origin"),
-    ("upper[axis] = i == 0 ? point[axis] : (std::max)(upper[axis], double(point[axis]));", "upper[axis] = point[axis];",
-     "the last point bounds all"),
 )
 group(
     "src/soup/Sewn_mesh.cpp",
@@ -932,6 +930,8 @@ group(
     ("m_tile_bits(is_relaxed ? s_tile_bits : 31)", "m_tile_bits(31)", "no tiles"),
     ("if (place_before == 0 || m_places[edge] == 0)", "if (m_places[edge] == 0)",
      "a tile is not told that its first edge has become dearer"),
+    ("if (place_before == 0 || m_places[edge] == 0)", "if (place_before == 0)",
+     "a tile is not told that another edge has become its first"),
     ("    heap_of(edge).erase_at(place);\n    if (place == 0)", "    heap_of(edge).erase_at(place);\n    if (place == 1)",
      "a tile is not told that its first edge has gone"),
     ("key == m_keys[1] ? entry < m_entries[tile << m_tile_bits] : key < m_keys[1];", "key <= m_keys[1];",

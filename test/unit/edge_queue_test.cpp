@@ -74,6 +74,26 @@ TEST(Edge_queue, TakesEdgesInEitherOrder)
   }
 }
 
+TEST(Edge_queue, KnowsTheFirstTileWhenTheFirstEdgeOfOneChanges)
+{
+  const auto first_after = [](const auto& change) {
+    Queue queue(20000, true);
+    queue.append(0, 1);
+    queue.append(1, 8);
+    queue.append(10000, 4); // in another tile
+    queue.sort();
+    change(queue);
+    return queue.pop().second;
+  };
+  EXPECT_EQ(first_after([](Queue& queue) { queue.set(0, 16); }), 10000u);
+  EXPECT_EQ(first_after([](Queue& queue) { queue.erase(0); }), 10000u);
+  EXPECT_EQ(first_after([](Queue& queue) {
+              queue.pop();
+              queue.set(1, 2);
+            }),
+            1u);
+}
+
 TEST(Edge_queue, TakesTheCheapestEdgesTileByTileWhenTheirClassesAreMerged)
 {
   constexpr std::uint32_t edges = 60000; // eight tiles
