@@ -66,7 +66,7 @@ private:
   void lock_joint_vertices(Simplify_constraints<Mesh>& constraints) const;
 
   const Corner_mesh& m_corners;
-  std::vector<Shared_mesh> m_meshes;
+  std::vector<Shared_mesh> m_meshes; // with faces in place of triangles, the null face for doubles
   std::vector<std::vector<std::pair<Index, Index>>> m_near_places; // by mesh: their boxes meet
   double m_clearance;                                              // between the boxes of companions
   std::vector<Copy> m_copies;                                      // by face
