@@ -298,13 +298,9 @@ Cell_collapses reduce_in_cells(const Cell_context& whole)
   const Prepared_soup& prepared = whole.prepared;
   const auto null_face = Working_mesh::Mesh::null_face();
   const Working_mesh::Mesh& mesh = whole.working.mesh();
-  const std::vector<Working_mesh::Face> face_of = whole.working.faces_of_triangles();
   std::vector<char> stays(mesh.number_of_faces(), false);
-  for (const Offending_pair& pair : prepared.offending_pairs) {
-    const auto a = face_of[pair.first], b = face_of[pair.second];
-    if (a != null_face && b != null_face)
-      stays[a] = stays[b] = true;
-  }
+  for (const auto& [a, b] : whole.working.constraints().offending_pairs) // frozen faces stay anyway
+    stays[a] = stays[b] = true;
   // So are vertices that move together, since a cell does not see whether all at a position are in it.
   for (const auto& group : whole.working.constraints().joint_vertices)
     for (const auto v : group)

@@ -63,9 +63,7 @@ void Corner_mesh::find_plies(const std::vector<Index>& fronts, const std::vector
   if (fronts.empty())
     return;
   const auto position_of = [&](Corner corner) { return positions[vertex_of(corner)]; };
-  std::vector<Index> face_of(fronts.size()); // by front
-  for (Index face = 0; face < own_face_count(); ++face)
-    face_of[m_triangles[face]] = face;
+  const std::vector<Face> face_of = faces_of_triangles();
   m_first_ply.assign(own_face_count() + 1, 0);
   for (Index t = 0; t < fronts.size(); ++t)
     if (fronts[t] != t) {
@@ -76,7 +74,7 @@ void Corner_mesh::find_plies(const std::vector<Index>& fronts, const std::vector
   m_plies.resize(m_first_ply.back());
   std::vector<Index> next = m_first_ply;
   for (Index t = 0; t < fronts.size(); ++t) {
-    const Face face(face_of[fronts[t]]);
+    const Face face = face_of[fronts[t]];
     if (!has_doubles(face))
       continue;
     Ply& ply = m_plies[next[face]++];

@@ -13,8 +13,10 @@
 #include <CGAL/boost/graph/iterator.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <memory>
+#include <type_traits>
 #include <utility>
 
 namespace selvedge {

@@ -184,6 +184,7 @@ private:
     internal::Monotone_box box;
     Id face;
   };
+
   void rebuild()
   {
     ++m_statistics.top_rebuilds;

@@ -15,6 +15,9 @@
 
 #include <CGAL/Kernel_traits.h>
 
+#include <array>
+#include <cstddef>
+
 namespace selvedge {
 namespace internal {
 

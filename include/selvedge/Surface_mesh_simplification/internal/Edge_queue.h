@@ -59,7 +59,6 @@ public:
   }
 
   bool is_empty() const { return m_keys[1] == s_nowhere; }
-  bool contains(Id edge) const { return m_places[edge] != s_nowhere; }
 
   /// Puts an edge that is not in the queue behind all others of its tile. Once edges were appended, `sort`
   /// must be called before any other function.
