@@ -160,8 +160,9 @@ private:
       else
         ++(m_working.lock_reason(v) == Hindrance::misoriented ? count.misoriented : count.non_manifold);
     }
+    const std::vector<Sewn_mesh::Mesh::Face_index> face_of = m_working.faces_of_triangles();
     for (Index t = 0; t < m_soup.triangles.size(); ++t) {
-      const Sewn_mesh::Mesh::Face_index face(m_prepared.fronts.empty() ? t : m_prepared.fronts[t]);
+      const auto face = face_of[m_prepared.fronts.empty() ? t : m_prepared.fronts[t]];
       const auto corners = mesh.vertices_around_face(mesh.halfedge(face));
       m_result.fixed_faces +=
           std::all_of(corners.begin(), corners.end(), [this](auto v) { return m_rule.is_locked(v); });

@@ -178,7 +178,7 @@ private:
 
   const Triangle_soup& m_soup;
   Mesh m_mesh;
-  std::vector<Index> m_triangles;      // by face, the first of its plies
+  std::vector<Index> m_triangles;      // by face, its front
   std::vector<Index_triple> m_corners; // by face
   std::vector<Ply> m_plies;            // by face, if it has doubles
   std::vector<Index> m_first_ply;      // by face, and one more; or empty

@@ -207,9 +207,20 @@ TEST(Inspect, SaysWhatIsFrozenAndWhy)
   EXPECT_EQ(fan.movable.misoriented, 0u);
 }
 
+/// Every triangle is followed by one that runs the other way.
+Triangle_soup doubled(Triangle_soup mesh)
+{
+  std::vector<Index_triple> triangles;
+  for (const auto& [a, b, c] : mesh.triangles)
+    triangles.insert(triangles.end(), {{a, b, c}, {a, c, b}});
+  mesh.triangles = triangles;
+  return mesh;
+}
+
 TEST(Inspect, AgreesWithAReduction)
 {
-  for (const Triangle_soup& mesh : {skirt(2000), finned_sheet(10, 3), sewn_pieces(1000), moebius_band()}) {
+  for (const Triangle_soup& mesh : {skirt(2000), finned_sheet(10, 3), sewn_pieces(1000), moebius_band(),
+                                    doubled(finned_sheet(10, 3)), doubled(joined(book(), sheet(9, 9, 5)))}) {
     const Inspection result = inspect(mesh);
     const Reduction reduction = reduce(mesh, to_ratio(0.5));
     EXPECT_EQ(result.fixed_faces, reduction.simplified.report.faces_fixed);
