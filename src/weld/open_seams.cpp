@@ -124,7 +124,10 @@ private:
   template <class Search>
   static void search_outward(double limit, const Search& search)
   {
-    for (double within = std::ldexp(limit, -s_halvings); !search(within) && within < limit;)
+    // A limit so small that its share is rounded to zero still has distances below it.
+    const double least =
+        (std::max)(std::ldexp(limit, -s_halvings), std::numeric_limits<double>::denorm_min());
+    for (double within = (std::min)(limit, least); !search(within) && within < limit;)
       within = (std::min)(limit, 16 * within);
   }
 

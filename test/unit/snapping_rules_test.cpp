@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <numeric>
 #include <set>
 #include <vector>
@@ -103,6 +104,18 @@ TEST(Border_gaps, AreClearWhereSeamsEndAndNothingElseBegins)
   const Border_gaps layers = gaps_of(joined(sheet(3, 3), below));
   EXPECT_EQ(layers.lengths, std::vector<double>(24, 0.125));
   EXPECT_EQ(layers.clear_length, std::nullopt);
+}
+
+// The search begins within a small share of an edge, which is less than the smallest number here.
+TEST(Border_gaps, AreFoundAmongTheSmallestNumbers)
+{
+  constexpr double smallest = std::numeric_limits<double>::denorm_min();
+  const Triangle_soup sheets =
+      mapped(joined(sheet(1, 3), moved(sheet(1, 3), 1.125, 0, 0)),
+             [](const Point_3& p) { return Point_3(8 * smallest * p.x(), 8 * smallest * p.y(), 1); });
+  const Border_gaps gaps = gaps_of(sheets);
+  EXPECT_EQ(gaps.limit, 8 * smallest);
+  EXPECT_EQ(gaps.lengths, std::vector<double>(8, smallest));
 }
 
 // Borders that meet here and part in some pose, as lips do, lie at distance 0 and are no one position.
