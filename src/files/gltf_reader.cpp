@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "files/formats.h"
+#include "files/gltf_bind_poses.h"
 #include "files/gltf_column_reader.h"
 #include "files/gltf_decoding.h"
 #include "files/gltf_levels.h"
@@ -171,6 +172,7 @@ private:
       is_taken[mesh] |= !m_document.to_world[n];
     }
     find_meshes_alike();
+    m_bind_poses = bind_poses(m_document);
     const std::vector<Place> all = places();
     for (const Place& place : all)
       ++in_scene[model().nodes[place.node].mesh];
@@ -242,7 +244,7 @@ private:
       remark("skinned meshes, read in their bind pose (their animations can be given as poses)");
     const std::size_t parts =
         std::count_if(primitives.begin(), primitives.end(), [&](const auto& p) { return is_reducible(p); });
-    const Matrix& to_world = is_skinned ? identity_matrix : place.to_world;
+    const Matrix& to_world = is_skinned ? m_bind_poses.at(node.skin) : place.to_world;
     std::map<Index, Index> instance_of_block;
     for (Index p = 0; p < primitives.size(); ++p) {
       const tinygltf::Primitive& primitive = primitives[p];
@@ -681,7 +683,8 @@ private:
   std::vector<const tinygltf::Primitive*> m_sources; // the primitive of each part
   Cancellation_poll m_poll;
   Names m_group_names;
-  std::vector<Index> m_first_alike; // of each mesh of the file, as in `Gltf_scene::Part`
+  std::vector<Index> m_first_alike;   // of each mesh of the file, as in `Gltf_scene::Part`
+  std::map<int, Matrix> m_bind_poses; // by skin
   std::map<std::tuple<Index, Attribute_accessors, std::vector<Attribute_accessors>>, Index> m_block_numbers;
   std::vector<char> m_is_free_accessor;
   std::set<int> m_kept_accessors;

@@ -53,9 +53,9 @@ TEST(Gltf, WorldPositionsAreTheDocumentedFormula)
               Point_3(m00 * px + m02 * pz + tx, m11 * py + ty, m20 * px + m22 * pz + tz));
     EXPECT_EQ(file.soup.points[i + rows.size()],
               Point_3(-px + (5.5 + 10.1), py + (0.25 + 20.2), pz + (0.125 + 30.3)));
-    // A skinned mesh is where its vertices are, wherever its node is.
+    // A skinned mesh is where its joints are, wherever its node is.
     EXPECT_EQ(file.soup.points[i + 2 * rows.size()],
-              Point_3(px, py, double(float(get<float>(rows[i], 8) + 0.125f))));
+              Point_3(px + 10.1, py + 20.2, double(float(get<float>(rows[i], 8) + 0.125f)) + 30.3));
   }
 }
 

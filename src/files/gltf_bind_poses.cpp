@@ -1,0 +1,179 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "files/gltf_bind_poses.h"
+
+#include "files/gltf_column_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace selvedge::files {
+namespace {
+
+using Matrix = Gltf_scene::Matrix;
+
+/// A skin whose meshes have their place.
+struct Placed_skin
+{
+  std::map<std::size_t, Matrix> inverse_bind; // by joint
+  Matrix to_world;
+};
+
+Matrix absolute(Matrix matrix)
+{
+  for (auto& row : matrix)
+    for (double& entry : row)
+      entry = std::fabs(entry);
+  return matrix;
+}
+
+/// Returns the inverse of a transform, if there is one.
+std::optional<Matrix> inverse(const Matrix& m)
+{
+  Matrix result;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      const std::size_t a = (j + 1) % 3, b = (j + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;
+      result[i][j] = m[a][c] * m[b][d] - m[a][d] * m[b][c];
+    }
+  const double determinant = m[0][0] * result[0][0] + m[0][1] * result[1][0] + m[0][2] * result[2][0];
+  for (auto& row : result) {
+    for (std::size_t j = 0; j < 3; ++j)
+      row[j] /= determinant;
+    row[3] = -(row[0] * m[0][3] + row[1] * m[1][3] + row[2] * m[2][3]);
+    if (!std::all_of(row.begin(), row.end(), [](double entry) { return std::isfinite(entry); }))
+      return std::nullopt;
+  }
+  return result;
+}
+
+/// Gives skins their places, one after the other.
+class Bind_poses
+{
+public:
+  explicit Bind_poses(const Gltf_document& document) : m_document(document) {}
+
+  Matrix place(int number)
+  {
+    const std::vector<Joint> joints = joints_of(number);
+    if (joints.empty())
+      return Gltf_scene::identity_matrix;
+    Placed_skin skin{{}, Gltf_scene::identity_matrix};
+    for (const auto& [node, inverse_bind] : joints)
+      skin.inverse_bind.emplace(node, inverse_bind);
+    if (const std::optional<Matrix> beside = place_beside_another(skin.inverse_bind)) {
+      skin.to_world = *beside;
+    } else {
+      const auto& [first, to_joint] = joints.front();
+      const Matrix& joint = *m_document.to_world[first];
+      const Matrix place = known(product(joint, to_joint), product(absolute(joint), absolute(to_joint)));
+      if (inverse(place)) // a joint of size zero hides what it moves
+        skin.to_world = place;
+    }
+    m_placed.push_back(skin);
+    return skin.to_world;
+  }
+
+private:
+  struct Joint
+  {
+    std::size_t node;
+    Matrix inverse_bind;
+  };
+
+  // Returns the joints of a skin; none when the skin is not as the format demands.
+  std::vector<Joint> joints_of(int number) const
+  {
+    const tinygltf::Model& model = m_document.model;
+    const Gltf_scene::Json& skins = member(m_document.json, "skins");
+    if (number < 0 || std::size_t(number) >= skins.size() || !skins[std::size_t(number)].is_object())
+      return {};
+    const Gltf_scene::Json& skin = skins[std::size_t(number)];
+    std::vector<Joint> joints;
+    for (const Gltf_scene::Json& joint : member(skin, "joints")) {
+      const std::size_t node = joint.is_number_unsigned() ? joint.get<std::size_t>() : model.nodes.size();
+      if (node >= model.nodes.size() || !m_document.to_world[node])
+        return {};
+      joints.push_back({node, Gltf_scene::identity_matrix});
+    }
+    if (!skin.contains("inverseBindMatrices"))
+      return joints;
+    const Gltf_scene::Json& matrices = skin["inverseBindMatrices"];
+    const std::size_t accessor =
+        matrices.is_number_unsigned() ? matrices.get<std::size_t>() : model.accessors.size();
+    if (accessor >= model.accessors.size() || model.accessors[accessor].type != TINYGLTF_TYPE_MAT4 ||
+        model.accessors[accessor].componentType != TINYGLTF_COMPONENT_TYPE_FLOAT ||
+        model.accessors[accessor].count < joints.size())
+      return {};
+    const Gltf_scene::Column rows =
+        Gltf_column_reader(m_document, "skin " + std::to_string(number))
+            .read(int(accessor), "inverseBindMatrices", model.accessors[accessor].count);
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      for (std::size_t row = 0; row < 3; ++row)
+        for (std::size_t column = 0; column < 4; ++column)
+          joints[j].inverse_bind[row][column] = component(rows, Index(j), 4 * column + row);
+    return joints;
+  }
+
+  // Returns the place that the matrices of a joint give a skin beside one that has it, too.
+  std::optional<Matrix> place_beside_another(const std::map<std::size_t, Matrix>& inverse_bind) const
+  {
+    for (const Placed_skin& other : m_placed)
+      for (const auto& [joint, to_joint] : inverse_bind) {
+        const auto found = other.inverse_bind.find(joint);
+        if (found == other.inverse_bind.end())
+          continue;
+        if (found->second == to_joint)
+          return other.to_world;
+        const std::optional<Matrix> from_joint = inverse(found->second);
+        if (!from_joint || !inverse(to_joint))
+          continue;
+        const Matrix joint_to_world = product(other.to_world, *from_joint);
+        return known(product(joint_to_world, to_joint),
+                     product(product(absolute(other.to_world), absolute(*from_joint)), absolute(to_joint)));
+      }
+    return std::nullopt;
+  }
+
+  // Returns the identity or the place of another skin if `place` differs from it by rounding alone. `size`
+  // has the sums of the absolute values of what each entry is a sum of.
+  Matrix known(const Matrix& place, const Matrix& size) const
+  {
+    const auto is_meant = [&](const Matrix& other) {
+      constexpr double rounding = 1e-5; // of some products of 32-bit floats, which may come from few digits
+      for (std::size_t row = 0; row < 3; ++row)
+        for (std::size_t column = 0; column < 4; ++column)
+          if (!(std::fabs(place[row][column] - other[row][column]) <= rounding * size[row][column]))
+            return false;
+      return true;
+    };
+    if (is_meant(Gltf_scene::identity_matrix))
+      return Gltf_scene::identity_matrix;
+    const auto found = std::find_if(m_placed.begin(), m_placed.end(),
+                                    [&](const Placed_skin& other) { return is_meant(other.to_world); });
+    return found == m_placed.end() ? place : found->to_world;
+  }
+
+  const Gltf_document& m_document;
+  std::vector<Placed_skin> m_placed;
+};
+
+} // namespace
+
+std::map<int, Matrix> bind_poses(const Gltf_document& document)
+{
+  std::map<int, Matrix> result;
+  Bind_poses poses(document);
+  for (std::size_t n = 0; n < document.model.nodes.size(); ++n) {
+    const tinygltf::Node& node = document.model.nodes[n];
+    if (document.to_world[n] && node.mesh != -1 && node.skin != -1 && result.count(node.skin) == 0)
+      result.emplace(node.skin, poses.place(node.skin));
+  }
+  return result;
+}
+
+} // namespace selvedge::files
