@@ -107,7 +107,7 @@ Mesh_file with_shared_vertices(Mesh_file file)
 {
   const bool is_flat = has_flat_normals(file.soup);
   if (const std::size_t joined = share_split_vertices(file.soup); joined > 0)
-    file.notes.remarks[std::string("corners joined, for their vertices differ in nothing but ") +
+    file.notes.remarks[std::string("corners joined, for their vertices differ in nothing, or only in ") +
                        (is_flat ? "flat normals" : "the last digits of normals")] += joined;
   return file;
 }

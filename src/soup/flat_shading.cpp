@@ -143,6 +143,9 @@ std::size_t share_vertices(Triangle_soup& soup, Sharing sharing)
   std::vector<Index> uvs;
   if (soup.scene || are_numbered_like_vertices(soup.uvs, soup))
     uvs = numbers_of_vertices(soup, soup.uvs.of_triangle, are_equal);
+  const auto has_uv = [&](Index v) {
+    return !uvs.empty() && uvs[v] != s_no_number && uvs[v] != soup.uvs.missing;
+  };
   struct Shared_vertex
   {
     Index first;
@@ -174,7 +177,7 @@ std::size_t share_vertices(Triangle_soup& soup, Sharing sharing)
                                     [&](const Shared_vertex& shared) { return suits(shared, v, bytes); });
     if (found == alike.end()) {
       first[v] = v;
-      is_shared[v] = have_faces_own;
+      is_shared[v] = have_faces_own || has_uv(v);
       alike.push_back({v, {std::move(bytes)}});
       continue;
     }

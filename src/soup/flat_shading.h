@@ -35,8 +35,10 @@ bool are_numbered_like_vertices(const Corner_values<dimension>& values, const Tr
 /// (`has_flat_normals`), and otherwise those whose normals are nearly alike (`are_near_normals`): a program
 /// that writes vertices that differ would have written one, but for its arithmetic. Triangles then name the
 /// first of such vertices, and the others are unused; vertices keep their numbers, and corners their normals.
-/// Vertices that differ in nothing at all stay apart, because pieces may lie beside each other, unless a
-/// third one differs from them in its normal, or every face has vertices of its own
+/// Vertices that differ in nothing at all become one where they have texture coordinates: there is no seam
+/// between surfaces on which shading and texture go on. Without, they stay apart, because pieces may lie
+/// beside each other, unless a third one differs from them in its normal, or every face has vertices of its
+/// own
 /// (`have_faces_own_vertices`).
 ///
 /// Alike, bit for bit, must be position, attributes, and texture coordinates if they are those of vertices;

@@ -362,6 +362,25 @@ TEST(Near_normals, VerticesThatDifferInTheirLastDigitsAreOne)
   EXPECT_EQ(vertices_used(through(halves(0), "m.ply")), 22u * 21);
 }
 
+TEST(Near_normals, VerticesThatDifferInNothingAreOneWhereTheyHaveTexture)
+{
+  for (const char* name : {"m.ply", "m.glb"})
+    for (const bool is_moved : {false, true}) {
+      Triangle_soup soup = halves(0);
+      for (std::size_t v = 0; v < soup.points.size(); ++v)
+        soup.uvs.values.push_back({soup.points[v].x() / 32, soup.points[v].y() / 32});
+      if (is_moved)
+        for (std::size_t v = 0; v < soup.points.size() / 2; ++v)
+          soup.uvs.values[v][1] += 0.25;
+      soup.uvs.of_triangle = soup.triangles;
+      const Triangle_soup file = through(soup, name);
+      EXPECT_EQ(vertices_used(file), is_moved ? 22u * 21 : 21u * 21) << name;
+      const Reduction result = reduced(file, 0.1);
+      EXPECT_TRUE(result.verification.accepted()) << name;
+      EXPECT_TRUE(verify(through(result.simplified.soup, name), file).accepted()) << name;
+    }
+}
+
 TEST(Flat_shading, PiecesBesideEachOtherStayPieces)
 {
   Triangle_soup pieces = joined(sheet(5, 5), moved(sheet(5, 5), 5, 0, 0));
