@@ -26,6 +26,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cfenv>
 #include <cmath>
 #include <cstddef>
@@ -73,6 +74,37 @@ struct Counting_visitor : SMS::Edge_collapse_visitor_base<Mesh>
   int* collapses;
   std::size_t expected = 0;
 };
+
+// An observer need not say that it has costs.
+TEST(Simplify_mesh, KeepsVerticesWhoseMotionsItsObserverMakesCostly)
+{
+  struct Costly_left : No_observer
+  {
+    const Mesh* mesh;
+
+    double uv_cost(Mesh::Halfedge_index moving) const
+    {
+      return mesh->point(mesh->source(moving)).x() < 10 ? 1e6 : 0;
+    }
+  };
+  const auto left_of_the_middle = [](const Mesh& mesh) {
+    const auto all = mesh.vertices();
+    return std::count_if(all.begin(), all.end(), [&](auto v) { return mesh.point(v).x() < 10; });
+  };
+  Mesh mesh = mesh_of(mapped(sheet(20, 20), [](const Point_3& p) {
+    return Point_3(p.x(), p.y(), std::sin(p.x()) * std::cos(p.y()));
+  }));
+  Mesh plain = mesh;
+  Costly_left observer;
+  observer.mesh = &mesh;
+  Simplify_options options;
+  options.ratio = 0.6;
+  const auto before = left_of_the_middle(mesh);
+  simplify_mesh(mesh, options, {}, observer);
+  simplify_mesh(plain, options);
+  EXPECT_GT(left_of_the_middle(mesh), 0.9 * double(before));
+  EXPECT_LT(left_of_the_middle(plain), 0.8 * double(before));
+}
 
 TEST(Visitor_chain, CallsAllVisitorsInEitherLoop)
 {

@@ -132,11 +132,13 @@ struct No_observer
     return false;
   }
 
-  /// Returns whether there are motions of which `uv_cost` or `normal_cost` is not 0.
-  bool adds_to_costs() const { return false; }
+  /// Returns whether there may be motions of which `uv_cost` or `normal_cost` is not 0. Neither is called for
+  /// motions onto an end of an edge where the answer is no, which saves time. Not called for a `No_observer`
+  /// itself.
+  bool adds_to_costs() const { return true; }
 
   /// Returns how much the motion adds to the displacement of the texture, as squared lengths with the weights
-  /// of `relative_face_weight`.
+  /// of `relative_face_weight`; not less than 0.
   template <class Halfedge>
   double uv_cost(const Halfedge& /*moving*/) const
   {

@@ -101,7 +101,7 @@ public:
     if (!has_motions_alone(profile))
       return {cost_along(profile, motions[0]), cost_along(profile, motions[1])};
     auto costs = m_quadrics.costs_along(profile);
-    if (m_observer->adds_to_costs())
+    if (may_attributes_cost())
       for (std::size_t i = 0; i < 2; ++i)
         *costs[i] += cost_of_attributes(motions[i]);
     return costs;
@@ -112,7 +112,7 @@ public:
   template <class Profile>
   std::array<Optional<double>, 2> cost_bounds(const Profile& profile) const
   {
-    if (!m_observer->adds_to_costs() || !has_cost(profile.v0_v1()) || !has_motions_alone(profile))
+    if (!may_attributes_cost() || !has_cost(profile.v0_v1()) || !has_motions_alone(profile))
       return {};
     return m_quadrics.costs_along(profile);
   }
@@ -155,6 +155,10 @@ public:
   }
 
 private:
+  bool may_attributes_cost() const
+  {
+    return !std::is_same_v<Observer, No_observer> && m_observer->adds_to_costs();
+  }
   bool has_cost(Halfedge edge) const { return m_targets.is_counted(edge) && !m_observer->is_led(edge); }
 
   // Whether either end of the edge would move without any other vertex, and there is one pose.
