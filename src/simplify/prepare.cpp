@@ -15,6 +15,7 @@
 
 #include <selvedge/Error.h>
 #include <selvedge/Parts.h>
+#include <selvedge/Surface_mesh_simplification/internal/mesh_diagonal.h>
 
 #include <algorithm>
 #include <limits>
@@ -106,6 +107,7 @@ public:
           "every triangle of the mesh has two corners at one position; there is nothing to reduce");
     find_held_vertices();
     m_prepared.scale = Scale(soup(), obstacle());
+    require_size();
     require_apart("");
     m_prepared.seconds_positions += m_stopwatch.restart();
 
@@ -170,9 +172,10 @@ private:
         for (const Index_triple& triangle : triangles) {
           const auto& [a, b, c] = triangle;
           if (has_two_corners_at_one_position({a + first_vertex, b + first_vertex, c + first_vertex}, here))
-            throw Input_error("triangle " + std::to_string(&triangle - triangles.data() + 1) + whose +
-                              " has two corners at one position " + where +
-                              " and not in all poses; leave out this pose (--without-pose), or part the corners");
+            throw Input_error(
+                "triangle " + std::to_string(&triangle - triangles.data() + 1) + whose +
+                " has two corners at one position " + where +
+                " and not in all poses; leave out this pose (--without-pose), or part the corners");
         }
       };
       refuse_if_degenerate(soup().triangles, 0, "");
@@ -216,6 +219,20 @@ private:
       permit(pairs);
       refuse_if_any(pairs, soup().triangles.size(), " in the pose '" + soup().poses[pose].name + "'");
     }
+  }
+
+  // Refuses what `mesh_diagonal` would refuse later, at the scale.
+  void require_size()
+  {
+    CGAL::Bbox_3 box;
+    for (const Index_triple& triangle : soup().triangles)
+      for (const Index v : triangle)
+        box += m_prepared.scale(soup().points[v]).bbox();
+    const double diagonal = internal::diagonal_of(box);
+    if (diagonal > 0 && diagonal < internal::least_diagonal)
+      throw Input_error(
+          "the mesh is 2^200 times as far from the origin as it is large, so that squares of its "
+          "areas are no numbers; move it to the origin");
   }
 
   // Parts that may intersect have no position in common, not even one that only rounding has made one. So no

@@ -453,5 +453,16 @@ TEST(Scale, PolygonsAreCutTheSame)
     EXPECT_EQ(triangles(exponent), triangles(0)) << exponent;
 }
 
+// Its scale is that of its coordinates.
+TEST(Scale, RefusesAMeshThatIsTooSmallForWhereItLies)
+{
+  const auto far_away = [](int exponent) {
+    return mapped(sheet(4, 4),
+                  [=](const Point_3& p) { return Point_3(std::ldexp(1, exponent), p.y(), p.x()); });
+  };
+  EXPECT_EQ(reduce(far_away(150), to_ratio(0.5)).simplified.report.faces_output, 16u);
+  EXPECT_THROW(prepare(far_away(250)), Input_error);
+}
+
 } // namespace
 } // namespace selvedge::test

@@ -19,6 +19,8 @@
 namespace selvedge {
 namespace internal {
 
+inline constexpr double least_diagonal = 0x1p-200, largest_diagonal = 0x1p200; // see `mesh_diagonal`
+
 /// Returns the diagonal of a box; 0 when it is that of no point.
 inline double diagonal_of(const CGAL::Bbox_3& box)
 {
@@ -53,7 +55,7 @@ double mesh_diagonal(const TriangleMesh& mesh, const VertexPointMap& points,
                      const std::optional<double>& given)
 {
   const double diagonal = given ? *given : diagonal_of(bounding_box(mesh, points));
-  if (diagonal == 0 || (diagonal >= 0x1p-200 && diagonal <= 0x1p200))
+  if (diagonal == 0 || (diagonal >= least_diagonal && diagonal <= largest_diagonal))
     return diagonal;
   std::ostringstream text;
   text << "the bounding box of the mesh, " << bounding_box(mesh, points) << ", is too "
