@@ -69,6 +69,25 @@ TEST(OrderAlongCurve, HasEveryNumberOnceAndGoesFromNeighbourToNeighbour)
   }
 }
 
+TEST(OrderAlongCurve, GoesFromNeighbourToNeighbourInACornerOfAllSpace)
+{
+  constexpr int size = 16;
+  std::vector<Place_in_space> points;
+  for (int i = 0; i < size * size * size; ++i)
+    points.push_back({1. * (i % size), 1. * (i / size % size), 1. * (i / size / size)});
+  std::shuffle(points.begin(), points.end(), std::mt19937(2));
+  // So far away that cells are of size 1, and all other points agree in the leading bits of their places.
+  points.push_back({(1 << selvedge::internal::Hilbert_curve::bits) - 1., 0, 0});
+  const std::vector<std::uint32_t> order =
+      selvedge::internal::order_along_curve(points.size(), [&](std::size_t i) { return points[i]; });
+  ASSERT_EQ(order.size(), points.size());
+  ASSERT_EQ(order.back(), points.size() - 1);
+  for (std::size_t i = 1; i + 1 < order.size(); ++i) {
+    const Place_in_space &a = points[order[i - 1]], &b = points[order[i]];
+    ASSERT_EQ(std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]), 1) << i;
+  }
+}
+
 TEST(OrderAlongCurve, KeepsTheOrderOfPointsThatAreOne)
 {
   const std::vector<Place_in_space> points = {{1, 1, 1}, {0, 0, 0}, {1, 1, 1}, {0, 0, 0}, {1, 1, 1}};
