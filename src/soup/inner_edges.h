@@ -4,11 +4,12 @@
 #ifndef SELVEDGE_SRC_SOUP_INNER_EDGES_H
 #define SELVEDGE_SRC_SOUP_INNER_EDGES_H
 
+#include "sorted_by.h"
+
 #include <selvedge/Triangle_soup.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -21,21 +22,23 @@ struct Edge_side
   Index at_low, at_high; ///< the corners there
 };
 
-/// Visits every edge of two triangles, by the two sides there. O(n log n).
+/// Visits every edge of two triangles, by the two sides there, in linear time.
 template <class Function>
 void for_each_inner_edge(const std::vector<Index_triple>& triangles, const Function& function)
 {
+  Index vertices = 0; // or more
   std::vector<Edge_side> sides;
+  sides.reserve(3 * triangles.size());
   for (Index t = 0; t < triangles.size(); ++t)
     for (Index k = 0; k < 3; ++k) {
       const Index l = (k + 1) % 3;
       const Index a = triangles[t][k], b = triangles[t][l];
+      vertices = std::max({vertices, a + 1, b + 1});
       sides.push_back(a < b ? Edge_side{a, b, 3 * t + k, 3 * t + l} : Edge_side{b, a, 3 * t + l, 3 * t + k});
     }
   const auto edge = [](const Edge_side& side) { return std::make_pair(side.low, side.high); };
-  std::sort(sides.begin(), sides.end(), [&](const Edge_side& a, const Edge_side& b) {
-    return std::make_tuple(a.low, a.high, a.at_low) < std::make_tuple(b.low, b.high, b.at_low);
-  });
+  sides = sorted_by(sides, vertices, [](const Edge_side& side) { return side.high; });
+  sides = sorted_by(sides, vertices, [](const Edge_side& side) { return side.low; });
   for (std::size_t i = 0; i < sides.size();) {
     std::size_t end = i + 1;
     while (end < sides.size() && edge(sides[end]) == edge(sides[i]))

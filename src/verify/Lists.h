@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -35,20 +36,32 @@ public:
 
   Lists() = default;
 
-  /// Takes pairs of a key, which is below `keys`, and a number, in any order and with repetitions.
-  Lists(std::size_t keys, std::vector<Pair> pairs) : m_first(keys + 1)
+  /// Takes pairs of a key, which is below `keys`, and a number, in any order and with repetitions. Linear in
+  /// time where the numbers of each key come in ascending order.
+  Lists(std::size_t keys, const std::vector<Pair>& pairs) : m_first(keys + 1), m_numbers(pairs.size())
   {
     Cancellation_scope::check();
-    std::sort(pairs.begin(), pairs.end());
-    Cancellation_scope::check();
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-    m_numbers.reserve(pairs.size());
-    for (const auto& [key, number] : pairs) {
+    for (const auto& [key, number] : pairs)
       ++m_first[key + 1];
-      m_numbers.push_back(number);
+    std::partial_sum(m_first.begin(), m_first.end(), m_first.begin());
+    std::vector<std::size_t> places = m_first;
+    for (const auto& [key, number] : pairs)
+      m_numbers[places[key]++] = number;
+    Cancellation_scope::check();
+    auto kept = m_numbers.begin();
+    for (std::size_t key = 0; key < keys; ++key) {
+      const auto first = m_numbers.begin() + std::ptrdiff_t(m_first[key]),
+                 beyond = m_numbers.begin() + std::ptrdiff_t(places[key]);
+      if (!std::is_sorted(first, beyond))
+        std::sort(first, beyond);
+      const auto first_kept = kept;
+      for (auto number = first; number != beyond; ++number)
+        if (kept == first_kept || kept[-1] != *number)
+          *kept++ = *number;
+      m_first[key] = std::size_t(first_kept - m_numbers.begin());
     }
-    for (std::size_t key = 0; key < keys; ++key)
-      m_first[key + 1] += m_first[key];
+    m_numbers.erase(kept, m_numbers.end());
+    m_first[keys] = m_numbers.size();
   }
 
   Range operator[](std::size_t key) const

@@ -23,7 +23,7 @@ Piece_mesh::Piece_mesh(const Triangle_soup& mesh, const Index* positions_of_vert
   for (Index t = 0; t < soup.triangles.size(); ++t)
     if (piece(t) != no_piece)
       pairs.emplace_back(piece(t), t);
-  triangles = Lists(numbered.pieces.size(), std::move(pairs));
+  triangles = Lists(numbered.pieces.size(), pairs);
 }
 
 Lists Piece_mesh::pieces_at(std::size_t positions_in_all) const
@@ -37,7 +37,7 @@ Lists Piece_mesh::pieces_at(std::size_t positions_in_all) const
         pairs.emplace_back(positions[vertex], piece(t));
       is_done[vertex] = true;
     }
-  return Lists(positions_in_all, std::move(pairs));
+  return Lists(positions_in_all, pairs);
 }
 
 std::vector<Index> Piece_mesh::triangles_of(const std::vector<Index>& some_pieces) const

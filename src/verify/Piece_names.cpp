@@ -33,8 +33,8 @@ Piece_names::Piece_names(const Piece_mesh& result, const Piece_mesh& original)
   add(result.soup.groups, original.soup.groups);
   add(result.soup.objects, original.soup.objects);
   add(result.soup.materials, original.soup.materials);
-  m_of_result = Lists(result.pieces().size(), std::move(now));
-  m_of_original = Lists(original.pieces().size(), std::move(before));
+  m_of_result = Lists(result.pieces().size(), now);
+  m_of_original = Lists(original.pieces().size(), before);
 }
 
 std::size_t Piece_names::differing(Index of_result, Index of_original) const

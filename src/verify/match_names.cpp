@@ -65,7 +65,7 @@ private:
         if (pairs.empty() || pairs.back() != pair)
           pairs.push_back(pair);
       }
-    const Lists names_at(m_position_count, std::move(pairs));
+    const Lists names_at(m_position_count, pairs);
     for (const Piece_match& match : m_matching.matches)
       judge_names(what, names, names_at, match);
   }

@@ -24,7 +24,7 @@ public:
       if (m_of_result[match.of_result] == no_piece && m_of_original[match.of_original] == no_piece)
         assign(match.of_result, match.of_original);
     }
-    m_originals_of = Lists(results, std::move(pairs));
+    m_originals_of = Lists(results, pairs);
     for (Index r = 0; r < results; ++r)
       if (m_of_result[r] == no_piece && m_originals_of[r].size() > 0) {
         ++m_search;

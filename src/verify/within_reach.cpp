@@ -97,7 +97,7 @@ Lists within_reach(const Matching& matching)
       pairs.emplace_back(position, o);
   if (matching.options.weld_distance > 0)
     add_near_borders(matching, pairs);
-  return Lists(matching.position_count, std::move(pairs));
+  return Lists(matching.position_count, pairs);
 }
 
 // A piece whose vertices were all snapped onto those of a piece that lies on it, or beside it, has none of

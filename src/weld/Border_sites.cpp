@@ -3,6 +3,10 @@
 
 #include "Border_sites.h"
 
+#include "soup/sorted_by.h"
+
+#include <algorithm>
+
 namespace selvedge {
 namespace internal {
 
@@ -24,12 +28,12 @@ Border_sites::Border_sites(const Triangle_soup& soup, const std::vector<Index>& 
     gather_transforms(soup, transforms);
 }
 
-void Border_sites::drop_shared(std::vector<Side>& sides)
+void Border_sites::drop_shared(std::vector<Side>& sides) const
 {
-  const auto ends = [](const Side& side) -> std::pair<Index, Index> { return std::minmax(side[0], side[1]); };
-  std::sort(sides.begin(), sides.end(), [&](const Side& a, const Side& b) {
-    return std::make_pair(ends(a), a) < std::make_pair(ends(b), b);
-  });
+  const auto ends = [](const Side& side) { return std::minmax(side[0], side[1]); };
+  const auto low = [](const Side& side) { return std::min(side[0], side[1]); };
+  const auto high = [](const Side& side) { return std::max(side[0], side[1]); };
+  sides = sorted_by(sorted_by(sides, m_points.size(), high), m_points.size(), low);
   auto kept = sides.begin();
   for (auto first = sides.begin(), beyond = first; first != sides.end(); first = beyond) {
     while (beyond != sides.end() && ends(*beyond) == ends(*first))

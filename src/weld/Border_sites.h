@@ -67,7 +67,7 @@ protected:
   // Keeps the sides that are the only ones between their ends. Later calls get the border sides that are
   // left, and find the same borders as among all sides, since `is_manifold` lets only border edges become one
   // edge.
-  static void drop_shared(std::vector<Side>& sides);
+  void drop_shared(std::vector<Side>& sides) const;
 
   const Point_3& point(const Site& site) const { return m_points[site.position]; }
 
