@@ -184,12 +184,17 @@ void check_clearance(const Simplify_request& request)
     refuse_with("--may-intersect", "parts that may intersect have no distance");
 }
 
+/// Returns whether nothing says how far to reduce the whole mesh.
+bool is_without_target(const Simplify_request& request)
+{
+  return !request.options.ratio && !request.options.faces &&
+         (request.error.empty() || request.error == "none") && request.lods.empty();
+}
+
 /// Refuses what can be refused before any work is done.
 void check(const Simplify_request& request)
 {
-  if (!request.options.ratio && !request.options.faces &&
-      (request.error.empty() || request.error == "none") && request.intent.ratios.empty() &&
-      request.lods.empty())
+  if (is_without_target(request) && request.intent.ratios.empty())
     throw Argument_error("say how far to reduce the mesh: give --ratio, --faces, --error or --lods");
   if (!request.lods.empty() && (request.options.ratio || request.options.faces))
     throw Argument_error("--lods already says how far to reduce the mesh; leave out --ratio R and --faces");
@@ -354,6 +359,8 @@ void complete(Simplify_request& request)
   read_error(request);
   read_weld(request);
   check(request);
+  if (is_without_target(request))
+    request.options.ratio = 1; // for what is in no part with a ratio
 }
 
 void add_options(CLI::App& command, Simplify_request& request)
@@ -376,7 +383,8 @@ void add_options(CLI::App& command, Simplify_request& request)
           "--ratio", request.ratios,
           "Share of the faces to keep, from 0 to 1, of those that can be reduced: frozen and locked faces "
           "stay and do not count. PART=R is the share of one group, object or material, as `selvedge info` "
-          "names them; R alone is then for all others. May be given several times.")
+          "names them; R alone is then for all others, which stay as they are where nothing says how far to "
+          "reduce them. May be given several times.")
       ->type_name("[PART=]R")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)

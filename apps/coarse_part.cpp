@@ -31,16 +31,13 @@ std::vector<char> triangles_with_ratio(const Simplify_request& request, const Tr
   return have;
 }
 
-/// Returns the share of faces that the whole keeps, without the parts that have a ratio of their own: at most
-/// what is asked for.
-double share_kept(const Simplify_request& request, const std::vector<char>& has_ratio,
-                  const std::vector<Index>& triangles_left)
+/// Returns the share of faces that the whole keeps, without the parts that have a ratio of their own.
+double share_kept(const std::vector<char>& has_ratio, const std::vector<Index>& triangles_left)
 {
   const auto before = std::count(has_ratio.begin(), has_ratio.end(), char(false));
   const auto after = std::count_if(triangles_left.begin(), triangles_left.end(),
                                    [&](Index triangle) { return !has_ratio[triangle]; });
-  const double share = before > 0 ? double(after) / double(before) : 0;
-  return (std::min)(share, request.options.ratio.value_or(1));
+  return before > 0 ? double(after) / double(before) : 0;
 }
 
 } // namespace
@@ -51,7 +48,8 @@ std::string coarse_part(const Simplify_request& request, const Prepared_soup& or
   if (request.is_in_cells) // parts cannot have ratios then
     return "";
   const std::vector<char> has_ratio = triangles_with_ratio(request, original.soup);
-  const double share_of_whole = share_kept(request, has_ratio, result.triangles);
+  const double share_of_whole = share_kept(has_ratio, result.triangles),
+               share_wanted = (std::min)(share_of_whole, request.options.ratio.value_or(1));
   std::string text;
   std::size_t most = 0;
   for (const Part_kind& kind : part_kinds(original.soup)) {
@@ -78,7 +76,8 @@ std::string coarse_part(const Simplify_request& request, const Prepared_soup& or
       text = std::string(name(kind.name)) + " '" + names[i] + "' keeps " + percent(share_of(suspects[i])) +
              " of its faces" +
              (suspects[i].after.empty() ? "" : " and is off by " + percent(off) + " of its own size (RMS)") +
-             "; --ratio '" + names[i] + '=' + with_digits((std::min)(1.0, 2 * share_of_whole), "%.2g") +
+             "; --ratio '" + names[i] + '=' +
+             with_digits((std::min)(1.0, (std::max)(2 * share_wanted, 2 * share_of(suspects[i]))), "%.2g") +
              "' keeps more of it";
     }
   }

@@ -145,22 +145,23 @@ std::string why_it_stays(Hindrance reason)
 std::string remedies(const std::vector<Hindrances::Description>& all, const Hindrances& hindrances,
                      const Simplify_request& request)
 {
-  std::string text;
-  std::size_t first = 0;
+  std::vector<std::pair<std::string, Hindrances::Description>> options;
   const std::size_t total = hindrances.total() - hindrances[Hindrance::target];
   for (const Hindrances::Description& description : all) {
     const std::string option = remedy(description.reason, request);
     if (option.empty() || 10 * hindrances[description.reason] < total)
       continue;
-    if (first > 0 && 2 * hindrances[description.reason] < first)
-      return text;
-    const bool is_clear =
-        first == 0 ? description.reason == all[0].reason : text.find(" against ") == std::string::npos;
-    text +=
-        (first == 0 ? "" : " and ") + option + (is_clear ? "" : std::string(" against ") + description.name);
-    if (first > 0)
-      return text;
-    first = hindrances[description.reason];
+    if (!options.empty() && 2 * hindrances[description.reason] < hindrances[options[0].second.reason])
+      break;
+    options.emplace_back(option, description);
+    if (options.size() == 2)
+      break;
+  }
+  std::string text;
+  for (const auto& [option, description] : options) {
+    const bool is_clear = options.size() == 1 && description.reason == all[0].reason;
+    text += (text.empty() ? "" : " and ") + option +
+            (is_clear ? "" : std::string(" against ") + description.name);
   }
   return text;
 }
@@ -191,11 +192,11 @@ std::string held_back(const Simplify_request& request, const Prepared_soup& prep
   const Hindrances& hindrances = report.hindrances;
   if (hindrances.total() == 0)
     return "all faces left are fixed; no option helps";
-  constexpr std::size_t named = 3;
+  constexpr std::size_t least_named = 3; // and as many as make two thirds of the edges
   std::string text = "of " + counted(hindrances.total(), "edge") + " left, ";
   const std::vector<Hindrances::Description> all = reasons(hindrances);
   std::size_t others = hindrances.total();
-  for (std::size_t i = 0; i < (std::min)(named, all.size()); ++i) {
+  for (std::size_t i = 0; i < all.size() && (i < least_named || 3 * others > hindrances.total()); ++i) {
     const std::size_t count = hindrances[all[i].reason];
     text += (i == 0 ? "" : ", ") + (count == hindrances.total() ? "all" : with_commas(count)) + " by " +
             all[i].name;
@@ -450,8 +451,8 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
            << counted(sewing.misoriented_pieces, "piece")
            << ", whose vertices there do not move; `selvedge info` names them";
   if (done.left_alone > 0)
-    stream << "\ntied: the partners of " << with_commas(done.left_alone)
-           << " border vertices left without them; there the gap may be wider than it was";
+    stream << "\nopen seams: " << counted(done.left_alone, "border vertex", "border vertices")
+           << " stayed while the partner across the gap left; there the gap may be wider than it was";
   if (result.placed_vertices > 0)
     stream << "\nvertices: " << with_commas(result.soup.points.size() - result.placed_vertices)
            << " kept bit for bit, " << with_commas(result.placed_vertices) << " at new places"

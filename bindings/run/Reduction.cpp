@@ -52,7 +52,7 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request)
   if (request.is_error_everywhere)
     m_error_search.emplace(*request.options.max_error);
   do {
-    Simplify_options options = request.options;
+    Simplify_options options = request.complete_options();
     if (m_error_search)
       options.max_error = m_error_search->max_error();
     std::ostringstream stream;

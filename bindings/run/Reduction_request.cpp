@@ -274,6 +274,14 @@ void Reduction_request::set(const std::string& name, const std::string& value)
   }
 }
 
+Simplify_options Reduction_request::complete_options() const
+{
+  Simplify_options result = options;
+  if (!options.ratio && !options.faces && !is_error_given)
+    result.ratio = 1;
+  return result;
+}
+
 void Reduction_request::check() const
 {
   if (!options.ratio && !options.faces && !is_error_given && intent.ratios.empty())

@@ -29,6 +29,9 @@ struct Reduction_request
   /// Refuses what does not fit together. Throws `Argument_error`.
   void check() const;
 
+  /// Returns the options for a reduction. Where only parts have ratios, all else has the ratio 1.
+  Simplify_options complete_options() const;
+
   /// Returns all options with their values, as a JSON object like `options` in the program's reports.
   std::string json() const;
 

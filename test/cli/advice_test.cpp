@@ -6,10 +6,12 @@
 #include "App_run.h"
 #include "support/soups.h"
 
+#include <selvedge/Parts.h>
 #include <selvedge/mesh_files.h>
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
@@ -192,6 +194,23 @@ TEST(App_simplify, SaysThatWhatIsNotHeldHasBeenFlattened)
     arguments.insert(arguments.end(), options.begin(), options.end());
     EXPECT_EQ(run_app(arguments).out.find("\nflattened: "), std::string::npos);
   }
+}
+
+// Where only a part has a ratio, nothing says how far to reduce the others.
+TEST(App_simplify, KeepsAllButThePartsThatHaveARatio)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("nested", "in.obj", 2000), out = folder / "out.obj";
+  const Triangle_soup original = read_mesh(in).soup;
+  const App_result run = run_app({"simplify", in, "-o", out, "--ratio", "sphere_0=0.5", "--require-target"});
+  EXPECT_EQ(run.code, 0) << run.err;
+  const Triangle_soup result = read_mesh(out).soup;
+  const auto faces_of_part = [](const Triangle_soup& soup) {
+    const std::vector<char> is_named = triangles_named(soup, "sphere_0");
+    return std::size_t(std::count(is_named.begin(), is_named.end(), char(true)));
+  };
+  EXPECT_EQ(faces_of_part(result), faces_of_part(original) / 2);
+  EXPECT_EQ(result.triangles.size(), original.triangles.size() - faces_of_part(original) / 2);
 }
 
 // What it says is so; it is said where few faces are left, and where new places are allowed.
