@@ -34,8 +34,9 @@ extern "C" {
 /* Returns the version of the library, such as "0.1.0". */
 SELVEDGE_C_API const char* selvedge_version(void);
 
-/* Returns what was wrong in the latest call of this thread: one line for a person, which is valid until the
-   thread's next call. Returns a null pointer when that call succeeded. */
+/* Returns what was wrong in the latest call of this thread that could fail: one line for a person, which is
+   valid until the thread's next such call. Returns a null pointer when that call succeeded. Functions that
+   only return a number or an array of a mesh or a result leave it as it is. */
 SELVEDGE_C_API const char* selvedge_last_error(void);
 
 /* ---- The interface of meshoptimizer
@@ -155,10 +156,10 @@ SELVEDGE_C_API selvedge_options* selvedge_options_new(void);
 SELVEDGE_C_API void selvedge_options_free(selvedge_options* options);
 
 /* Sets one option: "ratio" to "0.3", "placement" to "optimal", "lock" to the name of a part, and so on. Names
-   are those in docs/report.md (without lods, obstacle, polygons, poses and strict), values those of the command line
-   ("true" or "false" for flags); "log" "true" asks for a log. "lock", "keep", "part_ratios" ("collar=0.5")
-   and "may_intersect" ("skin:dress") add to what was set before. Returns 0, or -1 when there is no such
-   option or value; the error then names the nearest. */
+   are those in docs/report.md (without drop_attribute, lods, obstacle, polygons, poses, progressive and
+   strict), values those of the command line ("true" or "false" for flags); "log" "true" asks for a log.
+   "lock", "keep", "part_ratios" ("collar=0.5") and "may_intersect" ("skin:dress") add to what was set before.
+   Returns 0, or -1 when there is no such option or value; the error then names the nearest. */
 SELVEDGE_C_API int selvedge_options_set(selvedge_options* options, const char* name, const char* value);
 
 /* Copies a mesh that no face may touch or pass through. Null removes it. Returns 0, or -1 when it fails. */

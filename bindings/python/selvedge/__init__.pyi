@@ -12,7 +12,7 @@ class ArgumentError(Error, ValueError): ...
 class Mesh:
     points: np.ndarray
     triangles: np.ndarray
-    groups: List[str]
+    groups: List[str]  # of a generated mesh alone
     def __init__(self, points: np.ndarray, triangles: np.ndarray) -> None: ...
     def __iter__(self) -> Iterator[np.ndarray]: ...
 
@@ -30,9 +30,9 @@ class Result(Mesh):
 class Verdict:
     accepted: bool
     report: Dict[str, Any]
-    pairs: np.ndarray
-    new_pairs: np.ndarray
-    mesh: Mesh
+    pairs: np.ndarray  # of `verify`
+    new_pairs: np.ndarray  # of `verify`
+    mesh: Mesh  # of `replay`
     def __bool__(self) -> bool: ...
 
 def option_names() -> List[str]: ...

@@ -54,8 +54,8 @@ namespace selvedge {
 /// floating point.
 ///
 /// **Complexity** O(n log n) for n faces as a rule; more where layers are very close. Where neighbours in the
-/// mesh have far numbers, as in most files, it takes up to 1.3 times the time, and results are up to 3 %
-/// farther off: `simplify_soup` numbers its mesh along a Hilbert curve.
+/// mesh have far numbers, as in many files, it takes up to twice the time, and results are up to 4 % farther
+/// off: `simplify_soup` numbers its mesh along a Hilbert curve.
 ///
 /// In a `CGAL::Surface_mesh`, the removed elements stay as garbage; `mesh.collect_garbage()` removes them.
 ///
