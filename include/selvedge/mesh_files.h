@@ -61,16 +61,16 @@ namespace selvedge {
 /// + y w) as its first row, and so on, not normalised. Every operation is rounded to double, in this order.
 /// An instance of EXT_mesh_gpu_instancing stands where a child of its node would, with its row of
 /// TRANSLATION, ROTATION (normalised integers are fractions, in doubles) and SCALE. Morph targets and
-/// animations are carried along; nothing is guaranteed for the shapes that they make, unless they are given as
-/// poses (gltf_poses.h).
+/// animations are carried along; nothing is guaranteed for the shapes that they make, unless they are given
+/// as poses (gltf_poses.h).
 ///
 /// A skinned mesh is taken in its bind pose. Its node does not move it, as the format says; instead, G is J B
-/// for the first joint of its skin, with the global matrix J and the inverse bind matrix B. If the skin has a
-/// joint in common with one that a node before it has, which has the matrix H, then G is H C⁻¹ D, where C and
-/// D are the inverse bind matrices of that joint in the other skin and in this one: so meshes of one skeleton
-/// stand to each other as they were bound, however the joints are posed. Where J B or H C⁻¹ D differs from
-/// the identity, or from the matrix of another skin, only as roundings of 32-bit floats make it, G is that
-/// one. It is the identity if J B is singular, or the skin is not as the format demands.
+/// for the first joint of its skin, with the global matrix J and the inverse bind matrix B. If a node before
+/// it has a skin with one of the same joints, and that skin the matrix H, then G is (H C⁻¹) D for the first
+/// of them, where C and D are its inverse bind matrices in the first such skin and in this one: so meshes of
+/// one skeleton stand to each other as they were bound, however the joints are posed. Where J B or H C⁻¹ D
+/// differs from the identity, or from the matrix of another skin, only as roundings of 32-bit floats make it,
+/// G is that one. It is the identity if J B is singular, or the skin is not as the format demands.
 ///
 /// Triangles of nodes that mirror are turned over, so that outside is outside.
 ///

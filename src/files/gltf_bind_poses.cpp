@@ -16,13 +16,6 @@ namespace {
 
 using Matrix = Gltf_scene::Matrix;
 
-/// A skin whose meshes have their place.
-struct Placed_skin
-{
-  std::map<std::size_t, Matrix> inverse_bind; // by joint
-  Matrix to_world;
-};
-
 Matrix absolute(Matrix matrix)
 {
   for (auto& row : matrix)
@@ -62,27 +55,33 @@ public:
     const std::vector<Joint> joints = joints_of(number);
     if (joints.empty())
       return Gltf_scene::identity_matrix;
-    Placed_skin skin{{}, Gltf_scene::identity_matrix};
-    for (const auto& [node, inverse_bind] : joints)
-      skin.inverse_bind.emplace(node, inverse_bind);
-    if (const std::optional<Matrix> beside = place_beside_another(skin.inverse_bind)) {
-      skin.to_world = *beside;
-    } else {
+    std::optional<Matrix> place = place_beside_another(joints);
+    if (!place) {
       const auto& [first, to_joint] = joints.front();
       const Matrix& joint = *m_document.to_world[first];
-      const Matrix place = known(product(joint, to_joint), product(absolute(joint), absolute(to_joint)));
-      if (inverse(place)) // a joint of size zero hides what it moves
-        skin.to_world = place;
+      place = known(product(joint, to_joint), product(absolute(joint), absolute(to_joint)));
+      if (!inverse(*place)) // a joint of size zero hides what it moves
+        place = Gltf_scene::identity_matrix;
     }
-    m_placed.push_back(skin);
-    return skin.to_world;
+    if (m_places.size() < s_most_places &&
+        std::find(m_places.begin(), m_places.end(), *place) == m_places.end())
+      m_places.push_back(*place);
+    for (const auto& [node, inverse_bind] : joints)
+      m_bound.emplace(node, Bound{*place, inverse_bind});
+    return *place;
   }
 
 private:
+  static constexpr std::size_t s_most_places = 100; // that others are compared with; most scenes have one
+
   struct Joint
   {
     std::size_t node;
     Matrix inverse_bind;
+  };
+  struct Bound
+  {
+    Matrix to_world, inverse_bind; // of a skin
   };
 
   // Returns the joints of a skin; none when the skin is not as the format demands.
@@ -105,7 +104,8 @@ private:
     const Gltf_scene::Json& matrices = skin["inverseBindMatrices"];
     const std::size_t accessor =
         matrices.is_number_unsigned() ? matrices.get<std::size_t>() : model.accessors.size();
-    if (accessor >= model.accessors.size() || model.accessors[accessor].type != TINYGLTF_TYPE_MAT4 ||
+    if (accessor >= model.accessors.size() || model.accessors[accessor].bufferView < 0 ||
+        model.accessors[accessor].type != TINYGLTF_TYPE_MAT4 ||
         model.accessors[accessor].componentType != TINYGLTF_COMPONENT_TYPE_FLOAT ||
         model.accessors[accessor].count < joints.size())
       return {};
@@ -119,23 +119,21 @@ private:
     return joints;
   }
 
-  // Returns the place that the matrices of a joint give a skin beside one that has it, too.
-  std::optional<Matrix> place_beside_another(const std::map<std::size_t, Matrix>& inverse_bind) const
+  // Returns the place that the matrices of a joint give a skin beside an earlier one that has it, too.
+  std::optional<Matrix> place_beside_another(const std::vector<Joint>& joints) const
   {
-    for (const Placed_skin& other : m_placed)
-      for (const auto& [joint, to_joint] : inverse_bind) {
-        const auto found = other.inverse_bind.find(joint);
-        if (found == other.inverse_bind.end())
-          continue;
-        if (found->second == to_joint)
-          return other.to_world;
-        const std::optional<Matrix> from_joint = inverse(found->second);
-        if (!from_joint || !inverse(to_joint))
-          continue;
-        const Matrix joint_to_world = product(other.to_world, *from_joint);
-        return known(product(joint_to_world, to_joint),
-                     product(product(absolute(other.to_world), absolute(*from_joint)), absolute(to_joint)));
-      }
+    for (const auto& [node, to_joint] : joints) {
+      const auto found = m_bound.find(node);
+      if (found == m_bound.end())
+        continue;
+      const auto& [other, to_joint_of_other] = found->second;
+      if (to_joint == to_joint_of_other)
+        return other;
+      const std::optional<Matrix> from_joint = inverse(to_joint_of_other);
+      if (from_joint && inverse(to_joint))
+        return known(product(product(other, *from_joint), to_joint),
+                     product(product(absolute(other), absolute(*from_joint)), absolute(to_joint)));
+    }
     return std::nullopt;
   }
 
@@ -153,13 +151,13 @@ private:
     };
     if (is_meant(Gltf_scene::identity_matrix))
       return Gltf_scene::identity_matrix;
-    const auto found = std::find_if(m_placed.begin(), m_placed.end(),
-                                    [&](const Placed_skin& other) { return is_meant(other.to_world); });
-    return found == m_placed.end() ? place : found->to_world;
+    const auto found = std::find_if(m_places.begin(), m_places.end(), is_meant);
+    return found == m_places.end() ? place : *found;
   }
 
   const Gltf_document& m_document;
-  std::vector<Placed_skin> m_placed;
+  std::map<std::size_t, Bound> m_bound; // by joint, of the first skin that has it
+  std::vector<Matrix> m_places;         // of skins until now
 };
 
 } // namespace

@@ -16,7 +16,7 @@ namespace selvedge::files {
 /// Where a document does not say it in the way of the format, a transform is the identity. Throws
 /// `Input_error` when matrices are not in the file.
 ///
-/// **Complexity** O(m n) for m skins with n joints in all.
+/// **Complexity** O(n log n) for n joints of all skins together.
 std::map<int, Gltf_scene::Matrix> bind_poses(const Gltf_document& document);
 
 } // namespace selvedge::files

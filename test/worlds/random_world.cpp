@@ -102,6 +102,36 @@ void put_elsewhere(Json& json, Random& random, const std::filesystem::path& fold
     }
 }
 
+/// Binds some meshes to a joint that stands where their nodes do, and makes them twice as large, as it was
+/// bound to them when it was half as large: so nothing moves.
+void bind_some(Json& json, Random& random, const std::filesystem::path& folder)
+{
+  Json &nodes = json["nodes"], skins = Json::array();
+  const std::size_t originals = nodes.size();
+  for (std::size_t n = 0; n < originals; ++n) {
+    if (nodes[n].contains("extensions") || !random.one_in(3))
+      continue;
+    nodes[n]["skin"] = skins.size();
+    nodes[n]["children"].push_back(nodes.size());
+    skins.push_back({{"joints", {nodes.size()}}, {"inverseBindMatrices", json["accessors"].size()}});
+    nodes.push_back({{"scale", {2, 2, 2}}});
+  }
+  if (skins.empty())
+    return;
+  json["skins"] = skins;
+  json["accessors"].push_back(
+      {{"bufferView", json["bufferViews"].size()}, {"componentType", 5126}, {"count", 1}, {"type", "MAT4"}});
+  std::string bytes;
+  for (std::size_t i = 0; i < 16; ++i) {
+    const float x = i == 15 ? 1 : i % 5 == 0 ? 0.5f : 0;
+    bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
+  }
+  json["bufferViews"].push_back(
+      {{"buffer", json["buffers"].size()}, {"byteOffset", 0}, {"byteLength", bytes.size()}});
+  json["buffers"].push_back({{"byteLength", bytes.size()}, {"uri", "bind.bin"}});
+  write_file(folder / "bind.bin", bytes);
+}
+
 /// The soup as a glTF scene whose nodes are scaled, turned, mirrored, moved, and children of one another. It
 /// has each mesh several times if `others` are given, which say where.
 Triangle_soup as_scene(Triangle_soup soup, Random& random, Random* others)
@@ -136,8 +166,10 @@ Triangle_soup as_scene(Triangle_soup soup, Random& random, Random* others)
     Json& roots = json["scenes"][0]["nodes"];
     roots.erase(std::remove(roots.begin(), roots.end(), Json(nodes.size() - 1)), roots.end());
   }
-  if (others)
+  if (others) {
     put_elsewhere(json, *others, folder / "");
+    bind_some(json, *others, folder / "");
+  }
   write_file(folder / "mesh.gltf", json.dump());
   return read_mesh(folder / "mesh.gltf").soup;
 }
