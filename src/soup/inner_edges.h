@@ -26,19 +26,19 @@ struct Edge_side
 template <class Function>
 void for_each_inner_edge(const std::vector<Index_triple>& triangles, const Function& function)
 {
-  Index vertices = 0; // or more
+  Index beyond = 0; // the numbers of all vertices
   std::vector<Edge_side> sides;
   sides.reserve(3 * triangles.size());
   for (Index t = 0; t < triangles.size(); ++t)
     for (Index k = 0; k < 3; ++k) {
       const Index l = (k + 1) % 3;
       const Index a = triangles[t][k], b = triangles[t][l];
-      vertices = std::max({vertices, a + 1, b + 1});
+      beyond = std::max({beyond, a + 1, b + 1});
       sides.push_back(a < b ? Edge_side{a, b, 3 * t + k, 3 * t + l} : Edge_side{b, a, 3 * t + l, 3 * t + k});
     }
   const auto edge = [](const Edge_side& side) { return std::make_pair(side.low, side.high); };
-  sides = sorted_by(sides, vertices, [](const Edge_side& side) { return side.high; });
-  sides = sorted_by(sides, vertices, [](const Edge_side& side) { return side.low; });
+  sides = sorted_by(sides, beyond, [](const Edge_side& side) { return side.high; });
+  sides = sorted_by(sides, beyond, [](const Edge_side& side) { return side.low; });
   for (std::size_t i = 0; i < sides.size();) {
     std::size_t end = i + 1;
     while (end < sides.size() && edge(sides[end]) == edge(sides[i]))

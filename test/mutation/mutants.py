@@ -329,9 +329,7 @@ group(
 group(
     headers + "spatial/internal/order_along_curve.h",
     ("hilbert_curve_test:OrderAlongCurve*",),
-    ("shift < 3 * levels", "shift < digit_bits", "points are sorted by the last digit alone"),
-    ("std::sort(run.begin(), run.end());", ";", "points in one cell of the coarse grid keep the order of the file"),
-    ("on_curve = curve.place_of(cell_of(number));", "on_curve = 0;", "points in one cell of the coarse grid are sorted by number"),
+    ("shift < 3 * Hilbert_curve::bits", "shift < bits", "points are sorted by the last digit alone"),
     ("std::uint32_t((point[axis] - lower[axis]) * cells)", "std::uint32_t(point[axis] * cells)", "the curve begins at the origin"),
 )
 group(

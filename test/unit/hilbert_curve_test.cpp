@@ -76,7 +76,7 @@ TEST(OrderAlongCurve, GoesFromNeighbourToNeighbourInACornerOfAllSpace)
   for (int i = 0; i < size * size * size; ++i)
     points.push_back({1. * (i % size), 1. * (i / size % size), 1. * (i / size / size)});
   std::shuffle(points.begin(), points.end(), std::mt19937(2));
-  // So far away that cells are of size 1, and all other points agree in the leading bits of their places.
+  // So far away that cells are of size 1.
   points.push_back({(1 << selvedge::internal::Hilbert_curve::bits) - 1., 0, 0});
   const std::vector<std::uint32_t> order =
       selvedge::internal::order_along_curve(points.size(), [&](std::size_t i) { return points[i]; });
@@ -85,6 +85,16 @@ TEST(OrderAlongCurve, GoesFromNeighbourToNeighbourInACornerOfAllSpace)
   for (std::size_t i = 1; i + 1 < order.size(); ++i) {
     const Place_in_space &a = points[order[i - 1]], &b = points[order[i]];
     ASSERT_EQ(std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]), 1) << i;
+  }
+}
+
+TEST(OrderAlongCurve, KeepsTheOrderOfPointsWhoseExtentIsNoNumber)
+{
+  for (const double far : {1.7e308, 4e-323}) {
+    const std::vector<Place_in_space> points = {{far, 0, 0}, {-far, 0, 0}, {0, far, 0}};
+    const auto order =
+        selvedge::internal::order_along_curve(points.size(), [&](std::size_t i) { return points[i]; });
+    EXPECT_EQ(order, (std::vector<std::uint32_t>{0, 1, 2})) << far;
   }
 }
 

@@ -28,15 +28,13 @@ public:
           m_steps[3 * entry + direction][octant] = step(entry, direction, octant);
   }
 
-  /// Returns the leading `3 * levels` bits of the place of a cell on the curve, counted from 0: all of them,
-  /// or those that it shares with all cells in a cube.
-  template <int levels = bits>
+  /// Returns the place of a cell on the curve, counted from 0.
   std::uint64_t place_of(const Cell& cell) const
   {
     const std::uint64_t octants = spread(cell[0]) | spread(cell[1]) << 1 | spread(cell[2]) << 2;
     std::uint64_t place = 0;
     unsigned state = 0;
-    for (int shift = 3 * (bits - 1); shift >= 3 * (bits - levels); shift -= 3) {
+    for (int shift = 3 * (bits - 1); shift >= 0; shift -= 3) {
       const Step& step = m_steps[state][octants >> shift & 7];
       place = place << 3 | step.rank;
       state = step.state;
