@@ -77,7 +77,7 @@ std::string coarse_part(const Simplify_request& request, const Prepared_soup& or
              " of its faces" +
              (suspects[i].after.empty() ? "" : " and is off by " + percent(off) + " of its own size (RMS)") +
              "; --ratio '" + names[i] + '=' +
-             with_digits((std::min)(1.0, (std::max)(2 * share_wanted, 2 * share_of(suspects[i]))), "%.2g") +
+             with_digits((std::min)(1.0, 2 * (std::max)(share_wanted, share_of(suspects[i]))), "%.2g") +
              "' keeps more of it";
     }
   }

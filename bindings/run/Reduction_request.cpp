@@ -277,14 +277,14 @@ void Reduction_request::set(const std::string& name, const std::string& value)
 Simplify_options Reduction_request::complete_options() const
 {
   Simplify_options result = options;
-  if (!options.ratio && !options.faces && !is_error_given)
+  if (is_without_target())
     result.ratio = 1;
   return result;
 }
 
 void Reduction_request::check() const
 {
-  if (!options.ratio && !options.faces && !is_error_given && intent.ratios.empty())
+  if (is_without_target() && intent.ratios.empty())
     throw Argument_error("say how far to reduce the mesh: give ratio, faces, error or part_ratios");
   if (is_error_everywhere && !options.max_error)
     throw Argument_error("error_everywhere: there is no limit to keep; give a number as error");

@@ -29,6 +29,9 @@ struct Reduction_request
   /// Refuses what does not fit together. Throws `Argument_error`.
   void check() const;
 
+  /// Returns whether nothing says how far to reduce the whole mesh.
+  bool is_without_target() const { return !options.ratio && !options.faces && !is_error_given; }
+
   /// Returns the options for a reduction. Where only parts have ratios, all else has the ratio 1.
   Simplify_options complete_options() const;
 

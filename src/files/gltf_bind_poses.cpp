@@ -24,26 +24,6 @@ Matrix absolute(Matrix matrix)
   return matrix;
 }
 
-/// Returns the inverse of a transform, if there is one.
-std::optional<Matrix> inverse(const Matrix& m)
-{
-  Matrix result;
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) {
-      const std::size_t a = (j + 1) % 3, b = (j + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;
-      result[i][j] = m[a][c] * m[b][d] - m[a][d] * m[b][c];
-    }
-  const double determinant = m[0][0] * result[0][0] + m[0][1] * result[1][0] + m[0][2] * result[2][0];
-  for (auto& row : result) {
-    for (std::size_t j = 0; j < 3; ++j)
-      row[j] /= determinant;
-    row[3] = -(row[0] * m[0][3] + row[1] * m[1][3] + row[2] * m[2][3]);
-    if (!std::all_of(row.begin(), row.end(), [](double entry) { return std::isfinite(entry); }))
-      return std::nullopt;
-  }
-  return result;
-}
-
 /// Gives skins their places, one after the other.
 class Bind_poses
 {
@@ -113,9 +93,7 @@ private:
         Gltf_column_reader(m_document, "skin " + std::to_string(number))
             .read(int(accessor), "inverseBindMatrices", model.accessors[accessor].count);
     for (std::size_t j = 0; j < joints.size(); ++j)
-      for (std::size_t row = 0; row < 3; ++row)
-        for (std::size_t column = 0; column < 4; ++column)
-          joints[j].inverse_bind[row][column] = component(rows, Index(j), 4 * column + row);
+      joints[j].inverse_bind = matrix_of([&](std::size_t i) { return component(rows, Index(j), i); });
     return joints;
   }
 

@@ -332,13 +332,9 @@ void place_instances(Gltf_document& document)
 
 Matrix local_matrix(const tinygltf::Node& node)
 {
+  if (!node.matrix.empty())
+    return matrix_of([&](std::size_t i) { return node.matrix[i]; });
   Matrix result = identity_matrix;
-  if (!node.matrix.empty()) {
-    for (std::size_t row = 0; row < 3; ++row)
-      for (std::size_t column = 0; column < 4; ++column)
-        result[row][column] = node.matrix[4 * column + row];
-    return result;
-  }
   if (!node.rotation.empty()) {
     const double x = node.rotation[0], y = node.rotation[1], z = node.rotation[2], w = node.rotation[3];
     result = {{{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w), 0},

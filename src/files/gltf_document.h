@@ -58,6 +58,18 @@ const Gltf_scene::Json& member(const Gltf_scene::Json& object, const char* name)
 /// of the numbers in the file.
 Gltf_scene::Matrix local_matrix(const tinygltf::Node& node);
 
+/// Returns the transform whose entry in a row and a column is `entry(4 * column + row)`, as glTF orders the
+/// numbers of a matrix.
+template <class Entry>
+Gltf_scene::Matrix matrix_of(const Entry& entry)
+{
+  Gltf_scene::Matrix result;
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t column = 0; column < 4; ++column)
+      result[row][column] = entry(4 * column + row);
+  return result;
+}
+
 /// Multiplies two transforms in the order of operations that mesh_files.h states.
 Gltf_scene::Matrix product(const Gltf_scene::Matrix& a, const Gltf_scene::Matrix& b);
 

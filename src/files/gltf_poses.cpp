@@ -479,9 +479,8 @@ private:
           if (rows.components != 16 || rows.size() < skin.joints.size())
             fail(place + " has fewer inverse bind matrices than joints; export the file again");
           for (std::size_t j = 0; j < skin.joints.size(); ++j)
-            for (std::size_t row = 0; row < 3; ++row)
-              for (std::size_t column = 0; column < 4; ++column)
-                skin.inverse_bind[j][row][column] = rows.numbers[16 * j + 4 * column + row];
+            skin.inverse_bind[j] =
+                files::matrix_of([&](std::size_t entry) { return rows.numbers[16 * j + entry]; });
         }
       }
       m_influences[i] = influences(scene().blocks[instance.block], skin, place);

@@ -10,6 +10,7 @@
 #include "soup/obstacle.h"
 #include "soup/selection.h"
 #include "soup/transforms_of_vertices.h"
+#include "verify/Diagonal.h"
 #include "verify/for_each_pose.h"
 #include "weld/snapping.h"
 
@@ -224,11 +225,7 @@ private:
   // Refuses what `mesh_diagonal` would refuse later, at the scale.
   void require_size()
   {
-    CGAL::Bbox_3 box;
-    for (const Index_triple& triangle : soup().triangles)
-      for (const Index v : triangle)
-        box += m_prepared.scale(soup().points[v]).bbox();
-    const double diagonal = internal::diagonal_of(box);
+    const double diagonal = m_prepared.scale(internal::Diagonal(soup()).length());
     if (diagonal > 0 && diagonal < internal::least_diagonal)
       throw Input_error(
           "the mesh is 2^200 times as far from the origin as it is large, so that squares of its "

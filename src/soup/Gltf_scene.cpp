@@ -226,6 +226,21 @@ std::array<double, 3> turned(const std::array<double, 3>& vector, const std::arr
   return result;
 }
 
+std::optional<Matrix> inverse(const Matrix& m)
+{
+  const std::array<std::array<double, 3>, 3> rows = {cofactors(m, 0), cofactors(m, 1), cofactors(m, 2)};
+  const double determinant = product({m[0][0], m[0][1], m[0][2]}, rows[0]);
+  Matrix result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j)
+      result[i][j] = rows[j][i] / determinant;
+    result[i][3] = -product({result[i][0], result[i][1], result[i][2]}, {m[0][3], m[1][3], m[2][3]});
+    if (!std::all_of(result[i].begin(), result[i].end(), [](double entry) { return std::isfinite(entry); }))
+      return std::nullopt;
+  }
+  return result;
+}
+
 Point_3 world_position(const Matrix& to_world, const std::array<double, 3>& local)
 {
   const auto coordinate = [&](const std::array<double, 4>& m) {

@@ -251,6 +251,9 @@ std::array<double, 3> perpendicular(const std::array<double, 3>& tangent,
 std::array<double, 3> turned(const std::array<double, 3>& vector, const std::array<double, 3>& from,
                              const std::array<double, 3>& to);
 
+/// Returns the inverse of a transform; none where its entries would not be finite.
+std::optional<Gltf_scene::Matrix> inverse(const Gltf_scene::Matrix& matrix);
+
 /// Returns ((m0 x + m1 y) + m2 z) + m3 in doubles, for each row m of the matrix.
 Point_3 world_position(const Gltf_scene::Matrix& to_world, const std::array<double, 3>& local);
 Point_3 world_position(const Gltf_scene::Matrix& to_world, const Gltf_scene::Column& positions,

@@ -38,8 +38,7 @@ bool are_numbered_like_vertices(const Corner_values<dimension>& values, const Tr
 /// Vertices that differ in nothing at all become one where they have texture coordinates: there is no seam
 /// between surfaces on which shading and texture go on. Without, they stay apart, because pieces may lie
 /// beside each other, unless a third one differs from them in its normal, or every face has vertices of its
-/// own
-/// (`have_faces_own_vertices`).
+/// own (`have_faces_own_vertices`).
 ///
 /// Alike, bit for bit, must be position, attributes, and texture coordinates if they are those of vertices;
 /// in a glTF scene the node and the rows of all accessors but NORMAL, those of morph targets included; and

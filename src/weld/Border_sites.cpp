@@ -31,9 +31,8 @@ Border_sites::Border_sites(const Triangle_soup& soup, const std::vector<Index>& 
 void Border_sites::drop_shared(std::vector<Side>& sides) const
 {
   const auto ends = [](const Side& side) { return std::minmax(side[0], side[1]); };
-  const auto low = [](const Side& side) { return std::min(side[0], side[1]); };
-  const auto high = [](const Side& side) { return std::max(side[0], side[1]); };
-  sides = sorted_by(sorted_by(sides, m_points.size(), high), m_points.size(), low);
+  sides = sorted_by(sides, m_points.size(), [&](const Side& side) { return ends(side).second; });
+  sides = sorted_by(sides, m_points.size(), [&](const Side& side) { return ends(side).first; });
   auto kept = sides.begin();
   for (auto first = sides.begin(), beyond = first; first != sides.end(); first = beyond) {
     while (beyond != sides.end() && ends(*beyond) == ends(*first))

@@ -331,6 +331,8 @@ group(
     ("hilbert_curve_test:OrderAlongCurve*",),
     ("shift < 3 * Hilbert_curve::bits", "shift < bits", "points are sorted by the last digit alone"),
     ("std::uint32_t((point[axis] - lower[axis]) * cells)", "std::uint32_t(point[axis] * cells)", "the curve begins at the origin"),
+    ("upper[axis] = i == 0 ? point[axis] : (std::max)(upper[axis], double(point[axis]));", "upper[axis] = point[axis];",
+     "the last point bounds all"),
 )
 group(
     "src/soup/Sewn_mesh.cpp",

@@ -88,6 +88,14 @@ TEST(OrderAlongCurve, GoesFromNeighbourToNeighbourInACornerOfAllSpace)
   }
 }
 
+TEST(OrderAlongCurve, TellsPointsApartOfWhichTheLastIsTheLowest)
+{
+  const std::vector<Place_in_space> points = {{7, 0, 0}, {8, 8, 8}, {0, 0, 0}};
+  const auto order =
+      selvedge::internal::order_along_curve(points.size(), [&](std::size_t i) { return points[i]; });
+  EXPECT_EQ(order.front(), 2u);
+}
+
 TEST(OrderAlongCurve, KeepsTheOrderOfPointsWhoseExtentIsNoNumber)
 {
   for (const double far : {1.7e308, 4e-323}) {

@@ -46,6 +46,11 @@ Triangle_soup through_file(const Triangle_soup& soup, const char* name)
   return read_mesh(folder / name).soup;
 }
 
+void append(std::string& bytes, float number)
+{
+  bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+}
+
 /// Puts every mesh of a scene to one or two further places, in nodes or as instances: near the first, on its
 /// other side, or away from it.
 void put_elsewhere(Json& json, Random& random, const std::filesystem::path& folder)
@@ -79,10 +84,8 @@ void put_elsewhere(Json& json, Random& random, const std::filesystem::path& fold
                                    {"type", components == 3 ? "VEC3" : "VEC4"}});
       views.push_back({{"buffer", 1}, {"byteOffset", bytes.size()}, {"byteLength", count * 4 * components}});
       for (const Json& place : places)
-        for (const Json& number : place[member]) {
-          const float x = number.get<float>();
-          bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
-        }
+        for (const Json& number : place[member])
+          append(bytes, number.get<float>());
     }
     nodes[0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = attributes;
     json["buffers"].push_back({{"byteLength", bytes.size()}, {"uri", "places.bin"}});
@@ -122,10 +125,8 @@ void bind_some(Json& json, Random& random, const std::filesystem::path& folder)
   json["accessors"].push_back(
       {{"bufferView", json["bufferViews"].size()}, {"componentType", 5126}, {"count", 1}, {"type", "MAT4"}});
   std::string bytes;
-  for (std::size_t i = 0; i < 16; ++i) {
-    const float x = i == 15 ? 1 : i % 5 == 0 ? 0.5f : 0;
-    bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
-  }
+  for (std::size_t i = 0; i < 16; ++i)
+    append(bytes, i == 15 ? 1 : i % 5 == 0 ? 0.5f : 0);
   json["bufferViews"].push_back(
       {{"buffer", json["buffers"].size()}, {"byteOffset", 0}, {"byteLength", bytes.size()}});
   json["buffers"].push_back({{"byteLength", bytes.size()}, {"uri", "bind.bin"}});
