@@ -603,7 +603,10 @@ void add_options(CLI::App& command, Simplify_request& request)
           "two sides is a seam; mend them: those that give every face its own normal, or that would come to "
           "belong to another side of the surface, are made anew, and those that differ by at most 0.1 "
           "degrees at a vertex become one; loose also makes no seams of edges: each face gets those normals "
-          "of its vertices that suit it best; recompute makes all anew, with the hard edges of the input; or "
+          "of its vertices that suit it best; recompute makes all anew, with the hard edges of the input; "
+          "smooth takes smooth ones, with hard edges where faces turn by more than 60 degrees, in their "
+          "place, "
+          "or where there are none: for scans and others that are shaded flat; or "
           "leave them out, so that vertices of PLY and glTF that differ in nothing else are one. "
           "auto mends them, and then fits them to the shading of the input, which is truer on large faces "
           "than what is kept at their corners.")
@@ -612,8 +615,9 @@ void add_options(CLI::App& command, Simplify_request& request)
                                           {"mend", Normals_choice::mend},
                                           {"loose", Normals_choice::loose},
                                           {"recompute", Normals_choice::recompute},
+                                          {"smooth", Normals_choice::smooth},
                                           {"drop", Normals_choice::drop}}))
-      ->type_name("auto|keep|mend|loose|recompute|drop")
+      ->type_name("auto|keep|mend|loose|recompute|smooth|drop")
       ->default_str("auto")
       ->group(seams);
   add_attributes_option(command, request.dropped_attributes,

@@ -221,7 +221,8 @@ private:
     try {
       Prepared_soup prepared = prepare(std::move(file.soup), options, obstacle);
       if (!m_request.progressive.empty() &&
-          (prepared.normals == Normals_treatment::smooth || prepared.normals == Normals_treatment::picked))
+          (prepared.normals == Normals_treatment::smooth || prepared.normals == Normals_treatment::smoothed ||
+           prepared.normals == Normals_treatment::picked))
         throw Argument_error(
             "--progressive: normals that are made anew are others in every level, and the file has "
             "one for each vertex; leave out --normals");

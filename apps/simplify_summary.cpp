@@ -354,9 +354,11 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
            << " rounded to 32-bit floats, because the output's format stores nothing more precise\n";
   if (prepared.normals == Normals_treatment::flat)
     stream << "  normals made anew where faces change: every face of the input has its own, as in flat "
-              "shading\n";
+              "shading; --normals smooth shades the result smooth\n";
   if (prepared.normals == Normals_treatment::dropped && is_gltf(format_of(request.output, request.format)))
     stream << "  normals dropped: programs that show glTF then shade every face flat\n";
+  if (prepared.normals == Normals_treatment::smoothed)
+    stream << "  normals made anew, smooth up to edges where faces of the input turn by more than 60°\n";
   if (prepared.normals == Normals_treatment::smooth)
     stream << "  normals made anew, with the hard edges of the input\n";
   if (const auto held = std::count(prepared.is_held.begin(), prepared.is_held.end(), char(true)); held > 0)
@@ -457,7 +459,9 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
     stream << "\nvertices: " << with_commas(result.soup.points.size() - result.placed_vertices)
            << " kept bit for bit, " << with_commas(result.placed_vertices) << " at new places"
            << (has_vertex_values(prepared.soup) ? " with interpolated attributes" : "");
-  if (prepared.normals == Normals_treatment::fitted)
+  if (prepared.normals == Normals_treatment::smoothed)
+    stream << "\nnormals: fitted to the smooth shading of the input";
+  else if (prepared.normals == Normals_treatment::fitted)
     stream << "\nnormals: fitted to the shading of the input, other ones at "
            << counted(std::max(result.fitted_normals, result.mended_normals), "corner") << " of "
            << with_commas(3 * faces);

@@ -77,10 +77,13 @@ const Words<Placement> placements{{"vertices", Placement::vertices}, {"optimal",
 const Words<Collapse_loop> loops{{"own", Collapse_loop::own}, {"cgal", Collapse_loop::cgal}};
 const Words<Instances> instances{{"shared", Instances::shared}, {"apart", Instances::apart}};
 const Words<Face_index> indices{{"packed", Face_index::packed}, {"clusters", Face_index::clusters}};
-const Words<Normals_choice> normals{
-    {"auto", Normals_choice::automatic},      {"keep", Normals_choice::keep},
-    {"mend", Normals_choice::mend},           {"loose", Normals_choice::loose},
-    {"recompute", Normals_choice::recompute}, {"drop", Normals_choice::drop}};
+const Words<Normals_choice> normals{{"auto", Normals_choice::automatic},
+                                    {"keep", Normals_choice::keep},
+                                    {"mend", Normals_choice::mend},
+                                    {"loose", Normals_choice::loose},
+                                    {"recompute", Normals_choice::recompute},
+                                    {"smooth", Normals_choice::smooth},
+                                    {"drop", Normals_choice::drop}};
 const Words<Open_seams> seams{
     {"hold", Open_seams::hold}, {"auto", Open_seams::weld}, {"none", Open_seams::measure}};
 const Words<Defects> defects{

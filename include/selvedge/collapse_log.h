@@ -29,7 +29,8 @@ namespace selvedge {
 ///     selvedge-log 1
 ///     input VERTICES TRIANGLES SHA256
 ///     rounding none|float32                  once at most; none where it is missing
-///     normals kept|joined|ignored|dropped    once at most; kept where it is missing
+///     normals kept|joined|ignored|dropped|smooth|smooth_shared
+///                                            once at most; kept where it is missing
 ///     dropped NAME                           any number of them
 ///     defects freeze|descend                 once at most; freeze where it is missing
 ///     may_intersect PART PART                any number of them
@@ -53,8 +54,9 @@ namespace selvedge {
 ///   32-bit float, ties to even.
 /// - *normals*: whether an edge across which the normals of the input differ is a line, like one across which
 ///   texture coordinates or materials do. Normals that are nearly alike at a vertex may have become one
-///   first (`join_near_normals`). They are ignored when the writer makes the normals anew. Where they
-///   are dropped, vertices that differ in nothing else are one as well (`share_vertices_without_normals`).
+///   first (`join_near_normals`), or smooth ones may have taken the place of all (`smooth_normals`). They are
+///   ignored when the writer makes the normals anew. Where they are dropped, or smooth and shared, vertices
+///   that differ in nothing else are one (`share_vertices_without_normals`), before anything else is done.
 /// - *dropped*: an attribute that the writer left out, before anything else (`drop_attributes`).
 ///   Vertices that differ in nothing else are one, and no edge is a line because of it. NAME is written as in
 ///   *may_intersect*.
@@ -133,10 +135,12 @@ private:
 
 /// What a log says of the normals of the input.
 enum class Logged_normals {
-  kept,    ///< an edge across which they differ is a line
-  joined,  ///< those that are nearly alike at a vertex are one, and then kept
-  ignored, ///< it is none
-  dropped  ///< nor is it one, and vertices that differ in nothing else are one
+  kept,         ///< an edge across which they differ is a line
+  joined,       ///< those that are nearly alike at a vertex are one, and then kept
+  ignored,      ///< it is none
+  dropped,      ///< nor is it one, and vertices that differ in nothing else are one
+  smooth,       ///< smooth ones have taken their place (`smooth_normals`), and are kept
+  smooth_shared ///< likewise, and vertices that differ in nothing but their normals are one
 };
 
 /// The lines of a log before its first motion.
@@ -148,7 +152,7 @@ struct Log_header
   bool is_rounded_to_float32 = false;
   Logged_normals normals = Logged_normals::kept;
   std::vector<std::string> dropped; ///< attributes that were left out (`drop_attributes`)
-  bool may_pairs_descend = false; ///< the policy for offending pairs is `descend`
+  bool may_pairs_descend = false;   ///< the policy for offending pairs is `descend`
 
   /// The names of parts that may intersect each other.
   std::vector<std::pair<std::string, std::string>> may_intersect;

@@ -26,27 +26,30 @@ enum class Normals_choice {
   loose,     ///< as `mend`; but different normals make no lines: every corner gets that normal of its vertex
              ///< which suits its triangle best (`pick_normals`)
   recompute, ///< the result gets new normals, made as those of the input seem to be made
+  smooth,    ///< as `automatic`, with smooth normals in place of those of the input (`smooth_normals`)
   drop       ///< the result has no normals
 };
 
 /// What was done with the normals of a soup.
 enum class Normals_treatment {
-  none,   ///< the soup has no normals
-  kept,   ///< they are treated like any other attribute
-  mended, ///< as kept; but those that were nearly alike at a vertex are one, and a corner gets a new one
-          ///< where its own is too far from that of its triangle
-  picked, ///< every corner gets one of those that its vertex has in the input, or a new one as in mended
-  fitted, ///< as mended, and then fitted to the shading of the input
-  flat,   ///< every corner gets the normal of its triangle, or of the polygon or face (`keep_flat_normals`)
-          ///< that this is a part of, bit for bit that of the input where it has not changed
-  smooth, ///< every corner gets the mean normal of the triangles around its vertex, up to hard edges
+  none,     ///< the soup has no normals
+  kept,     ///< they are treated like any other attribute
+  mended,   ///< as kept; but those that were nearly alike at a vertex are one, and a corner gets a new one
+            ///< where its own is too far from that of its triangle
+  picked,   ///< every corner gets one of those that its vertex has in the input, or a new one as in mended
+  fitted,   ///< as mended, and then fitted to the shading of the input
+  smoothed, ///< as fitted, with smooth normals in place of those of the input
+  flat,     ///< every corner gets the normal of its triangle, or of the polygon or face (`keep_flat_normals`)
+            ///< that this is a part of, bit for bit that of the input where it has not changed
+  smooth,   ///< every corner gets the mean normal of the triangles around its vertex, up to hard edges
   dropped
 };
 
-/// Returns the word for this in options and reports: auto, keep, mend, loose, recompute or drop.
+/// Returns the word for this in options and reports: auto, keep, mend, loose, recompute, smooth or drop.
 const char* name_of(Normals_choice choice);
 
-/// Returns the word for this in reports: none, kept, mended, picked, fitted, flat, smooth or dropped.
+/// Returns the word for this in reports: none, kept, mended, picked, fitted, smoothed,
+/// flat, smooth or dropped.
 const char* name_of(Normals_treatment treatment);
 
 /// Returns whether a reduction keeps the normals, but those that are nearly alike at a vertex as one, and
@@ -56,10 +59,17 @@ inline bool are_joined(Normals_treatment treatment)
   return treatment == Normals_treatment::mended || treatment == Normals_treatment::fitted;
 }
 
-/// Returns whether a reduction keeps the normals: they are kept, mended or fitted.
+/// Returns whether a reduction fits the normals to the shading of the input.
+inline bool are_fitted(Normals_treatment treatment)
+{
+  return treatment == Normals_treatment::fitted || treatment == Normals_treatment::smoothed;
+}
+
+/// Returns whether a reduction keeps the normals that the prepared soup has: they are kept, mended or fitted.
 inline bool are_kept(Normals_treatment treatment)
 {
-  return treatment == Normals_treatment::kept || are_joined(treatment);
+  return treatment == Normals_treatment::kept || treatment == Normals_treatment::mended ||
+         are_fitted(treatment);
 }
 
 /// Returns whether normals are *flat*: those of 99 % of all corners differ from the normal of their triangle
@@ -79,6 +89,14 @@ bool has_flat_normals(const Triangle_soup& soup);
 ///
 /// **Complexity** O(n log n) for n triangles.
 Normals_treatment take_normals(Triangle_soup& soup, Normals_choice choice, Corner_values<3>* taken = nullptr);
+
+/// Gives a soup smooth normals in place of its own, if it has any. A normal is the mean of those of the
+/// triangles around a position that meet in smooth edges, weighted by the angles there (Thürmer and Wüthrich
+/// 1998). An edge of two triangles, with a position at each end, is smooth where the triangles turn by at
+/// most 60°, or where one of them has no area. It has the precision of 32-bit floats.
+///
+/// **Complexity** O(n) expected for n triangles. Computed in double.
+void smooth_normals(Triangle_soup& soup);
 
 /// Returns whether vertices that differ in their normals alone become one, with
 /// `share_vertices_without_normals`, before normals are taken.

@@ -23,21 +23,6 @@ namespace {
 
 using Json = Gltf_scene::Json;
 
-Gltf_scene::Column column(const std::string& name, int component_type, std::size_t components,
-                          bool is_normalized = false)
-{
-  Gltf_scene::Column result;
-  result.name = name;
-  result.component_type = component_type;
-  result.components = components;
-  result.row_size = components * component_size(component_type);
-  result.accessor = {{"componentType", component_type}};
-  if (is_normalized)
-    result.accessor["normalized"] = true;
-  result.accessor["type"] = "VEC" + std::to_string(components);
-  return result;
-}
-
 /// Values as they will be written, and for each the number of the first equal one: some files repeat a value
 /// at every corner that has it.
 template <std::size_t dimension>
@@ -163,15 +148,16 @@ private:
     m_scene->instances.push_back(
         {Index(m_scene->blocks.size()), Index(m_result.points.size()), identity_matrix, false});
     std::vector<Gltf_scene::Column>& columns = m_scene->blocks.emplace_back().attributes;
-    columns.push_back(column("POSITION", type_float32, 3));
+    columns.push_back(empty_column("POSITION", type_float32, 3));
     if (kind.has_normals)
-      columns.push_back(column("NORMAL", type_float32, 3));
+      columns.push_back(empty_column("NORMAL", type_float32, 3));
     if (kind.has_uvs)
-      columns.push_back(column("TEXCOORD_0", type_float32, 2));
+      columns.push_back(empty_column("TEXCOORD_0", type_float32, 2));
     if (!m_colours.empty())
-      columns.push_back(column("COLOR_0", colour_type(), m_colours.size(), colour_type() != type_float32));
+      columns.push_back(
+          empty_column("COLOR_0", colour_type(), m_colours.size(), colour_type() != type_float32));
     for (std::size_t target = 0; target < m_displacements.size(); ++target) {
-      Gltf_scene::Column displacements = column("POSITION", type_float32, 3);
+      Gltf_scene::Column displacements = empty_column("POSITION", type_float32, 3);
       displacements.is_sparse = true;
       m_scene->blocks.back().targets.push_back({std::move(displacements)});
     }

@@ -129,8 +129,12 @@ Start start_of(const Triangle_soup& original, const Triangle_soup& obstacle, con
   Start start;
   start.soup = original;
   drop_attributes(start.soup, header.dropped);
-  if (header.normals == Logged_normals::dropped)
+  if (header.normals == Logged_normals::dropped || header.normals == Logged_normals::smooth_shared)
     share_vertices_without_normals(start.soup);
+  const bool are_smooth =
+      header.normals == Logged_normals::smooth || header.normals == Logged_normals::smooth_shared;
+  if (are_smooth)
+    smooth_normals(start.soup);
   start.soup.poses.clear();
   Triangle_soup beside;
   beside.points = pose ? points_in_pose(obstacle, *pose) : obstacle.points;
@@ -144,7 +148,7 @@ Start start_of(const Triangle_soup& original, const Triangle_soup& obstacle, con
   }
   if (header.normals == Logged_normals::joined)
     join_near_normals(start.soup);
-  else if (header.normals != Logged_normals::kept)
+  else if (header.normals != Logged_normals::kept && !are_smooth)
     start.soup.normals = {};
   for (Index t = 0; t < original.triangles.size(); ++t)
     start.numbers.push_back(t);

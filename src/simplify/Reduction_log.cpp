@@ -39,10 +39,13 @@ std::vector<Index> smallest_numbers(const std::vector<Point_3>& points, const Lo
 Log_header completed(Log_header header, const Prepared_soup& prepared, const Simplify_options& options)
 {
   header.limits = limits_of(options);
-  if (are_joined(prepared.normals))
+  if (prepared.normals == Normals_treatment::smoothed)
+    header.normals =
+        header.normals == Logged_normals::dropped ? Logged_normals::smooth_shared : Logged_normals::smooth;
+  else if (are_joined(prepared.normals))
     header.normals = Logged_normals::joined;
   else if (header.normals == Logged_normals::kept && prepared.normals != Normals_treatment::none &&
-           !are_kept(prepared.normals))
+           prepared.normals != Normals_treatment::kept)
     header.normals = Logged_normals::ignored;
   const auto& in_poses = prepared.offending_pairs_in_poses;
   header.may_pairs_descend =

@@ -360,10 +360,11 @@ private:
       keep_flat_normals(result.soup, result.triangles, original, taken);
     if (m_prepared.normals == Normals_treatment::picked)
       pick_normals(result.soup, result.triangles, left.corners, original, taken);
-    if (m_prepared.normals == Normals_treatment::picked || are_joined(m_prepared.normals))
+    if (m_prepared.normals == Normals_treatment::picked ||
+        (are_kept(m_prepared.normals) && m_prepared.normals != Normals_treatment::kept))
       result.mended_normals =
           mend_normals(result.soup, result.triangles, original, taken.empty() ? original.normals : taken);
-    if (m_prepared.normals == Normals_treatment::fitted)
+    if (are_fitted(m_prepared.normals))
       result.fitted_normals = fit_normals(result.soup, result.triangles, left.corners, original);
     result.corners = std::move(left.corners);
     result.placed_vertices = left.placed_vertices;

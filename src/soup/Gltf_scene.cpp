@@ -88,6 +88,21 @@ std::size_t component_size(int component_type)
   }
 }
 
+Gltf_scene::Column empty_column(const std::string& name, int component_type, std::size_t components,
+                                bool is_normalized)
+{
+  Gltf_scene::Column result;
+  result.name = name;
+  result.component_type = component_type;
+  result.components = components;
+  result.row_size = components * component_size(component_type);
+  result.accessor = {{"componentType", component_type}};
+  if (is_normalized)
+    result.accessor["normalized"] = true;
+  result.accessor["type"] = "VEC" + std::to_string(components);
+  return result;
+}
+
 Attribute::Type attribute_type(int component_type)
 {
   switch (component_type) {

@@ -193,6 +193,10 @@ inline bool begins_with(const std::string& name, const char* start)
 /// Returns the number of bytes of a component; zero for types that glTF does not know.
 std::size_t component_size(int component_type);
 
+/// Returns a column of vectors without rows.
+Gltf_scene::Column empty_column(const std::string& name, int component_type, std::size_t components,
+                                bool is_normalized = false);
+
 /// Returns the type of an attribute with such components, one that glTF knows.
 Attribute::Type attribute_type(int component_type);
 

@@ -31,6 +31,7 @@ using internal::cross;
 using internal::dot;
 using internal::Edge_side;
 using internal::for_each_inner_edge;
+using shading::angle_at;
 using shading::cosines;
 using shading::difference;
 using shading::normal_at;
@@ -140,16 +141,6 @@ void restore_flat(Triangle_soup& soup)
   });
 }
 
-// Returns the angle of a triangle at a corner, in radians.
-double angle_at(const Triangle_soup& soup, Index corner)
-{
-  const Index_triple& v = soup.triangles[corner / 3];
-  const auto direction = [&](Index turn) {
-    return unit(difference(soup.points[v[(corner + turn) % 3]], soup.points[v[corner % 3]]));
-  };
-  return std::acos(std::clamp(dot(direction(1), direction(2)), -1.0, 1.0));
-}
-
 void add(Vector& sum, const Vector& normal, double weight)
 {
   for (std::size_t i = 0; i < 3; ++i)
@@ -203,6 +194,8 @@ const char* name_of(Normals_choice choice)
     return "loose";
   case Normals_choice::recompute:
     return "recompute";
+  case Normals_choice::smooth:
+    return "smooth";
   default:
     return "drop";
   }
@@ -219,6 +212,8 @@ const char* name_of(Normals_treatment treatment)
     return "picked";
   case Normals_treatment::fitted:
     return "fitted";
+  case Normals_treatment::smoothed:
+    return "smoothed";
   case Normals_treatment::flat:
     return "flat";
   case Normals_treatment::smooth:
@@ -253,6 +248,10 @@ bool has_flat_normals(const Triangle_soup& soup)
 
 Normals_treatment take_normals(Triangle_soup& soup, Normals_choice choice, Corner_values<3>* taken)
 {
+  if (choice == Normals_choice::smooth) {
+    smooth_normals(soup);
+    return Normals_treatment::smoothed;
+  }
   if (soup.normals.empty())
     return Normals_treatment::none;
   if (choice == Normals_choice::keep)
@@ -276,7 +275,8 @@ Normals_treatment take_normals(Triangle_soup& soup, Normals_choice choice, Corne
 
 bool joins_vertices(Normals_choice choice)
 {
-  return choice == Normals_choice::drop || choice == Normals_choice::loose;
+  return choice == Normals_choice::drop || choice == Normals_choice::loose ||
+         choice == Normals_choice::smooth;
 }
 
 void pick_normals(Triangle_soup& result, const std::vector<Index>& triangles,

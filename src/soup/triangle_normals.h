@@ -49,6 +49,16 @@ inline Vector unit_normal(const Triangle_soup& soup, Index triangle)
   return unit(internal::cross(u, v));
 }
 
+/// Returns the angle of a triangle at a corner, in radians. Corners have the numbers 3 × triangle + place.
+inline double angle_at(const Triangle_soup& soup, Index corner)
+{
+  const Index_triple& v = soup.triangles[corner / 3];
+  const auto direction = [&](Index turn) {
+    return unit(difference(soup.points[v[(corner + turn) % 3]], soup.points[v[corner % 3]]));
+  };
+  return std::acos(std::clamp(internal::dot(direction(1), direction(2)), -1.0, 1.0));
+}
+
 /// Rounds to what the formats that store floats hold, so that all formats show the same.
 inline Vector stored(const Vector& normal)
 {

@@ -161,8 +161,9 @@ World read_world(const std::filesystem::path& folder)
       json.value("open_seams", json.value("weld_auto", false) ? Open_seams::weld : Open_seams::ignore);
   world.dropped = json.value("dropped", world.dropped);
   const std::string normals = json.value("normals", "keep"); // worlds of earlier versions have none
-  for (const Normals_choice choice : {Normals_choice::automatic, Normals_choice::keep, Normals_choice::mend,
-                                      Normals_choice::loose, Normals_choice::recompute, Normals_choice::drop})
+  for (const Normals_choice choice :
+       {Normals_choice::automatic, Normals_choice::keep, Normals_choice::mend, Normals_choice::loose,
+        Normals_choice::recompute, Normals_choice::smooth, Normals_choice::drop})
     if (normals == name_of(choice))
       world.normals = choice;
   world.are_faces_oriented = json.value("orient", false);

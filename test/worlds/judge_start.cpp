@@ -96,8 +96,10 @@ World in_pose(const World& world, std::size_t pose)
 {
   World posed = world;
   posed.soup = input_of(world);
-  posed.dropped.clear();                // already are
-  posed.normals = Normals_choice::keep; // what is joined is joined in all poses
+  posed.dropped.clear(); // already are
+  if (world.normals == Normals_choice::smooth)
+    smooth_normals(posed.soup);
+  posed.normals = Normals_choice::keep; // what is joined or smooth is so in all poses
   posed.soup.points = world.soup.poses[pose].points;
   if (!world.obstacle.poses.empty())
     posed.obstacle.points = world.obstacle.poses[pose].points;

@@ -554,7 +554,10 @@ World random_world(std::uint64_t seed)
   }
   if (world.normals == Normals_choice::automatic && world.seed % 4 == 3) // no random number, as above
     world.normals = Normals_choice::mend;
-  if (joins_vertices(world.normals) && world.seed % 4 != 3 && !world.soup.scene) {
+  if (world.seed % 8 == 6) // here as well
+    world.normals = Normals_choice::smooth;
+  if (joins_vertices(world.normals) && !world.soup.normals.empty() && world.seed % 4 != 3 &&
+      !world.soup.scene) {
     Triangle_soup split = split_by_normals(world.soup);  // as a PLY file has it
     if (split.points.size() >= world.soup.points.size()) // else a vertex that is to be locked may be gone
       world.soup = std::move(split);
