@@ -5,6 +5,7 @@
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_ERROR_FILTER_H
 
 #include <selvedge/Surface_mesh_simplification/internal/Filter_base.h>
+#include <selvedge/Surface_mesh_simplification/internal/require_initialised.h>
 
 namespace selvedge {
 
@@ -13,7 +14,8 @@ namespace selvedge {
 /// The error is what `Cost::error_at(profile, point)` returns. For `Quadric_cost`, it is the root mean square
 /// distance of the merged vertex to the original planes that its quadric has accumulated.
 ///
-/// A model of CGAL's concept `PlacementFilter`, usable with any placement.
+/// A model of CGAL's concept `PlacementFilter`, usable with any placement. A `Quadric_cost` must be the cost
+/// of the loop, or a copy of it; otherwise the first question throws `Argument_error`.
 ///
 /// **Exactness** Floating point: the filter limits quality.
 template <class Cost, class BaseFilter = No_filter>
@@ -29,6 +31,7 @@ public:
   template <class Collapse>
   bool accepts(const Collapse& collapse) const
   {
+    internal::require_initialised(m_cost);
     return m_cost.error_at(collapse.profile(), collapse.place()) <= m_max_error;
   }
 

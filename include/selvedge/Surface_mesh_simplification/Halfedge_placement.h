@@ -8,6 +8,7 @@
 #include <selvedge/Surface_mesh_simplification/internal/Filter_base.h>
 #include <selvedge/Surface_mesh_simplification/internal/No_visitor.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
+#include <selvedge/Surface_mesh_simplification/internal/require_initialised.h>
 
 #include <CGAL/Dynamic_property_map.h>
 #include <CGAL/boost/graph/iterator.h>
@@ -72,15 +73,20 @@ class Halfedge_placement
   using Edge = typename Graph_traits::edge_descriptor;
 
 public:
-  using TM = TriangleMesh; // named by CGAL's own placement decorators
+  using TM = TriangleMesh;                       // named by CGAL's own placement decorators
+  using Choosing_placement = Halfedge_placement; // a class that derives from it has no choices of its own
 
   explicit Halfedge_placement(const Cost& cost, const Rule& rule = {}) : m_cost(cost), m_rule(rule) {}
 
   template <class Profile>
   internal::Optional<typename Profile::Point> operator()(const Profile& profile) const
   {
+    require_initialised();
     return is_v0_target_first(profile) ? profile.p0() : profile.p1();
   }
+
+  /// Throws `Argument_error` if the cost is a `Quadric_cost`, and not that of the loop.
+  void require_initialised() const { internal::require_initialised(m_cost); }
 
   /// Returns the end that is not the first choice, or none if the rule does not allow both directions: for a
   /// loop such as `selvedge::edge_collapse`, which considers an edge again when its first placement was

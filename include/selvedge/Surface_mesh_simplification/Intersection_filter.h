@@ -68,8 +68,8 @@ namespace selvedge {
 /// `Exact_predicates_inexact_constructions_kernel` are; kernels for which they are not do not compile, nor
 /// does any of this with -ffast-math. A thread that rounds otherwise than to the nearest or takes subnormal
 /// numbers for 0, as code that was compiled so may have set it, or that does not round upwards when told to,
-/// as under Valgrind, is refused when the filter is made and when a loop begins (`Argument_error`). Tolerances
-/// and constructed points take no part.
+/// as under Valgrind, is refused when the filter is made and when a loop begins (`Argument_error`).
+/// Tolerances and constructed points take no part.
 ///
 /// **Complexity** For each motion of a vertex: one query of the index for the box of the vertex's star, then
 /// a constant number of predicates for each pair of a moving face and a face whose box meets its sweep. The k
@@ -209,8 +209,15 @@ public:
 
   /// Returns the faces because of which this filter refused the last collapse: at most one for each order of
   /// motions that it tried, or all with which more exempt pairs would offend than before. Empty where the
-  /// star of the moving vertex alone decided, and where the base filter refused.
-  auto& blockers() const { return m_guard->blockers(); }
+  /// star of the moving vertex alone decided. Where the base filter refused, they are what it names, if it
+  /// does.
+  const std::vector<Face>& blockers() const
+  {
+    if constexpr (internal::Has_blockers<BaseFilter>::value)
+      if (m_guard->blockers().empty())
+        return this->base().blockers();
+    return m_guard->blockers();
+  }
 
   /// Returns whether the last collapse was refused for nothing but the distance of `keep_clearance`.
   bool is_clearance_lacking() const { return m_guard->is_clearance_lacking(); }

@@ -61,7 +61,8 @@ class Optimal_placement
   static constexpr double s_most_cost = 0.8; // relative to that of the cheaper end
 
 public:
-  using TM = TriangleMesh; // named by CGAL's own placement decorators
+  using TM = TriangleMesh;                      // named by CGAL's own placement decorators
+  using Choosing_placement = Optimal_placement; // a class that derives from it has no choices of its own
 
   explicit Optimal_placement(const Cost& cost, const Rule& rule = {}, const Rounding& rounding = {})
       : m_ends(cost, rule), m_cost(cost), m_rule(rule), m_rounding(rounding)
@@ -71,9 +72,13 @@ public:
   template <class Profile>
   internal::Optional<typename Profile::Point> operator()(const Profile& profile) const
   {
+    require_initialised();
     const auto first = choice(profile, 0);
     return first ? collapse(profile, first->at)->place() : internal::Optional<typename Profile::Point>();
   }
+
+  /// See `Halfedge_placement`.
+  void require_initialised() const { m_ends.require_initialised(); }
 
   using Cost_policy = Cost;
 

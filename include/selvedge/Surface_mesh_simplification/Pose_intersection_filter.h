@@ -22,7 +22,7 @@ namespace selvedge {
 ///
 /// ```
 /// selvedge::Intersection_filter<Mesh> filter(mesh);
-/// selvedge::Pose_intersection_filter poses(mesh, {pose_1, pose_2}, filter);
+/// selvedge::Pose_intersection_filter poses(mesh, std::vector{pose_1, pose_2}, filter);
 /// CGAL::parameters::filter(poses).visitor(selvedge::Visitor_chain(filter.visitor(), poses.visitor()))
 /// ```
 ///
@@ -185,11 +185,17 @@ public:
   }
 
   /// Returns the faces because of which the last collapse asked about was refused in a pose, as
-  /// `Intersection_filter::blockers` does; none when no pose refused it.
+  /// `Intersection_filter::blockers` does. Where no pose refused it, they are what the base filter names, if
+  /// it does.
   const std::vector<Face>& blockers() const
   {
     static const std::vector<Face> none;
-    return m_state->refusing ? m_state->refusing->blockers() : none;
+    if (m_state->refusing)
+      return m_state->refusing->blockers();
+    if constexpr (internal::Has_blockers<BaseFilter>::value)
+      return this->base().blockers();
+    else
+      return none;
   }
 
   /// Returns whether the last collapse was refused for nothing but the distance of `keep_clearance`.

@@ -238,6 +238,15 @@ public:
     m_state->is_initialised = true;
   }
 
+  /// Throws `Argument_error` unless a loop, or the caller, has called `initialize`. A placement or filter
+  /// that uses a cost needs the very object that is the cost of the loop, or a copy of it.
+  void require_initialised() const
+  {
+    if (!m_state->is_initialised)
+      throw Argument_error("a placement or filter uses a Quadric_cost that is not the cost of the loop: give "
+                           "the same object to both, or copies of one");
+  }
+
   /// Returns the cost of merging the ends of the profile's edge at `placement`, in units of squared length,
   /// or none when there is no placement.
   template <class Profile, class Point>

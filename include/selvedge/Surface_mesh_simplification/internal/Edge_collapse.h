@@ -17,6 +17,7 @@
 #include <selvedge/Surface_mesh_simplification/internal/call_with_profile.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
 #include <selvedge/Surface_mesh_simplification/internal/perform_collapse.h>
+#include <selvedge/Surface_mesh_simplification/internal/require_initialised.h>
 
 #include <CGAL/Dynamic_property_map.h>
 #include <CGAL/boost/graph/helpers.h>
@@ -34,12 +35,15 @@
 namespace selvedge {
 namespace internal {
 
-template <class Filter, class = void>
-struct Has_blockers : std::false_type
+// Whether a class derives from a placement of ours, as `Constrained_placement` of CGAL does. Its call
+// operator may say more than the choices that it inherits.
+template <class Placement, class = void>
+struct Only_inherits_choices : std::false_type
 {
 };
-template <class Filter>
-struct Has_blockers<Filter, std::void_t<decltype(std::declval<const Filter&>().blockers())>> : std::true_type
+template <class Placement>
+struct Only_inherits_choices<Placement, std::void_t<typename Placement::Choosing_placement>>
+    : std::negation<std::is_same<typename Placement::Choosing_placement, Placement>>
 {
 };
 
@@ -51,7 +55,7 @@ template <class Placement, class Profile>
 struct Has_second<
     Placement, Profile,
     std::void_t<decltype(std::declval<const Placement&>().second(std::declval<const Profile&>()))>>
-    : std::true_type
+    : std::negation<Only_inherits_choices<Placement>>
 {
 };
 
@@ -62,7 +66,8 @@ struct Has_choice : std::false_type
 };
 template <class Placement, class Cost>
 struct Has_choice<Placement, Cost, std::void_t<typename Placement::Cost_policy>>
-    : std::is_same<typename Placement::Cost_policy, Cost>
+    : std::conjunction<std::is_same<typename Placement::Cost_policy, Cost>,
+                       std::negation<Only_inherits_choices<Placement>>>
 {
 };
 
@@ -167,6 +172,7 @@ public:
     m_visitor.OnStarted(m_mesh);
     if constexpr (Is_updated<Cost>::value)
       m_cost.initialize(m_mesh, m_points, m_traits);
+    require_initialised(m_placement);
     collect();
     while (!m_queue.is_empty() && try_cheapest())
       ;

@@ -18,6 +18,8 @@ namespace selvedge {
 /// Accepts every placement: the base filter by default.
 struct No_filter
 {
+  using Judging_filter = No_filter; // see `is_allowed`
+
   template <class Profile, class OptionalPoint>
   OptionalPoint operator()(const Profile&, const OptionalPoint& placement) const
   {
@@ -33,24 +35,32 @@ struct No_filter
 
 namespace internal {
 
-template <class Filter, class Collapse, class = void>
-struct Judges_collapses : std::false_type
+template <class Filter, class = void>
+struct Has_blockers : std::false_type
 {
 };
-template <class Filter, class Collapse>
-struct Judges_collapses<
-    Filter, Collapse,
-    std::void_t<decltype(std::declval<const Filter&>().allows(std::declval<const Collapse&>()))>>
-    : std::true_type
+template <class Filter>
+struct Has_blockers<Filter, std::void_t<decltype(std::declval<const Filter&>().blockers())>> : std::true_type
 {
 };
 
-/// Returns whether a filter allows a collapse. The filter is one of ours, which takes the collapse itself, or
-/// any model of CGAL's concept `PlacementFilter`.
+template <class Filter, class = void>
+struct Judges_collapses : std::false_type
+{
+};
+template <class Filter>
+struct Judges_collapses<Filter, std::void_t<typename Filter::Judging_filter>>
+    : std::is_same<typename Filter::Judging_filter, Filter>
+{
+};
+
+/// Returns whether a filter allows a collapse. The filter is one of ours, which takes the collapse itself and
+/// says so by naming itself `Judging_filter`, or any model of CGAL's concept `PlacementFilter`. A class that
+/// derives from one of ours is such a model, since its call operator may say more than what it inherits.
 template <class Filter, class Collapse>
 bool is_allowed(const Filter& filter, const Collapse& collapse)
 {
-  if constexpr (Judges_collapses<Filter, Collapse>::value)
+  if constexpr (Judges_collapses<Filter>::value)
     return filter.allows(collapse);
   else
     return bool(ask_policy(filter, collapse.profile(), Optional<typename Collapse::Point>(collapse.place())));
@@ -65,6 +75,8 @@ template <class Derived, class BaseFilter>
 class Filter_base
 {
 public:
+  using Judging_filter = Derived;
+
   explicit Filter_base(const BaseFilter& base) : m_base(base), m_refusals(std::make_shared<std::size_t>(0)) {}
 
   /// Returns the placement itself when the base and this filter accept it, none otherwise. If the base filter
@@ -88,12 +100,24 @@ public:
     return false;
   }
 
+  /// Returns the faces because of which the base has refused, if the base names such faces
+  /// (`Intersection_filter::blockers`).
+  template <class Base = BaseFilter>
+  auto blockers() const -> decltype(std::declval<const Base&>().blockers())
+  {
+    return m_base.blockers();
+  }
+
   /// Returns how many placements this filter has refused that its base had accepted.
   std::size_t refusals() const { return *m_refusals; }
 
 private:
   const Derived& derived() const { return static_cast<const Derived&>(*this); }
 
+protected:
+  const BaseFilter& base() const { return m_base; }
+
+private:
   BaseFilter m_base;
   std::shared_ptr<std::size_t> m_refusals;
 };

@@ -289,6 +289,8 @@ private:
   // What the loop asks.
   struct Filter
   {
+    using Judging_filter = Filter;
+
     Simplification* simplification;
 
     template <class Profile>
