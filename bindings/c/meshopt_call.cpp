@@ -3,8 +3,8 @@
 
 #include "meshopt_call.h"
 
+#include "bindings/run/soup_of.h"
 #include "selvedge_c.h"
-#include "soup_of.h"
 
 #include <selvedge/simplify.h>
 
@@ -87,7 +87,7 @@ public:
   void add(const Point& point)
   {
     for (std::size_t i = 0; i < 3; ++i) {
-      m_least[i] = std::min(m_least[i], double(point[i])); // NaN is never less
+      m_least[i] = std::min(m_least[i], double(point[i]));
       m_largest[i] = std::max(m_largest[i], double(point[i]));
     }
   }
@@ -131,7 +131,9 @@ public:
     Box extent;
     if (!(call.options & selvedge_SimplifySparse))
       for (std::size_t v = 0; v < call.vertex_count; ++v)
-        extent.add(position(call, v));
+        if (const auto point = position(call, v); // of those that no face uses, nothing is known
+            std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]))
+          extent.add(point);
     m_unit = call.options & selvedge_SimplifyErrorAbsolute ? 1
              : call.options & selvedge_SimplifySparse      ? m_box.longest()
                                                            : extent.longest();

@@ -4,8 +4,8 @@
 #include "selvedge_c.h"
 
 #include "bindings/run/Reduction.h"
+#include "bindings/run/soup_of.h"
 #include "meshopt_call.h"
-#include "soup_of.h"
 
 #include <selvedge/Error.h>
 #include <selvedge/generate.h>

@@ -5,6 +5,7 @@
 // selvedge/__init__.py.
 
 #include "bindings/run/Reduction.h"
+#include "bindings/run/soup_of.h"
 
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
@@ -117,6 +118,12 @@ auto rows(const Array& array, const char* name)
   return array.template unchecked<2>();
 }
 
+Point_3 point_at(const Points& points, std::size_t v)
+{
+  const double* const point = points.data(py::ssize_t(v), 0);
+  return {point[0], point[1], point[2]};
+}
+
 std::vector<Point_3> points_of(const Points& points)
 {
   std::vector<Point_3> result;
@@ -129,13 +136,11 @@ std::vector<Point_3> points_of(const Points& points)
 
 Triangle_soup soup_of(const Points& points, const Triangles& triangles)
 {
-  Triangle_soup soup;
-  soup.points = points_of(points);
-  const auto of_triangles = rows(triangles, "triangles");
-  soup.triangles.reserve(std::size_t(of_triangles.shape(0)));
-  for (py::ssize_t i = 0; i < of_triangles.shape(0); ++i)
-    soup.triangles.push_back({of_triangles(i, 0), of_triangles(i, 1), of_triangles(i, 2)});
-  return soup;
+  rows(points, "points");
+  rows(triangles, "triangles");
+  return bindings::soup_of(
+      std::size_t(points.shape(0)), triangles.data(), std::size_t(triangles.size()),
+      [&](std::size_t v) { return point_at(points, v); }, [](std::size_t v) { return v; });
 }
 
 /// An array of `columns` columns that owns `values` without copying them.

@@ -69,6 +69,19 @@ class Simplify(unittest.TestCase):
             selvedge.simplify(mesh.points, -mesh.triangles.astype(np.int64), ratio=0.5)
         with self.assertRaises(selvedge.InputError):
             selvedge.simplify(np.zeros((3, 3)), [[0, 1, 2]], ratio=0.5)
+        log = selvedge.simplify(*mesh, ratio=0.5, log=True).log
+        infinite = mesh.points.copy()
+        infinite[0, 0] = np.inf
+        for spoiled in ((mesh.points, mesh.triangles + 100000), (mesh.points, [[0, 1, len(mesh.points)]]),
+                        (infinite, mesh.triangles)):
+            with self.assertRaisesRegex(ValueError, "index 0|index 2|vertex 0"):
+                selvedge.verify(*spoiled)
+            with self.assertRaises(ValueError):
+                selvedge.verify(*mesh, original=spoiled)
+            with self.assertRaises(ValueError):
+                selvedge.replay(*spoiled, log)
+            with self.assertRaises(ValueError):
+                selvedge.replay(*mesh, log, obstacle=spoiled)
 
     def test_parts_weights_locks_and_obstacle(self):
         mesh = layers(2000, 2)

@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef SELVEDGE_BINDINGS_C_SOUP_OF_H
-#define SELVEDGE_BINDINGS_C_SOUP_OF_H
+#ifndef SELVEDGE_BINDINGS_RUN_SOUP_OF_H
+#define SELVEDGE_BINDINGS_RUN_SOUP_OF_H
 
 #include <selvedge/Error.h>
 #include <selvedge/Triangle_soup.h>
@@ -60,4 +60,4 @@ Triangle_soup soup_of(std::size_t vertex_count, const unsigned int* indices, std
 
 } // namespace selvedge::bindings
 
-#endif // SELVEDGE_BINDINGS_C_SOUP_OF_H
+#endif // SELVEDGE_BINDINGS_RUN_SOUP_OF_H
