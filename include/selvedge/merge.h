@@ -8,9 +8,9 @@
 
 namespace selvedge {
 
-/// Returns a soup in which the vertices at one position have one number, the first of theirs, so that pieces
-/// that meet there are connected. Vertices whose vertex attributes differ keep numbers of their own. Vertices
-/// that are no longer used are dropped.
+/// Returns a soup in which the vertices at one position, in all poses, have one number, the first of theirs,
+/// so that pieces that meet there are connected. Vertices whose vertex attributes differ keep numbers of
+/// their own. Vertices that are no longer used are dropped.
 ///
 /// Neither the triangles nor their order nor any coordinate changes, except that −0 may become 0. A soup that
 /// was read from glTF is returned as it is, because its vertices are rows of accessors.

@@ -40,6 +40,7 @@ public:
     check_labels(m_soup.smoothing_groups, "smoothing_groups");
     check_attributes(m_soup.vertex_attributes, m_soup.points.size());
     check_attributes(m_soup.triangle_attributes, m_soup.triangles.size());
+    check_polygons();
     if (m_soup.scene)
       check_size(m_soup.scene_vertices.size(), m_soup.points.size(), "scene_vertices");
   }
@@ -76,6 +77,25 @@ private:
       return;
     check_size(values.of_triangle.size(), m_soup.triangles.size(), name + ".of_triangle");
     check_corners(values.of_triangle, values.values.size(), name);
+  }
+
+  void check_polygons() const
+  {
+    std::size_t free = 0; // the first triangle that is of no polygon before
+    for (std::size_t i = 0; i < m_soup.polygons.size(); ++i) {
+      const Cut_polygon& polygon = m_soup.polygons[i];
+      if (polygon.corners < 4)
+        refuse("polygon", i,
+               "has " + std::to_string(polygon.corners) + " corners, and should have at least 4");
+      const std::size_t triangles = polygon.corners - 2;
+      if (polygon.first_triangle < free || polygon.first_triangle + triangles > m_soup.triangles.size())
+        refuse("polygon", i,
+               "has triangles of another one, or some that do not exist: " + std::to_string(triangles) +
+                   " from triangle " + std::to_string(polygon.first_triangle) + " on");
+      if (polygon.start >= 3 * triangles)
+        refuse("polygon", i, "starts at corner " + std::to_string(polygon.start) + ", beyond its triangles");
+      free = polygon.first_triangle + triangles;
+    }
   }
 
   void check_labels(const Triangle_labels& labels, const std::string& name) const

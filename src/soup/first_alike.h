@@ -10,8 +10,8 @@
 
 namespace selvedge {
 
-/// Returns, for every vertex, the first vertex at the same position whose vertex attributes are the same, bit
-/// for bit. The soup is not from glTF. O(n) for n vertices, of which few are at one position.
+/// Returns, for every vertex, the first vertex at the same position in all poses whose vertex attributes are
+/// the same, bit for bit. The soup is not from glTF. O(n) for n vertices, of which few are at one position.
 std::vector<Index> first_alike(const Triangle_soup& soup);
 
 } // namespace selvedge

@@ -19,7 +19,10 @@ std::vector<Index> first_alike(const Triangle_soup& soup)
 {
   const std::vector<Index> positions = number_positions(soup.points);
   const auto have_same_attributes = [&](Index v, Index w) {
-    return std::all_of(soup.vertex_attributes.begin(), soup.vertex_attributes.end(),
+    const bool is_together = std::all_of(soup.poses.begin(), soup.poses.end(),
+                                         [&](const Pose& pose) { return pose.points[v] == pose.points[w]; });
+    return is_together &&
+           std::all_of(soup.vertex_attributes.begin(), soup.vertex_attributes.end(),
                        [&](const Attribute& attribute) {
                          const std::size_t size = row_size(attribute);
                          return std::memcmp(&attribute.rows[v * size], &attribute.rows[w * size], size) == 0;

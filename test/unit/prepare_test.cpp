@@ -76,6 +76,12 @@ TEST(Refusal, SoupsThatBreakTheirPreconditions)
   expect_refused("groups.of_triangle", [](auto& s) { s.groups.of_triangle.push_back(0); });
   expect_refused("among the groups", [](auto& s) { s.groups.names.clear(); });
   expect_refused("'quality'", [](auto& s) { s.vertex_attributes[0].rows.pop_back(); });
+  expect_refused("polygon 0 (counted from 0) has 3 corners", [](auto& s) { s.polygons = {{0, 3, 0}}; });
+  expect_refused("2 from triangle 99 on", [](auto& s) { s.polygons = {{99, 4, 0}}; });
+  expect_refused("polygon 1 (counted from 0) has triangles", [](auto& s) {
+    s.polygons = {{0, 4, 0}, {1, 4, 0}};
+  });
+  expect_refused("starts at corner 6", [](auto& s) { s.polygons = {{0, 4, 6}}; });
 }
 
 TEST(Prepare, StrictRefusesByTheNumbersOfTheInput)

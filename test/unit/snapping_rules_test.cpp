@@ -478,6 +478,15 @@ TEST(Joined_at_positions, PiecesHangTogether)
       EXPECT_EQ(one.points[one.triangles[t][k]], apart.points[apart.triangles[t][k]]);
 }
 
+TEST(Joined_at_positions, WhatIsApartInAPoseStaysApart)
+{
+  Triangle_soup apart = joined(sheet(2, 2), shifted(sheet(2, 2), 2, 0));
+  apart.poses.push_back({"together", apart.points});
+  EXPECT_EQ(merged_at_positions(apart).points.size(), 15u);
+  apart.poses.push_back({"apart", joined(sheet(2, 2), shifted(sheet(2, 2), 3, 0)).points});
+  EXPECT_EQ(merged_at_positions(apart).points.size(), 18u);
+}
+
 TEST(Joined_at_positions, WhatDiffersInAttributesStaysApart)
 {
   Triangle_soup apart = joined(sheet(1, 1), shifted(sheet(1, 1), 1, 0));
