@@ -170,7 +170,7 @@ struct Piece_match
   /// The root mean square distance from the vertices of one side to the surface of the other, in the
   /// direction in which it is larger, as a share of the diagonal of the bounding box of `of_original`.
   double distance = 0;
-  /// The share of the area of `of_result` whose normal is more than 90° from that of the nearest face of
+  /// The share of the area of `of_result` whose normal is more than 104° from that of the nearest face of
   /// `of_original`.
   double turned = 0;
 };

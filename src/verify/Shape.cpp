@@ -46,6 +46,9 @@ double Shape::root_mean_square_distance(const Shape& to) const
 
 double Shape::turned_against(const Shape& other) const
 {
+  // Of some 104°. Where little is left of a piece, as the cap of a tube, the nearest triangle of the original
+  // may well be at a right angle, and neither side is that of the other.
+  constexpr double cosine_of_turned = -0.25;
   double all = 0, turned = 0;
   Index guess = 0;
   Cancellation_poll poll;
@@ -56,7 +59,8 @@ double Shape::turned_against(const Shape& other) const
     const Triangle_3 triangle = m_surface.triangle(t);
     guess = other.nearest(CGAL::centroid(triangle[0], triangle[1], triangle[2]), guess);
     all += area;
-    if (normal * other.m_surface.normal(guess) < 0)
+    const Vector_3 other_normal = other.m_surface.normal(guess);
+    if (normal * other_normal < cosine_of_turned * area * std::sqrt(other_normal.squared_length()))
       turned += area;
   }
   return all > 0 ? turned / all : 0;

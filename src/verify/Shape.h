@@ -42,7 +42,7 @@ public:
   /// coordinates.
   double root_mean_square_distance(const Shape& to) const;
 
-  /// Returns the share of this shape's area whose normal is more than 90° from that of the triangle of
+  /// Returns the share of this shape's area whose normal is more than 104° from that of the triangle of
   /// `other` that is nearest to the centroid of its own triangle.
   double turned_against(const Shape& other) const;
 
