@@ -191,11 +191,22 @@ bool is_without_target(const Simplify_request& request)
          (request.error.empty() || request.error == "none") && request.lods.empty();
 }
 
+std::string with_mark_replaced(std::string name, std::string_view mark, const std::string& text)
+{
+  for (std::size_t place = 0; (place = name.find(mark, place)) != std::string::npos; place += text.size())
+    name.replace(place, mark.size(), text);
+  return name;
+}
+
 /// Refuses what can be refused before any work is done.
 void check(const Simplify_request& request)
 {
   if (is_without_target(request) && request.intent.ratios.empty())
     throw Argument_error("say how far to reduce the mesh: give --ratio, --faces, --error or --lods");
+  if (request.is_target_required && !request.options.ratio && !request.options.faces &&
+      request.lods.empty() && request.intent.ratios.empty())
+    throw Argument_error(
+        "--require-target: --error is a limit and no target; give --ratio or --faces as well");
   if (!request.lods.empty() && (request.options.ratio || request.options.faces))
     throw Argument_error("--lods already says how far to reduce the mesh; leave out --ratio R and --faces");
   if (request.is_strict && request.defects.value_or(Defects::refuse) != Defects::refuse)
@@ -225,7 +236,7 @@ void check(const Simplify_request& request)
   written.insert(written.end(), beside.begin(), beside.end());
   check_streams({{"IN", request.input}, {"--obstacle", request.obstacle}}, written, request.format);
   // A mesh may replace its input, but nothing else may.
-  require_distinct(written, {{"--obstacle", request.obstacle}});
+  require_distinct(written, files_read_beside(request));
   require_distinct(beside, {{"IN", request.input}});
   for (const Named_file& file : written)
     if (!file.path.empty())
@@ -233,6 +244,16 @@ void check(const Simplify_request& request)
 }
 
 } // namespace
+
+std::vector<Named_file> files_read_beside(const Simplify_request& request)
+{
+  std::vector<Named_file> files = pose_files("--pose", request.poses.files, request.input);
+  const std::vector<Named_file> of_obstacle =
+      pose_files("--obstacle-pose", request.obstacle_poses.files, request.obstacle);
+  files.insert(files.end(), of_obstacle.begin(), of_obstacle.end());
+  files.push_back({"--obstacle", request.obstacle});
+  return files;
+}
 
 bool are_levels_in_one_file(const Simplify_request& request)
 {
@@ -253,7 +274,7 @@ std::vector<std::string> outputs(const Simplify_request& request)
     return {request.output};
   std::vector<std::string> names;
   for (std::size_t level = 1; level <= request.lods.size(); ++level)
-    names.push_back(std::string(request.output).replace(place, level_mark.size(), std::to_string(level)));
+    names.push_back(with_mark_replaced(request.output, level_mark, std::to_string(level)));
   return names;
 }
 
@@ -265,12 +286,8 @@ bool is_one_file_of_poses(const std::string& name)
 
 std::string pose_output(const Simplify_request& request, std::size_t level, const std::string& pose)
 {
-  std::string name = request.poses_output;
-  for (const auto& [mark, text] :
-       {std::make_pair(level_mark, std::to_string(level)), std::make_pair(pose_mark, pose)})
-    for (std::size_t place = 0; (place = name.find(mark, place)) != std::string::npos; place += text.size())
-      name.replace(place, mark.size(), text);
-  return name;
+  return with_mark_replaced(with_mark_replaced(request.poses_output, level_mark, std::to_string(level)),
+                            pose_mark, pose);
 }
 
 bool has_standard_output(const Simplify_request& request)

@@ -69,7 +69,10 @@ void complete(Simplify_request& request);
 /// Returns whether several levels of detail go to one file: the name of the output has no {lod}.
 bool are_levels_in_one_file(const Simplify_request& request);
 
-/// Returns the output file of each level: the name with the level's number, from 1, in place of {lod}. It is
+/// Returns the files of poses and of the obstacle, which the run reads and must not replace.
+std::vector<Named_file> files_read_beside(const Simplify_request& request);
+
+/// Returns the output file of each level: the name with the level's number, from 1, in place of each {lod}. It is
 /// the name as given, once, when there are no levels or all are in one file.
 std::vector<std::string> outputs(const Simplify_request& request);
 

@@ -45,8 +45,8 @@ double share_kept(const std::vector<char>& has_ratio, const std::vector<Index>& 
 std::string coarse_part(const Simplify_request& request, const Prepared_soup& original,
                         const Simplified_soup& result)
 {
-  if (request.is_in_cells) // parts cannot have ratios then
-    return "";
+  if (request.is_in_cells || (!request.lods.empty() && !request.progressive.empty()))
+    return ""; // parts cannot have ratios then
   const std::vector<char> has_ratio = triangles_with_ratio(request, original.soup);
   const double share_of_whole = share_kept(has_ratio, result.triangles),
                share_wanted = (std::min)(share_of_whole, request.options.ratio.value_or(1));

@@ -107,6 +107,24 @@ private:
                         [](const Pose& pose) { return has_float32_points(pose.points); });
   }
 
+  // A scene is written with the coordinates of its nodes, which lead to no rounded coordinates of the world.
+  void require_one_rounding(const Triangle_soup& soup) const
+  {
+    const bool is_scene_written = is_gltf(output_format()) || !m_request.progressive.empty();
+    if (!soup.scene || !is_scene_written || !is_rounded(soup) || has_float32_points(soup.points))
+      return;
+    const bool is_of_output = needs_float32(soup, output_format());
+    throw Argument_error(
+        (is_of_output ? std::string("--progressive") : "--poses-out " + m_request.poses_output) +
+        ": the transforms of nodes bring vertices of " + m_request.input + " to places that are no 32-bit " +
+        "floats, which " + (is_of_output ? m_request.output : "that file") + " needs, and " +
+        (is_gltf(output_format()) ? m_request.output : m_request.progressive) +
+        " cannot be rounded with it; " +
+        (is_of_output
+             ? "leave out --progressive, or write the mesh as .obj, .ply or .glb"
+             : "write poses of their own, as with --poses-out 'NAME_{pose}.obj', or the mesh as .obj"));
+  }
+
   void drop_attributes_of(Mesh_file& file)
   {
     const std::size_t joined = drop_attributes(file.soup, m_request.dropped_attributes, m_request.input);
@@ -159,7 +177,7 @@ private:
          {std::make_pair("--report", m_request.report), std::make_pair("--log", m_request.log),
           std::make_pair("--progressive", m_request.progressive), std::make_pair("--html", m_request.html)})
       written.push_back({option, name});
-    require_distinct(written, {{"--obstacle", m_request.obstacle}});
+    require_distinct(written, files_read_beside(m_request));
     for (const Named_file& file : written)
       if (!file.path.empty())
         require_writable(file.path);
@@ -178,6 +196,7 @@ private:
       join_without_normals(file);
     m_report["input"] = input_json(m_request.input, file);
     check_pose_outputs(file.soup.poses);
+    require_one_rounding(file.soup);
     say_what_poses_cost(file.soup);
     if (are_levels_in_one_file(m_request) && m_request.options.placement == Placement::optimal &&
         file.soup.scene)

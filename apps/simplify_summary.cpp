@@ -80,7 +80,7 @@ std::string remedy(Hindrance reason, const Simplify_request& request)
   case Hindrance::locked:
     return request.intent.locked.empty() ? "--keep for fewer parts" : "--lock for fewer parts";
   case Hindrance::normals:
-    return joins_vertices(request.normals) ? "" : "--normals loose";
+    return joins_vertices(request.normals) || !request.progressive.empty() ? "" : "--normals loose";
   case Hindrance::border_turn:
     return options.max_border_turn < 180 ? "--border-turn 180" : "";
   case Hindrance::seam_turn:
@@ -245,7 +245,7 @@ void print_snapping(std::ostream& stream, const Snapping_notes& notes, std::size
   print(notes.left_blocked, "another part of the mesh lies in the gap");
   print(notes.left_folding, "a face would degenerate or fold over");
   print(notes.left_unmanifold, "more than two faces would meet at an edge");
-  print(notes.left_frozen, "a face there is frozen");
+  print(notes.left_frozen, "a face there is frozen, or belongs to an offending pair");
   print(notes.left_foreign, "the partner belongs to a node with another transform");
   print(notes.left_ambiguous, "every partner has a nearer one");
   if (tied > 0)
@@ -266,7 +266,9 @@ void print_border_gaps(std::ostream& stream, const Simplify_request& request, co
                    : "nothing is closed, because no gaps in seams are clearly narrower than what "
                      "lies beside them; --weld EPS closes gaps up to a length\n");
   else if (gaps.clear_length) {
-    const bool may_weld = prepared.soup.poses.empty(); // with further ones, `check_poses` refuses --weld
+    // Otherwise, --weld is refused.
+    const bool may_weld =
+        prepared.soup.poses.empty() && !request.options.clearance && request.may_intersect.empty();
     stream << "  open seams: " << found
            << (request.open_seams != Open_seams::hold ? ""
                : !prepared.facing.empty()             ? "; they get hardly wider"
@@ -341,17 +343,26 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
   stream << '\n';
   for (const Json& note : notes)
     stream << "  " << note.get<std::string>() << '\n';
+  // Otherwise, further poses are refused.
+  const bool may_guard = !request.is_in_cells && !request.is_sewn && request.weld_distance == 0 &&
+                         request.open_seams != Open_seams::weld &&
+                         request.options.placement != Placement::optimal;
   std::string unguarded;
   if (!request.poses.are_morphs && has_morph_targets(prepared.soup))
-    unguarded = "the shapes of morph targets (--morphs guards these, too)";
+    unguarded =
+        std::string("the shapes of morph targets") + (may_guard ? " (--morphs guards these, too)" : "");
   if (request.poses.animation.empty() && !request.poses.are_of_humanoid && has_humanoid(prepared.soup))
-    unguarded += (unguarded.empty() ? "" : " and ") +
-                 std::string("poses such as arms down (--humanoid-poses guards some)");
+    unguarded += (unguarded.empty() ? "" : " and ") + std::string("poses such as arms down") +
+                 (may_guard ? " (--humanoid-poses guards some)" : "");
   if (!unguarded.empty())
     stream << "  nothing is promised in " << unguarded << '\n';
   if (prepared.rounding.coordinates > 0)
     stream << "  " << counted(prepared.rounding.coordinates, "coordinate")
-           << " rounded to 32-bit floats, because the output's format stores nothing more precise\n";
+           << " rounded to 32-bit floats, because "
+           << (needs_float32(prepared.soup, format_of(request.output, request.format)) ? "the output's format"
+               : request.progressive.empty() ? "the file of --poses-out"
+                                             : "the file of --progressive")
+           << " stores nothing more precise\n";
   if (prepared.normals == Normals_treatment::flat)
     stream << "  normals made anew where faces change: every face of the input has its own, as in flat "
               "shading; --normals smooth shades the result smooth\n";
@@ -450,8 +461,9 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
            << " turned to agree with the others of their surface, and turned back in the output";
   if (const Sewing_notes& sewing = result.sewing; sewing.misoriented_edges > 0)
     stream << "\norientation: faces disagree along " << counted(sewing.misoriented_edges, "edge") << " of "
-           << counted(sewing.misoriented_pieces, "piece")
-           << ", whose vertices there do not move; `selvedge info` names them";
+           << counted(sewing.misoriented_pieces, "piece") << ", whose vertices there do not move; "
+           << (request.are_faces_oriented ? "`selvedge info` names them"
+                                          : "--orient auto turns those that can be turned");
   if (done.left_alone > 0)
     stream << "\nopen seams: " << counted(done.left_alone, "border vertex", "border vertices")
            << " stayed while the partner across the gap left; there the gap may be wider than it was";
@@ -461,11 +473,11 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
            << (has_vertex_values(prepared.soup) ? " with interpolated attributes" : "");
   if (prepared.normals == Normals_treatment::smoothed)
     stream << "\nnormals: fitted to the smooth shading of the input";
-  else if (prepared.normals == Normals_treatment::fitted)
-    stream << "\nnormals: fitted to the shading of the input, other ones at "
-           << counted(std::max(result.fitted_normals, result.mended_normals), "corner") << " of "
-           << with_commas(3 * faces);
-  else if (result.mended_normals > 0)
+  else if (prepared.normals == Normals_treatment::fitted) {
+    if (const std::size_t others = std::max(result.fitted_normals, result.mended_normals); others > 0)
+      stream << "\nnormals: fitted to the shading of the input, other ones at " << counted(others, "corner")
+             << " of " << with_commas(3 * faces);
+  } else if (result.mended_normals > 0)
     stream << "\nnormals: kept, but for " << counted(result.mended_normals, "corner")
            << " with a new one, as the old one is too far from the normal of the face";
   if (polygons.input > 0)

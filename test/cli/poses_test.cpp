@@ -113,6 +113,44 @@ TEST_F(Waving_sheets, PierceEachOtherInAPoseThatIsNotGiven)
   EXPECT_NE(result.out.find("pose 'up_waves': "), std::string::npos) << result.out;
 }
 
+TEST_F(Waving_sheets, AreNeverReplaced)
+{
+  const std::string flat = folder / "flat.obj", out = folder / "out.obj", pose = folder / "waving.obj";
+  const std::string before = contents_of(pose);
+  for (const auto& [option, file] : {std::pair("--report", pose), std::pair("--log", pose),
+                                     std::pair("--poses-out", folder / "{pose}.obj")})
+    expect_refused(
+        {"simplify", flat, "-o", out, "--ratio", "0.2", "--pose", folder / "wavin*.obj", option, file}, 2,
+        std::string(option) + " and --pose name the same file");
+  expect_refused({"simplify", flat, "-o", pose, "--ratio", "0.2", "--pose", pose}, 2,
+                 "--output and --pose name the same file");
+  expect_refused({"verify", flat, "--pose", pose, "--report", pose}, 2,
+                 "--report and --pose name the same file");
+  simplify(flat, out, {"--pose", pose});
+  expect_refused({"replay", flat, log, "--pose", pose, "--report", pose}, 2,
+                 "--report and --pose name the same file");
+  EXPECT_EQ(contents_of(pose), before);
+}
+
+TEST_F(Waving_sheets, AreRefusedInFilesThatWouldRoundAWholeScene)
+{
+  nlohmann::json document = nlohmann::json::parse(contents_of(gltf));
+  document["nodes"][0]["scale"] = {0.1, 0.1, 0.1};
+  const std::string moved = folder / "moved.gltf", out = folder / "out.glb";
+  write_text(moved, document.dump());
+  for (const std::string poses : {"p.glb", "p_{pose}.glb", "p.pc2"})
+    expect_refused(
+        {"simplify", moved, "-o", out, "--ratio", "0.2", "--morphs", "--poses-out", folder / poses}, 2,
+        "--poses-out");
+  expect_refused({"simplify", moved, "-o", folder / "out.stl", "--ratio", "0.2", "--progressive", out}, 2,
+                 "--progressive");
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.stl"));
+  EXPECT_FALSE(std::filesystem::exists(out));
+  simplify(moved, out, {"--morphs", "--poses-out", folder / "p_{pose}.obj"});
+  simplify(moved, folder / "out.obj", {"--morphs", "--poses-out", folder / "p.pc2"});
+  simplify(gltf, out, {"--morphs", "--poses-out", folder / "p.glb"});
+}
+
 TEST_F(Waving_sheets, MayBeLeftOutByName)
 {
   const std::string out = folder / "small.glb", alone = folder / "alone.glb";

@@ -135,6 +135,28 @@ TEST(App_usage, RefusesWhatMakesNoSense)
   EXPECT_EQ(folder.files(), 1u);
 }
 
+TEST(App_usage, RequiresATargetThatIsGiven)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("grid", "in.obj", 200), out = folder / "out.obj";
+  expect_refused({"simplify", in, "-o", out, "--error", "0.01", "--require-target"}, 2,
+                 "give --ratio or --faces");
+  EXPECT_EQ(
+      run_app({"simplify", in, "-o", out, "--error", "0.01", "--faces", "100", "--require-target"}).code, 0);
+}
+
+TEST(App_usage, PutsTheNumberOfTheLevelInPlaceOfEveryMark)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("grid", "in.obj", 200);
+  std::filesystem::create_directory(folder / "level_1");
+  std::filesystem::create_directory(folder / "level_2");
+  EXPECT_EQ(run_app({"simplify", in, "-o", folder / "level_{lod}/grid_{lod}.obj", "--lods", "0.5,0.25"}).code,
+            0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "level_1/grid_1.obj"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "level_2/grid_2.obj"));
+}
+
 TEST(App_usage, SeesThatTwoNamesAreOneNewFile)
 {
   const Workspace folder;
