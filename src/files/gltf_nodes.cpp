@@ -183,7 +183,10 @@ private:
         continue;
       places.push_back({nodes().size(), mesh});
       nodes()[node.node]["children"].push_back(nodes().size());
-      nodes().push_back(instance);
+      Json child = instance;
+      if (const Json name = member(nodes()[node.node], "name"); name.is_string())
+        child["name"] = name; // by which parts are named
+      nodes().push_back(std::move(child));
     }
   }
 
