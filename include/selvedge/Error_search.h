@@ -5,7 +5,6 @@
 #define SELVEDGE_ERROR_SEARCH_H
 
 #include <cstddef>
-#include <optional>
 
 namespace selvedge {
 
@@ -42,19 +41,19 @@ public:
       m_kept = last;
     } else {
       m_too_large = last;
-      if (m_kept && m_kept->error >= m_max_error) // the caller has changed other options
-        m_kept.reset();
+      if (m_kept.error >= m_max_error) // the caller has changed other options
+        m_kept = {};
     }
     if (m_max_error <= 0)
       return false;
-    if (!m_kept) {
+    if (!m_kept.is_made()) {
       lower();
-    } else if (m_too_large && m_raises_left > 0 && m_kept->upper < s_enough * m_wanted) {
+    } else if (m_too_large.is_made() && m_raises_left > 0 && m_kept.upper < s_enough * m_wanted) {
       --m_raises_left;
       raise();
-    } else if (m_max_error != m_kept->error) {
+    } else if (m_max_error != m_kept.error) {
       m_raises_left = 0;
-      m_max_error = m_kept->error;
+      m_max_error = m_kept.error;
     } else {
       return false;
     }
@@ -63,9 +62,12 @@ public:
   }
 
 private:
+  // A reduction with an error, and the bound that it had.
   struct Trial
   {
-    double error, upper;
+    double error = -1, upper = 0;
+
+    bool is_made() const { return error >= 0; }
   };
 
   static constexpr double s_enough = 0.93; // of the limit: an error that comes so near is not raised
@@ -73,7 +75,7 @@ private:
   // A smaller error changes which edges collapse, and may help less than it should: then the next helps more.
   void lower()
   {
-    const double next = m_max_error * (m_wanted / m_too_large->upper) * (1 - m_reserve);
+    const double next = m_max_error * (m_wanted / m_too_large.upper) * (1 - m_reserve);
     m_max_error = next > 0 ? next : 0;
     m_reserve *= 3;
   }
@@ -81,13 +83,13 @@ private:
   // Between the two, where their bounds let expect the limit.
   void raise()
   {
-    const double expected = (m_wanted - m_kept->upper) / (m_too_large->upper - m_kept->upper);
+    const double expected = (m_wanted - m_kept.upper) / (m_too_large.upper - m_kept.upper);
     const double share = expected > 0.8 ? 0.8 : expected > 0.2 ? expected : 0.2;
-    m_max_error = m_kept->error + share * (m_too_large->error - m_kept->error);
+    m_max_error = m_kept.error + share * (m_too_large.error - m_kept.error);
   }
 
   double m_wanted, m_max_error, m_reserve = 0.004;
-  std::optional<Trial> m_kept, m_too_large; // the last of either kind
+  Trial m_kept, m_too_large; // the last of either kind
   std::size_t m_reductions = 1, m_raises_left = 2;
 };
 
