@@ -162,7 +162,7 @@ public:
   /// vertex merges with another where faces of both would meet.
   ///
   /// Throws `Argument_error` when there are more than 32 pairs of parts, when a face belongs to both parts of
-  /// a pair, and when faces of both have a common position.
+  /// a pair, and when faces of both have a common vertex.
   ///
   /// **Preconditions** No question has been asked yet.
   void let_intersect(const std::vector<std::pair<std::vector<Face>, std::vector<Face>>>& parts) const

@@ -47,7 +47,7 @@ struct Simplify_constraints
   std::vector<std::vector<typename boost::graph_traits<TriangleMesh>::vertex_descriptor>> joint_vertices;
 
   /// Factors of at least 0 for the cost of moving each vertex: one for every vertex, in the order of
-  /// `vertices(mesh)`, or none at all. The number is not checked.
+  /// `vertices(mesh)`, or none at all; `simplify_mesh` refuses any other number (`Argument_error`).
   std::vector<double> vertex_weights;
 
   /// Faces that have a ratio of their own, in [0, 1]; the target in the options is for all other faces. Once

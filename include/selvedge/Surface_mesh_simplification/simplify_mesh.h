@@ -43,8 +43,10 @@ namespace selvedge {
 /// **Preconditions** The caller must ensure: all faces are triangles; `TriangleMesh` is a mutable face graph
 /// whose points belong to a kernel with exact predicates, as those of the vertex point map do. Checked at run
 /// time (`Argument_error`): the options are in range; no edge has length zero, if intersections are checked;
-/// the diagonal of the bounding box is 0 or from 2^-200 to 2^200. Two options are for soups alone and refused
-/// when set: `faces_per_cell`, and `on_collapse`, which the observer replaces.
+/// the diagonal of the bounding box is 0 or from 2^-200 to 2^200. Of the options for soups alone,
+/// `faces_per_cell`, and `on_collapse`, which the observer replaces, are refused when set. `guarded_poses` has
+/// no effect, since all poses of the constraints are guarded, and nothing is recorded or kept of the
+/// progression and the history.
 ///
 /// In this range of sizes, no computation of quality overflows, and none vanishes except areas of less than
 /// 2^-100 of the squared diagonal. Without such areas, the steps are the same for a mesh and for the mesh
