@@ -621,9 +621,8 @@ void add_options(CLI::App& command, Simplify_request& request)
           "belong to another side of the surface, are made anew, and those that differ by at most 0.1 "
           "degrees at a vertex become one; loose also makes no seams of edges: each face gets those normals "
           "of its vertices that suit it best; recompute makes all anew, with the hard edges of the input; "
-          "smooth takes smooth ones, with hard edges where faces turn by more than 60 degrees, in their "
-          "place, "
-          "or where there are none: for scans and others that are shaded flat; or "
+          "smooth makes smooth ones first, hard where faces turn by more than 60 degrees, for scans that are "
+          "shaded flat or have none; or "
           "leave them out, so that vertices of PLY and glTF that differ in nothing else are one. "
           "auto mends them, and then fits them to the shading of the input, which is truer on large faces "
           "than what is kept at their corners.")

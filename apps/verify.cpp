@@ -19,6 +19,7 @@
 #include <selvedge/compare.h>
 #include <selvedge/mesh_files.h>
 #include <selvedge/normals.h>
+#include <selvedge/rounding.h>
 #include <selvedge/verify.h>
 
 #include <algorithm>
@@ -335,6 +336,8 @@ Exit_code run(const Verify_request& request)
     options.weld_distance = request.weld_distance;
     verification = verify(mesh.soup, original.soup, options);
     report["original"]["rounded"] = verification->is_original_rounded;
+    if (verification->is_original_rounded)
+      round_to_float32(original.soup);
     comparison = compare(mesh.soup, original.soup);
     leave_out_permitted(comparison->layers.swaps, mesh.soup, options);
   } else {

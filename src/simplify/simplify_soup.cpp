@@ -20,6 +20,7 @@
 #include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -59,8 +60,8 @@ public:
 private:
   static Simplify_options scaled(Simplify_options options, const Scale& scale)
   {
-    if (!options.clearance)
-      return options;
+    if (!options.clearance || !std::isfinite(*options.clearance))
+      return options; // refused where it is taken
     const double clearance = *options.clearance;
     options.clearance = scale(clearance);
     if (scale.undone(*options.clearance) != clearance)

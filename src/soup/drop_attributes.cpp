@@ -122,6 +122,10 @@ private:
         (name == "texture" && !m_soup.uvs.empty());
     if (is_here)
       return;
+    for (const Attribute& attribute : m_soup.triangle_attributes)
+      if (attribute.name == name)
+        throw Input_error("attribute '" + name +
+                          "' belongs to faces; only those of vertices can be left out");
     std::string here = m_soup.uvs.empty() ? "" : "texture";
     for (const std::string& one : all)
       if (!is_needed(one))

@@ -48,6 +48,17 @@ TEST(App_verify, AgainstTheOriginalOnlyNewPairsCount)
   EXPECT_EQ(run_app({"verify", folder / "apart.obj", "--against", folder / "crossing.obj"}).code, 0);
 }
 
+TEST(App_verify, ComparesARoundedResultWithTheRoundedOriginal)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("skirt", "in.obj", 2000), out = folder / "out.glb";
+  ASSERT_EQ(run_app({"simplify", in, "-o", out, "--ratio", "0.5", "--quiet"}).code, 0);
+  const App_result result = run_app({"verify", out, "--against", in});
+  EXPECT_EQ(result.code, 0);
+  EXPECT_EQ(result.out.find(": 0 of"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find(" are the original's, bit for bit"), std::string::npos) << result.out;
+}
+
 TEST(App_verify, PartsThatMayIntersectNeedNames)
 {
   const Workspace folder;

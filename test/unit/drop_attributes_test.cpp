@@ -184,6 +184,11 @@ TEST(Attributes, NamesOfNothingAreRefused)
   EXPECT_NE(message_of(sheet(2, 2), "texture").find("it has none"), std::string::npos);
   EXPECT_NE(message_of(soup, "NORMAL").find("--normals drop"), std::string::npos);
   EXPECT_NE(message_of(soup, "JOINTS_0").find("skins need it"), std::string::npos);
+  Attribute row = soup.vertex_attributes.front();
+  row.name = "row";
+  row.rows.resize(soup.triangles.size());
+  soup.triangle_attributes.push_back(row);
+  EXPECT_NE(message_of(soup, "row").find("belongs to faces"), std::string::npos) << message_of(soup, "row");
 }
 
 TEST(Attributes, SeamsOfTheTextureAreCounted)
