@@ -95,11 +95,6 @@ Json weld_json(const Simplify_request& request)
   return request.weld_distance;
 }
 
-bool are_gaps_welded(const Simplify_request& request)
-{
-  return request.open_seams == Open_seams::weld || request.weld_distance > 0;
-}
-
 void read_ratios(Simplify_request& request)
 {
   for (const std::string& text : request.ratios)
@@ -247,12 +242,15 @@ void check(const Simplify_request& request)
 
 std::vector<Named_file> files_read_beside(const Simplify_request& request)
 {
-  std::vector<Named_file> files = pose_files("--pose", request.poses.files, request.input);
-  const std::vector<Named_file> of_obstacle =
-      pose_files("--obstacle-pose", request.obstacle_poses.files, request.obstacle);
-  files.insert(files.end(), of_obstacle.begin(), of_obstacle.end());
-  files.push_back({"--obstacle", request.obstacle});
+  std::vector<Named_file> files{{"--obstacle", request.obstacle}};
+  append_pose_files(files, "--pose", request.poses.files, request.input);
+  append_pose_files(files, "--obstacle-pose", request.obstacle_poses.files, request.obstacle);
   return files;
+}
+
+bool are_gaps_welded(const Simplify_request& request)
+{
+  return request.open_seams == Open_seams::weld || request.weld_distance > 0;
 }
 
 bool are_levels_in_one_file(const Simplify_request& request)

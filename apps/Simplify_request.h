@@ -69,11 +69,14 @@ void complete(Simplify_request& request);
 /// Returns whether several levels of detail go to one file: the name of the output has no {lod}.
 bool are_levels_in_one_file(const Simplify_request& request);
 
+/// Returns whether gaps in seams are closed, by --weld auto or --weld EPS.
+bool are_gaps_welded(const Simplify_request& request);
+
 /// Returns the files of poses and of the obstacle, which the run reads and must not replace.
 std::vector<Named_file> files_read_beside(const Simplify_request& request);
 
-/// Returns the output file of each level: the name with the level's number, from 1, in place of each {lod}. It is
-/// the name as given, once, when there are no levels or all are in one file.
+/// Returns the output file of each level: the name with the level's number, from 1, in place of each {lod}.
+/// It is the name as given, once, when there are no levels or all are in one file.
 std::vector<std::string> outputs(const Simplify_request& request);
 
 /// Returns whether a file of `Simplify_request::poses_output` holds all poses, by its name. Throws

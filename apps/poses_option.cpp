@@ -102,14 +102,12 @@ void check_obstacle_poses(const Pose_sources& of_obstacle, const std::string& ob
     throw Argument_error(option + ": there is no obstacle; give --obstacle FILE");
 }
 
-std::vector<Named_file> pose_files(const std::string& option, const std::vector<std::string>& names,
-                                   const std::string& mesh_file)
+void append_pose_files(std::vector<Named_file>& files, const std::string& option,
+                       const std::vector<std::string>& names, const std::string& mesh_file)
 {
-  std::vector<Named_file> result;
   for (const std::string& name : names)
     for (const std::filesystem::path& file : files_named(name, mesh_file))
-      result.push_back({option, file});
-  return result;
+      files.push_back({option, file});
 }
 
 void read_poses(const Pose_sources& sources, const std::string& mesh_file, Triangle_soup& mesh)

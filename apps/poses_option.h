@@ -50,10 +50,10 @@ void add_obstacle_pose_options(CLI::App& command, Pose_sources& sources, const s
 void check_obstacle_poses(const Pose_sources& of_obstacle, const std::string& obstacle,
                           const Pose_sources& of_mesh);
 
-/// Returns the files that an option such as --pose names for a mesh, patterns resolved. Throws `Input_error`
+/// Appends the files that an option such as --pose names for a mesh, patterns resolved. Throws `Input_error`
 /// where a pattern fits none.
-std::vector<Named_file> pose_files(const std::string& option, const std::vector<std::string>& names,
-                                   const std::string& mesh_file);
+void append_pose_files(std::vector<Named_file>& files, const std::string& option,
+                       const std::vector<std::string>& names, const std::string& mesh_file);
 
 /// Reads the further poses of a mesh that was read from a file. Throws `Input_error` when one that is to be
 /// left out is none of them.

@@ -244,12 +244,10 @@ Exit_code run(const Replay_request& request)
   if (!request.output.empty())
     format = format_of(request.output, request.format);
   check_obstacle_poses(request.obstacle_poses, request.obstacle, request.poses);
-  std::vector<Named_file> read = pose_files("--pose", request.poses.files, request.original);
-  const std::vector<Named_file> of_obstacle =
-      pose_files("--obstacle-pose", request.obstacle_poses.files, request.obstacle);
-  read.insert(read.end(), of_obstacle.begin(), of_obstacle.end());
-  read.insert(read.end(),
-              {{"ORIGINAL", request.original}, {"LOG", request.log}, {"--obstacle", request.obstacle}});
+  std::vector<Named_file> read{
+      {"ORIGINAL", request.original}, {"LOG", request.log}, {"--obstacle", request.obstacle}};
+  append_pose_files(read, "--pose", request.poses.files, request.original);
+  append_pose_files(read, "--obstacle-pose", request.obstacle_poses.files, request.obstacle);
   require_distinct(written, read);
   for (const Named_file& file : written)
     if (!file.path.empty())

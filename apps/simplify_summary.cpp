@@ -344,8 +344,7 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
   for (const Json& note : notes)
     stream << "  " << note.get<std::string>() << '\n';
   // Otherwise, further poses are refused.
-  const bool may_guard = !request.is_in_cells && !request.is_sewn && request.weld_distance == 0 &&
-                         request.open_seams != Open_seams::weld &&
+  const bool may_guard = !request.is_in_cells && !request.is_sewn && !are_gaps_welded(request) &&
                          request.options.placement != Placement::optimal;
   std::string unguarded;
   if (!request.poses.are_morphs && has_morph_targets(prepared.soup))

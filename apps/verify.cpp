@@ -301,11 +301,9 @@ Exit_code run(const Verify_request& request)
   require_html(request.html);
   const std::vector<Named_file> written{{"--report", request.report}, {"--html", request.html}};
   check_streams({{"MESH", request.mesh}, {"--against", request.original}}, {}, request.format);
-  std::vector<Named_file> read = pose_files("--pose", request.poses.files, request.mesh);
-  const std::vector<Named_file> read_as_well =
-      pose_files("--against-pose", request.files_of_poses_of_original, request.original);
-  read.insert(read.end(), read_as_well.begin(), read_as_well.end());
-  read.insert(read.end(), {{"MESH", request.mesh}, {"--against", request.original}});
+  std::vector<Named_file> read{{"MESH", request.mesh}, {"--against", request.original}};
+  append_pose_files(read, "--pose", request.poses.files, request.mesh);
+  append_pose_files(read, "--against-pose", request.files_of_poses_of_original, request.original);
   require_distinct(written, read);
   for (const Named_file& file : written)
     if (!file.path.empty())

@@ -127,10 +127,10 @@ Point_3 point_at(const Points& points, std::size_t v)
 std::vector<Point_3> points_of(const Points& points)
 {
   std::vector<Point_3> result;
-  const auto of_points = rows(points, "points");
-  result.reserve(std::size_t(of_points.shape(0)));
-  for (py::ssize_t i = 0; i < of_points.shape(0); ++i)
-    result.emplace_back(of_points(i, 0), of_points(i, 1), of_points(i, 2));
+  const auto count = std::size_t(rows(points, "points").shape(0));
+  result.reserve(count);
+  for (std::size_t v = 0; v < count; ++v)
+    result.push_back(point_at(points, v));
   return result;
 }
 

@@ -361,8 +361,8 @@ private:
       keep_flat_normals(result.soup, result.triangles, original, taken);
     if (m_prepared.normals == Normals_treatment::picked)
       pick_normals(result.soup, result.triangles, left.corners, original, taken);
-    if (m_prepared.normals == Normals_treatment::picked ||
-        (are_kept(m_prepared.normals) && m_prepared.normals != Normals_treatment::kept))
+    if (m_prepared.normals == Normals_treatment::picked || m_prepared.normals == Normals_treatment::mended ||
+        are_fitted(m_prepared.normals))
       result.mended_normals =
           mend_normals(result.soup, result.triangles, original, taken.empty() ? original.normals : taken);
     if (are_fitted(m_prepared.normals))
