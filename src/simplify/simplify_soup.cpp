@@ -106,7 +106,7 @@ private:
       const std::vector<char> is_named = triangles_named(soup, name);
       std::vector<Working_mesh::Face> faces;
       for (const Working_mesh::Face face : m_working.mesh().faces())
-        if (m_working.is_own(face) && is_named[m_working.triangle(face)])
+        if (m_working.is_own(face) && is_named[m_working.front(face)])
           faces.push_back(face);
       return faces;
     };

@@ -76,6 +76,10 @@ public:
     return has_doubles(face) ? ply(face, i).triangle : m_triangles[face];
   }
 
+  /// The triangle from which the face was made: of its doubles, the first in the soup, which decides for what
+  /// target they count. A face that was turned may have another as its first ply.
+  Index front(Face face) const { return m_triangles[face]; }
+
   /// Returns the face of each triangle, of the soup and then of the obstacle; the null face for doubles. Some
   /// faces may be gone. **Precondition** This is no part of another mesh.
   std::vector<Face> faces_of_triangles() const;

@@ -191,6 +191,25 @@ TEST(Doubles, CountAsOftenAsTheyOffend)
   EXPECT_TRUE(replay_text(soup, reduction.log).is_accepted());
 }
 
+TEST(Doubles, CountForTheTargetOfTheirFrontsThatAreTurnedToo)
+{
+  // A turned front has a double that runs as the face does, and comes before it among the plies.
+  Triangle_soup soup = sheet(4, 4);
+  soup.triangles.push_back(Index_triple(soup.triangles[9]));
+  std::swap(soup.triangles[9][0], soup.triangles[9][1]);
+  soup.groups.names = {"outside", "lining"};
+  soup.groups.of_triangle.assign(soup.triangles.size(), 0);
+  soup.groups.of_triangle.back() = 1;
+  Simplify_intent intent;
+  intent.kept = {"outside"};
+  const Prepared_soup prepared = prepare(soup);
+  ASSERT_EQ(prepared.turned_faces(), 1u);
+  ASSERT_EQ(prepared.doubles(), 1u);
+  const Simplify_report report = simplify_soup(prepared, to_ratio(0), intent).report;
+  EXPECT_EQ(report.faces_target, soup.triangles.size());
+  EXPECT_TRUE(report.is_reached());
+}
+
 TEST(Doubles, ThatMeetInOneEdgeDoNotComeApartThere)
 {
   // A fan of four triangles around D, with a double of each. The two sides have C, D and the edge between
