@@ -210,6 +210,25 @@ TEST(Doubles, CountForTheTargetOfTheirFrontsThatAreTurnedToo)
   EXPECT_TRUE(report.is_reached());
 }
 
+TEST(Doubles, StayWhereTheirFrontsHaveAnotherTarget)
+{
+  const Index fronts = 2 * 12 * 12, doubles = 2 * 12 * 5;
+  Triangle_soup soup = double_sided(sheet(12, 12), Vertices::own, doubles);
+  soup.groups.names = {"outside", "lining"};
+  soup.groups.of_triangle.assign(fronts, 0);
+  soup.groups.of_triangle.resize(fronts + doubles, 1);
+  const Prepared_soup prepared = prepare(soup);
+  const auto doubles_left = [&](const Simplify_intent& intent) {
+    const std::vector<Index> left = simplify_soup(prepared, to_ratio(0.25), intent).triangles;
+    return std::count_if(left.begin(), left.end(), [&](Index t) { return t >= fronts; });
+  };
+  Simplify_intent other_target;
+  other_target.ratios = {{"lining", 0.5}};
+  EXPECT_EQ(doubles_left(other_target), doubles);
+  // A control: for one target, they go.
+  EXPECT_LE(doubles_left({}), doubles / 2);
+}
+
 TEST(Doubles, ThatMeetInOneEdgeDoNotComeApartThere)
 {
   // A fan of four triangles around D, with a double of each. The two sides have C, D and the edge between

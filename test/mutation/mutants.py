@@ -244,6 +244,23 @@ for file, entry in (
 ):
     group("src/soup/" + file, ("placement_test", "worlds_test"), entry)
 
+group("src/soup/smooth_normals.cpp", ("smooth_normals_test",),
+      ("front == Vector{} || other == Vector{} || internal::dot(front, other) >= s_cosine_of_hard_edge", "true", "hard edges are shaded smooth"),
+      ("      fans.unite(a.at_high, b.at_high);\n", "", "one end of each edge is shaded hard"),
+      ("triples.push_back({positions[a], positions[b], positions[c]});", "triples.push_back({a, b, c});", "seams of the texture are hard edges where normals are made anew"),
+      ("angle * fronts[corner / 3][i]", "fronts[corner / 3][i]", "smooth normals lean to where many faces meet"),
+      ("  if (soup.scene)\n    add_normals_to_scene(soup);\n", "", "scenes without normals stay without"))
+group("src/replay/Start.cpp", ("smooth_normals_test",),
+      ("  if (are_smooth)\n    smooth_normals(start.soup);\n", "", "the replay does not make normals smooth"))
+derived = ("derived_policies_test",)
+group(headers + "Surface_mesh_simplification/internal/Filter_base.h", derived,
+      ("    : std::is_same<typename Filter::Judging_filter, Filter>", "    : std::true_type", "a filter around ours is not asked itself"),
+      ("if (!is_allowed(m_base, collapse))", "if (false)", "what the base refuses is allowed"))
+group(headers + "Surface_mesh_simplification/internal/require_initialised.h", derived,
+      ("  policy.require_initialised();\n}", "}", "a cost that no loop has initialised is asked"))
+group("src/simplify/simplify_soup.cpp", ("doubles_test",),
+      ("is_named[m_working.front(face)]", "is_named[m_working.triangle(face)]", "turned fronts count for the target of a double"),
+      ("share_of[t] != share_of[front] && is_frozen[front] == 0", "false", "a double goes though its part has another target"))
 group("src/soup/fit_normals.cpp", ("shading_test",),
       ("|= !m_is_changed[corner / 3];", "|= false;", "triangles that have not changed get other normals"),
       ("[edges[i].second] = true;", "[edges[i].second] = false;", "normals on borders are fitted"),
