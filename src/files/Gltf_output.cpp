@@ -20,6 +20,9 @@
 namespace selvedge::files {
 namespace {
 
+// For names that are no UTF-8, as those of OBJ files may be.
+constexpr auto s_replace = nlohmann::json::error_handler_t::replace;
+
 using Json = Gltf_output::Json;
 using Target = Gltf_output::Target;
 
@@ -154,9 +157,9 @@ void Gltf_output::write(Byte_writer& out, Mesh_format format)
   std::string bytes = put_buffer();
   if (format == Mesh_format::gltf) {
     document["buffers"][0]["uri"] = "data:application/octet-stream;base64," + internal::base64(bytes);
-    out << document.dump(1, '\t') << '\n';
+    out << document.dump(1, '\t', false, s_replace) << '\n';
   } else {
-    std::string json = document.dump();
+    std::string json = document.dump(-1, ' ', false, s_replace);
     json.resize((json.size() + 3) / 4 * 4, ' ');
     bytes.resize((bytes.size() + 3) / 4 * 4, '\0');
     const std::size_t size = 12 + 8 + json.size() + 8 + bytes.size();

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -104,9 +105,12 @@ private:
     return !values.empty() && values.of_triangle[triangle][0] != values.missing;
   }
 
+  // Each makes a node: groups, or objects where there are none.
+  const Triangle_labels& parts() const { return m_soup.groups.empty() ? m_soup.objects : m_soup.groups; }
+
   Vertex vertex(std::size_t t, std::size_t corner) const
   {
-    const Kind kind = {m_soup.groups.empty() ? 0 : m_soup.groups.of_triangle[t], has_value(m_soup.uvs, t),
+    const Kind kind = {parts().empty() ? 0 : parts().of_triangle[t], has_value(m_soup.uvs, t),
                        has_value(m_soup.normals, t)};
     return {kind, m_soup.triangles[t][corner],
             kind.has_uvs ? m_uvs.numbers[m_soup.uvs.of_triangle[t][corner]] : 0,
@@ -305,19 +309,19 @@ private:
       if (!name.empty())
         document["materials"].push_back({{"name", name}});
     }
-    std::map<std::pair<Kind, int>, Index> parts;
+    std::map<std::pair<Kind, int>, Index> primitives_of;
     const auto part_of = [&](std::size_t t) {
       return std::make_pair(vertex(t, 0).kind,
                             m_soup.materials.empty() ? -1 : materials[m_soup.materials.of_triangle[t]]);
     };
     for (std::size_t t = 0; t < m_soup.triangles.size(); ++t)
-      parts.emplace(part_of(t), 0);
+      primitives_of.emplace(part_of(t), 0);
     Index group = 0;
-    for (auto& [part, number] : parts) {
+    for (auto& [part, number] : primitives_of) {
       const auto& [kind, material] = part;
       Json& meshes = document["meshes"];
       if (meshes.empty() || kind.group != group) {
-        const std::string name = m_soup.groups.empty() ? "" : m_soup.groups.names[kind.group];
+        const std::string name = parts().empty() ? "" : parts().names[kind.group];
         const Json named = name.empty() ? Json::object() : Json{{"name", name}};
         document["scenes"][0]["nodes"].push_back(meshes.size());
         document["nodes"].push_back(named);
@@ -336,7 +340,7 @@ private:
         primitives.back()["material"] = material;
     }
     for (std::size_t t = 0; t < m_soup.triangles.size(); ++t)
-      m_result.groups.of_triangle.push_back(parts.at(part_of(t)));
+      m_result.groups.of_triangle.push_back(primitives_of.at(part_of(t)));
   }
 
   const Triangle_soup& m_soup;
@@ -360,6 +364,11 @@ const std::vector<std::string>& only_in_gltf(const Gltf_scene& scene)
 
 Triangle_soup with_gltf_scene(const Triangle_soup& soup, bool has_poses)
 {
+  for (const auto& uv : soup.uvs.values)
+    for (const double coordinate : uv)
+      if (!(std::abs(coordinate) <= double(std::numeric_limits<float>::max())))
+        throw Argument_error("texture coordinate " + std::to_string(&uv - soup.uvs.values.data()) +
+                             " (counted from 0) is beyond the range of 32-bit floats, which glTF holds");
   return New_scene(soup).make(has_poses);
 }
 

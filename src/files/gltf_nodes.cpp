@@ -61,6 +61,7 @@ public:
       put_instances(node, places);
     for (const auto& [node, mesh] : places)
       put_levels(node, mesh);
+    forget_weights_of_lost_meshes();
     if (!instanced_nodes.empty() && std::all_of(nodes().begin(), nodes().end(), [](const Json& node) {
           return instance_attributes(node).empty();
         }))
@@ -177,17 +178,52 @@ private:
     if (are_alike)
       return places.push_back({node.node, instances.front()["mesh"]});
     set_mesh(nodes()[node.node], std::nullopt);
+    Json numbers = Json::array();
     for (const Json& instance : instances) {
       const std::size_t mesh = instance["mesh"];
       if (!m_levels.front().meshes[mesh])
         continue;
       places.push_back({nodes().size(), mesh});
+      numbers.push_back(nodes().size());
       nodes()[node.node]["children"].push_back(nodes().size());
       Json child = instance;
       if (const Json name = member(nodes()[node.node], "name"); name.is_string())
         child["name"] = name; // by which parts are named
       nodes().push_back(std::move(child));
     }
+    animate_weights(node.node, numbers);
+  }
+
+  // No channel may animate the weights of a node without a mesh.
+  void forget_weights_of_lost_meshes()
+  {
+    Json& animations = list("animations");
+    const auto is_lost = [&](const Json& channel) {
+      return is_of_weights(channel) && !nodes()[node_of(channel).get<std::size_t>()].contains("mesh");
+    };
+    for (Json& animation : animations) {
+      Json& channels = animation["channels"];
+      channels.erase(std::remove_if(channels.begin(), channels.end(), is_lost), channels.end());
+    }
+    const auto is_empty = [](const Json& animation) { return animation["channels"].empty(); };
+    animations.erase(std::remove_if(animations.begin(), animations.end(), is_empty), animations.end());
+    if (animations.empty())
+      m_document.erase("animations");
+  }
+
+  // Animates the weights of morph targets in some nodes as in the one given.
+  void animate_weights(std::size_t node, const Json& numbers)
+  {
+    for (Json& animation : list("animations"))
+      for (std::size_t c = 0, before = animation["channels"].size(); c < before; ++c) {
+        Json channel = animation["channels"][c];
+        if (!is_of_weights(channel) || node_of(channel) != node)
+          continue;
+        for (const Json& number : numbers) {
+          channel["target"]["node"] = number;
+          animation["channels"].push_back(channel);
+        }
+      }
   }
 
   // Puts a mesh of the scene into a node, and its further levels beside it.
@@ -213,17 +249,7 @@ private:
       coverages.push_back(double(m_levels[level].triangles) / double(m_levels.front().triangles));
     }
     coverages.push_back(0.0);
-    for (Json& animation : list("animations"))
-      for (std::size_t c = 0; c < animation["channels"].size(); ++c) {
-        Json channel = animation["channels"][c];
-        if (!is_of_weights(channel) || node_of(channel) != node)
-          continue;
-        for (const Json& coarser : numbers)
-          if (nodes()[coarser.get<std::size_t>()].contains("mesh")) {
-            channel["target"]["node"] = coarser;
-            animation["channels"].push_back(channel);
-          }
-      }
+    animate_weights(node, numbers);
     Json& extras = nodes()[node]["extras"];
     if (extras.is_null() || extras.is_object())
       extras["MSFT_screencoverage"] = std::move(coverages);

@@ -126,21 +126,14 @@ void check_writable(const Triangle_soup& soup, Mesh_format format, const Write_o
                              " (counted from 0) has a coordinate that " +
                              (std::isfinite(point[axis]) ? "is no 32-bit float; call round_to_float32 first"
                                                          : "is not finite"));
-  if (format != Mesh_format::glb && format != Mesh_format::gltf)
-    return;
-  for (const auto& uv : soup.uvs.values)
-    for (const double coordinate : uv)
-      if (!(std::abs(coordinate) <= double(std::numeric_limits<float>::max())))
-        throw Argument_error("texture coordinate " + std::to_string(&uv - soup.uvs.values.data()) +
-                             " (counted from 0) is beyond the range of 32-bit floats, which glTF holds");
 }
 
 std::vector<std::string> not_carried_by_gltf(const Triangle_soup& soup)
 {
   std::vector<std::string> names;
   if (soup.scene)
-    return names; // it was read from glTF
-  if (!soup.objects.empty())
+    return names;                                    // it was read from glTF
+  if (!soup.objects.empty() && !soup.groups.empty()) // without groups, objects are nodes
     names.push_back("objects");
   if (!soup.smoothing_groups.empty())
     names.push_back("smoothing groups");

@@ -47,21 +47,29 @@ bool has_float32_digits(const Triangle_soup& soup)
 
 namespace {
 
-void refuse_too_large(const std::vector<Point_3>& points, const std::string& where)
+bool is_too_large(const Point_3& point)
 {
-  for (const Point_3& point : points)
-    for (int axis = 0; axis < 3; ++axis)
-      if (!std::isfinite(nearest_float32(point[axis])))
-        throw Input_error("vertex " + std::to_string(&point - points.data()) + " (counted from 0) has " +
-                          where +
+  return !std::isfinite(nearest_float32(point.x())) || !std::isfinite(nearest_float32(point.y())) ||
+         !std::isfinite(nearest_float32(point.z()));
+}
+
+void refuse_too_large(const Triangle_soup& soup, const std::vector<Point_3>& points, const std::string& where)
+{
+  for (const Index_triple& triangle : soup.triangles)
+    for (const Index v : triangle)
+      if (is_too_large(points[v]))
+        throw Input_error("vertex " + std::to_string(v) + " (counted from 0) has " + where +
                           "a coordinate too large for a 32-bit float; scale the mesh down or write a format "
                           "that stores doubles");
 }
 
+// What is too large, as a vertex of no face may be, stays.
 Rounding_notes round(std::vector<Point_3>& points)
 {
   Rounding_notes notes;
   for (Point_3& point : points) {
+    if (is_too_large(point))
+      continue;
     std::size_t moved = 0;
     for (int axis = 0; axis < 3; ++axis)
       moved += is_float32(point[axis]) ? 0 : 1;
@@ -78,9 +86,9 @@ Rounding_notes round(std::vector<Point_3>& points)
 
 Rounding_notes round_to_float32(Triangle_soup& soup)
 {
-  refuse_too_large(soup.points, "");
+  refuse_too_large(soup, soup.points, "");
   for (const Pose& pose : soup.poses)
-    refuse_too_large(pose.points, "in the pose '" + pose.name + "' ");
+    refuse_too_large(soup, pose.points, "in the pose '" + pose.name + "' ");
   Rounding_notes notes = round(soup.points);
   for (Pose& pose : soup.poses) {
     const Rounding_notes in_pose = round(pose.points);

@@ -5,9 +5,14 @@
 
 #include "support/Gltf_document.h"
 #include "support/Temporary_folder.h"
+#include "support/meshes.h"
+
+#include "soup/selection.h"
 
 #include <selvedge/Error.h>
+#include <selvedge/Parts.h>
 #include <selvedge/mesh_files.h>
+#include <selvedge/rounding.h>
 
 #include <gtest/gtest.h>
 
@@ -53,6 +58,41 @@ TEST(Gltf, NewFileFromAnotherFormat)
   fine.points[0] = Point_3(0.1, 0, 0);
   EXPECT_THROW(write_mesh(folder / "b.glb", fine), Argument_error);
   EXPECT_FALSE(std::filesystem::exists(folder / "b.glb"));
+}
+
+TEST(Gltf, NewFileHasANodeForEachObjectWhereThereAreNoGroups)
+{
+  const Temporary_folder folder;
+  Triangle_soup soup = sheet(2, 1);
+  soup.objects = {{"left", "right"}, {0, 0, 1, 1}};
+  EXPECT_TRUE(not_carried(soup, Mesh_format::glb).empty());
+  write_mesh(folder / "a.glb", soup);
+  EXPECT_EQ(triangles_named(read_mesh(folder / "a.glb").soup, "right"), (std::vector<char>{0, 0, 1, 1}));
+  soup.groups = {{"all"}, {0, 0, 0, 0}};
+  EXPECT_EQ(not_carried(soup, Mesh_format::glb), std::vector<std::string>{"objects"});
+}
+
+TEST(Gltf, NewFileMendsNamesThatAreNoUtf8)
+{
+  const Temporary_folder folder;
+  Triangle_soup soup = sheet(2, 1);
+  soup.groups = {{"\xc4rmel"}, {0, 0, 0, 0}};
+  for (const char* const name : {"a.glb", "a.gltf"}) {
+    write_mesh(folder / name, soup);
+    EXPECT_EQ(triangles_named(read_mesh(folder / name).soup, "\xef\xbf\xbdrmel"), std::vector<char>(4, 1));
+  }
+}
+
+TEST(Gltf, VerticesOfNoFaceMayBeTooLargeForFloats)
+{
+  const Temporary_folder folder;
+  Triangle_soup soup = sheet(2, 1);
+  soup.points.emplace_back(1e300, 0.1, 0);
+  round_to_float32(soup);
+  write_mesh(folder / "a.stl", selected(soup, {0}, {{0, 1, 2}}));
+  EXPECT_EQ(read_mesh(folder / "a.stl").soup.triangles.size(), 1u);
+  soup.triangles.push_back({0, 1, 6});
+  EXPECT_THROW(round_to_float32(soup), Input_error);
 }
 
 TEST(Gltf, AMeshWithoutTrianglesIsRefused)

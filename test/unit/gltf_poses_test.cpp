@@ -3,6 +3,10 @@
 
 // The poses that a glTF file makes of its meshes: morph targets, animations of nodes, skins.
 
+#include "support/Temporary_folder.h"
+
+#include "soup/selection.h"
+
 #include <selvedge/Error.h>
 #include <selvedge/gltf_poses.h>
 #include <selvedge/internal/base64.h>
@@ -243,6 +247,45 @@ TEST(Gltf_poses, MoveInstancesWithTheirNode)
   EXPECT_EQ(poses[0].points, soup.points) << "bit for bit";
   for (std::size_t v = 0; v < 6; ++v)
     EXPECT_EQ(poses[1].points[v], Point_3(soup.points[v].x(), soup.points[v].y(), soup.points[v].z() + 3));
+}
+
+TEST(Gltf_poses, StayWithInstancesThatBecomeNodes)
+{
+  Posed_file file;
+  const Temporary_folder folder;
+  file.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
+  file.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] =
+      file.rows<float>({0, 0, 0, 0.5f, 5, 0, 1, 9, 0}, "VEC3");
+  file.json["meshes"][0]["primitives"][0]["targets"] = {
+      {{"POSITION", file.rows<float>({0, 0, 1, 0, 0, 2, 0, 0, 3}, "VEC3")}}};
+  file.animate("wave", 0, "weights", "STEP", {0, 1}, {0, 1});
+  const Triangle_soup soup = file.soup();
+  ASSERT_EQ(soup.triangles.size(), 3u);
+  // One of the three places has lost its faces, so that the two others are nodes.
+  write_mesh(folder / "o.glb", selected(soup, {0, 2}, {{0, 1, 2}, {6, 7, 8}}));
+  const Triangle_soup result = read_mesh(folder / "o.glb").soup;
+  const std::vector<Pose> poses = animation_poses(result, "wave", 1, "o.glb");
+  ASSERT_EQ(poses.size(), 2u);
+  EXPECT_EQ(poses[0].points, result.points);
+  for (std::size_t v = 0; v < 6; ++v)
+    EXPECT_EQ(poses[1].points[v].z(), double(v % 3 + 1));
+}
+
+TEST(Gltf_poses, GoWithMeshesThatAreGone)
+{
+  Posed_file file;
+  const Temporary_folder folder;
+  file.json["meshes"][0]["primitives"][0]["targets"] = {
+      {{"POSITION", file.rows<float>({0, 0, 1, 0, 0, 2, 0, 0, 3}, "VEC3")}}};
+  file.json["nodes"].push_back(file.json["nodes"][0]);
+  file.json["scenes"] = {{{"nodes", {0, 1}}}};
+  file.animate("wave", 0, "weights", "STEP", {0, 1}, {0, 1});
+  file.animate("wave", 1, "weights", "STEP", {0, 1}, {0, 1});
+  file.animate("other", 1, "weights", "STEP", {0, 1}, {0, 1});
+  write_mesh(folder / "o.glb", selected(file.soup(), {0}, {{0, 1, 2}}));
+  const Triangle_soup result = read_mesh(folder / "o.glb").soup;
+  EXPECT_EQ(animation_poses(result, "all", 1, "o.glb").size(), 2u);
+  EXPECT_NE(refusal_of_poses([&] { animation_poses(result, "other", 1, "o.glb"); }), "");
 }
 
 TEST(Gltf_poses, OfInvalidFilesAreRefused)
