@@ -12,6 +12,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <map>
+#include <set>
+#include <string>
 #include <utility>
 
 namespace selvedge::app {
@@ -34,21 +37,21 @@ void add_pose_options(CLI::App& command, Pose_sources& sources, const std::strin
                 "Each morph target of " + mesh +
                     " (glTF), at weight 1 on all meshes that have it, is a further pose.")
       ->group(group);
-  CLI::Option* const animation =
-      command
-          .add_option("--animation", sources.animation,
-                      "The keyframes of this animation of " + mesh +
-                          " (glTF), or of all of them, are further poses: skins, morph targets and moving "
-                          "nodes are evaluated in double precision.")
-          ->type_name("NAME|all")
-          ->check(CLI::Validator([](const std::string& name) { return name.empty() ? "no name" : ""; }, ""))
-          ->group(group);
   command
-      .add_option("--every", sources.every,
-                  "Of the keyframes of --animation, take the first and each N-th after it.")
+      .add_option("--animation", sources.animation,
+                  "The keyframes of this animation of " + mesh +
+                      " (glTF), or of all of them, are further poses: skins, morph targets and moving "
+                      "nodes are evaluated in double precision.")
+      ->type_name("NAME|all")
+      ->check(CLI::Validator([](const std::string& name) { return name.empty() ? "no name" : ""; }, ""))
+      ->group(group);
+  command
+      .add_option(
+          "--every", sources.every,
+          "Of the keyframes of --animation, and of the frames of each point cache, take the first and "
+          "each N-th after it.")
       ->type_name("N")
       ->check(in_range(1))
-      ->needs(animation)
       ->capture_default_str()
       ->group(group);
   command
@@ -110,20 +113,67 @@ void append_pose_files(std::vector<Named_file>& files, const std::string& option
       files.push_back({option, file});
 }
 
+namespace {
+
+// Gives poses of one name the names of the cache or folder that they come from, and else numbers.
+void give_names_of_their_own(std::vector<Pose>& poses, const std::vector<std::string>& origins)
+{
+  std::map<std::string, std::size_t> times;
+  for (const Pose& pose : poses)
+    ++times[pose.name];
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    if (times[poses[i].name] > 1 && !origins[i].empty())
+      poses[i].name = origins[i] + '_' + poses[i].name;
+  std::set<std::string> taken;
+  for (Pose& pose : poses) {
+    const std::string name = pose.name;
+    for (std::size_t number = 2; !taken.insert(pose.name).second; ++number)
+      pose.name = name + '_' + std::to_string(number);
+  }
+}
+
+// Returns the first pose of a cache and each n-th after it.
+std::vector<Pose> every(std::vector<Pose> poses, std::size_t n)
+{
+  std::vector<Pose> result;
+  for (std::size_t i = 0; i < poses.size(); i += n)
+    result.push_back(std::move(poses[i]));
+  return result;
+}
+
+} // namespace
+
+bool has_frames(const Pose_sources& sources, const std::string& mesh_file)
+{
+  std::vector<Named_file> files;
+  append_pose_files(files, "", sources.files, mesh_file);
+  return !sources.animation.empty() || std::any_of(files.begin(), files.end(), [](const Named_file& file) {
+    return is_point_cache(file.path);
+  });
+}
+
 void read_poses(const Pose_sources& sources, const std::string& mesh_file, Triangle_soup& mesh)
 {
-  const auto append = [&](std::vector<Pose> poses) {
+  if (sources.every > 1 && !has_frames(sources, mesh_file))
+    throw Argument_error("--every: there are no frames to choose from; give --animation or a point cache");
+  std::vector<std::string> origins; // of poses
+  const auto append = [&](std::vector<Pose> poses, const std::string& origin = {}) {
+    origins.insert(origins.end(), poses.size(), origin);
     std::move(poses.begin(), poses.end(), std::back_inserter(mesh.poses));
   };
   for (const std::string& name : sources.files)
     for (const std::filesystem::path& file : files_named(name, mesh_file))
-      append(is_point_cache(file) ? read_point_cache(file, mesh) : std::vector<Pose>{read_pose(file, mesh)});
+      if (is_point_cache(file))
+        append(every(read_point_cache(file, mesh), sources.every), file.stem().string());
+      else
+        append({read_pose(file, mesh)}, std::filesystem::absolute(file).parent_path().filename().string());
   if (sources.are_morphs)
     append(morph_poses(mesh, mesh_file));
   if (!sources.animation.empty())
     append(animation_poses(mesh, sources.animation, sources.every, mesh_file));
   if (sources.are_of_humanoid)
     append(humanoid_poses(mesh, mesh_file));
+  give_names_of_their_own(mesh.poses, origins);
   for (const std::string& name : sources.left_out) {
     const auto found = std::find_if(mesh.poses.begin(), mesh.poses.end(),
                                     [&](const Pose& pose) { return pose.name == name; });
@@ -142,7 +192,7 @@ void read_obstacle_poses(const Pose_sources& of_obstacle, const std::string& obs
                          const Pose_sources& of_mesh, Triangle_soup& obstacle)
 {
   Pose_sources sources = of_obstacle;
-  sources.every = of_mesh.every;
+  sources.every = has_frames(of_obstacle, obstacle_file) ? of_mesh.every : 1;
   read_poses(sources, obstacle_file, obstacle);
   const auto is_left_out = [&](const Pose& pose) {
     return std::find(of_mesh.left_out.begin(), of_mesh.left_out.end(), pose.name) != of_mesh.left_out.end();

@@ -22,7 +22,7 @@ struct Pose_sources
   std::vector<std::string> files;    ///< meshes and point caches, and patterns of such
   bool are_morphs = false;           ///< whether each morph target of the glTF file is one
   std::string animation;             ///< name of an animation of the glTF file, or "all"
-  std::size_t every = 1;             ///< one in so many keyframes of it
+  std::size_t every = 1;             ///< one in so many keyframes of it, and frames of each cache
   bool are_of_humanoid = false;      ///< whether those that its skeleton can take are some
   std::vector<std::string> left_out; ///< names of poses that do not count
 
@@ -55,11 +55,15 @@ void check_obstacle_poses(const Pose_sources& of_obstacle, const std::string& ob
 void append_pose_files(std::vector<Named_file>& files, const std::string& option,
                        const std::vector<std::string>& names, const std::string& mesh_file);
 
-/// Reads the further poses of a mesh that was read from a file. Throws `Input_error` when one that is to be
-/// left out is none of them.
+/// Returns whether some of the poses are frames, of which --every chooses: of an animation or a point cache.
+bool has_frames(const Pose_sources& sources, const std::string& mesh_file);
+
+/// Reads the further poses of a mesh that was read from a file. Poses of one name get the name of their
+/// cache or folder before it, and else a number after it. Throws `Input_error` when one that is to be left
+/// out is none of them, and `Argument_error` when there are no frames of which --every could choose.
 void read_poses(const Pose_sources& sources, const std::string& mesh_file, Triangle_soup& mesh);
 
-/// Reads the poses of an obstacle: one in so many keyframes as of the mesh, and none of a name that is left
+/// Reads the poses of an obstacle: one in so many frames as of the mesh, and none of a name that is left
 /// out there.
 void read_obstacle_poses(const Pose_sources& of_obstacle, const std::string& obstacle_file,
                          const Pose_sources& of_mesh, Triangle_soup& obstacle);

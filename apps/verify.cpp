@@ -124,8 +124,8 @@ void print(const Verification& verification, const Comparison& comparison)
 
   const Layer_order& layers = comparison.layers;
   if (layers.crossing == 0) {
-    std::cout << "layers: none close to another (none of " << counted(layers.lines, "line")
-              << " through the faces crosses two)\n";
+    std::cout << "layers: none near enough to another to change places with it (none of "
+              << counted(layers.lines, "line") << " through the faces crosses two)\n";
   } else if (layers.compared == 0 && 100 * layers.crossing <= layers.lines) {
     std::cout << "layers: hardly any close to another (of " << counted(layers.lines, "line")
               << " through the faces, " << with_commas(layers.crossing)
@@ -192,6 +192,14 @@ void print(const Clearance_verdict& verdict, const Triangle_soup& mesh)
     std::cout << "  and " << with_commas(verdict.near.size() - named) << " more\n";
 }
 
+void print_pairs_of_original(std::size_t pairs)
+{
+  if (pairs > 0)
+    std::cout << "  the original has " << counted(pairs, "offending pair")
+              << ", from which some of these may descend (--defects descend); `selvedge replay` judges that, "
+                 "with a log\n";
+}
+
 void print(const Verify_request& request, const Mesh_file& mesh, const Verification& verification,
            const std::optional<Comparison>& comparison)
 {
@@ -226,11 +234,8 @@ void print(const Verify_request& request, const Mesh_file& mesh, const Verificat
       std::cout << "  " << describe(pairs[i]) << '\n';
     if (pairs.size() > named)
       std::cout << "  and " << with_commas(pairs.size() - named) << " more\n";
-    if (!verification.new_pairs.empty() && verification.pairs_of_original > 0)
-      std::cout
-          << "  the original has " << counted(verification.pairs_of_original, "offending pair")
-          << ", from which some of these may descend (--defects descend); `selvedge replay` judges that, "
-             "with a log\n";
+    if (!verification.new_pairs.empty())
+      print_pairs_of_original(verification.pairs_of_original);
   }
   if (verification.clearance)
     print(*verification.clearance, mesh.soup);
@@ -249,6 +254,8 @@ void print(const Verify_request& request, const Mesh_file& mesh, const Verificat
       std::cout << ", " << with_commas(pose.new_pairs.size()) << " of them not in the original";
     std::cout << ", the first: "
               << describe(pose.new_pairs.empty() ? pose.pairs.front() : pose.new_pairs.front()) << '\n';
+    if (!pose.new_pairs.empty())
+      print_pairs_of_original(pose.pairs_of_original);
   }
   if (has_original) {
     if (verification.is_original_rounded)
@@ -323,6 +330,11 @@ Exit_code run(const Verify_request& request)
     original = Mesh_input(request.original, request.format).read();
     Pose_sources of_original = request.poses;
     of_original.files = request.files_of_poses_of_original;
+    if (!is_gltf(original.format)) { // all poses of the original are in files
+      of_original.are_morphs = of_original.are_of_humanoid = false;
+      of_original.animation.clear();
+      of_original.every = has_frames(of_original, request.original) ? of_original.every : 1;
+    }
     read_poses(of_original, request.original, original.soup);
     drop_attributes(original.soup, request.dropped_attributes, request.original);
     report["original"] = input_json(request.original, original);

@@ -26,17 +26,11 @@ std::string text_of(const Index_triple& triangle)
          std::to_string(triangle[2] + 1);
 }
 
-// Whether two triangles name the same vertices, apart from those that a reader has made one because they
-// coincide.
-bool are_alike(const Index_triple& of_pose, const Triangle_soup& pose, const Index_triple& of_mesh,
-               const Triangle_soup& mesh)
+// Whether two triangles have the same corners, or corners at the same positions of a soup.
+bool do_coincide(const Index_triple& a, const Index_triple& b, const Triangle_soup& soup)
 {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Index a = of_pose[k], b = of_mesh[k];
-    if (a != b && pose.points[a] != pose.points[b] && mesh.points[a] != mesh.points[b])
-      return false;
-  }
-  return true;
+  return std::equal(a.begin(), a.end(), b.begin(),
+                    [&](Index v, Index w) { return v == w || soup.points[v] == soup.points[w]; });
 }
 
 // Returns the polygon from which a triangle was cut, if both meshes have it.
@@ -103,9 +97,14 @@ Pose read_pose(const std::filesystem::path& path, const Triangle_soup& mesh)
   if (pose.points.size() != mesh.points.size())
     differ("vertices", pose.points.size(), mesh.points.size());
   for (Index t = 0; t < pose.triangles.size(); ++t) {
-    if (are_alike(pose.triangles[t], pose, mesh.triangles[t], mesh))
+    // A reader makes vertices one that coincide. Those of the mesh must coincide in the pose as well.
+    if (do_coincide(pose.triangles[t], mesh.triangles[t], pose))
       continue;
     const Cut_polygon* const polygon = common_polygon(t, pose, mesh);
+    if (!polygon && do_coincide(pose.triangles[t], mesh.triangles[t], mesh))
+      refuse(path, "triangle " + std::to_string(t + 1) +
+                       " has a corner apart from that of another, with which it coincides in the mesh; where "
+                       "faces have no vertices in common, those that coincide become one");
     if (!polygon || corners_of(*polygon, pose) != corners_of(*polygon, mesh))
       refuse(path, "triangle " + std::to_string(t + 1) + " has the vertices " + text_of(pose.triangles[t]) +
                        ", and in the mesh " + text_of(mesh.triangles[t]));

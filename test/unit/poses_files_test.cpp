@@ -72,6 +72,24 @@ TEST(Pose_files, InStlGoByCorners)
   EXPECT_NE(refusal_of_pose(folder / "torn.stl", mesh).find("STL has no vertices"), std::string::npos);
 }
 
+TEST(Pose_files, AreRefusedWhereVerticesPartThatTheMeshHasMadeOne)
+{
+  const Temporary_folder folder;
+  const Triangle_soup apart = unshared(sheet(8, 8)); // each face has vertices of its own
+  write_mesh(folder / "mesh.obj", apart);
+  const Triangle_soup mesh = read_mesh(folder / "mesh.obj").soup;
+  ASSERT_NE(mesh.triangles, apart.triangles);
+  write_mesh(folder / "moved.obj", moved(apart, 0, 0, 1));
+  EXPECT_EQ(read_pose(folder / "moved.obj", mesh).points, moved(apart, 0, 0, 1).points);
+  Triangle_soup torn = apart;
+  for (std::size_t t = 0; t < torn.triangles.size(); ++t)
+    for (const Index v : torn.triangles[t])
+      torn.points[v] = Point_3(apart.points[v].x(), apart.points[v].y(), double(t));
+  write_mesh(folder / "torn.obj", torn);
+  EXPECT_NE(refusal_of_pose(folder / "torn.obj", mesh).find("has a corner apart from that of another"),
+            std::string::npos);
+}
+
 TEST(Pose_files, CutPolygonsAsTheMeshDoes)
 {
   const Temporary_folder folder;
