@@ -47,7 +47,9 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request)
   header.is_rounded_to_float32 = request.prepare.round_to_float32;
   if (!request.obstacle.triangles.empty())
     header.obstacle = {request.obstacle.points.size(), request.obstacle.triangles.size(), {}};
-  m_prepared = prepare(std::move(input), request.prepare, request.obstacle);
+  Prepare_options prepare_options = request.prepare;
+  keep_from_snapping(prepare_options, request.intent);
+  m_prepared = prepare(std::move(input), prepare_options, request.obstacle);
 
   if (request.is_error_everywhere)
     m_error_search.emplace(*request.options.max_error);

@@ -81,8 +81,8 @@ struct Prepare_options
   /// **Guarantees**
   /// 1. *Embedded, motion*: every snap is decided exactly, like a collapse. On the way nothing is met or
   ///    passed through, and no face degenerates. The offending pairs afterwards are those before.
-  /// 2. *Frozen*: vertices of frozen or offending faces and of the obstacle do not move, and nothing moves
-  ///    onto them.
+  /// 2. *Frozen*: vertices of frozen or offending faces, of faces that stay (`parts_that_stay`) and of the
+  ///    obstacle do not move, and nothing moves onto them.
   /// 3. *Manifold*: two border edges that run in opposite directions become one edge; no other edges do.
   /// 4. *Deterministic*: the same input gives the same snaps.
   ///
@@ -95,6 +95,13 @@ struct Prepare_options
   /// for n triangles; in every round, as many steps as there are pairs of border vertices within this
   /// distance.
   double weld_distance = 0;
+
+  /// Names of parts whose faces do not change, such as those that `Simplify_intent` keeps or locks: their
+  /// vertices do not snap. `Argument_error` is thrown for a name that the soup does not have.
+  std::vector<std::string> parts_that_stay;
+
+  /// Vertices that do not snap, nor others of their faces, such as those that `Simplify_intent` locks.
+  std::vector<Index> vertices_that_stay;
 
   /// What becomes of open seams. `Argument_error` is thrown when they are to be held or welded and the weld
   /// distance is not 0.

@@ -50,6 +50,10 @@ struct Simplify_intent
   std::string weights;
 };
 
+/// Makes borders of what an intent locks or keeps stay where they are when others snap
+/// (`Prepare_options::weld_distance`). Without it, a reduction would keep them as they have snapped.
+void keep_from_snapping(Prepare_options& options, const Simplify_intent& intent);
+
 /// A reduced soup, and how it was made. *The original* is `Prepared_soup::soup`.
 struct Simplified_soup
 {

@@ -460,6 +460,7 @@ private:
     std::vector<char> stays = m_prepared.is_frozen;
     for (const Offending_pair& pair : m_all_pairs)
       stays[pair.first] = stays[pair.second] = true;
+    mark_what_stays(stays);
     const std::vector<Point_3> points_before = soup().points;
     const std::size_t obstacle_triangles = obstacle().triangles.size();
     double distance = m_options.weld_distance;
@@ -478,6 +479,24 @@ private:
       hold(std::move(snapped.left));
     }
     forget_moved_polygons(soup(), points_before);
+  }
+
+  void mark_what_stays(std::vector<char>& stays) const
+  {
+    for (const std::string& name : m_options.parts_that_stay) {
+      const std::vector<char> is_named = triangles_named(soup(), name);
+      for (std::size_t t = 0; t < is_named.size(); ++t)
+        stays[t] |= is_named[t];
+    }
+    std::vector<char> is_still(m_prepared.positions.size(), false); // by position
+    for (const Index v : m_options.vertices_that_stay) {
+      if (v >= is_still.size())
+        throw Argument_error("there is no vertex " + std::to_string(v) + " (counted from 0) that could stay");
+      is_still[m_prepared.positions[v]] = true;
+    }
+    for (std::size_t t = 0; t < soup().triangles.size(); ++t)
+      for (const Index v : soup().triangles[t])
+        stays[t] |= is_still[m_prepared.positions[v]];
   }
 
   void hold(Gaps_left left)

@@ -409,10 +409,7 @@ private:
   double m_seconds_cells = 0;
 };
 
-} // namespace
-
-Simplified_soup simplify_soup(const Prepared_soup& prepared, const Simplify_options& options,
-                              const Simplify_intent& intent)
+void check(const Prepared_soup& prepared, const Simplify_options& options, const Simplify_intent& intent)
 {
   if (options.faces_per_cell > 0 && !intent.ratios.empty())
     throw Argument_error("in cells no part can have a ratio of its own; leave out one of the two options");
@@ -433,6 +430,22 @@ Simplified_soup simplify_soup(const Prepared_soup& prepared, const Simplify_opti
     throw Argument_error("parts that may intersect have no clearance; leave out one of the two options");
   if (options.faces_per_cell > 0 && !prepared.may_intersect.empty())
     throw Argument_error("in cells no parts may intersect each other; leave out one of the two options");
+}
+
+} // namespace
+
+void keep_from_snapping(Prepare_options& options, const Simplify_intent& intent)
+{
+  for (const auto* names : {&intent.locked, &intent.kept})
+    options.parts_that_stay.insert(options.parts_that_stay.end(), names->begin(), names->end());
+  options.vertices_that_stay.insert(options.vertices_that_stay.end(), intent.locked_vertices.begin(),
+                                    intent.locked_vertices.end());
+}
+
+Simplified_soup simplify_soup(const Prepared_soup& prepared, const Simplify_options& options,
+                              const Simplify_intent& intent)
+{
+  check(prepared, options, intent);
   return Soup_reduction(prepared, options, intent).run();
 }
 
@@ -441,6 +454,7 @@ std::vector<Simplified_soup> simplify_lods(const Prepared_soup& prepared, const 
 {
   if (options.faces)
     throw Argument_error("levels of detail are ratios; leave out the number of faces");
+  check(prepared, options, intent);
   std::vector<Simplified_soup> levels(ratios.size());
   Simplify_options to_level = options;
   if (!intent.ratios.empty() || options.faces_per_cell > 0) {

@@ -50,6 +50,17 @@ TEST(Lods, EachLevelIsWhatARunToItAloneGives)
   }
 }
 
+TEST(Lods, RefuseWhatASingleRunRefuses)
+{
+  const Prepared_soup prepared = prepare(garment("skirt", 500));
+  Simplify_options unknown_pose, progression;
+  unknown_pose.guarded_poses = {3};
+  progression.is_progression_recorded = true;
+  progression.placement = Placement::optimal;
+  for (const Simplify_options& options : {unknown_pose, progression})
+    EXPECT_THROW(simplify_lods(prepared, options, ratios), Argument_error);
+}
+
 TEST(Lods, ControlARunFromLevelToLevelIsNotTheSame)
 {
   // Not a garment that is stuck before the second level: then both runs would end in the same place.

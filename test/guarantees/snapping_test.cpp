@@ -591,6 +591,36 @@ TEST(Snapping, AfterRounding)
       EXPECT_EQ(double(float(p[axis])), p[axis]);
 }
 
+TEST(Snapping, WhatTheUserKeepsStays)
+{
+  Triangle_soup soup = joined(sheet(6, 6), moved(sheet(6, 6), 6 + 0x1p-10, 0, 0));
+  soup.groups.names = {"a", "b"};
+  soup.groups.of_triangle.assign(soup.triangles.size(), 0);
+  std::fill(soup.groups.of_triangle.begin() + std::ptrdiff_t(soup.triangles.size() / 2),
+            soup.groups.of_triangle.end(), 1);
+  const std::size_t half = soup.points.size() / 2;
+  const auto snaps = [&](const Simplify_intent& intent) {
+    Prepare_options options;
+    options.weld_distance = 0x1p-9;
+    keep_from_snapping(options, intent);
+    const Prepared_soup prepared = prepare(soup, options);
+    return std::pair(prepared.snapping.snaps.size(),
+                     std::equal(soup.points.begin() + std::ptrdiff_t(half), soup.points.end(),
+                                prepared.soup.points.begin() + std::ptrdiff_t(half)));
+  };
+  EXPECT_GT(snaps({}).first, 0u) << "the control";
+  Simplify_intent kept, locked, vertex;
+  kept.kept = {"b"};
+  locked.locked = {"b"};
+  for (Index v = Index(half); v < soup.points.size(); ++v)
+    vertex.locked_vertices.push_back(v);
+  for (const Simplify_intent& intent : {kept, locked, vertex})
+    EXPECT_TRUE(snaps(intent).second);
+  Prepare_options unknown;
+  unknown.vertices_that_stay = {Index(soup.points.size())};
+  EXPECT_THROW(prepare(soup, unknown), Argument_error);
+}
+
 TEST(Snapping, DistanceIsChecked)
 {
   for (const double distance : {-1.0, std::nan(""), HUGE_VAL})

@@ -60,6 +60,7 @@ Prepare_options World::prepare_options() const
   prepare.normals = normals;
   prepare.orient = are_faces_oriented;
   prepare.may_intersect = may_intersect;
+  keep_from_snapping(prepare, intent);
   return prepare;
 }
 

@@ -3,6 +3,7 @@
 
 #include "judge_start.h"
 
+#include "judge_stop.h"
 #include "same_bits.h"
 
 #include <algorithm>
@@ -236,7 +237,16 @@ Verdict judge_snaps(const World& world, const World_run& run, Judged_complex& co
   if (distance != (world.open_seams == Open_seams::weld ? run.prepared.border_gaps.clear_length.value_or(0)
                                                         : world.weld_distance))
     return Broken_promise{Promise::seams, "the distance of snaps is not the one that was asked for"};
+  std::vector<char> is_still(run.prepared.soup.points.size() + world.obstacle.points.size(), false);
+  const std::vector<char> is_held = held(world, run.prepared.soup, true);
+  for (std::size_t t = 0; t < is_held.size(); ++t)
+    for (const Index v : run.prepared.soup.triangles[t])
+      is_still[complex.position(v)] |= is_held[t];
+  for (const Index v : world.intent.locked_vertices)
+    is_still[complex.position(v)] = true;
   for (const Snap& snap : run.prepared.snapping.snaps) {
+    if (is_still[complex.position(snap.from)])
+      return Broken_promise{Promise::seams, "a vertex snaps that the user keeps or locks"};
     const Index from = complex.position(snap.from), to = complex.position(snap.to);
     const Point_3 &p = complex.point(from), &q = complex.point(to);
     if (!(std::hypot(p.x() - q.x(), p.y() - q.y(), p.z() - q.z()) <= distance * (1 + 1e-12)))
