@@ -125,10 +125,13 @@ void check_poses(const Simplify_request& request)
   if (request.options.placement == Placement::optimal)
     refuse_with("--placement optimal", "a new place is a place in one pose only");
   const bool is_one_file = is_one_file_of_poses(request.poses_output);
+  const std::string example =
+      std::string("small") + (request.lods.empty() ? "" : "_{lod}") +
+      (is_one_file ? std::filesystem::path(request.poses_output).extension().string() : "_{pose}.obj");
   const auto require_mark = [&](std::string_view mark, const char* what) {
     if (!request.poses_output.empty() && request.poses_output.find(mark) == std::string::npos)
       throw Argument_error("--poses-out: the name must contain " + std::string(mark) + ", which stands for " +
-                           what + ": --poses-out 'small_{pose}.obj'");
+                           what + ": --poses-out '" + example + "'");
   };
   require_avatar(request.poses_output, {}); // what is written there is a new document
   if (!is_one_file)
@@ -156,6 +159,15 @@ void check_progressive(const Simplify_request& request)
     refuse(
         "with --cells, or with ratios of parts, each of --lods is a reduction of its own, and the file holds "
         "one; leave out --lods");
+}
+
+void check_kept_parts(const Simplify_request& request)
+{
+  for (const Simplify_intent::Part_ratio& part : request.intent.ratios)
+    for (const std::string& kept : request.intent.kept)
+      if (part.name == kept)
+        throw Argument_error("--keep: no face of '" + kept + "' may change, so that --ratio " + kept +
+                             "=R can do nothing; leave out one of the two");
 }
 
 void check_clearance(const Simplify_request& request)
@@ -212,6 +224,7 @@ void check(const Simplify_request& request)
     throw Argument_error(
         "--log: a log holds one reduction, but --lods asks for several; leave out one of the two");
   check_poses(request);
+  check_kept_parts(request);
   check_progressive(request);
   check_clearance(request);
   require_html(request.html);

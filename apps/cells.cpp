@@ -100,6 +100,9 @@ Exit_code cut(const Cells_request& request)
     throw Argument_error("say how many pieces to make: give --cells N or --faces-per-cell N, one of the two");
   const std::string plan_path = plan_name(request);
   require_distinct({{"--plan", plan_path}}, {{"IN", request.input}});
+  for (std::size_t i = 1; i <= request.cells.value_or(1); ++i)
+    require_distinct({{"--output", with_cell(request.output, std::to_string(i))}},
+                     {{"IN", request.input}, {"--plan", plan_path}});
   require_writable(with_cell(request.output, "1"));
   require_writable(plan_path);
   Cut_options options;

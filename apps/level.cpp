@@ -49,6 +49,8 @@ void write_poses(const Level_request& request, const Triangle_soup& soup)
     written.push_back({"--poses-out", name});
   }
   require_distinct(written, {{"FILE", request.input}});
+  for (const Named_file& file : written)
+    require_writable(file.path);
   for (std::size_t i = 0; i < soup.poses.size(); ++i) {
     const std::filesystem::path& path = written[i + 1].path;
     write_output(path, in_pose(soup, i), output_format(path), request.is_ascii);

@@ -3,6 +3,7 @@
 
 #include "output_files.h"
 
+#include "report_json.h"
 #include "subcommands.h"
 
 #include <selvedge/Error.h>
@@ -10,7 +11,9 @@
 #include <selvedge/poses.h>
 #include <selvedge/references.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <fstream>
 #include <string>
 #include <system_error>
 
@@ -138,6 +141,18 @@ std::uintmax_t size_of_file(const fs::path& path)
   std::error_code error;
   const std::uintmax_t size = fs::is_regular_file(path, error) ? fs::file_size(path, error) : 0;
   return error ? 0 : size;
+}
+
+bool has_buffers_beside(const fs::path& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  const Json document = Json::parse(file, nullptr, false);
+  if (!document.is_object() || !document.contains("buffers") || !document["buffers"].is_array())
+    return false;
+  return std::any_of(document["buffers"].begin(), document["buffers"].end(), [](const Json& buffer) {
+    return buffer.is_object() && buffer.contains("uri") && buffer["uri"].is_string() &&
+           buffer["uri"].get_ref<const std::string&>().compare(0, 5, "data:") != 0;
+  });
 }
 
 Write_notes write_output(const fs::path& name, const Triangle_soup& soup, Mesh_format format, bool is_ascii)

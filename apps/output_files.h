@@ -53,6 +53,9 @@ CLI::Option* add_polygons_option(CLI::App& command, bool& are_split);
 /// Returns the size of a file in bytes; 0 where there is none, or something else (a pipe).
 std::uintmax_t size_of_file(const std::filesystem::path& path);
 
+/// Returns whether a .gltf file that can be read has bytes of its meshes in other files.
+bool has_buffers_beside(const std::filesystem::path& path);
+
 /// Writes a mesh as `write_mesh` does, but throws `Output_error` when the format cannot hold it: the command
 /// line is not at fault then.
 Write_notes write_output(const std::filesystem::path& name, const Triangle_soup& soup, Mesh_format format,

@@ -82,7 +82,7 @@ public:
         throw;
       complain("interrupted; written before: " + files_written());
       return exit_interrupted;
-    } catch (const Output_error& error) {
+    } catch (const std::exception& error) {
       if (m_files_written.empty())
         throw;
       throw Output_error(error.what() + std::string("; written before: ") + files_written());
@@ -151,7 +151,7 @@ private:
     if (m_request.is_quiet || !m_request.options.check_intersections)
       return;
     const std::size_t poses = soup.poses.size(),
-                      every = m_request.poses.animation.empty() ? 0 : m_request.poses.every;
+                      every = has_frames(m_request.poses, m_request.input) ? m_request.poses.every : 0;
     if (const std::string cost =
             cost_of_poses(poses, soup.triangles.size(), number_of_key_poses(poses), every);
         !cost.empty())
@@ -163,21 +163,24 @@ private:
   {
     if (m_request.poses_output.empty())
       return;
-    std::vector<Named_file> written;
-    for (const std::string& mesh : outputs(m_request))
-      written.push_back({"--output", mesh});
+    std::vector<Named_file> poses_written;
     for (std::size_t level = 1; level <= std::max<std::size_t>(m_request.lods.size(), 1); ++level) {
       for (const Pose& pose : poses) {
-        written.push_back({"--poses-out", pose_output(m_request, level, pose.name)});
+        poses_written.push_back({"--poses-out", pose_output(m_request, level, pose.name)});
         if (is_one_file_of_poses(m_request.poses_output))
           break;
       }
     }
+    std::vector<Named_file> written = poses_written;
+    for (const std::string& mesh : outputs(m_request))
+      written.push_back({"--output", mesh});
     for (const auto& [option, name] :
          {std::make_pair("--report", m_request.report), std::make_pair("--log", m_request.log),
           std::make_pair("--progressive", m_request.progressive), std::make_pair("--html", m_request.html)})
       written.push_back({option, name});
     require_distinct(written, files_read_beside(m_request));
+    // The mesh may take the place of the input, but no pose may.
+    require_distinct(poses_written, {{"IN", m_request.input}});
     for (const Named_file& file : written)
       if (!file.path.empty())
         require_writable(file.path);
@@ -237,6 +240,7 @@ private:
     options.normals = m_request.normals;
     options.orient = m_request.are_faces_oriented;
     options.may_intersect = part_pairs(m_request.may_intersect, file.soup);
+    keep_from_snapping(options, m_request.intent);
     try {
       Prepared_soup prepared = prepare(std::move(file.soup), options, obstacle);
       if (!m_request.progressive.empty() &&
@@ -446,8 +450,11 @@ private:
       m_bar.begin("writing");
       const bool is_of_same_format = format_of(m_request.input, m_request.format) == output_format() &&
                                      is_gzip(m_request.input) == is_gzip(m_request.output);
-      // The output may take the place of the input.
-      const std::uintmax_t size_before = is_of_same_format ? size_of_file(m_request.input) : 0;
+      // The output may take the place of the input. It has all its bytes in one file.
+      const bool is_in_one_file =
+          output_format() != Mesh_format::gltf || !has_buffers_beside(m_request.input);
+      const std::uintmax_t size_before =
+          is_of_same_format && is_in_one_file ? size_of_file(m_request.input) : 0;
       // Merging changes nothing but vertex numbers: the verdict on positions stands.
       if (are_levels_in_one_file(m_request)) {
         std::vector<Triangle_soup> soups;

@@ -327,6 +327,18 @@ std::string name_of(const Level& level)
   return level.output + (level.number == 0 ? "" : " (level " + std::to_string(level.number) + ")");
 }
 
+bool are_boxes_apart(const Triangle_soup& a, const Triangle_soup& b)
+{
+  const auto box_of = [](const Triangle_soup& soup) {
+    CGAL::Bbox_3 box;
+    for (const Index_triple& triangle : soup.triangles)
+      for (const Index v : triangle)
+        box += soup.points[v].bbox();
+    return box;
+  };
+  return !CGAL::do_overlap(box_of(a), box_of(b));
+}
+
 void print_input(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
                  double diagonal, const Json& notes, const std::vector<std::string>& dropped,
                  const std::vector<std::string>& references)
@@ -341,6 +353,12 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
   if (const std::size_t left_out = prepared.left_out_faces + prepared.left_out_by_rounding; left_out > 0)
     stream << ", " << counted(left_out, "degenerate face") << " left out";
   stream << '\n';
+  if (const std::size_t faces = prepared.obstacle.triangles.size(); faces > 0) {
+    stream << "  obstacle: " << counted(faces, "face");
+    if (prepared.soup.poses.empty() && are_boxes_apart(prepared.soup, prepared.obstacle))
+      stream << ", away from the mesh (their boxes are apart); is one of the two in another unit or place?";
+    stream << '\n';
+  }
   for (const Json& note : notes)
     stream << "  " << note.get<std::string>() << '\n';
   // Otherwise, further poses are refused.

@@ -130,6 +130,35 @@ TEST_F(Waving_sheets, AreNeverReplaced)
   expect_refused({"replay", flat, log, "--pose", pose, "--report", pose}, 2,
                  "--report and --pose name the same file");
   EXPECT_EQ(contents_of(pose), before);
+  // The input may be replaced by the mesh alone.
+  std::filesystem::copy_file(flat, folder / "a_waving.obj");
+  const std::string input = folder / "a_waving.obj", whole = contents_of(input);
+  expect_refused({"simplify", input, "-o", out, "--ratio", "0.2", "--pose", pose, "--poses-out",
+                  folder / "a_{pose}.obj"},
+                 2, "--poses-out and IN name the same file");
+  EXPECT_EQ(contents_of(input), whole);
+}
+
+TEST_F(Waving_sheets, HaveNamesOfTheirOwnAndAreChosenAmongTheFramesOfCaches)
+{
+  const std::string flat = folder / "flat.obj", out = folder / "out.obj", walk = folder / "walk.pc2",
+                    run = folder / "run.pc2";
+  Triangle_soup mesh = read_mesh(flat).soup;
+  const Triangle_soup waving = read_mesh(folder / "waving.obj").soup;
+  for (const float time : {0.f, 1.f, 2.f})
+    mesh.poses.push_back({"", time == 1 ? waving.points : mesh.points, time});
+  write_point_cache(walk, mesh);
+  mesh.poses.pop_back();
+  write_point_cache(run, mesh);
+  simplify(flat, out, {"--pose", walk, "--pose", run, "--poses-out", folder / "p_{pose}.obj"});
+  for (const char* const name : {"walk_frame_1", "walk_frame_2", "run_frame_1", "run_frame_2", "frame_3"})
+    EXPECT_TRUE(std::filesystem::exists(folder / ("p_" + std::string(name) + ".obj"))) << name;
+  simplify(flat, out, {"--pose", walk, "--every", "2", "--poses-out", folder / "q_{pose}.obj"});
+  EXPECT_TRUE(std::filesystem::exists(folder / "q_frame_3.obj"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "q_frame_2.obj"));
+  expect_refused(
+      {"simplify", flat, "-o", out, "--ratio", "0.2", "--pose", folder / "waving.obj", "--every", "2"}, 2,
+      "--every: there are no frames to choose from");
 }
 
 TEST_F(Waving_sheets, AreRefusedInFilesThatWouldRoundAWholeScene)
