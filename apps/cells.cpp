@@ -100,9 +100,13 @@ Exit_code cut(const Cells_request& request)
     throw Argument_error("say how many pieces to make: give --cells N or --faces-per-cell N, one of the two");
   const std::string plan_path = plan_name(request);
   require_distinct({{"--plan", plan_path}}, {{"IN", request.input}});
-  for (std::size_t i = 1; i <= request.cells.value_or(1); ++i)
-    require_distinct({{"--output", with_cell(request.output, std::to_string(i))}},
+  const auto require_other_name = [&](std::size_t cell) {
+    require_distinct({{"--output", with_cell(request.output, std::to_string(cell))}},
                      {{"IN", request.input}, {"--plan", plan_path}});
+  };
+  constexpr std::size_t many = 10'000; // of more, the last are looked at when they are written
+  for (std::size_t i = 1; i <= std::min(request.cells.value_or(1), many); ++i)
+    require_other_name(i);
   require_writable(with_cell(request.output, "1"));
   require_writable(plan_path);
   Cut_options options;
@@ -110,9 +114,8 @@ Exit_code cut(const Cells_request& request)
   options.faces_per_cell = request.faces_per_cell;
   options.shift = request.shift;
   const Cut_mesh mesh = cut_into_cells(request.input, options, [&](std::size_t i) {
-    const std::string name = with_cell(request.output, std::to_string(i));
-    require_distinct({{"--output", name}}, {{"IN", request.input}, {"--plan", plan_path}});
-    return fs::path(name);
+    require_other_name(i);
+    return fs::path(with_cell(request.output, std::to_string(i)));
   });
 
   Json plan = {{"kind", plan_kind},

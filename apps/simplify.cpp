@@ -451,10 +451,9 @@ private:
       const bool is_of_same_format = format_of(m_request.input, m_request.format) == output_format() &&
                                      is_gzip(m_request.input) == is_gzip(m_request.output);
       // The output may take the place of the input. It has all its bytes in one file.
-      const bool is_in_one_file =
-          output_format() != Mesh_format::gltf || !has_buffers_beside(m_request.input);
-      const std::uintmax_t size_before =
-          is_of_same_format && is_in_one_file ? size_of_file(m_request.input) : 0;
+      std::uintmax_t size_before = is_of_same_format ? size_of_file(m_request.input) : 0;
+      if (size_before > 0 && output_format() == Mesh_format::gltf && has_buffers_beside(m_request.input))
+        size_before = 0;
       // Merging changes nothing but vertex numbers: the verdict on positions stands.
       if (are_levels_in_one_file(m_request)) {
         std::vector<Triangle_soup> soups;

@@ -464,11 +464,16 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
     stream << "\ninstances: " << counted(result.shared_meshes, "mesh", "meshes") << " in "
            << with_commas(result.shared_places) << " places reduced once, alike in all"
            << (request.options.placement == Placement::optimal ? ", at vertices of the input" : "");
+  if (request.is_sewn && prepared.soup.scene)
+    stream << "\nseams: not merged, because --sewn leaves the vertices of a glTF input as they are";
   if (result.apart_meshes > 0)
     stream
         << "\ninstances: " << counted(result.apart_meshes, "mesh", "meshes")
-        << " not the same in all places (snapped, rounded, degenerate or doubled in some), so each place was "
-           "reduced by itself";
+        << (prepared.soup.poses.empty()
+                ? " not the same in all places (snapped, rounded, degenerate or doubled in some), so each "
+                  "place was reduced by itself"
+                : " in several places, each of which was reduced by itself, because it may move by itself in "
+                  "poses");
   if (result.untied_pairs > 0)
     stream << "\nopen seams: " << counted(result.untied_pairs, "pair")
            << " of border vertices not held, because their meshes were reduced once for several places; "

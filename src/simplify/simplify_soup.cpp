@@ -125,9 +125,13 @@ private:
     if (m_options.loop == Collapse_loop::own)
       hold_gaps(constraints, of_soup);
     pose(constraints, of_soup);
-    if (m_options.instances == Instances::shared && m_options.loop == Collapse_loop::own &&
-        soup.poses.empty())
-      share();
+    if (m_options.instances == Instances::shared && m_options.loop == Collapse_loop::own) {
+      if (soup.poses.empty())
+        share();
+      else // in which the places of a mesh may move in other ways
+        m_apart_meshes =
+            shared_meshes(soup, std::vector<Apart>(soup.triangles.size(), Apart::no)).meshes.size();
+    }
     if (!intent.weights.empty())
       m_working.weigh(vertex_weights(soup, intent.weights));
     if (m_options.placement == Placement::optimal)

@@ -261,6 +261,13 @@ group(headers + "Surface_mesh_simplification/internal/require_initialised.h", de
 group("src/simplify/simplify_soup.cpp", ("doubles_test",),
       ("is_named[m_working.front(face)]", "is_named[m_working.triangle(face)]", "turned fronts count for the target of a double"),
       ("share_of[t] != share_of[front] && is_frozen[front] == 0", "false", "a double goes though its part has another target"))
+group("src/files/gltf_nodes.cpp", ("gltf_poses_test",),
+      ("    animate_weights(node.node, numbers);\n", "", "instances that become nodes lose the animation of their weights"),
+      ("    forget_weights_of_lost_meshes();\n", "", "channels move the weights of meshes that are gone"))
+group("src/files/poses.cpp", ("poses_files_test",),
+      ("mesh.triangles[t], pose))\n      continue;", "mesh.triangles[t], mesh))\n      continue;", "vertices that the mesh has made one part in a pose"))
+group("src/simplify/prepare.cpp", ("snapping_test",),
+      ("    mark_what_stays(stays);\n", "", "parts that are kept snap"))
 group("src/soup/fit_normals.cpp", ("shading_test",),
       ("|= !m_is_changed[corner / 3];", "|= false;", "triangles that have not changed get other normals"),
       ("[edges[i].second] = true;", "[edges[i].second] = false;", "normals on borders are fitted"),
@@ -838,7 +845,7 @@ group(
     ("if (!is_for_its_mesh_alone(node))", "if (false)", "a level takes away the children of its node"),
     ("m_needed_nodes.count(n) == 0 && ", "", "a level does not move with its node"),
     ("if (is_of_weights(channel) && node_of(channel) == n)", "if (false)", "weights move a node without a mesh"),
-    ("            animation[\"channels\"].push_back(channel);", ";", "weights move the finest level alone"),
+    ("          animation[\"channels\"].push_back(channel);", ";", "weights move the finest level alone"),
     ("set_mesh(coarser, m_levels[level].meshes[mesh]);", "set_mesh(coarser, m_levels[1].meshes[mesh]);", "all coarser levels are the second"),
 )
 group(
