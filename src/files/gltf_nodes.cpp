@@ -197,33 +197,44 @@ private:
   // No channel may animate the weights of a node without a mesh.
   void forget_weights_of_lost_meshes()
   {
-    Json& animations = list("animations");
     const auto is_lost = [&](const Json& channel) {
-      return is_of_weights(channel) && !nodes()[node_of(channel).get<std::size_t>()].contains("mesh");
+      const Json& node = node_of(channel);
+      return is_of_weights(channel) && node.is_number_unsigned() &&
+             node.get<std::size_t>() < nodes().size() && !nodes()[node.get<std::size_t>()].contains("mesh");
     };
-    for (Json& animation : animations) {
-      Json& channels = animation["channels"];
-      channels.erase(std::remove_if(channels.begin(), channels.end(), is_lost), channels.end());
+    Json left = Json::array();
+    for (Json& animation : list("animations")) {
+      Json channels = Json::array();
+      for (const Json& channel : member(animation, "channels"))
+        if (!is_lost(channel))
+          channels.push_back(channel);
+      if (channels.size() == member(animation, "channels").size()) {
+        left.push_back(std::move(animation));
+      } else if (!channels.empty()) {
+        animation["channels"] = std::move(channels);
+        left.push_back(std::move(animation));
+      }
     }
-    const auto is_empty = [](const Json& animation) { return animation["channels"].empty(); };
-    animations.erase(std::remove_if(animations.begin(), animations.end(), is_empty), animations.end());
-    if (animations.empty())
+    if (left.empty())
       m_document.erase("animations");
+    else
+      m_document["animations"] = std::move(left);
   }
 
   // Animates the weights of morph targets in some nodes as in the one given.
   void animate_weights(std::size_t node, const Json& numbers)
   {
-    for (Json& animation : list("animations"))
-      for (std::size_t c = 0, before = animation["channels"].size(); c < before; ++c) {
-        Json channel = animation["channels"][c];
-        if (!is_of_weights(channel) || node_of(channel) != node)
+    for (Json& animation : list("animations")) {
+      const Json before = member(animation, "channels");
+      for (Json channel : before) {
+        if (!before.is_array() || !is_of_weights(channel) || node_of(channel) != node)
           continue;
         for (const Json& number : numbers) {
           channel["target"]["node"] = number;
           animation["channels"].push_back(channel);
         }
       }
+    }
   }
 
   // Puts a mesh of the scene into a node, and its further levels beside it.
