@@ -52,7 +52,7 @@ TEST(Lods, EachLevelIsWhatARunToItAloneGives)
 
 TEST(Lods, RefuseWhatASingleRunRefuses)
 {
-  const Prepared_soup prepared = prepare(garment("skirt", 500));
+  const Prepared_soup prepared = prepare(garment("skirt", 5000));
   Simplify_options unknown_pose, progression;
   unknown_pose.guarded_poses = {3};
   progression.is_progression_recorded = true;
