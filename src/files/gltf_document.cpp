@@ -413,4 +413,29 @@ const Gltf_scene::Json& member(const Gltf_scene::Json& object, const char* name)
   return found == object.end() ? none : *found;
 }
 
+void drop_channels(Json& document, const std::function<bool(const Json& channel)>& is_dropped)
+{
+  const Json& animations = member(document, "animations");
+  if (!animations.is_array() || animations.empty())
+    return;
+  Json kept = Json::array();
+  for (Json animation : animations) {
+    Json channels = Json::array();
+    const Json& all = animation.is_object() ? member(animation, "channels") : animation;
+    for (const Json& channel : all)
+      if (!is_dropped(channel))
+        channels.push_back(channel);
+    if (channels.size() == all.size()) {
+      kept.push_back(std::move(animation));
+    } else if (!channels.empty()) {
+      animation["channels"] = std::move(channels);
+      kept.push_back(std::move(animation));
+    }
+  }
+  if (kept.empty())
+    document.erase("animations");
+  else
+    document["animations"] = std::move(kept);
+}
+
 } // namespace selvedge::files

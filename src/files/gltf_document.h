@@ -10,6 +10,7 @@
 
 #include <tiny_gltf.h>
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -53,6 +54,10 @@ Gltf_document read_gltf_document(std::string_view contents, Mesh_format format, 
 
 /// Returns a list in an object; an empty one when it is not there.
 const Gltf_scene::Json& member(const Gltf_scene::Json& object, const char* name);
+
+/// Removes channels of animations from a document that nobody has checked, and animations that lose all.
+void drop_channels(Gltf_scene::Json& document,
+                   const std::function<bool(const Gltf_scene::Json& channel)>& is_dropped);
 
 /// Returns the transform of a node. The rotation is not normalised, so that every entry is one fixed formula
 /// of the numbers in the file.

@@ -163,30 +163,11 @@ private:
 
   void drop_channels(const Numbers& nodes)
   {
-    const Json& animations = member(m_json, "animations");
-    if (!animations.is_array() || animations.empty())
-      return;
-    Json kept = Json::array();
-    for (Json animation : animations) {
-      Json channels = Json::array();
-      const Json& all = animation.is_object() ? member(animation, "channels") : animation;
-      for (const Json& channel : all) {
-        const Json& target = channel.is_object() ? member(channel, "target") : channel;
-        const Json& node = target.is_object() ? member(target, "node") : target;
-        if (!node.is_number_unsigned() || nodes.count(node.get<std::size_t>()) == 0)
-          channels.push_back(channel);
-      }
-      if (channels.size() == all.size()) {
-        kept.push_back(std::move(animation));
-      } else if (!channels.empty()) {
-        animation["channels"] = std::move(channels);
-        kept.push_back(std::move(animation));
-      }
-    }
-    if (kept.empty())
-      m_json.erase("animations");
-    else
-      m_json["animations"] = std::move(kept);
+    files::drop_channels(m_json, [&](const Json& channel) {
+      const Json& target = channel.is_object() ? member(channel, "target") : channel;
+      const Json& node = target.is_object() ? member(target, "node") : target;
+      return node.is_number_unsigned() && nodes.count(node.get<std::size_t>()) != 0;
+    });
   }
 
   // Removes these meshes, but for those that a node still names.

@@ -202,23 +202,7 @@ private:
       return is_of_weights(channel) && node.is_number_unsigned() &&
              node.get<std::size_t>() < nodes().size() && !nodes()[node.get<std::size_t>()].contains("mesh");
     };
-    Json left = Json::array();
-    for (Json& animation : list("animations")) {
-      Json channels = Json::array();
-      for (const Json& channel : member(animation, "channels"))
-        if (!is_lost(channel))
-          channels.push_back(channel);
-      if (channels.size() == member(animation, "channels").size()) {
-        left.push_back(std::move(animation));
-      } else if (!channels.empty()) {
-        animation["channels"] = std::move(channels);
-        left.push_back(std::move(animation));
-      }
-    }
-    if (left.empty())
-      m_document.erase("animations");
-    else
-      m_document["animations"] = std::move(left);
+    drop_channels(m_document, is_lost);
   }
 
   // Animates the weights of morph targets in some nodes as in the one given.
