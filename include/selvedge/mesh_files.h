@@ -41,8 +41,10 @@ namespace selvedge {
 /// any other simple polygon becomes triangles that neither overlap nor degenerate. Ears are decided exactly,
 /// in the projection to a coordinate plane: the plane in which the polygon looks largest, or another one when
 /// the polygon is not simple there. A polygon that is simple in none of the projections becomes the fan of
-/// its first corner. Faces of fewer than three corners are skipped and counted. Faces that name a vertex
-/// twice are kept, because a soup may hold degenerate triangles.
+/// its first corner. A face with the corners of an earlier one, as the two sides of a cloth may have them in
+/// opposite orders, counts from where that one begins, so that both are cut alike. Faces of fewer than three
+/// corners are skipped and counted. Faces that name a vertex twice are kept, because a soup may hold
+/// degenerate triangles.
 ///
 /// The soup remembers which of its triangles were one face (`Triangle_soup::polygons`). `write_mesh` writes
 /// such a face to OBJ, OFF and PLY as it was, but only if the rule above cuts it again into exactly the

@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_SRC_FILES_SOUP_BUILDER_H
 #define SELVEDGE_SRC_FILES_SOUP_BUILDER_H
 
+#include "files/Polygon_starts.h"
 #include "files/row_unlike.h"
 #include "files/triangulate_polygon.h"
 
@@ -47,6 +48,9 @@ public:
   std::size_t add_face(const std::vector<Index>& corners, const std::vector<Index>& uvs = {},
                        const std::vector<Index>& normals = {})
   {
+    if (corners.size() > 3)
+      if (const std::size_t start = m_start_of(m_file.soup.points, corners))
+        return add_face(rotated(corners, start), rotated(uvs, start), rotated(normals, start));
     m_poll();
     Triangle_soup& mesh = m_file.soup;
     if (corners.size() < 3) {
@@ -112,6 +116,13 @@ private:
     return place;
   }
 
+  static std::vector<Index> rotated(std::vector<Index> values, std::size_t start)
+  {
+    if (!values.empty())
+      std::rotate(values.begin(), values.begin() + std::ptrdiff_t(start), values.end());
+    return values;
+  }
+
   template <std::size_t dimension>
   void add_values(Corner_values<dimension>& values, const std::vector<Index>& numbers, std::size_t first)
   {
@@ -153,6 +164,7 @@ private:
 
   Mesh_file m_file;
   std::vector<Index_triple> m_cut;
+  Polygon_starts m_start_of;
   Cancellation_poll m_poll;
 };
 

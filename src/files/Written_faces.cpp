@@ -128,11 +128,13 @@ bool Written_faces::is_uniform(const Cut_polygon& polygon) const
   return true;
 }
 
-bool Written_faces::is_cut_the_same(const Cut_polygon& polygon) const
+bool Written_faces::is_cut_the_same(const Cut_polygon& polygon)
 {
   std::vector<Index> vertices;
   for (const Index corner : m_loop)
     vertices.push_back(vertex(corner));
+  if (m_start_of(m_soup.points, vertices) != 0)
+    return false;
   const std::vector<Index_triple> cut = triangulate_polygon(m_soup.points, vertices);
   return std::equal(cut.begin(), cut.end(), m_soup.triangles.begin() + polygon.first_triangle,
                     [&](const Index_triple& places, const Index_triple& triangle) {

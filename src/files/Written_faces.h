@@ -4,6 +4,8 @@
 #ifndef SELVEDGE_SRC_FILES_WRITTEN_FACES_H
 #define SELVEDGE_SRC_FILES_WRITTEN_FACES_H
 
+#include "files/Polygon_starts.h"
+
 #include <selvedge/mesh_files.h>
 
 #include <cstddef>
@@ -65,7 +67,7 @@ private:
   Index vertex(Index corner) const { return m_soup.triangles[corner / 3][corner % 3]; }
   bool find_loop(const Cut_polygon& polygon);
   bool is_uniform(const Cut_polygon& polygon) const;
-  bool is_cut_the_same(const Cut_polygon& polygon) const;
+  bool is_cut_the_same(const Cut_polygon& polygon);
   const Edge* border_edge_from(Index from) const;
 
   const Triangle_soup& m_soup;
@@ -75,6 +77,7 @@ private:
   std::size_t m_triangles_saved = 0;
   std::vector<Edge> m_edges, m_border; // of the polygon in question
   std::vector<Index> m_loop;           // its corners
+  Polygon_starts m_start_of;
 };
 
 } // namespace selvedge::files

@@ -164,6 +164,79 @@ TEST(Polygons, ThatAReductionLeavesAreThoseOfTheInput)
     }
 }
 
+/// Two sides of a sheet of quads, the back with vertices of its own or those of the front, and with its quads
+/// backwards, each from the corner `first` on.
+std::string two_sides(bool has_own_vertices, std::size_t first)
+{
+  const std::string front = bumped_quads(8, 0.2, true);
+  std::istringstream lines(front);
+  std::string back;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::vector<std::string> corners;
+    words >> line;
+    for (std::string corner; line == "f" && words >> corner;)
+      corners.push_back(std::to_string(std::stoi(corner) + (has_own_vertices ? 64 : 0)));
+    if (corners.empty())
+      continue;
+    std::reverse(corners.begin(), corners.end());
+    std::rotate(corners.begin(), corners.begin() + std::ptrdiff_t(first), corners.end());
+    back += 'f';
+    for (const std::string& corner : corners)
+      back += ' ' + corner + '/' + corner;
+    back += '\n';
+  }
+  return front + (has_own_vertices ? bumped_quads(8, 0.2, true).substr(0, front.find('f')) : "") + back;
+}
+
+TEST(Polygons, OfTheTwoSidesOfAClothAreCutAlike)
+{
+  for (const bool has_own_vertices : {false, true})
+    for (const std::size_t first : {0, 1, 2, 3}) {
+      const Triangle_soup soup = soup_of_text(two_sides(has_own_vertices, first));
+      ASSERT_EQ(soup.triangles.size(), 2u * 98u);
+      const auto points_of = [&](std::size_t triangle) {
+        std::set<Point_3> points;
+        for (const Index v : soup.triangles[triangle])
+          points.insert(soup.points[v]);
+        return points;
+      };
+      std::multiset<std::set<Point_3>> front, back;
+      for (std::size_t t = 0; t < 98; ++t) {
+        front.insert(points_of(t));
+        back.insert(points_of(98 + t));
+        for (std::size_t k = 0; k < 3; ++k) // texture coordinates stay with their corners
+          EXPECT_EQ(soup.uvs.values[soup.uvs.of_triangle[98 + t][k]][0] - 0.5,
+                    soup.points[soup.triangles[98 + t][k]].x());
+      }
+      EXPECT_EQ(front, back);
+      EXPECT_EQ(expect_read_back(soup), (std::array<std::size_t, 3>{98, 98, 98}));
+      // A side without the other comes back as well, and is not cut from its own first corner.
+      Triangle_soup alone = soup;
+      alone.triangles.erase(alone.triangles.begin(), alone.triangles.begin() + 98);
+      alone.uvs.of_triangle.erase(alone.uvs.of_triangle.begin(), alone.uvs.of_triangle.begin() + 98);
+      alone.polygons.erase(alone.polygons.begin(), alone.polygons.begin() + 49);
+      for (Cut_polygon& polygon : alone.polygons)
+        polygon.first_triangle -= 98;
+      EXPECT_EQ(expect_read_back(alone), (std::array<std::size_t, 3>{49, 49, 49}));
+      // Nearly all of it is reduced, because the sides do not touch but where they coincide.
+      EXPECT_LE(reduction_of(soup, 0.3).soup.triangles.size(), 59u);
+    }
+}
+
+TEST(Polygons, OfTwoSidesThatAreCutOtherwiseAreSplit)
+{
+  Triangle_soup soup = soup_of_text(bumped_quads(6, 0.2));
+  for (int i = 0; i < 25; ++i) { // each quad again, along its other diagonal
+    const auto [a, b, c] = soup.triangles[2 * i];
+    const Index d = soup.triangles[2 * i + 1][2];
+    soup.polygons.push_back({Index(soup.triangles.size()), 4, 0});
+    soup.triangles.push_back({b, c, d});
+    soup.triangles.push_back({b, d, a});
+  }
+  EXPECT_EQ(expect_read_back(soup), (std::array<std::size_t, 3>{25, 25, 25}));
+}
+
 TEST(Polygons, WithAMovedVertexAreSplit)
 {
   // Two sheets of quads beside each other, whose borders snap together.
