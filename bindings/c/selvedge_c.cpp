@@ -25,6 +25,7 @@ using namespace selvedge;
 struct selvedge_mesh
 {
   Triangle_soup soup;
+  bool has_normals_of_vertices = false; // as the file has them that it was read from
 };
 
 struct selvedge_options
@@ -140,8 +141,10 @@ selvedge_mesh* selvedge_mesh_new(const double* positions, size_t vertex_count, c
 
 selvedge_mesh* selvedge_mesh_read(const char* path)
 {
-  return guarded(static_cast<selvedge_mesh*>(nullptr),
-                 [&] { return new selvedge_mesh{read_mesh(&required(path, "path")).soup}; });
+  return guarded(static_cast<selvedge_mesh*>(nullptr), [&] {
+    Mesh_file file = read_mesh(&required(path, "path"));
+    return new selvedge_mesh{std::move(file.soup), has_normals_of_vertices(file.format)};
+  });
 }
 
 selvedge_mesh* selvedge_mesh_generate(const char* name, size_t triangles, int layers)
@@ -230,10 +233,14 @@ int selvedge_options_set_progress(selvedge_options* options, selvedge_progress p
 selvedge_result* selvedge_reduce(const selvedge_mesh* mesh, const selvedge_options* options)
 {
   return guarded(static_cast<selvedge_result*>(nullptr), [&] {
+    const selvedge_mesh& input = required(mesh, "mesh");
     auto result = std::unique_ptr<selvedge_result>(new selvedge_result{
-        bindings::Reduction(required(mesh, "mesh").soup, required(options, "options").request), {}, {}, {}});
+        bindings::Reduction(input.soup, required(options, "options").request, input.has_normals_of_vertices),
+        {},
+        {},
+        {}});
     result->vertices = result->reduction.vertices();
-    result->mesh.soup = result->reduction.soup();
+    result->mesh = {result->reduction.soup(), input.has_normals_of_vertices};
     return result.release();
   });
 }

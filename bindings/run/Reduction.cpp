@@ -30,8 +30,8 @@ double seconds_since(Clock::time_point start)
 
 } // namespace
 
-Reduction::Reduction(Triangle_soup input, const Reduction_request& request)
-    : m_input_triangles(input.triangles), m_options(request.json()), m_is_sewn(request.is_sewn)
+Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool has_normals_of_vertices)
+    : m_options(request.json()), m_is_sewn(request.is_sewn)
 {
   request.check();
   if (request.is_sewn && !input.poses.empty())
@@ -40,8 +40,12 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request)
   std::optional<tbb::global_control> limit;
   if (request.threads)
     limit.emplace(tbb::global_control::max_allowed_parallelism, *request.threads);
-  const Log_numbering numbering(input, false);
   Log_header header;
+  if (has_normals_of_vertices && joins_vertices(request.prepare.normals) &&
+      share_vertices_without_normals(input, request.prepare.normals) > 0)
+    header.normals = Logged_normals::dropped;
+  m_input_triangles = input.triangles;
+  const Log_numbering numbering(input, false);
   header.vertices = input.points.size();
   header.triangles = input.triangles.size();
   header.is_rounded_to_float32 = request.prepare.round_to_float32;

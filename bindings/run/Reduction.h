@@ -24,8 +24,9 @@ class Reduction
 {
 public:
   /// Reduces and judges. Throws what `prepare` and `simplify_soup` throw, and `Argument_error` when
-  /// `request.check()` does.
-  Reduction(Triangle_soup input, const Reduction_request& request);
+  /// `request.check()` does. `has_normals_of_vertices` says that the input is from a file with one normal for
+  /// each vertex: vertices that differ in their normals alone then become one where these are made anew.
+  Reduction(Triangle_soup input, const Reduction_request& request, bool has_normals_of_vertices = false);
 
   const Triangle_soup& soup() const { return m_is_sewn ? m_merged : m_result.soup; }
 

@@ -8,6 +8,7 @@
 
 #include "apps/report_json.h"
 #include "bindings/run/Reduction_request.h"
+#include "support/Temporary_folder.h"
 #include "support/meshes.h"
 #include "support/soups.h"
 
@@ -32,6 +33,7 @@
 #include <iterator>
 #include <limits>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -296,6 +298,50 @@ TEST(C_interface, ReducesByOptionsWithLogReportAndVerdict)
   EXPECT_EQ(report["verified"]["new_pairs"], 0);
   selvedge_result_free(result);
   selvedge_options_free(options);
+  selvedge_mesh_free(mesh);
+}
+
+TEST(C_interface, JoinsVerticesThatDifferInNormalsThatAreDropped)
+{
+  // A strip with a fold at every row, where a file with one normal for each vertex has each vertex twice.
+  constexpr int side = 12;
+  std::ostringstream vertices, faces;
+  for (int row = 0; row < side; ++row) {
+    for (const int y : {row, row + 1})
+      for (int x = 0; x <= side; ++x)
+        vertices << x << ' ' << y << ' ' << 0.1 * (y % 2) << ' ' << 0.03 * (x - side / 2) << ' '
+                 << (row % 2 == 0 ? -0.1 : 0.1) << " 0.99\n";
+    for (int x = 0; x < side; ++x) {
+      const int a = 2 * row * (side + 1) + x;
+      faces << "4 " << a << ' ' << a + 1 << ' ' << a + side + 2 << ' ' << a + side + 1 << '\n';
+    }
+  }
+  const Temporary_folder folder;
+  std::ofstream(folder / "folds.ply")
+      << "ply\nformat ascii 1.0\nelement vertex " << 2 * side * (side + 1)
+      << "\nproperty float x\nproperty float y\nproperty float z\nproperty "
+         "float nx\nproperty float ny\nproperty float nz\nelement face "
+      << side * side << "\nproperty list uchar int vertex_indices\nend_header\n"
+      << vertices.str() << faces.str();
+  selvedge_mesh* const mesh = selvedge_mesh_read((folder / "folds.ply").string().c_str());
+  ASSERT_NE(mesh, nullptr) << selvedge_last_error();
+  for (const bool are_dropped : {false, true}) {
+    selvedge_options* const options = selvedge_options_new();
+    EXPECT_EQ(selvedge_options_set(options, "ratio", "0.3"), 0);
+    EXPECT_EQ(selvedge_options_set(options, "log", "true"), 0);
+    EXPECT_EQ(selvedge_options_set(options, "normals", are_dropped ? "drop" : "keep"), 0);
+    selvedge_result* const result = selvedge_reduce(mesh, options);
+    ASSERT_NE(result, nullptr) << selvedge_last_error();
+    const selvedge_mesh* const reduced = selvedge_result_mesh(result);
+    // One surface has fewer vertices than faces; strips that are apart have one for each side and more.
+    if (are_dropped)
+      EXPECT_LT(selvedge_mesh_vertex_count(reduced), selvedge_mesh_index_count(reduced) / 3);
+    else
+      EXPECT_GT(selvedge_mesh_vertex_count(reduced), selvedge_mesh_index_count(reduced) / 3);
+    EXPECT_EQ(selvedge_replay(mesh, selvedge_result_log(result)), 1) << selvedge_last_error();
+    selvedge_result_free(result);
+    selvedge_options_free(options);
+  }
   selvedge_mesh_free(mesh);
 }
 
