@@ -95,7 +95,7 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->group(how_far);
 
   const char* const parts = "Parts (PART names a group, an object, a material, or a property of 0 and 1 of "
-                            "the faces of a PLY file)";
+                            "the faces of a PLY file; 'button*' names all that begin so)";
   command
       .add_option("--lock", request.intent.locked,
                   "Parts whose vertices must not move. Their faces count for --faces, but not for --ratio.")

@@ -35,10 +35,11 @@ std::vector<Part_kind> part_kinds(const Triangle_soup& soup);
 
 /// Returns one flag per triangle: whether its group, object or material has this name. A label of several
 /// words can be given as a whole or by one of its words: after the line `g sleeve left`, triangles have the
-/// names "sleeve left", "sleeve" and "left". In a soup that was read from glTF, the groups are primitives,
-/// called "head/0", "head/1" and so on where a mesh has several, and "head" names all of these. A triangle
-/// attribute of the type uint8 that is 0 or 1 for every triangle, such as a property of the faces of a PLY
-/// file, names those with 1, of which there may be none.
+/// names "sleeve left", "sleeve" and "left". In the name, `*` stands for any characters and `?` for one, as
+/// in names of files: "button*" names all of "button_1" to "button_12". In a soup that was read from glTF,
+/// the groups are primitives, called "head/0", "head/1" and so on where a mesh has several, and "head" names
+/// all of these. A triangle attribute of the type uint8 that is 0 or 1 for every triangle, such as a property
+/// of the faces of a PLY file, names those with 1, of which there may be none.
 ///
 /// Throws `Argument_error`, which lists the known names, when neither a triangle nor an attribute has this
 /// name.

@@ -7,6 +7,8 @@
 
 #include <selvedge/Error.h>
 
+#include <fnmatch.h>
+
 #include <algorithm>
 #include <limits>
 #include <set>
@@ -46,11 +48,18 @@ void for_each_label(const Triangle_soup& soup, const Function& function)
   function(Part_kind::Name::material, soup.materials);
 }
 
+/// Whether the text is the name, or fits it if this has wildcards.
+bool fits(const std::string& text, const std::string& name)
+{
+  return text == name ||
+         (name.find_first_of("*?") != std::string::npos && fnmatch(name.c_str(), text.c_str(), 0) == 0);
+}
+
 bool has_word(const std::string& text, const std::string& word)
 {
   std::istringstream words(text);
   for (std::string next; words >> next;)
-    if (next == word)
+    if (fits(next, word))
       return true;
   return false;
 }
@@ -106,7 +115,7 @@ std::vector<char> triangles_named(const Triangle_soup& soup, const std::string& 
     const bool are_primitives = soup.scene && kind == Part_kind::Name::group;
     std::vector<char> is_meant;
     for (const std::string& label : labels.names)
-      is_meant.push_back(!name.empty() && (label == name || has_word(label, name) ||
+      is_meant.push_back(!name.empty() && (fits(label, name) || has_word(label, name) ||
                                            (are_primitives && is_numbered(label, name))));
     std::vector<char> is_used(labels.names.size(), false);
     for (std::size_t t = 0; t < labels.of_triangle.size(); ++t) {

@@ -4,6 +4,7 @@
 #include "support/meshes.h"
 #include "support/reduction.h"
 #include "support/soups.h"
+#include "verify/triangles_of_part.h"
 
 #include <selvedge/Error.h>
 #include <selvedge/part_report.h>
@@ -171,6 +172,31 @@ TEST(Intent, APartIsCalledByItsGroupsItsObjectOrItsMaterial)
   }
   const std::vector<char> body = triangles_named(soup, "body");
   EXPECT_EQ(std::size_t(std::count(body.begin(), body.end(), true)), faces_of(soup, 1).size());
+}
+
+TEST(Intent, PartsAreCalledByAPattern)
+{
+  Triangle_soup soup = two_groups(8);
+  const auto expect = [&](const std::string& pattern, std::size_t named) {
+    const std::vector<char> is_named = triangles_named(soup, pattern);
+    EXPECT_EQ(std::size_t(std::count(is_named.begin(), is_named.end(), true)), named) << pattern;
+    EXPECT_EQ(internal::triangles_of_part(soup, pattern), is_named) << "the judge reads " << pattern;
+  };
+  const std::size_t sleeve = faces_of(soup, 0).size(), body = faces_of(soup, 1).size();
+  for (const char* const pattern : {"s*", "sleeve*", "*left", "l?ft", "sleeve?left", "*l*"})
+    expect(pattern, sleeve);
+  expect("b??y", body);
+  expect("*", sleeve + body);
+  for (const char* const pattern : {"b?y", "?", "*x*", "ody*"})
+    EXPECT_THROW(triangles_named(soup, pattern), Argument_error) << pattern;
+  soup.groups.names[1] = "b*y"; // which a pattern may be as well
+  expect("b*y", body);
+  Simplify_intent intent;
+  intent.ratios = {{"sl*", 0.25}};
+  intent.kept = {"b?y"};
+  const Simplified_soup result = simplify_soup(prepare(soup), Simplify_options(), intent);
+  EXPECT_EQ(faces_of(result.soup, 1).size(), body);
+  EXPECT_LE(faces_of(result.soup, 0).size(), sleeve / 4 + 1);
 }
 
 TEST(Intent, APartIsCalledByAnAttributeThatSaysYesOrNoOfItsTriangles)

@@ -5,6 +5,7 @@
 
 #include "support/Gltf_document.h"
 #include "support/Temporary_folder.h"
+#include "verify/triangles_of_part.h"
 
 #include <selvedge/Error.h>
 #include <selvedge/Parts.h>
@@ -101,6 +102,7 @@ TEST(Gltf, NodesNameAllTheirPrimitives)
     for (std::size_t t = 0; t < is_named.size(); ++t)
       if (is_named[t])
         groups.insert(soup.groups.names[soup.groups.of_triangle[t]]);
+    EXPECT_EQ(internal::triangles_of_part(soup, name), is_named) << "the judge reads " << name;
     return groups;
   };
   using Names = std::set<std::string>;

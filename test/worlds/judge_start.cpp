@@ -42,11 +42,7 @@ Point_3 rounded(const Point_3& p)
 // In which of the two objects that may intersect a triangle is: 1, 2, or 0 for neither.
 char part_of_triangle(const World& world, Index triangle)
 {
-  if (world.may_intersect.empty())
-    return 0;
-  const auto& [first, second] = world.may_intersect.front();
-  const std::string& object = world.soup.objects.names[world.soup.objects.of_triangle[triangle]];
-  return object == first ? 1 : object == second ? 2 : 0;
+  return world.may_intersect.empty() ? 0 : char(world.soup.objects.of_triangle[triangle]);
 }
 
 } // namespace

@@ -295,6 +295,21 @@ void choose_parts(World& world, Random& random)
       intent.weights = attribute.name;
 }
 
+/// Has patterns in place of names of parts. No random number, so that worlds of earlier versions stay what
+/// they were but for that.
+void name_by_patterns(World& world)
+{
+  const auto replace_last = [](std::string& name) {
+    if (name.size() > 1)
+      name.back() = '*';
+  };
+  Simplify_intent& intent = world.intent;
+  for (auto* names : {&intent.locked, &intent.kept})
+    std::for_each(names->begin(), names->end(), replace_last);
+  for (Simplify_intent::Part_ratio& part : intent.ratios)
+    replace_last(part.name);
+}
+
 /// Makes objects of some of what hangs together by positions, and lets the first two of them intersect. It
 /// does nothing where not enough is apart. Other random numbers, so that worlds of earlier versions stay what
 /// they were but for that.
@@ -357,7 +372,7 @@ void let_objects_intersect(World& world)
     const bool is_of_neither = object == object_of.end() || (piece == pieces[0] && t > beyond);
     soup.objects.of_triangle.push_back(is_of_neither ? 0 : object->second);
   }
-  world.may_intersect = {{"skin", "cloth"}};
+  world.may_intersect = {random.one_in(2) ? std::pair("skin", "cloth") : std::pair("s?in", "clo*")};
 }
 
 /// Gives the mesh further poses, and perhaps the obstacle: the space is sheared and turned, positions are
@@ -580,6 +595,8 @@ World random_world(std::uint64_t seed)
   if (world.seed % 3 != 0 && world.input_format == Mesh_format::obj && world.options.faces_per_cell == 0 &&
       world.weld_distance == 0 && world.open_seams != Open_seams::weld)
     let_objects_intersect(world);
+  if (world.seed % 3 == 1)
+    name_by_patterns(world);
   choose_clearance(world, 0);
   if (world.seed % 4 == 1 && !world.soup.uvs.empty()) // no random number, as above
     world.dropped.push_back("texture");
