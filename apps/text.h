@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -138,13 +139,17 @@ inline const char* name(Mismatch what)
   return "";
 }
 
-/// Describes a pair in words, with triangles counted from 1.
-inline std::string describe(const Offending_pair& pair)
+/// Describes a pair in words, with triangles counted from 1: those beyond `triangles` are of an obstacle.
+inline std::string describe(const Offending_pair& pair,
+                            std::size_t triangles = (std::numeric_limits<std::size_t>::max)())
 {
-  const std::string first = std::to_string(pair.first + 1);
+  const auto number = [&](std::size_t triangle) {
+    return triangle < triangles ? std::to_string(triangle + 1)
+                                : std::to_string(triangle - triangles + 1) + " of the obstacle";
+  };
   if (pair.first == pair.second)
-    return "triangle " + first + " is degenerate";
-  return "triangles " + first + " and " + std::to_string(pair.second + 1) +
+    return "triangle " + number(pair.first) + " is degenerate";
+  return "triangles " + number(pair.first) + " and " + number(pair.second) +
          (pair.offence == Offence::duplicate ? " have the same three corners" : " intersect");
 }
 

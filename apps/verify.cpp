@@ -37,7 +37,8 @@ struct Verify_request
   std::string mesh;
   std::string original;
   std::size_t level = 1;
-  Pose_sources poses;
+  std::string obstacle;
+  Pose_sources poses, obstacle_poses;
   std::vector<std::string> files_of_poses_of_original;
   std::string report;
   std::string html;
@@ -222,7 +223,8 @@ void print(const Verify_request& request, const Mesh_file& mesh, const Verificat
   if (verification.pairs.empty()) {
     std::cout << (verification.permitted.empty() ? "embedded: no triangles"
                                                  : "embedded, but for these parts: no other triangles")
-              << " touch or cross, and none is degenerate\n";
+              << " touch or cross" << (request.obstacle.empty() ? "" : " each other or the obstacle")
+              << ", and none is degenerate\n";
   } else {
     std::cout << "NOT embedded: " << counted(verification.pairs.size(), "offending pair");
     if (has_original)
@@ -231,7 +233,7 @@ void print(const Verify_request& request, const Mesh_file& mesh, const Verificat
     const auto& pairs =
         has_original && !verification.new_pairs.empty() ? verification.new_pairs : verification.pairs;
     for (std::size_t i = 0; i < (std::min)(pairs.size(), named); ++i)
-      std::cout << "  " << describe(pairs[i]) << '\n';
+      std::cout << "  " << describe(pairs[i], mesh.soup.triangles.size()) << '\n';
     if (pairs.size() > named)
       std::cout << "  and " << with_commas(pairs.size() - named) << " more\n";
     if (!verification.new_pairs.empty())
@@ -253,7 +255,9 @@ void print(const Verify_request& request, const Mesh_file& mesh, const Verificat
     if (has_original)
       std::cout << ", " << with_commas(pose.new_pairs.size()) << " of them not in the original";
     std::cout << ", the first: "
-              << describe(pose.new_pairs.empty() ? pose.pairs.front() : pose.new_pairs.front()) << '\n';
+              << describe(pose.new_pairs.empty() ? pose.pairs.front() : pose.new_pairs.front(),
+                          mesh.soup.triangles.size())
+              << '\n';
     if (!pose.new_pairs.empty())
       print_pairs_of_original(pose.pairs_of_original);
   }
@@ -307,9 +311,12 @@ Exit_code run(const Verify_request& request)
   const bool has_original = !request.original.empty();
   require_html(request.html);
   const std::vector<Named_file> written{{"--report", request.report}, {"--html", request.html}};
-  check_streams({{"MESH", request.mesh}, {"--against", request.original}}, {}, request.format);
-  std::vector<Named_file> read{{"MESH", request.mesh}, {"--against", request.original}};
+  std::vector<Named_file> read{
+      {"MESH", request.mesh}, {"--against", request.original}, {"--obstacle", request.obstacle}};
+  check_streams(read, {}, request.format);
+  check_obstacle_poses(request.obstacle_poses, request.obstacle, request.poses);
   append_pose_files(read, "--pose", request.poses.files, request.mesh);
+  append_pose_files(read, "--obstacle-pose", request.obstacle_poses.files, request.obstacle);
   append_pose_files(read, "--against-pose", request.files_of_poses_of_original, request.original);
   require_distinct(written, read);
   for (const Named_file& file : written)
@@ -326,6 +333,12 @@ Exit_code run(const Verify_request& request)
   require_names(request, mesh.soup);
   options.may_intersect = part_pairs(request.may_intersect, mesh.soup);
   options.clearance = request.clearance;
+  Triangle_soup obstacle;
+  if (!request.obstacle.empty()) {
+    obstacle = Mesh_input(request.obstacle, request.format).read().soup;
+    read_obstacle_poses(request.obstacle_poses, request.obstacle, request.poses, obstacle);
+  }
+  report["obstacle"] = request.obstacle.empty() ? Json(nullptr) : Json{{"path", request.obstacle}};
   if (has_original) {
     original = Mesh_input(request.original, request.format).read();
     Pose_sources of_original = request.poses;
@@ -344,14 +357,14 @@ Exit_code run(const Verify_request& request)
       share_vertices_without_normals(original.soup);
     }
     options.weld_distance = request.weld_distance;
-    verification = verify(mesh.soup, original.soup, options);
+    verification = verify(mesh.soup, original.soup, options, obstacle);
     report["original"]["rounded"] = verification->is_original_rounded;
     if (verification->is_original_rounded)
       round_to_float32(original.soup);
     comparison = compare(mesh.soup, original.soup);
     leave_out_permitted(comparison->layers.swaps, mesh.soup, options);
   } else {
-    verification = verify(mesh.soup, options);
+    verification = verify(mesh.soup, options, obstacle);
   }
   const bool is_good = has_original ? verification->accepted() && comparison->layers.swaps.empty()
                                     : verification->embedded() && verification->is_clearance_kept();
@@ -396,6 +409,7 @@ Action add_verify(CLI::App& command)
   add_poses_option(command, "--against-pose", request->files_of_poses_of_original,
                    "The same poses of the original, in the same order.")
       ->group(poses);
+  add_obstacle_pose_options(command, request->obstacle_poses, "MESH", poses);
   command
       .add_option(
           "--weld", request->weld_distance,
@@ -411,18 +425,25 @@ Action add_verify(CLI::App& command)
           "are what common positions connect.")
       ->check(positive())
       ->type_name("D");
+  command
+      .add_option(
+          "--obstacle", request->obstacle,
+          "Mesh that no triangle of MESH may touch or cross, such as a body. It is not judged itself; "
+          "with --against, what touches or crosses it in the original already may do so.")
+      ->type_name("FILE");
   add_part_pairs_option(
       command, request->may_intersect,
       "Accept that these parts of MESH intersect each other, as `simplify` was told. May be "
       "given several times.");
   add_format_option(command, request->format);
   add_report_options(command, *request);
-  add_html_option(command, request->html);
+  add_html_option(command, request->html)->excludes("--obstacle");
   Thread_limit::add_option(command, request->threads);
   command.footer(
       "Examples:\n"
       "  selvedge verify jacket.obj                        # do any triangles touch or cross?\n"
       "  selvedge verify small.obj --against jacket.obj    # is anything wrong that was not wrong before?\n"
+      "  selvedge verify small.obj --obstacle body.obj     # does it touch the body, or cut into it?\n"
       "  selvedge verify small.obj --clearance 0.002       # are any two pieces nearer than this?\n"
       "  selvedge verify small.obj --json | jq .verified.pairs\n\n"
       "Without --against the exit code is 0 when MESH is embedded: no triangles touch or cross where they "

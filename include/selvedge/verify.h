@@ -439,19 +439,24 @@ std::size_t take_out_pairs_between(const std::vector<char>& first, const std::ve
                                    std::vector<Offending_pair>& pairs);
 
 /// Judges a mesh by itself: finds its offending pairs, in every pose, and its pieces. Of the options it takes
-/// `may_intersect`.
-Verification verify(const Triangle_soup& mesh, const Verify_options& options = {});
+/// `may_intersect` and `clearance`.
+///
+/// An `obstacle`, such as the body in a garment, lies beside the mesh, in as many poses as that or in one for
+/// all. Pairs of a triangle of the mesh and one of the obstacle then count as well; triangles of the obstacle
+/// are numbered after those of the mesh. The obstacle is not judged itself, and is one piece.
+Verification verify(const Triangle_soup& mesh, const Verify_options& options = {},
+                    const Triangle_soup& obstacle = {});
 
 /// Judges a result against its original. A result in several poses is judged in each: its further poses are
 /// those of the original, in the same order, or `Argument_error` is thrown. Pieces, topology and distances
-/// are those of the first pose.
+/// are those of the first pose. `obstacle` lies beside both, as above.
 ///
 /// When all coordinates of the result are 32-bit floats and those of the original are not, the original is
 /// rounded first. So offending pairs that the original has already are recognised after the result was
 /// written to a format that stores 32-bit floats. Pairs that rounding itself makes do not count as new
 /// either.
 Verification verify(const Triangle_soup& result, const Triangle_soup& original,
-                    const Verify_options& options = {});
+                    const Verify_options& options = {}, const Triangle_soup& obstacle = {});
 
 /// Judges a result against its original, whose offending pairs the caller knows already. The original is not
 /// rounded.

@@ -568,10 +568,7 @@ Prepared_soup prepare(Triangle_soup input, const Prepare_options& options, const
     throw Argument_error(
         "gaps are not welded in several poses; weld the mesh in its own pose first, or leave "
         "out one of the two options");
-  if (!obstacle.poses.empty() && obstacle.poses.size() != input.poses.size())
-    throw Argument_error("the obstacle has " + std::to_string(obstacle.poses.size()) +
-                         " further poses and the mesh " + std::to_string(input.poses.size()) +
-                         "; give it as many, or none if it stands still");
+  require_fitting_poses(obstacle, input);
   return Preparation(std::move(input), options, obstacle).run();
 }
 

@@ -3,6 +3,10 @@
 
 #include "obstacle.h"
 
+#include <selvedge/Error.h>
+
+#include <string>
+
 namespace selvedge {
 
 void append_obstacle(Triangle_soup& soup, const Triangle_soup& obstacle)
@@ -16,6 +20,14 @@ void append_obstacle(Triangle_soup& soup, const Triangle_soup& obstacle)
     const std::vector<Point_3>& beside = points_in_pose(obstacle, pose);
     points.insert(points.end(), beside.begin(), beside.end());
   }
+}
+
+void require_fitting_poses(const Triangle_soup& obstacle, const Triangle_soup& soup)
+{
+  if (!obstacle.poses.empty() && obstacle.poses.size() != soup.poses.size())
+    throw Argument_error("the obstacle has " + std::to_string(obstacle.poses.size()) +
+                         " further poses and the mesh " + std::to_string(soup.poses.size()) +
+                         "; give it as many, or none if it stands still");
 }
 
 void remove_obstacle(Triangle_soup& soup, const Triangle_soup& obstacle)

@@ -15,6 +15,9 @@ namespace selvedge {
 /// has as many poses, or none and stands still.
 void append_obstacle(Triangle_soup& soup, const Triangle_soup& obstacle);
 
+/// Throws `Argument_error` unless an obstacle has as many poses as the soup, or none.
+void require_fitting_poses(const Triangle_soup& obstacle, const Triangle_soup& soup);
+
 /// Removes what `append_obstacle` has appended.
 void remove_obstacle(Triangle_soup& soup, const Triangle_soup& obstacle);
 

@@ -331,9 +331,12 @@ std::vector<Index> pieces_by_position(const Triangle_soup& mesh, const Numbered_
 {
   Disjoint_sets sets(mesh.triangles.size());
   unite_by_position(mesh, by_vertices, sets);
+  const std::size_t own = by_vertices.of_triangle.size();
   std::vector<Index> pieces;
   for (Index t = 0; t < mesh.triangles.size(); ++t)
-    pieces.push_back(by_vertices.of_triangle[t] == no_piece ? no_piece : Index(sets.find(t)));
+    pieces.push_back(t >= own                                 ? Index(own)
+                     : by_vertices.of_triangle[t] == no_piece ? no_piece
+                                                              : Index(sets.find(t)));
   return pieces;
 }
 

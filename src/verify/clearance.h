@@ -14,7 +14,8 @@
 namespace selvedge::internal {
 
 /// Numbers the pieces of a mesh that are connected by positions: returns the number of each triangle's, and
-/// `no_piece` for one that belongs to none by vertices.
+/// `no_piece` for one that belongs to none by vertices. Triangles without a number by vertices, which come
+/// last, are those of an obstacle, which is one piece.
 std::vector<Index> pieces_by_position(const Triangle_soup& mesh, const Numbered_pieces& by_vertices);
 
 /// Numbers the pieces of a result and of its original alike: those of the original by position, with those

@@ -68,6 +68,15 @@ void permit_of_result(const Triangle_soup& result, const Triangle_soup* original
     parts.pairs = take_out_pairs_between(triangles_of(parts.first), triangles_of(parts.second), pairs);
 }
 
+// Leaves out the pairs of an obstacle alone, whose triangles come after those of the mesh.
+void leave_out_pairs_of_obstacle(const Triangle_soup& mesh, std::vector<Offending_pair>& pairs)
+{
+  const auto is_of_obstacle = [&](const Offending_pair& pair) {
+    return (std::min)(pair.first, pair.second) >= mesh.triangles.size();
+  };
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), is_of_obstacle), pairs.end());
+}
+
 } // namespace
 
 bool are_between(const std::vector<char>& first, const std::vector<char>& second, Index a, Index b)
@@ -90,46 +99,56 @@ std::size_t take_out_pairs_between(const std::vector<char>& first, const std::ve
   return count;
 }
 
-Verification verify(const Triangle_soup& mesh, const Verify_options& options)
+Verification verify(const Triangle_soup& mesh, const Verify_options& options, const Triangle_soup& obstacle)
 {
   refuse_clearance_of_permitted(options);
+  require_fitting_poses(obstacle, mesh);
   internal::Numbered_pieces numbered;
   if (options.clearance)
     numbered = internal::numbered_pieces(mesh);
-  const auto judge_clearance_of = [&](const Triangle_soup& in_pose) -> std::optional<Clearance_verdict> {
-    if (!options.clearance)
-      return std::nullopt;
-    return internal::judge_clearance(*options.clearance, in_pose,
-                                     internal::pieces_by_position(in_pose, numbered));
-  };
   Verification verification;
-  verification.permitted = begin_permitted(options);
-  verification.clearance = judge_clearance_of(mesh);
-  tbb::parallel_invoke(
-      Cancellation_scope::inherited([&] {
-        verification.pairs = offending_pairs(mesh);
-        permit_of_result(mesh, nullptr, options, verification.pairs, verification.permitted);
-        verification.new_pairs = verification.pairs;
-        verification.poses.resize(mesh.poses.size());
-        internal::for_each_pose(mesh.poses.size(), [&](std::size_t pose) {
-          std::vector<Permitted> permitted = begin_permitted(options);
-          const Triangle_soup in_pose = geometry_in_pose(mesh, {}, pose);
-          std::vector<Offending_pair> pairs = offending_pairs(in_pose);
-          permit_of_result(mesh, nullptr, options, pairs, permitted);
-          verification.poses[pose] = {mesh.poses[pose].name, pairs, 0, pairs, judge_clearance_of(in_pose)};
-        });
-      }),
-      Cancellation_scope::inherited([&] { verification.pieces = pieces(mesh); }));
+  const auto judge = [&](const Triangle_soup& geometry, std::vector<Permitted>& permitted,
+                         std::vector<Offending_pair>& pairs, std::optional<Clearance_verdict>& clearance) {
+    permitted = begin_permitted(options);
+    pairs = offending_pairs(geometry);
+    leave_out_pairs_of_obstacle(mesh, pairs);
+    permit_of_result(mesh, nullptr, options, pairs, permitted);
+    if (options.clearance)
+      clearance = internal::judge_clearance(*options.clearance, geometry,
+                                            internal::pieces_by_position(geometry, numbered));
+  };
+  verification.poses.resize(mesh.poses.size());
+  tbb::parallel_invoke(Cancellation_scope::inherited([&] {
+                         judge(obstacle.triangles.empty() ? mesh : geometry_with_obstacle(mesh, obstacle),
+                               verification.permitted, verification.pairs, verification.clearance);
+                         verification.new_pairs = verification.pairs;
+                         internal::for_each_pose(mesh.poses.size(), [&](std::size_t pose) {
+                           Verification::In_pose& in_pose = verification.poses[pose];
+                           in_pose.name = mesh.poses[pose].name;
+                           std::vector<Permitted> permitted;
+                           judge(geometry_in_pose(mesh, obstacle, pose), permitted, in_pose.pairs,
+                                 in_pose.clearance);
+                           in_pose.new_pairs = in_pose.pairs;
+                         });
+                       }),
+                       Cancellation_scope::inherited([&] { verification.pieces = pieces(mesh); }));
   return verification;
 }
 
-Verification verify(const Triangle_soup& result, const Triangle_soup& original, const Verify_options& options)
+Verification verify(const Triangle_soup& result, const Triangle_soup& original, const Verify_options& options,
+                    const Triangle_soup& obstacle)
 {
-  if (!options.may_be_rounded || !internal::is_only_first_rounded(result, original))
-    return verify(result, original, offending_pairs(original), options);
-  const Triangle_soup rounded = internal::rounded(original);
-  Verification verification = verify(result, rounded, offending_pairs(rounded), options);
-  verification.is_original_rounded = true;
+  const bool is_rounded = options.may_be_rounded && internal::is_only_first_rounded(result, original);
+  const Triangle_soup rounded = is_rounded ? internal::rounded(original) : Triangle_soup();
+  const Triangle_soup& before = is_rounded ? rounded : original;
+  Verification verification =
+      verify(result, before,
+             offending_pairs(obstacle.triangles.empty() ? before : geometry_with_obstacle(before, obstacle)),
+             options, obstacle);
+  verification.is_original_rounded = is_rounded;
+  leave_out_pairs_of_obstacle(result, verification.pairs);
+  for (Verification::In_pose& in_pose : verification.poses)
+    leave_out_pairs_of_obstacle(result, in_pose.pairs);
   return verification;
 }
 
@@ -138,6 +157,7 @@ Verification verify(const Triangle_soup& result, const Triangle_soup& original,
                     const Triangle_soup& obstacle)
 {
   refuse_clearance_of_permitted(options);
+  require_fitting_poses(obstacle, result);
   Verification verification;
   verification.permitted = begin_permitted(options);
   std::vector<Offending_pair> pairs_of_original = all_pairs_of_original;

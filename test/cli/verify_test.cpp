@@ -89,6 +89,33 @@ TEST(App_verify, PiecesNearerThanAClearanceAreNotVerified)
   EXPECT_EQ(against("nearer.obj"), 1);
 }
 
+TEST(App_verify, WhatTouchesAnObstacleIsNotVerified)
+{
+  const Workspace folder;
+  write_text(folder / "cloth.obj", "v 0 0 1\nv 4 0 1\nv 0 4 1\nf 1 2 3\n");
+  write_text(folder / "torn.obj", "v 0 0 0.4\nv 4 0 1\nv 0 4 1\nf 1 2 3\n");
+  // Two triangles that cross each other, below the first mesh and through the second.
+  write_text(folder / "body.obj",
+             "v 0 0 0.5\nv 9 0 0.5\nv 0 9 0.5\nv 3 3 0\nv 3 3 0.9\nv 9 9 0\nf 1 2 3\nf 4 5 6\n");
+  const App_result clear = run_app({"verify", folder / "cloth.obj", "--obstacle", folder / "body.obj"});
+  EXPECT_EQ(clear.code, 0) << clear.out;
+  EXPECT_NE(clear.out.find("embedded: no triangles touch or cross each other or the obstacle"),
+            std::string::npos)
+      << clear.out;
+  const App_result torn = run_app({"verify", folder / "torn.obj", "--obstacle", folder / "body.obj"});
+  EXPECT_EQ(torn.code, 1);
+  EXPECT_NE(torn.out.find("triangles 1 and 1 of the obstacle intersect"), std::string::npos) << torn.out;
+  const auto against = [&](const char* original) {
+    return run_app(
+        {"verify", folder / "torn.obj", "--against", folder / original, "--obstacle", folder / "body.obj"});
+  };
+  EXPECT_EQ(against("cloth.obj").code, 1);
+  EXPECT_NE(against("cloth.obj").out.find("1 offending pair, 1 of them not in the original"),
+            std::string::npos);
+  EXPECT_EQ(against("torn.obj").code, 0);
+  EXPECT_EQ(run_app({"verify", folder / "torn.obj", "--obstacle", folder / "none.obj"}).code, 3);
+}
+
 TEST(App_verify, AgainstTheOriginalTopologyCounts)
 {
   const Workspace folder;

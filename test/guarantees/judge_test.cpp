@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <selvedge/Error.h>
 #include <selvedge/mesh_files.h>
 #include <selvedge/rounding.h>
 #include <selvedge/verify.h>
@@ -60,6 +61,38 @@ TEST(Judge, AcceptsTheDefectsOfAnOriginalThatWasRoundedForTheResult)
   EXPECT_EQ(verify(result, original, offending_pairs(original)).new_pairs.size(), 1u) << "the control";
   EXPECT_FALSE(verify(original, original).is_original_rounded);
   EXPECT_FALSE(verify(result, result).is_original_rounded);
+}
+
+TEST(Judge, CountsWhatTouchesAnObstacleAndNotTheObstacleItself)
+{
+  const Triangle_soup mesh = joined(sheet(3, 3, 2), sheet(3, 3, -2)),
+                      obstacle = joined(crossing(), tetrahedron());
+  EXPECT_FALSE(verify(obstacle).embedded());
+  EXPECT_TRUE(verify(mesh, {}, obstacle).embedded());
+  const Triangle_soup low = joined(sheet(3, 3, 2), sheet(3, 3, 0.25));
+  const Verification found = verify(low, {}, obstacle);
+  EXPECT_FALSE(found.embedded());
+  for (const Offending_pair& pair : found.pairs) {
+    EXPECT_LT(pair.first, low.triangles.size());
+    EXPECT_GE(pair.second, low.triangles.size());
+  }
+  EXPECT_EQ(verify(low, mesh, {}, obstacle).new_pairs.size(), found.pairs.size());
+  EXPECT_TRUE(verify(low, low, {}, obstacle).accepted());
+  EXPECT_EQ(verify(low, low, {}, obstacle).pairs.size(), found.pairs.size());
+  Verify_options near;
+  near.clearance = 0.5;
+  EXPECT_TRUE(verify(mesh, near, obstacle).is_clearance_kept());
+  near.clearance = 2.5; // to the sheet below
+  EXPECT_FALSE(verify(mesh, near, obstacle).is_clearance_kept());
+  EXPECT_TRUE(verify(mesh, mesh, near, obstacle).is_clearance_kept());
+  Triangle_soup moving = mesh;
+  moving.poses = {{"down", low.points}};
+  const Verification in_poses = verify(moving, {}, obstacle);
+  EXPECT_TRUE(in_poses.pairs.empty());
+  EXPECT_EQ(in_poses.poses[0].pairs.size(), found.pairs.size());
+  Triangle_soup twice = obstacle;
+  twice.poses = {{"a", obstacle.points}, {"b", obstacle.points}};
+  EXPECT_THROW(verify(moving, {}, twice), Argument_error);
 }
 
 TEST(Judge, RefusesANewPair)

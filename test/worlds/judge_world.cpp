@@ -118,6 +118,27 @@ Verdict judge_ties(const World& world, const World_run& run)
   return std::nullopt;
 }
 
+/// Judged alone beside the obstacle, the result has the same offending pairs.
+Verdict judge_beside_obstacle(const World& world, const World_run& run)
+{
+  if (run.prepared.obstacle.triangles.empty())
+    return std::nullopt;
+  Verify_options options;
+  options.may_intersect = world.may_intersect;
+  const auto pairs_of = [&](const std::vector<Offending_pair>& pairs) {
+    std::set<std::pair<Index, Index>> own;
+    for (const Offending_pair& pair : pairs)
+      if (std::min(pair.first, pair.second) < run.result.soup.triangles.size())
+        own.insert(std::minmax(Index(pair.first), Index(pair.second)));
+    return own;
+  };
+  const std::vector<Offending_pair> alone = verify(run.result.soup, options, run.prepared.obstacle).pairs;
+  if (pairs_of(alone) == pairs_of(run.verification.pairs) && pairs_of(alone).size() == alone.size())
+    return std::nullopt;
+  return Broken_promise{Promise::verdict, "judged alone, the result has " + std::to_string(alone.size()) +
+                                              " offending pairs with the obstacle"};
+}
+
 /// One reduction of what is prepared; the complex is as it was before it.
 Verdict judge_reduction(const World& world, const World_run& run, Judged_complex complex,
                         Judgement_counts& counts)
@@ -177,7 +198,7 @@ Verdict judge_reduction(const World& world, const World_run& run, Judged_complex
                               (run.verification.same_topology() ? "kept" : "changed") +
                               (mismatches.empty() ? "" : ", " + mismatches.front().message)};
   }
-  return std::nullopt;
+  return judge_beside_obstacle(world, run);
 }
 
 /// The same collapses in each further pose.
