@@ -259,7 +259,8 @@ struct Verify_options
   bool may_be_rounded = true;
 
   /// For every triangle of the result, the triangle of the original that it was, when the caller knows: as
-  /// `Simplified_soup::triangles` says. Empty when nobody does.
+  /// `Simplified_soup::triangles` says. Empty when nobody does. `Argument_error` is thrown for a list of
+  /// another length, or with a number that the original does not have.
   std::vector<Index> triangles_of_original;
 
   /// The collapses that led from the original to the result, when its pairs were allowed to descend from

@@ -13,6 +13,7 @@
 #include "files/formats.h"
 #include "files/gzip.h"
 #include "soup/Gltf_scene.h"
+#include "soup/check_soup.h"
 #include "soup/first_alike.h"
 #include "soup/flat_shading.h"
 
@@ -115,17 +116,20 @@ Mesh_file with_shared_vertices(Mesh_file file)
 
 void check_writable(const Triangle_soup& soup, Mesh_format format, const Write_options& options)
 {
+  check_arrays(soup, "the mesh");
   const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
   for (const std::string& comment : options.comments)
     if (std::any_of(comment.begin(), comment.end(), is_control))
       throw Argument_error("a comment for a mesh file holds a control character or is more than one line");
+  for (const std::string& comment : soup.header_comments)
+    if (comment.find_first_of("\n\r") != std::string::npos)
+      throw Argument_error("a comment of the header is more than one line");
   for (const Point_3& point : soup.points)
     for (int axis = 0; axis < 3; ++axis)
-      if (!std::isfinite(point[axis]) || (needs_float32(soup, format) && !is_float32(point[axis])))
+      if (needs_float32(soup, format) && !is_float32(point[axis]))
         throw Argument_error("vertex " + std::to_string(&point - soup.points.data()) +
-                             " (counted from 0) has a coordinate that " +
-                             (std::isfinite(point[axis]) ? "is no 32-bit float; call round_to_float32 first"
-                                                         : "is not finite"));
+                             " (counted from 0) has a coordinate that is no 32-bit float; call "
+                             "round_to_float32 first");
 }
 
 std::vector<std::string> not_carried_by_gltf(const Triangle_soup& soup)

@@ -18,7 +18,7 @@ class Soup_check
 public:
   Soup_check(const Triangle_soup& soup, const std::string& what) : m_soup(soup), m_what(what) {}
 
-  void run() const
+  void check_geometry() const
   {
     for (std::size_t v = 0; v < m_soup.points.size(); ++v)
       for (int axis = 0; axis < 3; ++axis)
@@ -32,6 +32,16 @@ public:
             refuse("vertex", v, "has a coordinate that is not finite in the pose '" + pose.name + "'");
     }
     check_corners(m_soup.triangles, m_soup.points.size(), "points");
+  }
+
+  void check_arrays() const
+  {
+    check_geometry();
+    for (std::size_t i = 0; i < m_soup.uvs.values.size(); ++i)
+      if (i != m_soup.uvs.missing)
+        for (const double coordinate : m_soup.uvs.values[i])
+          if (!std::isfinite(coordinate))
+            refuse("texture coordinate", i, "is not finite");
     check_values(m_soup.uvs, "uvs");
     check_values(m_soup.normals, "normals");
     check_labels(m_soup.groups, "groups");
@@ -40,9 +50,14 @@ public:
     check_labels(m_soup.smoothing_groups, "smoothing_groups");
     check_attributes(m_soup.vertex_attributes, m_soup.points.size());
     check_attributes(m_soup.triangle_attributes, m_soup.triangles.size());
-    check_polygons();
     if (m_soup.scene)
       check_size(m_soup.scene_vertices.size(), m_soup.points.size(), "scene_vertices");
+  }
+
+  void check_all() const
+  {
+    check_arrays();
+    check_polygons();
   }
 
 private:
@@ -125,7 +140,17 @@ private:
 
 void check_soup(const Triangle_soup& soup, const std::string& what)
 {
-  Soup_check(soup, what).run();
+  Soup_check(soup, what).check_all();
+}
+
+void check_arrays(const Triangle_soup& soup, const std::string& what)
+{
+  Soup_check(soup, what).check_arrays();
+}
+
+void check_geometry(const Triangle_soup& soup, const std::string& what)
+{
+  Soup_check(soup, what).check_geometry();
 }
 
 } // namespace selvedge

@@ -14,6 +14,12 @@ namespace selvedge {
 /// `what` and names the array and the element. O(n).
 void check_soup(const Triangle_soup& soup, const std::string& what);
 
+/// The same for all but the polygons.
+void check_arrays(const Triangle_soup& soup, const std::string& what);
+
+/// The same for points, poses and triangles alone.
+void check_geometry(const Triangle_soup& soup, const std::string& what);
+
 } // namespace selvedge
 
 #endif // SELVEDGE_SOUP_CHECK_SOUP_H

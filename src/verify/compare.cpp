@@ -10,6 +10,7 @@
 #include "kept_attributes.h"
 #include "layer_order.h"
 #include "lines.h"
+#include "soup/check_soup.h"
 #include "soup/obstacle.h"
 
 #include <oneapi/tbb/parallel_invoke.h>
@@ -141,6 +142,8 @@ Distances_anywhere distances_anywhere(const Triangle_soup& result, const Triangl
 
 Comparison compare(const Triangle_soup& result, const Triangle_soup& original)
 {
+  check_arrays(result, "the result");
+  check_arrays(original, "the original");
   Comparison comparison;
   const Diagonal diagonal(original);
   comparison.diagonal = diagonal.length();

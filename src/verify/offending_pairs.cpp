@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include "soup/check_soup.h"
 #include "verify/Triangle_tree.h"
 
 #include <selvedge/Cancellation_scope.h>
@@ -223,6 +224,7 @@ private:
 
 std::vector<Offending_pair> offending_pairs(const Triangle_soup& soup)
 {
+  check_geometry(soup, "the mesh");
   tbb::enumerable_thread_specific<std::vector<Offending_pair>> found;
   Judge(soup).judge([&](const Offending_pair& pair) { found.local().push_back(pair); });
   std::vector<Offending_pair> pairs;
@@ -238,6 +240,7 @@ std::vector<Offending_pair> offending_pairs(const Triangle_soup& soup)
 
 bool is_embedded(const Triangle_soup& soup)
 {
+  check_geometry(soup, "the mesh");
   // Thrown to end the search, by whichever thread finds the first pair.
   struct Found
   {

@@ -6,6 +6,7 @@
 #include "sides.h"
 
 #include "soup/Disjoint_sets.h"
+#include "soup/check_soup.h"
 
 #include <selvedge/Cancellation_scope.h>
 
@@ -136,6 +137,7 @@ Numbered_pieces internal::numbered_pieces(const Triangle_soup& soup, const Index
 
 std::vector<Piece> pieces(const Triangle_soup& soup)
 {
+  check_geometry(soup, "the mesh");
   return numbered_pieces(soup).pieces;
 }
 

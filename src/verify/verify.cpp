@@ -8,6 +8,7 @@
 #include "clearance.h"
 #include "for_each_pose.h"
 #include "rounded.h"
+#include "soup/check_soup.h"
 #include "soup/obstacle.h"
 #include "triangles_of_part.h"
 
@@ -33,10 +34,28 @@ std::vector<Permitted> begin_permitted(const Verify_options& options)
   return permitted;
 }
 
-void refuse_clearance_of_permitted(const Verify_options& options)
+void check_options(const Verify_options& options)
 {
+  if (!(options.weld_distance >= 0))
+    throw Argument_error("the length within which borders may have been joined is a number of at least 0");
   if (options.clearance && !options.may_intersect.empty())
     throw Argument_error("parts that may intersect have no clearance; leave out one of the two options");
+}
+
+void require_triangles(const std::vector<Index>& of_original, const Triangle_soup& result,
+                       const Triangle_soup& original)
+{
+  if (of_original.empty())
+    return;
+  if (of_original.size() != result.triangles.size())
+    throw Argument_error("the result has " + std::to_string(result.triangles.size()) +
+                         " triangles, and triangles_of_original names " + std::to_string(of_original.size()));
+  for (std::size_t t = 0; t < of_original.size(); ++t)
+    if (of_original[t] >= original.triangles.size())
+      throw Argument_error("triangle " + std::to_string(t) +
+                           " (counted from 0) of the result is said to be number " +
+                           std::to_string(of_original[t]) + " of the " +
+                           std::to_string(original.triangles.size()) + " of the original");
 }
 
 // Takes out what may intersect by the names of the original.
@@ -101,7 +120,9 @@ std::size_t take_out_pairs_between(const std::vector<char>& first, const std::ve
 
 Verification verify(const Triangle_soup& mesh, const Verify_options& options, const Triangle_soup& obstacle)
 {
-  refuse_clearance_of_permitted(options);
+  check_arrays(mesh, "the mesh");
+  check_geometry(obstacle, "the obstacle");
+  check_options(options);
   require_fitting_poses(obstacle, mesh);
   internal::Numbered_pieces numbered;
   if (options.clearance)
@@ -138,6 +159,8 @@ Verification verify(const Triangle_soup& mesh, const Verify_options& options, co
 Verification verify(const Triangle_soup& result, const Triangle_soup& original, const Verify_options& options,
                     const Triangle_soup& obstacle)
 {
+  check_arrays(result, "the result");
+  check_arrays(original, "the original");
   const bool is_rounded = options.may_be_rounded && internal::is_only_first_rounded(result, original);
   const Triangle_soup rounded = is_rounded ? internal::rounded(original) : Triangle_soup();
   const Triangle_soup& before = is_rounded ? rounded : original;
@@ -156,7 +179,11 @@ Verification verify(const Triangle_soup& result, const Triangle_soup& original,
                     const std::vector<Offending_pair>& all_pairs_of_original, const Verify_options& options,
                     const Triangle_soup& obstacle)
 {
-  refuse_clearance_of_permitted(options);
+  check_arrays(result, "the result");
+  check_arrays(original, "the original");
+  check_geometry(obstacle, "the obstacle");
+  check_options(options);
+  require_triangles(options.triangles_of_original, result, original);
   require_fitting_poses(obstacle, result);
   Verification verification;
   verification.permitted = begin_permitted(options);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <selvedge/Error.h>
+#include <selvedge/compare.h>
 #include <selvedge/mesh_files.h>
 #include <selvedge/rounding.h>
 #include <selvedge/verify.h>
@@ -11,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <limits>
 #include <ostream>
 
 namespace selvedge {
@@ -93,6 +95,37 @@ TEST(Judge, CountsWhatTouchesAnObstacleAndNotTheObstacleItself)
   Triangle_soup twice = obstacle;
   twice.poses = {{"a", obstacle.points}, {"b", obstacle.points}};
   EXPECT_THROW(verify(moving, {}, twice), Argument_error);
+}
+
+TEST(Judge, RefusesSoupsThatAreNoMeshes)
+{
+  using Limits = std::numeric_limits<double>;
+  const Triangle_soup mesh = sheet(3, 3);
+  std::vector<Triangle_soup> wrong;
+  for (const double number : {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity()})
+    for (const Point_3& point : {Point_3(number, 0, 0), Point_3(0, number, 0), Point_3(0, 0, number)}) {
+      wrong.push_back(mesh);
+      wrong.back().points[5] = point;
+      wrong.push_back(mesh);
+      wrong.back().poses = {{"a", wrong[wrong.size() - 2].points}};
+    }
+  wrong.push_back(mesh);
+  wrong.back().triangles[4][1] = Index(mesh.points.size());
+  for (const Triangle_soup& soup : wrong) {
+    EXPECT_THROW(offending_pairs(soup), Argument_error);
+    EXPECT_THROW(is_embedded(soup), Argument_error);
+    EXPECT_THROW(pieces(soup), Argument_error);
+    EXPECT_THROW(verify(soup), Argument_error);
+    EXPECT_THROW(verify(soup, mesh), Argument_error);
+    EXPECT_THROW(verify(mesh, soup), Argument_error);
+    EXPECT_THROW(verify(mesh, {}, soup), Argument_error);
+    EXPECT_THROW(compare(soup, mesh), Argument_error);
+  }
+  Verify_options options;
+  options.triangles_of_original = {0, 1};
+  EXPECT_THROW(verify(mesh, mesh, options), Argument_error);
+  options.triangles_of_original.assign(mesh.triangles.size(), Index(mesh.triangles.size()));
+  EXPECT_THROW(verify(mesh, mesh, options), Argument_error);
 }
 
 TEST(Judge, RefusesANewPair)

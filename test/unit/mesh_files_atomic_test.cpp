@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <fstream>
 #include <string>
@@ -91,6 +92,30 @@ TEST(AtomicFile, FullDiskLeavesTheOldFileAndNothingElse)
     EXPECT_GT(fs::file_size(folder / name), 100000u);
     EXPECT_EQ(files_in(folder.path()), 1u);
   }
+}
+
+TEST(AtomicFile, IsNotWrittenForASoupWhoseArraysDoNotFit)
+{
+  const auto expect_refused = [](const char* what, const auto& spoil) {
+    SCOPED_TRACE(what);
+    Triangle_soup soup = strip();
+    const Index count = Index(soup.triangles.size());
+    soup.groups = soup.materials = {std::vector<Index>(count, 0), {"a"}};
+    soup.uvs = {{{0, 0}}, std::vector<Index_triple>(count, {0, 0, 0})};
+    spoil(soup);
+    for (const char* name : {"m.obj", "m.off", "m.ply", "m.stl", "m.glb"}) {
+      const Temporary_folder folder;
+      EXPECT_THROW(write_mesh(folder / name, soup), Argument_error) << name;
+      EXPECT_EQ(files_in(folder.path()), 0u);
+    }
+  };
+  expect_refused("labels", [](Triangle_soup& soup) { soup.groups.of_triangle.pop_back(); });
+  expect_refused("name", [](Triangle_soup& soup) { soup.materials.of_triangle[7] = 1; });
+  expect_refused("uvs", [](Triangle_soup& soup) { soup.uvs.of_triangle.pop_back(); });
+  expect_refused("uv", [](Triangle_soup& soup) { soup.uvs.of_triangle[7][1] = 1; });
+  expect_refused("not finite", [](Triangle_soup& soup) { soup.uvs.values[0][1] = std::nan(""); });
+  expect_refused("corner", [](Triangle_soup& soup) { soup.triangles[7][1] = Index(soup.points.size()); });
+  expect_refused("comment", [](Triangle_soup& soup) { soup.header_comments = {"a\nend_header"}; });
 }
 
 TEST(AtomicFile, FullDiskLeavesNoNewFile)
