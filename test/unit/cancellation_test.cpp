@@ -238,8 +238,23 @@ TEST(Cancellation, LeavesFilesAsTheyWere)
   }
 }
 
-// With `should_stop` a reduction ends where it is, whichever question it is; it has not asked the scope since
-// it began.
+// A hook for progress alone does not keep the scope from being asked.
+TEST(Cancellation, EndsAReductionWhoseProgressIsReported)
+{
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const Prepared_soup prepared = prepare(skirt(9000));
+  Simplify_options options = to_ratio(0.1);
+  std::size_t calls = 0, last = 0;
+  options.should_stop = [&](const Simplify_progress& now) {
+    last = now.faces;
+    return ++calls == 0;
+  };
+  const Cancellation_scope scope([&] { return calls > 1000; });
+  EXPECT_THROW(simplify_soup(prepared, options), Interrupted);
+  EXPECT_GT(last, prepared.soup.triangles.size() / 2);
+}
+
+// With `should_stop` a reduction ends where it is, whichever question it is.
 TEST(Cancellation, KeepsWhatAReductionHasReachedWhereThatIsWanted)
 {
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);

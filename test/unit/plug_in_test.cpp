@@ -106,6 +106,52 @@ TEST(Simplify_mesh, KeepsVerticesWhoseMotionsItsObserverMakesCostly)
   EXPECT_LT(left_of_the_middle(plain), 0.8 * double(before));
 }
 
+TEST(Simplify_mesh, MeasuresByTheVerticesThatItsFacesUse)
+{
+  for (const Placement placement : {Placement::vertices, Placement::optimal}) {
+    Mesh mesh = waves(), with_another = mesh;
+    with_another.add_vertex({1e4, 0, 0});
+    Simplify_options options;
+    options.max_error = 0.001;
+    options.placement = placement;
+    simplify_mesh(mesh, options);
+    simplify_mesh(with_another, options);
+    EXPECT_LT(mesh.number_of_faces(), waves().number_of_faces());
+    EXPECT_EQ(with_another.number_of_faces(), mesh.number_of_faces());
+  }
+}
+
+/// Places one vertex in three nowhere.
+struct Place_nowhere
+{
+  using Point = Point_3;
+  template <class Profile>
+  boost::optional<Point> operator()(const Profile& profile) const
+  {
+    const Point middle = CGAL::midpoint(profile.p0(), profile.p1());
+    const double nowhere[] = {std::numeric_limits<double>::quiet_NaN(),
+                              std::numeric_limits<double>::infinity()};
+    return std::size_t(profile.v0()) % 3 == 0 ? Point(middle.x(), nowhere[std::size_t(profile.v1()) % 2], 0)
+                                              : middle;
+  }
+};
+
+TEST(Edge_collapse, TakesAPlaceThatIsNotFiniteForNone)
+{
+  for (const bool is_own : {false, true}) {
+    Mesh mesh = waves();
+    const auto before = num_edges(mesh);
+    Intersection_filter<Mesh> filter(mesh);
+    EXPECT_GT(
+        collapse(is_own, mesh,
+                 CGAL::parameters::get_placement(Place_nowhere()).filter(filter).visitor(filter.visitor())),
+        0);
+    EXPECT_LT(mesh.number_of_edges(), before);
+    for (const auto v : mesh.vertices())
+      EXPECT_TRUE(std::isfinite(mesh.point(v).y()));
+  }
+}
+
 TEST(Visitor_chain, CallsAllVisitorsInEitherLoop)
 {
   for (const bool is_own : {true, false}) {

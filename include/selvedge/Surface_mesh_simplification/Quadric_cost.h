@@ -9,6 +9,7 @@
 #include <selvedge/Surface_mesh_simplification/Quadric_cost_options.h>
 #include <selvedge/Surface_mesh_simplification/internal/Symmetric_quadric.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
+#include <selvedge/Surface_mesh_simplification/internal/mesh_diagonal.h>
 #include <selvedge/Surface_mesh_simplification/internal/relative_face_weight.h>
 #include <selvedge/internal/instructions.h>
 #include <selvedge/internal/saturated_float.h>
@@ -210,9 +211,7 @@ public:
   {
     if (m_state->is_initialised)
       return;
-    CGAL::Bbox_3 box;
-    for (const Vertex v : vertices(mesh))
-      box += get(points, v).bbox();
+    const CGAL::Bbox_3 box = internal::bounding_box(mesh, points);
     for (int i = 0; i < 3 && (box.min)(i) <= (box.max)(i); ++i)
       m_state->origin[std::size_t(i)] = 0.5 * (box.min)(i) + 0.5 * (box.max)(i);
     if (!(m_state->diagonal > 0))

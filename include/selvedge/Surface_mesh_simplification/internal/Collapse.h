@@ -6,10 +6,12 @@
 
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
 
+#include <CGAL/Bbox_3.h>
 #include <CGAL/Kernel/global_functions.h>
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/iterator.h>
 
+#include <cmath>
 #include <vector>
 
 namespace selvedge {
@@ -52,6 +54,13 @@ public:
   Collapse(const Profile& profile, const Point& place)
       : Collapse(profile, place, place != profile.p0(), place != profile.p1(), is_v0_nearer(profile, place))
   {
+  }
+
+  /// Returns whether all coordinates of a place are finite: there is no collapse to any other.
+  static bool is_place(const Point& place)
+  {
+    const CGAL::Bbox_3 box = place.bbox();
+    return std::isfinite(box.x_span()) && std::isfinite(box.y_span()) && std::isfinite(box.z_span());
   }
 
   const Profile& profile() const { return *m_profile; }

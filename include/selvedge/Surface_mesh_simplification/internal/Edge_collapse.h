@@ -211,6 +211,7 @@ private:
   // Takes the cheapest edge from the queue and collapses it if allowed. Returns whether the loop goes on.
   bool try_cheapest()
   {
+    m_poll();
     if (m_expected_collapses > 0 && m_queue.are_merged_classes_gone())
       merge_classes();
     const auto [cost, edge_id] = m_queue.pop();
@@ -474,7 +475,8 @@ private:
   {
     if constexpr (Has_choice<Placement, Cost>::value)
       return m_placement.collapse(of_edge, record.at);
-    else if (const Optional_point placement = placement_of(of_edge, record))
+    else if (const Optional_point placement = placement_of(of_edge, record);
+             placement && Collapse_of_edge::is_place(*placement))
       return Collapse_of_edge(of_edge, *placement);
     else
       return {};
@@ -506,6 +508,8 @@ private:
   bool m_is_geometry_tested;
   std::size_t m_expected_collapses; // still to come; 0 when this is not known, or no longer of use
   float m_front = 0;                // the cost of the edge taken last from the queue
+
+  Cancellation_poll m_poll;
 
   std::vector<Halfedge> m_halfedges;  // by edge
   std::vector<Edge_record> m_records; // by edge

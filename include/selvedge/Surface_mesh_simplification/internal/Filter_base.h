@@ -84,8 +84,9 @@ public:
   template <class Profile, class OptionalPoint>
   OptionalPoint operator()(const Profile& profile, const OptionalPoint& placement) const
   {
-    return placement && derived().allows(Collapse<Profile>(profile, *placement)) ? placement
-                                                                                 : OptionalPoint();
+    const bool is_allowed = placement && Collapse<Profile>::is_place(*placement) &&
+                            derived().allows(Collapse<Profile>(profile, *placement));
+    return is_allowed ? placement : OptionalPoint();
   }
 
   /// The same for a loop that passes each collapse as a value, which says which end moves.

@@ -255,7 +255,7 @@ private:
       const auto total = targets().total();
       if (m_options.should_stop)
         m_report.is_stopped = m_options.should_stop({m_report.faces_input, total.target, total.faces});
-      else
+      if (!m_report.is_stopped)
         Cancellation_scope::check();
       return m_report.is_stopped;
     });

@@ -27,12 +27,15 @@ inline double diagonal_of(const CGAL::Bbox_3& box)
   return box.xmin() <= box.xmax() ? std::hypot(box.x_span(), box.y_span(), box.z_span()) : 0;
 }
 
-/// Returns the bounding box of a mesh. Throws `Argument_error` when a coordinate is not finite.
+/// Returns the bounding box of the vertices of a mesh that its faces use. Throws `Argument_error` when a
+/// coordinate of these is not finite.
 template <class TriangleMesh, class VertexPointMap>
 CGAL::Bbox_3 bounding_box(const TriangleMesh& mesh, const VertexPointMap& points)
 {
   CGAL::Bbox_3 box;
   for (const auto v : vertices(mesh)) {
+    if (halfedge(v, mesh) == boost::graph_traits<TriangleMesh>::null_halfedge())
+      continue;
     const CGAL::Bbox_3 of_point = get(points, v).bbox();
     for (int i = 0; i < 3; ++i)
       if (!std::isfinite(of_point.max(i)))
