@@ -279,7 +279,35 @@ private:
       for (Json& channel : animation["channels"])
         if (is_of_weights(channel) && node_of(channel) == n)
           channel["target"]["node"] = number;
+    follow_mesh(n, number);
     return number;
+  }
+
+  // Has VRM 1, and animations by pointers to weights, name another node for a mesh.
+  void follow_mesh(std::size_t from, std::size_t to)
+  {
+    const auto follow = [&](Json& entries) {
+      for (Json& entry : entries)
+        if (member(entry, "node") == from)
+          entry["node"] = to;
+    };
+    const Json::json_pointer annotations("/extensions/VRMC_vrm/firstPerson/meshAnnotations");
+    if (m_document.contains(annotations))
+      follow(m_document[annotations]);
+    for (const char* kind : {"preset", "custom"}) {
+      const Json::json_pointer expressions(std::string("/extensions/VRMC_vrm/expressions/") + kind);
+      if (m_document.contains(expressions))
+        for (Json& expression : m_document[expressions])
+          if (expression.is_object() && expression.contains("morphTargetBinds"))
+            follow(expression["morphTargetBinds"]);
+    }
+    const Json::json_pointer pointer("/target/extensions/KHR_animation_pointer/pointer");
+    const std::string before = "/nodes/" + std::to_string(from) + "/weights";
+    for (Json& animation : list("animations"))
+      for (Json& channel : animation["channels"])
+        if (channel.contains(pointer) && channel[pointer].is_string())
+          if (const std::string text = channel[pointer]; text.compare(0, before.size(), before) == 0)
+            channel[pointer] = "/nodes/" + std::to_string(to) + "/weights" + text.substr(before.size());
   }
 
   // Returns a list of the document; an empty one when it is not there.

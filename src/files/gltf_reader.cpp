@@ -108,8 +108,22 @@ private:
     Json* json; // says which mesh it is
   };
 
+  // Whether a transform brings all to one point, as that of a node does which an animation hides.
+  static bool hides_all(const Matrix& to_world)
+  {
+    return std::all_of(to_world.begin(), to_world.end(),
+                       [](const auto& row) { return row[0] == 0 && row[1] == 0 && row[2] == 0; });
+  }
+
+  // Returns the places of the scene where a mesh can be seen. Where it is hidden, it stays as it is, or
+  // becomes what it becomes elsewhere.
   std::vector<Place> places()
   {
+    const auto add_unless_hidden = [&](std::vector<Place>& list, Place place) {
+      if (model().nodes[place.node].skin == -1 && hides_all(place.to_world))
+        return remark("places where a mesh is scaled to nothing, neither reduced nor judged there");
+      list.push_back(std::move(place));
+    };
     std::vector<Place> result;
     m_scene->instanced_nodes.reserve(m_document.instances.size()); // places point into it
     double rows = 0, bytes = 0;
@@ -121,7 +135,7 @@ private:
       Json& node = json()["nodes"][n];
       const auto found = m_document.instances.find(n);
       if (found == m_document.instances.end()) {
-        result.push_back({n, identity_matrix, *m_document.to_world[n], &node});
+        add_unless_hidden(result, {n, identity_matrix, *m_document.to_world[n], &node});
         continue;
       }
       rows += double(found->second.size()) * rows_of(model().meshes[model().nodes[n].mesh]);
@@ -136,7 +150,7 @@ private:
         instances.back()["mesh"] = node["mesh"];
       }
       for (std::size_t i = 0; i < instances.size(); ++i)
-        result.push_back({n, found->second[i].in_node, found->second[i].to_world, &instances[i]});
+        add_unless_hidden(result, {n, found->second[i].in_node, found->second[i].to_world, &instances[i]});
       remark("instances of EXT_mesh_gpu_instancing", instances.size());
     }
     return result;

@@ -165,7 +165,7 @@ private:
       return;
     const std::vector<Index> in_all = number_positions_of_both();
     m_prepared.is_held.assign(in_all.size(), false);
-    const auto hold = [&](const std::vector<Index>& here, const std::string& where) {
+    const auto hold = [&](const std::vector<Index>& here, const std::string& where, const char* mend) {
       std::vector<Index> first(here.size(), s_none); // by position here, of those in all poses
       std::vector<char> is_several(here.size(), false);
       const auto refuse_if_degenerate = [&](const std::vector<Index_triple>& triangles, Index first_vertex,
@@ -173,10 +173,8 @@ private:
         for (const Index_triple& triangle : triangles) {
           const auto& [a, b, c] = triangle;
           if (has_two_corners_at_one_position({a + first_vertex, b + first_vertex, c + first_vertex}, here))
-            throw Input_error(
-                "triangle " + std::to_string(&triangle - triangles.data() + 1) + whose +
-                " has two corners at one position " + where +
-                " and not in all poses; leave out this pose (--without-pose), or part the corners");
+            throw Input_error("triangle " + std::to_string(&triangle - triangles.data() + 1) + whose +
+                              " has two corners at one position " + where + " and not in all poses; " + mend);
         }
       };
       refuse_if_degenerate(soup().triangles, 0, "");
@@ -195,9 +193,12 @@ private:
           m_prepared.is_held[v] |= is_several[here[v]];
         }
     };
-    hold(number_positions_of_both(soup().points, obstacle().points), "in the first pose");
+    hold(number_positions_of_both(soup().points, obstacle().points),
+         "in the first pose, which is the mesh's own,",
+         "part the corners, remove the triangle, or give no poses");
     for (std::size_t pose = 0; pose < soup().poses.size(); ++pose)
-      hold(number_positions_in(pose), "in the pose '" + soup().poses[pose].name + "'");
+      hold(number_positions_in(pose), "in the pose '" + soup().poses[pose].name + "'",
+           "leave out this pose (--without-pose), or part the corners");
   }
 
   // Takes out the pairs between parts that may intersect, and returns how many there were for each. The

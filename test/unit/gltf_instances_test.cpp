@@ -74,6 +74,37 @@ TEST(Gltf, InstancesStayInstancesWhereTheyAreShared)
   }
 }
 
+// An animation hides a mesh by scaling its node to nothing, and shows it so.
+TEST(Gltf, AMeshThatIsScaledToNothingStays)
+{
+  const Temporary_folder folder;
+  for (const bool is_shared : {false, true}) {
+    SCOPED_TRACE(is_shared);
+    Document before = waves_in_places();
+    if (!is_shared)
+      before.json["meshes"].push_back(before.json["meshes"][0]);
+    before.json["nodes"].push_back(
+        {{"name", "hidden"}, {"mesh", is_shared ? 0 : 1}, {"scale", {0, 0, 0}}, {"translation", {1, 2, 3}}});
+    before.json["scenes"][0]["nodes"].push_back(2);
+    Mesh_file file = read_glb(before);
+    EXPECT_EQ(file.soup.triangles.size(), read_glb(waves_in_places()).soup.triangles.size());
+    EXPECT_EQ(file.notes.remarks.count(
+                  "places where a mesh is scaled to nothing, neither reduced nor judged there"),
+              1u);
+    const Simplified_soup reduced = reduce(file.soup, 0.2, Placement::vertices, Instances::shared);
+    EXPECT_EQ(reduced.shared_places, 3u);
+    write_mesh(folder / "a.glb", reduced.soup);
+    const Json after = from_glb(contents(folder / "a.glb")).json;
+    EXPECT_EQ(after["nodes"][0], before.json["nodes"][0]) << "the others are instances as before";
+    ASSERT_TRUE(after["nodes"][2].contains("mesh"));
+    const Json& hidden = after["meshes"][after["nodes"][2]["mesh"].get<std::size_t>()];
+    const std::size_t indices =
+        after["accessors"][hidden["primitives"][0]["indices"].get<std::size_t>()]["count"];
+    const std::size_t all = read_glb(waves_in_places()).soup.triangles.size();
+    EXPECT_EQ(indices, is_shared ? reduced.soup.triangles.size() : all);
+  }
+}
+
 // Files share accessors among meshes that differ in their material.
 TEST(Gltf, MeshesWithTheSameAccessorsAreReducedAlike)
 {

@@ -203,6 +203,15 @@ TEST(Gltf_levels, StandBelowNodesThatDoMoreThanShowAMesh)
        {"output", animation["samplers"][0]["input"]}});
   for (const int node : {1, 2})
     animation["channels"].push_back({{"sampler", 1}, {"target", {{"node", node}, {"path", "weights"}}}});
+  // What an avatar, and an animation by a pointer, say of the nodes of meshes.
+  before.json["extensionsUsed"] = {"VRMC_vrm", "KHR_animation_pointer"};
+  Json& avatar = before.json["extensions"]["VRMC_vrm"];
+  avatar["expressions"]["preset"]["aa"]["morphTargetBinds"] = {{{"node", 2}, {"index", 0}, {"weight", 1}},
+                                                               {{"node", 1}, {"index", 0}, {"weight", 1}}};
+  avatar["firstPerson"]["meshAnnotations"] = {{{"node", 2}, {"type", "auto"}}};
+  Json pointer = {{"sampler", 1}, {"target", {{"path", "pointer"}}}};
+  pointer["target"]["extensions"]["KHR_animation_pointer"]["pointer"] = "/nodes/2/weights";
+  before.json["animations"].push_back({{"samplers", animation["samplers"]}, {"channels", {pointer}}});
   const Temporary_folder folder;
   write_bytes(folder / "in.glb", to_glb(before));
   Triangle_soup soup = read_mesh(folder / "in.glb").soup;
@@ -224,6 +233,13 @@ TEST(Gltf_levels, StandBelowNodesThatDoMoreThanShowAMesh)
     EXPECT_FALSE(after["nodes"][child].contains("translation") || after["nodes"][child].contains("matrix"));
   }
   EXPECT_EQ(after["nodes"][number.at("right_LOD1")]["weights"], Json({0.25}));
+  const Json& seen = after["extensions"]["VRMC_vrm"];
+  const std::size_t right = number.at("right");
+  EXPECT_EQ(seen["expressions"]["preset"]["aa"]["morphTargetBinds"][0]["node"], right);
+  EXPECT_EQ(seen["expressions"]["preset"]["aa"]["morphTargetBinds"][1]["node"], 1);
+  EXPECT_EQ(seen["firstPerson"]["meshAnnotations"][0]["node"], right);
+  EXPECT_EQ(after["animations"][1]["channels"][0]["target"]["extensions"]["KHR_animation_pointer"]["pointer"],
+            "/nodes/" + std::to_string(right) + "/weights");
   std::set<std::pair<std::size_t, std::string>> moved, expected = {{3, "translation"}};
   for (const Json& channel : after["animations"][0]["channels"])
     EXPECT_TRUE(moved.emplace(channel["target"]["node"], channel["target"]["path"]).second);
