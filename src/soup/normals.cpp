@@ -360,16 +360,13 @@ std::size_t mend_normals(Triangle_soup& result, const std::vector<Index>& triang
 {
   if (result.normals.empty())
     return 0;
-  struct Shaded_triangle
-  {
-    Index triangle;
-    Vector front; // has the length 1
-    std::array<bool, 3> is_wrong;
+  const auto has_normals = [&](Index t) {
+    return result.normals.of_triangle[t][0] != result.normals.missing;
   };
-  std::vector<Shaded_triangle> shaded; // those with corners to mend
-  std::size_t mended = 0;
+  std::vector<Vector> fronts(result.triangles.size()); // of length 1, on the side where the normals point to
+  std::vector<char> is_wrong(3 * result.triangles.size(), false);
   for (Index t = 0; t < result.triangles.size(); ++t) {
-    if (result.normals.of_triangle[t][0] == result.normals.missing)
+    if (!has_normals(t))
       continue;
     const Vector front = unit_normal(result, t);
     const std::array<double, 3> now = cosines(front, result.normals, t);
@@ -377,59 +374,59 @@ std::size_t mend_normals(Triangle_soup& result, const std::vector<Index>& triang
     const int side = side_of(before);
     const double limit =
         std::min({s_cosine_of_shading, side * before[0], side * before[1], side * before[2]});
-    Shaded_triangle triangle{t, {}, {}};
-    add(triangle.front, front, side);
-    std::size_t wrong = 0;
+    add(fronts[t], front, side);
     for (std::size_t k = 0; k < 3; ++k)
-      wrong += triangle.is_wrong[k] = side != 0 && side * now[k] < limit;
-    if (wrong > 0)
-      shaded.push_back(triangle);
-    mended += wrong;
+      is_wrong[3 * t + k] = side != 0 && side * now[k] < limit;
   }
-  if (mended == 0)
+  if (std::find(is_wrong.begin(), is_wrong.end(), true) == is_wrong.end())
     return 0;
 
   // Seams of the texture are no hard edges: triangles meet where they have positions in common.
   const std::vector<Index> positions = number_positions(result.points);
   std::vector<Index_triple> triples;
-  for (const Shaded_triangle& triangle : shaded) {
-    const auto& [a, b, c] = result.triangles[triangle.triangle];
+  for (const auto& [a, b, c] : result.triangles)
     triples.push_back({positions[a], positions[b], positions[c]});
-  }
-  internal::Disjoint_sets fans(3 * shaded.size()); // of corners of `shaded`
-  const auto is_wrong = [&](Index corner) { return shaded[corner / 3].is_wrong[corner % 3]; };
+  internal::Disjoint_sets fans(is_wrong.size()); // of corners
   for_each_inner_edge(triples, [&](const Edge_side& a, const Edge_side& b) {
-    if (is_wrong(a.at_low) && is_wrong(b.at_low))
-      fans.unite(a.at_low, b.at_low);
-    if (is_wrong(a.at_high) && is_wrong(b.at_high))
-      fans.unite(a.at_high, b.at_high);
+    if (!has_normals(a.at_low / 3) || !has_normals(b.at_low / 3) ||
+        dot(fronts[a.at_low / 3], fronts[b.at_low / 3]) < s_cosine_of_shading)
+      return;
+    for (const auto& [of_a, of_b] : {std::pair(a.at_low, b.at_low), std::pair(a.at_high, b.at_high)})
+      if ((is_wrong[of_a] && is_wrong[of_b]) ||
+          is_within(normal_at(result.normals, of_a / 3, of_a % 3),
+                    normal_at(result.normals, of_b / 3, of_b % 3), s_cosine_smooth))
+        fans.unite(of_a, of_b);
   });
-  std::vector<Vector> sums(3 * shaded.size());
-  const auto for_each_wrong_corner = [&](const auto& function) {
-    for (Index i = 0; i < shaded.size(); ++i)
-      for (Index k = 0; k < 3; ++k)
-        if (shaded[i].is_wrong[k])
-          function(shaded[i], k, fans.find(3 * i + k));
-  };
-  for_each_wrong_corner([&](const Shaded_triangle& triangle, Index k, std::size_t fan) {
-    add(sums[fan], triangle.front, angle_at(result, 3 * triangle.triangle + k));
-  });
-  std::vector<Index> numbers(3 * shaded.size(), s_no_normal); // of the means, by fan
+  std::vector<char> is_renewed(is_wrong.size(), false); // by fan
+  for (Index corner = 0; corner < is_wrong.size(); ++corner)
+    if (is_wrong[corner])
+      is_renewed[fans.find(corner)] = true;
+  std::vector<Vector> sums(is_wrong.size()); // by fan
+  std::size_t mended = 0;
+  for (Index corner = 0; corner < is_wrong.size(); ++corner)
+    if (const std::size_t fan = fans.find(corner); is_renewed[fan]) {
+      add(sums[fan], fronts[corner / 3], angle_at(result, corner));
+      ++mended;
+    }
+  std::vector<Index> numbers(is_wrong.size(), s_no_normal); // of the means, by fan
   const auto new_number = [&](const Vector& normal) {
     result.normals.values.push_back(normal);
     return Index(result.normals.values.size() - 1);
   };
-  for_each_wrong_corner([&](const Shaded_triangle& triangle, Index k, std::size_t fan) {
-    Index& number = result.normals.of_triangle[triangle.triangle][k];
-    const Vector mean = stored(unit(sums[fan]));
-    if (dot(mean, triangle.front) < s_cosine_of_shading) {
-      number = new_number(stored(triangle.front));
-      return;
+  for (Index corner = 0; corner < is_wrong.size(); ++corner) {
+    const std::size_t fan = fans.find(corner);
+    if (!is_renewed[fan])
+      continue;
+    Index& number = result.normals.of_triangle[corner / 3][corner % 3];
+    const Vector &front = fronts[corner / 3], mean = stored(unit(sums[fan]));
+    if (dot(mean, front) < s_cosine_of_shading) {
+      number = new_number(stored(front));
+      continue;
     }
     if (numbers[fan] == s_no_normal)
       numbers[fan] = new_number(mean);
     number = numbers[fan];
-  });
+  }
   result.normals =
       with_used(result.normals.values, std::move(result.normals.of_triangle), result.normals.missing);
   return mended;
