@@ -167,9 +167,10 @@ void pick_normals(Triangle_soup& result, const std::vector<Index>& triangles,
 ///
 /// With it go those of the corners around the vertex that have the same normal, up to 1°, or need a new one
 /// as well, where their triangles meet in edges at which they turn by at most 60°: no crease comes where none
-/// was. The new normal is the mean of those of these triangles, weighted by the angles there (Thürmer and
-/// Wüthrich 1998), or that of the triangle alone where the mean is more than 60° from it. It has the precision
-/// of 32-bit floats. Returns how many corners have a new one.
+/// was. Triangles that have not changed keep their normals. The new normal is the mean of those of these
+/// triangles, weighted by the angles there (Thürmer and Wüthrich 1998), or that of the triangle alone where
+/// the mean is more than 60° from it. It has the precision of 32-bit floats. Returns how many corners have a
+/// new one.
 ///
 /// **Complexity** O(n) for n triangles, and O(n log n) if any corner needs a new normal. Computed in double.
 std::size_t mend_normals(Triangle_soup& result, const std::vector<Index>& triangles,

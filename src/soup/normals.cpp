@@ -360,13 +360,16 @@ std::size_t mend_normals(Triangle_soup& result, const std::vector<Index>& triang
 {
   if (result.normals.empty())
     return 0;
-  const auto has_normals = [&](Index t) {
-    return result.normals.of_triangle[t][0] != result.normals.missing;
+  const auto is_as_before = [&](Index t) {
+    const Index_triple &now = result.triangles[t], &before = original.triangles[triangles[t]];
+    return result.points[now[0]] == original.points[before[0]] &&
+           result.points[now[1]] == original.points[before[1]] &&
+           result.points[now[2]] == original.points[before[2]];
   };
   std::vector<Vector> fronts(result.triangles.size()); // of length 1, on the side where the normals point to
-  std::vector<char> is_wrong(3 * result.triangles.size(), false);
+  std::vector<char> is_wrong(3 * result.triangles.size(), false), is_free = is_wrong; // by corner
   for (Index t = 0; t < result.triangles.size(); ++t) {
-    if (!has_normals(t))
+    if (result.normals.of_triangle[t][0] == result.normals.missing)
       continue;
     const Vector front = unit_normal(result, t);
     const std::array<double, 3> now = cosines(front, result.normals, t);
@@ -377,6 +380,8 @@ std::size_t mend_normals(Triangle_soup& result, const std::vector<Index>& triang
     add(fronts[t], front, side);
     for (std::size_t k = 0; k < 3; ++k)
       is_wrong[3 * t + k] = side != 0 && side * now[k] < limit;
+    for (std::size_t k = 0; k < 3; ++k)
+      is_free[3 * t + k] = is_wrong[3 * t + k] || !is_as_before(t);
   }
   if (std::find(is_wrong.begin(), is_wrong.end(), true) == is_wrong.end())
     return 0;
@@ -388,13 +393,13 @@ std::size_t mend_normals(Triangle_soup& result, const std::vector<Index>& triang
     triples.push_back({positions[a], positions[b], positions[c]});
   internal::Disjoint_sets fans(is_wrong.size()); // of corners
   for_each_inner_edge(triples, [&](const Edge_side& a, const Edge_side& b) {
-    if (!has_normals(a.at_low / 3) || !has_normals(b.at_low / 3) ||
-        dot(fronts[a.at_low / 3], fronts[b.at_low / 3]) < s_cosine_of_shading)
+    if (dot(fronts[a.at_low / 3], fronts[b.at_low / 3]) < s_cosine_of_shading)
       return;
     for (const auto& [of_a, of_b] : {std::pair(a.at_low, b.at_low), std::pair(a.at_high, b.at_high)})
-      if ((is_wrong[of_a] && is_wrong[of_b]) ||
-          is_within(normal_at(result.normals, of_a / 3, of_a % 3),
-                    normal_at(result.normals, of_b / 3, of_b % 3), s_cosine_smooth))
+      if (is_free[of_a] && is_free[of_b] &&
+          ((is_wrong[of_a] && is_wrong[of_b]) ||
+           is_within(normal_at(result.normals, of_a / 3, of_a % 3),
+                     normal_at(result.normals, of_b / 3, of_b % 3), s_cosine_smooth)))
         fans.unite(of_a, of_b);
   });
   std::vector<char> is_renewed(is_wrong.size(), false); // by fan

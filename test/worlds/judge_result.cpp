@@ -114,7 +114,7 @@ Normal normal_of(const Corner_values<3>& normals, Index triangle, std::size_t pl
 
 // Returns why a corner of a result must not have its normal, or null. It has one of `old`, those of the
 // original at its vertex, unless these are farther from the normal of the triangle than 60° and than all
-// three of the original were.
+// three of the original were, or from that of another triangle there.
 const char* wrong_in_mended_normal(const Triangle_soup& result, Index i, std::size_t k,
                                    const Triangle_soup& original, const Corner_values<3>& normals, Index t,
                                    const std::vector<Normal>& old)
@@ -132,9 +132,15 @@ const char* wrong_in_mended_normal(const Triangle_soup& result, Index i, std::si
                ? "a normal of another side"
                : nullptr;
   }
+  const Point_3& here = result.points[result.triangles[i][k]];
   for (const int side : {1, -1}) {
+    // Another triangle at this place may have taken this one along.
     const auto may_be_wrong = [&](const Normal& normal) {
-      return !(side * cosine(normal, result, i) > 0.5 + margin);
+      for (Index j = 0; j < result.triangles.size(); ++j)
+        for (const Index v : result.triangles[j])
+          if (result.points[v] == here && !(side * cosine(normal, result, j) > 0.5 + margin))
+            return true;
+      return false;
     };
     if (!(side * sum < -margin) && std::any_of(old.begin(), old.end(), may_be_wrong) &&
         !(side * cosine(now, result, i) < 0.5 - margin) && is_unit(result.normals, i, k))
