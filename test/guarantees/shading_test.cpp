@@ -225,6 +225,31 @@ TEST(Shading, IsSmoothWhereNormalsAreMended)
   EXPECT_EQ(count_of_wrong_sides(result), 0u);
 }
 
+// Where two of four faces around a vertex come to lie so that its normal is none of theirs, the others go
+// with them, but for one that has not changed.
+TEST(Shading, HasNoCreaseWhereSomeNormalsAreMended)
+{
+  Triangle_soup original;
+  original.points = {{0, 0, 0}, {1, 0, 0.1}, {0, 1, 0.1}, {-1, 0, 0.1}, {0, -1, 0.1}};
+  original.triangles = {{0, 1, 2}, {0, 4, 1}, {0, 2, 3}, {0, 3, 4}};
+  original.normals = {{{0.8, 0, 0.6}}, {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}};
+  for (const bool is_one_left : {false, true}) {
+    Triangle_soup result = original;
+    result.points[1] = {1, 0, 0.5}; // the first two are wrong
+    result.points[2] = {0, 1, 0};
+    if (!is_one_left)
+      result.points[3] = {-1, 0, 0};
+    EXPECT_GT(mend_normals(result, {0, 1, 2, 3}, original, original.normals), 2u);
+    const auto normal = [&](std::size_t t) {
+      return result.normals.values[result.normals.of_triangle[t][0]];
+    };
+    EXPECT_LT(normal(0)[0], 0);
+    EXPECT_EQ(normal(0), normal(1));
+    EXPECT_EQ(normal(0), normal(2));
+    EXPECT_EQ(normal(3), is_one_left ? original.normals.values[0] : normal(0));
+  }
+}
+
 // A small face on a rim may have a normal of its back before, and become large.
 TEST(Shading, IsMendedWhereOneNormalWasOfTheBackBefore)
 {

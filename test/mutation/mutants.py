@@ -275,11 +275,27 @@ group("src/soup/fit_normals.cpp", ("shading_test",),
       ("std::min(s_cosine_of_sample, before)", "-2", "fitted normals point to the back"),
       ("keys.emplace_back(positions[m_result.triangles[i][k]]", "keys.emplace_back(m_result.triangles[i][k]", "seams of the texture are hard edges where normals are fitted"),
       ("!are_near_normals(normal, m_old[wedge])", "true", "normals that differ in their last digits across a seam are fitted apart"))
+group("src/files/Polygon_starts.h", ("polygons_test",),
+      ("return k;", "return 0;", "the two sides of a cloth are cut along other diagonals"))
+group("src/files/Written_faces.cpp", ("polygons_test",),
+      ("if (m_start_of(m_soup.points, vertices) != 0)", "if (false)", "a polygon is written that is cut otherwise beside its twin"))
+group("src/verify/triangles_of_part.h", ("intent_test", "gltf_reading_test"),
+      ('name.find_first_of("*?") != std::string::npos', "false", "the judge knows no patterns"),
+      ("is_primitive && !name.empty()", "false", "the judge does not know the mesh of a primitive"))
+group("src/verify/verify.cpp", ("judge_test",),
+      ("(std::min)(pair.first, pair.second) >= mesh.triangles.size()", "false", "the obstacle itself is judged"),
+      ("if (of_original[t] >= original.triangles.size())", "if (false)", "triangles of the original may be any number"))
+group("src/files/gltf_reader.cpp", ("gltf_instances_test",),
+      ("model().nodes[place.node].skin == -1 && hides_all(place.to_world)", "false", "hidden meshes are lost"))
+group("src/files/gltf_nodes.cpp", ("gltf_levels_test",),
+      ("follow_mesh(n, number);", ";", "an avatar's expressions name a node without a mesh"))
 group("src/soup/normals.cpp", ("shading_test",),
-      ("if (wrong > 0)", "if (false)", "normals that point to the back are not mended"),
+      ("is_renewed[fans.find(corner)] = true;", ";", "normals that point to the back are not mended"),
+      ("is_wrong[3 * t + k] || !is_as_before(t)", "true", "what has not changed is mended along"),
+      ("is_wrong[3 * t + k] || !is_as_before(t)", "is_wrong[3 * t + k]", "a crease comes beside a mended normal"),
       ("side != 0 && side * now[k] < limit", "true", "normals that are near are mended"),
       ("std::min({s_cosine_of_shading, side * before[0], side * before[1], side * before[2]})", "s_cosine_of_shading", "normals that were as far are mended"),
-      ("if (dot(mean, triangle.front) < s_cosine_of_shading)", "if (false)", "mended normals point to the back"),
+      ("if (dot(mean, front) < s_cosine_of_shading)", "if (false)", "mended normals point to the back"),
       ("if (cosine > highest)", "if (false)", "each corner keeps the normals of its triangle"),
       ("corners[i] == Index_triple{3 * t, 3 * t + 1, 3 * t + 2}", "false", "triangles that have not changed pick other normals"),
       ("positions[a], positions[b], positions[c]", "a, b, c", "seams of the texture are hard edges where normals are mended"))
