@@ -35,7 +35,8 @@ namespace selvedge {
 /// often: it should be quick. Once it has returned true, it should go on returning true.
 ///
 /// To end a reduction early and keep what it has reached, use `Simplify_options::should_stop` instead. Where
-/// both are in use, this hook should return false from the first call of `should_stop` on.
+/// that is to happen, this hook should return false from the first call of `should_stop` on: it is asked,
+/// too.
 class Cancellation_scope
 {
 public:

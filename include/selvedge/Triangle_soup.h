@@ -93,7 +93,7 @@ struct Gltf_scene;
 ///
 /// **Preconditions** of every function that takes a soup: coordinates are finite; indices are in range; each
 /// array of per-triangle data is empty or as long as `triangles`. The readers of mesh_files.h ensure this,
-/// and `prepare` checks it.
+/// and `prepare`, `write_mesh` and the judge check it.
 struct Triangle_soup
 {
   /// One per vertex of the file, used or not.

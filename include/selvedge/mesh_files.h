@@ -266,7 +266,8 @@ using Write_notes = std::map<std::string, std::size_t>;
 ///   are ordered by group and material. `.gltf` files hold their buffer in a data address, so that a mesh is
 ///   one file.
 ///
-/// **Preconditions**, checked (`Argument_error`): coordinates are finite, and 32-bit floats where
+/// **Preconditions**, checked (`Argument_error`): those of `Triangle_soup` but for its polygons, of which
+/// those that do not fit are written as triangles; coordinates are finite, and 32-bit floats where
 /// `needs_float32` says so. A soup that was read from glTF still has its groups and `scene_vertices`, and
 /// each of its positions is that of some vertex of the file under the same transform. Labels in an OBJ file
 /// are one line, neither begin nor end with a blank, and do not end in a backslash. Names of attributes in a

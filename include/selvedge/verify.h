@@ -65,8 +65,8 @@ struct Offending_pair
 /// that takes long. `verify` judges several poses at once, and has no more of them in memory than threads.
 /// **Reference.** Guigue and Devillers, *Fast and robust triangle-triangle overlap test using orientation
 /// predicates*, 2003 (CGAL's `do_intersect`).
-/// **Preconditions**, checked (`Argument_error`): the thread rounds to the nearest, and keeps subnormal
-/// numbers.
+/// **Preconditions**, checked (`Argument_error`): coordinates are finite, and triangles name vertices that
+/// there are; the thread rounds to the nearest, and keeps subnormal numbers.
 std::vector<Offending_pair> offending_pairs(const Triangle_soup& soup);
 
 /// Returns whether `offending_pairs` is empty. Stops at the first pair that it finds.

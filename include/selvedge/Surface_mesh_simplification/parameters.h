@@ -45,7 +45,8 @@ struct Are_tags_among<CGAL::Named_function_parameters<T, Tag, Base>, Tags...>
 
 } // namespace internal
 
-/// Named parameters beyond CGAL's. Those of CGAL can follow them, or be their last argument:
+/// Named parameters beyond CGAL's. Those of CGAL can follow them, or be their last argument (not of
+/// `face_index`, whose further arguments are those of the index):
 ///
 /// ```
 /// selvedge::edge_collapse(mesh, stop, selvedge::parameters::geometric_test(false).filter(filter));

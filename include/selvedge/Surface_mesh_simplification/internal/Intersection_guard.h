@@ -127,7 +127,11 @@ public:
       throw Argument_error(
           "the loop runs on another mesh than that of its intersection filter; make the filter "
           "of the mesh that the loop changes, not of a copy");
-    if (m_is_collapsing || !m_vertices.are_in_place(mesh))
+    if (m_is_collapsing)
+      throw Argument_error(
+          "an exception has ended an earlier run within a collapse, of which the intersection filter was not "
+          "told the end; make the filter anew");
+    if (!m_vertices.are_in_place(mesh))
       refuse_changed_mesh();
     m_is_run_announced = m_is_announcement_due = true;
   }
