@@ -653,7 +653,11 @@ private:
         attribute.is_normalized = column->is_normalized();
       }
       if (!is_common) {
-        m_scene->only_in_gltf.push_back(name + ", which not every vertex has");
+        const bool is_everywhere =
+            std::all_of(m_scene->instances.begin(), m_scene->instances.end(),
+                        [&](const auto& instance) { return find(m_scene->blocks[instance.block], name); });
+        m_scene->only_in_gltf.push_back(name + (is_everywhere ? ", which primitives have in different types"
+                                                              : ", which not every vertex has"));
         continue;
       }
       attribute.name = name;
