@@ -378,10 +378,11 @@ std::size_t mend_normals(Triangle_soup& result, const std::vector<Index>& triang
     const double limit =
         std::min({s_cosine_of_shading, side * before[0], side * before[1], side * before[2]});
     add(fronts[t], front, side);
-    for (std::size_t k = 0; k < 3; ++k)
+    const bool is_changed = !is_as_before(t);
+    for (std::size_t k = 0; k < 3; ++k) {
       is_wrong[3 * t + k] = side != 0 && side * now[k] < limit;
-    for (std::size_t k = 0; k < 3; ++k)
-      is_free[3 * t + k] = is_wrong[3 * t + k] || !is_as_before(t);
+      is_free[3 * t + k] = is_wrong[3 * t + k] || is_changed;
+    }
   }
   if (std::find(is_wrong.begin(), is_wrong.end(), true) == is_wrong.end())
     return 0;

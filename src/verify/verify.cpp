@@ -87,6 +87,14 @@ void permit_of_result(const Triangle_soup& result, const Triangle_soup* original
     parts.pairs = take_out_pairs_between(triangles_of(parts.first), triangles_of(parts.second), pairs);
 }
 
+// Calls a function with the geometry of a mesh and an obstacle, or with the mesh itself, not with a copy of
+// it, where there is no obstacle.
+template <class Function>
+auto call_beside(const Triangle_soup& obstacle, const Triangle_soup& mesh, const Function& function)
+{
+  return obstacle.triangles.empty() ? function(mesh) : function(geometry_with_obstacle(mesh, obstacle));
+}
+
 // Leaves out the pairs of an obstacle alone, whose triangles come after those of the mesh.
 void leave_out_pairs_of_obstacle(const Triangle_soup& mesh, std::vector<Offending_pair>& pairs)
 {
@@ -139,20 +147,21 @@ Verification verify(const Triangle_soup& mesh, const Verify_options& options, co
                                             internal::pieces_by_position(geometry, numbered));
   };
   verification.poses.resize(mesh.poses.size());
-  tbb::parallel_invoke(Cancellation_scope::inherited([&] {
-                         judge(obstacle.triangles.empty() ? mesh : geometry_with_obstacle(mesh, obstacle),
-                               verification.permitted, verification.pairs, verification.clearance);
-                         verification.new_pairs = verification.pairs;
-                         internal::for_each_pose(mesh.poses.size(), [&](std::size_t pose) {
-                           Verification::In_pose& in_pose = verification.poses[pose];
-                           in_pose.name = mesh.poses[pose].name;
-                           std::vector<Permitted> permitted;
-                           judge(geometry_in_pose(mesh, obstacle, pose), permitted, in_pose.pairs,
-                                 in_pose.clearance);
-                           in_pose.new_pairs = in_pose.pairs;
-                         });
-                       }),
-                       Cancellation_scope::inherited([&] { verification.pieces = pieces(mesh); }));
+  tbb::parallel_invoke(
+      Cancellation_scope::inherited([&] {
+        call_beside(obstacle, mesh, [&](const Triangle_soup& geometry) {
+          judge(geometry, verification.permitted, verification.pairs, verification.clearance);
+        });
+        verification.new_pairs = verification.pairs;
+        internal::for_each_pose(mesh.poses.size(), [&](std::size_t pose) {
+          Verification::In_pose& in_pose = verification.poses[pose];
+          in_pose.name = mesh.poses[pose].name;
+          std::vector<Permitted> permitted;
+          judge(geometry_in_pose(mesh, obstacle, pose), permitted, in_pose.pairs, in_pose.clearance);
+          in_pose.new_pairs = in_pose.pairs;
+        });
+      }),
+      Cancellation_scope::inherited([&] { verification.pieces = pieces(mesh); }));
   return verification;
 }
 
@@ -165,9 +174,7 @@ Verification verify(const Triangle_soup& result, const Triangle_soup& original, 
   const Triangle_soup rounded = is_rounded ? internal::rounded(original) : Triangle_soup();
   const Triangle_soup& before = is_rounded ? rounded : original;
   Verification verification =
-      verify(result, before,
-             offending_pairs(obstacle.triangles.empty() ? before : geometry_with_obstacle(before, obstacle)),
-             options, obstacle);
+      verify(result, before, call_beside(obstacle, before, offending_pairs), options, obstacle);
   verification.is_original_rounded = is_rounded;
   leave_out_pairs_of_obstacle(result, verification.pairs);
   for (Verification::In_pose& in_pose : verification.poses)
