@@ -225,10 +225,11 @@ void print_seams(const Inspection& mesh)
     for (const auto& [count, what] :
          {std::pair(seams.by_vertices, "vertex numbers"), std::pair(seams.by_texture, "texture coordinates"),
           std::pair(seams.by_normals, "normals"), std::pair(seams.by_labels, "groups, objects or materials"),
+          std::pair(seams.by_regions, "values of faces"),
           std::pair(seams.by_doubles, "numbers of faces with the same corners")})
       if (count > 0)
         std::cout << std::exchange(separator, ", ") << what << " (" << with_commas(count) << ')';
-    separator = "; where only vertex numbers differ, it is for ";
+    separator = "; where only vertex numbers or values of faces differ, it is for ";
     for (const auto& [name, count] : seams.by_attributes)
       std::cout << std::exchange(separator, ", ") << name << " (" << with_commas(count) << ')';
   }
@@ -368,10 +369,11 @@ void add_inspection(Json& report, const Inspection& mesh)
   Json by_attributes = Json::array();
   for (const auto& [name, edges] : mesh.seams.by_attributes)
     by_attributes.push_back({{"name", name}, {"edges", edges}});
-  report["seams"] = {{"normals", name_of(mesh.normals)},      {"edges", mesh.seams.edges},
-                     {"by_vertices", mesh.seams.by_vertices}, {"by_texture", mesh.seams.by_texture},
-                     {"by_normals", mesh.seams.by_normals},   {"by_labels", mesh.seams.by_labels},
-                     {"by_doubles", mesh.seams.by_doubles},   {"by_attributes", std::move(by_attributes)}};
+  report["seams"] = {{"normals", name_of(mesh.normals)},         {"edges", mesh.seams.edges},
+                     {"by_vertices", mesh.seams.by_vertices},    {"by_texture", mesh.seams.by_texture},
+                     {"by_normals", mesh.seams.by_normals},      {"by_labels", mesh.seams.by_labels},
+                     {"by_regions", mesh.seams.by_regions},      {"by_doubles", mesh.seams.by_doubles},
+                     {"by_attributes", std::move(by_attributes)}};
   report["borders"] = {{"edges", mesh.border_edges}};
   report["border_gaps"] = border_gaps_json(mesh.border_gaps);
   report["movable"] = {{"free", mesh.movable.free},

@@ -233,7 +233,8 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
                        {"misoriented_edges", welding.misoriented_edges},
                        {"misoriented_pieces", welding.misoriented_pieces},
                        {"unwelded_positions", welding.unsewn_positions},
-                       {"left_out_faces", prepared.left_out_faces}};
+                       {"left_out_faces", prepared.left_out_faces},
+                       {"left_out_faces_that_open", prepared.left_out_faces_that_open}};
   const Snapping_notes& snap = prepared.snapping;
   report["border_gaps"] = border_gaps_json(prepared.border_gaps);
   report["snap"] = {{"distance", snap.distance},

@@ -359,6 +359,10 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
       stream << ", away from the mesh (their boxes are apart); is one of the two in another unit or place?";
     stream << '\n';
   }
+  if (const std::size_t open = prepared.left_out_faces_that_open; open > 0)
+    stream << "  " << with_commas(open)
+           << " of the degenerate faces open when morph targets or bones move, like "
+           << "a closed lid, and leave holes then; part their corners in the modeller to keep them\n";
   for (const Json& note : notes)
     stream << "  " << note.get<std::string>() << '\n';
   // Otherwise, further poses are refused.
@@ -383,8 +387,12 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
   if (prepared.normals == Normals_treatment::flat)
     stream << "  normals made anew where faces change: every face of the input has its own, as in flat "
               "shading; --normals smooth shades the result smooth\n";
-  if (prepared.normals == Normals_treatment::dropped && is_gltf(format_of(request.output, request.format)))
+  const bool is_shown_flat = is_gltf(format_of(request.output, request.format));
+  if (prepared.normals == Normals_treatment::dropped && is_shown_flat)
     stream << "  normals dropped: programs that show glTF then shade every face flat\n";
+  if (prepared.normals == Normals_treatment::none && is_shown_flat && request.progressive.empty())
+    stream << "  no normals: programs that show glTF then shade every face flat; --normals smooth makes smooth "
+              "ones\n";
   if (prepared.normals == Normals_treatment::smoothed)
     stream << "  normals made anew, smooth up to edges where faces of the input turn by more than 60°\n";
   if (prepared.normals == Normals_treatment::smooth)

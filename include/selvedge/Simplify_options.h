@@ -94,8 +94,8 @@ struct Simplify_options
   double max_border_turn = 30;
 
   /// The same for a line inside the surface: a sewn seam, or a chain of edges across which texture
-  /// coordinates, normals, groups, objects or materials change. The default is larger than for borders,
-  /// because no outline frays there, and such lines are often bent.
+  /// coordinates, normals, groups, objects, materials or the values of large regions of faces change. The
+  /// default is larger than for borders, because no outline frays there, and such lines are often bent.
   double max_seam_turn = 90;
 
   /// The largest distance from an original vertex of a border or seam to the segment that replaces it, as a

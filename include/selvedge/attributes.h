@@ -16,8 +16,9 @@ namespace selvedge {
 /// corners name another vertex then. A name is one of these:
 /// - `texture`: texture coordinates, and in glTF all sets of them, the tangents that follow from them, and
 ///   the textures of all materials, which would have no place any more;
-/// - `colors`: the colours of vertices, in glTF all sets of them;
-/// - otherwise, the name that a vertex attribute has in the file, such as `quality` or `TEXCOORD_1`.
+/// - `colors`: the colours of vertices, in glTF all sets of them, and the colours of faces;
+/// - otherwise, the name that an attribute of vertices or faces has in the file, such as `quality` or
+///   `TEXCOORD_1`.
 ///
 /// Where a file has one value for each vertex (PLY, glTF), vertices that differ in nothing else become one:
 /// triangles name the first of them, and the others are unused. Alike, bit for bit, must be positions in all

@@ -119,6 +119,7 @@ struct Inspection
     std::size_t by_texture = 0;
     std::size_t by_normals = 0;
     std::size_t by_labels = 0;  ///< groups, objects or materials
+    std::size_t by_regions = 0; ///< values of faces that are the same in large regions
     std::size_t by_doubles = 0; ///< the number of faces with the same corners, or how they run
     std::map<std::string, std::size_t> by_attributes; ///< `seams_of_attributes`, but for texture
   };
@@ -131,7 +132,8 @@ struct Inspection
 };
 
 /// Returns the attributes because of which edges of two triangles are seams, and of how many: those that
-/// differ between the vertices on the two sides, where neither position, normals nor labels do. They have the
+/// differ between the vertices on the two sides, where neither position, normals nor labels do, and those of
+/// faces that tell regions apart (they differ across at most a sixteenth of such edges). They have the
 /// names of the file, and texture coordinates are `texture`, as `drop_attributes` takes them; those of morph
 /// targets are followed by "of morph targets".
 /// `positions` numbers the positions of vertices, as in `Prepared_soup`. **Complexity** O(n log n).

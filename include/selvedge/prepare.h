@@ -184,6 +184,10 @@ struct Prepared_soup
   std::size_t left_out_faces = 0;       ///< before rounding
   std::size_t left_out_by_rounding = 0; ///< only after rounding
 
+  /// How many of the former have an area once morph targets or bones of a glTF scene move their corners
+  /// apart, like a lid that is closed. The result has holes there.
+  std::size_t left_out_faces_that_open = 0;
+
   /// For every triangle of `soup`, its *front*: the first triangle with the same three positions, of which it
   /// is a *double*, or itself. Empty when none is a double. A reduction lets doubles go with their fronts, so
   /// that both sides of a double-sided mesh are reduced alike. There are none unless pairs may descend, and

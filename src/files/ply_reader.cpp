@@ -167,6 +167,19 @@ private:
                            element.count);
         continue;
       }
+      const bool is_repeated =
+          std::any_of(element.properties.begin(), element.properties.begin() + std::ptrdiff_t(i),
+                      [&](const Property& earlier) { return earlier.name == property.name; });
+      if (is_repeated) {
+        m_builder.ignore("values of a second " + element.name + " property " + in_quotes(property.name),
+                         element.count);
+        continue;
+      }
+      if (element.name == "face" && is_of_normal(property)) {
+        if (property.name == "nx")
+          m_builder.ignore("normals of faces, which their corners tell", element.count);
+        continue;
+      }
       const bool is_colour = property.name == "red" || property.name == "green" || property.name == "blue" ||
                              property.name == "alpha";
       const bool is_normalized = is_colour && (property.type == Type::uint8 || property.type == Type::uint16);
@@ -174,6 +187,11 @@ private:
       attributes.back().rows.reserve(element.count * ply_size_of(property.type));
       targets[i].attribute = &attributes.back();
     }
+  }
+
+  static bool is_of_normal(const Property& property)
+  {
+    return property.name == "nx" || property.name == "ny" || property.name == "nz";
   }
 
   static bool is_read_list(const Element& element, const Property& property)

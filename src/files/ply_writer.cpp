@@ -99,12 +99,16 @@ std::vector<Named_column> columns_of(const std::vector<Attribute>& attributes)
   return columns;
 }
 
-void write_properties(Byte_writer& out, const std::vector<Named_column>& columns)
+/// Writes attributes as properties of an element that has others of the names `taken`.
+void write_properties(Byte_writer& out, const std::vector<Named_column>& columns, std::set<std::string> taken)
 {
   for (const auto& [name, column] : columns) {
     if (!is_property_name(name))
       throw Argument_error("the attribute name " + in_quotes(name) +
                            " cannot stand in a PLY file; rename the attribute");
+    if (!taken.insert(name).second)
+      throw Argument_error("two properties of a PLY file would have the name " + in_quotes(name) +
+                           "; rename the attribute");
     out << "property " << ply_type_name(column.attribute->type) << ' ' << name << '\n';
   }
 }
@@ -186,18 +190,23 @@ void write_ply(Byte_writer& out, const Triangle_soup& soup, const Write_options&
   for (const std::string& comment : soup.header_comments)
     out << comment << '\n';
   out << "element vertex " << soup.points.size() << '\n';
+  std::set<std::string> names{"x", "y", "z"};
   write_properties(out, as_float32, {"x", "y", "z"});
-  if (!layout.normals.empty())
+  if (!layout.normals.empty()) {
     write_properties(out, float32_normals, {"nx", "ny", "nz"});
-  if (layout.has_vertex_uvs)
+    names.insert({"nx", "ny", "nz"});
+  }
+  if (layout.has_vertex_uvs) {
     write_properties(out, float32_uvs, {"s", "t"});
-  write_properties(out, layout.vertex_columns);
+    names.insert({"s", "t"});
+  }
+  write_properties(out, layout.vertex_columns, std::move(names));
   const Written_faces faces(soup, Mesh_format::ply);
   out << "element face " << faces.size() << "\nproperty list uchar " << (is_small ? "int" : "uint")
       << " vertex_indices\n";
   if (layout.has_face_uvs)
     out << "property list uchar " << (float32_uvs ? "float" : "double") << " texcoord\n";
-  write_properties(out, layout.face_columns);
+  write_properties(out, layout.face_columns, {"vertex_indices", layout.has_face_uvs ? "texcoord" : ""});
   out << "end_header\n";
 
   Value_writer values(out, options.encoding);

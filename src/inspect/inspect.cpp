@@ -188,6 +188,7 @@ private:
       seams.by_texture += differences.in_uv;
       seams.by_normals += differences.in_normal;
       seams.by_labels += differences.in_label;
+      seams.by_regions += differences.in_region;
       seams.by_doubles += differences.in_doubles;
     }
     seams.by_attributes = seams_of_attributes(m_soup, m_prepared.positions);

@@ -3,6 +3,7 @@
 
 #include <selvedge/inspect.h>
 
+#include "soup/Corner_mesh.h"
 #include "soup/Gltf_scene.h"
 #include "soup/inner_edges.h"
 #include "soup/selection.h"
@@ -27,15 +28,19 @@ bool is_seam_of(const Triangle_labels& labels, Index a, Index b)
   return !labels.empty() && labels.of_triangle[a / 3] != labels.of_triangle[b / 3];
 }
 
+bool differ(const Attribute& attribute, Index a, Index b)
+{
+  const std::size_t size = row_size(attribute);
+  return std::memcmp(attribute.rows.data() + a * size, attribute.rows.data() + b * size, size) != 0;
+}
+
 // Adds the names of the attributes that differ between two vertices, apart from those that corners have.
 void add_differences(const Triangle_soup& soup, Index a, Index b, std::set<std::string>& names)
 {
   if (!soup.scene) {
-    for (const Attribute& attribute : soup.vertex_attributes) {
-      const std::size_t size = row_size(attribute);
-      if (std::memcmp(attribute.rows.data() + a * size, attribute.rows.data() + b * size, size) != 0)
+    for (const Attribute& attribute : soup.vertex_attributes)
+      if (differ(attribute, a, b))
         names.insert(attribute.name);
-    }
     return;
   }
   const Gltf_scene& scene = *soup.scene;
@@ -63,15 +68,23 @@ void add_differences(const Triangle_soup& soup, Index a, Index b, std::set<std::
 std::map<std::string, std::size_t> seams_of_attributes(const Triangle_soup& soup,
                                                        const std::vector<Index>& positions)
 {
-  if (!soup.scene && soup.vertex_attributes.empty() && soup.uvs.empty())
+  if (!soup.scene && soup.vertex_attributes.empty() && soup.triangle_attributes.empty() && soup.uvs.empty())
     return {};
   std::vector<Index_triple> triangles = soup.triangles; // of positions
   for (Index_triple& triangle : triangles)
     for (Index& v : triangle)
       v = positions[v];
   std::map<std::string, std::size_t> result;
+  std::size_t edges = 0;
+  std::map<std::string, std::size_t> edges_around_regions; // by attribute of faces
   internal::for_each_inner_edge(triangles, [&](const internal::Edge_side& a, const internal::Edge_side& b) {
     std::set<std::string> names;
+    ++edges;
+    for (const Attribute& attribute : soup.triangle_attributes)
+      if (differ(attribute, a.at_low / 3, b.at_low / 3)) {
+        names.insert(attribute.name);
+        ++edges_around_regions[attribute.name];
+      }
     for (const auto& [c, d] : {std::pair(a.at_low, b.at_low), std::pair(a.at_high, b.at_high)}) {
       if (is_seam_of(soup.normals, c, d) || is_seam_of(soup.groups, c, d) || is_seam_of(soup.objects, c, d) ||
           is_seam_of(soup.materials, c, d))
@@ -83,6 +96,9 @@ std::map<std::string, std::size_t> seams_of_attributes(const Triangle_soup& soup
     for (const std::string& name : names)
       ++result[name];
   });
+  for (const auto& [name, count] : edges_around_regions)
+    if (least_edges_to_one_around_regions * count > edges)
+      result.erase(name);
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <selvedge/prepare.h>
 
 #include "Stopwatch.h"
+#include "soup/Gltf_scene.h"
 #include "soup/Sewing.h"
 #include "soup/check_soup.h"
 #include "soup/number_positions.h"
@@ -296,6 +297,13 @@ private:
                         std::any_of(others.begin(), others.end(), is_degenerate(of_obstacle))))
       refuse_if_any_offend();
     others.erase(std::remove_if(others.begin(), others.end(), is_degenerate(of_obstacle)), others.end());
+    m_prepared.left_out_faces_that_open =
+        std::size_t(std::count_if(own.begin(), own.end(), [&](const Index_triple& v) {
+          const auto part = [&](Index a, Index b) {
+            return m_prepared.positions[a] == m_prepared.positions[b] && may_part(soup(), a, b);
+          };
+          return part(v[0], v[1]) || part(v[1], v[2]) || part(v[2], v[0]);
+        }));
     m_prepared.left_out_faces = leave_out(m_prepared.positions);
   }
 

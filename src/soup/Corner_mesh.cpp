@@ -4,10 +4,13 @@
 #include "Corner_mesh.h"
 
 #include "Sewing.h"
+#include "selection.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <stdexcept>
+#include <string_view>
 
 namespace selvedge {
 
@@ -30,7 +33,8 @@ Corner_mesh::Corner_mesh(const Triangle_soup& soup, const std::vector<Index>& po
   find_plies(fronts, positions);
 }
 
-Corner_mesh::Corner_mesh(const Corner_mesh& whole, const std::vector<Index>& faces) : m_soup(whole.m_soup)
+Corner_mesh::Corner_mesh(const Corner_mesh& whole, const std::vector<Index>& faces)
+    : m_soup(whole.m_soup), m_regions(whole.m_regions)
 {
   if (!whole.m_first_ply.empty())
     m_first_ply.assign(1, 0);
@@ -136,6 +140,37 @@ std::vector<Corner_mesh::Halfedge> Corner_mesh::build(const Sewing& sewing,
   return halfedges;
 }
 
+void Corner_mesh::find_regions()
+{
+  const std::size_t triangle_count = m_soup.triangles.size();
+  std::vector<Index> regions;
+  for (const Attribute& attribute : m_soup.triangle_attributes) {
+    const std::size_t size = row_size(attribute);
+    const auto row = [&](Index t) {
+      return std::string_view(reinterpret_cast<const char*>(attribute.rows.data()) + t * size, size);
+    };
+    std::size_t edges = 0, differing = 0;
+    for (const Mesh::Edge_index e : m_mesh.edges()) {
+      const Face face = m_mesh.face(m_mesh.halfedge(e, 0)), beyond = m_mesh.face(m_mesh.halfedge(e, 1));
+      if (m_mesh.is_border(e) || !is_own(face) || !is_own(beyond))
+        continue;
+      ++edges;
+      bool is_differing = false;
+      for (Index i = 0; i < (std::min)(ply_count(face), ply_count(beyond)); ++i)
+        is_differing |= row(triangle(face, i)) != row(triangle(beyond, i));
+      differing += is_differing;
+    }
+    if (differing == 0 || least_edges_to_one_around_regions * differing > edges)
+      continue;
+    regions.resize(triangle_count, 0);
+    std::map<std::pair<Index, std::string_view>, Index> numbers;
+    for (Index t = 0; t < triangle_count; ++t)
+      regions[t] = numbers.emplace(std::make_pair(regions[t], row(t)), Index(numbers.size())).first->second;
+  }
+  if (!regions.empty())
+    m_regions = std::make_shared<const std::vector<Index>>(std::move(regions));
+}
+
 Index_triple Corner_mesh::corners_in_soup(Face face, Index i) const
 {
   Index_triple result = corners(face, i);
@@ -190,7 +225,8 @@ Corner_mesh::Differences Corner_mesh::differences(Corner a, Corner b) const
   };
   return {vertex_of(a) != vertex_of(b), differ(m_soup.uvs, a, b), differ(m_soup.normals, a, b),
           differ_in_label(m_soup.groups) || differ_in_label(m_soup.objects) ||
-              differ_in_label(m_soup.materials)};
+              differ_in_label(m_soup.materials),
+          m_regions && (*m_regions)[a / 3] != (*m_regions)[b / 3]};
 }
 
 Corner_mesh::Differences& Corner_mesh::Differences::operator|=(const Differences& other)
@@ -199,6 +235,7 @@ Corner_mesh::Differences& Corner_mesh::Differences::operator|=(const Differences
   in_uv |= other.in_uv;
   in_normal |= other.in_normal;
   in_label |= other.in_label;
+  in_region |= other.in_region;
   in_doubles |= other.in_doubles;
   return *this;
 }

@@ -11,12 +11,17 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <utility>
 #include <vector>
 
 namespace selvedge {
 
 class Sewing;
+
+/// An attribute of triangles tells regions apart when it differs somewhere, and at most across one edge in so
+/// many.
+constexpr std::size_t least_edges_to_one_around_regions = 16;
 
 /// A mesh that knows for every corner of its faces which corner of a soup this now is.
 ///
@@ -131,9 +136,10 @@ public:
   struct Differences
   {
     bool in_vertex = false, in_uv = false, in_normal = false, in_label = false;
+    bool in_region = false;  ///< in a value of faces that is the same in large regions
     bool in_doubles = false; ///< in their number or directions
 
-    bool any() const { return in_vertex || in_uv || in_normal || in_label || in_doubles; }
+    bool any() const { return in_vertex || in_uv || in_normal || in_label || in_region || in_doubles; }
     Differences& operator|=(const Differences& other);
   };
   Differences differences(Mesh::Edge_index e) const;
@@ -161,6 +167,10 @@ protected:
   /// Makes vertices, edges in the order of the sides, and faces. Returns the halfedge of each side.
   std::vector<Halfedge> build(const Sewing& sewing, const std::function<Point_3(Index vertex)>& point_of);
 
+  /// Finds the regions of triangles that attributes tell apart, such as the number of a material or a painted
+  /// colour. Called once, after `build`. Parts of this mesh have the same regions.
+  void find_regions();
+
   /// Gives all plies at the target of h the corners that those beside `from` have at the target of `from`.
   void carry(Halfedge h, Halfedge from);
 
@@ -182,12 +192,13 @@ private:
 
   const Triangle_soup& m_soup;
   Mesh m_mesh;
-  std::vector<Index> m_triangles;      // by face, its front
-  std::vector<Index_triple> m_corners; // by face
-  std::vector<Ply> m_plies;            // by face, if it has doubles
-  std::vector<Index> m_first_ply;      // by face, and one more; or empty
-  std::vector<char> m_is_turned;       // by face, or empty
-  std::vector<unsigned char> m_places; // by halfedge that is no border
+  std::vector<Index> m_triangles;                      // by face, its front
+  std::vector<Index_triple> m_corners;                 // by face
+  std::vector<Ply> m_plies;                            // by face, if it has doubles
+  std::vector<Index> m_first_ply;                      // by face, and one more; or empty
+  std::vector<char> m_is_turned;                       // by face, or empty
+  std::vector<unsigned char> m_places;                 // by halfedge that is no border
+  std::shared_ptr<const std::vector<Index>> m_regions; // by triangle of the soup; or null
 };
 
 template <class Rule, class Function>

@@ -303,4 +303,31 @@ std::vector<Index> transforms_of_vertices(const Triangle_soup& soup)
   return result;
 }
 
+bool may_part(const Triangle_soup& soup, Index a, Index b)
+{
+  if (!soup.scene || a == b)
+    return false;
+  const Gltf_scene& scene = *soup.scene;
+  const std::size_t number = scene.instance_of(soup.scene_vertices[a]);
+  if (scene.instance_of(soup.scene_vertices[b]) != number)
+    return true; // their nodes may move
+  const Gltf_scene::Instance& instance = scene.instances[number];
+  const Gltf_scene::Block& block = scene.blocks[instance.block];
+  const auto differ = [&](const Gltf_scene::Column& column) {
+    return column.row(soup.scene_vertices[a] - instance.first) !=
+           column.row(soup.scene_vertices[b] - instance.first);
+  };
+  const auto is_of_skin = [](const Gltf_scene::Column& column) {
+    return column.name.rfind("JOINTS_", 0) == 0 || column.name.rfind("WEIGHTS_", 0) == 0;
+  };
+  for (const Gltf_scene::Column& column : block.attributes)
+    if (is_of_skin(column) && differ(column))
+      return true;
+  for (const std::vector<Gltf_scene::Column>& target : block.targets)
+    for (const Gltf_scene::Column& column : target)
+      if (column.name == "POSITION" && differ(column))
+        return true;
+  return false;
+}
+
 } // namespace selvedge

@@ -270,6 +270,9 @@ std::optional<std::array<double, 3>> local_position(const Gltf_scene::Matrix& to
 /// Returns a point near another that has a `local_position`; none when none was found.
 std::optional<Point_3> nearest_world_position(const Gltf_scene::Matrix& to_world, const Point_3& point);
 
+/// Whether two vertices at one position may part when morph targets or bones move. Never without a scene.
+bool may_part(const Triangle_soup& soup, Index a, Index b);
+
 } // namespace selvedge
 
 #endif // SELVEDGE_SOUP_GLTF_SCENE_H

@@ -142,6 +142,7 @@ Sewn_mesh::Sewn_mesh(const Triangle_soup& soup, const std::vector<Index>& positi
   }
 
   Cancellation_scope::check();
+  find_regions();
   for (Index side = 0; side < own_corners; ++side) {
     const Index mate = sewing.mate(side);
     if (mate != Sewing::none && side < mate && differences(mesh().edge(halfedges[side])).any())
@@ -256,7 +257,7 @@ void Sewn_mesh::find_joint_vertices(std::vector<char>& is_locked, const std::vec
 }
 
 // Finds the ends of lines that a reader of the log may not see: those where the mesh is cut for the sake of
-// non-manifold places, and those of normals, which may be made anew.
+// non-manifold places, those of normals, which may be made anew, and those of regions, which are found.
 template <class Function>
 void Sewn_mesh::find_no_strip_vertices(const Function& position_of)
 {
@@ -350,11 +351,12 @@ Hindrance Sewn_mesh::lock_reason(Mesh::Vertex_index v) const
 Hindrance Sewn_mesh::line_reason(Mesh::Edge_index e) const
 {
   const Differences differ = differences(e);
-  if (differ.in_normal && !differ.in_label && !differ.in_uv)
+  const bool is_of_group = differ.in_label || differ.in_region;
+  if (differ.in_normal && !is_of_group && !differ.in_uv)
     return Hindrance::normals;
   if (differ.in_vertex || differ.in_doubles || !differ.any())
     return Hindrance::seam;
-  return differ.in_label ? Hindrance::group : Hindrance::texture;
+  return is_of_group ? Hindrance::group : Hindrance::texture;
 }
 
 } // namespace selvedge

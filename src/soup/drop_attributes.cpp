@@ -80,10 +80,11 @@ public:
   std::size_t drop()
   {
     const std::size_t joined = share_vertices();
-    auto& attributes = m_soup.vertex_attributes;
-    attributes.erase(std::remove_if(attributes.begin(), attributes.end(),
-                                    [&](const Attribute& attribute) { return is_dropped(attribute.name); }),
-                     attributes.end());
+    for (auto* attributes : {&m_soup.vertex_attributes, &m_soup.triangle_attributes})
+      attributes->erase(
+          std::remove_if(attributes->begin(), attributes->end(),
+                         [&](const Attribute& attribute) { return is_dropped(attribute.name); }),
+          attributes->end());
     if (m_are_uvs_dropped)
       m_soup.uvs = {};
     if (m_soup.scene)
@@ -101,8 +102,9 @@ private:
   std::set<std::string> attributes() const
   {
     std::set<std::string> result;
-    for (const Attribute& attribute : m_soup.vertex_attributes)
-      result.insert(attribute.name);
+    for (const auto* attributes : {&m_soup.vertex_attributes, &m_soup.triangle_attributes})
+      for (const Attribute& attribute : *attributes)
+        result.insert(attribute.name);
     if (m_soup.scene)
       for (const Gltf_scene::Block& block : m_soup.scene->blocks)
         for (const Gltf_scene::Column& column : block.attributes)
@@ -122,10 +124,6 @@ private:
         (name == "texture" && !m_soup.uvs.empty());
     if (is_here)
       return;
-    for (const Attribute& attribute : m_soup.triangle_attributes)
-      if (attribute.name == name)
-        throw Input_error("attribute '" + name +
-                          "' belongs to faces; only those of vertices can be left out");
     std::string here = m_soup.uvs.empty() ? "" : "texture";
     for (const std::string& one : all)
       if (!is_needed(one))

@@ -144,6 +144,22 @@ TEST(App_simplify, NamesTheOptionThatMakesNoSeamsOfNormals)
   }
 }
 
+TEST(App_simplify, NamesNormalsThatGltfLacks)
+{
+  const Workspace folder;
+  const std::string in = folder / "in.ply";
+  const Triangle_soup bare = test::sheet(8, 8);
+  write_mesh(in, bare);
+  const auto says = [&](const std::string& out, std::vector<std::string> options) {
+    options.insert(options.begin(), {"simplify", in, "-o", folder / out, "--ratio", "0.5"});
+    return run_app(options).out.find("--normals smooth makes smooth ones") != std::string::npos;
+  };
+  EXPECT_TRUE(says("out.glb", {}));
+  EXPECT_FALSE(says("out.ply", {}));
+  EXPECT_FALSE(says("out.glb", {"--normals", "smooth"}));
+  EXPECT_FALSE(says("out.glb", {"--progressive", folder / "steps.glb"})); // which refuses the option
+}
+
 // Nor does it name as lost what the input does not have.
 TEST(App_simplify, NamesWhatTheOutputLosesAlone)
 {

@@ -6,14 +6,17 @@
 #include "support/Temporary_folder.h"
 #include "support/meshes.h"
 #include "support/reduction.h"
+#include "support/soups.h"
 
 #include "soup/selection.h"
 #include <selvedge/Error.h>
+#include <selvedge/inspect.h>
 #include <selvedge/mesh_files.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <numeric>
@@ -279,6 +282,81 @@ TEST(AttributesPly, TrianglesOfAPolygonHaveItsAttributes)
   std::memcpy(flags.data(), soup.triangle_attributes[0].rows.data(), 2 * flags.size());
   EXPECT_EQ(flags, (std::vector<std::int16_t>{258, -2, -2, 9}));
   EXPECT_EQ(soup.triangle_attributes[1].rows, (std::vector<unsigned char>{1, 3, 3, 4}));
+}
+
+TEST(AttributesPly, NamesThatStandTwiceAreRefusedOrIgnored)
+{
+  Triangle_soup soup = test::one_triangle();
+  soup.triangle_attributes = {{"row", Type::uint8, 1, false, {7}}, {"row", Type::uint8, 1, false, {8}}};
+  EXPECT_THROW(written(soup, "m.ply"), Argument_error);
+  soup.triangle_attributes.clear();
+  soup.vertex_attributes = {{"x", Type::uint8, 1, false, {7, 7, 7}}};
+  EXPECT_THROW(written(soup, "m.ply"), Argument_error);
+  const Mesh_file mesh = read_mesh(
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "property float x\nelement face 1\nproperty list uchar int vertex_indices\nproperty uchar row\n"
+      "property float nx\nproperty float ny\nproperty float nz\nproperty uchar row\nend_header\n"
+      "0 0 0 9\n1 0 0 9\n0 1 0 9\n3 0 1 2 7 0 0 1 8\n",
+      Mesh_format::ply, "text");
+  EXPECT_EQ(mesh.soup.points[1].x(), 1);
+  ASSERT_EQ(mesh.soup.triangle_attributes.size(), 1u);
+  EXPECT_EQ(mesh.soup.triangle_attributes[0].rows, std::vector<unsigned char>{7});
+  EXPECT_TRUE(mesh.soup.vertex_attributes.empty());
+  EXPECT_EQ(mesh.notes.ignored.size(), 3u);
+}
+
+// Regions
+
+/// A flat sheet of 20 × 20 squares with a number for each face: 1 to the left of a line that runs across it,
+/// else 0.
+Triangle_soup painted_sheet()
+{
+  Triangle_soup soup = test::sheet(20, 20);
+  soup.triangle_attributes.push_back({"number", Type::uint8, 1, false, {}});
+  for (const Index_triple& triangle : soup.triangles)
+    soup.triangle_attributes[0].rows.push_back(
+        std::all_of(triangle.begin(), triangle.end(), [&](Index v) { return soup.points[v].x() <= 8; }));
+  return soup;
+}
+
+double painted_area(const Triangle_soup& soup)
+{
+  double area = 0;
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    const auto& [a, b, c] = soup.triangles[t];
+    const auto cross = CGAL::cross_product(soup.points[b] - soup.points[a], soup.points[c] - soup.points[a]);
+    area += soup.triangle_attributes[0].rows[t] == 1 ? std::sqrt(cross.squared_length()) / 2 : 0;
+  }
+  return area;
+}
+
+TEST(AttributesOfFaces, RegionsKeepTheirShape)
+{
+  for (const bool is_doubled : {false, true}) {
+    Triangle_soup soup = painted_sheet();
+    if (is_doubled) { // the back of the cloth is painted elsewhere
+      const std::size_t count = soup.triangles.size();
+      for (std::size_t t = 0; t < count; ++t) {
+        const auto [a, b, c] = soup.triangles[t];
+        soup.triangles.push_back({a, c, b});
+        soup.triangle_attributes[0].rows.push_back(0);
+      }
+    }
+    const double area = painted_area(soup);
+    EXPECT_DOUBLE_EQ(area, 160);
+    const Triangle_soup result = test::reduce(soup, test::to_ratio(0.05)).simplified.soup;
+    EXPECT_LE(result.triangles.size(), soup.triangles.size() / 20 + 1);
+    EXPECT_NEAR(painted_area(result), area, 1e-9) << is_doubled;
+  }
+}
+
+TEST(AttributesOfFaces, ThatDifferNearlyEverywhereMakeNoLines)
+{
+  Triangle_soup soup = painted_sheet();
+  EXPECT_EQ(inspect(soup).seams.by_regions, 20u);
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
+    soup.triangle_attributes[0].rows[t] = static_cast<unsigned char>(t * 37 % 11);
+  EXPECT_EQ(inspect(soup).seams.edges, 0u);
 }
 
 // Conversion

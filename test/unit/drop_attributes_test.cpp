@@ -184,11 +184,19 @@ TEST(Attributes, NamesOfNothingAreRefused)
   EXPECT_NE(message_of(sheet(2, 2), "texture").find("it has none"), std::string::npos);
   EXPECT_NE(message_of(soup, "NORMAL").find("--normals drop"), std::string::npos);
   EXPECT_NE(message_of(soup, "JOINTS_0").find("skins need it"), std::string::npos);
-  Attribute row = soup.vertex_attributes.front();
-  row.name = "row";
-  row.rows.resize(soup.triangles.size());
-  soup.triangle_attributes.push_back(row);
-  EXPECT_NE(message_of(soup, "row").find("belongs to faces"), std::string::npos) << message_of(soup, "row");
+}
+
+TEST(Attributes, OfFacesAreLeftOut)
+{
+  Triangle_soup soup = sheet(2, 2);
+  for (const char* name : {"red", "green", "row"})
+    soup.triangle_attributes.push_back(
+        {name, Attribute::Type::uint8, 1, false, std::vector<unsigned char>(soup.triangles.size(), 1)});
+  drop_attributes(soup, {"colors"});
+  ASSERT_EQ(soup.triangle_attributes.size(), 1u);
+  EXPECT_EQ(soup.triangle_attributes[0].name, "row");
+  drop_attributes(soup, {"row"});
+  EXPECT_TRUE(soup.triangle_attributes.empty());
 }
 
 TEST(Attributes, SeamsOfTheTextureAreCounted)

@@ -11,6 +11,7 @@
 #include <selvedge/gltf_poses.h>
 #include <selvedge/internal/base64.h>
 #include <selvedge/mesh_files.h>
+#include <selvedge/prepare.h>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -132,6 +133,29 @@ std::string refusal_of_poses(const std::function<void()>& poses)
     return error.what();
   }
   return "";
+}
+
+TEST(Gltf_poses, OpenFacesThatAreClosedAtRest)
+{
+  for (const char* moved_by : {"nothing", "a target", "a bone"}) {
+    Posed_file file;
+    auto& primitive = file.json["meshes"][0]["primitives"][0];
+    primitive["indices"] = file.rows<std::uint8_t>({0, 1, 2, 2, 1, 3}, "SCALAR");
+    primitive["attributes"]["POSITION"] = file.rows<float>({0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 2, 0}, "VEC3");
+    if (moved_by == std::string("a target"))
+      primitive["targets"] = {{{"POSITION", file.rows<float>({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0}, "VEC3")}}};
+    if (moved_by == std::string("a bone")) {
+      auto& attributes = primitive["attributes"];
+      attributes["JOINTS_0"] = file.rows<std::uint8_t>(std::vector<std::uint8_t>(16, 0), "VEC4");
+      attributes["WEIGHTS_0"] =
+          file.rows<std::uint8_t>({255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0, 127, 128, 0, 0}, "VEC4", true);
+      file.json["skins"] = {{{"joints", {0}}}};
+      file.json["nodes"][0]["skin"] = 0;
+    }
+    const Prepared_soup prepared = prepare(file.soup());
+    EXPECT_EQ(prepared.left_out_faces, 1u) << moved_by;
+    EXPECT_EQ(prepared.left_out_faces_that_open, moved_by == std::string("nothing") ? 0u : 1u) << moved_by;
+  }
 }
 
 TEST(Gltf_poses, AreMorphTargetsAtOne)

@@ -316,6 +316,12 @@ void Judged_complex::find_seams(const Triangle_soup& own)
                           : m_position_of_vertex[v[1]] == position ? 1
                                                                    : 2));
   };
+  struct Inner_edge
+  {
+    std::pair<Index, Index> ends;
+    std::vector<Index> here, beyond; // the plies of both faces
+  };
+  std::vector<Inner_edge> edges;
   for (Index p = 0; p < m_points.size(); ++p)
     for (const Edge& edge : edges_at(p)) {
       if (edge.neighbour < p || edge.is_border())
@@ -324,21 +330,32 @@ void Judged_complex::find_seams(const Triangle_soup& own)
       for (const Index f : m_faces_at[p])
         if (m_faces[f].is_own && has(f, edge.neighbour))
           pair.push_back(f);
-      const std::vector<Index> here = plies(pair[0]), beyond = plies(pair[1]);
-      bool is_line = here.size() != beyond.size();
-      for (std::size_t i = 0; i < here.size() && !is_line; ++i) {
-        const Index f = here[i], g = beyond[i];
-        is_line = differ_in_label(own.groups, f, g) || differ_in_label(own.objects, f, g) ||
-                  differ_in_label(own.materials, f, g);
-        for (const Index end : {p, edge.neighbour}) {
-          const Index a = corner_at(f, end), b = corner_at(g, end);
-          is_line = is_line || own.triangles[a / 3][a % 3] != own.triangles[b / 3][b % 3] ||
-                    differ(own.uvs, a, b) || differ(own.normals, a, b);
-        }
-      }
-      if (is_line)
-        m_seams.insert({p, edge.neighbour});
+      edges.push_back({{p, edge.neighbour}, plies(pair[0]), plies(pair[1])});
     }
+  for (const Inner_edge& edge : edges) {
+    bool is_line = edge.here.size() != edge.beyond.size();
+    for (std::size_t i = 0; i < edge.here.size() && !is_line; ++i) {
+      const Index f = edge.here[i], g = edge.beyond[i];
+      is_line = differ_in_label(own.groups, f, g) || differ_in_label(own.objects, f, g) ||
+                differ_in_label(own.materials, f, g);
+      for (const Index end : {edge.ends.first, edge.ends.second}) {
+        const Index a = corner_at(f, end), b = corner_at(g, end);
+        is_line = is_line || own.triangles[a / 3][a % 3] != own.triangles[b / 3][b % 3] ||
+                  differ(own.uvs, a, b) || differ(own.normals, a, b);
+      }
+    }
+    if (is_line)
+      m_seams.insert(edge.ends);
+  }
+  for (const Attribute& attribute : own.triangle_attributes) {
+    std::set<std::pair<Index, Index>> around_regions;
+    for (const Inner_edge& edge : edges)
+      for (std::size_t i = 0; i < std::min(edge.here.size(), edge.beyond.size()); ++i)
+        if (attribute.rows[edge.here[i]] != attribute.rows[edge.beyond[i]]) // which are of one byte
+          around_regions.insert(edge.ends);
+    if (16 * around_regions.size() <= edges.size())
+      m_seams.insert(around_regions.begin(), around_regions.end());
+  }
 }
 
 std::vector<std::vector<Index>> Judged_complex::fans_at(Index position) const

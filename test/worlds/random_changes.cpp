@@ -290,6 +290,16 @@ void decorate(Triangle_soup& soup, Random& random)
   }
 }
 
+void number_triangles(Triangle_soup& soup, Random& random)
+{
+  Attribute number{"material_index", Attribute::Type::uint8, 1, false, {}};
+  const bool is_noise = random.one_in(4);
+  const std::size_t beyond = random.below(soup.triangles.size() + 1);
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
+    number.rows.push_back(static_cast<unsigned char>(is_noise ? random.below(3) : t < beyond));
+  soup.triangle_attributes.push_back(std::move(number));
+}
+
 // What stands in its way
 // ----------------------------------------------------------------------------------------------------------
 

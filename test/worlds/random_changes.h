@@ -33,6 +33,9 @@ std::string displace(Triangle_soup& soup, Random& random);
 /// holds them.
 void decorate(Triangle_soup& soup, Random& random);
 
+/// An attribute of triangles, of one byte each, as a PLY file holds it: the same in two regions, or anyhow.
+void number_triangles(Triangle_soup& soup, Random& random);
+
 /// Something beside, under, in or at a soup that stands in its way.
 Triangle_soup random_obstacle(const Triangle_soup& soup, Random& random);
 

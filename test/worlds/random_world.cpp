@@ -546,6 +546,15 @@ World random_world(std::uint64_t seed)
       world.input_format = Mesh_format::ply;
     }
   }
+  Random of_numbers(seed + 3); // another sequence, as above
+  const bool is_numbered = of_numbers.one_in(6) && !soup.scene && world.input_format != Mesh_format::stl &&
+                           !soup.triangles.empty();
+  if (is_numbered) {
+    number_triangles(soup, of_numbers);
+    soup = through_file(soup, "mesh.ply");
+    world.input_format = Mesh_format::ply;
+    world.scene += ", with numbers of triangles";
+  }
 
   choose_options(world, random);
   if (random.one_in(5))
@@ -588,7 +597,8 @@ World random_world(std::uint64_t seed)
   if (has_polygons)
     world.soup.polygons = fans(world.soup);
   world.defects = random.one_in(25) ? Defects::refuse : random.one_in(4) ? Defects::freeze : Defects::descend;
-  if (world.seed % 5 == 4 && world.input_format == Mesh_format::obj && !world.soup.points.empty())
+  if (world.seed % 5 == 4 && (world.input_format == Mesh_format::obj || is_numbered) &&
+      !world.soup.points.empty())
     add_poses(world);
   fit_options_to_poses(world);
   // Cells refuse the option, and snaps may join the two parts.

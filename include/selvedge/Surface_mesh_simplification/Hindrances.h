@@ -19,7 +19,7 @@ enum class Hindrance : unsigned char {
   misoriented,  ///< the vertex is at an edge whose two faces face opposite ways
   border,       ///< the vertex would leave a border
   seam,         ///< the vertex would leave a line across which vertex numbers differ, or a line of the caller
-  group,        ///< the vertex would leave a line between groups, objects or materials
+  group,        ///< the vertex would leave a line between groups, objects, materials, or values of faces
   texture,      ///< the vertex would leave a line across which texture coordinates differ
   normals,      ///< the vertex could go if no edge were a line because of its normals alone
   line_end,     ///< the vertex is an end, a junction or a corner face of borders and seams
@@ -72,7 +72,7 @@ public:
              {Hindrance::misoriented, "misoriented", "faces that disagree in orientation", "border"},
              {Hindrance::border, "border", "borders", "border"},
              {Hindrance::seam, "seam", "seams", "border"},
-             {Hindrance::group, "group", "borders of groups and materials", "border"},
+             {Hindrance::group, "group", "borders of groups, materials and regions", "border"},
              {Hindrance::texture, "texture", "seams of the texture", "border"},
              {Hindrance::normals, "normals", "normals that differ across edges", "border"},
              {Hindrance::line_end, "line_end", "ends and corners of seams and borders", "border"},

@@ -24,10 +24,10 @@ namespace selvedge {
 /// Refuses a collapse in which faces would touch or pass through each other: the exact filter.
 ///
 /// A model of CGAL's concept `PlacementFilter`, usable with any placement and cost. Give the loop both the
-/// filter and its visitor, alone or in a `Visitor_chain`:
+/// filter and its visitor, alone or in a `Visitor_chain`. With edge_collapse.h:
 ///
 /// ```
-/// selvedge::Intersection_filter<Mesh> filter(mesh);
+/// const selvedge::Intersection_filter<Mesh> filter(mesh);
 /// selvedge::edge_collapse(mesh, stop, CGAL::parameters::filter(filter).visitor(filter.visitor()));
 /// ```
 ///
