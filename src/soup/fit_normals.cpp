@@ -5,6 +5,7 @@
 
 #include "Disjoint_sets.h"
 #include "Triangle_finder.h"
+#include "inner_edges.h"
 #include "near_normals.h"
 #include "number_positions.h"
 #include "selection.h"
@@ -18,6 +19,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <tuple>
@@ -47,6 +49,13 @@ constexpr double s_inertia = 0.05;
 // of the cloth, say.
 constexpr double s_cosine_of_sample = 0.2;
 
+// Of 40°: a triangle that is turned farther than that from the normal at its corner, or from its neighbour,
+// may have another normal.
+constexpr double s_cosine_of_split = 0.766;
+
+// How much of the squared error around a wedge may be left if it is split. What is smooth is to stay so.
+constexpr double s_share_left_of_split = 0.5;
+
 // Where samples are in a triangle: quadratic functions are integrated exactly.
 constexpr std::array<double, 3> s_far = {1. / 6, 1. / 6, 2. / 3};
 
@@ -75,7 +84,10 @@ public:
     if (std::all_of(m_is_fixed.begin(), m_is_fixed.end(), [](char is_fixed) { return is_fixed != 0; }))
       return 0;
     take_samples();
-    return assign(solution());
+    std::vector<Vector> fitted = solution();
+    if (split_wedges(fitted))
+      fitted = solution();
+    return assign(std::move(fitted));
   }
 
 private:
@@ -196,6 +208,11 @@ private:
       m_wedges[corner / 3][corner % 3] = number;
       m_is_fixed[number] |= !m_is_changed[corner / 3];
     }
+    weigh_wedges();
+  }
+
+  void weigh_wedges()
+  {
     m_mass.assign(m_old.size(), 0);
     for (Index i = 0; i < m_result.triangles.size(); ++i)
       if (has_normals(m_result, i))
@@ -379,6 +396,115 @@ private:
     }
   }
 
+  // The cosine between a normal and the side of a triangle that it shades.
+  double cosine(Index i, const Vector& normal) const { return m_sides[i] * dot(m_fronts[i], normal); }
+
+  // By wedge as `whole` numbers them, the squared differences between the samples on the triangles there and
+  // what these show with such normals of the wedges `m_wedges`.
+  std::vector<double> errors(const std::vector<Index_triple>& whole, const std::vector<Vector>& normals) const
+  {
+    std::vector<double> result(normals.size(), 0);
+    for (Index i = 0; i < m_wedges.size(); ++i) {
+      if (m_sides[i] == 0)
+        continue;
+      const Moments& moments = m_moments[i];
+      double error = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vector& normal = normals[m_wedges[i][k]];
+        error -= 2 * dot(moments.normals[k], normal);
+        for (std::size_t l = 0; l < 3; ++l) // samples have length 1, and their three weights add up to 1
+          error += moments.products[k][l] * (1 + dot(normal, normals[m_wedges[i][l]]));
+      }
+      for (const Index wedge : whole[i])
+        result[wedge] += error;
+    }
+    return result;
+  }
+
+  // Unites the corners of a wedge at which triangles meet that turn little from one to the next.
+  internal::Disjoint_sets smooth_parts() const
+  {
+    const std::vector<Index> positions = number_positions(m_result.points);
+    std::vector<Index_triple> triples;
+    for (const auto& [a, b, c] : m_result.triangles)
+      triples.push_back({positions[a], positions[b], positions[c]});
+    internal::Disjoint_sets parts(3 * triples.size());
+    internal::for_each_inner_edge(triples, [&](const internal::Edge_side& a, const internal::Edge_side& b) {
+      const Index i = a.at_low / 3, j = b.at_low / 3;
+      if (m_sides[i] * cosine(j, m_fronts[i]) < s_cosine_of_split)
+        return;
+      for (const auto& [of_a, of_b] : {std::pair(a.at_low, b.at_low), std::pair(a.at_high, b.at_high)})
+        if (m_wedges[i][of_a % 3] == m_wedges[j][of_b % 3])
+          parts.unite(of_a, of_b);
+    });
+    return parts;
+  }
+
+  // Makes wedges of the smooth parts of those whose fitted normal is far from that of a triangle there, if
+  // most of the error around goes by this. Such are left where a bevel is gone: the triangles on both sides
+  // of the edge have the normal that it had. Returns whether there are new wedges.
+  bool split_wedges(const std::vector<Vector>& fitted)
+  {
+    const std::size_t count = m_old.size();
+    std::vector<char> is_far(count, false);
+    for (Index i = 0; i < m_wedges.size(); ++i)
+      for (std::size_t k = 0; k < 3 && m_sides[i] != 0; ++k)
+        is_far[m_wedges[i][k]] |= cosine(i, unit(fitted[m_wedges[i][k]])) < s_cosine_of_split;
+    if (std::find(is_far.begin(), is_far.end(), true) == is_far.end())
+      return false;
+
+    const std::vector<Index_triple> whole = m_wedges;
+    const std::vector<Vector> old = m_old;
+    const std::vector<double> errors_before = errors(whole, fitted);
+    internal::Disjoint_sets parts = smooth_parts();
+    std::map<std::size_t, Index> wedges;                            // of the parts
+    std::vector<char> is_taken(count, false), is_cut(count, false); // whether it has parts, and several
+    std::vector<Vector> means(count);
+    for (Index i = 0; i < whole.size(); ++i)
+      for (std::size_t k = 0; k < 3 && m_sides[i] != 0; ++k) {
+        const Index w = whole[i][k];
+        if (m_is_fixed[w] || !is_far[w])
+          continue;
+        const auto [found, is_new] = wedges.emplace(parts.find(3 * i + k), w);
+        if (is_new && std::exchange(is_taken[w], true)) { // the first part keeps the number
+          is_cut[w] = true;
+          found->second = Index(means.size());
+          means.emplace_back();
+          m_is_fixed.push_back(false);
+        }
+        m_wedges[i][k] = found->second;
+        const double weight = m_sides[i] * area(scaled(m_result, i));
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          means[found->second][axis] += weight * m_fronts[i][axis];
+      }
+    m_old.resize(means.size());
+    for (std::size_t w = 0; w < means.size(); ++w)
+      if (w >= count || is_cut[w])
+        m_old[w] = unit(means[w]);
+    weigh_wedges();
+    const std::vector<double> errors_after = errors(whole, solution());
+
+    m_is_split.assign(m_old.size(), false);
+    bool is_any_split = false;
+    for (Index i = 0; i < whole.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Index w = whole[i][k];
+        if (m_sides[i] == 0 || !is_cut[w])
+          continue;
+        if (errors_after[w] < s_share_left_of_split * errors_before[w]) {
+          m_is_split[m_wedges[i][k]] = true;
+          is_any_split = true;
+        } else {
+          m_wedges[i][k] = w;
+        }
+      }
+    for (std::size_t w = 0; w < count; ++w)
+      if (!m_is_split[w])
+        m_old[w] = old[w];
+    weigh_wedges();
+    return is_any_split;
+  }
+
   // Whether no triangle would have a normal, in place of the old one, that is farther from its own than
   // samples may be, and than the old one is.
   std::vector<char> suit(const std::vector<Vector>& normals) const
@@ -395,6 +521,8 @@ private:
     return result;
   }
 
+  bool is_split(std::size_t wedge) const { return !m_is_split.empty() && m_is_split[wedge]; }
+
   // Gives corners their new normals, or those halfway there that suit all triangles, but for those that would
   // look like the old ones.
   std::size_t assign(std::vector<Vector> fitted)
@@ -410,7 +538,7 @@ private:
     }
     std::vector<char> is_kept = m_is_fixed;
     for (std::size_t w = 0; w < fitted.size(); ++w)
-      is_kept[w] |= fitted[w] == Vector{} || are_near_normals(fitted[w], m_old[w]);
+      is_kept[w] |= fitted[w] == Vector{} || (!is_split(w) && are_near_normals(fitted[w], m_old[w]));
     std::vector<Index> numbers(fitted.size());
     for (std::size_t w = 0; w < fitted.size(); ++w)
       if (!is_kept[w]) {
@@ -444,6 +572,7 @@ private:
   std::vector<Vector> m_old;          // by wedge, of length 1
   std::vector<char> m_is_fixed;       // by wedge
   std::vector<double> m_mass;         // by wedge: the area around it
+  std::vector<char> m_is_split;       // by wedge: others were one with it; or empty
 };
 
 } // namespace

@@ -3,6 +3,7 @@
 
 // Normals that would point to the back of a face are mended: no hem is shaded as its inside.
 
+#include "soup/triangle_normals.h"
 #include "support/reduction.h"
 
 #include <selvedge/internal/Vector_of_doubles.h>
@@ -577,6 +578,49 @@ TEST(FittedShading, KeepsEdgesHardOrSmooth)
     // The two ends, on borders, keep what they have.
     EXPECT_EQ(equal, apart == 0 ? at_seam.size() : apart < 0.01 ? at_seam.size() - 2 : 0);
   }
+}
+
+// Two planes at a right angle, with a narrow bevel between them that shades round.
+TEST(FittedShading, IsHardAgainWhereABevelIsGone)
+{
+  std::vector<std::array<double, 2>> profile; // x and z
+  for (int i = 0; i < 8; ++i)
+    profile.push_back({double(i), 0});
+  profile.push_back({7.9, 0});
+  profile.push_back({8, -0.1});
+  for (int i = 1; i <= 8; ++i)
+    profile.push_back({8, -double(i)});
+  Triangle_soup soup;
+  constexpr Index rows = 20;
+  const Index columns = Index(profile.size());
+  for (Index j = 0; j < rows; ++j)
+    for (Index i = 0; i < columns; ++i) {
+      soup.points.emplace_back(profile[i][0], double(j), profile[i][1]);
+      soup.normals.values.push_back(i < 8    ? direction({0, 0, 1})
+                                    : i < 10 ? direction({1, 0, 1})
+                                             : direction({1, 0, 0}));
+    }
+  for (Index j = 0; j + 1 < rows; ++j)
+    for (Index i = 0; i + 1 < columns; ++i) {
+      const Index a = j * columns + i, b = a + 1, c = b + columns, d = c - 1;
+      soup.triangles.push_back({a, b, c});
+      soup.triangles.push_back({a, c, d});
+    }
+  soup.normals.of_triangle = soup.triangles;
+  const auto farthest = [&](const Prepare_options& options) {
+    const Triangle_soup result = reduce(soup, to_ratio(0.05), options).simplified.soup;
+    double least = 1;
+    for (Index t = 0; t < result.triangles.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Point_3& p = result.points[result.triangles[t][k]];
+        if (p.y() > 0 && p.y() < rows - 1 && p.x() > 0 && p.z() > -8) // not on borders, which stay
+          least = std::min(least, internal::dot(shading::unit_normal(result, t),
+                                                result.normals.values[result.normals.of_triangle[t][k]]));
+      }
+    return least;
+  };
+  EXPECT_LT(farthest(mending()), 0.75) << "the control: 41° and more";
+  EXPECT_GT(farthest(fitting()), 0.85);
 }
 
 // So that it goes on in what lies beside, in another file or as the next place of the same mesh.
