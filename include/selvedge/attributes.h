@@ -34,9 +34,12 @@ namespace selvedge {
 /// **Complexity** O(n) expected for n corners and bytes of attributes.
 std::size_t drop_attributes(Triangle_soup& soup, const std::vector<std::string>& names);
 
+/// How `seams_of_attributes` calls several sets of texture coordinates of a glTF file without the first.
+constexpr const char* further_texture_coordinates = "further texture coordinates";
+
 /// Returns the name by which `drop_attributes` leaves out an attribute of this name (`seams_of_attributes`):
-/// `colors` for colours, and itself for others; empty where it leaves none out, as for what a skin needs and
-/// for morph targets.
+/// `colors` for colours, `texture` for further texture coordinates, and itself for others; empty where it
+/// leaves none out, as for what a skin needs and for morph targets.
 std::string name_to_drop(const std::string& attribute);
 
 } // namespace selvedge

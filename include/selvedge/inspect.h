@@ -131,12 +131,14 @@ struct Inspection
   Border_gaps border_gaps;
 };
 
-/// Returns the attributes because of which edges of two triangles are seams, and of how many: those that
-/// differ between the vertices on the two sides, where neither position, normals nor labels do, and those of
-/// faces that tell regions apart (they differ across at most a sixteenth of such edges). They have the
-/// names of the file, and texture coordinates are `texture`, as `drop_attributes` takes them; those of morph
-/// targets are followed by "of morph targets".
-/// `positions` numbers the positions of vertices, as in `Prepared_soup`. **Complexity** O(n log n).
+/// Returns the attributes because of which alone edges of two triangles are seams, and of how many: those
+/// that differ between the vertices on the two sides, where neither position, normals, labels nor another
+/// attribute do, and those of faces that tell regions apart (they differ across at most a sixteenth of such
+/// edges). They have the names of the file, and texture coordinates are `texture`, as `drop_attributes` takes
+/// them; those of morph targets are followed by "of morph targets". What `drop_attributes` leaves out
+/// together counts as one: colours, each of them, and all texture coordinates with the tangents, as
+/// `texture`, or, where the first are alike, as `further_texture_coordinates`. `positions` numbers the
+/// positions of vertices, as in `Prepared_soup`. **Complexity** O(n log n).
 std::map<std::string, std::size_t> seams_of_attributes(const Triangle_soup& soup,
                                                        const std::vector<Index>& positions);
 

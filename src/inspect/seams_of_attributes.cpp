@@ -3,11 +3,14 @@
 
 #include <selvedge/inspect.h>
 
+#include <selvedge/attributes.h>
+
 #include "soup/Corner_mesh.h"
 #include "soup/Gltf_scene.h"
 #include "soup/inner_edges.h"
 #include "soup/selection.h"
 
+#include <algorithm>
 #include <cstring>
 #include <initializer_list>
 #include <set>
@@ -63,6 +66,23 @@ void add_differences(const Triangle_soup& soup, Index a, Index b, std::set<std::
         names.insert(column.name + " of morph targets");
 }
 
+// Of the attributes that differ across an edge, returns those that can be left out such that none differs any
+// more: one alone, or several that go together.
+std::set<std::string> sole_causes(const std::set<std::string>& names)
+{
+  const auto are_all = [&](const auto& property) {
+    return std::all_of(names.begin(), names.end(), property);
+  };
+  if (names.size() < 2 || are_all([](const std::string& name) { return name_to_drop(name) == "colors"; }))
+    return names;
+  const bool are_of_texture = are_all([](const std::string& name) {
+    return name == "texture" || name == "TANGENT" || name.rfind("TEXCOORD_", 0) == 0;
+  });
+  if (!are_of_texture)
+    return {};
+  return {names.count("texture") > 0 ? "texture" : further_texture_coordinates};
+}
+
 } // namespace
 
 std::map<std::string, std::size_t> seams_of_attributes(const Triangle_soup& soup,
@@ -93,7 +113,7 @@ std::map<std::string, std::size_t> seams_of_attributes(const Triangle_soup& soup
         names.insert("texture");
       add_differences(soup, soup.triangles[c / 3][c % 3], soup.triangles[d / 3][d % 3], names);
     }
-    for (const std::string& name : names)
+    for (const std::string& name : sole_causes(names))
       ++result[name];
   });
   for (const auto& [name, count] : edges_around_regions)

@@ -5,6 +5,7 @@
 
 #include "Gltf_scene.h"
 #include "flat_shading.h"
+#include "near_normals.h"
 #include "selection.h"
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
@@ -87,9 +88,10 @@ public:
           attributes->end());
     if (m_are_uvs_dropped)
       m_soup.uvs = {};
-    if (m_soup.scene)
-      drop_in_scene();
-    return joined;
+    if (!m_soup.scene)
+      return joined;
+    drop_in_scene();
+    return joined + share_split_vertices(m_soup); // those whose normals differ in the last digits alone
   }
 
 private:
@@ -132,27 +134,36 @@ private:
                       (here.empty() ? "it has none" : "it has " + here));
   }
 
-  // Returns the number of the value that all corners of a vertex have, or `s_several`.
-  template <std::size_t dimension>
-  std::vector<Index> values_of_vertices(const Corner_values<dimension>& values) const
+  // Returns the number of the value that all corners of a vertex have, or the first of values that are all
+  // alike; or `s_several`.
+  template <std::size_t dimension, class Are_alike>
+  std::vector<Index> values_of_vertices(const Corner_values<dimension>& values,
+                                        const Are_alike& are_alike) const
   {
     std::vector<Index> result(values.empty() ? 0 : m_soup.points.size(), s_none);
     for (std::size_t t = 0; t < values.of_triangle.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k) {
         Index& of_vertex = result[m_soup.triangles[t][k]];
         const Index value = values.of_triangle[t][k];
-        of_vertex = of_vertex == s_none || of_vertex == value ? value : s_several;
+        if (of_vertex == s_none)
+          of_vertex = value;
+        else if (of_vertex != s_several && of_vertex != value && !are_alike(of_vertex, value))
+          of_vertex = s_several;
       }
     return result;
   }
 
   std::size_t share_vertices()
   {
-    const std::vector<Index> normals = values_of_vertices(m_soup.normals);
+    const auto are_never = [](Index, Index) { return false; };
+    // Several that are nearly alike are left at vertices that `share_split_vertices` has joined.
+    const std::vector<Index> normals = values_of_vertices(m_soup.normals, [this](Index a, Index b) {
+      return m_soup.scene && are_near_normals(m_soup.normals.values[a], m_soup.normals.values[b]);
+    });
     // Where corners have numbers of their own, as in OBJ, several vertices at one place mean something.
     std::vector<Index> uvs;
     if (m_soup.scene || are_numbered_like_vertices(m_soup.uvs, m_soup))
-      uvs = values_of_vertices(m_soup.uvs);
+      uvs = values_of_vertices(m_soup.uvs, are_never);
     struct Shared_vertex
     {
       Index first;
@@ -188,8 +199,11 @@ private:
         ++joined;
         if (!uvs.empty() && uvs[v] != s_several)
           m_soup.uvs.of_triangle[t][k] = uvs[v];
-        if (!normals.empty() && normals[v] != s_several)
-          m_soup.normals.of_triangle[t][k] = normals[v];
+        if (normals.empty() || normals[v] == s_several)
+          continue;
+        Index& normal = m_soup.normals.of_triangle[t][k];
+        if (have_same_bits(m_soup.normals.values[normal], m_soup.normals.values[normals[v]]))
+          normal = normals[v];
       }
     return joined;
   }
@@ -276,7 +290,10 @@ private:
 std::string name_to_drop(const std::string& attribute)
 {
   const bool is_of_targets = attribute.find(" of morph targets") != std::string::npos;
-  return is_needed(attribute) || is_of_targets ? "" : means("colors", attribute) ? "colors" : attribute;
+  return is_needed(attribute) || is_of_targets      ? ""
+         : means("colors", attribute)               ? "colors"
+         : attribute == further_texture_coordinates ? "texture"
+                                                    : attribute;
 }
 
 std::size_t drop_attributes(Triangle_soup& soup, const std::vector<std::string>& names)

@@ -132,9 +132,9 @@ private:
 std::size_t share_vertices(Triangle_soup& soup, Sharing sharing)
 {
   const std::equal_to<Index> are_equal;
-  const std::vector<Index> normals = sharing >= Sharing::loose
-                                         ? normals_of_vertices(soup)
-                                         : numbers_of_vertices(soup, soup.normals.of_triangle, are_equal);
+  const std::vector<Index> normals = sharing == Sharing::flat
+                                         ? numbers_of_vertices(soup, soup.normals.of_triangle, are_equal)
+                                         : normals_of_vertices(soup);
   if (normals.empty())
     return 0;
   const std::size_t used =

@@ -47,7 +47,8 @@ bool are_numbered_like_vertices(const Corner_values<dimension>& values, const Tr
 /// targets add to NORMAL and TANGENT, unless the normals are one. Where vertices of different tangents become
 /// one, the scene alone has tangents then, and not `vertex_attributes`.
 ///
-/// Returns how many corners name another vertex now. Does nothing where a vertex has two normals.
+/// Returns how many corners name another vertex now. Does nothing where a vertex has two normals, unless they
+/// are nearly alike, as this leaves them.
 ///
 /// **Complexity** O(n) expected for n triangles and bounded numbers of such vertices at one place.
 std::size_t share_split_vertices(Triangle_soup& soup);

@@ -17,10 +17,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -206,6 +208,38 @@ TEST(Attributes, SeamsOfTheTextureAreCounted)
   const Reduction reduction = reduce(soup, to_ratio(1));
   const auto seams = seams_of_attributes(reduction.prepared.soup, reduction.prepared.positions);
   EXPECT_EQ(seams.at("texture"), inner);
+}
+
+TEST(Attributes, AreNamedWhereTheyAreTheOnlyCauseOfSeams)
+{
+  Triangle_soup soup = joined(sheet(1, 2), moved(sheet(1, 2), 1, 0, 0));
+  const auto seams = [&] {
+    const Reduction reduction = reduce(soup, to_ratio(1));
+    return seams_of_attributes(reduction.prepared.soup, reduction.prepared.positions);
+  };
+  using Counts = std::map<std::string, std::size_t>;
+  std::vector<unsigned char> values(soup.points.size(), 0);
+  std::fill(values.begin() + std::ptrdiff_t(values.size() / 2), values.end(), 1);
+  add_attribute(soup, "red", values);
+  EXPECT_EQ(seams(), (Counts{{"red", 2}}));
+  add_attribute(soup, "green", values);
+  EXPECT_EQ(seams(), (Counts{{"green", 2}, {"red", 2}})); // which are left out together
+  add_attribute(soup, "heat", values);
+  EXPECT_EQ(seams(), Counts());
+}
+
+TEST(Attributes, OfGltfJoinVerticesWhoseNormalsDifferInTheLastDigits)
+{
+  Triangle_soup soup = shredded_by_vertices();
+  soup.normals.of_triangle = soup.triangles;
+  for (std::size_t v = 0; v < soup.points.size(); ++v)
+    soup.normals.values.push_back({1e-5 * double(v % 7), 0, 1});
+  const Temporary_folder folder;
+  write_mesh(folder / "in.glb", soup);
+  Triangle_soup mesh = read_mesh(folder / "in.glb").soup;
+  EXPECT_EQ(vertices_used(mesh), soup.points.size());
+  drop_attributes(mesh, {"texture"});
+  EXPECT_EQ(vertices_used(mesh), vertices_used(sheet(12, 12)));
 }
 
 // A glTF file in which each face has vertices of its own, with textures of both sets, as JSON and as read.
