@@ -439,6 +439,25 @@ Triangle_soup Complex::result() const
       moved.points[v] = place;
   }
   forget_moved_polygons(moved, m_soup.points);
+  std::vector<Index> vertex_at(m_points.size()); // by position, the first vertex there
+  for (Index v = Index(moved.points.size()); v-- > 0;)
+    vertex_at[position(v)] = v;
+  // A corner that no contracted face has reached keeps its values, but is where its face is. It becomes one
+  // of a triangle that is added for this alone, and that is not selected.
+  const auto corner_at = [&](Index corner, Index place) {
+    if (position(vertex_of(corner)) == place)
+      return corner;
+    const auto repeat = [&](auto& values) {
+      if (!values.empty()) {
+        const Index value = values.of_triangle[corner / 3][corner % 3];
+        values.of_triangle.push_back({value, value, value});
+      }
+    };
+    repeat(moved.uvs);
+    repeat(moved.normals);
+    moved.triangles.push_back({vertex_at[place], vertex_at[place], vertex_at[place]});
+    return Index(3 * (moved.triangles.size() - 1));
+  };
   std::vector<Index> triangles;
   std::vector<Index_triple> corners;
   for (Index f = 0; f < m_faces.size(); ++f) {
@@ -451,6 +470,9 @@ Triangle_soup Complex::result() const
       if (all[i].face == f)
         for (std::size_t k = 0; k < 3; ++k)
           corners.back()[all[i].places[k]] = i == 0 ? m_faces[front(f)].corners[k] : all[i].corners[k];
+    const Index_triple positions = positions_left(f);
+    for (std::size_t k = 0; k < 3; ++k)
+      corners.back()[k] = corner_at(corners.back()[k], positions[k]);
   }
   return selected(moved, triangles, corners);
 }

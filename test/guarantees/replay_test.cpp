@@ -64,6 +64,39 @@ Triangle_soup cone(Index rim)
   return result;
 }
 
+// Without limits of lines a vertex may leave a seam. Then the faces beyond it have no value at the place.
+TEST(Replay, FacesBeyondASeamThatIsLeftGoAlong)
+{
+  for (const bool are_vertices_apart : {false, true}) {
+    Triangle_soup soup = sheet(4, 4);
+    if (are_vertices_apart)
+      soup = joined(sheet(2, 4), moved(sheet(2, 4), 2, 0, 0));
+    else
+      for (const Index_triple& triangle : soup.triangles) {
+        const bool is_right =
+            std::any_of(triangle.begin(), triangle.end(), [&](Index v) { return v % 5 > 2; });
+        soup.uvs.values.push_back({is_right ? 1. : 0., double(soup.uvs.values.size())});
+        soup.uvs.of_triangle.push_back({});
+        soup.uvs.of_triangle.back().fill(Index(soup.uvs.values.size() - 1));
+      }
+    const std::string step = are_vertices_apart ? "c 8 7" : "c 12 11";
+    const std::string log = "selvedge-log 1\ninput " + std::to_string(soup.points.size()) + " 32 -\n" + step +
+                            "\nresult 1 30 -\n";
+    const Replay_verdict verdict = replay_text(soup, log);
+    ASSERT_TRUE(verdict.is_accepted());
+    const auto has = [&](double x, double y) {
+      return std::any_of(
+          verdict.soup.triangles.begin(), verdict.soup.triangles.end(), [&](const Index_triple& triangle) {
+            return std::any_of(triangle.begin(), triangle.end(),
+                               [&](Index v) { return verdict.soup.points[v] == Point_3(x, y, 0); });
+          });
+    };
+    EXPECT_FALSE(has(2, 2)) << "a face has stayed where the vertex was";
+    EXPECT_TRUE(has(1, 2));
+    EXPECT_TRUE(is_embedded(verdict.soup));
+  }
+}
+
 // The middle of the lower border bulges out by 0.3 and goes to a new place on the straight border, which the
 // limit of 0.35 allows. The second step leads the border away from where it was, up to 0.37.
 TEST(Replay, ALineRemembersWhatMovedToANewPlace)
