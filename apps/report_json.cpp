@@ -413,6 +413,7 @@ void add_comparison(Json& report, const Verification& verification, const Compar
                       {"compared", layers.compared},
                       {"lines_compared", layers.lines_compared},
                       {"swaps", layers.swaps.size()},
+                      {"without_order", layers.without_order},
                       {"first_swaps", std::move(swaps)}};
 }
 

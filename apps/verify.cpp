@@ -70,7 +70,6 @@ void print(const char* what, const Line_comparison& lines)
 void print(const Verification& verification, const Comparison& comparison)
 {
   const Distances& distances = *verification.distances;
-  const std::size_t pairs_of_original = verification.pairs_of_original;
   std::cout << "lengths, as shares of the bounding box's diagonal of " << with_digits(distances.diagonal)
             << ":\n";
   const auto print_distance = [&](const char* what, const Distance& of_vertices,
@@ -144,11 +143,14 @@ void print(const Verification& verification, const Comparison& comparison)
               << counted(layers.lines_compared, "line") << "; the first: triangles "
               << first.of_original[0] + 1 << " and " << first.of_original[1] + 1 << " of the original became "
               << first.of_result[0] + 1 << " and " << first.of_result[1] + 1 << ", in the other order\n";
-    if (pairs_of_original > 0)
-      std::cout << "  the original has " << counted(pairs_of_original, "offending pair")
-                << ": layers that intersect there have no order, and may come to lie on either side "
-                   "(--defects descend)\n";
+    if (comparison.share_of_original_vertices() < 1)
+      std::cout << "  not all vertices are those of the original, so that a few may be taken for those of "
+                   "another layer; replay of a log tells for certain\n";
   }
+  if (const std::size_t count = layers.without_order; count > 0)
+    std::cout << "  " << counted(count, "pair")
+              << " of layers changed places where they intersect nearby in the "
+              << "original, and so have no order\n";
 }
 
 constexpr std::size_t named = 5;
@@ -363,6 +365,8 @@ Exit_code run(const Verify_request& request)
       round_to_float32(original.soup);
     comparison = compare(mesh.soup, original.soup);
     leave_out_permitted(comparison->layers.swaps, mesh.soup, options);
+    if (!comparison->layers.swaps.empty() && verification->pairs_of_original > 0)
+      leave_out_without_order(comparison->layers, mesh.soup, original.soup, offending_pairs(original.soup));
   } else {
     verification = verify(mesh.soup, options, obstacle);
   }

@@ -169,8 +169,18 @@ struct Layer_order
   std::size_t pairs = 0;          ///< pairs of neighbouring layers on these lines
   std::size_t compared = 0;       ///< pairs of layers that could be found in the result
   std::size_t lines_compared = 0; ///< lines on which these pairs lie
+  double reach = 0;               ///< of a line to both sides, in the unit of the coordinates
   std::vector<Layer_swap> swaps;
+  std::size_t without_order = 0; ///< swaps that `leave_out_without_order` has left out
 };
+
+/// Leaves out the swaps of layers that have no order: where the same two pieces of the original intersect
+/// near both triangles of the result, no farther from their boxes than a line reaches to one side. There,
+/// either may come to lie on either side. `pairs_of_original` are the `offending_pairs` of the original.
+///
+/// **Complexity** O(n + p log p + s p) for n triangles, p pairs and s swaps.
+void leave_out_without_order(Layer_order& layers, const Triangle_soup& result, const Triangle_soup& original,
+                             const std::vector<Offending_pair>& pairs_of_original);
 
 /// All figures of a comparison.
 struct Comparison

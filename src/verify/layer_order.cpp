@@ -10,6 +10,7 @@
 #include "soup/Disjoint_sets.h"
 
 #include <selvedge/Cancellation_scope.h>
+#include <selvedge/Parts.h>
 
 #include <CGAL/Exact_rational.h>
 
@@ -18,6 +19,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -442,7 +445,51 @@ Layer_order layer_order(const Triangle_soup& result, const Triangle_soup& origin
   }
   for (Layer_swap& swap : order.swaps)
     swap.point = scaled(swap.point, exponent);
+  order.reach = reach;
   return order;
 }
 
 } // namespace selvedge::internal
+
+namespace selvedge {
+
+void leave_out_without_order(Layer_order& layers, const Triangle_soup& result, const Triangle_soup& original,
+                             const std::vector<Offending_pair>& pairs_of_original)
+{
+  const auto box_of = [](const Triangle_soup& soup, Index triangle) {
+    CGAL::Bbox_3 box;
+    for (const Index v : soup.triangles[triangle])
+      box += soup.points[v].bbox();
+    return box;
+  };
+  const std::vector<Index> pieces = part_kinds(original).front().of_triangle;
+  const auto pieces_of = [&](const std::array<Index, 2>& triangles) {
+    const auto [least, most] = std::minmax(pieces[triangles[0]], pieces[triangles[1]]);
+    return std::pair<Index, Index>(least, most);
+  };
+  std::map<std::pair<Index, Index>, std::vector<CGAL::Bbox_3>> places; // by the two pieces
+  for (const Offending_pair& pair : pairs_of_original) {
+    const CGAL::Bbox_3 a = box_of(original, pair.first), b = box_of(original, pair.second);
+    std::array<double, 3> least{}, most{};
+    for (int axis = 0; axis < 3; ++axis) {
+      least[std::size_t(axis)] = std::max(a.min(axis), b.min(axis)) - layers.reach;
+      most[std::size_t(axis)] = std::min(a.max(axis), b.max(axis)) + layers.reach;
+    }
+    places[pieces_of({pair.first, pair.second})].emplace_back(least[0], least[1], least[2], most[0], most[1],
+                                                              most[2]);
+  }
+  const auto is_without_order = [&](const Layer_swap& swap) {
+    const auto found = places.find(pieces_of(swap.of_original));
+    if (found == places.end())
+      return false;
+    const CGAL::Bbox_3 a = box_of(result, swap.of_result[0]), b = box_of(result, swap.of_result[1]);
+    return std::any_of(found->second.begin(), found->second.end(), [&](const CGAL::Bbox_3& box) {
+      return CGAL::do_overlap(box, a) && CGAL::do_overlap(box, b);
+    });
+  };
+  const auto left = std::remove_if(layers.swaps.begin(), layers.swaps.end(), is_without_order);
+  layers.without_order += std::size_t(layers.swaps.end() - left);
+  layers.swaps.erase(left, layers.swaps.end());
+}
+
+} // namespace selvedge
