@@ -62,6 +62,33 @@ std::string what_is_flattened(const Simplify_request& request, const Level& leve
          " keeps more of its shape";
 }
 
+/// Says, where a target is reached, that most vertices left lie on seams of the texture, and what helps:
+/// there the surface has given its vertices for the seams.
+std::string what_texture_takes(const Simplify_request& request, const Triangle_soup& soup)
+{
+  constexpr std::size_t most_vertices = 100000; // in meshes that have more, few are on seams
+  if (soup.uvs.empty() || soup.points.size() > most_vertices)
+    return "";
+  std::vector<std::pair<Point_3, std::array<double, 2>>> values; // of all corners, each once
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      values.emplace_back(soup.points[soup.triangles[t][k]], soup.uvs.values[soup.uvs.of_triangle[t][k]]);
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  std::size_t positions = 0, on_seams = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const bool is_first = i == 0 || values[i - 1].first != values[i].first;
+    positions += is_first;
+    on_seams += is_first && i + 1 < values.size() && values[i + 1].first == values[i].first;
+  }
+  if (2 * on_seams <= positions)
+    return "";
+  return "\ntexture: " + with_commas(on_seams) + " of " + counted(positions, "vertex", "vertices") +
+         " left lie on its seams, which keep their course; " +
+         (request.options.max_seam_turn < 180 ? "--seam-turn 180 lets them go straighter, " : "") +
+         "--drop-attribute texture lets them go, if it is baked anew";
+}
+
 bool has_vertex_values(const Triangle_soup& soup)
 {
   return !soup.uvs.empty() || !soup.normals.empty() || !soup.vertex_attributes.empty() ||
@@ -185,6 +212,18 @@ std::string seams_to_leave_out(const Prepared_soup& prepared, const Hindrances& 
          ", if nobody needs it";
 }
 
+/// Names what holds open seams, if that holds many edges: gaps that get no wider, and borders that drift less
+/// there.
+std::string seams_to_let_gape(const Simplify_request& request, const Prepared_soup& prepared,
+                              const Hindrances& hindrances)
+{
+  const std::size_t held = hindrances[Hindrance::gap] + hindrances[Hindrance::drift];
+  if (request.open_seams != Open_seams::hold || prepared.facing.empty() || 10 * held < hindrances.total())
+    return "";
+  return "; " + with_commas(held) +
+         " are held so that seams that stand open get hardly wider: --weld none lets them go";
+}
+
 /// Says in a line what holds back a reduction that ended by itself, and what helps.
 std::string held_back(const Simplify_request& request, const Prepared_soup& prepared,
                       const Simplify_report& report)
@@ -205,12 +244,15 @@ std::string held_back(const Simplify_request& request, const Prepared_soup& prep
   if (others > 0)
     text += ", " + with_commas(others) + " by other rules";
   const std::string options = remedies(all, hindrances, request),
-                    seams = seams_to_leave_out(prepared, hindrances, !options.empty());
+                    seams = seams_to_leave_out(prepared, hindrances, !options.empty()),
+                    gaping = options.find("--weld") != std::string::npos
+                                 ? ""
+                                 : seams_to_let_gape(request, prepared, hindrances);
   if (!options.empty())
     text += "; try " + options;
-  else if (seams.empty())
+  else if (seams.empty() && gaping.empty())
     text += "; no option helps much: " + std::string(why_it_stays(all[0].reason));
-  return text + seams;
+  return text + seams + gaping;
 }
 
 /// Says in a clause where a vertex of the original is.
@@ -391,8 +433,9 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
   if (prepared.normals == Normals_treatment::dropped && is_shown_flat)
     stream << "  normals dropped: programs that show glTF then shade every face flat\n";
   if (prepared.normals == Normals_treatment::none && is_shown_flat && request.progressive.empty())
-    stream << "  no normals: programs that show glTF then shade every face flat; --normals smooth makes smooth "
-              "ones\n";
+    stream
+        << "  no normals: programs that show glTF then shade every face flat; --normals smooth makes smooth "
+           "ones\n";
   if (prepared.normals == Normals_treatment::smoothed)
     stream << "  normals made anew, smooth up to edges where faces of the input turn by more than 60°\n";
   if (prepared.normals == Normals_treatment::smooth)
@@ -464,6 +507,8 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
     stream << (done.is_stopped ? "interrupted" : "as far as the limits allow");
   if (!done.is_reached() && !done.is_stopped)
     stream << "\nheld back: " << held_back(request, prepared, done) << what_is_flattened(request, level);
+  if (done.is_reached() && request.progressive.empty())
+    stream << what_texture_takes(request, result.soup);
   if (done.faces_fixed > 0)
     stream << "\nfixed: " << counted(done.faces_fixed, "face")
            << " with all corners frozen, locked or coincident; a ratio is of the other "

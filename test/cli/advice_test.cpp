@@ -144,6 +144,30 @@ TEST(App_simplify, NamesTheOptionThatMakesNoSeamsOfNormals)
   }
 }
 
+// Every column of squares is an island of the texture.
+TEST(App_simplify, SaysThatSeamsOfTheTextureTakeTheVertices)
+{
+  const Workspace folder;
+  Triangle_soup soup = test::sheet(8, 32);
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    Index_triple& corners = soup.uvs.of_triangle.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point_3& point = soup.points[soup.triangles[t][k]];
+      corners[k] = Index(soup.uvs.values.size());
+      soup.uvs.values.push_back({point.x() / 64 + double(t / 2 % 8) / 8, point.y() / 32});
+    }
+  }
+  write_mesh(folder / "in.obj", soup);
+  const auto summary = [&](const std::string& option, const std::string& value) {
+    return run_app({"simplify", folder / "in.obj", "-o", folder / "out.obj", "--ratio", "0.5", option, value})
+        .out;
+  };
+  const std::string kept = summary("--seam-turn", "90"), dropped = summary("--drop-attribute", "texture");
+  EXPECT_NE(kept.find("left lie on its seams"), std::string::npos) << kept;
+  EXPECT_NE(kept.find("--seam-turn 180"), std::string::npos) << kept;
+  EXPECT_EQ(dropped.find("left lie on its seams"), std::string::npos) << dropped;
+}
+
 TEST(App_simplify, NamesNormalsThatGltfLacks)
 {
   const Workspace folder;
