@@ -111,6 +111,27 @@ class Simplify(unittest.TestCase):
         self.assertIn("obstacle", [part["key"] for part in selvedge.replay(*own, clear).report["terms"]["not_judged"]])
         self.assertFalse(selvedge.replay(*own, selvedge.simplify(*own, ratio=0.1, log=True).log, obstacle=body))
 
+    def test_locked_vertices_are_numbers_or_a_mask(self):
+        mesh = layers(500)
+        count = len(mesh.points)
+        locked = list(range(20, 40))
+        mask = np.zeros(count, bool)
+        mask[locked] = True
+        expected = selvedge.simplify(*mesh, lock_vertices=locked, ratio=0.2)
+        self.assertTrue(np.isin(locked, expected.vertices).all())
+        for same in (mask, mask.tolist(), set(locked), range(20, 40), np.array(locked, np.uint8)):
+            result = selvedge.simplify(*mesh, lock_vertices=same, ratio=0.2)
+            np.testing.assert_array_equal(result.vertices, expected.vertices)
+        free = selvedge.simplify(*mesh, ratio=0.2)
+        for none in ([], np.zeros(count, bool)):
+            np.testing.assert_array_equal(selvedge.simplify(*mesh, lock_vertices=none, ratio=0.2).vertices, free.vertices)
+        for bad, why in ((mask[1:], f"there are {count} points, but {count - 1} booleans"), ([1, 20.9], "not whole"),
+                         ([20.0], "not whole"), (["20"], "not whole"), ([None], "not whole"), ([3, -1], "the number -1,"),
+                         ([count], f"the number {count}, but the {count} vertices"), ([2**70], f"the number {2**70},"),
+                         (np.nonzero(mask), "2 dimensions"), (20, "not a list"), ([[1], [2, 3]], "not a list|not whole")):
+            with self.assertRaisesRegex(selvedge.ArgumentError, why):
+                selvedge.simplify(*mesh, lock_vertices=bad, ratio=0.2)
+
     def test_poses_are_all_guarded(self):
         mesh = layers(2000, 2)
         bent = mesh.points + np.array([0, 0, 1]) * (3 * mesh.points[:, :1] ** 2)

@@ -95,7 +95,7 @@ def simplify(points, triangles, *, poses=None, obstacle=None, groups=None, weigh
     obstacle: (points, triangles) that no face may touch or pass through.
     groups: one name for each triangle; `lock`, `keep`, `part_ratios` and `may_intersect` ("A:B") refer to them.
     weights: one number for each vertex, at least 0: how costly it is to remove, relative to the largest.
-    lock_vertices: numbers of vertices that do not move.
+    lock_vertices: vertices that do not move: their numbers, from 0, or an array of booleans with one for each vertex.
     progress: called as progress(faces_input, faces_target, faces) now and then; when it returns true, the reduction ends
     with what it has reached. What it throws ends the call, and so does Ctrl-C.
 
@@ -111,7 +111,7 @@ def simplify(points, triangles, *, poses=None, obstacle=None, groups=None, weigh
     numbers, labels = _groups(groups, len(triangle_array))
     given = [pair for name, value in options.items() for pair in _texts(name, value)] + [("log", _text(bool(log)))]
     run = _selvedge.reduce(_points(points), _triangles(triangle_array), given, numbers, labels,
-                           [] if lock_vertices is None else [int(v) for v in lock_vertices],
+                           [] if lock_vertices is None else _vertex_numbers(lock_vertices, len(points)),
                            None if weights is None else _weights(weights, len(points)),
                            None if obstacle is None else (_points(obstacle[0]), _triangles(obstacle[1])),
                            [] if poses is None else [_points(pose) for pose in poses],
@@ -168,6 +168,25 @@ def _as(triangles, index_type):
     if index_type == _np.int32:
         return triangles.view(_np.int32)
     return triangles.astype(index_type) if index_type in (_np.int64, _np.uint64) else triangles
+
+
+def _vertex_numbers(vertices, count):
+    try:
+        array = vertices if isinstance(vertices, _np.ndarray) else _np.array(list(vertices))
+    except (TypeError, ValueError):
+        raise ArgumentError("lock_vertices is not a list of vertex numbers") from None
+    if array.ndim != 1:
+        raise ArgumentError(f"lock_vertices has {array.ndim} dimensions; it is a list of vertex numbers, which has one")
+    if array.dtype.kind == "b":
+        if len(array) != count:
+            raise ArgumentError(f"there are {count} points, but {len(array)} booleans in lock_vertices")
+        array = _np.flatnonzero(array)
+    if array.size and array.dtype.kind not in "iu" and not all(isinstance(v, int) for v in array):
+        raise ArgumentError("lock_vertices has numbers that are not whole, or no numbers")
+    if array.size and (array.min() < 0 or array.max() >= count):
+        number = array.min() if array.min() < 0 else array.max()
+        raise ArgumentError(f"lock_vertices has the number {number}, but the {count} vertices are numbered from 0")
+    return array.tolist()
 
 
 def _weights(weights, count):

@@ -44,7 +44,7 @@ def simplify(
     obstacle: Optional[Tuple[ArrayLike, ArrayLike]] = None,
     groups: Optional[Sequence[Any]] = None,
     weights: Optional[Sequence[float]] = None,
-    lock_vertices: Optional[Sequence[int]] = None,
+    lock_vertices: Optional[Union[Sequence[int], Sequence[bool], np.ndarray]] = None,  # numbers, or a boolean for each vertex
     log: bool = False,
     progress: Optional[Callable[[int, int, int], Any]] = None,
     ratio: float = ...,
