@@ -132,6 +132,18 @@ class Simplify(unittest.TestCase):
             with self.assertRaisesRegex(selvedge.ArgumentError, why):
                 selvedge.simplify(*mesh, lock_vertices=bad, ratio=0.2)
 
+    def test_meshes_are_taken_whole(self):
+        mesh = layers(500)
+        result = selvedge.simplify(*mesh, ratio=0.5, log=True)
+        self.assertTrue(selvedge.verify(*selvedge.simplify(*result, ratio=0.5), original=result))
+        far = selvedge.Mesh(mesh.points + 5, mesh.triangles)
+        kept = selvedge.simplify(*mesh, ratio=0.5, obstacle=far, log=True)
+        np.testing.assert_array_equal(kept.vertices, selvedge.simplify(*mesh, ratio=0.5, obstacle=tuple(far)).vertices)
+        self.assertTrue(selvedge.replay(*mesh, kept.log, obstacle=far))
+        for bad in (far.points[:3], 5, (far.points,)):
+            with self.assertRaisesRegex(selvedge.ArgumentError, "original is neither a Mesh nor a pair"):
+                selvedge.verify(*mesh, original=bad)
+
     def test_poses_are_all_guarded(self):
         mesh = layers(2000, 2)
         bent = mesh.points + np.array([0, 0, 1]) * (3 * mesh.points[:, :1] ** 2)

@@ -92,7 +92,7 @@ def simplify(points, triangles, *, poses=None, obstacle=None, groups=None, weigh
     error=0.001 (None: no limit), placement="optimal", lock=["collar"], part_ratios={"collar": 0.5}, threads=1.
     poses: further places of the points, an array of shape (poses, points, 3), such as frames of an animation: the result is
     legal in each. Those of the result are poses[:, result.vertices].
-    obstacle: (points, triangles) that no face may touch or pass through.
+    obstacle: a `Mesh` or (points, triangles) that no face may touch or pass through.
     groups: one name for each triangle; `lock`, `keep`, `part_ratios` and `may_intersect` ("A:B") refer to them.
     weights: one number for each vertex, at least 0: how costly it is to remove, relative to the largest.
     lock_vertices: vertices that do not move: their numbers, from 0, or an array of booleans with one for each vertex.
@@ -113,19 +113,19 @@ def simplify(points, triangles, *, poses=None, obstacle=None, groups=None, weigh
     run = _selvedge.reduce(_points(points), _triangles(triangle_array), given, numbers, labels,
                            [] if lock_vertices is None else _vertex_numbers(lock_vertices, len(points)),
                            None if weights is None else _weights(weights, len(points)),
-                           None if obstacle is None else (_points(obstacle[0]), _triangles(obstacle[1])),
+                           None if obstacle is None else _mesh(obstacle, "obstacle"),
                            [] if poses is None else [_points(pose) for pose in poses],
                            None if progress is None else lambda *counts: bool(progress(*counts)))
     return Result(run, triangle_array.dtype)
 
 
 def verify(points, triangles, original=None):
-    """Judges a mesh exactly: by itself, or as a result of reducing `original`, which is (points, triangles).
+    """Judges a mesh exactly: by itself, or as a result of reducing `original`, a `Mesh` or (points, triangles).
 
     Returns a `Verdict` with `pairs` and `new_pairs`, arrays of shape (k, 2): triangles that intersect or coincide (a
     degenerate one is a pair with itself), and those of them that the original does not have.
     """
-    before = None if original is None else (_points(original[0]), _triangles(original[1]))
+    before = None if original is None else _mesh(original, "original")
     accepted, pairs, new_pairs, report = _selvedge.judge(_points(points), _triangles(triangles), before)
     return Verdict(accepted, report, pairs=pairs, new_pairs=new_pairs)
 
@@ -133,11 +133,11 @@ def verify(points, triangles, original=None):
 def replay(points, triangles, log, *, obstacle=None, all=False):
     """Repeats a log on the mesh that it was made of, and judges every step; with `all`, beyond the first bad one.
 
-    obstacle: (points, triangles) that the steps must keep clear of, too; that of the reduction, if it had one.
+    obstacle: a `Mesh` or (points, triangles) that the steps must keep clear of, too; that of the reduction, if it had one.
 
     Returns a `Verdict` with `mesh`, to which the steps lead. Throws InputError when the log cannot be read.
     """
-    beside = None if obstacle is None else (_points(obstacle[0]), _triangles(obstacle[1]))
+    beside = None if obstacle is None else _mesh(obstacle, "obstacle")
     accepted, mesh, report = _selvedge.replay(_points(points), _triangles(triangles), log, beside, all)
     return Verdict(accepted, report, mesh=Mesh(*mesh))
 
@@ -149,6 +149,14 @@ def generate(name, *, faces=100_000, layers=3, thickness=5e-4, gap=1e-3, fold_de
     mesh = Mesh(*arrays)
     mesh.groups = [names[group] for group in groups]
     return mesh
+
+
+def _mesh(mesh, name):
+    try:
+        points, triangles = mesh
+    except (TypeError, ValueError):
+        raise ArgumentError(f"{name} is neither a Mesh nor a pair (points, triangles)") from None
+    return _points(points), _triangles(triangles)
 
 
 def _points(points):

@@ -16,6 +16,8 @@ class Mesh:
     def __init__(self, points: np.ndarray, triangles: np.ndarray) -> None: ...
     def __iter__(self) -> Iterator[np.ndarray]: ...
 
+_MeshLike = Union[Mesh, Tuple[ArrayLike, ArrayLike]]
+
 class Result(Mesh):
     vertices: np.ndarray
     birth: np.ndarray
@@ -41,7 +43,7 @@ def simplify(
     triangles: ArrayLike,
     *,
     poses: Optional[ArrayLike] = None,
-    obstacle: Optional[Tuple[ArrayLike, ArrayLike]] = None,
+    obstacle: Optional[_MeshLike] = None,
     groups: Optional[Sequence[Any]] = None,
     weights: Optional[Sequence[float]] = None,
     lock_vertices: Optional[Union[Sequence[int], Sequence[bool], np.ndarray]] = None,  # numbers, or a boolean for each vertex
@@ -80,8 +82,8 @@ def simplify(
     cells: bool = ...,
     defects: str = ...,
 ) -> Result: ...
-def verify(points: ArrayLike, triangles: ArrayLike, original: Optional[Tuple[ArrayLike, ArrayLike]] = None) -> Verdict: ...
-def replay(points: ArrayLike, triangles: ArrayLike, log: str, *, obstacle: Optional[Tuple[ArrayLike, ArrayLike]] = None,
+def verify(points: ArrayLike, triangles: ArrayLike, original: Optional[_MeshLike] = None) -> Verdict: ...
+def replay(points: ArrayLike, triangles: ArrayLike, log: str, *, obstacle: Optional[_MeshLike] = None,
            all: bool = False) -> Verdict: ...
 def generate(
     name: str,
