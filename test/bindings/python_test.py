@@ -144,6 +144,14 @@ class Simplify(unittest.TestCase):
             with self.assertRaisesRegex(selvedge.ArgumentError, "original is neither a Mesh nor a pair"):
                 selvedge.verify(*mesh, original=bad)
 
+    def test_weights_are_numbers(self):
+        mesh = layers(500)
+        for bad in (np.nan, np.inf, -1):
+            weights = np.ones(len(mesh.points))
+            weights[7] = bad
+            with self.assertRaisesRegex(selvedge.ArgumentError, "weight of vertex 7, counted from 0, is "):
+                selvedge.simplify(*mesh, weights=weights, ratio=0.5)
+
     def test_poses_are_all_guarded(self):
         mesh = layers(2000, 2)
         bent = mesh.points + np.array([0, 0, 1]) * (3 * mesh.points[:, :1] ** 2)

@@ -8,6 +8,7 @@ are read in place; others are converted. docs/python.md has examples.
 """
 
 import json as _json
+import math as _math
 
 import numpy as _np
 
@@ -201,6 +202,9 @@ def _weights(weights, count):
     weights = [float(weight) for weight in weights]
     if len(weights) != count:
         raise ArgumentError(f"there are {count} points, but {len(weights)} weights")
+    for vertex, weight in enumerate(weights):
+        if not 0 <= weight < _math.inf:
+            raise ArgumentError(f"the weight of vertex {vertex}, counted from 0, is {weight}: no finite number of at least 0")
     return weights
 
 
