@@ -215,6 +215,54 @@ std::vector<Soup_collapse> steps_taken(Log_reader& log, const Log_numbering& num
   return steps;
 }
 
+// Returns the numbers of those poses of the mesh that the log names. Throws when it has others as well, or
+// none at all.
+std::vector<std::size_t> poses_of_log(const Replay_request& request, const Triangle_soup& original,
+                                      const Log_header& header, const std::optional<Triangle_soup>& obstacle)
+{
+  const auto fail = [&](const std::string& message) {
+    throw Input_error(input_name(request.original) + " with " + input_name(request.log) + ": " + message);
+  };
+  if (header.poses.empty())
+    fail("the log names no further pose; leave out " + std::string(options_of_poses));
+  std::vector<std::size_t> numbers;
+  std::vector<const Log_header::Posed*> found;
+  for (std::size_t pose = 0; pose < original.poses.size(); ++pose)
+    if (const auto place = stated_pose(header, original, pose, obstacle ? &*obstacle : nullptr)) {
+      numbers.push_back(pose);
+      found.push_back(&header.poses[*place]);
+    }
+  for (const Log_header::Posed& pose : header.poses) {
+    // Two poses may have the same places.
+    const auto is_it = [&](const Log_header::Posed* other) {
+      return other == &pose || (!pose.sha256.empty() && other->sha256 == pose.sha256 &&
+                                (!obstacle || other->sha256_of_obstacle == pose.sha256_of_obstacle));
+    };
+    if (std::none_of(found.begin(), found.end(), is_it))
+      fail("none of the poses given is the pose '" + pose.name + "' that the log names" +
+           (pose.sha256.empty() ? "" : ", by the SHA-256 of its places") +
+           "; give all poses that the log was made with");
+  }
+  return numbers;
+}
+
+void print_other_poses(const std::vector<Pose>& poses, const std::vector<std::size_t>& judged)
+{
+  std::vector<std::string> others;
+  for (std::size_t pose = 0; pose < poses.size(); ++pose)
+    if (std::find(judged.begin(), judged.end(), pose) == judged.end())
+      others.push_back(poses[pose].name);
+  if (others.empty())
+    return;
+  constexpr std::size_t most_named = 10;
+  std::cout << counted(others.size(), "further pose") << " not judged: the log does not name ";
+  for (std::size_t i = 0; i < (std::min)(others.size(), most_named); ++i)
+    std::cout << (i == 0 ? "'" : ", '") << others[i] << '\'';
+  if (others.size() > most_named)
+    std::cout << " and " << with_commas(others.size() - most_named) << " others";
+  std::cout << '\n';
+}
+
 std::unique_ptr<std::istream> in_memory(std::istream& stream)
 {
   std::ostringstream text;
@@ -288,20 +336,12 @@ Exit_code run(const Replay_request& request)
     }
   };
   Replay_verdict verdict = replay_once();
-  // A log of key poses has fewer than the mesh.
-  const std::vector<Log_header::Posed>& stated = verdict.header.poses;
-  const auto is_stated = [&](const Pose& pose) {
-    return stated.empty() || stated.size() >= original.soup.poses.size() ||
-           std::any_of(stated.begin(), stated.end(),
-                       [&](const auto& posed) { return posed.name == pose.name; });
-  };
   std::vector<Replay_verdict> in_poses;
   std::vector<std::size_t> numbers;
   std::vector<std::string> names;
-  for (std::size_t pose = 0; pose < original.soup.poses.size() && !verdict.is_stopped; ++pose) {
-    if (!is_stated(original.soup.poses[pose]))
-      continue;
-    numbers.push_back(pose);
+  if (!original.soup.poses.empty() && !verdict.is_stopped)
+    numbers = poses_of_log(request, original.soup, verdict.header, options.obstacle);
+  for (const std::size_t pose : numbers) {
     names.push_back(original.soup.poses[pose].name);
     options.pose = pose;
     in_poses.push_back(replay_once());
@@ -335,10 +375,8 @@ Exit_code run(const Replay_request& request)
       print(request, verdict);
       for (std::size_t i = 0; i < in_poses.size(); ++i)
         print(names[i], in_poses[i]);
-      if (const std::size_t others = original.soup.poses.size() - in_poses.size();
-          others > 0 && !verdict.is_stopped)
-        std::cout << counted(others, "further pose") << " not judged: the log does not name "
-                  << (others == 1 ? "it" : "them") << '\n';
+      if (!verdict.is_stopped)
+        print_other_poses(original.soup.poses, numbers);
     });
   }
   if (!request.scene.empty() && !verdict.violations.empty())
@@ -371,11 +409,11 @@ Action add_replay(CLI::App& command)
   const auto request = std::make_shared<Replay_request>();
   command.add_option("ORIGINAL", request->original, "Mesh that was reduced.")->required()->type_name("");
   command.add_option("LOG", request->log, "Log of the collapses that reduced it.")->required()->type_name("");
-  const char* const poses = "Poses (those of the log, in its order)";
+  const char* const poses = "Poses (those of the log)";
   add_pose_options(
       command, request->poses, "ORIGINAL",
-      "The further poses of the log, in its order, in each of which every step is judged, too: a "
-      "mesh file, or a pattern in quotes. May be given several times.",
+      "The further poses of the log, in each of which every step is judged, too: a mesh file, or a pattern "
+      "in quotes. May be given several times. The log tells by their places which pose is which.",
       poses);
   command
       .add_option(

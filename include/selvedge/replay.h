@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -90,8 +91,8 @@ struct Replay_options
 
   /// The further pose of the original in which the steps are judged, by its number in
   /// `Triangle_soup::poses`; the first one, `Triangle_soup::points`, when there is none. `replay` throws
-  /// `Input_error` when the log states another digest for the pose of this number, or has none of it. The
-  /// unit of the drift is the diagonal of the first pose; the digest of the result is not compared.
+  /// `Input_error` when the log does not name this pose (`stated_pose`). The unit of the drift is the
+  /// diagonal of the first pose; the digest of the result is not compared.
   std::optional<std::size_t> pose;
 
   bool is_all_wanted = false; ///< whether to go on after a bad step as if it were good
@@ -160,6 +161,16 @@ struct Not_judged
 
 /// Returns all that a verdict says nothing about, as far as that is known.
 std::vector<Not_judged> not_judged(const Replay_verdict& verdict);
+
+/// Returns which of the further poses that a log names is a pose of the mesh, or nothing when none is. It is
+/// one with its digest and, where there are several, with that of the obstacle in this pose, its name or its
+/// number. A pose that the log names without a digest is the one of the same name or, when the log has no
+/// fewer poses than the mesh, of the same number.
+///
+/// Throws `Argument_error` when the mesh has no pose of this number. Where an obstacle is given, it has as
+/// many poses as the mesh, or none.
+std::optional<std::size_t> stated_pose(const Log_header& header, const Triangle_soup& original,
+                                       std::size_t pose, const Triangle_soup* obstacle = nullptr);
 
 /// Repeats the steps of a log on a mesh, and judges each of them.
 ///

@@ -8,33 +8,55 @@
 #include <selvedge/Error.h>
 
 #include <cstddef>
+#include <optional>
 #include <string>
+
+namespace selvedge {
+
+std::optional<std::size_t> stated_pose(const Log_header& header, const Triangle_soup& original,
+                                       std::size_t pose, const Triangle_soup* obstacle)
+{
+  if (pose >= original.poses.size())
+    throw Argument_error("there is no pose " + std::to_string(pose) + "; the mesh has " +
+                         std::to_string(original.poses.size()) + " further poses");
+  const std::string digest = digest_of(original.poses[pose].points),
+                    of_obstacle = obstacle ? digest_of(points_in_pose(*obstacle, pose)) : "";
+  std::optional<std::size_t> best;
+  int rank_of_best = 0;
+  for (std::size_t place = 0; place < header.poses.size(); ++place) {
+    const Log_header::Posed& stated = header.poses[place];
+    const bool has_digest = stated.sha256 == digest, has_name = stated.name == original.poses[pose].name;
+    // A log of some of the mesh's poses has them at other places.
+    const bool has_place = place == pose && header.poses.size() >= original.poses.size();
+    if (!has_digest && !(stated.sha256.empty() && (has_name || has_place)))
+      continue;
+    const int rank = 8 * has_digest + 4 * (obstacle && stated.sha256_of_obstacle == of_obstacle) +
+                     2 * has_name + has_place;
+    if (!best || rank > rank_of_best) {
+      best = place;
+      rank_of_best = rank;
+    }
+  }
+  return best;
+}
+
+} // namespace selvedge
 
 namespace selvedge::reference {
 
 namespace {
 
-// Returns what the log says of the pose of a number.
-const Log_header::Posed& stated_pose(const Triangle_soup& original, const Log_header& header,
-                                     std::size_t pose)
+// Returns what the log says of the pose that is judged.
+const Log_header::Posed& posed(const Triangle_soup& original, const Log_header& header,
+                               const Replay_options& options)
 {
-  if (pose >= original.poses.size())
-    throw Argument_error("there is no pose " + std::to_string(pose) + "; the mesh has " +
-                         std::to_string(original.poses.size()) + " further poses");
-  const std::string& name = original.poses[pose].name;
-  // Without some of the mesh's poses, the log has the others by their names.
-  std::size_t place = pose;
-  if (header.poses.size() < original.poses.size())
-    for (place = 0; place < header.poses.size() && header.poses[place].name != name;)
-      ++place;
-  if (place >= header.poses.size())
-    throw Input_error("the log says nothing of the pose '" + name + "': it has " +
-                      std::to_string(header.poses.size()) + " further poses; leave out the others");
-  const Log_header::Posed& stated = header.poses[place];
-  if (!stated.sha256.empty() && stated.sha256 != digest_of(original.poses[pose].points))
-    throw Input_error("the pose '" + name + "' is not the pose '" + stated.name +
-                      "' that the log has in its place; give the same poses in the same order");
-  return stated;
+  const auto place =
+      stated_pose(header, original, *options.pose, options.obstacle ? &*options.obstacle : nullptr);
+  if (!place)
+    throw Input_error("the log says nothing of the pose '" + original.poses[*options.pose].name +
+                      "': it names " + std::to_string(header.poses.size()) +
+                      " further poses, and none has these places; give the poses that the log was made with");
+  return header.poses[*place];
 }
 
 // Returns whether the log names the digests of the obstacle. `posed` is what it says of the pose in question.
@@ -87,9 +109,8 @@ bool check_inputs(const Triangle_soup& original, bool is_stl, const Log_header& 
     throw Argument_error("the obstacle has " + std::to_string(options.obstacle->poses.size()) +
                          " further poses and the mesh " + std::to_string(original.poses.size()) +
                          "; give as many, or none for an obstacle that stands still");
-  const Log_header::Posed* const posed =
-      options.pose ? &stated_pose(original, header, *options.pose) : nullptr;
-  return options.obstacle && is_obstacle_stated(options, header, posed);
+  const Log_header::Posed* const stated = options.pose ? &posed(original, header, options) : nullptr;
+  return options.obstacle && is_obstacle_stated(options, header, stated);
 }
 
 } // namespace selvedge::reference

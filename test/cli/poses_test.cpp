@@ -317,6 +317,52 @@ TEST_F(Waving_sheets, AreGuardedInKeyPosesAndJudgedInAll)
   EXPECT_NE(replayed.out.find("not judged: the log does not name"), std::string::npos) << replayed.out;
 }
 
+// The log tells by digests which pose is which, whatever the files are called, and in any order.
+TEST_F(Waving_sheets, AreReplayedInThePosesOfTheLogAlone)
+{
+  const std::string flat = folder / "flat.obj", waving = folder / "waving.obj", small = folder / "small.obj";
+  const auto replay = [&](const std::vector<const char*>& names) {
+    std::vector<std::string> arguments{"replay", flat, log};
+    for (const char* name : names)
+      arguments.insert(arguments.end(), {"--pose", folder / name});
+    return run_app(arguments);
+  };
+  Triangle_soup higher = read_mesh(waving).soup;
+  for (Point_3& p : higher.points)
+    p = Point_3(p.x(), p.y(), p.z() + 1);
+  write_mesh(folder / "higher.obj", higher);
+  std::filesystem::copy_file(waving, folder / "another_name.obj");
+
+  simplify(flat, small, {"--pose", waving});
+  App_result result = replay({"flat.obj", "another_name.obj"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("pose 'another_name': ACCEPTED\n"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("1 further pose not judged: the log does not name 'flat'\n"), std::string::npos)
+      << result.out;
+  std::filesystem::create_directory(folder / "other"); // a pose of the log's name
+  std::filesystem::copy_file(flat, folder / "other/waving.obj");
+  for (const std::vector<const char*>& others :
+       {std::vector<const char*>{"flat.obj"}, {"other/waving.obj"}}) {
+    result = replay(others);
+    EXPECT_EQ(result.code, 3) << result.out;
+    EXPECT_NE(result.err.find("none of the poses given is the pose 'waving' that the log names"),
+              std::string::npos)
+        << result.err;
+  }
+
+  simplify(flat, small, {"--pose", waving, "--pose", folder / "higher.obj"});
+  result = replay({"higher.obj", "another_name.obj"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(result.out.find("not judged: the log"), std::string::npos) << result.out;
+  EXPECT_EQ(replay({"waving.obj"}).code, 3);
+  EXPECT_EQ(replay({}).code, 0) << "its verdict names the poses as not judged";
+
+  simplify(flat, small, {});
+  result = replay({"waving.obj"});
+  EXPECT_EQ(result.code, 3);
+  EXPECT_NE(result.err.find("the log names no further pose"), std::string::npos) << result.err;
+}
+
 TEST_F(Waving_sheets, ComeOutInEveryPose)
 {
   simplify(folder / "flat.obj", folder / "of_files.obj",

@@ -1159,7 +1159,7 @@ group(
 group(
     "src/replay/inputs.cpp",
     poses,
-    ("if (!stated.sha256.empty() && stated.sha256 != digest_of(original.poses[pose].points))", "if (false)",
+    ("if (!has_digest && !(stated.sha256.empty() && (has_name || has_place)))", "if (!has_digest && !(has_name || has_place))",
      "the replay takes any pose for the one of the log"),
     ("posed->sha256_of_obstacle != digest_of(points_in_pose(obstacle, *options.pose)))", "false)",
      "the replay takes an obstacle wherever it stands"),
