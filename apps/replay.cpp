@@ -69,19 +69,9 @@ std::optional<Reduction_limits> imposed_limits(const std::string& what)
   return read_limits(stream, what);
 }
 
-void print(const Violation& violation)
-{
-  if (violation.step > 0)
-    std::cout << "step " << with_commas(violation.step) << " (line " << with_commas(violation.line) << ", "
-              << violation.removed << " to " << violation.kept << "): ";
-  else
-    std::cout << "the result: ";
-  std::cout << name(violation.kind) << ": " << violation.message << '\n';
-}
-
 void print_at_length(const Violation& violation)
 {
-  print(violation);
+  std::cout << app::describe(violation) << '\n';
   if (!violation.triangles.empty()) {
     std::cout << "  triangles of the original, counted from 1:";
     for (const Index triangle : violation.triangles)
@@ -174,7 +164,7 @@ void print(const Replay_request& request, const Replay_verdict& verdict)
   if (request.is_all_wanted) {
     std::cout << "all " << with_commas(verdict.violations.size()) << ":\n";
     for (const Violation& violation : verdict.violations)
-      print(violation);
+      std::cout << app::describe(violation) << '\n';
     for (const auto& [kind, count] : count_by_kind(verdict.violations))
       std::cout << "total " << kind << ": " << with_commas(count) << '\n';
   }

@@ -5,6 +5,7 @@
 #define SELVEDGE_APPS_TEXT_H
 
 #include <selvedge/Border_gaps.h>
+#include <selvedge/replay.h>
 #include <selvedge/verify.h>
 
 #include <cmath>
@@ -72,6 +73,16 @@ inline std::string describe(const Clearance_verdict& verdict)
   if (verdict.least_of_original && !std::isinf(verdict.least_of_original->lower))
     text += ", and was " + with_digits(verdict.least_of_original->lower);
   return text;
+}
+
+/// Says of a step of a log, or of the result, what is wrong with it.
+inline std::string describe(const Violation& violation)
+{
+  return (violation.step > 0
+              ? "step " + with_commas(violation.step) + " (line " + with_commas(violation.line) + ", " +
+                    std::to_string(violation.removed) + " to " + std::to_string(violation.kept) + ")"
+              : "the result") +
+         ": " + name(violation.kind) + ": " + violation.message;
 }
 
 /// Says how many border vertices have a partner within the clear length, which there is.

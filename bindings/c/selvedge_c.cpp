@@ -3,6 +3,7 @@
 
 #include "selvedge_c.h"
 
+#include "apps/text.h"
 #include "bindings/run/Reduction.h"
 #include "bindings/run/soup_of.h"
 #include "meshopt_call.h"
@@ -305,7 +306,7 @@ int selvedge_replay(const selvedge_mesh* original, const char* log)
     const Replay_verdict verdict =
         bindings::replay(required(original, "original").soup, &required(log, "log"), {});
     if (!verdict.violations.empty())
-      last_error = verdict.violations.front().message;
+      last_error = app::describe(verdict.violations.front());
     return int(verdict.is_accepted());
   });
 }

@@ -290,8 +290,14 @@ TEST(C_interface, ReducesByOptionsWithLogReportAndVerdict)
   EXPECT_EQ(pairs + new_pairs, 0u);
   const std::string log = selvedge_result_log(result);
   EXPECT_EQ(selvedge_replay(mesh, log.c_str()), 1) << selvedge_last_error();
-  EXPECT_EQ(selvedge_replay(mesh, (log.substr(0, log.find("c ")) + "result 1 1 -\n").c_str()), 0);
-  EXPECT_NE(selvedge_last_error(), nullptr);
+  const std::string header = log.substr(0, log.find("\nc ") + 1);
+  EXPECT_EQ(selvedge_replay(mesh, (header + "result 1 1 -\n").c_str()), 0);
+  EXPECT_STREQ(selvedge_last_error(), "the result: result: the log has 0 collapses, and says 1");
+  const std::string last = std::to_string(selvedge_mesh_vertex_count(mesh) - 1); // in another layer
+  EXPECT_EQ(selvedge_replay(mesh, (header + "c 0 " + last + "\nresult 1 1 -\n").c_str()), 0);
+  EXPECT_EQ(selvedge_last_error(), "step 1 (line " +
+                                       std::to_string(std::count(header.begin(), header.end(), '\n') + 1) +
+                                       ", 0 to " + last + "): no_edge: no edge joins the two vertices");
   EXPECT_EQ(selvedge_replay(mesh, "no log"), -1);
   const nlohmann::json report = nlohmann::json::parse(selvedge_result_report(result));
   EXPECT_EQ(report["faces"]["output"], selvedge_mesh_index_count(reduced) / 3);
