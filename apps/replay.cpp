@@ -110,7 +110,10 @@ void print_terms(const Replay_verdict& verdict)
                                                    : " that must stay as they are");
   if (verdict.is_obstacle_judged)
     std::cout << "\nobstacle: " << bound(verdict.is_obstacle_stated);
-  std::cout << "\nresult: " << bound(verdict.is_result_stated) << '\n';
+  std::cout << "\nresult: "
+            << (verdict.is_result_another ? "NOT BOUND (the log has another SHA-256)"
+                                          : bound(verdict.is_result_stated))
+            << '\n';
   if (verdict.snaps > 0)
     std::cout << "snaps: at most " << with_digits(verdict.largest_snap)
               << " long; together they moved a vertex by at most "

@@ -133,6 +133,7 @@ struct Replay_verdict
   bool is_obstacle_stated = false; ///< the log names its SHA-256 and, in a further pose, that of its places
   bool is_input_stated = false;    ///< the log names the SHA-256 of its input, and it is the original's
   bool is_result_stated = false;   ///< the log names a digest of its result, and it is that of `soup`
+  bool is_result_another = false;  ///< the log names a digest of its result, and it is not that of `soup`
   std::size_t offending_pairs = 0; ///< of the original, together with the obstacle
 
   double largest_snap = 0;         ///< the longest snap, in the unit of the coordinates

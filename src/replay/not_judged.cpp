@@ -56,7 +56,7 @@ std::vector<Not_judged> not_judged(const Replay_verdict& verdict)
         {"input", verdict.header.sha256.empty()
                       ? "whether the log was made from this file: it names no SHA-256 of its input"
                       : "whether the log was made from this file: its SHA-256 is not known"});
-  if (!verdict.is_result_stated)
+  if (!verdict.is_result_stated && !verdict.is_result_another)
     result.push_back({"result",
                       "whether the triangles left are the writer's result: no digest of the log was "
                       "found to match them"});

@@ -394,6 +394,7 @@ private:
     const Log_result& stated = m_log.result();
     const bool has_digest = !stated.sha256.empty() && !m_options.pose; // whose positions are others
     m_verdict.is_result_stated = has_digest && stated.sha256 == digest();
+    m_verdict.is_result_another = has_digest && !m_verdict.is_result_stated;
     std::string message;
     if (stated.collapses != m_verdict.collapses)
       message = "the log has " + std::to_string(m_verdict.collapses) + " collapses, and says " +
@@ -401,7 +402,7 @@ private:
     else if (stated.triangles != m_complex.face_count())
       message = std::to_string(m_complex.face_count()) + " triangles are left, and the log says " +
                 std::to_string(stated.triangles);
-    else if (has_digest && !m_verdict.is_result_stated)
+    else if (m_verdict.is_result_another)
       message = "the triangles left are not those that the log's digest stands for";
     if (message.empty())
       return;

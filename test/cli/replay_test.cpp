@@ -216,6 +216,19 @@ TEST(App_replay, RefusesALogThatLacksAStep)
   EXPECT_NE(result.out.find("\nREFUSED; the first violation:\n"), std::string::npos) << result.out;
 }
 
+TEST(App_replay, SaysThatTheResultHasAnotherDigest)
+{
+  const Logged_run run;
+  const std::size_t digest = run.text.rfind(' ') + 1;
+  write_text(run.log, run.text.substr(0, digest) + std::string(64, 'a') + '\n');
+  const App_result result = run_app({"replay", run.original, run.log});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_NE(result.out.find("\nresult: NOT BOUND (the log has another SHA-256)\n"), std::string::npos)
+      << result.out;
+  EXPECT_EQ(result.out.find("\nnot judged: result: "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("the log's digest stands for"), std::string::npos) << result.out;
+}
+
 TEST(App_replay, RefusesACollapseAcrossAndNamesIt)
 {
   const Logged_run run;
