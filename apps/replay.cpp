@@ -186,6 +186,21 @@ void print(const std::string& pose, const Replay_verdict& verdict)
   std::cout << std::flush;
 }
 
+void write_scene(const std::string& file, const Replay_verdict& verdict,
+                 const std::vector<Replay_verdict>& in_poses)
+{
+  const auto pose =
+      std::find_if(in_poses.begin(), in_poses.end(), [](const auto& v) { return !v.violations.empty(); });
+  if (verdict.violations.empty() && pose == in_poses.end())
+    return;
+  const Violation& first = (verdict.violations.empty() ? *pose : verdict).violations.front();
+  if (first.scene.empty())
+    std::cerr << "selvedge: --scene: no file is written: in the first violation (" << name(first.kind)
+              << ") no triangles meet or lose their area" << std::endl;
+  else
+    write_file(output_path(file), first.scene);
+}
+
 // Returns the steps that were taken, as collapses of vertices of the original. One that joins no two vertices
 // moves nothing.
 std::vector<Soup_collapse> steps_taken(Log_reader& log, const Log_numbering& numbering,
@@ -372,8 +387,8 @@ Exit_code run(const Replay_request& request)
         print_other_poses(original.soup.poses, numbers);
     });
   }
-  if (!request.scene.empty() && !verdict.violations.empty())
-    write_file(output_path(request.scene), verdict.violations.front().scene);
+  if (!request.scene.empty())
+    write_scene(request.scene, verdict, in_poses);
   if (!request.output.empty() && !verdict.is_stopped) {
     relocate(verdict.soup, *format, request.original, request.output);
     write_output(request.output, verdict.soup, *format, request.is_ascii);
@@ -437,7 +452,10 @@ Action add_replay(CLI::App& command)
                 "all the same.")
       ->excludes(limits);
   command.add_flag("--all", request->is_all_wanted, "Continue after a bad step, and list all bad steps.");
-  command.add_option("--scene", request->scene, "Write the triangles of the first violation to an OBJ file.")
+  command
+      .add_option(
+          "--scene", request->scene,
+          "Write the triangles of the first violation to an OBJ file, if some meet or lose their area.")
       ->type_name("FILE");
   add_format_option(command, request->format);
   add_report_options(command, *request);

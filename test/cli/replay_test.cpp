@@ -238,8 +238,13 @@ TEST(App_replay, RefusesACollapseAcrossAndNamesIt)
   const std::string other = removed == "0" ? "700" : "0";
   write_text(run.log, run.text.substr(0, first) + "c " + removed + ' ' + other +
                           run.text.substr(run.text.find('\n', first)));
-  const App_result result = run_app({"replay", run.original, run.log, "--all"});
+  const std::string scene = run.folder / "scene.obj";
+  const App_result result = run_app({"replay", run.original, run.log, "--all", "--scene", scene});
   EXPECT_EQ(result.code, 1);
+  EXPECT_FALSE(std::filesystem::exists(scene));
+  EXPECT_NE(result.err.find("--scene: no file is written: in the first violation (no_edge) no triangles"),
+            std::string::npos)
+      << result.err;
   EXPECT_NE(result.out.find("step 1 (line "), std::string::npos) << result.out;
   EXPECT_NE(result.out.find(removed + " to " + other), std::string::npos) << result.out;
 }
