@@ -200,7 +200,8 @@ public:
   {
     if (m_is_over)
       return false;
-    if (!std::exchange(m_is_line_pending, false) && !next_line())
+    const bool is_after_header = std::exchange(m_is_line_pending, false);
+    if (!is_after_header && !next_line())
       fail("the log ends without its 'result' line; it is not complete");
     step.line = m_line_number;
     step.place.reset();
@@ -236,6 +237,10 @@ public:
       if (next_line())
         fail("nothing comes after the 'result' line");
       return false;
+    } else if (is_of_header(m_words[0])) {
+      fail("the line '" + std::string(m_words[0]) +
+           (is_after_header ? "' stands here for the second time; leave one of the two out"
+                            : "' comes too late; it belongs before the first snap, weld, turn or collapse"));
     } else {
       fail("a line begins with '" + std::string(m_words[0].substr(0, 20)) +
            "', which this version does not know here");
@@ -271,6 +276,14 @@ private:
     if (m_stream.bad())
       fail("cannot be read on");
     return false;
+  }
+
+  static bool is_of_header(std::string_view word)
+  {
+    constexpr std::array<std::string_view, 10> words{"selvedge-log", "input",        "rounding", "normals",
+                                                     "dropped",      "defects",      "obstacle", "pose",
+                                                     "limit",        "may_intersect"};
+    return std::find(words.begin(), words.end(), word) != words.end();
   }
 
   /// Reads a line of a key and one of several words. Returns the number of the word.

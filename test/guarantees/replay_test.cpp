@@ -678,6 +678,29 @@ TEST(Replay, FrozenFacesDoNotMove)
   EXPECT_TRUE(replay_text(soup, head_of(soup) + "c 40 39\nresult 1 71 -\n").is_accepted());
 }
 
+TEST(Log, ALineOfTheHeaderThatStandsTwiceOrTooLateIsRefused)
+{
+  const Triangle_soup flat = sheet(4, 4);
+  const auto message = [&](const std::string& lines) -> std::string {
+    try {
+      replay_text(flat, head_of(flat) + lines + "result 1 30 -\n");
+    } catch (const Input_error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  for (const char* line : {"rounding none\n", "normals kept\n", "defects freeze\n", "obstacle 3 1 -\n"}) {
+    const std::string quoted = "the line '" + std::string(line, std::strchr(line, ' ')) + "' ";
+    EXPECT_NE(message(std::string(line) + line).find(quoted + "stands here for the second time"),
+              std::string::npos)
+        << message(std::string(line) + line);
+    EXPECT_NE(message("c 12 13\n" + std::string(line)).find(quoted + "comes too late"), std::string::npos)
+        << message("c 12 13\n" + std::string(line));
+  }
+  for (const char* line : {"limit seam_turn 3\n", "pose one -\n", "dropped uv\n", "may_intersect a b\n"})
+    EXPECT_NE(message("c 12 13\n" + std::string(line)).find("comes too late"), std::string::npos) << line;
+}
+
 TEST(Log, WhatIsNoLogIsRefusedWithItsLine)
 {
   const Triangle_soup flat = sheet(4, 4);
