@@ -128,8 +128,9 @@ void check_writable(const Triangle_soup& soup, Mesh_format format, const Write_o
     for (int axis = 0; axis < 3; ++axis)
       if (needs_float32(soup, format) && !is_float32(point[axis]))
         throw Argument_error("vertex " + std::to_string(&point - soup.points.data()) +
-                             " (counted from 0) has a coordinate that is no 32-bit float; call "
-                             "round_to_float32 first");
+                             " (counted from 0) has a coordinate that is no 32-bit float, and the format "
+                             "stores no others; write OBJ, OFF or PLY, which store doubles, or round all "
+                             "coordinates to 32-bit floats before the mesh is reduced");
 }
 
 std::vector<std::string> not_carried_by_gltf(const Triangle_soup& soup)

@@ -299,6 +299,10 @@ TEST(C_interface, ReducesByOptionsWithLogReportAndVerdict)
                                        std::to_string(std::count(header.begin(), header.end(), '\n') + 1) +
                                        ", 0 to " + last + "): no_edge: no edge joins the two vertices");
   EXPECT_EQ(selvedge_replay(mesh, "no log"), -1);
+  EXPECT_EQ(selvedge_mesh_write(reduced, (Temporary_folder() / "reduced.stl").string().c_str()), -1);
+  const std::string error = selvedge_last_error();
+  EXPECT_NE(error.find("no 32-bit float, and the format stores no others; write OBJ"), std::string::npos)
+      << error;
   const nlohmann::json report = nlohmann::json::parse(selvedge_result_report(result));
   EXPECT_EQ(report["faces"]["output"], selvedge_mesh_index_count(reduced) / 3);
   EXPECT_EQ(report["verified"]["new_pairs"], 0);

@@ -263,6 +263,16 @@ TEST(App_replay, ListsTheBadStepsOfAnUnguardedRun)
   EXPECT_FALSE(read_mesh(scene).soup.triangles.empty());
 }
 
+TEST(App_replay, NamesTheFormatsForAResultOfDoubles)
+{
+  const Logged_run run;
+  const std::string again = run.folder / "again.glb";
+  const App_result result = run_app({"replay", run.original, run.log, "-o", again});
+  EXPECT_EQ(result.code, 4);
+  EXPECT_NE(result.err.find("write OBJ, OFF or PLY, which store doubles"), std::string::npos) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(again));
+}
+
 TEST(App_replay, RefusesWhatItCannotRead)
 {
   const Logged_run run;
