@@ -43,7 +43,7 @@ struct Verify_request
   std::string report;
   std::string html;
   std::optional<Mesh_format> format;
-  double weld_distance = 0;
+  std::optional<double> weld_distance;
   std::vector<std::string> dropped_attributes;
   std::vector<std::string> may_intersect;
   std::optional<double> clearance;
@@ -308,9 +308,21 @@ void require_names(const Verify_request& request, const Triangle_soup& mesh)
                          "result as OBJ or glTF, which hold them, and judge that");
 }
 
+/// Refuses options that say something of the original where there is none.
+void require_original(const Verify_request& request)
+{
+  const char* const option = !request.files_of_poses_of_original.empty() ? "--against-pose"
+                             : request.weld_distance                     ? "--weld"
+                             : !request.dropped_attributes.empty()       ? "--drop-attribute"
+                                                                         : nullptr;
+  if (option && request.original.empty())
+    throw Argument_error(std::string(option) + ": there is no original; give --against FILE");
+}
+
 Exit_code run(const Verify_request& request)
 {
   const bool has_original = !request.original.empty();
+  require_original(request);
   require_html(request.html);
   const std::vector<Named_file> written{{"--report", request.report}, {"--html", request.html}};
   std::vector<Named_file> read{
@@ -358,7 +370,7 @@ Exit_code run(const Verify_request& request)
       share_vertices_without_normals(mesh.soup);
       share_vertices_without_normals(original.soup);
     }
-    options.weld_distance = request.weld_distance;
+    options.weld_distance = request.weld_distance.value_or(0);
     verification = verify(mesh.soup, original.soup, options, obstacle);
     report["original"]["rounded"] = verification->is_original_rounded;
     if (verification->is_original_rounded)

@@ -353,6 +353,17 @@ TEST(App_verify, TellsOfGaps)
   EXPECT_NE(touching.out.find(" long in all, but not wide: "), std::string::npos) << touching.out;
 }
 
+TEST(App_verify, RefusesOptionsOfAnOriginalWithoutOne)
+{
+  const Workspace folder;
+  const std::string mesh = folder.generate("skirt", "in.obj", 600);
+  for (const auto& [option, value] :
+       {std::pair("--against-pose", folder / "absent.obj"), std::pair("--weld", std::string("0")),
+        std::pair("--drop-attribute", std::string("texture"))})
+    expect_refused({"verify", mesh, option, value}, 2,
+                   std::string(option) + ": there is no original; give --against FILE");
+}
+
 TEST(App_verify, RefusesUnreadableInput)
 {
   const Workspace folder;
