@@ -124,6 +124,7 @@ struct Replay_verdict
   std::size_t steps = 0;     ///< steps taken
   std::size_t snaps = 0;     ///< how many of them are snaps
   std::size_t collapses = 0; ///< how many of them are collapses
+  std::size_t places = 0;    ///< how many of the collapses go to a place that the log names (X Y Z)
   bool is_stopped = false;   ///< by `Replay_options::should_stop`
 
   /// The limits that were judged. The weld distance is among them even when limits were not to be judged.
@@ -154,7 +155,7 @@ struct Replay_verdict
 struct Not_judged
 {
   /// The key of a limit, or "lines", "limits_of_snaps", "normals", "dropped", "may_intersect", "poses",
-  /// "obstacle", "pairs", "input", "result" or "attributes".
+  /// "obstacle", "pairs", "input", "result", "places" or "attributes".
   std::string key;
 
   std::string sentence; ///< what it is, and why it was not judged, for a person

@@ -60,6 +60,9 @@ std::vector<Not_judged> not_judged(const Replay_verdict& verdict)
     result.push_back({"result",
                       "whether the triangles left are the writer's result: no digest of the log was "
                       "found to match them"});
+  if (verdict.places > 0)
+    result.push_back({"places", "whether the new places of vertices that the log names are the writer's: the "
+                                "digest of its result stands for numbers of vertices alone"});
   result.push_back({"attributes", "values attached to vertices and triangles, such as texture coordinates"});
   return result;
 }

@@ -177,6 +177,7 @@ private:
       return;
     }
     const std::array<Coordinates, 2> before{m_complex.point(removed), m_complex.point(kept)};
+    m_verdict.places += step.place.has_value();
     const std::optional<Coordinates> place = place_of(step, kept);
     std::vector<Index> changing;
     for (const Index end : {removed, kept})

@@ -14,6 +14,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -478,6 +479,19 @@ TEST(Replay, SaysWhatItHasNotJudged)
   EXPECT_EQ(keys_not_judged(bare),
             (std::vector<std::string>{"normal_change", "aspect_ratio", "border_turn", "seam_turn",
                                       "border_drift", "lines", "input", "result", "attributes"}));
+}
+
+TEST(Replay, SaysThatNoDigestCoversPlaces)
+{
+  const Triangle_soup flat = sheet(4, 4);
+  const auto has_places = [&](const std::string& place) {
+    const Replay_verdict verdict = replay_text(flat, head_of(flat) + "c 12 13" + place + "\nresult 1 30 -\n");
+    EXPECT_TRUE(verdict.is_accepted());
+    const std::vector<std::string> keys = keys_not_judged(verdict);
+    return std::find(keys.begin(), keys.end(), "places") != keys.end();
+  };
+  EXPECT_TRUE(has_places(" 2.5 2 0"));
+  EXPECT_FALSE(has_places(""));
 }
 
 TEST(Replay, SaysThatAnObstacleOrLimitsOfSnapsWereNotJudged)
