@@ -208,13 +208,19 @@ SELVEDGE_C_API const char* selvedge_result_report(selvedge_result* result);
 /* Judges a mesh exactly, by itself or, where `original` is not null, as a result of reducing that. Returns 1
    when no triangles intersect or are degenerate (beside those that do in the original) and every piece has
    become one, 0 when not, and -1 when it fails. `pairs` and `new_pairs` may be null; they get the number of
-   pairs of triangles that intersect, and how many of them the original does not have. */
+   pairs of triangles that intersect, and how many of them the original does not have.
+
+   The program judges more (`selvedge verify`): it compares the order of layers, on which its exit code
+   depends as well, and borders, seams, gaps, normals and attributes, and it takes an obstacle, a clearance, a
+   weld distance, parts that may intersect, and further poses. Nothing of this is judged here. */
 SELVEDGE_C_API int selvedge_verify(const selvedge_mesh* mesh, const selvedge_mesh* original, size_t* pairs,
                                    size_t* new_pairs);
 
-/* Repeats a log on the mesh that it was made of, and judges every step, but not against an obstacle. Returns
-   1 when all are accepted, 0 when not, in which case selvedge_last_error() returns the first violation, and
-   -1 when it fails. */
+/* Repeats a log on the mesh that it was made of, and judges every step by the limits that the log declares,
+   but not against an obstacle, nor in further poses, nor by limits of the caller, as `selvedge replay` can.
+   Whether the mesh is from the file of which the log has the SHA-256 is not compared. Returns 1 when all are
+   accepted, 0 when not, in which case selvedge_last_error() returns the first violation with its step and
+   line, and -1 when it fails. */
 SELVEDGE_C_API int selvedge_replay(const selvedge_mesh* original, const char* log);
 
 #ifdef __cplusplus

@@ -124,7 +124,8 @@ def verify(points, triangles, original=None):
     """Judges a mesh exactly: by itself, or as a result of reducing `original`, a `Mesh` or (points, triangles).
 
     Returns a `Verdict` with `pairs` and `new_pairs`, arrays of shape (k, 2): triangles that intersect or coincide (a
-    degenerate one is a pair with itself), and those of them that the original does not have.
+    degenerate one is a pair with itself), and those of them that the original does not have. It is true when there are no new
+    pairs (without `original`: no pairs), and every piece has become one. docs/python.md says what `selvedge verify` adds.
     """
     before = None if original is None else _mesh(original, "original")
     accepted, pairs, new_pairs, report = _selvedge.judge(_points(points), _triangles(triangles), before)
@@ -136,7 +137,8 @@ def replay(points, triangles, log, *, obstacle=None, all=False):
 
     obstacle: a `Mesh` or (points, triangles) that the steps must keep clear of, too; that of the reduction, if it had one.
 
-    Returns a `Verdict` with `mesh`, to which the steps lead. Throws InputError when the log cannot be read.
+    Returns a `Verdict` with `mesh`, to which the steps lead. Throws InputError when the log cannot be read. The limits are
+    those that the log declares; there are none of the judge, and further poses of the log are not judged.
     """
     beside = None if obstacle is None else _mesh(obstacle, "obstacle")
     accepted, mesh, report = _selvedge.replay(_points(points), _triangles(triangles), log, beside, all)
