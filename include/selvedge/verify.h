@@ -155,7 +155,8 @@ enum class Matched_by {
   positions, ///< several pieces at once: joined where their positions coincide, they are of the same kinds
   borders,   ///< likewise, with borders within the weld distance joined; kinds are not compared. Or it alone,
              ///< with all of its vertices within that distance of a piece of the same kind
-  distance,  ///< of all pieces of the same kind, it lies nearest
+  distance,  ///< of all pieces of the same kind, it lies nearest; or its vertices are next to those of that
+             ///< piece
   triangles  ///< its triangles are those of that piece, as the caller says, and the kind is the same
 };
 
@@ -296,6 +297,9 @@ struct Verify_options
 ///    has matched. Where `Verify_options::weld_distance` is: then, by borders, pieces of one kind, all of
 ///    whose vertices are within that length of the piece of the original, by the fewest different names,
 ///    where all that are left there go up one to one.
+///    Then, by distance, likewise where the coordinates of the result were written with few digits: a vertex
+///    counts as one at the position of the original that it is clearly next to, no farther than 3e-6 of the
+///    diagonal of the original, with every other position at least ten times as far.
 /// 2. By positions: the pieces that are left over, and all pieces that have faces in common with them by
 ///    positions, are joined where positions coincide. Files that number vertices in another way (STL, texture
 ///    seams in glTF) are matched here. Each piece of the original must show: some triangle of the result has
@@ -306,7 +310,7 @@ struct Verify_options
 /// 3. By distance, for results whose vertices are not the original's: two pieces of one kind, each of which
 ///    is, up to a factor of two, the nearest to the vertices of the other, and no farther from them than a
 ///    quarter of the size of the piece of the original.
-/// 4. By positions and distance together.
+/// 4. By positions and distance together; a vertex that is clearly next to a position counts as there.
 ///
 /// When the coordinates of the result are 32-bit floats and those of the original are not, those of the
 /// original are rounded for this, unless `may_be_rounded` is false.

@@ -92,4 +92,11 @@ const Lists& Matching::reach()
   return *m_reach;
 }
 
+const std::vector<Index>& Matching::positions_nearby()
+{
+  if (!m_positions_nearby)
+    m_positions_nearby = near_positions(*this);
+  return *m_positions_nearby;
+}
+
 } // namespace selvedge::internal

@@ -52,6 +52,9 @@ struct Matching
   /// Returns the pieces of the original at every position, as `within_reach` says.
   const Lists& reach();
 
+  /// Returns the positions of the vertices of the result, as `near_positions` says.
+  const std::vector<Index>& positions_nearby();
+
   const Verify_options& options;
   std::vector<Index> positions;
   std::size_t position_count;
@@ -66,6 +69,7 @@ struct Matching
 
 private:
   std::optional<Lists> m_reach;
+  std::optional<std::vector<Index>> m_positions_nearby;
 };
 
 } // namespace selvedge::internal

@@ -26,7 +26,7 @@ Piece_mesh::Piece_mesh(const Triangle_soup& mesh, const Index* positions_of_vert
   triangles = Lists(numbered.pieces.size(), pairs);
 }
 
-Lists Piece_mesh::pieces_at(std::size_t positions_in_all) const
+Lists Piece_mesh::pieces_at(std::size_t positions_in_all, const Index* other_positions) const
 {
   std::vector<Pair> pairs;
   std::vector<bool> is_done(soup.points.size());
@@ -34,7 +34,7 @@ Lists Piece_mesh::pieces_at(std::size_t positions_in_all) const
     for (int place = 0; piece(t) != no_piece && place < 3; ++place) {
       const Index vertex = soup.triangles[t][place];
       if (!is_done[vertex])
-        pairs.emplace_back(positions[vertex], piece(t));
+        pairs.emplace_back(other_positions[vertex], piece(t));
       is_done[vertex] = true;
     }
   return Lists(positions_in_all, pairs);

@@ -40,7 +40,10 @@ struct Piece_mesh
   const std::vector<Piece>& pieces() const { return numbered.pieces; }
 
   /// Returns the pieces at each position; `positions_in_all` is the number of positions of both meshes.
-  Lists pieces_at(std::size_t positions_in_all) const;
+  Lists pieces_at(std::size_t positions_in_all) const { return pieces_at(positions_in_all, positions); }
+
+  /// Returns the same with other positions of the vertices.
+  Lists pieces_at(std::size_t positions_in_all, const Index* other_positions) const;
 
   std::vector<Index> triangles_of(const std::vector<Index>& some_pieces) const;
 

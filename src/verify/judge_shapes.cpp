@@ -21,8 +21,9 @@ namespace {
 // mesh: small parts are no larger, and a reduction may leave little of them.
 constexpr double most_distance_of_own = 0.01;
 
-bool has_vertex_of_original(const Matching& matching, const Piece_match& match)
+bool has_vertex_of_original(Matching& matching, const Piece_match& match)
 {
+  const std::vector<Index>& positions = matching.positions_nearby();
   const auto is_of_original = [&](Index position) {
     const Lists::Range here = matching.original_at[position];
     return std::any_of(match.of_original.begin(), match.of_original.end(),
@@ -30,8 +31,9 @@ bool has_vertex_of_original(const Matching& matching, const Piece_match& match)
   };
   const std::vector<Index> triangles = matching.result.triangles_of(match.of_result);
   return std::any_of(triangles.begin(), triangles.end(), [&](Index t) {
-    return is_of_original(matching.result.position(t, 0)) || is_of_original(matching.result.position(t, 1)) ||
-           is_of_original(matching.result.position(t, 2));
+    const Index_triple& corners = matching.result.soup.triangles[t];
+    return std::any_of(corners.begin(), corners.end(),
+                       [&](Index vertex) { return is_of_original(positions[vertex]); });
   });
 }
 

@@ -8,12 +8,14 @@
 #include <selvedge/Cancellation_scope.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 #include <tuple>
 #include <utility>
 
-// Matches the pieces of a result whose vertices are those of a piece of the original, for `match_pieces`.
+// Matches the pieces of a result whose vertices are those of a piece of the original, or next to them, for
+// `match_pieces`.
 
 namespace selvedge::internal {
 namespace {
@@ -44,11 +46,10 @@ void compare_shapes_of_equals(const Matching& matching, std::vector<Possible_mat
   }
 }
 
-} // namespace
-
-void match_by_vertices(Matching& matching)
+// Returns all pairs of pieces of which at least half of the positions of the first are positions of the
+// second, whatever their kinds. `result_at` has the pieces of the result at each position.
+std::vector<Possible_match> with_common_positions(const Matching& matching, const Lists& result_at)
 {
-  const Lists result_at = matching.result.pieces_at(matching.position_count);
   std::vector<std::size_t> sizes(matching.result.pieces().size());
   std::vector<Pair> hits;
   Cancellation_poll poll;
@@ -65,7 +66,7 @@ void match_by_vertices(Matching& matching)
   }
   std::sort(hits.begin(), hits.end());
   const Piece_names names(matching.result, matching.original);
-  std::vector<Possible_match> possible;
+  std::vector<Possible_match> found;
   for (auto first = hits.begin(), last = first; first != hits.end(); first = last) {
     last = std::find_if(first, hits.end(), [&](const Pair& pair) { return pair != *first; });
     const auto [r, o] = *first;
@@ -73,13 +74,41 @@ void match_by_vertices(Matching& matching)
     if (2 * count < sizes[r])
       continue;
     const double missing = 1 - double(count) / double(sizes[r]);
-    matching.near.push_back({missing, names.differing(r, o), r, o});
-    if (matching.are_of_one_kind(r, o))
-      possible.push_back(matching.near.back());
+    found.push_back({missing, names.differing(r, o), r, o});
   }
+  return found;
+}
+
+void match_those_of_one_kind(Matching& matching, const std::vector<Possible_match>& pairs, Matched_by by)
+{
+  std::vector<Possible_match> possible;
+  std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(possible), [&](const Possible_match& pair) {
+    return matching.is_left_of_result(pair.of_result) && matching.is_left_of_original(pair.of_original) &&
+           matching.are_of_one_kind(pair.of_result, pair.of_original);
+  });
   if (matching.options.are_shapes_judged)
     compare_shapes_of_equals(matching, possible);
-  matching.match_one_to_one(std::move(possible), Matched_by::vertices);
+  matching.match_one_to_one(std::move(possible), by);
+}
+
+} // namespace
+
+void match_by_vertices(Matching& matching)
+{
+  matching.near = with_common_positions(matching, matching.result.pieces_at(matching.position_count));
+  match_those_of_one_kind(matching, matching.near, Matched_by::vertices);
+}
+
+// Numbers that were written with few digits are not the original's bit for bit. Distances between surfaces
+// would not do: the vertices of the original may be nearer to another layer of the result than to their own,
+// if that was reduced further, and all vertices of a small piece may lie on the border of another one.
+void match_by_near_vertices(Matching& matching)
+{
+  if (matching.left_of_result().empty() || matching.left_of_original().empty())
+    return;
+  const Lists result_at =
+      matching.result.pieces_at(matching.position_count, matching.positions_nearby().data());
+  match_those_of_one_kind(matching, with_common_positions(matching, result_at), Matched_by::distance);
 }
 
 // What the caller says is checked as far as pieces go: one piece comes from one piece, and has its kind.

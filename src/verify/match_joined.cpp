@@ -65,12 +65,12 @@ struct Owners
   bool is_broken() const { return is_known && pieces.empty(); }
 };
 
-Owners owners(const Piece_mesh& mesh, const Lists& reach, Index triangle)
+Owners owners(const Lists& reach, const Index_triple& positions_of_corners)
 {
   Owners result;
   std::vector<Index> both;
-  for (int place = 0; place < 3; ++place) {
-    const auto here = reach[mesh.position(triangle, place)];
+  for (const Index position : positions_of_corners) {
+    const auto here = reach[position];
     if (here.size() == 0 || here.size() > most_at_a_position)
       continue;
     if (!result.is_known) {
@@ -122,6 +122,10 @@ void match_joined(Matching& matching, bool is_by_distance)
       owns_nothing(results, true);
   std::vector<Pair> owned, perhaps_owned;
   std::optional<Nearest_pieces> nearest;
+  const auto position = [&](Index t, int place) {
+    return is_by_distance ? matching.positions_nearby()[matching.result.soup.triangles[t][place]]
+                          : matching.result.position(t, place);
+  };
   const Triangles_by_position before(matching.original), now(matching.result);
   Cancellation_poll poll;
   for (Index t = 0; t < matching.result.soup.triangles.size(); ++t) {
@@ -129,7 +133,7 @@ void match_joined(Matching& matching, bool is_by_distance)
     const Index r = matching.result.piece(t);
     if (r == no_piece)
       continue;
-    Owners found = owners(matching.result, reach, t);
+    Owners found = owners(reach, {position(t, 0), position(t, 1), position(t, 2)});
     if (is_by_distance && !found.is_known) {
       if (!nearest)
         nearest.emplace(matching.original.soup, matching.original.numbered.of_triangle, matching.exponent);
@@ -138,7 +142,7 @@ void match_joined(Matching& matching, bool is_by_distance)
     if (found.is_broken()) {
       is_broken[r] = true;
       for (int place = 0; place < 3; ++place)
-        if (const auto here = reach[matching.result.position(t, place)]; here.size() == 1) {
+        if (const auto here = reach[position(t, place)]; here.size() == 1) {
           owned.emplace_back(r, *here.begin());
           is_touched[*here.begin()] = true;
         }

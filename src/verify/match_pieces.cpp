@@ -23,6 +23,7 @@ Piece_matching match_pieces(const Triangle_soup& result, const Triangle_soup& or
   Cancellation_scope::check();
   match_by_triangles(matching);
   match_within_reach(matching);
+  match_by_near_vertices(matching);
   match_joined(matching, false);
   Cancellation_scope::check();
   match_by_distance(matching);

@@ -14,6 +14,7 @@ namespace selvedge::internal {
 void match_by_vertices(Matching& matching);
 void match_by_triangles(Matching& matching);
 void match_within_reach(Matching& matching);
+void match_by_near_vertices(Matching& matching);
 
 /// Matches pieces that are joined where positions coincide; by distance, too, or not.
 void match_joined(Matching& matching, bool is_by_distance);
@@ -30,6 +31,11 @@ void judge_shapes(Matching& matching);
 /// with a border vertex within the weld distance, be it of this position or of a border vertex that was
 /// reached so.
 Lists within_reach(const Matching& matching);
+
+/// Returns the number of the position of each vertex of the result. A vertex whose position the original does
+/// not have gets the position of the original that it is clearly next to, if there is one: it is no farther
+/// than 3e-6 of the diagonal of the original, and any other position is at least ten times as far.
+std::vector<Index> near_positions(const Matching& matching);
 
 /// Of pieces that have no triangle of the result for themselves, returns those that may be missing: without
 /// them, what they are joined to would be of the same kind. A patch that others surround would leave a hole;

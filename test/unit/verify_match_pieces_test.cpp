@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <random>
 #include <string>
 #include <utility>
@@ -84,6 +86,7 @@ TEST(MatchPieces, OfWhichLittleIsLeftAreRightWhereTheyAreSmall)
   const Triangle_soup placed =
       soup({{0, 0, 0}, {1.1, 0, 0}, {0.1, 0.9, 0}}, {{0, 1, 2}}); // --placement optimal
   EXPECT_EQ(mismatches(with_button(coarse(), placed), original), Mismatches{});
+  EXPECT_EQ(mismatches(moved(with_button(coarse(), corner), 1e-6, 2e-6, 3e-6), original), Mismatches{});
 }
 
 TEST(MatchPieces, FindACopyOfAnotherInThePlaceOfOne)
@@ -274,6 +277,85 @@ TEST(MatchPieces, ByDistanceWhereLayersAreClose)
   EXPECT_EQ(way(matching), Matched_by::distance);
   for (const Piece_match& match : matching.matches)
     EXPECT_EQ(match.of_original, match.of_result);
+}
+
+/// All coordinates as a file has them that was written with few digits.
+Triangle_soup with_digits(int digits, const Triangle_soup& soup)
+{
+  const auto printed = [&](double coordinate) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.*g", digits, coordinate);
+    return std::strtod(text, nullptr);
+  };
+  return mapped(soup,
+                [&](const Point_3& p) { return Point_3(printed(p.x()), printed(p.y()), printed(p.z())); });
+}
+
+/// Three layers of a wavy cloth that lie close together, in which the middle one may have larger triangles.
+Triangle_soup close_layers(Index squares, Index squares_of_middle)
+{
+  const Triangle_soup flat =
+      joined(joined(layer(squares, 0), layer(squares_of_middle, 0.02)), layer(squares, 0.04));
+  return mapped(flat, [](const Point_3& p) {
+    return Point_3(p.x() / 3, p.y() / 3, p.z() + std::sin(p.x()) * std::sin(p.y()));
+  });
+}
+
+// The vertices of the middle layer of the original are nearer to the other two layers of the result, which
+// have kept all of theirs, than to their own.
+TEST(MatchPieces, ThatLieCloseWhereTheResultHasFewDigits)
+{
+  const std::vector<std::string> names{"shell", "interlining", "lining"};
+  const Triangle_soup original = named(close_layers(32, 32), names), result = close_layers(32, 8);
+  ASSERT_EQ(way(match_pieces(named(result, names), original)), Matched_by::vertices);
+  for (const int digits : {6, 9, 15}) {
+    SCOPED_TRACE(digits);
+    const Triangle_soup written = with_digits(digits, result);
+    ASSERT_NE(written.points, result.points);
+    const Piece_matching matching = match_pieces(named(written, names), original);
+    EXPECT_EQ(way(matching), Matched_by::distance);
+    for (const Piece_match& match : matching.matches)
+      EXPECT_EQ(match.of_original, match.of_result);
+
+    // What is wrong is found all the same: exchanged names, and a piece that is missing, doubled, or moved to
+    // another layer.
+    const auto only = [&](Index piece) {
+      return without_piece(without_piece(written, piece == 2 ? 1 : 2), piece == 0 ? 1 : 0);
+    };
+    EXPECT_EQ(mismatches(named(written, {"shell", "lining", "interlining"}), original),
+              (Mismatches{Mismatch::name, Mismatch::name}));
+    for (const Index piece : {0, 1, 2}) {
+      const Triangle_soup fewer = without_piece(written, piece);
+      EXPECT_EQ(mismatches(fewer, original), Mismatches{Mismatch::missing});
+      const Mismatches wrong{Mismatch::missing, Mismatch::added};
+      for (const Index other : {(piece + 1) % 3, (piece + 2) % 3})
+        EXPECT_EQ(mismatches(joined(fewer, moved(only(other), 0, 0, 1e-7)), original), wrong)
+            << "piece " << piece << " is piece " << other << " once more";
+    }
+    EXPECT_EQ(mismatches(joined(written, moved(only(1), 0, 0, 1e-7)), original), Mismatches{Mismatch::added});
+  }
+}
+
+// Two sheets have one border, and one of them has lost all vertices elsewhere: what is left of it lies on
+// both, up to rounding.
+TEST(MatchPieces, OnABorderOfAnotherWhereTheResultHasFewDigits)
+{
+  const auto bump = [](Index squares, double height) {
+    return mapped(layer(squares, 0), [&](const Point_3& p) {
+      const auto wave = [](double x) { return x == 8 ? 0 : std::sin(x * M_PI / 8); };
+      return Point_3(p.x() / 3 + 0.1, p.y() / 7, p.x() / 9 + height * wave(p.x()) * wave(p.y()));
+    });
+  };
+  const Triangle_soup original = named(joined(bump(8, 1), bump(8, 0.8)), {"upper", "lower"});
+  const Triangle_soup result = joined(bump(8, 0.8), bump(1, 1));
+  for (const int digits : {6, 7, 9}) {
+    SCOPED_TRACE(digits);
+    const Triangle_soup written = with_digits(digits, result);
+    EXPECT_EQ(way(match_pieces(named(written, {"lower", "upper"}), original)), Matched_by::distance);
+    EXPECT_EQ(mismatches(named(written, {"upper", "lower"}), original),
+              (Mismatches{Mismatch::name, Mismatch::name}));
+    EXPECT_EQ(mismatches(without_piece(written, 0), original), Mismatches{Mismatch::missing});
+  }
 }
 
 TEST(MatchPieces, FindAPieceThatIsElsewhere)
