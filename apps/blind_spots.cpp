@@ -21,7 +21,8 @@ std::string pieces_matched(const Piece_matching& matching, Matched_by by)
 
 } // namespace
 
-std::vector<std::string> blind_spots(const Verification& verification, const Comparison& comparison)
+std::vector<std::string> blind_spots(const Verification& verification, const Comparison& comparison,
+                                     bool is_gltf)
 {
   const Piece_matching& matching = verification.matching;
   std::vector<std::string> lines{
@@ -70,6 +71,10 @@ std::vector<std::string> blind_spots(const Verification& verification, const Com
   lines.push_back("names that were exchanged in less than half of a patch of faces with one name");
   lines.push_back("values of attributes, such as texture coordinates, that are missing, exchanged or not the "
                   "original's at their position: they are counted, not judged");
+  lines.push_back("layers that meet at one position, corner on corner: there they count as joined");
+  if (is_gltf)
+    lines.push_back("morph targets, skins and animations of glTF files, whether lost or changed, but for the "
+                    "poses that were given");
   lines.push_back("pieces at the same positions that have changed places in the file");
   return lines;
 }

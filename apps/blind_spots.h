@@ -13,8 +13,9 @@
 namespace selvedge::app {
 
 /// Lists what the judge cannot see of a result and its original, one line each: the gaps that every
-/// comparison has, and those of these two meshes.
-std::vector<std::string> blind_spots(const Verification& verification, const Comparison& comparison);
+/// comparison has, and those of these two meshes. `is_gltf` tells whether one of them is a glTF scene.
+std::vector<std::string> blind_spots(const Verification& verification, const Comparison& comparison,
+                                     bool is_gltf);
 
 } // namespace selvedge::app
 

@@ -204,7 +204,7 @@ void print_pairs_of_original(std::size_t pairs)
 }
 
 void print(const Verify_request& request, const Mesh_file& mesh, const Verification& verification,
-           const std::optional<Comparison>& comparison)
+           const std::optional<Comparison>& comparison, const std::vector<std::string>& cannot_see)
 {
   const bool has_original = !request.original.empty();
   std::size_t loops = 0;
@@ -277,7 +277,7 @@ void print(const Verify_request& request, const Mesh_file& mesh, const Verificat
                 << difference.pieces_of_original << " before, " << difference.pieces_of_result << " now\n";
     print(verification, *comparison);
     std::cout << "what this cannot see:\n";
-    for (const std::string& line : blind_spots(verification, *comparison))
+    for (const std::string& line : cannot_see)
       std::cout << "  - " << line << '\n';
   }
   std::cout << std::flush;
@@ -385,16 +385,18 @@ Exit_code run(const Verify_request& request)
   const bool is_good = has_original ? verification->accepted() && comparison->layers.swaps.empty()
                                     : verification->embedded() && verification->is_clearance_kept();
   const Exit_code code = is_good ? exit_done : exit_not_verified;
+  std::vector<std::string> cannot_see;
   add_verification(report, *verification, has_original);
   if (comparison) {
     add_comparison(report, *verification, *comparison);
-    report["cannot_see"] = blind_spots(*verification, *comparison);
+    cannot_see = blind_spots(*verification, *comparison, mesh.soup.scene || original.soup.scene);
+    report["cannot_see"] = cannot_see;
   }
   report["memory"] = {{"peak_bytes", peak_memory_bytes()}};
   report["exit_code"] = int(code);
   {
     const Text_to_standard_error elsewhere(is_standard_output(request.html));
-    put_report(request, report, [&] { print(request, mesh, *verification, comparison); });
+    put_report(request, report, [&] { print(request, mesh, *verification, comparison, cannot_see); });
   }
   if (!request.html.empty()) {
     Html_report html(has_original ? original.soup : mesh.soup, has_original ? mesh.soup : original.soup);

@@ -478,11 +478,18 @@ void leave_out_without_order(Layer_order& layers, const Triangle_soup& result, c
     places[pieces_of({pair.first, pair.second})].emplace_back(least[0], least[1], least[2], most[0], most[1],
                                                               most[2]);
   }
+  // A triangle of the result may come from farther away than it reaches.
+  const auto around = [&](Index triangle) {
+    const CGAL::Bbox_3 box = box_of(result, triangle);
+    const double side = std::max({box.x_span(), box.y_span(), box.z_span()});
+    return CGAL::Bbox_3(box.xmin() - side, box.ymin() - side, box.zmin() - side, box.xmax() + side,
+                        box.ymax() + side, box.zmax() + side);
+  };
   const auto is_without_order = [&](const Layer_swap& swap) {
     const auto found = places.find(pieces_of(swap.of_original));
     if (found == places.end())
       return false;
-    const CGAL::Bbox_3 a = box_of(result, swap.of_result[0]), b = box_of(result, swap.of_result[1]);
+    const CGAL::Bbox_3 a = around(swap.of_result[0]), b = around(swap.of_result[1]);
     return std::any_of(found->second.begin(), found->second.end(), [&](const CGAL::Bbox_3& box) {
       return CGAL::do_overlap(box, a) && CGAL::do_overlap(box, b);
     });
