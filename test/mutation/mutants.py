@@ -274,7 +274,9 @@ group("src/soup/fit_normals.cpp", ("shading_test",),
       ("result.push_back(sets.find(positions[triangle[0]]));", "result.push_back(0);", "a layer is shaded as the one beside it"),
       ("std::min(s_cosine_of_sample, before)", "-2", "fitted normals point to the back"),
       ("keys.emplace_back(positions[m_result.triangles[i][k]]", "keys.emplace_back(m_result.triangles[i][k]", "seams of the texture are hard edges where normals are fitted"),
-      ("!are_near_normals(normal, m_old[wedge])", "true", "normals that differ in their last digits across a seam are fitted apart"))
+      ("!are_near_normals(normal, m_old[wedge])", "true", "normals that differ in their last digits across a seam are fitted apart"),
+      ("if (split_wedges(fitted))", "if (false)", "an edge shades round where its bevel is gone"),
+      ("errors_after[w] < s_share_left_of_split * errors_before[w]", "errors_after[w] < 0", "no wedge is split, whatever its error"))
 group("src/files/Polygon_starts.h", ("polygons_test",),
       ("return k;", "return 0;", "the two sides of a cloth are cut along other diagonals"))
 group("src/files/Written_faces.cpp", ("polygons_test",),
@@ -1412,3 +1414,11 @@ group(
      "Sewn_mesh::Mesh::Face_index(m_prepared.fronts.empty() ? t : m_prepared.fronts[t])",
      "a number of a triangle is taken for that of a face"),
 )
+
+group("src/soup/Corner_mesh.cpp", ("attributes_test",),
+      ("least_edges_to_one_around_regions * differing > edges", "false", "a value that is another on each face makes lines"),
+      ("m_regions && (*m_regions)[a / 3] != (*m_regions)[b / 3]", "false", "painted regions lose their outlines"))
+
+group("src/verify/near_positions.cpp", ("verify_match_pieces_test",),
+      ("      positions[vertex] = numbers[nearest];", "      positions[vertex] = positions[vertex];",
+       "results of few digits are matched by the distances of surfaces alone"))
