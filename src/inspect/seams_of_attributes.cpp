@@ -66,6 +66,16 @@ void add_differences(const Triangle_soup& soup, Index a, Index b, std::set<std::
         names.insert(column.name + " of morph targets");
 }
 
+bool tells_regions_apart(const Attribute& attribute, const std::vector<Index_triple>& triangles)
+{
+  std::size_t edges = 0, differing = 0;
+  internal::for_each_inner_edge(triangles, [&](const internal::Edge_side& a, const internal::Edge_side& b) {
+    ++edges;
+    differing += differ(attribute, a.at_low / 3, b.at_low / 3);
+  });
+  return differing > 0 && least_edges_to_one_around_regions * differing <= edges;
+}
+
 // Of the attributes that differ across an edge, returns those that can be left out such that none differs any
 // more: one alone, or several that go together.
 std::set<std::string> sole_causes(const std::set<std::string>& names)
@@ -94,17 +104,16 @@ std::map<std::string, std::size_t> seams_of_attributes(const Triangle_soup& soup
   for (Index_triple& triangle : triangles)
     for (Index& v : triangle)
       v = positions[v];
+  std::vector<const Attribute*> of_regions;
+  for (const Attribute& attribute : soup.triangle_attributes)
+    if (tells_regions_apart(attribute, triangles))
+      of_regions.push_back(&attribute);
   std::map<std::string, std::size_t> result;
-  std::size_t edges = 0;
-  std::map<std::string, std::size_t> edges_around_regions; // by attribute of faces
   internal::for_each_inner_edge(triangles, [&](const internal::Edge_side& a, const internal::Edge_side& b) {
     std::set<std::string> names;
-    ++edges;
-    for (const Attribute& attribute : soup.triangle_attributes)
-      if (differ(attribute, a.at_low / 3, b.at_low / 3)) {
-        names.insert(attribute.name);
-        ++edges_around_regions[attribute.name];
-      }
+    for (const Attribute* const attribute : of_regions)
+      if (differ(*attribute, a.at_low / 3, b.at_low / 3))
+        names.insert(attribute->name);
     for (const auto& [c, d] : {std::pair(a.at_low, b.at_low), std::pair(a.at_high, b.at_high)}) {
       if (is_seam_of(soup.normals, c, d) || is_seam_of(soup.groups, c, d) || is_seam_of(soup.objects, c, d) ||
           is_seam_of(soup.materials, c, d))
@@ -116,9 +125,6 @@ std::map<std::string, std::size_t> seams_of_attributes(const Triangle_soup& soup
     for (const std::string& name : sole_causes(names))
       ++result[name];
   });
-  for (const auto& [name, count] : edges_around_regions)
-    if (least_edges_to_one_around_regions * count > edges)
-      result.erase(name);
   return result;
 }
 

@@ -477,6 +477,8 @@ private:
         for (std::size_t axis = 0; axis < 3; ++axis)
           means[found->second][axis] += weight * m_fronts[i][axis];
       }
+    if (means.size() == count)
+      return false;
     m_old.resize(means.size());
     for (std::size_t w = 0; w < means.size(); ++w)
       if (w >= count || is_cut[w])

@@ -224,6 +224,11 @@ TEST(Attributes, AreNamedWhereTheyAreTheOnlyCauseOfSeams)
   EXPECT_EQ(seams(), (Counts{{"red", 2}}));
   add_attribute(soup, "green", values);
   EXPECT_EQ(seams(), (Counts{{"green", 2}, {"red", 2}})); // which are left out together
+  std::vector<unsigned char> noise;
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
+    noise.push_back(static_cast<unsigned char>(t));
+  soup.triangle_attributes = {{"noise", Attribute::Type::uint8, 1, false, noise}};
+  EXPECT_EQ(seams(), (Counts{{"green", 2}, {"red", 2}})); // which makes no lines
   add_attribute(soup, "heat", values);
   EXPECT_EQ(seams(), Counts());
 }
