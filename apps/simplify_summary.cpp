@@ -47,7 +47,7 @@ std::vector<Hindrances::Description> reasons(const Hindrances& hindrances)
 /// the last faces are given for little.
 std::string what_is_flattened(const Simplify_request& request, const Level& level)
 {
-  constexpr double much = 0.5; // of the limit
+  constexpr double much = 0.25; // of the limit
   const std::optional<double>& limit = request.options.max_error;
   const bool is_asked_for_target = request.options.ratio || request.options.faces || !request.lods.empty();
   if (!is_asked_for_target || !limit || *limit == 0 ||
@@ -249,7 +249,7 @@ std::string held_back(const Simplify_request& request, const Prepared_soup& prep
                                  ? ""
                                  : seams_to_let_gape(request, prepared, hindrances);
   if (!options.empty())
-    text += "; try " + options;
+    text += "; try " + options + (options.find("--error") != std::string::npos ? ", which costs shape" : "");
   else if (seams.empty() && gaping.empty())
     text += "; no option helps much: " + std::string(why_it_stays(all[0].reason));
   return text + seams + gaping;

@@ -109,7 +109,7 @@ TEST(App_simplify, NamesTheOptionsThatHelp)
   const App_result held = run_app({"simplify", in, "-o", out, "--ratio", "0.1", "--normal-change", "45"});
   ASSERT_NE(held.out.find("target 1,400 not reached"), std::string::npos) << held.out;
   EXPECT_NE(held.out.find("; try --normal-change 90 against the turn of normals and --error 0.05 against the "
-                          "error bound\n"),
+                          "error bound, which costs shape\n"),
             std::string::npos)
       << held.out;
   const App_result helped = run_app({"simplify", in, "-o", out, "--ratio", "0.1", "--error", "0.05"});
