@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
@@ -142,6 +143,23 @@ TEST(App_simplify, NamesTheOptionThatMakesNoSeamsOfNormals)
             .out;
     EXPECT_EQ(dropped.find("shade every face flat") != std::string::npos, name == "out.glb") << dropped;
   }
+}
+
+// A file without names has pieces all the same. The small one costs next to nothing.
+TEST(App_simplify, NamesThePieceThatHasLostItsShape)
+{
+  const Workspace folder;
+  const auto waves = [](Index size, double width) {
+    Triangle_soup soup = test::sheet(size, size);
+    for (Point_3& p : soup.points)
+      p = Point_3(width * p.x(), width * p.y(), width * std::sin(p.x()) * std::sin(p.y()));
+    return soup;
+  };
+  write_mesh(folder / "in.off", test::joined(test::moved(waves(12, 0.001), 0, 0, 3), waves(40, 1)));
+  const std::string out =
+      run_app({"simplify", folder / "in.off", "-o", folder / "out.off", "--ratio", "0.3"}).out;
+  EXPECT_NE(out.find("parts: the piece around (0.006, 0.006, "), std::string::npos) << out;
+  EXPECT_NE(out.find("in a group of its own, it could keep more by --ratio 'GROUP=R'"), std::string::npos);
 }
 
 // Every column of squares is an island of the texture.
