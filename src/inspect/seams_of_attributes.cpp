@@ -73,7 +73,7 @@ bool tells_regions_apart(const Attribute& attribute, const std::vector<Index_tri
     ++edges;
     differing += differ(attribute, a.at_low / 3, b.at_low / 3);
   });
-  return differing > 0 && least_edges_to_one_around_regions * differing <= edges;
+  return are_edges_around_regions(differing, edges);
 }
 
 // Of the attributes that differ across an edge, returns those that can be left out such that none differs any

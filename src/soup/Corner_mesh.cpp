@@ -160,7 +160,7 @@ void Corner_mesh::find_regions()
         is_differing |= row(triangle(face, i)) != row(triangle(beyond, i));
       differing += is_differing;
     }
-    if (differing == 0 || least_edges_to_one_around_regions * differing > edges)
+    if (!are_edges_around_regions(differing, edges))
       continue;
     regions.resize(triangle_count, 0);
     std::map<std::pair<Index, std::string_view>, Index> numbers;

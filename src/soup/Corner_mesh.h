@@ -19,9 +19,12 @@ namespace selvedge {
 
 class Sewing;
 
-/// An attribute of triangles tells regions apart when it differs somewhere, and at most across one edge in so
-/// many.
-constexpr std::size_t least_edges_to_one_around_regions = 16;
+/// Whether an attribute of triangles tells regions apart: it differs somewhere, and across at most one edge
+/// in sixteen.
+inline bool are_edges_around_regions(std::size_t differing, std::size_t edges)
+{
+  return differing > 0 && 16 * differing <= edges;
+}
 
 /// A mesh that knows for every corner of its faces which corner of a soup this now is.
 ///
