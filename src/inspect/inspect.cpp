@@ -85,6 +85,8 @@ public:
   {
     for (const auto e : m_working.constraints().line_edges)
       m_rule.mark(e);
+    for (const auto h : m_working.constraints().spokes)
+      m_rule.mark_at_target(h);
     for (const auto v : m_working.constraints().locked_vertices)
       m_rule.lock(v);
   }
@@ -181,7 +183,7 @@ private:
   void count_seams()
   {
     Inspection::Seams& seams = m_result.seams;
-    for (const auto e : m_working.constraints().line_edges) {
+    const auto add = [&](Sewn_mesh::Mesh::Edge_index e) {
       const Sewn_mesh::Differences differences = m_working.differences(e);
       ++seams.edges;
       seams.by_vertices += differences.in_vertex;
@@ -190,7 +192,11 @@ private:
       seams.by_labels += differences.in_label;
       seams.by_regions += differences.in_region;
       seams.by_doubles += differences.in_doubles;
-    }
+    };
+    for (const auto e : m_working.constraints().line_edges)
+      add(e);
+    for (const auto h : m_working.constraints().spokes)
+      add(m_working.mesh().edge(h));
     seams.by_attributes = seams_of_attributes(m_soup, m_prepared.positions);
     seams.by_attributes.erase("texture"); // which `by_texture` counts
   }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <string_view>
 #include <unordered_map>
 
 // The mesh of `replay`: what snaps and collapses do to faces, seams and corners, computed apart from the
@@ -117,10 +118,12 @@ std::vector<Complex::Edge> Complex::edges_at(Index position) const
     const std::size_t k = slot(f, position), before = next(next(k));
     Edge& out = entry_of(m_faces[f].positions[next(k)]);
     ++out.outgoing;
-    out.is_seam = out.is_seam || m_faces[f].is_seam[k];
+    out.is_seam = out.is_seam || m_faces[f].is_seam[k][0];
+    out.is_seam_beyond = out.is_seam_beyond || m_faces[f].is_seam[k][1];
     Edge& in = entry_of(m_faces[f].positions[before]);
     ++in.incoming;
-    in.is_seam = in.is_seam || m_faces[f].is_seam[before];
+    in.is_seam = in.is_seam || m_faces[f].is_seam[before][1];
+    in.is_seam_beyond = in.is_seam_beyond || m_faces[f].is_seam[before][0];
   }
   return edges;
 }
@@ -248,29 +251,38 @@ Index_triple Complex::positions_left(Index face) const
   return in_order_of_soup(face, positions);
 }
 
-// Whether the faces for which f and g stand differ along their common edge from p to q, one by one.
-bool Complex::is_seam_between_plies(Index f, Index g, Index p, Index q) const
+// Whether the faces for which f and g stand differ at each end of their common edge, one by one. Both ends
+// count where these have other vertices, or are not as many or run other ways.
+std::array<bool, 2> Complex::differs_at_ends(Index f, Index g, Index from, Index to) const
 {
   const std::vector<Ply>&of_f = plies(f), &of_g = plies(g);
   if (of_f.size() != of_g.size())
-    return true;
+    return {true, true};
   const auto runs_along = [](const Ply& ply) { return ply.places[1] == next(ply.places[0]); };
-  for (std::size_t i = 0; i < of_f.size(); ++i) {
-    if (runs_along(of_f[i]) != runs_along(of_g[i]))
-      return true;
-    for (const Index end : {p, q})
-      if (i > 0 && is_seam_between(of_f[i].corners[slot(f, end)], of_g[i].corners[slot(g, end)]))
-        return true;
+  std::array<bool, 2> result{};
+  for (std::size_t i = 0; i < std::max(std::size_t(1), of_f.size()); ++i) {
+    if (!of_f.empty() && runs_along(of_f[i]) != runs_along(of_g[i]))
+      return {true, true};
+    for (const std::size_t end : {0, 1}) {
+      const Index position = end == 0 ? from : to;
+      const Index a = (i == 0 ? m_faces[f].corners : of_f[i].corners)[slot(f, position)];
+      const Index b = (i == 0 ? m_faces[g].corners : of_g[i].corners)[slot(g, position)];
+      if (vertex_of(a) != vertex_of(b))
+        return {true, true};
+      result[end] = result[end] || is_seam_between(a, b);
+    }
   }
-  return false;
+  return result;
 }
 
 void Complex::find_seams()
 {
+  constexpr std::size_t least = 3; // edges at one position that are seams there alone, so that they stay so
   m_has_seams = true;
+  std::vector<Side> inner; // sides of two faces
   Cancellation_poll poll;
   for (Index f = 0; f < m_faces.size(); ++f)
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3 && m_faces[f].is_alive; ++k) {
       poll();
       const Index from = m_faces[f].positions[k], to = m_faces[f].positions[next(k)];
       std::size_t count = 0;
@@ -281,12 +293,49 @@ void Complex::find_seams()
           other = g;
         }
       // An edge is a border unless exactly two faces meet at it and run along it in opposite directions.
-      if (count == 1 && m_faces[other].positions[next(slot(other, to))] == from)
-        m_faces[f].is_seam[k] =
-            is_seam_between(m_faces[f].corners[k], m_faces[other].corners[slot(other, from)]) ||
-            is_seam_between(m_faces[f].corners[next(k)], m_faces[other].corners[slot(other, to)]) ||
-            is_seam_between_plies(f, other, from, to);
+      if (count == 1 && m_faces[other].positions[next(slot(other, to))] == from) {
+        m_faces[f].is_seam[k] = differs_at_ends(f, other, from, to);
+        inner.push_back({f, other, k});
+      }
     }
+  mark_regions(inner);
+  std::unordered_map<Index, std::size_t> counts; // of edges that are seams at one end only, by this position
+  const auto is_one_ended = [](const std::array<bool, 2>& ends) { return ends[0] != ends[1]; };
+  const auto one_end = [&](const Side& side) {
+    return m_faces[side.face]
+        .positions[m_faces[side.face].is_seam[side.place][0] ? side.place : next(side.place)];
+  };
+  for (const Side& side : inner)
+    if (side.face < side.other && is_one_ended(m_faces[side.face].is_seam[side.place]))
+      ++counts[one_end(side)];
+  for (const Side& side : inner)
+    if (auto& ends = m_faces[side.face].is_seam[side.place];
+        is_one_ended(ends) && counts[one_end(side)] < least)
+      ends = {true, true};
+}
+
+// Marks the edges across which an attribute of triangles changes, if it does so across few: at most one in
+// sixteen. Then these are the outlines of regions.
+void Complex::mark_regions(const std::vector<Side>& inner)
+{
+  for (const Attribute& attribute : m_soup.triangle_attributes) {
+    const std::size_t size = row_size(attribute);
+    const auto row = [&](Index t) {
+      return std::string_view(reinterpret_cast<const char*>(attribute.rows.data()) + t * size, size);
+    };
+    const auto ply_count = [&](Index f) { return std::max(std::size_t(1), plies(f).size()); };
+    const auto ply = [&](Index f, std::size_t i) { return plies(f).empty() ? f : plies(f)[i].face; };
+    std::vector<Side> changing;
+    for (const Side& side : inner)
+      for (std::size_t i = 0; i < std::min(ply_count(side.face), ply_count(side.other)); ++i)
+        if (row(ply(side.face, i)) != row(ply(side.other, i))) {
+          changing.push_back(side);
+          break;
+        }
+    if (16 * changing.size() <= inner.size())
+      for (const Side& side : changing)
+        m_faces[side.face].is_seam[side.place] = {true, true};
+  }
 }
 
 void Complex::snap(Index moved, Index kept)
@@ -306,7 +355,7 @@ std::vector<Index> Complex::collapse(Index removed, Index kept, const std::array
     (has(f, kept) ? contracted : moving).push_back(f);
   carry_corners(contracted, moving, removed, kept);
   carry_passed(removed, kept, before);
-  carry_seams(contracted, removed, kept);
+  carry_seams(removed, kept);
   for (const Index f : contracted) {
     for (const Index p : m_faces[f].positions) {
       std::vector<Index>& faces = m_faces_at[p];
@@ -343,8 +392,9 @@ void Complex::carry_corners(const std::vector<Index>& contracted, std::vector<In
       const auto is_next = [&](Index g) {
         // Neighbours run along their common edge in opposite directions.
         const auto others = opposite_side(g, removed);
-        return (others[1] == sides[0] && !m_faces[f].is_seam[at] && !edge_to(edges, sides[0]).is_border()) ||
-               (others[0] == sides[1] && !m_faces[f].is_seam[next(next(at))] &&
+        return (others[1] == sides[0] && !m_faces[f].is_seam[at][0] &&
+                !edge_to(edges, sides[0]).is_border()) ||
+               (others[0] == sides[1] && !m_faces[f].is_seam[next(next(at))][1] &&
                 !edge_to(edges, sides[1]).is_border());
       };
       const auto beyond =
@@ -364,26 +414,31 @@ void Complex::carry_corners(const std::vector<Index>& contracted, std::vector<In
   }
 }
 
-// The two other edges of a contracted face become one, which is a seam if one of them was.
-void Complex::carry_seams(const std::vector<Index>& contracted, Index removed, Index kept)
+// The two other edges of a contracted face become one, which is a seam at the apex if one of them was. What
+// was a seam at `removed` is one at `kept` if the edge between both was one there.
+void Complex::carry_seams(Index removed, Index kept)
 {
-  for (const Index f : contracted) {
-    const auto& positions = m_faces[f].positions;
-    const Index apex =
-        *std::find_if(positions.begin(), positions.end(), [&](Index p) { return p != removed && p != kept; });
-    bool is_seam = false;
-    for (std::size_t k = 0; k < 3; ++k)
-      is_seam = is_seam || (m_faces[f].is_seam[k] && (positions[k] == apex || positions[next(k)] == apex));
-    if (!is_seam)
-      continue;
-    for (const Index g : m_faces_at[apex])
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Index from = m_faces[g].positions[k], to = m_faces[g].positions[next(k)];
-        if ((from == apex && (to == removed || to == kept)) ||
-            (to == apex && (from == removed || from == kept)))
-          m_faces[g].is_seam[k] = true;
-      }
-  }
+  std::map<Index, std::array<bool, 2>> seams; // by neighbour: of the edge that leads to it from `kept` then
+  const std::vector<Edge> edges = edges_at(removed);
+  const bool is_line_at_kept = std::any_of(edges.begin(), edges.end(), [&](const Edge& edge) {
+    return edge.neighbour == kept && edge.is_line_beyond();
+  });
+  for (const Edge& edge : edges)
+    if (edge.neighbour != kept)
+      seams[edge.neighbour] = {edge.is_seam && is_line_at_kept, edge.is_seam_beyond};
+  for (const Edge& edge : edges_at(kept))
+    if (const auto found = seams.find(edge.neighbour); found != seams.end()) {
+      found->second[0] = found->second[0] || edge.is_seam;
+      found->second[1] = found->second[1] || edge.is_seam_beyond;
+    }
+  for (const Index end : {removed, kept})
+    for (const Index f : m_faces_at[end]) {
+      const auto [ahead, behind] = opposite_side(f, end);
+      if (const auto found = seams.find(ahead); found != seams.end())
+        m_faces[f].is_seam[slot(f, end)] = found->second;
+      if (const auto found = seams.find(behind); found != seams.end())
+        m_faces[f].is_seam[slot(f, behind)] = {found->second[1], found->second[0]};
+    }
 }
 
 // Carries the points that lines have passed from the edges at `removed` to the edges that replace them.
@@ -417,7 +472,7 @@ void Complex::carry_passed(Index removed, Index kept, const std::array<Coordinat
     take(kept, edge.neighbour, points);
     if (is_along_line)
       points.insert(points.end(), along.begin(), along.end());
-    if (!points.empty())
+    if (!points.empty() && edge.is_line_beyond()) // otherwise the line ends at `kept` now
       m_passed[std::minmax(kept, edge.neighbour)] = std::move(points);
   }
 }

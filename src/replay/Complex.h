@@ -27,8 +27,8 @@ public:
   struct Face
   {
     Index_triple positions;
-    Index_triple corners;          // of the soup, 3 × triangle + place in it
-    std::array<bool, 3> is_seam{}; // side k runs from corner k to the next
+    Index_triple corners;                         // of the soup, 3 × triangle + place in it
+    std::array<std::array<bool, 2>, 3> is_seam{}; // side k runs from corner k to the next: at each of these
     bool is_alive = true, is_turned = false;
   };
 
@@ -44,11 +44,12 @@ public:
   struct Edge
   {
     Index neighbour;
-    int outgoing = 0, incoming = 0; // faces that run along it from the position, and to it
-    bool is_seam = false;
+    int outgoing = 0, incoming = 0;               // faces that run along it from the position, and to it
+    bool is_seam = false, is_seam_beyond = false; // at the position, and at the neighbour
 
     bool is_border() const { return outgoing != 1 || incoming != 1; }
-    bool is_line() const { return is_seam || is_border(); }
+    bool is_line() const { return is_seam || is_border(); } // at the position
+    bool is_line_beyond() const { return is_seam_beyond || is_border(); }
   };
 
   /// The corners of the obstacle have the numbers of the positions of `soup` where they share them, and
@@ -104,7 +105,8 @@ public:
   /// Returns the positions or corners of a face in the order that they have in the soup.
   Index_triple in_order_of_soup(Index face, Index_triple of_face) const;
 
-  /// Marks the edges across which a vertex number, a label or a value of the soup's corners changes.
+  /// Marks the edges across which a vertex number, a label, a value of the soup's corners, or a region
+  /// changes; of three or more at one position that change there alone, only this end.
   void find_seams();
   bool has_seams() const { return m_has_seams; }
 
@@ -132,7 +134,6 @@ private:
     const auto found = m_plies.find(face);
     return found == m_plies.end() ? none : found->second;
   }
-  bool is_seam_between_plies(Index f, Index g, Index p, Index q) const;
   static const Edge& edge_to(const std::vector<Edge>& edges, Index neighbour);
   std::vector<std::vector<Index>> fans_at(Index position) const;
   bool is_seam_between(Index corner_a, Index corner_b) const;
@@ -140,7 +141,14 @@ private:
   std::size_t slot(Index face, Index position) const;
   void carry_corners(const std::vector<Index>& contracted, std::vector<Index> moving, Index removed,
                      Index kept);
-  void carry_seams(const std::vector<Index>& contracted, Index removed, Index kept);
+  void carry_seams(Index removed, Index kept);
+  std::array<bool, 2> differs_at_ends(Index f, Index g, Index from, Index to) const;
+  struct Side
+  {
+    Index face, other; // on this side of an edge, and beyond
+    std::size_t place; // of the side in the face
+  };
+  void mark_regions(const std::vector<Side>& inner);
   void carry_passed(Index removed, Index kept, const std::array<Coordinates, 2>& before);
 
   const Triangle_soup& m_soup;

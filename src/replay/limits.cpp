@@ -118,6 +118,8 @@ std::optional<Violation_kind> Limits::judge(const Complex& complex, Index remove
                                             const Coordinates& place, bool is_kept_still) const
 {
   if (m_limits.border_turn || m_limits.seam_turn || m_limits.border_drift) {
+    if (takes_needed_line(complex, removed, kept))
+      return Violation_kind::line;
     if (const auto kind = judge_line(complex, removed, kept, place))
       return kind;
     if (!is_kept_still)
@@ -133,11 +135,14 @@ std::optional<Violation_kind> Limits::judge_line(const Complex& complex, Index m
   if (place == complex.point(mover))
     return std::nullopt;
   std::vector<Complex::Edge> lines = complex.edges_at(mover);
+  const bool ends_at_other = std::any_of(lines.begin(), lines.end(), [&](const Complex::Edge& edge) {
+    return edge.neighbour == other && !edge.is_line() && edge.is_line_beyond();
+  });
   lines.erase(
       std::remove_if(lines.begin(), lines.end(), [](const Complex::Edge& edge) { return !edge.is_line(); }),
       lines.end());
   if (lines.empty())
-    return std::nullopt;
+    return ends_at_other ? std::optional(Violation_kind::line) : std::nullopt;
   const auto ahead = std::find_if(lines.begin(), lines.end(),
                                   [&](const Complex::Edge& edge) { return edge.neighbour == other; });
   if (ahead == lines.end() || lines.size() != 2)
@@ -163,6 +168,26 @@ std::optional<Violation_kind> Limits::judge_line(const Complex& complex, Index m
   return std::nullopt;
 }
 
+// Whether two lines become one at a position beside the edge, where at most two end.
+bool Limits::takes_needed_line(const Complex& complex, Index removed, Index kept)
+{
+  for (const Index f : complex.faces_at(removed)) {
+    if (!complex.has(f, kept))
+      continue;
+    const auto [p, q] = complex.opposite_side(f, removed);
+    std::vector<Complex::Edge> edges = complex.edges_at(p == kept ? q : p);
+    edges.erase(
+        std::remove_if(edges.begin(), edges.end(), [](const Complex::Edge& edge) { return !edge.is_line(); }),
+        edges.end());
+    const auto merging = std::count_if(edges.begin(), edges.end(), [&](const Complex::Edge& edge) {
+      return edge.neighbour == removed || edge.neighbour == kept;
+    });
+    if (merging == 2 && edges.size() == 2)
+      return true;
+  }
+  return false;
+}
+
 // Whether a face lies in a strip between two lines: its corners are on lines when its corner `mover` has
 // merged with `other`, and at most one of its edges is a line. The limit of the aspect ratio leaves it out.
 bool Limits::is_of_strip(const Complex& complex, Index face, Index mover, Index other) const
@@ -174,8 +199,9 @@ bool Limits::is_of_strip(const Complex& complex, Index face, Index mover, Index 
   };
   const auto is_line = [&](Index from, Index to) {
     const auto edges = complex.edges_at(from);
-    return std::any_of(edges.begin(), edges.end(),
-                       [&](const auto& edge) { return edge.neighbour == to && edge.is_line(); });
+    return std::any_of(edges.begin(), edges.end(), [&](const auto& edge) {
+      return edge.neighbour == to && edge.is_line() && edge.is_line_beyond();
+    });
   };
   return is_on_line(p) && is_on_line(q) && (is_on_line(mover) || is_on_line(other)) &&
          int(is_line(mover, p)) + int(is_line(p, q)) + int(is_line(q, mover)) <= 1;
@@ -219,7 +245,8 @@ std::optional<Violation_kind> Limits::judge_shapes(const Complex& complex, Index
 std::string Limits::message(Violation_kind kind) const
 {
   if (kind == Violation_kind::line)
-    return "the vertex that moves leaves its border or seam, or is a corner or an end of it";
+    return "the vertex that moves leaves its border or seam, or is a corner or an end of it, or a seam "
+           "beside it would end";
   return message_of_limit(kind, *(m_limits.*limit_of(kind)->value));
 }
 

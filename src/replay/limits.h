@@ -48,6 +48,7 @@ public:
   std::string message(Violation_kind kind) const;
 
 private:
+  static bool takes_needed_line(const Complex& complex, Index removed, Index kept);
   std::optional<Violation_kind> judge_line(const Complex& complex, Index mover, Index other,
                                            const Coordinates& place) const;
   std::optional<Violation_kind> judge_shapes(const Complex& complex, Index removed, Index kept,

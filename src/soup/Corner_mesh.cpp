@@ -140,8 +140,32 @@ std::vector<Corner_mesh::Halfedge> Corner_mesh::build(const Sewing& sewing,
   return halfedges;
 }
 
-void Corner_mesh::find_regions()
+void Corner_mesh::find_regions(const std::function<Index(Mesh::Vertex_index)>& position_of)
 {
+  if (m_soup.triangle_attributes.empty())
+    return;
+  struct Directed_side
+  {
+    std::pair<Index, Index> ends; // positions, in ascending order
+    bool is_ascending;
+    Face face;
+  };
+  std::vector<Directed_side> sides;
+  for (Index f = 0; f < own_face_count(); ++f)
+    for (const Halfedge h : m_mesh.halfedges_around_face(m_mesh.halfedge(Face(f)))) {
+      const Index from = position_of(m_mesh.source(h)), to = position_of(m_mesh.target(h));
+      sides.push_back({std::minmax(from, to), from < to, Face(f)});
+    }
+  std::sort(sides.begin(), sides.end(),
+            [](const Directed_side& a, const Directed_side& b) { return a.ends < b.ends; });
+  std::vector<std::pair<Face, Face>> neighbours;
+  for (std::size_t first = 0, beyond; first < sides.size(); first = beyond) {
+    beyond = first + 1;
+    while (beyond < sides.size() && sides[beyond].ends == sides[first].ends)
+      ++beyond;
+    if (beyond - first == 2 && sides[first].is_ascending != sides[first + 1].is_ascending)
+      neighbours.emplace_back(sides[first].face, sides[first + 1].face);
+  }
   const std::size_t triangle_count = m_soup.triangles.size();
   std::vector<Index> regions;
   for (const Attribute& attribute : m_soup.triangle_attributes) {
@@ -149,18 +173,14 @@ void Corner_mesh::find_regions()
     const auto row = [&](Index t) {
       return std::string_view(reinterpret_cast<const char*>(attribute.rows.data()) + t * size, size);
     };
-    std::size_t edges = 0, differing = 0;
-    for (const Mesh::Edge_index e : m_mesh.edges()) {
-      const Face face = m_mesh.face(m_mesh.halfedge(e, 0)), beyond = m_mesh.face(m_mesh.halfedge(e, 1));
-      if (m_mesh.is_border(e) || !is_own(face) || !is_own(beyond))
-        continue;
-      ++edges;
+    std::size_t differing = 0;
+    for (const auto& [face, beyond] : neighbours) {
       bool is_differing = false;
       for (Index i = 0; i < (std::min)(ply_count(face), ply_count(beyond)); ++i)
         is_differing |= row(triangle(face, i)) != row(triangle(beyond, i));
       differing += is_differing;
     }
-    if (!are_edges_around_regions(differing, edges))
+    if (!are_edges_around_regions(differing, neighbours.size()))
       continue;
     regions.resize(triangle_count, 0);
     std::map<std::pair<Index, std::string_view>, Index> numbers;
@@ -245,14 +265,21 @@ Corner_mesh::Differences Corner_mesh::differences(Mesh::Edge_index e) const
   const Halfedge h = m_mesh.halfedge(e), other = m_mesh.opposite(h);
   const Face face = m_mesh.face(h), beyond = m_mesh.face(other);
   const Index plies = ply_count(face), plies_beyond = ply_count(beyond);
-  Differences result;
+  Differences result = differences_at_target(h);
+  result |= differences_at_target(other);
   result.in_doubles = plies != plies_beyond;
-  for (Index i = 0; i < (std::min)(plies, plies_beyond); ++i) {
-    result |= differences(corner_at(h, i), corner_at(m_mesh.prev(other), i));
-    result |= differences(corner_at(m_mesh.prev(h), i), corner_at(other, i));
-    if (plies > 1 && plies_beyond > 1)
-      result.in_doubles |= ply(face, i).is_against_face() != ply(beyond, i).is_against_face();
-  }
+  for (Index i = 0; i < plies && plies > 1 && plies == plies_beyond; ++i)
+    result.in_doubles |= ply(face, i).is_against_face() != ply(beyond, i).is_against_face();
+  return result;
+}
+
+Corner_mesh::Differences Corner_mesh::differences_at_target(Halfedge h) const
+{
+  const Halfedge beyond = m_mesh.prev(m_mesh.opposite(h));
+  const Index plies = (std::min)(ply_count(m_mesh.face(h)), ply_count(m_mesh.face(beyond)));
+  Differences result;
+  for (Index i = 0; i < plies; ++i)
+    result |= differences(corner_at(h, i), corner_at(beyond, i));
   return result;
 }
 

@@ -147,6 +147,9 @@ public:
   };
   Differences differences(Mesh::Edge_index e) const;
 
+  /// The same at the target of a halfedge inside the mesh alone; doubles are not looked at.
+  Differences differences_at_target(Halfedge h) const;
+
   /// Calls function(h, from) for each face that a motion changes. The corner at the target of h, a halfedge
   /// of this face, becomes the corner at the target of `from`, a halfedge of a contracted face.
   template <class Rule, class Function>
@@ -171,8 +174,10 @@ protected:
   std::vector<Halfedge> build(const Sewing& sewing, const std::function<Point_3(Index vertex)>& point_of);
 
   /// Finds the regions of triangles that attributes tell apart, such as the number of a material or a painted
-  /// colour. Called once, after `build`. Parts of this mesh have the same regions.
-  void find_regions();
+  /// colour. Called once, after `build`, with the positions of vertices: edges are counted where two faces
+  /// run along them in opposite directions, as a replay counts them. Parts of this mesh have the same
+  /// regions.
+  void find_regions(const std::function<Index(Mesh::Vertex_index)>& position_of);
 
   /// Gives all plies at the target of h the corners that those beside `from` have at the target of `from`.
   void carry(Halfedge h, Halfedge from);
@@ -215,7 +220,7 @@ void Corner_mesh::for_each_changed_face(Halfedge moving, const Rule& rule, const
       return false;
     const Halfedge carried = halfedges_to_ends(moving, from).second;
     for (Halfedge h = across(from); m_mesh.face(h) != m_mesh.face(other); h = across(h)) {
-      if (rule.is_line(m_mesh.edge(h)))
+      if (rule.is_line_at_target(from == moving ? m_mesh.opposite(h) : h))
         return false;
       function(from == moving ? m_mesh.prev(h) : h, carried);
     }

@@ -14,12 +14,12 @@ namespace selvedge {
 // The plies of a face have wedges of their own. Those of one wedge of the mesh follow each other: all its
 // faces have as many plies, in one order.
 Progression_recorder::Progression_recorder(const Corner_mesh& corners,
-                                           const std::vector<Corner_mesh::Mesh::Edge_index>& line_edges,
+                                           const Simplify_constraints<Corner_mesh::Mesh>& constraints,
                                            Progression& progression)
     : m_corners(corners), m_progression(progression)
 {
   using Face = Corner_mesh::Face;
-  const Wedge_numbers numbers = number_wedges(corners, line_edges);
+  const Wedge_numbers numbers = number_wedges(corners, constraints);
   std::vector<Index> first(numbers.vertices.size() + 1, 0); // by wedge of the mesh
   const auto for_each_corner = [&](const auto& function) {
     for (const Face face : corners.mesh().faces())

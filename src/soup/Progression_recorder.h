@@ -7,8 +7,7 @@
 #include "Corner_mesh.h"
 
 #include <selvedge/Progression.h>
-
-#include <vector>
+#include <selvedge/Surface_mesh_simplification/Simplify_constraints.h>
 
 namespace selvedge {
 
@@ -21,8 +20,7 @@ public:
   /// Makes `progression` hold the wedges of the soup, and no steps.
   ///
   /// **Preconditions** Nothing has been collapsed.
-  Progression_recorder(const Corner_mesh& corners,
-                       const std::vector<Corner_mesh::Mesh::Edge_index>& line_edges,
+  Progression_recorder(const Corner_mesh& corners, const Simplify_constraints<Corner_mesh::Mesh>& constraints,
                        Progression& progression);
 
   /// Records the moves of the wedges at the source of `moving`, before it is done.

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -142,13 +143,15 @@ Sewn_mesh::Sewn_mesh(const Triangle_soup& soup, const std::vector<Index>& positi
   }
 
   Cancellation_scope::check();
-  find_regions();
+  find_regions(position_of);
+  std::vector<Mesh::Edge_index> line_edges;
   for (Index side = 0; side < own_corners; ++side) {
     const Index mate = sewing.mate(side);
     if (mate != Sewing::none && side < mate && differences(mesh().edge(halfedges[side])).any())
-      m_constraints.line_edges.push_back(mesh().edge(halfedges[side]));
+      line_edges.push_back(mesh().edge(halfedges[side]));
   }
-  m_notes.seam_edges = m_constraints.line_edges.size();
+  m_notes.seam_edges = line_edges.size();
+  find_spokes(std::move(line_edges));
   find_no_strip_vertices(position_of);
 
   if (!obstacle.triangles.empty()) { // the limits are shares of the diagonal of the soup alone
@@ -205,13 +208,42 @@ Sewn_mesh::Sewn_mesh(const Sewn_mesh& whole, const Border_rule<Mesh>& rule, cons
   for (const Index side : cut)
     is_locked[sewing.vertex(side)] = is_locked[sewing.vertex(Sewing::next(side))] = true;
   lock(is_locked);
-  for (Index side = 0; side < originals.size(); ++side)
-    if (sewing.mate(side) != Sewing::none && side < sewing.mate(side) &&
-        rule.is_line(of_whole.edge(originals[side])))
+  for (Index side = 0; side < originals.size(); ++side) {
+    if (sewing.mate(side) == Sewing::none)
+      continue;
+    if (!rule.is_line(of_whole.edge(originals[side]))) {
+      if (rule.is_line_at_target(originals[side]))
+        m_constraints.spokes.push_back(halfedges[side]);
+    } else if (side < sewing.mate(side))
       m_constraints.line_edges.push_back(mesh().edge(halfedges[side]));
+  }
   if (!whole.m_constraints.vertex_weights.empty())
     for (const Mesh::Vertex_index v : vertices)
       m_constraints.vertex_weights.push_back(whole.m_constraints.vertex_weights[v]);
+}
+
+// Tells spokes from other lines: those at a pole, where at least three edges differ at one end only, and in
+// no vertex. Fewer end lines, such as a cut into a texture, and such an end is to stay. Where vertices
+// differ, the edge is a border of a piece.
+void Sewn_mesh::find_spokes(std::vector<Mesh::Edge_index> line_edges)
+{
+  constexpr Index least = 3; // spokes at a pole
+  const auto differs_at_target = [this](Mesh::Edge_index e) -> std::optional<Halfedge> {
+    const Halfedge h = mesh().halfedge(e), other = mesh().opposite(h);
+    const Differences here = differences_at_target(h), there = differences_at_target(other);
+    if (differences(e).in_doubles || here.in_vertex || there.in_vertex || here.any() == there.any())
+      return std::nullopt;
+    return here.any() ? h : other;
+  };
+  std::map<Mesh::Vertex_index, Index> counts;
+  for (const Mesh::Edge_index e : line_edges)
+    if (const auto h = differs_at_target(e))
+      ++counts[mesh().target(*h)];
+  for (const Mesh::Edge_index e : line_edges)
+    if (const auto h = differs_at_target(e); h && counts[mesh().target(*h)] >= least)
+      m_constraints.spokes.push_back(*h);
+    else
+      m_constraints.line_edges.push_back(e);
 }
 
 void Sewn_mesh::lock(const std::vector<char>& is_locked)
@@ -257,7 +289,7 @@ void Sewn_mesh::find_joint_vertices(std::vector<char>& is_locked, const std::vec
 }
 
 // Finds the ends of lines that a reader of the log may not see: those where the mesh is cut for the sake of
-// non-manifold places, those of normals, which may be made anew, and those of regions, which are found.
+// non-manifold places, and those of normals, which may be made anew.
 template <class Function>
 void Sewn_mesh::find_no_strip_vertices(const Function& position_of)
 {
@@ -265,9 +297,16 @@ void Sewn_mesh::find_no_strip_vertices(const Function& position_of)
     m_constraints.no_strip_vertices.push_back(mesh().source(h));
     m_constraints.no_strip_vertices.push_back(mesh().target(h));
   };
+  const auto is_unseen = [this](Halfedge h) {
+    const Differences differ = differences(mesh().edge(h));
+    return !differ.in_vertex && !differ.in_uv && !differ.in_label && !differ.in_region;
+  };
   for (const Mesh::Edge_index e : m_constraints.line_edges)
-    if (const Differences differ = differences(e); !differ.in_vertex && !differ.in_uv && !differ.in_label)
+    if (is_unseen(mesh().halfedge(e)))
       add(mesh().halfedge(e));
+  for (const Halfedge h : m_constraints.spokes)
+    if (is_unseen(h))
+      m_constraints.no_strip_vertices.push_back(mesh().target(h));
   std::vector<std::pair<std::pair<Index, Index>, Halfedge>> borders; // by the ends' positions
   for (const Halfedge h : mesh().halfedges())
     if (mesh().is_border(h))

@@ -20,7 +20,7 @@ Value_wedges<dimension>::Value_wedges(const Corner_mesh& corners, const Scale& s
                                       const Simplify_constraints<Mesh>& constraints, double unit)
     : m_corners(corners), m_unit(unit)
 {
-  Wedge_numbers numbers = number_wedges(corners, constraints.line_edges);
+  Wedge_numbers numbers = number_wedges(corners, constraints);
   const std::vector<Mesh::Vertex_index>& vertices = numbers.vertices;
   m_numbers = std::move(numbers.of_face);
   m_wedges.assign(vertices.size(), {});

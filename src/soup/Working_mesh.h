@@ -91,7 +91,7 @@ public:
   /// the mesh.
   void record_progression(Progression& progression)
   {
-    m_progression.emplace(*this, constraints().line_edges, progression);
+    m_progression.emplace(*this, constraints(), progression);
   }
 
   // Called by the reduction, see `No_observer`.

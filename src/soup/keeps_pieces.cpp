@@ -96,8 +96,8 @@ bool keeps_pieces(const Corner_mesh& corners, Halfedge moving, const Border_rule
 {
   const Mesh& mesh = corners.mesh();
   // At each end of an edge, a line is open (a border, or vertices of different numbers on the two sides) or
-  // closed. Runs of open vertices are boundary loops of pieces, or stretches of such loops. So none may
-  // vanish, and no two may meet.
+  // closed, and a spoke is closed. Runs of open vertices are boundary loops of pieces, or stretches of such
+  // loops. So none may vanish, and no two may meet.
   const auto is_open_at_end = [&](Halfedge h) {
     const Halfedge other = mesh.opposite(h);
     return mesh.is_border(h) || mesh.is_border(other) ||
@@ -111,11 +111,11 @@ bool keeps_pieces(const Corner_mesh& corners, Halfedge moving, const Border_rule
   const Halfedge back = mesh.opposite(moving);
   if (corners.has_doubles(mesh.face(moving)) || corners.has_doubles(mesh.face(back)))
     return keeps_pieces_of_doubles(corners, moving, rule);
-  if (!rule.is_line(mesh.edge(moving)))
+  if (!rule.is_line_at_target(back))
     return true;
   const bool is_open_ahead = is_open_at_end(moving), is_open = is_open_at_end(back);
   for (const Halfedge h : mesh.halfedges_around_target(back)) {
-    if (h == back || !rule.is_line(mesh.edge(h)))
+    if (h == back || !rule.is_line_at_target(h))
       continue;
     const bool is_open_behind = is_open_at_end(mesh.opposite(h));
     if (is_open_behind == is_open_ahead)

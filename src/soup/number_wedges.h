@@ -6,6 +6,8 @@
 
 #include "Corner_mesh.h"
 
+#include <selvedge/Surface_mesh_simplification/Simplify_constraints.h>
+
 #include <vector>
 
 namespace selvedge {
@@ -17,13 +19,14 @@ struct Wedge_numbers
   std::vector<Corner_mesh::Mesh::Vertex_index> vertices; ///< by wedge
 };
 
-/// Numbers the wedges in the order of their first halfedges.
+/// Numbers the wedges in the order of their first halfedges. The constraints say which edges are lines and
+/// spokes.
 ///
 /// **Preconditions** Nothing has been collapsed.
 ///
 /// **Complexity** Linear.
 Wedge_numbers number_wedges(const Corner_mesh& corners,
-                            const std::vector<Corner_mesh::Mesh::Edge_index>& line_edges);
+                            const Simplify_constraints<Corner_mesh::Mesh>& constraints);
 
 } // namespace selvedge
 

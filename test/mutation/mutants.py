@@ -214,6 +214,27 @@ group(
 
 group(
     headers + "Surface_mesh_simplification/Border_rule.h",
+    ("spokes_test",),
+    ("(is_line_at_target(h) || takes_needed_spoke(h, *this))", "takes_needed_spoke(h, *this)", "a vertex comes along a spoke"),
+    ("(is_line_at_target(h) || takes_needed_spoke(h, *this))", "is_line_at_target(h)", "one line is left at a pole"),
+    ("bool(get(state.marks, in)) && (!moves || is_line_at_target(at))", "bool(get(state.marks, in))",
+     "a line along which a pole goes stays where nothing differs"),
+)
+group(
+    "src/replay/Complex.cpp",
+    ("spokes_test",),
+    ("is_one_ended(ends) && counts[one_end(side)] < least", "false", "ends of cuts move in a replay"),
+    ("edge.is_seam && is_line_at_kept", "edge.is_seam", "lines stay where nothing differs"),
+)
+group(
+    "src/replay/limits.cpp",
+    ("spokes_test",),
+    ("    if (takes_needed_line(complex, removed, kept))\n      return Violation_kind::line;\n", "", "one line is left at a pole"),
+    ("return ends_at_other ? std::optional(Violation_kind::line) : std::nullopt;", "return std::nullopt;",
+     "a vertex comes along a spoke"),
+)
+group(
+    headers + "Surface_mesh_simplification/Border_rule.h",
     ("placement_test",),
     ("||\n        is_cut_off(profile.v0_v1(), *this))", ")", "a face whose edges are all lines vanishes"),
 )
@@ -477,7 +498,7 @@ group(
     loop + "Hindrance_search.h",
     ("hindrances_test",),
     ("weakest = (std::max)(weakest, reason);", "weakest = reason;", "an edge counts for its last direction"),
-    ("line_reason(e) < weakest_gone", "line_reason(e) <= weakest_gone", "the kinds of lines are mixed up"),
+    ("search->line_reason(edge(h, search->m_mesh)) < weakest_gone", "search->line_reason(edge(h, search->m_mesh)) <= weakest_gone", "the kinds of lines are mixed up"),
     sources=("src/simplify/simplify_soup.cpp",),
 )
 group(
@@ -565,14 +586,15 @@ group(
 group(
     "src/soup/Corner_mesh.h",
     lines,
-    ("if (rule.is_line(m_mesh.edge(h)))\n        return false;", "if (false)\n        return false;",
+    ("if (rule.is_line_at_target(from == moving ? m_mesh.opposite(h) : h))\n        return false;", "if (false)\n        return false;",
      "corners are carried across lines"),
     sources=("src/soup/Working_mesh.cpp",),
 )
 group(
     "src/soup/Sewn_mesh.cpp",
     lines,
-    ("rule.is_line(of_whole.edge(originals[side])))", "false)", "cells know no lines"),
+    ("} else if (side < sewing.mate(side))", "} else if (false)", "cells know no lines"),
+    ("if (rule.is_line_at_target(originals[side]))", "if (false)", "cells know no spokes"),
     ("is_locked[v] = rule.is_locked(vertices[v]);", "", "what is locked in the whole moves in a cell"),
     ("is_locked[v] = vertices_at[position_of(v)] > 1;", "is_locked[v] = vertices_at[position_of(v)] > 2;", "pairs of twins move"),
     ("is_locked[v] |= is_in_frozen_face[v];", "", "faces that offend move"),
@@ -747,7 +769,7 @@ group(
 group(
     "src/replay/Complex.cpp",
     ("replay_test", "replay_all_test"),
-    ("carry_seams(contracted, removed, kept);", "", "seams do not follow"),
+    ("carry_seams(removed, kept);", "", "seams do not follow"),
     ("carry_passed(removed, kept, before);\n", "\n", "what was passed is forgotten"),
     ("if (is_along_line && before[1] != m_points[kept])", "if (false)", "what KEPT has passed is forgotten"),
     ("carry_corners(contracted, moving, removed, kept);", "", "corners do not follow"),
@@ -809,7 +831,7 @@ group(
 group(
     "src/soup/number_wedges.cpp",
     ("value_wedges_test",),
-    ("!is_line[mesh.edge(h)];", "true;", "wedges go on across lines, in one direction"),
+    ("!is_line_at_target[h];", "true;", "wedges go on across lines, in one direction"),
 )
 group(
     "src/soup/Place_rounding.cpp",
@@ -1038,7 +1060,7 @@ group(
 group(
     "src/replay/Complex.cpp",
     ("non_manifold_test",),
-    ("!m_faces[f].is_seam[at] && !edge_to(edges, sides[0]).is_border())", "!m_faces[f].is_seam[at])",
+    ("!m_faces[f].is_seam[at][0] &&\n                !edge_to(edges, sides[0]).is_border())", "!m_faces[f].is_seam[at][0])",
      "corners are handed on from sheet to sheet"),
 )
 group(
@@ -1416,7 +1438,7 @@ group(
 )
 
 group("src/soup/Corner_mesh.cpp", ("attributes_test",),
-      ("!are_edges_around_regions(differing, edges)", "differing == 0", "a value that is another on each face makes lines"),
+      ("!are_edges_around_regions(differing, neighbours.size())", "differing == 0", "a value that is another on each face makes lines"),
       ("m_regions && (*m_regions)[a / 3] != (*m_regions)[b / 3]", "false", "painted regions lose their outlines"))
 
 group("src/verify/near_positions.cpp", ("verify_match_pieces_test",),

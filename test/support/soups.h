@@ -101,6 +101,21 @@ inline Triangle_soup sheet(Index width, Index depth, double z = 0)
   return result;
 }
 
+/// The same with texture coordinates, of which every triangle at one vertex has its own there.
+inline Triangle_soup with_own_uvs_at(Triangle_soup soup, Index vertex)
+{
+  for (const Point_3& p : soup.points)
+    soup.uvs.values.push_back({p.x(), p.y()});
+  soup.uvs.of_triangle = soup.triangles;
+  for (Index_triple& triangle : soup.uvs.of_triangle)
+    for (Index& corner : triangle)
+      if (corner == vertex) {
+        corner = Index(soup.uvs.values.size());
+        soup.uvs.values.push_back({soup.points[vertex].x() + 0.01 * corner, soup.points[vertex].y()});
+      }
+  return soup;
+}
+
 inline Triangle_soup tetrahedron()
 {
   return soup({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});

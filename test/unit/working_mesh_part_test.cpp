@@ -35,6 +35,8 @@ struct Whole_mesh
   {
     for (const auto edge : working.constraints().line_edges)
       rule.mark(edge);
+    for (const auto spoke : working.constraints().spokes)
+      rule.mark_at_target(spoke);
     for (const auto vertex : working.constraints().locked_vertices)
       rule.lock(vertex);
   }
@@ -59,11 +61,13 @@ void expect_is_part(const Whole_mesh& whole, const Working_mesh& part, const std
   const Mesh& mesh_of_whole = whole.working.mesh();
   ASSERT_TRUE(CGAL::is_valid_polygon_mesh(mesh));
   ASSERT_EQ(mesh.number_of_faces(), faces.size());
-  std::vector<char> is_locked(mesh.number_of_vertices(), false), is_line(mesh.number_of_edges(), false);
+  std::vector<char> is_locked(mesh.number_of_vertices(), false), is_line(mesh.number_of_halfedges(), false);
   for (const Vertex v : part.constraints().locked_vertices)
     is_locked[v] = true;
   for (const auto e : part.constraints().line_edges)
-    is_line[e] = true;
+    is_line[mesh.halfedge(e)] = is_line[mesh.opposite(mesh.halfedge(e))] = true;
+  for (const Halfedge h : part.constraints().spokes)
+    is_line[h] = true;
   std::map<Vertex, std::set<Vertex>> parts_of; // vertices here of one in the whole
   for (Index face = 0; face < faces.size(); ++face)
     for (unsigned char place = 0; place < 3; ++place) {
@@ -80,7 +84,7 @@ void expect_is_part(const Whole_mesh& whole, const Working_mesh& part, const std
         continue;
       ASSERT_EQ(faces[part.side(across).face], beyond);
       ASSERT_EQ(part.side(across).place, whole.working.side(across_there).place);
-      ASSERT_EQ(bool(is_line[mesh.edge(here)]), whole.rule.is_line(mesh_of_whole.edge(there)));
+      ASSERT_EQ(bool(is_line[here]), whole.rule.is_line_at_target(there));
     }
   for (const auto& [there, here] : parts_of) {
     const auto around = mesh_of_whole.faces_around_target(mesh_of_whole.halfedge(there));
@@ -101,7 +105,8 @@ TEST(WorkingMeshPart, IsWhatTheWholeIsWhereItHasAllFaces)
   for (unsigned seed = 1; seed <= 300; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     std::mt19937 random(seed);
-    const Whole_mesh whole(finned_sheet(12, seed));
+    const Whole_mesh whole(seed % 4 == 0 ? with_own_uvs_at(sheet(12, 12), 84) : finned_sheet(12, seed));
+    ASSERT_EQ(whole.working.constraints().spokes.empty(), seed % 4 != 0);
     const std::vector<Index> faces = some_faces(whole.prepared.soup.triangles.size(), 2 + seed % 20, random);
     const Working_mesh part(whole.working, whole.rule, faces);
     ASSERT_NO_FATAL_FAILURE(expect_is_part(whole, part, faces));

@@ -332,20 +332,34 @@ void Judged_complex::find_seams(const Triangle_soup& own)
           pair.push_back(f);
       edges.push_back({{p, edge.neighbour}, plies(pair[0]), plies(pair[1])});
     }
+  std::map<Index, std::vector<Index>>
+      ends_alone; // by position, the other ends of lines that are so here alone
   for (const Inner_edge& edge : edges) {
     bool is_line = edge.here.size() != edge.beyond.size();
+    std::set<Index> different_at;
     for (std::size_t i = 0; i < edge.here.size() && !is_line; ++i) {
       const Index f = edge.here[i], g = edge.beyond[i];
       is_line = differ_in_label(own.groups, f, g) || differ_in_label(own.objects, f, g) ||
                 differ_in_label(own.materials, f, g);
       for (const Index end : {edge.ends.first, edge.ends.second}) {
         const Index a = corner_at(f, end), b = corner_at(g, end);
-        is_line = is_line || own.triangles[a / 3][a % 3] != own.triangles[b / 3][b % 3] ||
-                  differ(own.uvs, a, b) || differ(own.normals, a, b);
+        is_line = is_line || own.triangles[a / 3][a % 3] != own.triangles[b / 3][b % 3];
+        if (differ(own.uvs, a, b) || differ(own.normals, a, b))
+          different_at.insert(end);
       }
     }
-    if (is_line)
-      m_seams.insert(edge.ends);
+    const auto runs_on = [&](Index f) { // along the edge
+      return (corner_at(f, edge.ends.first) + 1) % 3 == corner_at(f, edge.ends.second) % 3;
+    };
+    for (std::size_t i = 0; i < edge.here.size() && !is_line; ++i)
+      is_line = (runs_on(edge.here[i]) == runs_on(edge.here[0])) !=
+                (runs_on(edge.beyond[i]) == runs_on(edge.beyond[0]));
+    if (is_line || different_at.size() == 2)
+      add_seam(edge.ends.first, edge.ends.second);
+    else if (!different_at.empty()) {
+      const Index at = *different_at.begin();
+      ends_alone[at].push_back(at == edge.ends.first ? edge.ends.second : edge.ends.first);
+    }
   }
   for (const Attribute& attribute : own.triangle_attributes) {
     std::set<std::pair<Index, Index>> around_regions;
@@ -354,7 +368,18 @@ void Judged_complex::find_seams(const Triangle_soup& own)
         if (attribute.rows[edge.here[i]] != attribute.rows[edge.beyond[i]]) // which are of one byte
           around_regions.insert(edge.ends);
     if (16 * around_regions.size() <= edges.size())
-      m_seams.insert(around_regions.begin(), around_regions.end());
+      for (const auto& [p, q] : around_regions)
+        add_seam(p, q);
+  }
+  for (auto& [at, others] : ends_alone) {
+    others.erase(
+        std::remove_if(others.begin(), others.end(), [&, at = at](Index q) { return is_seam(at, q); }),
+        others.end());
+    for (const Index q : others)
+      if (others.size() >= 3)
+        m_seams.insert({at, q});
+      else
+        add_seam(at, q);
   }
 }
 
@@ -440,9 +465,12 @@ std::optional<Broken_promise> Judged_complex::judge_line(Index removed, Index ke
 {
   std::vector<Edge> lines;
   const Edge* along = nullptr;
-  for (const Edge& edge : edges_at(removed))
-    if (edge.is_border() || is_seam(removed, edge.neighbour))
+  for (const Edge& edge : edges_at(removed)) {
+    if (edge.is_border() || is_seam_at(removed, edge.neighbour))
       lines.push_back(edge);
+    else if (edge.neighbour == kept && is_seam_at(kept, removed))
+      return Broken_promise{Promise::seams, "what moves comes along a line on which it is not"};
+  }
   for (const Edge& edge : lines)
     if (edge.neighbour == kept)
       along = &edge;
@@ -643,6 +671,8 @@ std::optional<Broken_promise> Judged_complex::collapse(Index removed, Index kept
     return Broken_promise{Promise::frozen, "what moves is locked, kept, frozen, or of an obstacle"};
   if (auto broken = judge_link(removed, kept))
     return broken;
+  if (takes_needed_line(removed, kept))
+    return Broken_promise{Promise::seams, "a position beside the edge would be the end of a line"};
   if (auto broken = judge_line(removed, kept))
     return broken;
   begin_collapse({removed});
@@ -667,11 +697,13 @@ std::optional<Broken_promise> Judged_complex::collapse(Index removed, Index kept
     if (!is_one_fan(moved))
       return Broken_promise{Promise::topology, "what goes to a new place holds several sheets together"};
     for (const Edge& edge : edges_at(moved))
-      if (edge.is_border() || is_seam(moved, edge.neighbour))
+      if (edge.is_border() || is_seam_at(moved, edge.neighbour))
         return Broken_promise{Promise::seams, "what goes to a new place is on a line"};
   }
   if (auto broken = judge_link(removed, kept))
     return broken;
+  if (takes_needed_line(removed, kept))
+    return Broken_promise{Promise::seams, "a position beside the edge would be the end of a line"};
   const Index first = is_removed_first ? removed : kept, second = is_removed_first ? kept : removed;
   begin_collapse({removed, kept});
   if (auto broken = judge_motion(first, {Index(-1), at}))
@@ -691,13 +723,46 @@ void Judged_complex::place_at(Index position, const Point_3& at)
     m_faces[f].box = box_of(m_faces[f].positions);
 }
 
+// What differs at `removed` does so at `kept` if the corners on the two sides of their edge differ there.
 void Judged_complex::merge(Index removed, Index kept)
 {
-  for (const Edge& edge : edges_at(removed)) {
-    if (m_seams.erase(std::minmax(removed, edge.neighbour)) > 0 && edge.neighbour != kept)
-      m_seams.insert(std::minmax(kept, edge.neighbour));
+  const std::vector<Edge> edges = edges_at(removed);
+  const bool differs_at_kept = std::any_of(edges.begin(), edges.end(), [&](const Edge& edge) {
+    return edge.neighbour == kept && (edge.is_border() || is_seam_at(kept, removed));
+  });
+  for (const Edge& edge : edges) {
+    if (edge.neighbour == kept)
+      continue;
+    if (is_seam_at(removed, edge.neighbour) && differs_at_kept)
+      m_seams.insert({kept, edge.neighbour});
+    if (is_seam_at(edge.neighbour, removed))
+      m_seams.insert({edge.neighbour, kept});
+  }
+  for (const Edge& edge : edges) {
+    m_seams.erase({removed, edge.neighbour});
+    m_seams.erase({edge.neighbour, removed});
   }
   move(removed, kept);
+}
+
+// Whether two lines become one at a position beside the edge, and no two others end there.
+bool Judged_complex::takes_needed_line(Index removed, Index kept) const
+{
+  for (const Index f : m_faces_at[removed]) {
+    if (!has(f, kept))
+      continue;
+    const auto [a, b] = others(f, removed);
+    const Index apex = a == kept ? b : a;
+    int lines = 0, merging = 0;
+    for (const Edge& edge : edges_at(apex))
+      if (edge.is_border() || is_seam_at(apex, edge.neighbour)) {
+        ++lines;
+        merging += edge.neighbour == removed || edge.neighbour == kept;
+      }
+    if (merging == 2 && lines == 2)
+      return true;
+  }
+  return false;
 }
 
 void Judged_complex::move(Index moved, Index kept)

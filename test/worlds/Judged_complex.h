@@ -59,8 +59,9 @@ public:
   /// Lets a face run the other way from now on.
   void turn(Index face);
 
-  /// Lines of the soup: edges across which a number, label or value changes. To be called after snaps. Where
-  /// pairs may descend, faces with the same three positions go with the first of them from now on.
+  /// Lines of the soup: edges across which a number, label or value changes. Those where only values change,
+  /// and at one end, are lines there alone, if there are three or more. To be called after snaps.
+  /// Where pairs may descend, faces with the same three positions go with the first of them from now on.
   void find_seams(const Triangle_soup& own);
 
   /// Everything at one position goes to another. What is wrong with that is told, and then it is not done.
@@ -103,12 +104,15 @@ private:
   void set_doubles_aside(const Triangle_soup& own);
   Index front(Index face) const { return m_fronts.empty() ? face : m_fronts[face]; }
   std::vector<Index> plies(Index front) const;
-  bool is_seam(Index p, Index q) const { return m_seams.count(std::minmax(p, q)) > 0; }
+  bool is_seam_at(Index p, Index q) const { return m_seams.count({p, q}) > 0; } // at p
+  bool is_seam(Index p, Index q) const { return is_seam_at(p, q) && is_seam_at(q, p); }
+  void add_seam(Index p, Index q) { m_seams.insert({{p, q}, {q, p}}); }
   std::vector<std::vector<Index>> fans_at(Index position) const;
   bool is_one_fan(Index position) const { return fans_at(position).size() == 1; }
   bool is_inside_line(Index position, Index end) const;
   std::optional<Broken_promise> judge_link(Index removed, Index kept) const;
   std::optional<Broken_promise> judge_line(Index removed, Index kept) const;
+  bool takes_needed_line(Index removed, Index kept) const;
   std::optional<Broken_promise> judge_motion(Index moved, const Place& target) const;
   std::optional<Broken_promise> judge_clearance(Index moved, const Place& target) const;
   bool is_near(const Box& a, const Box& b) const;
@@ -144,7 +148,7 @@ private:
   // Of the present collapse.
   std::set<Index> m_changing;
   std::size_t m_pairs_before = 0;
-  std::set<std::pair<Index, Index>> m_seams;
+  std::set<std::pair<Index, Index>> m_seams; // the edge from the first to the second is a line at the first
   std::size_t m_own_alive = 0;
 };
 

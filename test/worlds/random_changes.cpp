@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "random_changes.h"
+#include "soup/selection.h"
 #include "support/soups.h"
 
 #include <selvedge/normals.h>
@@ -287,6 +288,47 @@ void decorate(Triangle_soup& soup, Random& random)
       weights.rows.insert(weights.rows.end(), bytes, bytes + sizeof weight);
     }
     soup.vertex_attributes.push_back(std::move(weights));
+  }
+}
+
+void add_poles(Triangle_soup& soup, Random& random)
+{
+  const auto same_place = [&](Index v, Index w) { return soup.points[v] == soup.points[w]; };
+  if (random.one_in(2) && soup.uvs.empty()) {
+    for (const Point_3& p : soup.points)
+      soup.uvs.values.push_back({p.x(), p.y()});
+    soup.uvs.of_triangle = soup.triangles;
+  }
+  for (int i = random.between(1, 4); i > 0; --i) {
+    const Index pole = soup.triangles[random.below(soup.triangles.size())][random.below(3)];
+    const bool is_split = random.one_in(2), is_in_uv = random.one_in(2), is_in_normal = random.one_in(4);
+    const int variety = random.one_of({2, 4, 100}); // of values
+    const auto with_own = [&](auto& values, std::size_t t, std::size_t k) {
+      auto value = values.values[values.of_triangle[t][k]];
+      value[0] += random.between(0, variety) / 256.;
+      values.of_triangle[t][k] = Index(values.values.size());
+      values.values.push_back(value);
+    };
+    for (std::size_t t = 0; t < soup.triangles.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        Index& v = soup.triangles[t][k];
+        if (!same_place(v, pole) || random.one_in(16))
+          continue;
+        if (is_in_uv && !soup.uvs.empty())
+          with_own(soup.uvs, t, k);
+        if (is_in_normal && !soup.normals.empty() && !soup.normals.missing)
+          with_own(soup.normals, t, k);
+        if (is_split && !random.one_in(variety)) {
+          for (Attribute& attribute : soup.vertex_attributes) {
+            const std::size_t size = row_size(attribute);
+            const std::vector<unsigned char> row(attribute.rows.begin() + std::ptrdiff_t(v * size),
+                                                 attribute.rows.begin() + std::ptrdiff_t((v + 1) * size));
+            attribute.rows.insert(attribute.rows.end(), row.begin(), row.end());
+          }
+          soup.points.push_back(Point_3(soup.points[v]));
+          v = Index(soup.points.size() - 1);
+        }
+      }
   }
 }
 

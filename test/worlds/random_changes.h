@@ -33,6 +33,10 @@ std::string displace(Triangle_soup& soup, Random& random);
 /// holds them.
 void decorate(Triangle_soup& soup, Random& random);
 
+/// Makes poles of some vertices: the triangles there have texture coordinates, normals or vertices of their
+/// own, all of them or a few.
+void add_poles(Triangle_soup& soup, Random& random);
+
 /// An attribute of triangles, of one byte each, as a PLY file holds it: the same in two regions, or anyhow.
 void number_triangles(Triangle_soup& soup, Random& random);
 

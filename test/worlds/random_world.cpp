@@ -519,6 +519,11 @@ World random_world(std::uint64_t seed)
   if (const std::string done = displace(soup, random); !done.empty())
     world.scene += ", " + done;
   decorate(soup, random);
+  if (world.seed % 8 == 1 || world.seed % 16 == 10) {
+    Random others(seed + 8); // likewise
+    add_poles(soup, others);
+    world.scene += ", with poles";
+  }
   if (random.one_in(3))
     world.obstacle = random_obstacle(soup, random);
 

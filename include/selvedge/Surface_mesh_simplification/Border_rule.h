@@ -45,7 +45,8 @@ enum class Line_refusal : unsigned char {
   none,     ///< the vertex may move
   locked,   ///< the vertex is locked
   off_line, ///< the vertex is on a line, and the edge is not
-  line_end, ///< the vertex ends a line or joins several, or a face beside the edge has line edges only
+  line_end, ///< the vertex ends a line or joins several, or a face beside the edge has line edges only, or
+            ///< the vertex would come along a spoke, or leave a pole with one line alone
   turn,     ///< the line turns too much at the vertex
   drift     ///< the line would come too far from an original vertex of it
 };
@@ -56,12 +57,17 @@ enum class Line_refusal : unsigned char {
 /// `Border_filter` and `Halfedge_placement` ask the rule; `Border_visitor` updates it after every collapse.
 /// Copies share one state.
 ///
+/// A *spoke* is an inner edge that is a line at one end only. So are the edges at the pole of a sphere, where
+/// each face has a texture coordinate of its own at the pole and shares those on the ring. The pole is on
+/// them; the vertices of the ring are not, and may move around it.
+///
 /// **Guarantees** for a mesh reduced by collapses that `allows` accepts:
 /// 1. A locked vertex stays where it is.
 /// 2. A vertex on a line moves only along the line, to the next vertex of the same line, and only where the
 ///    line turns by at most `max_border_turn` or `max_seam_turn`. Ends of lines, vertices with more than two
 ///    line edges, and vertices where a border becomes a marked line never move.
-/// 3. No collapse removes a face whose three edges are all lines.
+/// 3. No collapse removes a face whose three edges are all lines. One may remove a face between two spokes,
+///    if a third line ends at the same pole. No vertex moves along a spoke to its pole.
 /// 4. Every original vertex of a line lies within `max_drift`, or within its own limit of drift, of the
 ///    segment that replaced it.
 ///
@@ -100,10 +106,19 @@ public:
   /// Marks an inner edge as a line.
   void mark(Edge e)
   {
-    put(m_state->marks, e, true);
     const Halfedge h = halfedge(e, m_state->mesh);
-    m_state->raise(source(h, m_state->mesh), Freedom::along_line);
+    for (const Halfedge end : {h, opposite(h, m_state->mesh)}) {
+      put(m_state->marks, end, true);
+      m_state->raise(target(end, m_state->mesh), Freedom::along_line);
+    }
+  }
+
+  /// Marks an inner edge as a line at the target of `h`: as a spoke, unless it is marked at the other end.
+  void mark_at_target(Halfedge h)
+  {
+    put(m_state->marks, h, true);
     m_state->raise(target(h, m_state->mesh), Freedom::along_line);
+    m_state->may_have_spokes = true;
   }
 
   /// Locks a vertex, so that it never moves. Other vertices may move onto it.
@@ -126,19 +141,23 @@ public:
   bool may_bound_strip(Vertex v) const { return get(m_state->freedoms, v) == Freedom::along_line; }
   bool bounds_no_strip(Vertex v) const { return get(m_state->freedoms, v) == Freedom::along_other_line; }
 
-  /// Returns whether the edge is a border or marked. `get` makes the rule a property map that says the same.
+  /// Returns whether the edge is a border, or marked at both ends. `get` makes the rule a property map that
+  /// says the same.
   bool is_line(Edge e) const
   {
     const Halfedge h = halfedge(e, m_state->mesh);
-    return get(m_state->marks, e) || CGAL::is_border(h, m_state->mesh) ||
-           CGAL::is_border(opposite(h, m_state->mesh), m_state->mesh);
+    return is_line_at_target(h) && is_line_at_target(opposite(h, m_state->mesh));
   }
   friend bool get(const Border_rule& rule, Edge e) { return rule.is_line(e); }
+
+  /// Returns whether the edge of `h` is a border, or marked at the target of `h`.
+  bool is_line_at_target(Halfedge h) const { return get(m_state->marks, h) || is_border_edge(h); }
 
   /// Returns whether the source of `h` may move onto its target.
   bool may_move(Halfedge h) const
   {
-    return is_free(source(h, m_state->mesh)) || refusal(h) == Line_refusal::none;
+    return (is_free(source(h, m_state->mesh)) && !m_state->may_have_spokes) ||
+           refusal(h) == Line_refusal::none;
   }
 
   /// Returns why the source of `h` may not move onto its target: the first reason, in their order.
@@ -148,40 +167,51 @@ public:
     const Vertex mover = source(h, state.mesh);
     const Freedom freedom = get(state.freedoms, mover);
     if (freedom == Freedom::free)
-      return Line_refusal::none;
+      return state.may_have_spokes && (is_line_at_target(h) || takes_needed_spoke(h, *this))
+                 ? Line_refusal::line_end
+                 : Line_refusal::none;
     if (freedom == Freedom::none)
       return Line_refusal::locked;
-    if (!is_line(edge(h, state.mesh)))
+    if (!is_line_at_target(opposite(h, state.mesh)))
       return Line_refusal::off_line;
     const std::optional<Halfedge> behind = line_behind(h, *this);
-    if (!behind || is_cut_off(h, *this))
+    if (!behind || is_cut_off(h, *this) || (state.may_have_spokes && takes_needed_spoke(h, *this)))
       return Line_refusal::line_end;
     return straightening(*behind, h, get(state.points, target(h, state.mesh)));
   }
 
   /// Returns whether the lines would let the source of `h` move onto its target, apart from locks and from
-  /// limits of turn and drift, if the edges for which `get(lines, edge)` is true were all the lines.
+  /// limits of turn and drift, if they were those of which `lines.is_line_at_target(halfedge)` says so.
   template <class Lines>
   bool may_move_along(Halfedge h, const Lines& lines) const
   {
     const TriangleMesh& mesh = m_state->mesh;
-    const auto around = CGAL::halfedges_around_source(source(h, mesh), mesh);
-    if (std::none_of(around.begin(), around.end(), [&](Halfedge out) { return get(lines, edge(out, mesh)); }))
-      return true;
-    return get(lines, edge(h, mesh)) && line_behind(h, lines) && !is_cut_off(h, lines);
+    if (takes_needed_spoke(h, lines))
+      return false;
+    const Halfedge back = opposite(h, mesh);
+    const auto around = CGAL::halfedges_around_target(back, mesh);
+    if (std::none_of(around.begin(), around.end(), [&](Halfedge in) { return lines.is_line_at_target(in); }))
+      return !lines.is_line_at_target(h);
+    return lines.is_line_at_target(back) && line_behind(h, lines) && !is_cut_off(h, lines);
   }
 
   /// Returns whether the collapse that left `kept` may have changed what `may_move` says of edges that do not
   /// end at `kept`; `reaches` says so of one such edge. See `Collapse_locality`.
   bool reaches_neighbours(Vertex kept) const { return get(m_state->freedoms, kept) != Freedom::free; }
-  bool reaches(Vertex kept, Edge e) const { return reaches_neighbours(kept) && is_line(e); }
+  bool reaches(Vertex kept, Edge e) const
+  {
+    const Halfedge h = halfedge(e, m_state->mesh);
+    return reaches_neighbours(kept) &&
+           (is_line_at_target(h) || is_line_at_target(opposite(h, m_state->mesh)));
+  }
 
   /// Returns whether the ends of an edge may merge at the place of the collapse.
   ///
   /// Where this place is one end, the answer is that of `may_move`. Any other place is allowed when neither
   /// end is on a line or locked, and refused when one of them is. When both are, neither may be locked, the
   /// edge must be a line itself with no face beside it whose edges are all lines, and the line must go on at
-  /// both ends and change there within the limits for turn and drift.
+  /// both ends and change there within the limits for turn and drift. In any case, a pole at which a spoke
+  /// goes has three lines.
   template <class Profile>
   bool allows(const internal::Collapse<Profile>& collapse) const
   {
@@ -189,6 +219,8 @@ public:
       return may_move(collapse.moving());
     const State& state = *m_state;
     const Profile& profile = collapse.profile();
+    if (state.may_have_spokes && takes_needed_spoke(profile.v0_v1(), *this))
+      return false;
     if (is_free(profile.v0()) && is_free(profile.v1()))
       return true;
     if (is_free(profile.v0()) || is_free(profile.v1()) || is_locked(profile.v0()) ||
@@ -217,11 +249,11 @@ public:
     if (state.pending->freedom != Freedom::free && !state.squared_drift_of.empty())
       state.squared_drift_of[kept] = state.pending->max_squared_drift;
     for (const Pending_line& line : state.pending->lines) {
-      const Edge e = edge(halfedge(kept, line.far_end, state.mesh).first, state.mesh);
-      if (line.is_marked)
-        put(state.marks, e, true);
-      if (!line.passed.empty())
-        state.passed[e] = line.passed;
+      const Halfedge h = halfedge(kept, line.far_end, state.mesh).first;
+      put(state.marks, h, line.is_marked_far);
+      put(state.marks, opposite(h, state.mesh), line.is_marked_near);
+      if (!line.passed.empty() && is_line_at_target(h))
+        state.passed[edge(h, state.mesh)] = line.passed;
     }
     state.pending.reset();
   }
@@ -236,12 +268,12 @@ private:
     double max_squared_drift;
   };
 
-  // What a line edge at the merged vertex must be after the collapse. Where two edges become one, this holds
-  // whichever of them CGAL keeps.
+  // What an edge at the merged vertex must be after the collapse, if it is a line or a spoke before. Where
+  // two edges become one, this holds whichever of them CGAL keeps.
   struct Pending_line
   {
     Vertex far_end;
-    bool is_marked;
+    bool is_marked_far, is_marked_near; // at the far end, and at the merged vertex
     std::vector<Passed> passed;
   };
   struct Pending_collapse
@@ -258,7 +290,7 @@ private:
           min_seam_cosine(std::cos(options.max_seam_turn * CGAL_PI / 180)),
           max_squared_drift(options.max_drift * options.max_drift),
           freedoms(get(CGAL::dynamic_vertex_property_t<Freedom>(), mesh_)),
-          marks(get(CGAL::dynamic_edge_property_t<unsigned char>(), mesh_))
+          marks(get(CGAL::dynamic_halfedge_property_t<unsigned char>(), mesh_))
     {
       for (const double turn : {options.max_border_turn, options.max_seam_turn})
         if (!(turn >= 0 && turn <= 180))
@@ -282,8 +314,9 @@ private:
     double min_seam_cosine;
     double max_squared_drift;
     typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<Freedom>>::const_type freedoms;
-    typename boost::property_map<TriangleMesh, CGAL::dynamic_edge_property_t<unsigned char>>::const_type
-        marks;
+    typename boost::property_map<TriangleMesh, CGAL::dynamic_halfedge_property_t<unsigned char>>::const_type
+        marks; // of an inner edge that is a line, at the target of the halfedge
+    bool may_have_spokes = false;
     boost::unordered_map<Vertex, double> squared_drift_of;  // of vertices with a limit of their own
     boost::unordered_map<Edge, std::vector<Passed>> passed; // vertices that an edge has replaced
     std::optional<Pending_collapse> pending;                // announced, and not yet done
@@ -297,7 +330,7 @@ private:
     const TriangleMesh& mesh = m_state->mesh;
     std::optional<Halfedge> behind;
     for (const Halfedge out : CGAL::halfedges_around_source(source(h, mesh), mesh)) {
-      if (out == h || !get(lines, edge(out, mesh)))
+      if (out == h || !lines.is_line_at_target(opposite(out, mesh)))
         continue;
       if (behind)
         return std::nullopt;
@@ -308,16 +341,35 @@ private:
     return behind;
   }
 
-  // Whether a face at the line edge `h` has line edges only. The collapse would remove this face, and with it
-  // a whole piece or a corner of one.
+  // Whether lines leave both ends of the line edge `h` along the other edges of a face beside it. The
+  // collapse would remove this face, and with it a whole piece or a corner of one.
   template <class Lines>
   bool is_cut_off(Halfedge h, const Lines& lines) const
   {
     const TriangleMesh& mesh = m_state->mesh;
     for (const Halfedge side : {h, opposite(h, mesh)})
-      if (!CGAL::is_border(side, mesh) && get(lines, edge(next(side, mesh), mesh)) &&
-          get(lines, edge(prev(side, mesh), mesh)))
+      if (!CGAL::is_border(side, mesh) && lines.is_line_at_target(opposite(next(side, mesh), mesh)) &&
+          lines.is_line_at_target(prev(side, mesh)))
         return true;
+    return false;
+  }
+
+  // Whether the collapse of the edge of `h` makes one line of two at the apex of a face beside it, where no
+  // two others end. Then this vertex would be the end of a line beside which nothing differs.
+  template <class Lines>
+  bool takes_needed_spoke(Halfedge h, const Lines& lines) const
+  {
+    const TriangleMesh& mesh = m_state->mesh;
+    for (const Halfedge side : {h, opposite(h, mesh)}) {
+      const Halfedge to_apex = next(side, mesh);
+      if (CGAL::is_border(side, mesh) || !lines.is_line_at_target(to_apex) ||
+          !lines.is_line_at_target(opposite(prev(side, mesh), mesh)))
+        continue;
+      const auto around = CGAL::halfedges_around_target(to_apex, mesh);
+      if (std::count_if(around.begin(), around.end(),
+                        [&](Halfedge in) { return lines.is_line_at_target(in); }) < 3)
+        return true;
+    }
     return false;
   }
 
@@ -374,33 +426,45 @@ private:
     const Freedom freedom_0 = get(state.freedoms, profile.v0());
     const Freedom freedom_1 = get(state.freedoms, profile.v1());
     pending.freedom = (std::max)(freedom_0, freedom_1);
-    if (pending.freedom == Freedom::free)
+    if (pending.freedom == Freedom::free && !state.may_have_spokes)
       return pending;
+    // A line that comes to a free vertex along a spoke ends behind it.
+    if (!collapse.are_both_moved() && is_free(collapse.goal()))
+      pending.freedom = Freedom::free;
     pending.max_squared_drift = passed_at(collapse.goal()).max_squared_drift;
     if (collapse.are_both_moved())
       pending.max_squared_drift =
           (std::min)(pending.max_squared_drift, passed_at(collapse.mover()).max_squared_drift);
 
     const Edge merged = edge(profile.v0_v1(), mesh);
-    const bool is_along_line = is_line(merged);
     for (const Halfedge at : {collapse.moving(), opposite(collapse.moving(), mesh)}) {
       const Vertex near_end = source(at, mesh);
       const bool moves = at == profile.v0_v1() ? collapse.is_v0_moved() : collapse.is_v1_moved();
+      const bool is_along_line = is_line_at_target(opposite(at, mesh));
       for (const Halfedge out : CGAL::halfedges_around_source(near_end, mesh)) {
-        const Edge e = edge(out, mesh);
-        if (e == merged || !is_line(e))
+        const Halfedge in = opposite(out, mesh);
+        if (out == at || (!is_line_at_target(out) && !is_line_at_target(in)))
           continue;
-        Pending_line line{target(out, mesh), bool(get(state.marks, e)), {}};
-        take_passed(e, line.passed);
-        if (moves && is_along_line) {
+        // What differs across a line behind a vertex that moves differs at the goal if it does so ahead.
+        Pending_line& line = line_to(target(out, mesh), pending.lines);
+        line.is_marked_far |= bool(get(state.marks, out));
+        line.is_marked_near |= bool(get(state.marks, in)) && (!moves || is_line_at_target(at));
+        take_passed(edge(out, mesh), line.passed);
+        if (moves && is_along_line && is_line_at_target(in)) {
           line.passed.push_back(passed_at(near_end));
           take_passed(merged, line.passed);
         }
-        pending.lines.push_back(std::move(line));
       }
     }
     m_state->passed.erase(merged);
     return pending;
+  }
+
+  static Pending_line& line_to(Vertex far_end, std::vector<Pending_line>& lines)
+  {
+    const auto found = std::find_if(lines.begin(), lines.end(),
+                                    [&](const Pending_line& line) { return line.far_end == far_end; });
+    return found != lines.end() ? *found : lines.emplace_back(Pending_line{far_end, false, false, {}});
   }
 
   Passed passed_at(Vertex v) const

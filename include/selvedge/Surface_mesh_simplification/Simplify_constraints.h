@@ -24,6 +24,10 @@ struct Simplify_constraints
   /// Edges inside the mesh that are kept like borders: seams.
   std::vector<typename boost::graph_traits<TriangleMesh>::edge_descriptor> line_edges;
 
+  /// Edges inside the mesh that are seams at the target of the halfedge alone, and do not bind their sources:
+  /// see `Border_rule`.
+  std::vector<typename boost::graph_traits<TriangleMesh>::halfedge_descriptor> spokes;
+
   /// Vertices on lines that bound no strips: a face between them and another line must keep its shape
   /// (`Simplify_options::min_aspect_ratio`).
   std::vector<typename boost::graph_traits<TriangleMesh>::vertex_descriptor> no_strip_vertices;

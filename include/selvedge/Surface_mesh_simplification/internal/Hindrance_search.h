@@ -133,11 +133,11 @@ private:
     const Hindrance_search* search;
     Hindrance weakest_gone;
 
-    bool has(const Edge& e) const
+    bool is_line_at_target(const Halfedge& h) const
     {
-      return search->m_filters.border_rule().is_line(e) && search->line_reason(e) < weakest_gone;
+      return search->m_filters.border_rule().is_line_at_target(h) &&
+             search->line_reason(edge(h, search->m_mesh)) < weakest_gone;
     }
-    friend bool get(const Stronger_lines& lines, const Edge& e) { return lines.has(e); }
   };
 
   Hindrance line_reason(const Edge& e) const

@@ -67,6 +67,8 @@ struct Reduction_setup
     Border_rule<TriangleMesh, Points> rule(mesh, points, of_rule);
     for (const auto e : constraints.line_edges)
       rule.mark(e);
+    for (const auto h : constraints.spokes)
+      rule.mark_at_target(h);
     for (const auto v : constraints.facing_vertices)
       rule.limit_drift(v, Simplify_constraints<TriangleMesh>::s_share_of_drift_at_gaps * of_rule.max_drift);
     for (const auto v : constraints.no_strip_vertices)

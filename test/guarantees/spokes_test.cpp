@@ -1,0 +1,241 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Spokes: edges across which values differ at one end only, their pole. They bind the pole and not the ring
+// around it, and what is left of them stays a line (G4, G5, G6).
+
+#include "soup/Working_mesh.h"
+#include "support/logged_reduction.h"
+#include "support/reduction.h"
+#include "support/soups.h"
+
+#include <selvedge/Surface_mesh_simplification/Border_rule.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace selvedge::test {
+namespace {
+
+/// A sphere with poles at z = ±1: every triangle there has a texture coordinate of its own at the pole, and a
+/// vertex of its own if `is_split`.
+Triangle_soup polar_sphere(Index segments, Index rings, bool is_split)
+{
+  Triangle_soup sphere;
+  const auto add_corner = [&](double u, double v) {
+    sphere.uvs.values.push_back({u, v});
+    return Index(sphere.uvs.values.size() - 1);
+  };
+  std::vector<std::vector<Index>> vertices(rings - 1), uvs(rings - 1);
+  for (Index r = 0; r + 1 < rings; ++r)
+    for (Index s = 0; s <= segments; ++s) {
+      const double height = CGAL_PI * (r + 1) / rings, angle = 2 * CGAL_PI * s / segments;
+      if (s < segments) {
+        vertices[r].push_back(Index(sphere.points.size()));
+        sphere.points.emplace_back(std::sin(height) * std::cos(angle), std::sin(height) * std::sin(angle),
+                                   std::cos(height));
+      } else
+        vertices[r].push_back(vertices[r].front());
+      uvs[r].push_back(add_corner(double(s) / segments, 1 - double(r + 1) / rings));
+    }
+  const auto add_triangle = [&](const Index_triple& of_vertices, const Index_triple& of_uvs) {
+    sphere.triangles.push_back(of_vertices);
+    sphere.uvs.of_triangle.push_back(of_uvs);
+  };
+  for (Index r = 0; r + 2 < rings; ++r)
+    for (Index s = 0; s < segments; ++s) {
+      const auto &v = vertices[r], &w = vertices[r + 1], &a = uvs[r], &b = uvs[r + 1];
+      add_triangle({v[s], w[s], w[s + 1]}, {a[s], b[s], b[s + 1]});
+      add_triangle({v[s], w[s + 1], v[s + 1]}, {a[s], b[s + 1], a[s + 1]});
+    }
+  for (const double z : {1., -1.}) {
+    const auto &v = z > 0 ? vertices.front() : vertices.back(), &a = z > 0 ? uvs.front() : uvs.back();
+    for (Index s = 0; s < segments; ++s) {
+      if (s == 0 || is_split)
+        sphere.points.emplace_back(0, 0, z);
+      const Index pole = Index(sphere.points.size() - 1), corner = add_corner((s + 0.5) / segments, z > 0);
+      const Index next = s + 1;
+      add_triangle(z > 0 ? Index_triple{pole, v[s], v[next]} : Index_triple{pole, v[next], v[s]},
+                   z > 0 ? Index_triple{corner, a[s], a[next]} : Index_triple{corner, a[next], a[s]});
+    }
+  }
+  return sphere;
+}
+
+bool is_pole(const Point_3& p)
+{
+  return p.x() == 0 && p.y() == 0;
+}
+
+std::size_t faces_at_poles(const Triangle_soup& soup)
+{
+  return std::size_t(std::count_if(soup.triangles.begin(), soup.triangles.end(), [&](const Index_triple& t) {
+    return std::any_of(t.begin(), t.end(), [&](Index v) { return is_pole(soup.points[v]); });
+  }));
+}
+
+using Corner_facts = std::tuple<double, double, double, double, double>;
+std::set<Corner_facts> facts_of_corners(const Triangle_soup& soup)
+{
+  std::set<Corner_facts> result;
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point_3& p = soup.points[soup.triangles[t][k]];
+      const auto& uv = soup.uvs.values[soup.uvs.of_triangle[t][k]];
+      result.emplace(p.x(), p.y(), p.z(), uv[0], uv[1]);
+    }
+  return result;
+}
+
+TEST(Spokes, RingsAroundPolesGoAndEveryCornerIsOneOfTheInput)
+{
+  for (const int cell_faces : {0, 150}) {
+    const Triangle_soup sphere = polar_sphere(32, 24, false);
+    ASSERT_EQ(faces_at_poles(sphere), 64u);
+    Simplify_options options = to_ratio(0.2);
+    options.faces_per_cell = std::size_t(cell_faces);
+    const Logged_reduction reduction = reduce_and_log(sphere, options);
+    const Triangle_soup& result = reduction.simplified.soup;
+    EXPECT_LE(reduction.simplified.report.faces_output, sphere.triangles.size() / 5);
+    EXPECT_LT(faces_at_poles(result), 40u);
+    const auto before = facts_of_corners(sphere), after = facts_of_corners(result);
+    EXPECT_TRUE(std::includes(before.begin(), before.end(), after.begin(), after.end()));
+    const Replay_verdict verdict = replay_text(sphere, reduction.log);
+    EXPECT_TRUE(verdict.is_accepted()) << verdict.violations.front().message;
+    EXPECT_TRUE(verify(reduction.simplified, prepare(sphere)).accepted());
+  }
+}
+
+// A control: with a vertex for each triangle, the edges at a pole are borders of the piece, and stay.
+TEST(Spokes, AreNoneWhereVerticesDiffer)
+{
+  const Triangle_soup sphere = polar_sphere(32, 24, true);
+  const Reduction reduction = reduce(sphere, to_ratio(0.2));
+  EXPECT_EQ(faces_at_poles(reduction.simplified.soup), 64u);
+  EXPECT_TRUE(reduction.verification.accepted());
+}
+
+TEST(Spokes, EverythingGoesThatMayWithoutLimits)
+{
+  Simplify_options options = without_limits(to_ratio(0));
+  options.max_error.reset();
+  options.check_uv_orientation = false;
+  const Triangle_soup sphere = polar_sphere(12, 8, false);
+  for (const Placement placement : {Placement::vertices, Placement::optimal}) {
+    options.placement = placement;
+    const Logged_reduction reduction = reduce_and_log(sphere, options);
+    EXPECT_LE(reduction.simplified.soup.triangles.size(), 12u);
+    const Replay_verdict verdict = replay_text(sphere, reduction.log);
+    EXPECT_TRUE(verdict.is_accepted()) << verdict.violations.front().message;
+    EXPECT_TRUE(verify(reduction.simplified, prepare(sphere)).accepted());
+  }
+}
+
+/// A disc of triangles around vertex 0, in a ring of twice as many, with these values at the centre.
+Triangle_soup disc(const std::vector<Index>& of_triangle)
+{
+  Triangle_soup result;
+  result.points = {Point_3(0, 0, 0)};
+  const Index n = Index(of_triangle.size());
+  const double step = 2 * CGAL_PI / n;
+  for (const double radius : {1., 2.})
+    for (Index i = 0; i < n; ++i) {
+      const double angle = step * (radius > 1 ? i - 0.2 : i);
+      result.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
+    }
+  for (Index i = 0; i < n; ++i) {
+    const Index a = 1 + i, b = 1 + (i + 1) % n;
+    result.triangles.push_back({0, a, b});
+    result.triangles.push_back({a, n + a, n + b});
+    result.triangles.push_back({a, n + b, b});
+  }
+  for (const Point_3& p : result.points)
+    result.uvs.values.push_back({p.x(), p.y()});
+  result.uvs.of_triangle = result.triangles;
+  const Index first = Index(result.uvs.values.size());
+  for (Index i = 0; i < n; ++i) {
+    result.uvs.values.push_back({0.01 * i, 0});
+    result.uvs.of_triangle[3 * i][0] = first + of_triangle[i];
+  }
+  return result;
+}
+
+/// The kind of the first violation of steps, under a limit that makes lines matter; none if there is none.
+std::optional<Violation_kind> first_violation(const Triangle_soup& soup, const std::string& steps,
+                                              std::size_t count)
+{
+  std::ostringstream log;
+  log << "selvedge-log 1\ninput " << soup.points.size() << ' ' << soup.triangles.size()
+      << " -\nlimit seam_turn 180\n"
+      << steps << "result " << count << ' ' << soup.triangles.size() - 2 * count << " -\n";
+  const Replay_verdict verdict = replay_text(soup, log.str());
+  return verdict.is_accepted() ? std::nullopt : std::optional(verdict.violations.front().kind);
+}
+
+TEST(Spokes, ReplayKnowsThem)
+{
+  const Triangle_soup six = disc({0, 1, 2, 3, 4, 5});
+  EXPECT_EQ(first_violation(six, "c 1 2\n", 1), std::nullopt);
+  EXPECT_EQ(first_violation(six, "c 1 0\n", 1), Violation_kind::line) << "along a spoke to its pole";
+  EXPECT_EQ(first_violation(six, "c 0 1\n", 1), Violation_kind::line) << "a pole with six spokes";
+  const Triangle_soup three = disc({0, 1, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2});
+  EXPECT_EQ(first_violation(three, "c 1 2\n", 1), std::nullopt);
+  EXPECT_EQ(first_violation(three, "c 1 2\nc 2 3\n", 2), Violation_kind::line) << "one line would be left";
+  // Fewer than three edges that differ at one end are lines at both, and a vertex that ends one stays.
+  const Triangle_soup two = disc({0, 0, 0, 1, 1, 1});
+  EXPECT_EQ(first_violation(two, "c 1 2\n", 1), Violation_kind::line);
+  EXPECT_EQ(first_violation(two, "c 2 3\n", 1), std::nullopt);
+}
+
+// Marks the lines at vertex 0 of a disc as spokes, and says whether the first may go to the second.
+TEST(Spokes, ARuleLetsThemGoWhileTwoAreLeft)
+{
+  const Prepared_soup prepared = prepare(disc({0, 1, 2, 3, 4, 5}));
+  const Working_mesh working(prepared.soup, prepared.positions, prepared.is_frozen, prepared.obstacle);
+  ASSERT_EQ(working.constraints().spokes.size(), 6u);
+  EXPECT_TRUE(working.constraints().line_edges.empty());
+  const auto& mesh = working.mesh();
+  const auto rule_with = [&](std::size_t count) {
+    Border_rule<Working_mesh::Mesh> rule(mesh);
+    for (std::size_t i = 0; i < count; ++i)
+      rule.mark_at_target(working.constraints().spokes[i]);
+    return rule;
+  };
+  const Border_rule<Working_mesh::Mesh> all = rule_with(6);
+  for (const auto spoke : working.constraints().spokes) {
+    EXPECT_TRUE(all.is_free(mesh.source(spoke)));
+    EXPECT_FALSE(all.is_free(mesh.target(spoke)));
+    EXPECT_FALSE(all.is_line(mesh.edge(spoke)));
+    EXPECT_TRUE(all.is_line_at_target(spoke));
+    EXPECT_FALSE(all.is_line_at_target(mesh.opposite(spoke)));
+    EXPECT_EQ(all.refusal(spoke), Line_refusal::line_end);
+    EXPECT_EQ(all.refusal(mesh.opposite(spoke)), Line_refusal::line_end);
+    EXPECT_TRUE(all.may_move(mesh.opposite(mesh.prev(spoke)))) << "along the ring";
+  }
+  // Where two are left, a vertex between them may not take one.
+  for (const std::size_t count : {2, 3}) {
+    const Border_rule<Working_mesh::Mesh> rule = rule_with(count);
+    std::size_t between = 0, allowed = 0;
+    for (const auto h : mesh.halfedges()) {
+      if (mesh.is_border(h) || !rule.is_line_at_target(mesh.next(h)) ||
+          !rule.is_line_at_target(mesh.opposite(mesh.prev(h))))
+        continue;
+      ++between;
+      allowed += rule.may_move(h);
+    }
+    EXPECT_GT(between, 0u);
+    EXPECT_EQ(allowed, count == 3 ? between : 0u);
+  }
+}
+
+} // namespace
+} // namespace selvedge::test
