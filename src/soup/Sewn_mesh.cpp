@@ -151,7 +151,7 @@ Sewn_mesh::Sewn_mesh(const Triangle_soup& soup, const std::vector<Index>& positi
       line_edges.push_back(mesh().edge(halfedges[side]));
   }
   m_notes.seam_edges = line_edges.size();
-  find_spokes(std::move(line_edges));
+  find_spokes(std::move(line_edges), position_of);
   find_no_strip_vertices(position_of);
 
   if (!obstacle.triangles.empty()) { // the limits are shares of the diagonal of the soup alone
@@ -224,8 +224,9 @@ Sewn_mesh::Sewn_mesh(const Sewn_mesh& whole, const Border_rule<Mesh>& rule, cons
 
 // Tells spokes from other lines: those at a pole, where at least three edges differ at one end only, and in
 // no vertex. Fewer end lines, such as a cut into a texture, and such an end is to stay. Where vertices
-// differ, the edge is a border of a piece.
-void Sewn_mesh::find_spokes(std::vector<Mesh::Edge_index> line_edges)
+// differ, the edge is a border of a piece. Vertices at one position count as one, as they do for a replay.
+template <class Function>
+void Sewn_mesh::find_spokes(std::vector<Mesh::Edge_index> line_edges, const Function& position_of)
 {
   constexpr Index least = 3; // spokes at a pole
   const auto differs_at_target = [this](Mesh::Edge_index e) -> std::optional<Halfedge> {
@@ -235,12 +236,12 @@ void Sewn_mesh::find_spokes(std::vector<Mesh::Edge_index> line_edges)
       return std::nullopt;
     return here.any() ? h : other;
   };
-  std::map<Mesh::Vertex_index, Index> counts;
+  std::map<Index, Index> counts; // by position
   for (const Mesh::Edge_index e : line_edges)
     if (const auto h = differs_at_target(e))
-      ++counts[mesh().target(*h)];
+      ++counts[position_of(mesh().target(*h))];
   for (const Mesh::Edge_index e : line_edges)
-    if (const auto h = differs_at_target(e); h && counts[mesh().target(*h)] >= least)
+    if (const auto h = differs_at_target(e); h && counts[position_of(mesh().target(*h))] >= least)
       m_constraints.spokes.push_back(*h);
     else
       m_constraints.line_edges.push_back(e);

@@ -190,6 +190,7 @@ TEST(Spokes, ReplayKnowsThem)
   const Triangle_soup three = disc({0, 1, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2});
   EXPECT_EQ(first_violation(three, "c 1 2\n", 1), std::nullopt);
   EXPECT_EQ(first_violation(three, "c 1 2\nc 2 3\n", 2), Violation_kind::line) << "one line would be left";
+  EXPECT_EQ(first_violation(three, "c 1 2\nc 0 2\nc 3 2\n", 3), std::nullopt) << "a line is left of the pole";
   // Fewer than three edges that differ at one end are lines at both, and a vertex that ends one stays.
   const Triangle_soup two = disc({0, 0, 0, 1, 1, 1});
   EXPECT_EQ(first_violation(two, "c 1 2\n", 1), Violation_kind::line);
