@@ -177,7 +177,7 @@ bool Complex::is_inside_line(Index position, Index end) const
   });
 }
 
-bool Complex::is_seam_between(Index a, Index b) const
+bool Complex::have_other_values(Index a, Index b) const
 {
   // Compares values, since some files give one value several numbers.
   const auto differ = [&](const auto& values) {
@@ -187,8 +187,8 @@ bool Complex::is_seam_between(Index a, Index b) const
   const auto differ_in = [&](const Triangle_labels& labels) {
     return !labels.empty() && labels.of_triangle[a / 3] != labels.of_triangle[b / 3];
   };
-  return vertex_of(a) != vertex_of(b) || differ(m_soup.uvs) || differ(m_soup.normals) ||
-         differ_in(m_soup.groups) || differ_in(m_soup.objects) || differ_in(m_soup.materials);
+  return differ(m_soup.uvs) || differ(m_soup.normals) || differ_in(m_soup.groups) ||
+         differ_in(m_soup.objects) || differ_in(m_soup.materials);
 }
 
 void Complex::turn(Index face)
@@ -269,7 +269,7 @@ std::array<bool, 2> Complex::differs_at_ends(Index f, Index g, Index from, Index
       const Index b = (i == 0 ? m_faces[g].corners : of_g[i].corners)[slot(g, position)];
       if (vertex_of(a) != vertex_of(b))
         return {true, true};
-      result[end] = result[end] || is_seam_between(a, b);
+      result[end] = result[end] || have_other_values(a, b);
     }
   }
   return result;

@@ -136,7 +136,7 @@ private:
   }
   static const Edge& edge_to(const std::vector<Edge>& edges, Index neighbour);
   std::vector<std::vector<Index>> fans_at(Index position) const;
-  bool is_seam_between(Index corner_a, Index corner_b) const;
+  bool have_other_values(Index corner_a, Index corner_b) const; // or labels
   Index vertex_of(Index corner) const { return m_soup.triangles[corner / 3][corner % 3]; }
   std::size_t slot(Index face, Index position) const;
   void carry_corners(const std::vector<Index>& contracted, std::vector<Index> moving, Index removed,

@@ -17,6 +17,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 namespace selvedge {
 
@@ -144,14 +145,13 @@ Sewn_mesh::Sewn_mesh(const Triangle_soup& soup, const std::vector<Index>& positi
 
   Cancellation_scope::check();
   find_regions(position_of);
-  std::vector<Mesh::Edge_index> line_edges;
   for (Index side = 0; side < own_corners; ++side) {
     const Index mate = sewing.mate(side);
     if (mate != Sewing::none && side < mate && differences(mesh().edge(halfedges[side])).any())
-      line_edges.push_back(mesh().edge(halfedges[side]));
+      m_constraints.line_edges.push_back(mesh().edge(halfedges[side]));
   }
-  m_notes.seam_edges = line_edges.size();
-  find_spokes(std::move(line_edges), position_of);
+  m_notes.seam_edges = m_constraints.line_edges.size();
+  find_spokes(position_of);
   find_no_strip_vertices(position_of);
 
   if (!obstacle.triangles.empty()) { // the limits are shares of the diagonal of the soup alone
@@ -222,11 +222,11 @@ Sewn_mesh::Sewn_mesh(const Sewn_mesh& whole, const Border_rule<Mesh>& rule, cons
       m_constraints.vertex_weights.push_back(whole.m_constraints.vertex_weights[v]);
 }
 
-// Tells spokes from other lines: those at a pole, where at least three edges differ at one end only, and in
-// no vertex. Fewer end lines, such as a cut into a texture, and such an end is to stay. Where vertices
+// Takes the spokes out of the lines: those at a pole, where at least three edges differ at one end only, and
+// in no vertex. Fewer end lines, such as a cut into a texture, and such an end is to stay. Where vertices
 // differ, the edge is a border of a piece. Vertices at one position count as one, as they do for a replay.
 template <class Function>
-void Sewn_mesh::find_spokes(std::vector<Mesh::Edge_index> line_edges, const Function& position_of)
+void Sewn_mesh::find_spokes(const Function& position_of)
 {
   constexpr Index least = 3; // spokes at a pole
   const auto differs_at_target = [this](Mesh::Edge_index e) -> std::optional<Halfedge> {
@@ -236,11 +236,12 @@ void Sewn_mesh::find_spokes(std::vector<Mesh::Edge_index> line_edges, const Func
       return std::nullopt;
     return here.any() ? h : other;
   };
+  const std::vector<Mesh::Edge_index> lines = std::exchange(m_constraints.line_edges, {});
   std::map<Index, Index> counts; // by position
-  for (const Mesh::Edge_index e : line_edges)
+  for (const Mesh::Edge_index e : lines)
     if (const auto h = differs_at_target(e))
       ++counts[position_of(mesh().target(*h))];
-  for (const Mesh::Edge_index e : line_edges)
+  for (const Mesh::Edge_index e : lines)
     if (const auto h = differs_at_target(e); h && counts[position_of(mesh().target(*h))] >= least)
       m_constraints.spokes.push_back(*h);
     else

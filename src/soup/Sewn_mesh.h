@@ -112,7 +112,7 @@ protected:
 private:
   void lock(const std::vector<char>& is_locked);
   template <class Function>
-  void find_spokes(std::vector<Mesh::Edge_index> line_edges, const Function& position_of);
+  void find_spokes(const Function& position_of);
   template <class Function>
   void find_joint_vertices(std::vector<char>& is_locked, const std::vector<char>& is_in_frozen_face,
                            const std::vector<Index>& vertices_at, const Function& position_of);
