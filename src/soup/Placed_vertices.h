@@ -52,6 +52,8 @@ public:
   /// soup.
   void merge_at(Halfedge moving, const Point_3& place, const Point_3& point);
 
+  bool has_any() const { return !m_placed.empty(); }
+
   /// Forgets a vertex of the soup, of which no corner is left.
   void erase(Index vertex) { m_placed.erase(vertex); }
 

@@ -70,10 +70,12 @@ void Working_mesh::before_collapse(Halfedge moving, const Border_rule<Mesh>& rul
 {
   if (m_recorder)
     m_recorder({side(moving), std::nullopt});
-  const auto [removed, kept] = ends_in_soup(moving);
-  if (m_listener)
-    m_listener({removed, kept, std::nullopt});
-  m_placed.erase(removed);
+  if (m_listener || m_placed.has_any()) {
+    const auto [removed, kept] = ends_in_soup(moving);
+    if (m_listener)
+      m_listener({removed, kept, std::nullopt});
+    m_placed.erase(removed);
+  }
   carry_all(moving, rule);
 }
 
