@@ -26,7 +26,7 @@ namespace selvedge {
 /// 2. *Written* (G3): `read_mesh(p)` after `write_mesh(p, soup)` gives the same coordinates bit for bit, the
 ///    same triangles in the same order, and the same number of every vertex. STL, which has no vertex
 ///    numbers, gives the same triangles up to those numbers (and the sign of zeros); so do PLY and glTF where
-///    vertices are split or joined (**Normals**), and glTF where they are compressed as in the file,
+///    vertices are split or joined (**Normals**, **Poles**), and glTF where they are compressed as in the file,
 ///    which may change their order and that of the triangles.
 /// 3. *Refusal* (G9): a file that is not a mesh with at least one triangle and finite coordinates is refused
 ///    with an `Input_error` of one line, which names the file, the line (in text), the element, and how to
@@ -106,6 +106,12 @@ namespace selvedge {
 /// those of the file, in a log too. Vertices that differ in nothing at all stay apart unless another one
 /// differs from them in its normal, or every face has vertices of its own. Writers split such vertices again,
 /// in the order that they had, and all other vertices that have several normals.
+///
+/// **Poles.** glTF also holds one pair of texture coordinates for each vertex, so that around a pole, as of a
+/// sphere, every face may have a vertex of its own there. Such vertices, where they differ in nothing but
+/// TEXCOORD_0, NORMAL and TANGENT, are one like those of flat normals: at least two edges lead from them to
+/// vertices that the faces on both sides share. `write_mesh` writes each corner to glTF with the row of the
+/// file that has its texture coordinates.
 ///
 /// **Packed files.** A file whose name ends in `.gz` is unpacked by zlib when it is read, and packed when it
 /// is written; all else is as without `.gz`. A packed file that is damaged or truncated is refused, and so is

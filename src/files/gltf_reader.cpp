@@ -610,14 +610,10 @@ private:
 
   void add_uvs()
   {
-    // The second texture coordinate points down in glTF, up in other formats.
-    set_corner_values(
-        soup().uvs, "TEXCOORD_0", [](const Gltf_scene::Instance&, const Column& column, Index row) {
-          const auto at = [&](std::size_t place) {
-            return fraction(attribute_type(column.component_type), component(column, row, place));
-          };
-          return std::array<double, 2>{at(0), 1 - at(1)};
-        });
+    set_corner_values(soup().uvs, "TEXCOORD_0",
+                      [](const Gltf_scene::Instance&, const Column& column, Index row) {
+                        return texture_coordinates(column, row);
+                      });
   }
 
   void add_normals()

@@ -11,6 +11,7 @@
 #include "files/united_levels.h"
 #include "soup/Gltf_scene.h"
 #include "soup/flat_shading.h"
+#include "soup/poles.h"
 
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
@@ -46,7 +47,6 @@ public:
         m_normals(soup.normals), m_coarsest(coarsest), m_output(output), m_notes(notes),
         m_local_normals(*soup.scene)
   {
-    check();
     quantise_new_normals();
     m_split = vertices_by_normal(soup, m_normals);
     if (!is_further_level)
@@ -73,31 +73,6 @@ private:
   const Gltf_scene::Block& block(const Gltf_scene::Instance& instance) const
   {
     return m_scene.blocks[instance.block];
-  }
-
-  void check() const
-  {
-    const auto refuse = [](const std::string& what) {
-      throw Argument_error("the soup does not fit the glTF file that it was read from: " + what +
-                           "; empty its member scene to write a new one");
-    };
-    const Gltf_scene::Instance& last = m_scene.instances.back();
-    if (m_soup.scene_vertices.size() != m_soup.points.size())
-      refuse("it does not say for every vertex which of the file it is");
-    for (const Index v : m_soup.scene_vertices)
-      if (v >= last.first + block(last).size)
-        refuse("it names vertex " + std::to_string(v) + ", which is not there");
-    if (m_soup.groups.of_triangle.size() != m_soup.triangles.size() ||
-        m_soup.groups.names.size() != m_scene.parts.size())
-      refuse("its groups are not the primitives of the file");
-    Cancellation_poll poll;
-    for (std::size_t t = 0; t < m_soup.triangles.size(); ++t) {
-      poll();
-      for (const Index v : m_soup.triangles[t])
-        if (m_scene.instance_of(m_soup.scene_vertices[v]) !=
-            m_scene.parts[m_soup.groups.of_triangle[t]].instance)
-          refuse("triangle " + std::to_string(t) + " has a vertex of another primitive");
-    }
   }
 
   // Whether a vertex does not lie where the file has it.
@@ -496,12 +471,38 @@ private:
   Local_normals m_local_normals;
 };
 
+// Throws `Argument_error` unless a soup fits its scene.
+void require_fitting(const Triangle_soup& soup)
+{
+  const Gltf_scene& scene = *soup.scene;
+  const auto refuse = [](const std::string& what) {
+    throw Argument_error("the soup does not fit the glTF file that it was read from: " + what +
+                         "; empty its member scene to write a new one");
+  };
+  const Gltf_scene::Instance& last = scene.instances.back();
+  if (soup.scene_vertices.size() != soup.points.size())
+    refuse("it does not say for every vertex which of the file it is");
+  for (const Index v : soup.scene_vertices)
+    if (v >= last.first + scene.blocks[last.block].size)
+      refuse("it names vertex " + std::to_string(v) + ", which is not there");
+  if (soup.groups.of_triangle.size() != soup.triangles.size() ||
+      soup.groups.names.size() != scene.parts.size())
+    refuse("its groups are not the primitives of the file");
+  Cancellation_poll poll;
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    poll();
+    for (const Index v : soup.triangles[t])
+      if (scene.instance_of(soup.scene_vertices[v]) != scene.parts[soup.groups.of_triangle[t]].instance)
+        refuse("triangle " + std::to_string(t) + " has a vertex of another primitive");
+  }
+}
+
 /// Levels of detail, and the glTF scene that they all belong to.
 struct Levels_of_scene
 {
   std::vector<const Triangle_soup*> levels;
   bool is_scene_made = false;
-  std::vector<Triangle_soup> made; // where there was no scene
+  std::vector<Triangle_soup> made; // where there was no scene, or a vertex has several rows of it
 };
 
 // Makes a scene for levels that have none.
@@ -513,9 +514,16 @@ Levels_of_scene with_scene(const std::vector<const Triangle_soup*>& levels, bool
     if (soup->scene != levels.front()->scene)
       throw Argument_error("the levels of detail are not of one mesh; write each to a file of its own");
   }
-  if (levels.front()->scene)
-    return {levels, false, {}};
   Levels_of_scene result;
+  result.made.reserve(levels.size());
+  if (levels.front()->scene) {
+    for (const Triangle_soup* const soup : levels) {
+      require_fitting(*soup);
+      std::optional<Triangle_soup> split = with_split_poles(*soup);
+      result.levels.push_back(split ? &result.made.emplace_back(std::move(*split)) : soup);
+    }
+    return result;
+  }
   result.is_scene_made = true;
   Triangle_soup all = with_gltf_scene(levels.size() == 1 ? *levels.front() : united(levels), has_poses);
   if (levels.size() == 1) {

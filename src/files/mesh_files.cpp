@@ -16,6 +16,7 @@
 #include "soup/check_soup.h"
 #include "soup/first_alike.h"
 #include "soup/flat_shading.h"
+#include "soup/poles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -111,6 +112,9 @@ Mesh_file with_shared_vertices(Mesh_file file)
   if (const std::size_t joined = share_split_vertices(file.soup); joined > 0)
     file.notes.remarks[std::string("corners joined, for their vertices differ in nothing, or only in ") +
                        (is_flat ? "flat normals" : "the last digits of normals")] += joined;
+  if (const std::size_t joined = share_poles(file.soup); joined > 0)
+    file.notes.remarks["corners joined, for around a pole every face has texture coordinates of its own"] +=
+        joined;
   return file;
 }
 

@@ -4,6 +4,7 @@
 #include "progressive/lists.h"
 
 #include "soup/flat_shading.h"
+#include "soup/poles.h"
 #include "soup/selection.h"
 
 #include <selvedge/Error.h>
@@ -56,8 +57,10 @@ Triangle_soup level(const Progressive_mesh& mesh, std::size_t steps)
                       std::to_string(mesh.faces[steps]) + "; make the progressive file again");
   Triangle_soup result = selected(soup, triangles, corners);
   // As `read_mesh` does. In poses, vertices may differ in one of them.
-  if (result.poses.empty())
+  if (result.poses.empty()) {
     share_split_vertices(result);
+    share_poles(result);
+  }
   return result;
 }
 

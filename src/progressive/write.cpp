@@ -6,6 +6,7 @@
 #include "files/Local_normals.h"
 #include "files/formats.h"
 #include "soup/Gltf_scene.h"
+#include "soup/poles.h"
 
 #include <selvedge/Error.h>
 #include <selvedge/rounding.h>
@@ -421,7 +422,8 @@ void write_progressive(const std::filesystem::path& path, const Triangle_soup& s
     throw Argument_error("the progression is not that of the soup");
   if (needs_float32(soup, format) && !has_float32_points(soup))
     throw Argument_error("the soup has coordinates that are no 32-bit floats; call round_to_float32 first");
-  write_mesh(path, Progressive_scene(soup, progression, notes).make().soup);
+  const std::optional<Triangle_soup> split = with_split_poles(soup);
+  write_mesh(path, Progressive_scene(split ? *split : soup, progression, notes).make().soup);
 }
 
 } // namespace selvedge

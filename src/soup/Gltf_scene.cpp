@@ -171,6 +171,14 @@ double fraction(Attribute::Type type, double number)
   }
 }
 
+std::array<double, 2> texture_coordinates(const Gltf_scene::Column& column, std::size_t row)
+{
+  const auto at = [&](std::size_t place) {
+    return fraction(attribute_type(column.component_type), component(column, row, place));
+  };
+  return {at(0), 1 - at(1)};
+}
+
 std::array<double, 3> world_normal(const Gltf_scene::Instance& instance, const std::array<double, 3>& normal)
 {
   const Matrix& m = instance.to_world;

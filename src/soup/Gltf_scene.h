@@ -233,6 +233,10 @@ double normalised(const Gltf_scene::Column& column, std::size_t row, std::size_t
 /// value.
 double fraction(Attribute::Type type, double number);
 
+/// Returns the texture coordinates in a row of a column of two components. The second one points down in
+/// glTF, up in a soup.
+std::array<double, 2> texture_coordinates(const Gltf_scene::Column& column, std::size_t row);
+
 /// Returns the direction of a normal in world space, computed by the matrix of cofactors; the normal itself
 /// where the transform neither turns nor scales.
 std::array<double, 3> world_normal(const Gltf_scene::Instance& instance, const std::array<double, 3>& normal);

@@ -4,6 +4,7 @@
 #include "Vertex_values.h"
 
 #include "Gltf_scene.h"
+#include "poles.h"
 #include "selection.h"
 #include "with_number.h"
 #include <selvedge/rounding.h>
@@ -56,6 +57,7 @@ Vertex_values::Vertex_values(const Triangle_soup& soup)
   m_own = table(m_first_of_normal + (soup.normals.empty() ? 0 : 3), columns);
   if (!soup.scene)
     return;
+  m_of_corners = scene_vertices_of_corners(soup);
   for (const Gltf_scene::Block& block : soup.scene->blocks) {
     columns.clear();
     const auto add = [&](const Gltf_scene::Column& column, std::size_t place, std::size_t target) {
@@ -121,9 +123,11 @@ Vertex_values::Table Vertex_values::table(std::size_t first, const std::vector<C
   return result;
 }
 
-Vertex_values::Row Vertex_values::scene_row(Index vertex) const
+Vertex_values::Row Vertex_values::scene_row(Index corner) const
 {
-  const Index scene_vertex = m_soup.scene_vertices[vertex];
+  const auto at_pole = m_of_corners.find(corner);
+  const Index scene_vertex =
+      at_pole == m_of_corners.end() ? m_soup.scene_vertices[vertex_of(corner)] : at_pole->second;
   const Gltf_scene::Instance& instance = m_soup.scene->instances[m_soup.scene->instance_of(scene_vertex)];
   return {&m_of_blocks[instance.block], scene_vertex - instance.first};
 }
@@ -174,7 +178,7 @@ Vertex_values::Numbers Vertex_values::numbers_of(const Share& share) const
   };
   append_columns(own_row(vertex_of(share.corner)));
   if (m_soup.scene)
-    append_columns(scene_row(vertex_of(share.corner)));
+    append_columns(scene_row(share.corner));
   return result;
 }
 
@@ -182,14 +186,14 @@ std::array<double, 2> Vertex_values::mixed_uv(const Shares& shares, const Share&
 {
   const Column* column = nullptr;
   if (m_soup.scene)
-    column = scene_row(vertex_of(own.corner)).table->find("TEXCOORD_0", 2);
+    column = scene_row(own.corner).table->find("TEXCOORD_0", 2);
   std::array<double, 2> result{};
   for (std::size_t i = 0; i < 2; ++i) {
     const auto at = [&](const Share& share) {
       if (share.numbers)
         return (*share.numbers)[(column ? column->first : 0) + i];
       if (column)
-        return number(*column, scene_row(vertex_of(share.corner)).number, i);
+        return number(*column, scene_row(share.corner).number, i);
       return m_soup.uvs.values[m_soup.uvs.of_triangle[share.corner / 3][share.corner % 3]][i];
     };
     for (const Share& share : shares)
@@ -233,7 +237,7 @@ Vertex_values::Numbers Vertex_values::mixed(const Shares& shares, const Share& o
   mix_influences([this](const Share& share) { return own_row(vertex_of(share.corner)); }, shares, own,
                  result);
   if (m_soup.scene) {
-    const auto row_of = [this](const Share& share) { return scene_row(vertex_of(share.corner)); };
+    const auto row_of = [this](const Share& share) { return scene_row(share.corner); };
     mix_influences(row_of, shares, own, result);
     const Table& table = *row_of(own).table;
     const Column* const normal = table.find("NORMAL", 3);
@@ -269,7 +273,7 @@ Vertex_values::Numbers Vertex_values::mixed(const Shares& shares, const Share& o
     std::copy(uv.begin(), uv.end(), result.begin());
   }
   if (m_soup.scene && !m_soup.normals.empty())
-    if (const Column* const column = scene_row(vertex_of(own.corner)).table->find("NORMAL", 3)) {
+    if (const Column* const column = scene_row(own.corner).table->find("NORMAL", 3)) {
       // What the accessor will hold, as its reader turns it into world space.
       std::array<double, 3> normal;
       for (std::size_t i = 0; i < 3; ++i)

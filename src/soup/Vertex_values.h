@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -101,14 +102,14 @@ private:
   static Table table(std::size_t first, const std::vector<Column>& columns);
   static bool is_mixed(const Column& column);
 
-  // Where a vertex has its rows.
+  // Where a vertex, or a corner, has its rows.
   struct Row
   {
     const Table* table;
     std::size_t number;
   };
   Row own_row(Index vertex) const { return {&m_own, vertex}; }
-  Row scene_row(Index vertex) const; // in the table of its block; the soup must have a scene
+  Row scene_row(Index corner) const; // in the table of its block; the soup must have a scene
 
   Index vertex_of(Index corner) const { return m_soup.triangles[corner / 3][corner % 3]; }
   Numbers numbers_of(const Share& share) const;
@@ -128,7 +129,8 @@ private:
   std::size_t m_first_of_normal = 0;
   bool m_are_uvs_float32 = false, m_are_normals_float32 = false;
   Table m_own;
-  std::vector<Table> m_of_blocks; // their numbers follow those of the soup
+  std::vector<Table> m_of_blocks;      // their numbers follow those of the soup
+  std::map<Index, Index> m_of_corners; // vertices of the scene, at poles
 };
 
 } // namespace selvedge

@@ -6,6 +6,7 @@
 #include "Gltf_scene.h"
 #include "flat_shading.h"
 #include "near_normals.h"
+#include "poles.h"
 #include "selection.h"
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
@@ -80,7 +81,9 @@ public:
 
   std::size_t drop()
   {
-    const std::size_t joined = share_vertices();
+    const std::vector<Index_triple> before = m_soup.triangles;
+    separate_poles(m_soup);
+    share_vertices();
     for (auto* attributes : {&m_soup.vertex_attributes, &m_soup.triangle_attributes})
       attributes->erase(
           std::remove_if(attributes->begin(), attributes->end(),
@@ -88,10 +91,12 @@ public:
           attributes->end());
     if (m_are_uvs_dropped)
       m_soup.uvs = {};
-    if (!m_soup.scene)
-      return joined;
-    drop_in_scene();
-    return joined + share_split_vertices(m_soup); // those whose normals differ in the last digits alone
+    if (m_soup.scene) {
+      drop_in_scene();
+      share_split_vertices(m_soup); // those whose normals differ in the last digits alone
+      share_poles(m_soup);
+    }
+    return corners_changed(before, m_soup.triangles);
   }
 
 private:
@@ -153,7 +158,7 @@ private:
     return result;
   }
 
-  std::size_t share_vertices()
+  void share_vertices()
   {
     const auto are_never = [](Index, Index) { return false; };
     // Several that are nearly alike are left at vertices that `share_split_vertices` has joined.
@@ -189,14 +194,12 @@ private:
       first[v] = found.first;
       is_shared[first[v]] |= found.dropped != dropped;
     }
-    std::size_t joined = 0;
     for (std::size_t t = 0; t < m_soup.triangles.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k) {
         Index& v = m_soup.triangles[t][k];
         if (first[v] == v || !is_shared[first[v]])
           continue;
         v = first[v];
-        ++joined;
         if (!uvs.empty() && uvs[v] != s_several)
           m_soup.uvs.of_triangle[t][k] = uvs[v];
         if (normals.empty() || normals[v] == s_several)
@@ -205,7 +208,6 @@ private:
         if (have_same_bits(m_soup.normals.values[normal], m_soup.normals.values[normals[v]]))
           normal = normals[v];
       }
-    return joined;
   }
 
   void append_vertex(Index v, const std::vector<Index>& uvs, const std::vector<Index>& normals,

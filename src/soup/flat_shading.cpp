@@ -5,6 +5,7 @@
 
 #include "Gltf_scene.h"
 #include "near_normals.h"
+#include "poles.h"
 #include "selection.h"
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/normals.h>
@@ -187,13 +188,8 @@ std::size_t share_vertices(Triangle_soup& soup, Sharing sharing)
     if (!bytes.targets.empty())
       found->rows.push_back(std::move(bytes));
   }
-  // What the scene alone holds then: other formats have one row for each vertex.
-  if (do_tangents_differ) {
-    auto& attributes = soup.vertex_attributes;
-    attributes.erase(std::remove_if(attributes.begin(), attributes.end(),
-                                    [](const Attribute& attribute) { return attribute.name == "TANGENT"; }),
-                     attributes.end());
-  }
+  if (do_tangents_differ)
+    leave_tangents_to_scene(soup);
   std::size_t joined = 0;
   for (std::size_t t = 0; t < soup.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -210,6 +206,23 @@ std::size_t share_vertices(Triangle_soup& soup, Sharing sharing)
 
 } // namespace
 
+void leave_tangents_to_scene(Triangle_soup& soup)
+{
+  auto& attributes = soup.vertex_attributes;
+  attributes.erase(std::remove_if(attributes.begin(), attributes.end(),
+                                  [](const Attribute& attribute) { return attribute.name == "TANGENT"; }),
+                   attributes.end());
+}
+
+std::size_t corners_changed(const std::vector<Index_triple>& before, const std::vector<Index_triple>& after)
+{
+  std::size_t result = 0;
+  for (std::size_t t = 0; t < after.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      result += before[t][k] != after[t][k];
+  return result;
+}
+
 bool have_faces_own_vertices(const Triangle_soup& soup, std::size_t used)
 {
   constexpr std::size_t few = 100;
@@ -223,7 +236,11 @@ std::size_t share_split_vertices(Triangle_soup& soup)
 
 std::size_t share_vertices_without_normals(Triangle_soup& soup, Normals_choice choice)
 {
-  return share_vertices(soup, choice == Normals_choice::loose ? Sharing::loose : Sharing::without_normals);
+  const std::vector<Index_triple> before = soup.triangles;
+  separate_poles(soup);
+  share_vertices(soup, choice == Normals_choice::loose ? Sharing::loose : Sharing::without_normals);
+  share_poles(soup);
+  return corners_changed(before, soup.triangles);
 }
 
 bool has_tangents_in_scene_only(const Triangle_soup& soup)

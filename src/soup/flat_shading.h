@@ -53,9 +53,16 @@ bool are_numbered_like_vertices(const Corner_values<dimension>& values, const Tr
 /// **Complexity** O(n) expected for n triangles and bounded numbers of such vertices at one place.
 std::size_t share_split_vertices(Triangle_soup& soup);
 
+/// Returns how many corners name another vertex after vertices were joined.
+std::size_t corners_changed(const std::vector<Index_triple>& before, const std::vector<Index_triple>& after);
+
 /// Whether every face has vertices of its own: at least 100 triangles, and twice as many vertices, of which
 /// `used` are in use.
 bool have_faces_own_vertices(const Triangle_soup& soup, std::size_t used);
+
+/// Takes the tangents out of `vertex_attributes` where vertices of different ones have become one: the scene
+/// alone holds them then, since other formats have one row for each vertex.
+void leave_tangents_to_scene(Triangle_soup& soup);
 
 /// Whether vertices that differed in their tangents are one, so that the scene alone has tangents.
 bool has_tangents_in_scene_only(const Triangle_soup& soup);

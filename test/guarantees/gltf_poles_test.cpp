@@ -1,0 +1,198 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Poles in glTF files, which hold a vertex for each pair of texture coordinates there: they are read as one
+// vertex, and each corner is written with the row that it had (G3, G4, G6).
+
+#include "support/Temporary_folder.h"
+#include "support/logged_reduction.h"
+#include "support/polar_sphere.h"
+#include "support/reduction.h"
+
+#include <selvedge/mesh_files.h>
+#include <selvedge/normals.h>
+#include <selvedge/progressive.h>
+#include <selvedge/rounding.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+
+namespace selvedge::test {
+namespace {
+
+std::string contents(const std::filesystem::path& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+Triangle_soup written_and_read(const Triangle_soup& soup)
+{
+  const Temporary_folder folder;
+  write_mesh(folder / "a.glb", soup);
+  return read_mesh(folder / "a.glb").soup;
+}
+
+/// A sphere of 1,472 triangles as a glTF file holds it, with a vertex for each of the 32 triangles at a pole.
+Triangle_soup sphere_of_gltf(Triangle_soup sphere = polar_sphere(32, 24, false))
+{
+  round_to_float32(sphere);
+  return written_and_read(sphere);
+}
+
+std::set<Index> vertices_at_poles(const Triangle_soup& soup)
+{
+  std::set<Index> result;
+  for (const Index_triple& triangle : soup.triangles)
+    for (const Index v : triangle)
+      if (is_pole(soup.points[v]))
+        result.insert(v);
+  return result;
+}
+
+bool are_facts_kept(const Triangle_soup& before, const Triangle_soup& after)
+{
+  const auto all = facts_of_corners(before), left = facts_of_corners(after);
+  return std::includes(all.begin(), all.end(), left.begin(), left.end());
+}
+
+TEST(Gltf_poles, AreOneVertexThatIsWrittenAsItWas)
+{
+  const Temporary_folder folder;
+  Triangle_soup sphere = polar_sphere(32, 24, false);
+  round_to_float32(sphere);
+  write_mesh(folder / "a.glb", sphere);
+  const Mesh_file file = read_mesh(folder / "a.glb");
+  EXPECT_EQ(vertices_at_poles(file.soup).size(), 2u);
+  EXPECT_EQ(file.soup.points.size(), 23u * 33 + 64) << "all rows of the file keep their numbers";
+  EXPECT_EQ(file.notes.remarks.size(), 1u);
+  write_mesh(folder / "b.glb", file.soup);
+  EXPECT_EQ(facts_of_corners(read_mesh(folder / "b.glb").soup), facts_of_corners(file.soup));
+  EXPECT_EQ(contents(folder / "b.glb").size(), contents(folder / "a.glb").size());
+}
+
+TEST(Gltf_poles, AreReducedAndReadBackAsTheyAreInTheResult)
+{
+  const Triangle_soup sphere = sphere_of_gltf();
+  for (const Placement placement : {Placement::vertices, Placement::optimal})
+    for (const std::size_t cell_faces : {0, 150}) {
+      Simplify_options options = to_ratio(0.15);
+      options.placement = placement;
+      options.faces_per_cell = cell_faces;
+      const Logged_reduction reduction = reduce_and_log(sphere, options);
+      const Triangle_soup& result = reduction.simplified.soup;
+      EXPECT_TRUE(reduction.simplified.report.is_reached());
+      EXPECT_LT(faces_at_poles(result), 40u);
+      EXPECT_EQ(vertices_at_poles(result).size(), 2u);
+      EXPECT_TRUE(placement == Placement::optimal || are_facts_kept(sphere, result));
+      const Triangle_soup again = written_and_read(result);
+      EXPECT_EQ(facts_of_corners(again), facts_of_corners(result));
+      EXPECT_EQ(vertices_at_poles(again).size(), 2u);
+      const Replay_verdict verdict = replay_text(sphere, reduction.log);
+      EXPECT_TRUE(verdict.is_accepted()) << verdict.violations.front().message;
+      EXPECT_TRUE(verify(reduction.simplified, prepare(sphere)).accepted());
+    }
+}
+
+// A control: fewer than two edges that differ at one end make no pole, nor do vertices that differ in more.
+TEST(Gltf_poles, AreNoneAtTheEndOfASeam)
+{
+  const auto vertices_at_centre = [](bool is_pole, bool has_colours) {
+    // Four triangles around vertex 0, across whose edges (0, 1) and, if `is_pole`, (0, 3) it has another uv.
+    Triangle_soup soup;
+    soup.points = {Point_3(0, 0, 0), Point_3(1, 0, 0), Point_3(0, 1, 0), Point_3(-1, 0, 0),
+                   Point_3(0, -1, 0)};
+    soup.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}};
+    soup.uvs.values = {{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0, 0.5}, {0.25, 0.25}};
+    soup.uvs.of_triangle = soup.triangles;
+    if (is_pole)
+      soup.uvs.of_triangle[2][0] = soup.uvs.of_triangle[3][0] = 5;
+    else // a seam from vertex 3 to vertex 0, where it ends
+      soup.uvs.of_triangle[2][1] = 5;
+    Triangle_soup read = sphere_of_gltf(soup);
+    if (has_colours) {
+      Triangle_soup coloured = read;
+      coloured.scene = nullptr;
+      coloured.scene_vertices.clear();
+      coloured.groups = {};
+      // Back to a vertex for each row of the file, with a colour of its own.
+      for (std::size_t t = 0; t < 4; ++t)
+        for (std::size_t k = 0; k < 3; ++k)
+          coloured.triangles[t][k] = coloured.uvs.of_triangle[t][k];
+      for (const char* name : {"red", "green", "blue"}) {
+        Attribute colour = {name, Attribute::Type::uint8, 1, true, {}};
+        for (std::size_t v = 0; v < coloured.points.size(); ++v)
+          colour.rows.push_back(static_cast<unsigned char>(v));
+        coloured.vertex_attributes.push_back(colour);
+      }
+      read = written_and_read(coloured);
+    }
+    return vertices_at_poles(read).size();
+  };
+  EXPECT_EQ(vertices_at_centre(true, false), 1u);
+  EXPECT_EQ(vertices_at_centre(true, true), 2u);
+  EXPECT_EQ(vertices_at_centre(false, false), 1u);
+}
+
+// A file whose normals cut the faces around a pole apart is whole again without them.
+TEST(Gltf_poles, AreWholeWithoutNormals)
+{
+  Triangle_soup sphere = polar_sphere(12, 8, false);
+  for (std::size_t t = 0; t < sphere.triangles.size(); ++t) {
+    const Index value = Index(sphere.normals.values.size());
+    const double height = CGAL::to_double(sphere.points[sphere.triangles[t][1]].y());
+    // Two halves, and a normal for each face of one of them.
+    sphere.normals.values.push_back(height > 0.01 ? std::array<double, 3>{0, 0, 1}
+                                                  : std::array<double, 3>{0, 1, double(t)});
+    sphere.normals.of_triangle.push_back({value, value, value});
+  }
+  Triangle_soup read = sphere_of_gltf(sphere);
+  const std::size_t with_normals = vertices_at_poles(read).size();
+  EXPECT_GT(with_normals, 2u);
+  EXPECT_LT(with_normals, 24u);
+  EXPECT_GT(share_vertices_without_normals(read), 0u);
+  EXPECT_EQ(vertices_at_poles(read).size(), 2u);
+  EXPECT_EQ(share_vertices_without_normals(read), 0u);
+  EXPECT_EQ(facts_of_corners(read), facts_of_corners(sphere_of_gltf(sphere)));
+}
+
+TEST(Gltf_poles, AreInEveryLevelOfAProgressiveFile)
+{
+  const Temporary_folder folder;
+  const Triangle_soup sphere = sphere_of_gltf();
+  const Prepared_soup prepared = prepare(sphere);
+  Simplify_options options = to_ratio(0.15);
+  options.is_progression_recorded = true;
+  const Simplified_soup simplified = simplify_soup(prepared, options);
+  write_progressive(folder / "a.glb", prepared.soup, simplified.progression);
+  const Progressive_mesh mesh = read_progressive(folder / "a.glb");
+  for (const std::size_t faces : {1472u, 700u, 220u}) {
+    const Triangle_soup at = level(mesh, steps_to_faces(mesh, faces));
+    EXPECT_EQ(vertices_at_poles(at).size(), 2u);
+    EXPECT_TRUE(are_facts_kept(sphere, at));
+    EXPECT_EQ(facts_of_corners(written_and_read(at)), facts_of_corners(at));
+  }
+}
+
+TEST(Gltf_poles, AreInEveryLevelOfDetailOfOneFile)
+{
+  const Temporary_folder folder;
+  const Triangle_soup sphere = sphere_of_gltf();
+  const std::vector<Simplified_soup> levels = simplify_lods(prepare(sphere), {}, {0.5, 0.15});
+  write_levels_of_detail(folder / "a.glb", {sphere, levels[0].soup, levels[1].soup});
+  for (std::size_t i = 0; i < 3; ++i) {
+    Read_options options;
+    options.level_of_detail = i;
+    const Triangle_soup read = read_mesh(folder / "a.glb", options).soup;
+    EXPECT_EQ(facts_of_corners(read), facts_of_corners(i == 0 ? sphere : levels[i - 1].soup));
+    EXPECT_EQ(vertices_at_poles(read).size(), 2u);
+  }
+}
+
+} // namespace
+} // namespace selvedge::test
