@@ -109,7 +109,7 @@ namespace selvedge {
 ///
 /// **Poles.** glTF also holds one pair of texture coordinates for each vertex, so that around a pole, as of a
 /// sphere, every face may have a vertex of its own there. Such vertices, where they differ in nothing but
-/// TEXCOORD_0, NORMAL and TANGENT, are one like those of flat normals: at least two edges lead from them to
+/// TEXCOORD_0, NORMAL and TANGENT, are one like those of flat normals: at least three edges lead from them to
 /// vertices that the faces on both sides share. `write_mesh` writes each corner to glTF with the row of the
 /// file that has its texture coordinates.
 ///

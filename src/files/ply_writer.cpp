@@ -7,6 +7,7 @@
 #include "files/formats.h"
 #include "files/ply_types.h"
 #include "soup/flat_shading.h"
+#include "soup/poles.h"
 
 #include <selvedge/Error.h>
 #include <selvedge/rounding.h>
@@ -173,6 +174,9 @@ std::vector<std::array<double, 3>> values_of_vertices(const Corner_values<3>& va
 void write_ply(Byte_writer& out, const Triangle_soup& soup, const Write_options& options)
 {
   const Ply_layout layout(soup);
+  if (layout.has_face_uvs)
+    if (const std::optional<Triangle_soup> split = with_uvs_of_vertices(soup))
+      return write_ply(out, *split, options);
   if (layout.normals.empty() && !soup.normals.empty() && !soup.normals.missing)
     return write_ply(out, split_by_normals(soup), options);
   const bool as_float32 = are_float32(soup.points, 3), float32_normals = are_float32(layout.normals, 3),

@@ -93,7 +93,7 @@ public:
   }
 
 private:
-  static constexpr Index s_least_spokes = 2; // at a pole
+  static constexpr Index s_least_spokes = 3; // at a pole, as a reduction wants them
 
   // An edge across which texture coordinates differ at one end.
   struct Spoke
@@ -409,6 +409,25 @@ std::optional<Triangle_soup> with_split_poles(const Triangle_soup& soup)
     }
     v = number->second;
   }
+  return result;
+}
+
+std::optional<Triangle_soup> with_uvs_of_vertices(const Triangle_soup& soup)
+{
+  std::optional<Triangle_soup> result = with_split_poles(soup);
+  if (!result || soup.uvs.missing)
+    return std::nullopt;
+  std::vector<char> is_known(result->points.size(), false);
+  std::vector<std::array<double, 2>> uvs(result->points.size(), {0, 0}); // of vertices
+  for (std::size_t t = 0; t < result->triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index v = result->triangles[t][k];
+      const std::array<double, 2>& uv = soup.uvs.values[soup.uvs.of_triangle[t][k]];
+      if (std::exchange(is_known[v], true) && !have_same_bits(uvs[v], uv))
+        return std::nullopt;
+      uvs[v] = uv;
+    }
+  result->uvs = {std::move(uvs), result->triangles};
   return result;
 }
 

@@ -15,7 +15,7 @@
 
 namespace selvedge {
 
-/// Makes triangles of a glTF scene share the vertices at *poles*: positions with at least two edges across
+/// Makes triangles of a glTF scene share the vertices at *poles*: positions with at least three edges across
 /// which texture coordinates differ there and at the other end, a vertex of both faces, do not. Such faces
 /// then name the first of their vertices at the pole, if these differ in nothing but texture coordinates,
 /// normals and tangents. The others are unused, vertices keep their numbers, and corners their texture
@@ -41,6 +41,11 @@ std::map<Index, Index> scene_vertices_of_corners(const Triangle_soup& soup);
 /// Returns the soup with a vertex of the scene at each corner, as far as `scene_vertices_of_corners` knows
 /// them, as writers need it; none where this is the soup itself. New vertices come last.
 std::optional<Triangle_soup> with_split_poles(const Triangle_soup& soup);
+
+/// Returns the soup with texture coordinates that are numbered like its vertices, for formats that hold them
+/// so: vertices are split as in `with_split_poles`. None where this is the soup itself, or where a vertex
+/// still has several.
+std::optional<Triangle_soup> with_uvs_of_vertices(const Triangle_soup& soup);
 
 } // namespace selvedge
 
