@@ -51,7 +51,7 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool
   header.is_rounded_to_float32 = request.prepare.round_to_float32;
   if (!request.obstacle.triangles.empty())
     header.obstacle = {request.obstacle.points.size(), request.obstacle.triangles.size(), {}};
-  Prepare_options prepare_options = request.prepare;
+  Prepare_options prepare_options = request.complete_prepare_options();
   keep_from_snapping(prepare_options, request.intent);
   m_prepared = prepare(std::move(input), prepare_options, request.obstacle);
 

@@ -162,6 +162,7 @@ Json part_ratios_json(const Request& request)
 
 void set_weld(Request& request, const std::string& value)
 {
+  request.is_weld_given = true;
   const auto word = std::find_if(seams.begin(), seams.end(), [&](const auto& s) { return s.first == value; });
   request.prepare.open_seams = word == seams.end() ? Open_seams::ignore : word->second;
   request.prepare.weld_distance = word == seams.end() ? number(value) : 0;
@@ -213,8 +214,9 @@ const std::vector<Option>& table()
        [](const Request& r) { return r.intent.weights.empty() ? Json(nullptr) : Json(r.intent.weights); }},
       {"weld", set_weld,
        [](const Request& r) {
-         return r.prepare.open_seams == Open_seams::ignore ? Json(r.prepare.weld_distance)
-                                                           : Json(word_of(seams, r.prepare.open_seams));
+         const Prepare_options prepare = r.complete_prepare_options();
+         return prepare.open_seams == Open_seams::ignore ? Json(prepare.weld_distance)
+                                                         : Json(word_of(seams, prepare.open_seams));
        }},
       {"sewn", [](Request& r, const std::string& value) { r.is_sewn = value_of(truth, value); },
        [](const Request& r) { return Json(r.is_sewn); }},
@@ -285,12 +287,31 @@ Simplify_options Reduction_request::complete_options() const
   return result;
 }
 
+Prepare_options Reduction_request::complete_prepare_options() const
+{
+  Prepare_options result = prepare;
+  if (options.loop == Collapse_loop::cgal && !is_weld_given)
+    result.open_seams = Open_seams::measure;
+  return result;
+}
+
 void Reduction_request::check() const
 {
   if (is_without_target() && intent.ratios.empty())
     throw Argument_error("say how far to reduce the mesh: give ratio, faces, error or part_ratios");
   if (is_error_everywhere && !options.max_error)
     throw Argument_error("error_everywhere: there is no limit to keep; give a number as error");
+  if (options.clearance && (prepare.open_seams == Open_seams::weld || prepare.weld_distance > 0))
+    throw Argument_error("clearance: closing gaps brings pieces nearer to each other; leave it out, or weld");
+  if (options.loop == Collapse_loop::cgal && is_weld_given && prepare.open_seams == Open_seams::hold)
+    throw Argument_error(
+        "weld: CGAL's loop collapses no two edges right after each other, as the two sides of a gap need it "
+        "to be held; leave out loop, or give another weld");
+  for (const Simplify_intent::Part_ratio& part : intent.ratios)
+    if (std::find(intent.kept.begin(), intent.kept.end(), part.name) != intent.kept.end())
+      throw Argument_error("keep: no face of '" + part.name +
+                           "' may change, so that its ratio in part_ratios can do nothing; leave out one of "
+                           "the two");
 }
 
 std::string Reduction_request::json() const

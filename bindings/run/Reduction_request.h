@@ -35,6 +35,10 @@ struct Reduction_request
   /// Returns the options for a reduction. Where only parts have ratios, all else has the ratio 1.
   Simplify_options complete_options() const;
 
+  /// Returns the options for preparing the mesh. Unless the caller says what becomes of open seams, CGAL's
+  /// loop does not hold them, which it cannot.
+  Prepare_options complete_prepare_options() const;
+
   /// Returns all options with their values, as a JSON object like `options` in the program's reports.
   std::string json() const;
 
@@ -46,6 +50,7 @@ struct Reduction_request
   bool is_log_wanted = false;
   bool is_error_given = false; ///< whether `options.max_error` is what the caller said, and no default
   bool is_error_everywhere = false;
+  bool is_weld_given = false;
   std::optional<std::size_t> threads;
 };
 

@@ -35,6 +35,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace selvedge::test {
@@ -389,6 +390,51 @@ TEST(C_interface, StaysClearOfAnObstacle)
   EXPECT_GT(pairs_with_body(false), 0u);
   for (selvedge_mesh* m : {scene, mesh, body})
     selvedge_mesh_free(m);
+}
+
+// What the program refuses, `selvedge_reduce` does not take without a word.
+TEST(C_interface, RefusesOptionsThatDoNotGoTogetherAsTheProgramDoes)
+{
+  selvedge_mesh* const mesh = selvedge_mesh_generate("seams", 1000, 1);
+  using Values = std::vector<std::pair<const char*, const char*>>;
+  const auto error = [&](const Values& values) -> std::string {
+    selvedge_options* const options = selvedge_options_new();
+    selvedge_options_set(options, "ratio", "0.5");
+    for (const auto& [name, value] : values)
+      EXPECT_EQ(selvedge_options_set(options, name, value), 0) << selvedge_last_error();
+    selvedge_result* const result = selvedge_reduce(mesh, options);
+    const std::string refusal = result ? "" : selvedge_last_error();
+    selvedge_result_free(result);
+    selvedge_options_free(options);
+    return refusal;
+  };
+  const char* const clearance = "0.001";
+  for (const char* const weld : {"0.01", "auto"})
+    EXPECT_EQ(error({{"clearance", clearance}, {"weld", weld}}).rfind("clearance: ", 0), 0u) << weld;
+  for (const char* const weld : {"0", "hold", "none"})
+    EXPECT_EQ(error({{"clearance", clearance}, {"weld", weld}}), "") << weld;
+  for (const bool is_loop_first : {false, true}) {
+    Values values = {{"loop", "cgal"}, {"weld", "hold"}};
+    if (!is_loop_first)
+      std::swap(values[0], values[1]);
+    EXPECT_EQ(error(values).rfind("weld: ", 0), 0u);
+  }
+  EXPECT_EQ(error({{"loop", "cgal"}, {"weld", "none"}}), "");
+  EXPECT_EQ(error({{"loop", "cgal"}}), "");
+  const std::string part = "left";
+  EXPECT_EQ(error({{"keep", part.c_str()}, {"part_ratios", (part + "=0.5").c_str()}}).rfind("keep: ", 0), 0u);
+  EXPECT_EQ(error({{"keep", part.c_str()}}), "");
+  selvedge_mesh_free(mesh);
+}
+
+TEST(Bindings, DoNotClaimThatTheLoopOfCgalHoldsGaps)
+{
+  bindings::Reduction_request request;
+  const auto weld = [&] { return nlohmann::json::parse(request.json())["weld"]; };
+  EXPECT_EQ(weld(), "hold");
+  request.set("loop", "cgal");
+  EXPECT_EQ(weld(), "none");
+  EXPECT_EQ(request.complete_prepare_options().open_seams, Open_seams::measure);
 }
 
 TEST(C_interface, IsDocumentedByTheExampleThatRuns)
