@@ -11,7 +11,9 @@
 #include <selvedge/Error.h>
 #include <selvedge/generate.h>
 #include <selvedge/mesh_files.h>
+#include <selvedge/references.h>
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <new>
@@ -27,6 +29,7 @@ struct selvedge_mesh
 {
   Triangle_soup soup;
   bool has_normals_of_vertices = false; // as the file has them that it was read from
+  std::filesystem::path folder = {};    // of this file; empty where there is none
 };
 
 struct selvedge_options
@@ -144,7 +147,8 @@ selvedge_mesh* selvedge_mesh_read(const char* path)
 {
   return guarded(static_cast<selvedge_mesh*>(nullptr), [&] {
     Mesh_file file = read_mesh(&required(path, "path"));
-    return new selvedge_mesh{std::move(file.soup), has_normals_of_vertices(file.format)};
+    return new selvedge_mesh{std::move(file.soup), has_normals_of_vertices(file.format),
+                             std::filesystem::absolute(path).parent_path()};
   });
 }
 
@@ -161,7 +165,15 @@ selvedge_mesh* selvedge_mesh_generate(const char* name, size_t triangles, int la
 int selvedge_mesh_write(const selvedge_mesh* mesh, const char* path)
 {
   return guarded(-1, [&] {
-    write_mesh(&required(path, "path"), required(mesh, "mesh").soup);
+    const std::filesystem::path file = &required(path, "path");
+    const selvedge_mesh& written = required(mesh, "mesh");
+    if (written.folder.empty()) {
+      write_mesh(file, written.soup);
+    } else {
+      Triangle_soup soup = written.soup;
+      relocate_references(soup, mesh_format(file), written.folder, file.parent_path());
+      write_mesh(file, soup);
+    }
     return 0;
   });
 }
@@ -241,7 +253,7 @@ selvedge_result* selvedge_reduce(const selvedge_mesh* mesh, const selvedge_optio
         {},
         {}});
     result->vertices = result->reduction.vertices();
-    result->mesh = {result->reduction.soup(), input.has_normals_of_vertices};
+    result->mesh = {result->reduction.soup(), input.has_normals_of_vertices, input.folder};
     return result.release();
   });
 }

@@ -131,7 +131,9 @@ SELVEDGE_C_API selvedge_mesh* selvedge_mesh_read(const char* path);
    there is no scene of this name, or not of this size. */
 SELVEDGE_C_API selvedge_mesh* selvedge_mesh_generate(const char* name, size_t triangles, int layers);
 
-/* Writes a file, whole or not at all. Returns 0, or -1 when it fails. */
+/* Writes a file, whole or not at all. In another folder than that of the file that the mesh was read from, or
+   the mesh that it was reduced from, it refers to the same material libraries and images. Returns 0, or -1
+   when it fails. */
 SELVEDGE_C_API int selvedge_mesh_write(const selvedge_mesh* mesh, const char* path);
 
 SELVEDGE_C_API void selvedge_mesh_free(selvedge_mesh* mesh);

@@ -13,6 +13,7 @@
 #include "support/soups.h"
 
 #include <selvedge/Error.h>
+#include <selvedge/mesh_files.h>
 #include <selvedge/rounding.h>
 #include <selvedge/verify.h>
 
@@ -29,6 +30,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -353,6 +355,31 @@ TEST(C_interface, JoinsVerticesThatDifferInNormalsThatAreDropped)
     selvedge_result_free(result);
     selvedge_options_free(options);
   }
+  selvedge_mesh_free(mesh);
+}
+
+TEST(C_interface, WritesFilesThatReferToTheSameMaterials)
+{
+  const Temporary_folder folder;
+  std::filesystem::create_directory(folder / "small");
+  std::ofstream(folder / "in.mtl") << "newmtl red\n";
+  Triangle_soup soup = sheet(8, 8);
+  soup.material_libraries = {"in.mtl"};
+  write_mesh(folder / "in.obj", soup);
+  selvedge_mesh* const mesh = selvedge_mesh_read((folder / "in.obj").string().c_str());
+  selvedge_options* const options = selvedge_options_new();
+  selvedge_options_set(options, "ratio", "0.5");
+  selvedge_result* const result = selvedge_reduce(mesh, options);
+  ASSERT_NE(result, nullptr) << selvedge_last_error();
+  for (const auto& [name, library] :
+       {std::pair("out.obj", "in.mtl"), std::pair("small/out.obj", "../in.mtl")})
+    for (const selvedge_mesh* written :
+         {static_cast<const selvedge_mesh*>(mesh), selvedge_result_mesh(result)}) {
+      ASSERT_EQ(selvedge_mesh_write(written, (folder / name).string().c_str()), 0) << selvedge_last_error();
+      EXPECT_EQ(read_mesh(folder / name).soup.material_libraries, std::vector<std::string>{library});
+    }
+  selvedge_result_free(result);
+  selvedge_options_free(options);
   selvedge_mesh_free(mesh);
 }
 
