@@ -29,7 +29,8 @@ namespace selvedge {
 /// every face has vertices of its own (at least 100 triangles, and twice as many vertices).
 ///
 /// Throws `Input_error` where the mesh has nothing of a name, and `Argument_error` for `POSITION`, `NORMAL`
-/// (`Normals_choice::drop`) and what a skin needs.
+/// (`Normals_choice::drop`), what a skin needs, and in glTF, which numbers sets from 0 without a gap, for a
+/// set such as `TEXCOORD_0` before another one that stays.
 ///
 /// **Complexity** O(n) expected for n corners and bytes of attributes.
 std::size_t drop_attributes(Triangle_soup& soup, const std::vector<std::string>& names);

@@ -129,14 +129,28 @@ private:
     const bool is_here =
         std::any_of(all.begin(), all.end(), [&](const std::string& one) { return means(name, one); }) ||
         (name == "texture" && !m_soup.uvs.empty());
-    if (is_here)
+    if (is_here) {
+      if (m_soup.scene)
+        require_sets_without_gap(name, all);
       return;
+    }
     std::string here = m_soup.uvs.empty() ? "" : "texture";
     for (const std::string& one : all)
       if (!is_needed(one))
         here += (here.empty() ? "" : ", ") + one;
     throw Input_error("the mesh has no attribute '" + name + "' to leave out; " +
                       (here.empty() ? "it has none" : "it has " + here));
+  }
+
+  // glTF numbers sets of texture coordinates, and of colours, from 0 without a gap.
+  void require_sets_without_gap(const std::string& name, const std::set<std::string>& all) const
+  {
+    for (const char* kind : {"TEXCOORD_", "COLOR_"})
+      for (const std::string& one : all)
+        if (begins_with(name, kind) && begins_with(one, kind) && !is_dropped(one) &&
+            std::make_pair(one.size(), one) > std::make_pair(name.size(), name))
+          throw Argument_error("attribute '" + name + "' cannot be left out without '" + one +
+                               "': glTF numbers sets without a gap; leave out both");
   }
 
   // Returns the number of the value that all corners of a vertex have, or the first of values that are all

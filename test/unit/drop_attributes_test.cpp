@@ -320,6 +320,21 @@ TEST_F(Attributes_of_gltf, OneSetGoesWithTheTexturesThatItPlaces)
   EXPECT_FALSE(mesh.uvs.empty());
 }
 
+TEST_F(Attributes_of_gltf, NoSetGoesBeforeALaterOne)
+{
+  try {
+    drop_attributes(mesh, {"TEXCOORD_0"});
+    ADD_FAILURE() << "a file with TEXCOORD_1 alone is no valid glTF file";
+  } catch (const Argument_error& error) {
+    EXPECT_EQ(
+        std::string(error.what()),
+        "attribute 'TEXCOORD_0' cannot be left out without 'TEXCOORD_1': glTF numbers sets without a gap; "
+        "leave out both");
+  }
+  EXPECT_EQ(attributes_in(written_without({"TEXCOORD_0", "TEXCOORD_1"})),
+            (std::set<std::string>{"POSITION", "COLOR_0"}));
+}
+
 TEST_F(Attributes_of_gltf, ColoursGo)
 {
   const Json json = written_without({"colors"});
