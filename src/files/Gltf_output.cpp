@@ -150,7 +150,7 @@ std::size_t Gltf_output::put_bytes(std::string bytes)
 void Gltf_output::write(Byte_writer& out, Mesh_format format)
 {
   if (!m_compressed_primitives.empty())
-    require(draco_extension);
+    add_extension(document, draco_extension, true);
   remove_needless_quantization(document);
   put_views();
   fill_free();
@@ -301,13 +301,6 @@ std::size_t Gltf_output::put_view(std::string bytes, Json view)
   return number;
 }
 
-// Adds a name to the lists of extensions that the document uses and requires.
-void Gltf_output::require(const char* extension)
-{
-  for (const char* key : {"extensionsUsed", "extensionsRequired"})
-    document[key].push_back(extension);
-}
-
 // Removes the free accessors and buffer views at the end, and puts the smallest valid ones where others have
 // left a number.
 void Gltf_output::fill_free()
@@ -364,7 +357,7 @@ std::string Gltf_output::put_buffer()
   if (decoded > 0) {
     document["buffers"].push_back(
         {{"byteLength", decoded}, {"extensions", {{meshopt_extension, {{"fallback", true}}}}}});
-    require(meshopt_extension);
+    add_extension(document, meshopt_extension, true);
   }
   return bytes;
 }

@@ -82,7 +82,6 @@ private:
   void interleave();
   void put_views();
   std::size_t put_view(std::string bytes, Json view = Json::object());
-  void require(const char* extension);
   void fill_free();
   std::string put_buffer();
   std::optional<Gltf_scene::Meshopt_view> compressed_view(std::size_t view) const;

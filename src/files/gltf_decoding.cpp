@@ -478,6 +478,17 @@ void remove_extension_of(Json& part, const char* name)
     part.erase("extensions");
 }
 
+void add_extension(Json& document, const std::string& name, bool is_required)
+{
+  for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
+    Json& list = document[key];
+    if (std::find(list.begin(), list.end(), name) == list.end())
+      list.push_back(name);
+    if (!is_required)
+      return;
+  }
+}
+
 void remove_extension(Json& document, const std::string& name)
 {
   for (const char* key : {"extensionsRequired", "extensionsUsed"}) {

@@ -40,6 +40,10 @@ void decode_primitives(Gltf_document& document);
 /// Removes an extension of this name from a node, a primitive or the like, if it has one.
 void remove_extension_of(Gltf_scene::Json& part, const char* name);
 
+/// Adds a name to the list of extensions that the document uses and, where it is so, to that of those that it
+/// requires, unless it is there.
+void add_extension(Gltf_scene::Json& document, const std::string& name, bool is_required);
+
 /// Removes a name from the lists of extensions that the document uses and requires.
 void remove_extension(Gltf_scene::Json& document, const std::string& name);
 

@@ -67,7 +67,7 @@ public:
         }))
       remove_extension(m_document, instancing_extension);
     if (m_has_levels)
-      m_document["extensionsUsed"].push_back(levels_extension);
+      add_extension(m_document, levels_extension, false);
   }
 
 private:

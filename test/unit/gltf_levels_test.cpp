@@ -261,6 +261,18 @@ TEST(Gltf_levels, StandBelowNodesThatDoMoreThanShowAMesh)
   }
 }
 
+TEST(Gltf_levels, StandBesideThoseOfMaterials)
+{
+  Document before = everything();
+  before.json["extensionsUsed"] = {"MSFT_lod"};
+  before.json["materials"][0]["extensions"]["MSFT_lod"]["ids"] = {1};
+  const Temporary_folder folder;
+  write_levels_of_detail(folder / "levels.glb", levels_of(read_glb(before).soup, {0.7, 0.4}));
+  const Json after = from_glb(contents(folder / "levels.glb")).json;
+  EXPECT_EQ(after["extensionsUsed"], Json({"MSFT_lod"})) << "glTF does not allow a name twice";
+  EXPECT_EQ(after["materials"], before.json["materials"]);
+}
+
 TEST(Gltf_levels, OfInstancesAreInstancesWhereAllShareThem)
 {
   const Temporary_folder folder;
