@@ -8,6 +8,7 @@
 #include "files/gltf_levels.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -32,9 +33,11 @@ bool is_of_weights(const Json& channel)
 class Node_writer
 {
 public:
-  Node_writer(Json& document, std::vector<Gltf_level> levels)
+  Node_writer(Json& document, const Gltf_scene& scene, std::vector<Gltf_level> levels)
       : m_document(document), m_levels(std::move(levels))
   {
+    for (const Gltf_scene::Part& part : scene.parts)
+      m_copies[part.mesh_of_file].insert(part.mesh);
     share_between_levels();
     number_meshes();
     for (const Json& animation : member(document, "animations"))
@@ -123,22 +126,37 @@ private:
     number_meshes_of_avatar();
   }
 
+  // Returns the meshes that stand for a mesh of the file in the finest level: several where nodes that shared
+  // it have copies that are no longer alike, and none where all its faces are gone.
+  std::set<Index> meshes_now(std::size_t mesh_of_file) const
+  {
+    const auto copies = m_copies.find(Index(mesh_of_file));
+    std::set<Index> all = {Index(mesh_of_file)}, result;
+    if (copies != m_copies.end())
+      all.insert(copies->second.begin(), copies->second.end());
+    for (const Index mesh : all)
+      if (const std::optional<Index>& now = m_levels.front().meshes[mesh])
+        result.insert(*now);
+    return result;
+  }
+
   // VRM 0 names meshes by their numbers, in expressions and for the view through the eyes; VRM 1 names nodes.
   void number_meshes_of_avatar()
   {
-    const std::vector<std::optional<Index>>& meshes = m_levels.front().meshes;
     const auto number = [&](Json& entries) {
       if (!entries.is_array())
         return;
       Json left = Json::array();
       for (Json& entry : entries) {
         const Json mesh = member(entry, "mesh");
-        const bool is_known = mesh.is_number_unsigned() && mesh.get<std::size_t>() < meshes.size();
-        if (is_known && !meshes[mesh.get<std::size_t>()])
-          continue; // all its faces are gone
-        if (is_known)
-          entry["mesh"] = *meshes[mesh.get<std::size_t>()];
-        left.push_back(std::move(entry));
+        if (!mesh.is_number_unsigned() || mesh.get<std::size_t>() >= m_levels.front().meshes.size()) {
+          left.push_back(std::move(entry));
+          continue;
+        }
+        for (const Index now : meshes_now(mesh)) {
+          entry["mesh"] = now;
+          left.push_back(entry);
+        }
       }
       entries = std::move(left);
     };
@@ -321,16 +339,16 @@ private:
 
   Json& m_document;
   std::vector<Gltf_level> m_levels;
-  std::set<Json> m_needed_nodes; // numbers of those that move, or are joints
+  std::map<Index, std::set<Index>> m_copies; // by mesh of the file: those that its places have
+  std::set<Json> m_needed_nodes;             // numbers of those that move, or are joints
   bool m_has_levels = false;
 };
 
 } // namespace
 
-void put_meshes_in_nodes(Json& document, const std::vector<Gltf_scene::Instanced_node>& instanced_nodes,
-                         std::vector<Gltf_level> levels)
+void put_meshes_in_nodes(Json& document, const Gltf_scene& scene, std::vector<Gltf_level> levels)
 {
-  Node_writer(document, std::move(levels)).put(instanced_nodes);
+  Node_writer(document, scene, std::move(levels)).put(scene.instanced_nodes);
 }
 
 } // namespace selvedge::files

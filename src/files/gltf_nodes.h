@@ -21,9 +21,9 @@ struct Gltf_level
   std::vector<std::optional<Index>> meshes;
 };
 
-/// Puts the meshes of all levels, from fine to coarse, into the nodes of the document, and removes those that
-/// no level has. Instances of EXT_mesh_gpu_instancing become nodes where they do not share their mesh any
-/// more.
+/// Puts the meshes of all levels, from fine to coarse, into the nodes of the document, which is that of the
+/// scene with the meshes written, and removes those that no level has. Instances of EXT_mesh_gpu_instancing
+/// become nodes where they do not share their mesh any more.
 ///
 /// The first level goes into the nodes of the scene. A node in which further levels differ gets the extension
 /// MSFT_lod, which names a new node outside the scene for each: a copy of the node with the mesh of the
@@ -31,9 +31,7 @@ struct Gltf_level
 /// node that does more than show its mesh (it has children, a camera or an extension, is a joint, or is
 /// moved) gets a child that shows the mesh and has the levels. An animation of the weights of morph targets
 /// moves all levels.
-void put_meshes_in_nodes(Gltf_scene::Json& document,
-                         const std::vector<Gltf_scene::Instanced_node>& instanced_nodes,
-                         std::vector<Gltf_level> levels);
+void put_meshes_in_nodes(Gltf_scene::Json& document, const Gltf_scene& scene, std::vector<Gltf_level> levels);
 
 } // namespace selvedge::files
 

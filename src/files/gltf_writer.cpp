@@ -577,7 +577,7 @@ Write_notes write_gltf(Byte_writer& out, const std::vector<const Triangle_soup*>
     put.push_back(
         Gltf_writer(*soup, all.is_scene_made, !put.empty(), is_any_order_right, coarsest, output, notes)
             .put());
-  put_meshes_in_nodes(output.document, scene.instanced_nodes, std::move(put));
+  put_meshes_in_nodes(output.document, scene, std::move(put));
   output.write(out, format);
   return notes.empty() ? scene.compact : notes;
 }

@@ -269,6 +269,32 @@ TEST(Gltf, AvatarsAreReducedUnderTheirOwnNames)
   }
 }
 
+// VRM 0 says of meshes what holds for every node that shows them.
+TEST(Gltf, CopiesOfAMeshHaveTheExpressionsThatItHad)
+{
+  const Temporary_folder folder;
+  Document before = everything();
+  Json& avatar = before.json["extensions"]["VRM"];
+  avatar["firstPerson"]["meshAnnotations"] = {{{"mesh", 0}, {"firstPersonFlag", "Auto"}}};
+  avatar["blendShapeMaster"]["blendShapeGroups"] = {
+      {{"name", "A"}, {"binds", {{{"mesh", 0}, {"index", 0}, {"weight", 100}}}}}};
+  for (const Instances instances : {Instances::shared, Instances::apart}) {
+    write_mesh(folder / "a.glb", reduce(read_glb(before).soup, 0.4, Placement::vertices, instances).soup);
+    const Json after = from_glb(contents(folder / "a.glb")).json;
+    std::set<Json> shown = {after["nodes"][1]["mesh"], after["nodes"][2]["mesh"]}, bound, annotated;
+    ASSERT_EQ(shown.size(), instances == Instances::shared ? 1u : 2u);
+    const Json& now = after["extensions"]["VRM"];
+    for (const Json& bind : now["blendShapeMaster"]["blendShapeGroups"][0]["binds"]) {
+      EXPECT_EQ(bind["weight"], 100);
+      EXPECT_TRUE(bound.insert(bind["mesh"]).second);
+    }
+    for (const Json& annotation : now["firstPerson"]["meshAnnotations"])
+      EXPECT_TRUE(annotated.insert(annotation["mesh"]).second);
+    EXPECT_EQ(bound, shown);
+    EXPECT_EQ(annotated, shown);
+  }
+}
+
 TEST(Gltf, NothingElseIsWrittenUnderTheNameOfAnAvatar)
 {
   const Temporary_folder folder;
