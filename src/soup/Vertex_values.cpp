@@ -86,6 +86,9 @@ bool Vertex_values::is_mixed(const Column& column)
 {
   if (begins_with(column.name, "JOINTS_") || begins_with(column.name, "WEIGHTS_"))
     return false;
+  // Numbers of EXT_mesh_features, or of its predecessors, stand for nothing between them, floats or not.
+  if (begins_with(column.name, "_FEATURE_ID_") || column.name == "_BATCHID")
+    return false;
   const bool is_float = column.type == Attribute::Type::float32 || column.type == Attribute::Type::float64;
   return is_float || column.is_normalized || begins_with(column.name, "TEXCOORD_") || column.target != s_none;
 }

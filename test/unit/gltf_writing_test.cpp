@@ -295,6 +295,28 @@ TEST(Gltf, CopiesOfAMeshHaveTheExpressionsThatItHad)
   }
 }
 
+TEST(Gltf, NumbersOfFeaturesAreNotMixedAtNewPlaces)
+{
+  const Temporary_folder folder;
+  for (const char* const name : {"_FEATURE_ID_0", "_BATCHID", "_ID"}) {
+    Document before = everything();
+    for (Json& primitive : before.json["meshes"][0]["primitives"]) {
+      primitive["attributes"][name] = primitive["attributes"]["_ID"];
+      if (name != std::string("_ID"))
+        primitive["attributes"].erase("_ID");
+    }
+    const Simplified_soup reduced = reduce(read_glb(before).soup, 0.4, Placement::optimal, Instances::apart);
+    ASSERT_GT(reduced.placed_vertices, 0u);
+    write_mesh(folder / "a.glb", reduced.soup);
+    const Document after = from_glb(contents(folder / "a.glb"));
+    std::size_t between = 0;
+    for (const std::string& row :
+         rows_of(after, after.json["meshes"][0]["primitives"][0]["attributes"][name]))
+      between += get<float>(row, 0) != std::floor(get<float>(row, 0));
+    EXPECT_EQ(between > 0, name == std::string("_ID")) << name << ": " << between;
+  }
+}
+
 TEST(Gltf, NothingElseIsWrittenUnderTheNameOfAnAvatar)
 {
   const Temporary_folder folder;
