@@ -14,6 +14,7 @@
 #include <selvedge/Error.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -213,9 +214,55 @@ private:
       }
       is_taken[mesh] = true;
       add_place(place, mesh, own);
+      forget_numberings(mesh, own);
     }
+    for (const char* const extension : s_numberings)
+      if (!is_in_meshes(extension))
+        remove_extension(json(), extension);
     for (const Gltf_scene::Instanced_node& node : m_scene->instanced_nodes)
       json()["nodes"][node.node]["mesh"] = node.instances.front()["mesh"];
+  }
+
+  /// Extensions that name the vertices or triangles of a mesh by numbers, or depend on their order.
+  static constexpr std::array<const char*, 4> s_numberings = {"CESIUM_primitive_outline", "EXT_mesh_manifold",
+                                                              "EXT_mesh_primitive_edge_visibility",
+                                                              "FB_ngon_encoding"};
+
+  static bool has_extension(const Json& part, const char* extension)
+  {
+    return member(part, "extensions").is_object() && member(part, "extensions").contains(extension);
+  }
+
+  // Whether a mesh, or a primitive of one, has an extension.
+  bool is_in_meshes(const char* extension)
+  {
+    const auto has = [extension](const Json& part) { return has_extension(part, extension); };
+    const Json& meshes = member(json(), "meshes");
+    return std::any_of(meshes.begin(), meshes.end(), [&](const Json& mesh) {
+      const Json& primitives = member(mesh, "primitives");
+      return has(mesh) || std::any_of(primitives.begin(), primitives.end(), has);
+    });
+  }
+
+  // Drops these extensions where they are of triangles to be reduced, whose vertices get other numbers.
+  void forget_numberings(Index mesh, Index own)
+  {
+    const std::vector<tinygltf::Primitive>& primitives = model().meshes[mesh].primitives;
+    bool is_any_reducible = false;
+    const auto forget = [this](Json& part) {
+      for (const char* const extension : s_numberings)
+        if (has_extension(part, extension)) {
+          remove_extension_of(part, extension);
+          ++m_file.notes.ignored[std::string("numbers of vertices or triangles (") + extension + ")"];
+        }
+    };
+    for (std::size_t p = 0; p < primitives.size(); ++p)
+      if (is_reducible(primitives[p])) {
+        is_any_reducible = true;
+        forget(json()["meshes"][own]["primitives"][p]);
+      }
+    if (is_any_reducible)
+      forget(json()["meshes"][own]);
   }
 
   // Finds meshes that have the same accessors, as those do that differ only in their materials. Primitives of

@@ -317,6 +317,32 @@ TEST(Gltf, NumbersOfFeaturesAreNotMixedAtNewPlaces)
   }
 }
 
+TEST(Gltf, ExtensionsThatNumberVerticesAreDroppedAndNamed)
+{
+  const Temporary_folder folder;
+  Document before = everything();
+  Json& json = before.json;
+  json["extensionsUsed"] = {"CESIUM_primitive_outline", "EXT_mesh_manifold", "FB_ngon_encoding",
+                            "KHR_materials_variants"};
+  Json& coat = json["meshes"][0];
+  coat["extensions"]["EXT_mesh_manifold"]["manifoldPrimitive"]["indices"] = coat["primitives"][0]["indices"];
+  Json& extensions = coat["primitives"][1]["extensions"];
+  extensions["KHR_materials_variants"]["mappings"] = {{{"material", 0}, {"variants", {0}}}};
+  const Json kept = extensions;
+  extensions["CESIUM_primitive_outline"]["indices"] = coat["primitives"][1]["indices"];
+  // What is not reduced keeps what it has.
+  json["meshes"][2]["extensions"]["FB_ngon_encoding"] = Json::object();
+  const Mesh_file file = read_glb(before);
+  EXPECT_EQ(file.notes.ignored.at("numbers of vertices or triangles (EXT_mesh_manifold)"), 1u);
+  EXPECT_EQ(file.notes.ignored.at("numbers of vertices or triangles (CESIUM_primitive_outline)"), 1u);
+  write_mesh(folder / "a.glb", file.soup);
+  const Json after = from_glb(contents(folder / "a.glb")).json;
+  EXPECT_EQ(after["extensionsUsed"], Json({"FB_ngon_encoding", "KHR_materials_variants"}));
+  EXPECT_FALSE(after["meshes"][0].contains("extensions"));
+  EXPECT_EQ(after["meshes"][0]["primitives"][1]["extensions"], kept);
+  EXPECT_EQ(after["meshes"][2], json["meshes"][2]);
+}
+
 TEST(Gltf, NothingElseIsWrittenUnderTheNameOfAnAvatar)
 {
   const Temporary_folder folder;
