@@ -3,6 +3,7 @@
 
 #include "vertex_weights.h"
 
+#include "Gltf_scene.h"
 #include "selection.h"
 #include "with_number.h"
 
@@ -31,6 +32,10 @@ std::vector<double> vertex_weights(const Triangle_soup& soup, const std::string&
   const auto found = std::find_if(soup.vertex_attributes.begin(), soup.vertex_attributes.end(),
                                   [&](const Attribute& attribute) { return attribute.name == name; });
   if (found == soup.vertex_attributes.end()) {
+    const bool is_colour = name == "red" || name == "green" || name == "blue" || name == "alpha";
+    for (const std::string& lost : soup.scene ? soup.scene->only_in_gltf : std::vector<std::string>())
+      if (begins_with(lost, ((is_colour ? "COLOR_0" : name) + ", which ").c_str()))
+        throw Argument_error("attribute " + lost + ", cannot weigh vertices");
     std::string known;
     for (const Attribute& attribute : soup.vertex_attributes)
       known += (known.empty() ? "" : ", ") + attribute.name;

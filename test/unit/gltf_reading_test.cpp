@@ -10,6 +10,7 @@
 #include <selvedge/Error.h>
 #include <selvedge/Parts.h>
 #include <selvedge/mesh_files.h>
+#include <selvedge/simplify.h>
 
 #include <gtest/gtest.h>
 
@@ -20,6 +21,7 @@
 #include <random>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace selvedge::test {
@@ -113,6 +115,26 @@ TEST(Gltf, NodesNameAllTheirPrimitives)
     EXPECT_THROW(named(name), Argument_error) << name;
   soup.scene = nullptr;
   EXPECT_THROW(named("left"), Argument_error) << "slashes in other files mean nothing";
+}
+
+TEST(Gltf, WhatNotEveryVertexHasIsNamedWhereItIsToWeigh)
+{
+  const Prepared_soup prepared = prepare(read_glb(everything()).soup);
+  Simplify_options options;
+  options.ratio = 0.5;
+  Simplify_intent intent;
+  for (const auto& [name, attribute] : {std::pair("red", "COLOR_0"), std::pair("TEXCOORD_1", "TEXCOORD_1")}) {
+    intent.weights = name;
+    try {
+      simplify_soup(prepared, options, intent);
+      ADD_FAILURE() << name;
+    } catch (const Argument_error& error) {
+      EXPECT_EQ(error.what(), "attribute " + std::string(attribute) +
+                                  ", which not every vertex has, cannot weigh vertices");
+    }
+  }
+  intent.weights = "_ID";
+  EXPECT_NO_THROW(simplify_soup(prepared, options, intent)) << "the control";
 }
 
 TEST(Gltf, LayersInDifferentNodesSeeEachOther)
