@@ -98,7 +98,8 @@ struct Gaps
 ///
 /// A *combination* is a position and a value of the attribute there; for smoothing groups and for attributes
 /// of triangles it is a value alone. The combinations of the result are looked up among those of the
-/// original, bit for bit. In positions, texture coordinates and normals, −0 is 0.
+/// original, bit for bit. In positions, texture coordinates and normals, −0 is 0. Where the result is a glTF
+/// scene and the original is none, texture coordinates are compared as glTF stores them, in 32-bit floats.
 struct Kept_attribute
 {
   /// "uv", "normal", "group", "object", "material", "smoothing group", or the name in the file.
@@ -174,10 +175,10 @@ struct Layer_order
   std::size_t without_order = 0; ///< swaps that `leave_out_without_order` has left out
 };
 
-/// Leaves out the swaps of layers that have no order: where the same two pieces of the original intersect near
-/// both triangles of the result, no farther from the box of each than its longest side and the reach of a line
-/// together. There, either may come to lie on either side. `pairs_of_original` are the `offending_pairs` of
-/// the original.
+/// Leaves out the swaps of layers that have no order: where the same two pieces of the original intersect
+/// near both triangles of the result, no farther from the box of each than its longest side and the reach of
+/// a line together. There, either may come to lie on either side. `pairs_of_original` are the
+/// `offending_pairs` of the original.
 ///
 /// **Complexity** O(n + p log p + s p) for n triangles, p pairs and s swaps.
 void leave_out_without_order(Layer_order& layers, const Triangle_soup& result, const Triangle_soup& original,

@@ -6,6 +6,7 @@
 #include "positions.h"
 
 #include <selvedge/Cancellation_scope.h>
+#include <selvedge/rounding.h>
 
 #include <algorithm>
 #include <cstring>
@@ -62,10 +63,10 @@ std::string row(const Attribute& attribute, Index number, std::size_t rows)
   return bytes.append(reinterpret_cast<const char*>(attribute.rows.data()) + size * number, size);
 }
 
-std::vector<Column> columns_of(const Triangle_soup& soup)
+std::vector<Column> columns_of(const Triangle_soup& soup, const Corner_values<2>& uvs)
 {
   std::vector<Column> columns;
-  add_column(columns, "uv", soup.uvs);
+  add_column(columns, "uv", uvs);
   add_column(columns, "normal", soup.normals);
   add_column(columns, "group", soup.groups, true);
   add_column(columns, "object", soup.objects, true);
@@ -80,6 +81,16 @@ std::vector<Column> columns_of(const Triangle_soup& soup)
                          return row(attribute, triangle, soup.triangles.size());
                        }});
   return columns;
+}
+
+// Returns texture coordinates as glTF files store them: 32-bit floats, of which v runs the other way.
+Corner_values<2> stored_in_gltf(Corner_values<2> uvs)
+{
+  for (auto& [u, v] : uvs.values) {
+    u = nearest_float32(u);
+    v = nearest_float32(1 - v);
+  }
+  return uvs;
 }
 
 /// Pairs of a position and a value, both as numbers, sorted and without duplicates.
@@ -144,8 +155,14 @@ void compare_values(Comparison& comparison, const Triangle_soup& result, const T
   comparison.vertices = after.size();
   comparison.original_vertices = common(after, before);
 
-  const std::vector<Column> columns = columns_of(result);
-  for (const Column& column : columns_of(original)) {
+  // What a glTF file could not but round is no change.
+  const bool is_only_result_gltf = result.scene && !original.scene;
+  const auto uvs_of = [&](const Triangle_soup& soup) {
+    return is_only_result_gltf ? stored_in_gltf(soup.uvs) : Corner_values<2>();
+  };
+  const Corner_values<2> stored = uvs_of(result), stored_of_original = uvs_of(original);
+  const std::vector<Column> columns = columns_of(result, is_only_result_gltf ? stored : result.uvs);
+  for (const Column& column : columns_of(original, is_only_result_gltf ? stored_of_original : original.uvs)) {
     const auto same = std::find_if(columns.begin(), columns.end(), [&](const Column& other) {
       return other.name == column.name && other.is_by_position == column.is_by_position;
     });

@@ -3,8 +3,11 @@
 
 #include <selvedge/compare.h>
 
+#include "support/Temporary_folder.h"
 #include "support/soups.h"
 #include "verify/Covering.h"
+
+#include <selvedge/mesh_files.h>
 
 #include <gtest/gtest.h>
 
@@ -446,6 +449,24 @@ TEST(Kept, ValuesAtNewPlacesAreCountedApart)
     EXPECT_EQ(attribute.at_new_places, attribute.name == "group" ? 2u : 1u) << attribute.name;
     EXPECT_EQ(wrong, attribute.name == "uv" ? 1u : 0u) << attribute.name;
   }
+}
+
+TEST(Kept, TextureCoordinatesAreComparedAsGltfStoresThem)
+{
+  Triangle_soup original = sheet(2, 2);
+  original.uvs.of_triangle = original.triangles;
+  for (std::size_t v = 0; v < original.points.size(); ++v)
+    original.uvs.values.push_back({double(v) / 7, 1 / (double(v) + 3)});
+  const Temporary_folder folder;
+  write_mesh(folder / "a.glb", original);
+  Triangle_soup result = read_mesh(folder / "a.glb").soup;
+  EXPECT_EQ(kept(compare(result, original), "uv"), Counts(9, 9));
+  result.uvs.values[3][1] += 1e-6;
+  EXPECT_EQ(kept(compare(result, original), "uv"), Counts(8, 9));
+  // Between files of other formats nothing is rounded.
+  result = original;
+  result.uvs.values[3][0] = float(result.uvs.values[3][0]);
+  EXPECT_EQ(kept(compare(result, original), "uv"), Counts(8, 9));
 }
 
 TEST(Kept, LostAttributesAreNamed)
