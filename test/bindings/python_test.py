@@ -111,6 +111,19 @@ class Simplify(unittest.TestCase):
         self.assertIn("obstacle", [part["key"] for part in selvedge.replay(*own, clear).report["terms"]["not_judged"]])
         self.assertFalse(selvedge.replay(*own, selvedge.simplify(*own, ratio=0.1, log=True).log, obstacle=body))
 
+    def test_parts_come_in_any_container_and_other_options_alone(self):
+        mesh = layers(500, 2)
+        half = len(mesh.triangles) // 2
+        groups = ["low"] * half + ["high"] * (len(mesh.triangles) - half)
+        for parts in (["low"], ("low",), {"low"}, frozenset({"low"}), np.array(["low"])):
+            self.assertEqual(selvedge.simplify(*mesh, groups=groups, keep=parts, ratio=0.5).report["options"]["keep"], ["low"])
+        for ratio in ([0.5, 0.3], np.array([0.5])):
+            with self.assertRaisesRegex(selvedge.ArgumentError, "ratio takes one value"):
+                selvedge.simplify(*mesh, ratio=ratio)
+        self.assertEqual(selvedge.simplify(*mesh, ratio=np.array(0.5)).report["options"]["ratio"], 0.5)
+        with self.assertRaisesRegex(selvedge.ArgumentError, "poses is not an array of shape"):
+            selvedge.simplify(*mesh, ratio=0.5, poses=mesh.points)
+
     def test_locked_vertices_are_numbers_or_a_mask(self):
         mesh = layers(500)
         count = len(mesh.points)

@@ -115,7 +115,7 @@ def simplify(points, triangles, *, poses=None, obstacle=None, groups=None, weigh
                            [] if lock_vertices is None else _vertex_numbers(lock_vertices, len(points)),
                            None if weights is None else _weights(weights, len(points)),
                            None if obstacle is None else _mesh(obstacle, "obstacle"),
-                           [] if poses is None else [_points(pose) for pose in poses],
+                           [] if poses is None else _poses(poses),
                            None if progress is None else lambda *counts: bool(progress(*counts)))
     return Result(run, triangle_array.dtype)
 
@@ -164,6 +164,13 @@ def _mesh(mesh, name):
 
 def _points(points):
     return _np.ascontiguousarray(points, dtype=_np.float64)
+
+
+def _poses(poses):
+    poses = [_points(pose) for pose in poses]
+    if any(pose.ndim != 2 for pose in poses):
+        raise ArgumentError("poses is not an array of shape (poses, n, 3); for one pose, give [pose]")
+    return poses
 
 
 def _triangles(triangles):
@@ -232,6 +239,8 @@ def _texts(name, value):
         return [(name, "none")] if name == "error" else []
     if isinstance(value, dict):
         return [(name, f"{part}={_text(ratio)}") for part, ratio in value.items()]
-    if isinstance(value, (list, tuple)):
+    if isinstance(value, (list, tuple, set, frozenset)) or getattr(value, "ndim", 0) > 0:
+        if name not in ("lock", "keep", "may_intersect", "part_ratios"):
+            raise ArgumentError(f"{name} takes one value, and not several")
         return [(name, _text(part)) for part in value]
     return [(name, _text(value))]
