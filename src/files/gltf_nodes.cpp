@@ -24,6 +24,15 @@ const Json& node_of(const Json& channel)
   return member(member(channel, "target"), "node");
 }
 
+const Json::json_pointer s_pointer("/target/extensions/KHR_animation_pointer/pointer");
+
+// Returns the pointer to what a channel animates; empty when it has none.
+std::string pointer_of(const Json& channel)
+{
+  return channel.contains(s_pointer) && channel[s_pointer].is_string() ? channel[s_pointer].get<std::string>()
+                                                                       : "";
+}
+
 bool is_of_weights(const Json& channel)
 {
   return member(member(channel, "target"), "path") == "weights";
@@ -124,19 +133,21 @@ private:
         if (mesh)
           mesh = numbers[*mesh];
     number_meshes_of_avatar();
+    number_meshes_of_pointers();
   }
 
-  // Returns the meshes that stand for a mesh of the file in the finest level: several where nodes that shared
-  // it have copies that are no longer alike, and none where all its faces are gone.
-  std::set<Index> meshes_now(std::size_t mesh_of_file) const
+  // Returns the meshes that stand for a mesh of the file in the finest levels, so many: several where nodes
+  // that shared it have copies that are no longer alike, and none where all its faces are gone.
+  std::set<Index> meshes_now(std::size_t mesh_of_file, std::size_t levels) const
   {
     const auto copies = m_copies.find(Index(mesh_of_file));
     std::set<Index> all = {Index(mesh_of_file)}, result;
     if (copies != m_copies.end())
       all.insert(copies->second.begin(), copies->second.end());
-    for (const Index mesh : all)
-      if (const std::optional<Index>& now = m_levels.front().meshes[mesh])
-        result.insert(*now);
+    for (std::size_t level = 0; level < levels; ++level)
+      for (const Index mesh : all)
+        if (const std::optional<Index>& now = m_levels[level].meshes[mesh])
+          result.insert(*now);
     return result;
   }
 
@@ -153,7 +164,7 @@ private:
           left.push_back(std::move(entry));
           continue;
         }
-        for (const Index now : meshes_now(mesh)) {
+        for (const Index now : meshes_now(mesh, 1)) {
           entry["mesh"] = now;
           left.push_back(entry);
         }
@@ -168,6 +179,48 @@ private:
       for (Json& group : m_document[groups])
         if (group.contains("binds"))
           number(group["binds"]);
+  }
+
+  // Animations by pointers name meshes by their numbers, too: "/meshes/3/weights".
+  void number_meshes_of_pointers()
+  {
+    struct Pointed
+    {
+      std::set<Index> meshes;
+      std::string rest;
+    };
+    const auto pointed_by = [this](const Json& channel) -> std::optional<Pointed> {
+      const std::string start = "/meshes/", text = pointer_of(channel);
+      const std::size_t end = text.find_first_not_of("0123456789", start.size());
+      constexpr std::size_t most_digits = 9; // those of any number of meshes
+      if (text.compare(0, start.size(), start) != 0 || end == start.size() || end == text.npos ||
+          end - start.size() > most_digits)
+        return std::nullopt;
+      const std::size_t mesh = std::stoul(text.substr(start.size(), end - start.size()));
+      if (mesh >= m_levels.front().meshes.size())
+        return std::nullopt;
+      return Pointed{meshes_now(mesh, m_levels.size()), text.substr(end)};
+    };
+    drop_channels(m_document, [&](const Json& channel) {
+      const std::optional<Pointed> pointed = pointed_by(channel);
+      return pointed && pointed->meshes.empty();
+    });
+    for (Json& animation : list("animations")) {
+      const Json before = member(animation, "channels");
+      if (std::none_of(before.begin(), before.end(), pointed_by))
+        continue;
+      Json channels = Json::array();
+      for (Json channel : before)
+        if (const std::optional<Pointed> pointed = pointed_by(channel)) {
+          for (const Index mesh : pointed->meshes) {
+            channel[s_pointer] = "/meshes/" + std::to_string(mesh) + pointed->rest;
+            channels.push_back(channel);
+          }
+        } else {
+          channels.push_back(channel);
+        }
+      animation["channels"] = std::move(channels);
+    }
   }
 
   static void set_mesh(Json& node, const std::optional<Index>& mesh)
@@ -319,13 +372,11 @@ private:
           if (expression.is_object() && expression.contains("morphTargetBinds"))
             follow(expression["morphTargetBinds"]);
     }
-    const Json::json_pointer pointer("/target/extensions/KHR_animation_pointer/pointer");
     const std::string before = "/nodes/" + std::to_string(from) + "/weights";
     for (Json& animation : list("animations"))
       for (Json& channel : animation["channels"])
-        if (channel.contains(pointer) && channel[pointer].is_string())
-          if (const std::string text = channel[pointer]; text.compare(0, before.size(), before) == 0)
-            channel[pointer] = "/nodes/" + std::to_string(to) + "/weights" + text.substr(before.size());
+        if (const std::string text = pointer_of(channel); text.compare(0, before.size(), before) == 0)
+          channel[s_pointer] = "/nodes/" + std::to_string(to) + "/weights" + text.substr(before.size());
   }
 
   // Returns a list of the document; an empty one when it is not there.

@@ -295,6 +295,47 @@ TEST(Gltf, CopiesOfAMeshHaveTheExpressionsThatItHad)
   }
 }
 
+TEST(Gltf, AnimationsByPointersFollowTheirMeshes)
+{
+  const Temporary_folder folder;
+  Document before = everything();
+  before.json["extensionsUsed"] = {"KHR_animation_pointer"};
+  const auto pointing = [](const std::string& pointer) {
+    Json channel = {{"sampler", 0}, {"target", {{"path", "pointer"}}}};
+    channel["target"]["extensions"]["KHR_animation_pointer"]["pointer"] = pointer;
+    return channel;
+  };
+  Json& channels = before.json["animations"][0]["channels"];
+  const Json first = channels[0];
+  for (const char* pointer : {"/meshes/2/weights/0", "/meshes/0/weights", "/meshes/1/weights",
+                              "/materials/0/emissiveFactor", "/meshes/", "/meshes/x/weights"})
+    channels.push_back(pointing(pointer));
+  const Triangle_soup soup = read_glb(before).soup;
+  const auto channels_of = [&](const Triangle_soup& written) {
+    write_mesh(folder / "a.glb", written);
+    return from_glb(contents(folder / "a.glb")).json["animations"][0]["channels"];
+  };
+  EXPECT_EQ(channels_of(soup), channels) << "the control";
+  Json expected = channels;
+  expected.insert(expected.begin() + 3, pointing("/meshes/3/weights")); // the copy in another node
+  EXPECT_EQ(channels_of(reduce(soup, 0.4, Placement::vertices, Instances::apart).soup), expected);
+  // Without the arm, the points move up.
+  std::vector<Index> triangles;
+  std::vector<Index_triple> corners;
+  for (Index t = 0; t < soup.triangles.size(); ++t)
+    if (soup.groups.of_triangle[t] == 0) {
+      triangles.push_back(t);
+      corners.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    }
+  expected = {first,
+              pointing("/meshes/1/weights/0"),
+              pointing("/meshes/0/weights"),
+              pointing("/materials/0/emissiveFactor"),
+              pointing("/meshes/"),
+              pointing("/meshes/x/weights")};
+  EXPECT_EQ(channels_of(selected(soup, triangles, corners)), expected);
+}
+
 TEST(Gltf, NumbersOfFeaturesAreNotMixedAtNewPlaces)
 {
   const Temporary_folder folder;
