@@ -325,7 +325,8 @@ void add_options(CLI::App& command, Simplify_request& request)
       "--normal-weight", options.normal_weight,
       "The same for the turn of normals that are kept. More keeps the shading truer, and the shape less "
       "so.");
-  add_weight("--border-weight", options.cost.border_weight, "Weight of borders in the cost.");
+  add_weight("--border-weight", options.cost.border_weight,
+             "Weight of borders, and of edges over which the surface folds, in the cost.");
 
   const char* const conduct = "Conduct";
   command

@@ -102,7 +102,7 @@ TEST(Clearance_of_pieces, IsKeptInEveryPose)
 
 TEST(Clearance_of_pieces, IsKeptFromAnObstacle)
 {
-  const Triangle_soup sheet = wavy_sheet(500), below = moved(sheet, 0, 0, -layer_gap);
+  const Triangle_soup sheet = wavy_sheet(1000), below = moved(sheet, 0, 0, -layer_gap);
   const auto result_of = [&](const Simplify_options& options) {
     const Prepared_soup prepared = prepare(sheet, {}, below);
     Simplified_soup result = simplify_soup(prepared, options);

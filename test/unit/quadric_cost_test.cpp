@@ -8,6 +8,7 @@
 #include "support/meshes.h"
 #include "support/soups.h"
 
+#include <selvedge/Surface_mesh_simplification/Halfedge_placement.h>
 #include <selvedge/Surface_mesh_simplification/Optimal_placement.h>
 #include <selvedge/Surface_mesh_simplification/Quadric_cost.h>
 #include <selvedge/Surface_mesh_simplification/edge_collapse.h>
@@ -343,6 +344,84 @@ TEST(QuadricCost, GivesSmallFacesMoreThanTheirShareOfTheArea)
   const double fine = Peak(0.01).cost_of(Peak::peak, Peak::peak + 1);
   EXPECT_GT(fine, 1e-6 * coarse);
   EXPECT_LT(fine, 1e-4 * coarse);
+}
+
+/// A round sheet of `rings` rings of 48 faces on each side: two layers, joined at the rim without thickness,
+/// that rise from there to this height above and below their middle. Its first 48 vertices are the rim.
+Triangle_soup round_sheet_folded_at_its_rim(Index rings, double height)
+{
+  constexpr Index sectors = 48;
+  Triangle_soup result;
+  const auto add_ring = [&](double radius, double z) {
+    for (Index i = 0; i < sectors; ++i) {
+      const double angle = 2 * CGAL_PI * double(i) / sectors;
+      result.points.push_back(Point_3(radius * std::cos(angle), radius * std::sin(angle), z));
+    }
+    return Index(result.points.size() - sectors);
+  };
+  add_ring(1, 0);
+  for (const double side : {1, -1}) {
+    const auto add = [&](Index a, Index b, Index c) {
+      result.triangles.push_back(side > 0 ? Index_triple{a, b, c} : Index_triple{b, a, c});
+    };
+    Index outer = 0;
+    for (Index ring = 1; ring < rings; ++ring) {
+      const double share = double(ring) / double(rings);
+      const Index inner = add_ring(1 - share, side * height * share);
+      for (Index i = 0; i < sectors; ++i) {
+        const Index next = (i + 1) % sectors;
+        add(outer + i, outer + next, inner + next);
+        add(outer + i, inner + next, inner + i);
+      }
+      outer = inner;
+    }
+    result.points.push_back(Point_3(0, 0, side * height));
+    for (Index i = 0; i < sectors; ++i)
+      add(outer + i, outer + (i + 1) % sectors, Index(result.points.size() - 1));
+  }
+  return result;
+}
+
+double cost_at_rim(const Triangle_soup& soup)
+{
+  Mesh mesh = mesh_of(soup);
+  const Kernel traits;
+  const auto points = get(CGAL::vertex_point, mesh);
+  const Quadric_cost<Mesh> cost(mesh);
+  cost.initialize(mesh, points, traits);
+  const auto moving = mesh.halfedge(Vertex(0), Vertex(1));
+  return *cost.cost_along(Edge_profile(moving, mesh, points, traits), moving);
+}
+
+TEST(QuadricCost, HoldsAFoldAsItHoldsABorder)
+{
+  Triangle_soup folded = round_sheet_folded_at_its_rim(1, 1e-3), cut = folded;
+  cut.points.pop_back(); // the middle of the lower layer, whose faces are the second half
+  cut.triangles.resize(cut.triangles.size() / 2);
+  const double of_fold = cost_at_rim(folded), of_border = cost_at_rim(cut);
+  EXPECT_GT(of_fold, 0.9 * of_border);
+  EXPECT_LT(of_fold, 1.1 * of_border);
+}
+
+TEST(QuadricCost, KeepsTheOutlineOfAFoldedSheet)
+{
+  Mesh mesh = mesh_of(round_sheet_folded_at_its_rim(12, 0.02));
+  const auto area_from_above = [&] {
+    double sum = 0;
+    for (const auto face : mesh.faces()) {
+      const auto h = mesh.halfedge(face);
+      const Point_3 &a = mesh.point(mesh.source(h)), &b = mesh.point(mesh.target(h)),
+                    &c = mesh.point(mesh.target(mesh.next(h)));
+      sum += 0.5 * (std::max)(0.0, CGAL::cross_product(b - a, c - a).z());
+    }
+    return sum;
+  };
+  const double before = area_from_above();
+  const Quadric_cost<Mesh> cost(mesh);
+  const Halfedge_placement<Mesh, Quadric_cost<Mesh>> placement(cost);
+  selvedge::edge_collapse(mesh, Edge_ratio_stop(0.1),
+                          CGAL::parameters::get_cost(cost).get_placement(placement));
+  EXPECT_GT(area_from_above(), 0.999 * before);
 }
 
 } // namespace

@@ -45,8 +45,9 @@ struct No_line_map
 
 /// Computes the cost of a collapse from two quadrics at each vertex: one of the mesh as it is, and one that
 /// has accumulated since the original. Each sums the squared distances to the planes of the faces, to planes
-/// that stand on border edges, and, with a small weight, to the vertices. The cost is how much the collapse
-/// *adds* to both, each taken at its vertex: what has been lost before is no reason to keep a vertex.
+/// that stand on border edges and on edges over which the surface folds, and, with a small weight, to the
+/// vertices. The cost is how much the collapse *adds* to both, each taken at its vertex: what has been lost
+/// before is no reason to keep a vertex.
 ///
 /// The quadrics of the mesh as it is decide most of it. They say how far the next surface is from the last,
 /// whereas planes of the original say less the farther apart their faces lie: with them alone, the error of
@@ -604,20 +605,18 @@ private:
       for (const Halfedge to_v : CGAL::halfedges_around_target(v, mesh)) {
         if (CGAL::is_border(to_v, mesh))
           continue;
-        const Face_plane& plane = get(state.planes, face(to_v, mesh));
-        Vector normal{plane.normal[0], plane.normal[1], plane.normal[2]};
+        const Vector normal = normal_at(to_v, mesh);
         matrix.add_square(normal, 1);
-        if (!growth.has_lines)
-          continue;
-        normalise(normal);
-        for (const Halfedge h : {next(to_v, mesh), to_v})
-          if (const double share = share_of_line(h, mesh); share != 0)
+        for (const Halfedge h : {next(to_v, mesh), to_v}) {
+          const double share =
+              (std::max)(share_of_fold(h, normal, mesh), growth.has_lines ? share_of_line(h, mesh) : 0);
+          if (share != 0)
             add_line(share, normal, vector(get(points, source(h, mesh))),
                      vector(get(points, target(h, mesh))), of_lines);
+        }
       }
       matrix.add_identity(state.options.stabiliser * matrix.trace()); // which is the weight of the planes
-      if (growth.has_lines)
-        matrix += of_lines;
+      matrix += of_lines;
       matrix *= (1 - memory) * (state.weights ? get(*state.weights, v) : 1);
     }
     growth.linear = {0, 0, 0};
@@ -651,9 +650,33 @@ private:
     return get(m_state->edge_is_line, edge(h, mesh)) ? share_of_inner_line : 0;
   }
 
-  // Adds the plane that stands on an edge of a face with this normal.
-  void add_line(double share, const Vector& normal, const Vector& start, const Vector& end, Matrix& sum) const
+  // Returns the normal of the face of a halfedge, as long as the square root of the weight of the face.
+  Vector normal_at(Halfedge h, const TriangleMesh& mesh) const
   {
+    const Face_plane& plane = get(m_state->planes, face(h, mesh));
+    return {plane.normal[0], plane.normal[1], plane.normal[2]};
+  }
+
+  // Returns which share of the weight of a border an edge has on one of its sides because the surface folds
+  // over it. Where both sides lie on each other, the planes of their faces do not say how far the surface
+  // goes, as at a border; so the planes of both together have the weight of one. Where the surface turns by
+  // 90° or less, each side says where the other ends.
+  double share_of_fold(Halfedge h, const Vector& normal, const TriangleMesh& mesh) const
+  {
+    const Halfedge other_side = opposite(h, mesh);
+    if (CGAL::is_border(other_side, mesh))
+      return 0;
+    const Vector other = normal_at(other_side, mesh);
+    const double product = internal::dot(normal, other);
+    return product < 0
+               ? -0.5 * product / std::sqrt(internal::dot(normal, normal) * internal::dot(other, other))
+               : 0;
+  }
+
+  // Adds the plane that stands on an edge of a face with a normal of this direction.
+  void add_line(double share, Vector normal, const Vector& start, const Vector& end, Matrix& sum) const
+  {
+    normalise(normal);
     Vector along = internal::difference(end, start);
     const double length = normalise(along);
     sum.add_square(internal::cross(normal, along),

@@ -11,7 +11,9 @@ namespace selvedge {
 struct Quadric_cost_options
 {
   /// Weight of the plane that stands on a border edge, relative to that of a face whose area is the squared
-  /// length of the edge. A line inside the surface has two such planes, with a tenth of this weight each.
+  /// length of the edge. A line inside the surface has two such planes, with a tenth of this weight each. So
+  /// has an edge over which the surface turns by more than 90°, with a half of this weight each where both
+  /// sides lie on each other: the hem of a folded sheet keeps its course as one that is cut does.
   double border_weight = 1;
 
   /// Weight of the squared distance to the original vertices, relative to that of the planes. On flat cloth
