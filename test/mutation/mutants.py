@@ -221,6 +221,25 @@ group(
      "a line along which a pole goes stays where nothing differs"),
 )
 group(
+    "src/soup/poles.cpp",
+    ("gltf_poles_test",),
+    ("s_least_spokes = 3;", "s_least_spokes = 2;", "a short cut in the texture is a pole"),
+    ("s_least_spokes = 3;", "s_least_spokes = 4;", "poles of three edges stay apart"),
+    ("      if (are_alike(a, b))\n", "", "vertices of several colours become one"),
+    ("is_at_pole[v] |= !have_same_bits(uv(first[v]), uv(corner));", ";", "corners at poles lose their texture coordinates"),
+)
+group(
+    "src/soup/flat_shading.cpp",
+    ("gltf_poles_test",),
+    ("  separate_poles(soup);\n", "", "what normals cut apart at a pole stays apart"),
+    ("  share_poles(soup);\n", "", "poles stay apart where normals are dropped"),
+)
+group(
+    "src/files/ply_writer.cpp",
+    ("gltf_poles_test",),
+    ("with_uvs_of_vertices(soup))", "std::optional<Triangle_soup>())", "vertices of a pole lose their texture coordinates in PLY"),
+)
+group(
     "src/replay/Complex.cpp",
     ("spokes_test",),
     ("is_one_ended(ends) && counts[one_end(side)] < least", "false", "ends of cuts move in a replay"),
@@ -1327,6 +1346,7 @@ group(
     ("quadric_cost_test",),
     ("enclosure.is_known = false;", "(void)enclosure;", "what faces enclose is not forgotten when they change"),
     ("    m_state->enclosures.reset();\n", "", "what faces enclose is kept when everything is computed anew"),
+    ("    return product < 0\n", "    return product < -2 * weight_of_area(1e9)\n", "folds are not held"),
     ("? m_state->weight_unit * positive(sum(*least)) : 0;", "? 1.5 * m_state->weight_unit * positive(sum(*least)) : 0;",
      "a bound of the cost is too high"),
     ("return m_state->weight_unit * get(m_state->growths, v)", "return get(m_state->growths, v)",
