@@ -337,7 +337,11 @@ Exit_code run(const Verify_request& request)
     if (!file.path.empty())
       require_writable(file.path);
   Mesh_file mesh = Mesh_input(request.mesh, request.format).read(request.level);
-  read_poses(request.poses, request.mesh, mesh.soup);
+  Pose_sources of_mesh = request.poses, of_original = request.poses;
+  of_original.files = request.files_of_poses_of_original;
+  if (has_frames(of_original, request.original) && !has_frames(of_mesh, request.mesh))
+    of_mesh.every = 1; // it chooses of the frames of the original
+  read_poses(of_mesh, request.mesh, mesh.soup);
   Json report = new_report("verify");
   report["input"] = input_json(request.mesh, mesh);
   std::optional<Verification> verification;
@@ -355,8 +359,6 @@ Exit_code run(const Verify_request& request)
   report["obstacle"] = request.obstacle.empty() ? Json(nullptr) : Json{{"path", request.obstacle}};
   if (has_original) {
     original = Mesh_input(request.original, request.format).read();
-    Pose_sources of_original = request.poses;
-    of_original.files = request.files_of_poses_of_original;
     if (!is_gltf(original.format)) { // all poses of the original are in files
       of_original.are_morphs = of_original.are_of_humanoid = false;
       of_original.animation.clear();

@@ -156,6 +156,11 @@ TEST_F(Waving_sheets, HaveNamesOfTheirOwnAndAreChosenAmongTheFramesOfCaches)
   simplify(flat, out, {"--pose", walk, "--every", "2", "--poses-out", folder / "q_{pose}.obj"});
   EXPECT_TRUE(std::filesystem::exists(folder / "q_frame_3.obj"));
   EXPECT_FALSE(std::filesystem::exists(folder / "q_frame_2.obj"));
+  // In a verification, of the frames of either mesh.
+  EXPECT_EQ(run_app({"verify", out, "--against", flat, "--pose", folder / "q_frame_1.obj", "--pose",
+                     folder / "q_frame_3.obj", "--against-pose", walk, "--every", "2"})
+                .code,
+            0);
   expect_refused(
       {"simplify", flat, "-o", out, "--ratio", "0.2", "--pose", folder / "waving.obj", "--every", "2"}, 2,
       "--every: there are no frames to choose from");
