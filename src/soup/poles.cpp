@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -62,6 +63,33 @@ std::string bytes_apart_from_uvs(const Row& row)
   return result;
 }
 
+using Place = std::pair<std::size_t, std::string_view>; // of all rows at one position in one instance
+
+Place place_of(const Row& row)
+{
+  return {row.instance, row.block->attributes.front().row(row.number)};
+}
+
+// Calls a function with each row of the scene that is at one of these places, and its place in the map.
+template <class Value, class Function>
+void for_each_row_at(std::map<Place, Value>& places, const Gltf_scene& scene, const Function& function)
+{
+  for (std::size_t i = 0; i < scene.instances.size() && !places.empty(); ++i) {
+    const Gltf_scene::Block& block = scene.blocks[scene.instances[i].block];
+    for (Index number = 0; number < block.size; ++number) {
+      const Row row{i, &block, number};
+      if (const auto found = places.find(place_of(row)); found != places.end())
+        function(row, found->second);
+    }
+  }
+}
+
+std::optional<std::array<double, 2>> uv_of(const Row& row)
+{
+  const Column* const column = uvs_of(*row.block);
+  return column ? std::optional(texture_coordinates(*column, row.number)) : std::nullopt;
+}
+
 /// Finds the poles of a soup, and joins their vertices.
 class Poles
 {
@@ -70,7 +98,7 @@ public:
 
   std::size_t join()
   {
-    const std::vector<Spoke> spokes = find_spokes();
+    const std::vector<Spoke> spokes = with_known_rows(find_spokes());
     std::vector<Index> counts(m_positions.size(), 0);
     for (const Spoke& spoke : spokes)
       ++counts[spoke.position];
@@ -223,6 +251,57 @@ private:
     return result;
   }
 
+  // Leaves out spokes of vertices whose row could not be told from another one by what corners keep of it:
+  // such as one with another tangent, or with another of the numbers that give one texture coordinate.
+  std::vector<Spoke> with_known_rows(std::vector<Spoke> spokes) const
+  {
+    struct Rows_known
+    {
+      std::map<std::string, std::string> rest; // by what corners keep
+      std::set<std::string> unknown;
+    };
+    std::map<Place, Rows_known> places;
+    const auto row = [this](Index vertex) { return row_of(*m_soup.scene, m_soup.scene_vertices[vertex]); };
+    for (const Spoke& spoke : spokes)
+      places[place_of(row(spoke.vertices[0]))];
+    for_each_row_at(places, *m_soup.scene, [](const Row& at, Rows_known& rows) {
+      const std::string kept = kept_by_corners(at);
+      const auto [found, is_new] = rows.rest.try_emplace(kept, left_to_row(at));
+      if (!is_new && found->second != left_to_row(at))
+        rows.unknown.insert(kept);
+    });
+    const auto is_unknown = [&](Index vertex) {
+      const Row of_vertex = row(vertex);
+      const std::set<std::string>& unknown = places.at(place_of(of_vertex)).unknown;
+      return !unknown.empty() && unknown.count(kept_by_corners(of_vertex)) > 0;
+    };
+    spokes.erase(std::remove_if(spokes.begin(), spokes.end(),
+                                [&](const Spoke& spoke) {
+                                  return is_unknown(spoke.vertices[0]) || is_unknown(spoke.vertices[1]);
+                                }),
+                 spokes.end());
+    return spokes;
+  }
+
+  static std::string kept_by_corners(const Row& row)
+  {
+    std::string result = bytes_apart_from_uvs(row);
+    if (const Column* const normals = row.block->normals())
+      result += normals->row(row.number);
+    if (const auto uv = uv_of(row))
+      result.append(reinterpret_cast<const char*>(uv->data()), sizeof *uv);
+    return result;
+  }
+
+  static std::string left_to_row(const Row& row)
+  {
+    std::string result;
+    for (const Column* const column : {uvs_of(*row.block), row.block->tangents()})
+      if (column)
+        result += column->row(row.number);
+    return result;
+  }
+
   bool are_alike(Index a, Index b) const
   {
     if (a == b)
@@ -263,17 +342,6 @@ public:
   }
 
 private:
-  using Place = std::pair<std::size_t, std::string_view>; // of all rows at one position in one instance
-
-  static Place place_of(const Row& row)
-  {
-    return {row.instance, row.block->attributes.front().row(row.number)};
-  }
-  static std::optional<std::array<double, 2>> uv_of(const Row& row)
-  {
-    const Column* const column = uvs_of(*row.block);
-    return column ? std::optional(texture_coordinates(*column, row.number)) : std::nullopt;
-  }
   Index own(Index corner) const { return m_soup.scene_vertices[m_soup.triangles[corner / 3][corner % 3]]; }
   const std::array<double, 2>& uv(Index corner) const
   {
@@ -314,12 +382,7 @@ private:
   {
     for (const Index corner : m_corners)
       m_rows[place_of(row_of(m_scene, own(corner)))];
-    for (std::size_t i = 0; i < m_scene.instances.size() && !m_rows.empty(); ++i) {
-      const Gltf_scene::Block& block = m_scene.blocks[m_scene.instances[i].block];
-      for (Index number = 0; number < block.size; ++number)
-        if (const auto found = m_rows.find(place_of({i, &block, number})); found != m_rows.end())
-          found->second.push_back({i, &block, number});
-    }
+    for_each_row_at(m_rows, m_scene, [](const Row& row, std::vector<Row>& rows) { rows.push_back(row); });
   }
 
   bool has_normal_of(Index corner, const Row& row) const

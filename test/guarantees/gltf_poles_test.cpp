@@ -4,6 +4,7 @@
 // Poles in glTF files, which hold a vertex for each pair of texture coordinates there: they are read as one
 // vertex, and each corner is written with the row that it had (G3, G4, G6).
 
+#include "support/Gltf_document.h"
 #include "support/Temporary_folder.h"
 #include "support/logged_reduction.h"
 #include "support/polar_sphere.h"
@@ -17,19 +18,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <string>
 
 namespace selvedge::test {
 namespace {
-
-std::string contents(const std::filesystem::path& path)
-{
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 Triangle_soup written_and_read(const Triangle_soup& soup)
 {
@@ -133,6 +126,58 @@ TEST(Gltf_poles, AreNoneOfTwoEdgesOrOfSeveralColours)
   EXPECT_EQ(vertices_at_centre(4, true), 4u);
   EXPECT_EQ(vertices_at_centre(3, false), 1u);
   EXPECT_EQ(vertices_at_centre(2, false), 2u);
+}
+
+/// Six triangles around a centre, which has a row for each; the last number of its texture coordinates is 0
+/// and -0 in turn, which are one texture coordinate of the soup. All rows of the centre have few first ones.
+Document disc_with_signed_zeros(std::size_t first_numbers)
+{
+  constexpr std::size_t sides = 6;
+  Document document;
+  document.json = {
+      {"asset", {{"version", "2.0"}}}, {"scenes", {{{"nodes", {0}}}}}, {"nodes", {{{"mesh", 0}}}}};
+  const auto position = [](std::size_t i, std::size_t k) {
+    const double angle = 2 * CGAL_PI * double(i) / sides;
+    return i >= sides || k == 2 ? 0 : float(k == 0 ? std::cos(angle) : std::sin(angle));
+  };
+  const auto uv = [&](std::size_t i, std::size_t k) {
+    if (k == 0)
+      return double(i % first_numbers) / 8;
+    return i < sides ? 1. : i % 2 == 0 ? 0. : -0.;
+  };
+  std::string indices;
+  for (std::size_t i = 0; i < sides; ++i)
+    for (const std::size_t v : {sides + i, i, (i + 1) % sides})
+      put(indices, std::uint16_t(v));
+  Json primitive;
+  primitive["attributes"]["POSITION"] = add_rows<float>(document, 2 * sides, 3, 5126, position);
+  set_bounds(document, primitive["attributes"]["POSITION"], 2 * sides, position);
+  primitive["attributes"]["TEXCOORD_0"] = add_rows<float>(document, 2 * sides, 2, 5126, uv);
+  primitive["indices"] = add_accessor(document, indices, 3 * sides, 5123, "SCALAR");
+  document.json["meshes"] = {{{"primitives", {primitive}}}};
+  return document;
+}
+
+// What corners know of a row must tell it from the others, so that each gets its own row again.
+TEST(Gltf_poles, AreNoneOfRowsThatCornersCannotTellApart)
+{
+  const Temporary_folder folder;
+  const auto uvs_at_corners = [&](const char* name) {
+    const Document document = from_glb(contents(folder / name));
+    const Json& primitive = document.json["meshes"][0]["primitives"][0];
+    const std::vector<std::string> uvs = rows_of(document, primitive["attributes"]["TEXCOORD_0"]);
+    std::vector<std::string> result;
+    for (const std::string& index : rows_of(document, primitive["indices"]))
+      result.push_back(uvs[get<std::uint16_t>(index, 0)]);
+    return result;
+  };
+  for (const std::size_t first_numbers : {6, 3}) {
+    std::ofstream(folder / "a.glb", std::ios::binary) << to_glb(disc_with_signed_zeros(first_numbers));
+    const Triangle_soup soup = read_mesh(folder / "a.glb").soup;
+    EXPECT_EQ(vertices_at_poles(soup).size(), first_numbers == 6 ? 1u : 6u);
+    write_mesh(folder / "b.glb", soup);
+    EXPECT_EQ(uvs_at_corners("b.glb"), uvs_at_corners("a.glb"));
+  }
 }
 
 // A file whose normals cut the faces around a pole apart is whole again without them.
