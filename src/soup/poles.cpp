@@ -121,7 +121,8 @@ public:
   }
 
 private:
-  static constexpr Index s_least_spokes = 3; // at a pole, as a reduction wants them
+  // At a pole: a reduction may leave so many, and at the end of a cut there is one.
+  static constexpr Index s_least_spokes = 2;
 
   // An edge across which texture coordinates differ at one end.
   struct Spoke

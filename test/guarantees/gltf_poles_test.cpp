@@ -69,6 +69,21 @@ TEST(Gltf_poles, AreOneVertexThatIsWrittenAsItWas)
   EXPECT_EQ(contents(folder / "b.glb").size(), contents(folder / "a.glb").size());
 }
 
+// A reduction leaves two edges, or a seam and two, at a pole. Were its vertices apart in the file, two poles
+// could cut the sphere into other pieces than those of the input.
+TEST(Gltf_poles, AreStillPolesWhereTwoEdgesAreLeft)
+{
+  for (const Index segments : {4u, 5u, 6u, 8u, 12u}) {
+    Simplify_options options = to_ratio(0);
+
+    const Triangle_soup result =
+        reduce(sphere_of_gltf(polar_sphere(segments, 6, false)), options).simplified.soup;
+    EXPECT_LT(faces_at_poles(result), 2 * segments);
+    const Triangle_soup again = written_and_read(result);
+    EXPECT_EQ(vertices_at_poles(again).size(), vertices_at_poles(result).size()) << segments;
+  }
+}
+
 TEST(Gltf_poles, AreReducedAndReadBackAsTheyAreInTheResult)
 {
   const Triangle_soup sphere = sphere_of_gltf();
@@ -91,11 +106,11 @@ TEST(Gltf_poles, AreReducedAndReadBackAsTheyAreInTheResult)
     }
 }
 
-// A control: where fewer than three edges differ at one end, as at the end of a seam, vertices stay apart; so
-// do those that differ in colours.
-TEST(Gltf_poles, AreNoneOfTwoEdgesOrOfSeveralColours)
+// A control: where one edge differs at one end, at the end of a seam, vertices stay apart; so do those that
+// differ in colours.
+TEST(Gltf_poles, AreNoneOfOneEdgeOrOfSeveralColours)
 {
-  // Four triangles around vertex 0, which has so many texture coordinates.
+  // Four triangles around vertex 0, which has so many texture coordinates; or one where a seam comes to it.
   const auto vertices_at_centre = [](Index values, bool has_colours) {
     Triangle_soup soup;
     soup.points = {Point_3(0, 0, 0), Point_3(1, 0, 0), Point_3(0, 1, 0), Point_3(-1, 0, 0),
@@ -106,6 +121,10 @@ TEST(Gltf_poles, AreNoneOfTwoEdgesOrOfSeveralColours)
     soup.uvs.of_triangle = soup.triangles;
     for (Index t = 0; t < 4; ++t)
       soup.uvs.of_triangle[t][0] = 5 + std::min(t, values - 1);
+    if (values == 1) {
+      soup.uvs.of_triangle[2][0] = soup.uvs.of_triangle[3][0] = 6;
+      soup.uvs.of_triangle[3][2] = 7;
+    }
     const Triangle_soup read = sphere_of_gltf(soup);
     if (!has_colours)
       return vertices_at_poles(read).size();
@@ -125,7 +144,8 @@ TEST(Gltf_poles, AreNoneOfTwoEdgesOrOfSeveralColours)
   EXPECT_EQ(vertices_at_centre(4, false), 1u);
   EXPECT_EQ(vertices_at_centre(4, true), 4u);
   EXPECT_EQ(vertices_at_centre(3, false), 1u);
-  EXPECT_EQ(vertices_at_centre(2, false), 2u);
+  EXPECT_EQ(vertices_at_centre(2, false), 1u);
+  EXPECT_EQ(vertices_at_centre(1, false), 2u);
 }
 
 /// Six triangles around a centre, which has a row for each; the last number of its texture coordinates is 0
