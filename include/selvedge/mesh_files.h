@@ -109,10 +109,10 @@ namespace selvedge {
 ///
 /// **Poles.** glTF also holds one pair of texture coordinates for each vertex, so that around a pole, as of a
 /// sphere, every face may have a vertex of its own there. Such vertices, where they differ in nothing but
-/// TEXCOORD_0, NORMAL and TANGENT, are one like those of flat normals: at least two edges lead from them to
-/// vertices that the faces on both sides share. A row that texture coordinate and normal do not tell from
-/// all others, such as one of several tangents, stays a vertex of its own. `write_mesh` writes each corner to
-/// glTF with the row of the file that has its texture coordinates.
+/// TEXCOORD_0, NORMAL and TANGENT, also of morph targets, are one like those of flat normals: at least two
+/// edges lead from them to vertices that the faces on both sides share. A row that texture coordinate and
+/// normal do not tell from all others, such as one of several tangents, stays a vertex of its own.
+/// `write_mesh` writes each corner to glTF with the row of the file that has its texture coordinates.
 ///
 /// **Packed files.** A file whose name ends in `.gz` is unpacked by zlib when it is read, and packed when it
 /// is written; all else is as without `.gz`. A packed file that is damaged or truncated is refused, and so is

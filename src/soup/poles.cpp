@@ -54,12 +54,13 @@ const Column* uvs_of(const Gltf_scene::Block& block)
 std::string bytes_apart_from_uvs(const Row& row)
 {
   std::string result;
-  for (const Column& column : row.block->attributes)
-    if (column.name != "TEXCOORD_0" && column.name != "NORMAL" && column.name != "TANGENT")
-      result += column.row(row.number);
-  for (const std::vector<Column>& target : row.block->targets)
-    for (const Column& column : target)
-      result += column.row(row.number);
+  const auto append = [&](const std::vector<Column>& columns) {
+    for (const Column& column : columns)
+      if (column.name != "TEXCOORD_0" && column.name != "NORMAL" && column.name != "TANGENT")
+        result += column.row(row.number);
+  };
+  append(row.block->attributes);
+  std::for_each(row.block->targets.begin(), row.block->targets.end(), append);
   return result;
 }
 
@@ -300,6 +301,9 @@ private:
     for (const Column* const column : {uvs_of(*row.block), row.block->tangents()})
       if (column)
         result += column->row(row.number);
+    for (const std::vector<Column>& target : row.block->targets)
+      for (const Column& column : target)
+        result += column.row(row.number);
     return result;
   }
 

@@ -18,8 +18,9 @@ namespace selvedge {
 /// Makes triangles of a glTF scene share the vertices at *poles*: positions with at least two edges across
 /// which texture coordinates differ there and at the other end, a vertex of both faces, do not. Such faces
 /// then name the first of their vertices at the pole, if these differ in nothing but texture coordinates,
-/// normals and tangents. The others are unused, vertices keep their numbers, and corners their texture
-/// coordinates and normals, as in OBJ.
+/// normals and tangents, also of morph targets, and if texture coordinate and normal tell their rows from all
+/// others. The others are unused, vertices keep their numbers, and corners their texture coordinates and
+/// normals, as in OBJ.
 ///
 /// Where vertices of different tangents become one, the scene alone has tangents then, and not
 /// `vertex_attributes`. Returns how many corners name another vertex now. Does nothing to a soup without
