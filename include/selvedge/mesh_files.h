@@ -109,7 +109,7 @@ namespace selvedge {
 ///
 /// **Poles.** glTF also holds one pair of texture coordinates for each vertex, so that around a pole, as of a
 /// sphere, every face may have a vertex of its own there. Such vertices, where they differ in nothing but
-/// TEXCOORD_0, NORMAL and TANGENT, also of morph targets, are one like those of flat normals: at least two
+/// TEXCOORD_0, NORMAL and TANGENT, also of morph targets, are one like those of flat normals: at least three
 /// edges lead from them to vertices that the faces on both sides share. A row that texture coordinate and
 /// normal do not tell from all others, such as one of several tangents, stays a vertex of its own.
 /// `write_mesh` writes each corner to glTF with the row of the file that has its texture coordinates.

@@ -122,8 +122,9 @@ public:
   }
 
 private:
-  // At a pole: a reduction may leave so many, and at the end of a cut there is one.
-  static constexpr Index s_least_spokes = 2;
+  // At a pole, as a reduction wants them. It may leave two; but where there are two, they may as well be what
+  // is left of a cut into the texture, which is a border of the piece.
+  static constexpr Index s_least_spokes = 3;
 
   // An edge across which texture coordinates differ at one end.
   struct Spoke

@@ -15,7 +15,7 @@
 
 namespace selvedge {
 
-/// Makes triangles of a glTF scene share the vertices at *poles*: positions with at least two edges across
+/// Makes triangles of a glTF scene share the vertices at *poles*: positions with at least three edges across
 /// which texture coordinates differ there and at the other end, a vertex of both faces, do not. Such faces
 /// then name the first of their vertices at the pole, if these differ in nothing but texture coordinates,
 /// normals and tangents, also of morph targets, and if texture coordinate and normal tell their rows from all
