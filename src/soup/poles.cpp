@@ -7,6 +7,7 @@
 #include "Gltf_scene.h"
 #include "flat_shading.h"
 #include "number_positions.h"
+#include "selection.h"
 #include <selvedge/Cancellation_scope.h>
 
 #include <algorithm>
