@@ -238,7 +238,11 @@ std::size_t share_vertices_without_normals(Triangle_soup& soup, Normals_choice c
 {
   const std::vector<Index_triple> before = soup.triangles;
   separate_poles(soup);
-  share_vertices(soup, choice == Normals_choice::loose ? Sharing::loose : Sharing::without_normals);
+  if (share_vertices(soup, choice == Normals_choice::loose ? Sharing::loose : Sharing::without_normals) ==
+      0) {
+    soup.triangles = before;
+    return 0;
+  }
   share_poles(soup);
   return corners_changed(before, soup.triangles);
 }
