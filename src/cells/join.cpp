@@ -124,12 +124,6 @@ void remove_named(std::vector<Attribute>& attributes, std::string_view name)
                    attributes.end());
 }
 
-void append_rows(std::vector<unsigned char>& rows, const Attribute& from, Index row)
-{
-  const std::size_t size = row_size(from);
-  rows.insert(rows.end(), from.rows.begin() + row * size, from.rows.begin() + (row + 1) * size);
-}
-
 /// Appends values and their numbers. When only one of the two soups has them, the joined one has none.
 /// Returns whether that is so.
 template <std::size_t dimension>
@@ -315,7 +309,7 @@ void Cell_join::append(Triangle_soup part)
   for (Attribute& attribute : m_whole.vertex_attributes) {
     const auto from = attribute_of_part(part.vertex_attributes, attribute.name);
     for (const Index v : added)
-      append_rows(attribute.rows, *from, v);
+      append_row(attribute.rows, *from, v);
   }
   for (Attribute& attribute : m_whole.triangle_attributes) {
     const auto from = attribute_of_part(part.triangle_attributes, attribute.name);

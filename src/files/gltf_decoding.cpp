@@ -31,14 +31,11 @@ using Json = Gltf_scene::Json;
 
 constexpr std::size_t s_always = 1 << 16; // bytes that anything may be decoded to
 
-/// Returns what an extension says of a part of the document; null when it says nothing.
+/// Returns what an extension says of a part of the document, if it is an object.
 const Json* extension_of(const Json& part, const char* name)
 {
-  if (!part.is_object())
-    return nullptr;
-  const Json& extensions = member(part, "extensions");
-  const auto found = extensions.is_object() ? extensions.find(name) : extensions.end();
-  return found == extensions.end() || !found->is_object() ? nullptr : &*found;
+  const Json* const found = find_extension(part, name);
+  return found && found->is_object() ? found : nullptr;
 }
 
 /// Returns a number that must be there, whole and not negative.
@@ -467,6 +464,13 @@ void decode_primitives(Gltf_document& document)
 #else
   static_cast<void>(document);
 #endif
+}
+
+const Json* find_extension(const Json& part, const char* name)
+{
+  const Json& extensions = part.is_object() ? member(part, "extensions") : part;
+  const auto found = extensions.is_object() ? extensions.find(name) : extensions.end();
+  return found == extensions.end() ? nullptr : &*found;
 }
 
 void remove_extension_of(Json& part, const char* name)

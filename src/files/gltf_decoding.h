@@ -37,6 +37,9 @@ void decode_views(Gltf_document& document);
 /// 64 KiB and more than 1024 times as much as what is decoded.
 void decode_primitives(Gltf_document& document);
 
+/// Returns what an extension says of a node, a primitive or the like; null when it is not there.
+const Gltf_scene::Json* find_extension(const Gltf_scene::Json& part, const char* name);
+
 /// Removes an extension of this name from a node, a primitive or the like, if it has one.
 void remove_extension_of(Gltf_scene::Json& part, const char* name);
 

@@ -20,9 +20,7 @@ using Numbers = std::set<std::size_t>;
 /// Returns the list of levels in a node or a material; null when there is none.
 const Json* levels_of(const Json& part)
 {
-  const Json& extensions = part.is_object() ? member(part, "extensions") : part;
-  const auto found = extensions.is_object() ? extensions.find(levels_extension) : extensions.end();
-  return found == extensions.end() ? nullptr : &*found;
+  return find_extension(part, levels_extension);
 }
 
 /// Leaves one level of a document.

@@ -228,15 +228,10 @@ private:
                                                               "EXT_mesh_primitive_edge_visibility",
                                                               "FB_ngon_encoding"};
 
-  static bool has_extension(const Json& part, const char* extension)
-  {
-    return member(part, "extensions").is_object() && member(part, "extensions").contains(extension);
-  }
-
   // Whether a mesh, or a primitive of one, has an extension.
   bool is_in_meshes(const char* extension)
   {
-    const auto has = [extension](const Json& part) { return has_extension(part, extension); };
+    const auto has = [extension](const Json& part) { return find_extension(part, extension) != nullptr; };
     const Json& meshes = member(json(), "meshes");
     return std::any_of(meshes.begin(), meshes.end(), [&](const Json& mesh) {
       const Json& primitives = member(mesh, "primitives");
@@ -251,7 +246,7 @@ private:
     bool is_any_reducible = false;
     const auto forget = [this](Json& part) {
       for (const char* const extension : s_numberings)
-        if (has_extension(part, extension)) {
+        if (find_extension(part, extension)) {
           remove_extension_of(part, extension);
           ++m_file.notes.ignored[std::string("numbers of vertices or triangles (") + extension + ")"];
         }

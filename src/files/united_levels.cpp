@@ -114,12 +114,8 @@ private:
       if (number == alike.size()) {
         alike.push_back(Index(m_result.points.size()));
         m_result.points.push_back(level.points[v]);
-        for (std::size_t i = 0; i < level.vertex_attributes.size(); ++i) {
-          const Attribute& from = level.vertex_attributes[i];
-          const auto row = from.rows.begin() + std::ptrdiff_t(v * row_size(from));
-          std::vector<unsigned char>& to = m_result.vertex_attributes[i].rows;
-          to.insert(to.end(), row, row + std::ptrdiff_t(row_size(from)));
-        }
+        for (std::size_t i = 0; i < level.vertex_attributes.size(); ++i)
+          append_row(m_result.vertex_attributes[i].rows, level.vertex_attributes[i], Index(v));
       }
       result.push_back(alike[number]);
     }

@@ -329,12 +329,8 @@ Triangle_soup split_by_normals(const Triangle_soup& soup)
     result.normals.values.push_back(soup.normals.values[normal]);
     if (are_uvs_split)
       result.uvs.values.push_back(soup.uvs.values[vertex]);
-    for (std::size_t i = 0; i < result.vertex_attributes.size(); ++i) {
-      const Attribute& from = soup.vertex_attributes[i];
-      const auto row = from.rows.begin() + std::ptrdiff_t(vertex * row_size(from));
-      result.vertex_attributes[i].rows.insert(result.vertex_attributes[i].rows.end(), row,
-                                              row + std::ptrdiff_t(row_size(from)));
-    }
+    for (std::size_t i = 0; i < result.vertex_attributes.size(); ++i)
+      append_row(result.vertex_attributes[i].rows, soup.vertex_attributes[i], vertex);
   }
   result.triangles = split.triangles;
   return result;

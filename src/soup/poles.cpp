@@ -469,12 +469,8 @@ std::optional<Triangle_soup> with_split_poles(const Triangle_soup& soup)
       result.points.push_back(soup.points[v]);
       for (std::size_t i = 0; i < soup.poses.size(); ++i)
         result.poses[i].points.push_back(soup.poses[i].points[v]);
-      for (std::size_t i = 0; i < soup.vertex_attributes.size(); ++i) {
-        const Attribute& from = soup.vertex_attributes[i];
-        const auto row = from.rows.begin() + std::ptrdiff_t(v * row_size(from));
-        std::vector<unsigned char>& to = result.vertex_attributes[i].rows;
-        to.insert(to.end(), row, row + std::ptrdiff_t(row_size(from)));
-      }
+      for (std::size_t i = 0; i < soup.vertex_attributes.size(); ++i)
+        append_row(result.vertex_attributes[i].rows, soup.vertex_attributes[i], v);
       result.scene_vertices.push_back(scene_vertex);
     }
     v = number->second;

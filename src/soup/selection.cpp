@@ -44,13 +44,11 @@ std::vector<Attribute> rows(const std::vector<Attribute>& from, const std::vecto
 {
   std::vector<Attribute> result;
   for (const Attribute& attribute : from) {
-    const std::size_t size = row_size(attribute);
     Attribute& column = result.emplace_back(
         Attribute{attribute.name, attribute.type, attribute.components, attribute.is_normalized, {}});
-    column.rows.reserve(kept.size() * size);
+    column.rows.reserve(kept.size() * row_size(attribute));
     for (const Index i : kept)
-      column.rows.insert(column.rows.end(), attribute.rows.begin() + i * size,
-                         attribute.rows.begin() + (i + 1) * size);
+      append_row(column.rows, attribute, i);
   }
   return result;
 }
@@ -142,6 +140,12 @@ std::size_t row_size(const Attribute& attribute)
   default:
     return 4 * std::size_t(attribute.components);
   }
+}
+
+void append_row(std::vector<unsigned char>& rows, const Attribute& from, Index row)
+{
+  const std::size_t size = row_size(from);
+  rows.insert(rows.end(), from.rows.begin() + row * size, from.rows.begin() + (row + 1) * size);
 }
 
 void keep_triangles(Triangle_soup& soup, const std::vector<Index>& triangles)

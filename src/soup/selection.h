@@ -43,6 +43,9 @@ void forget_moved_polygons(Triangle_soup& soup, const std::vector<Point_3>& poin
 /// Returns the number of bytes in one row of an attribute.
 std::size_t row_size(const Attribute& attribute);
 
+/// Appends a row of an attribute to rows of the same size.
+void append_row(std::vector<unsigned char>& rows, const Attribute& from, Index row);
+
 } // namespace selvedge
 
 #endif // SELVEDGE_SOUP_SELECTION_H
