@@ -368,6 +368,13 @@ bool has_own_error(const Simplify_request& request)
   return (!request.error.empty() || request.is_error_everywhere) && request.options.max_error.has_value();
 }
 
+bool is_shape_kept(const Simplify_request& request)
+{
+  // A progressive file has all levels on the way in any case.
+  return request.lods.empty() && request.intent.ratios.empty() && request.progressive.empty() &&
+         !request.is_error_everywhere;
+}
+
 Defects defects_of(const Simplify_request& request)
 {
   return request.is_strict ? Defects::refuse : request.defects.value_or(Prepare_options().defects);

@@ -93,6 +93,10 @@ bool has_standard_output(const Simplify_request& request);
 /// Returns whether the user has set a limit of the distances between original and result.
 bool has_own_error(const Simplify_request& request);
 
+/// Returns whether a reduction that gets stuck above its target is done again, to more faces
+/// (`Missed_target`): when there is one target, for all faces.
+bool is_shape_kept(const Simplify_request& request);
+
 /// Returns what becomes of offending pairs of the input.
 Defects defects_of(const Simplify_request& request);
 

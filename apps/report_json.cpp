@@ -185,7 +185,10 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
                      {"output", result.soup.triangles.size()},
                      {"fixed", done.faces_fixed},
                      {"target", done.faces_target}};
-  report["target"] = {{"reached", done.is_reached()}, {"outcome", done.outcome()}};
+  report["target"] = {
+      {"reached", done.is_reached()},
+      {"outcome", done.outcome()},
+      {"within_reach", done.faces_within_reach == 0 ? Json(nullptr) : Json(done.faces_within_reach)}};
   Json hindrances;
   for (const Hindrances::Description& description : Hindrances::descriptions())
     hindrances[description.key] = done.hindrances[description.reason];

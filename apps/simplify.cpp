@@ -20,6 +20,7 @@
 
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
+#include <selvedge/Missed_target.h>
 #include <selvedge/Reduction_log.h>
 #include <selvedge/Sha256.h>
 #include <selvedge/collapse_log.h>
@@ -57,7 +58,10 @@ double seconds_since(Clock::time_point start)
 class Reduction
 {
 public:
-  explicit Reduction(const Simplify_request& request) : m_request(request), m_bar(!request.is_quiet) {}
+  explicit Reduction(const Simplify_request& request)
+      : m_request(request), m_bar(!request.is_quiet), m_missed_target(request.options)
+  {
+  }
 
   Exit_code run()
   {
@@ -72,7 +76,7 @@ public:
       do {
         levels = reduce(prepared);
         judge(levels, prepared);
-      } while (guard_more_poses(levels) || advance_error_search(levels));
+      } while (guard_more_poses(levels) || advance_error_search(levels) || keep_shape(levels));
       write(prepared, levels);
       report(prepared, levels);
       return m_outcome.exit_code();
@@ -309,10 +313,20 @@ private:
     return m_error_search->advance(largest.upper);
   }
 
+  // Where the target was missed and the surface was flattened for it, has the next reduction end before.
+  // Returns whether there is to be one.
+  bool keep_shape(const std::vector<Level>& levels)
+  {
+    if (!is_shape_kept(m_request) || !m_outcome.is_accepted)
+      return false;
+    const Level& level = levels.front();
+    return m_missed_target.advance(level.result, level.verification.distances->original_to_result);
+  }
+
   std::vector<Level> reduce(const Prepared_soup& prepared)
   {
     m_bar.begin("sewing and indexing");
-    Simplify_options options = m_request.options;
+    Simplify_options options = m_missed_target.options();
     if (m_error_search)
       options.max_error = m_error_search->max_error();
     if (m_guarded_poses.size() < prepared.soup.poses.size())
@@ -349,9 +363,10 @@ private:
           m_collapses.push_back(collapse);
       };
     std::vector<Simplified_soup> results;
-    if (m_request.lods.empty())
+    if (m_request.lods.empty()) {
       results.push_back(simplify_soup(prepared, options, m_request.intent));
-    else
+      m_missed_target.complete(results.back());
+    } else
       results = simplify_lods(prepared, options, m_request.lods, m_request.intent);
     const auto is_stopped = [](const Simplified_soup& result) { return result.report.is_stopped; };
     const auto is_untouched = [](const Simplified_soup& result) { return result.report.collapses == 0; };
@@ -631,6 +646,7 @@ private:
   Log_header m_log_header;
   std::ostringstream m_log;
   std::vector<std::size_t> m_guarded_poses;
+  Missed_target m_missed_target;
   std::optional<Error_search> m_error_search; // where the error is to be kept everywhere
   std::vector<Soup_collapse> m_collapses;     // if a page shows them
   Progression m_progression;                  // if it is written

@@ -43,23 +43,24 @@ std::vector<Hindrances::Description> reasons(const Hindrances& hindrances)
   return reasons;
 }
 
-/// Says, where a target is missed, that what nothing holds has been flattened for it, and what helps: many of
-/// the last faces are given for little.
-std::string what_is_flattened(const Simplify_request& request, const Level& level)
+/// Says, where a target is missed, which faces were kept for the shape; or that it was flattened, and what
+/// helps: many of the last faces are given for little.
+std::string what_shape_takes(const Simplify_request& request, const Level& level)
 {
   constexpr double much = 0.25; // of the limit
   const std::optional<double>& limit = request.options.max_error;
+  const std::size_t faces = level.result.report.faces_output,
+                    within_reach = level.result.report.faces_within_reach;
+  if (within_reach > 0 && within_reach < faces)
+    return "\nkept: " + counted(faces - within_reach, "face") +
+           " that could go, because all that nothing holds would be flattened for them; --faces " +
+           std::to_string(within_reach) + " lets them go";
   const bool is_asked_for_target = request.options.ratio || request.options.faces || !request.lods.empty();
-  if (!is_asked_for_target || !limit || *limit == 0 ||
+  if (is_shape_kept(request) || !is_asked_for_target || !limit || *limit == 0 ||
       level.verification.distances->original_to_result.maximum < much * *limit)
     return "";
-  const std::size_t faces = level.result.soup.triangles.size();
-  const bool is_of_all = request.lods.empty() && request.intent.ratios.empty() && request.intent.kept.empty();
   return "\nflattened: all that nothing holds, as far as --error " + with_digits(*limit) +
-         " allows; a target of a tenth more faces, " +
-         (is_of_all ? "--faces " + std::to_string(faces + (faces + 9) / 10) + ","
-                    : "a ratio that is larger by as much,") +
-         " keeps more of its shape";
+         " allows; a ratio that is larger by a tenth keeps more of its shape";
 }
 
 /// Says, where a target is reached, that most vertices left lie on seams of the texture, and what helps:
@@ -232,7 +233,9 @@ std::string held_back(const Simplify_request& request, const Prepared_soup& prep
   if (hindrances.total() == 0)
     return "all faces left are fixed; no option helps";
   constexpr std::size_t least_named = 3; // and as many as make two thirds of the edges
-  std::string text = "of " + counted(hindrances.total(), "edge") + " left, ";
+  std::string text =
+      "of " + counted(hindrances.total(), "edge") + " left" +
+      (report.faces_within_reach > 0 ? " at " + counted(report.faces_within_reach, "face") : "") + ", ";
   const std::vector<Hindrances::Description> all = reasons(hindrances);
   std::size_t others = hindrances.total();
   for (std::size_t i = 0; i < all.size() && (i < least_named || 3 * others > hindrances.total()); ++i) {
@@ -506,7 +509,7 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
   else
     stream << (done.is_stopped ? "interrupted" : "as far as the limits allow");
   if (!done.is_reached() && !done.is_stopped)
-    stream << "\nheld back: " << held_back(request, prepared, done) << what_is_flattened(request, level);
+    stream << "\nheld back: " << held_back(request, prepared, done) << what_shape_takes(request, level);
   if (done.is_reached() && request.progressive.empty())
     stream << what_texture_takes(request, result.soup);
   if (done.faces_fixed > 0)

@@ -6,6 +6,7 @@
 #include "apps/report_json.h"
 
 #include <selvedge/Error.h>
+#include <selvedge/Missed_target.h>
 #include <selvedge/Reduction_log.h>
 #include <selvedge/collapse_log.h>
 #include <selvedge/merge.h>
@@ -57,8 +58,17 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool
 
   if (request.is_error_everywhere)
     m_error_search.emplace(*request.options.max_error);
+  Missed_target missed_target(request.complete_options());
+  const auto is_another_due = [&] {
+    if (!is_accepted() || is_stopped())
+      return false;
+    if (m_error_search)
+      return m_error_search->advance(m_distances->larger().upper);
+    return request.intent.ratios.empty() &&
+           missed_target.advance(m_result, m_verification.distances->original_to_result);
+  };
   do {
-    Simplify_options options = request.complete_options();
+    Simplify_options options = missed_target.options();
     if (m_error_search)
       options.max_error = m_error_search->max_error();
     std::ostringstream stream;
@@ -72,6 +82,7 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool
       };
     }
     m_result = simplify_soup(m_prepared, options, request.intent);
+    missed_target.complete(m_result);
     m_seconds.add(m_prepared, {&m_result});
     if (log) {
       log->finish(m_result);
@@ -82,8 +93,7 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool
     if (m_error_search)
       m_distances = distances_anywhere(m_result.soup, m_prepared.soup);
     m_seconds["verify"] += seconds_since(start);
-  } while (m_error_search && is_accepted() && !is_stopped() &&
-           m_error_search->advance(m_distances->larger().upper));
+  } while (is_another_due());
   if (m_is_sewn)
     m_merged = merged_at_positions(m_result.soup);
 }

@@ -24,6 +24,9 @@ struct Simplify_report
   std::size_t faces_target = 0;
   std::size_t faces_output = 0;
   std::size_t faces_to_go = 0; ///< faces above the target at the end, summed over all parts with a target
+  /// Where a caller reduced to more faces than is possible, to keep shape (`Missed_target`): the fewest that
+  /// are possible, for which `hindrances` are. Otherwise 0.
+  std::size_t faces_within_reach = 0;
   std::size_t collapses = 0;
   std::size_t placed = 0;     ///< how many of `collapses` put the merged vertex to a new place
   std::size_t left_alone = 0; ///< vertices whose partners have gone without them; see `Prepared_soup::tied`

@@ -50,6 +50,18 @@ class Simplify(unittest.TestCase):
         np.testing.assert_array_equal(expected.triangles, again.triangles)
         self.assertTrue(np.isin(expected.points, floats.astype(np.float64)).all())
 
+    def test_a_missed_target_keeps_faces_for_the_shape(self):
+        mesh = selvedge.generate("nested", faces=2000)
+        kept = selvedge.simplify(*mesh, ratio=0.01, error=0.01, log=True)
+        within_reach = kept.report["target"]["within_reach"]
+        self.assertFalse(kept.reached)
+        self.assertTrue(1.08 * within_reach < len(kept.triangles) < 1.12 * within_reach)
+        self.assertTrue(selvedge.replay(*mesh, kept.log))
+        flattened = selvedge.simplify(*mesh, faces=within_reach, error=0.01)
+        self.assertIsNone(flattened.report["target"]["within_reach"])
+        self.assertLess(kept.report["distance"]["original_to_result"]["rms"],
+                        0.95 * flattened.report["distance"]["original_to_result"]["rms"])
+
     def test_options_are_those_of_the_program(self):
         mesh = layers(500)
         report = selvedge.simplify(*mesh, ratio=0.5, error=None, lock=[], normal_change=30).report

@@ -27,7 +27,7 @@ LEVELS = [
     ("judge", ["include/selvedge/verify.h", "include/selvedge/compare.h", "src/verify/"]),
     ("logs", ["include/selvedge/Reduction_limits.h", "include/selvedge/collapse_log.h", "include/selvedge/Sha256.h", "src/log/"]),
     ("replay", ["include/selvedge/replay.h", "src/replay/"]),
-    ("reduction", ["include/selvedge/prepare.h", "include/selvedge/simplify.h", "include/selvedge/Reduction_history.h", "include/selvedge/Reduction_log.h",
+    ("reduction", ["include/selvedge/prepare.h", "include/selvedge/simplify.h", "include/selvedge/Missed_target.h", "include/selvedge/Reduction_history.h", "include/selvedge/Reduction_log.h",
                    "include/selvedge/key_poses.h", "include/selvedge/part_report.h", "src/simplify/"]),
     ("cells", ["include/selvedge/cells.h", "src/cells/"]),
     ("progressive files", ["include/selvedge/progressive.h", "src/progressive/"]),
