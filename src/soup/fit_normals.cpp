@@ -65,18 +65,16 @@ public:
   Normal_fit(Triangle_soup& result, const std::vector<Index>& triangles,
              const std::vector<Index_triple>& corners, const Triangle_soup& original)
       : m_result(result), m_triangles(triangles), m_original(original), m_exponent(exponent_of(original)),
-        m_is_changed(result.triangles.size()), m_is_left(original.triangles.size(), false)
+        m_is_left(original.triangles.size(), false)
   {
     for (Index i = 0; i < triangles.size(); ++i) {
-      m_is_changed[i] = is_changed(i, corners[i]);
-      if (!m_is_changed[i])
-        m_is_left[triangles[i]] = true;
       const Index t = triangles[i];
       m_sides.push_back(
           has_normals(result, i) ? side_of(cosines(unit_normal(original, t), original.normals, t)) : 0);
       m_fronts.push_back(unit_normal(result, i));
     }
     number_wedges();
+    fix_what_is_left(corners);
   }
 
   std::size_t run()
@@ -206,9 +204,31 @@ private:
       if (is_elsewhere || normal != std::get<1>(keys[j - 1]))
         number = wedge_from(first, unit(normal), is_on_border[position]);
       m_wedges[corner / 3][corner % 3] = number;
-      m_is_fixed[number] |= !m_is_changed[corner / 3];
     }
     weigh_wedges();
+  }
+
+  // Fixes the wedges around which nothing has changed. Others also count what they show on triangles that
+  // have not: such a triangle may be a sliver of a bevel, beside a large face.
+  void fix_what_is_left(const std::vector<Index_triple>& corners)
+  {
+    const std::size_t count = m_result.triangles.size();
+    std::vector<char> are_changed(count), is_free(m_old.size(), false);
+    for (Index i = 0; i < count; ++i) {
+      are_changed[i] = is_changed(i, corners[i]);
+      if (are_changed[i] && has_normals(m_result, i))
+        for (const Index wedge : m_wedges[i])
+          is_free[wedge] = true;
+    }
+    for (std::size_t w = 0; w < m_old.size(); ++w)
+      m_is_fixed[w] |= !is_free[w];
+    for (Index i = 0; i < count; ++i)
+      m_is_left[m_triangles[i]] = !are_changed[i] && (!has_normals(m_result, i) || are_fixed(m_wedges[i]));
+  }
+
+  bool are_fixed(const Index_triple& wedges) const
+  {
+    return std::all_of(wedges.begin(), wedges.end(), [&](Index wedge) { return m_is_fixed[wedge] != 0; });
   }
 
   void weigh_wedges()
@@ -565,8 +585,7 @@ private:
   const std::vector<Index>& m_triangles;
   const Triangle_soup& m_original;
   int m_exponent;
-  std::vector<char> m_is_changed;     // by triangle of the result
-  std::vector<char> m_is_left;        // by triangle of the original: it is in the result as it was
+  std::vector<char> m_is_left;        // by triangle of the original: it is in the result with its normals
   std::vector<int> m_sides;           // by triangle of the result
   std::vector<Vector> m_fronts;       // likewise
   std::vector<Index_triple> m_wedges; // likewise

@@ -647,6 +647,53 @@ TEST(FittedShading, IsHardAgainWhereABevelIsGone)
   EXPECT_EQ(found, 12u);
 }
 
+// Between two planes at a right angle, the faces of a bevel are left. They turn the normals along its sides.
+// The planes are larger, and are shaded as planes.
+TEST(FittedShading, IsThatOfLargeFacesBesideTheBevelThatIsLeft)
+{
+  const std::array<double, 3> up{0, 0, 1}, between{1, 0, 1}, aside{1, 0, 0};
+  std::vector<std::array<double, 2>> profile;
+  std::vector<std::array<double, 3>> normals;
+  for (int i = 0; i < 8; ++i) {
+    profile.push_back({double(i), 0});
+    normals.push_back(up);
+  }
+  profile.insert(profile.end(), {{7.8, 0}, {7.9, 0}, {8, -0.1}, {8, -0.2}});
+  normals.insert(normals.end(), {up, between, between, aside});
+  for (int i = 1; i <= 8; ++i) {
+    profile.push_back({8, double(-i)});
+    normals.push_back(aside);
+  }
+  std::vector<double> rows;
+  for (int j = 0; j <= 20; ++j)
+    rows.push_back(j);
+  const Triangle_soup original = extruded(profile, normals, rows);
+  Triangle_soup result =
+      extruded({{0, 0}, {7.9, 0}, {8, -0.1}, {8, -8}}, {up, between, between, aside}, rows);
+  const std::size_t strips = profile.size() - 1;
+  const std::array<std::size_t, 3> strip_of_original{0, 9, strips - 1};
+  std::vector<Index> triangles;
+  std::vector<Index_triple> corners;
+  for (Index t = 0; t < result.triangles.size(); ++t) {
+    const std::size_t row = t / 6, strip = t / 2 % 3;
+    triangles.push_back(Index(2 * (row * strips + strip_of_original[strip]) + t % 2));
+    corners.push_back({3 * triangles.back(), 3 * triangles.back() + 1, 3 * triangles.back() + 2});
+  }
+  EXPECT_GT(fit_normals(result, triangles, corners, original), 0u);
+  std::size_t found = 0;
+  for (Index t = 0; t < result.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3 && t / 2 % 3 != 1; ++k) {
+      const double y = result.points[result.triangles[t][k]].y();
+      if (y == 0 || y == 20) // borders stay
+        continue;
+      ++found;
+      EXPECT_GT(internal::dot(shading::unit_normal(result, t),
+                              result.normals.values[result.normals.of_triangle[t][k]]),
+                0.95);
+    }
+  EXPECT_EQ(found, 228u);
+}
+
 // So that it goes on in what lies beside, in another file or as the next place of the same mesh.
 TEST(FittedShading, StaysBitForBitOnBorders)
 {
