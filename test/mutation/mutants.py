@@ -1345,6 +1345,8 @@ group(
     headers + "Surface_mesh_simplification/Quadric_cost.h",
     ("quadric_cost_test",),
     ("enclosure.is_known = false;", "(void)enclosure;", "what faces enclose is not forgotten when they change"),
+    ("Part_of_star{profile.vR(), profile.vL()}", "Part_of_star{profile.vL(), profile.vR()}",
+     "costs are computed anew around the end that has not moved"),
     ("    m_state->enclosures.reset();\n", "", "what faces enclose is kept when everything is computed anew"),
     ("    return product < 0\n", "    return product < -2 * weight_of_area(1e9)\n", "folds are not held"),
     ("? m_state->weight_unit * positive(sum(*least)) : 0;", "? 1.5 * m_state->weight_unit * positive(sum(*least)) : 0;",

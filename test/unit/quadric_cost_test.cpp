@@ -177,6 +177,47 @@ TEST(QuadricCost, RecomputedOnceIsWhatUpdatesAfterEachCollapseMakeIt)
   }
 }
 
+// Where one end has moved onto the other, only what was around the first is computed again.
+TEST(QuadricCost, UpdatedWhereOneEndWasIsWhatAnUpdateAllAroundMakesIt)
+{
+  using internal::Merged_at;
+  for (const Merged_at at : {Merged_at::v0, Merged_at::v1, Merged_at::between}) {
+    const Kernel traits;
+    Mesh mesh = Peak::made(1);
+    const auto points = get(CGAL::vertex_point, mesh);
+    const Quadric_cost<Mesh> in_part(mesh, with_memory(0.5)), all_around(mesh, with_memory(0.5)),
+        before(mesh, with_memory(0.5));
+    for (const auto& cost : {in_part, all_around, before})
+      cost.initialize(mesh, points, traits);
+    const auto profile = [&](Mesh::Halfedge_index h) { return Edge_profile(h, mesh, points, traits); };
+    const auto differing = [&](const Quadric_cost<Mesh>& a, const Quadric_cost<Mesh>& b) {
+      return std::count_if(mesh.halfedges().begin(), mesh.halfedges().end(), [&](const auto h) {
+        const double cost = *a.cost_along(profile(h), h);
+        return std::abs(cost - *b.cost_along(profile(h), h)) > 1e-6 * cost;
+      });
+    };
+    int collapses = 0;
+    for (const auto e : mesh.edges()) {
+      if (mesh.is_removed(e) || mesh.is_border(e) || !CGAL::Euler::does_satisfy_link_condition(e, mesh))
+        continue;
+      const auto edge = profile(mesh.halfedge(e));
+      EXPECT_NE(edge.vL(), edge.vR()); // asked for before the collapse
+      const auto kept = CGAL::Euler::collapse_edge(e, mesh);
+      put(points, kept,
+          at == Merged_at::v0   ? edge.p0()
+          : at == Merged_at::v1 ? edge.p1()
+                                : CGAL::midpoint(edge.p0(), edge.p1()));
+      in_part.update_after_collapse(edge, kept, at);
+      all_around.update_after_collapse(edge, kept);
+      EXPECT_EQ(differing(in_part, all_around), 0) << collapses;
+      if (++collapses == 40)
+        break;
+    }
+    EXPECT_EQ(collapses, 40);
+    EXPECT_GT(differing(in_part, before), 0);
+  }
+}
+
 // What is kept in single precision is relative to the vertices, wherever they are.
 TEST(QuadricCost, IsTheSameForASmallThingInALargeScene)
 {

@@ -7,6 +7,7 @@
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
 #include <selvedge/Surface_mesh_simplification/Quadric_cost_options.h>
+#include <selvedge/Surface_mesh_simplification/internal/Collapse.h>
 #include <selvedge/Surface_mesh_simplification/internal/Symmetric_quadric.h>
 #include <selvedge/Surface_mesh_simplification/internal/cgal_compatibility.h>
 #include <selvedge/Surface_mesh_simplification/internal/mesh_diagonal.h>
@@ -380,25 +381,24 @@ public:
   template <class Profile>
   void update_after_collapse(const Profile& profile, Vertex kept) const
   {
-    const auto& mesh = profile.surface_mesh();
-    const auto& points = profile.vertex_point_map();
-    const double memory = m_state->options.memory;
-    if (memory < 1) {
-      prefetch_around(kept, mesh);
-      for (const Halfedge h : CGAL::halfedges_around_target(kept, mesh))
-        if (!CGAL::is_border(h, mesh))
-          compute_plane(face(h, mesh), mesh, points);
-    }
-    accumulate(profile, kept);
-    const auto update = [&](Vertex v) {
-      change(m_state->growths, v, [&](Growth& growth) { compute_growth(v, mesh, points, memory, growth); });
-      if (m_state->enclosures)
-        change(*m_state->enclosures, v, [](Enclosure& enclosure) { enclosure.is_known = false; });
-    };
-    update(kept);
-    if (memory < 1)
-      for (const Vertex v : CGAL::vertices_around_target(halfedge(kept, mesh), mesh))
-        update(v);
+    update(profile, kept, std::nullopt);
+  }
+
+  /// The same in less time, for a loop that says where the merged vertex is, and whose profile says what was
+  /// beside the edge before the collapse. When it is at one end of the edge, only the faces that were at the
+  /// other have changed, and only what is around their corners is computed anew.
+  template <class Profile>
+  void update_after_collapse(const Profile& profile, Vertex kept, internal::Merged_at at) const
+  {
+    // On both sides of the edge there must be a corner where the faces of one end begin.
+    const bool is_part =
+        at != internal::Merged_at::between && profile.left_face_exists() && profile.right_face_exists();
+    if (!is_part)
+      update(profile, kept, std::nullopt);
+    else if (at == internal::Merged_at::v1)
+      update(profile, kept, Part_of_star{profile.vR(), profile.vL()});
+    else
+      update(profile, kept, Part_of_star{profile.vL(), profile.vR()});
   }
 
   /// Gives the merged vertex what both have accumulated. Between the first of many collapses of which nobody
@@ -464,6 +464,7 @@ private:
     double diagonal = 0; // not known yet
     double unit = 1;     // the power of two below the diagonal
     bool is_initialised = false;
+    std::vector<Vertex> changed; // by the last collapse: a buffer
   };
 
   template <class Point>
@@ -496,17 +497,69 @@ private:
       internal::prefetch(get(map, key));
   }
 
-  // Prefetches what `compute_quadric` reads at the neighbours of a vertex. It is spread over memory, and
-  // would be waited for piece by piece.
-  void prefetch_around(Vertex v, const TriangleMesh& mesh) const
+  // The neighbours of a vertex from one to another, in the order of `halfedges_around_target`, and the faces
+  // between them.
+  struct Part_of_star
   {
-    for (const Halfedge h : CGAL::halfedges_around_target(v, mesh)) {
-      prefetch_value(m_state->growths, source(h, mesh));
-      prefetch_value(m_state->accumulated, source(h, mesh));
-      for (const Halfedge g : CGAL::halfedges_around_source(h, mesh))
-        if (!CGAL::is_border(g, mesh))
-          prefetch_value(m_state->planes, face(g, mesh));
+    Vertex first, last;
+  };
+
+  // Updates what a collapse has changed: in a part of the star of the merged vertex, or in all of it.
+  template <class Profile>
+  void update(const Profile& profile, Vertex kept, const std::optional<Part_of_star>& part) const
+  {
+    const auto& mesh = profile.surface_mesh();
+    const auto& points = profile.vertex_point_map();
+    State& state = *m_state;
+    const double memory = state.options.memory;
+    state.changed = {kept};
+    if (memory < 1)
+      compute_planes_around(kept, part, mesh, points);
+    accumulate(profile, kept);
+    for (const Vertex v : state.changed) {
+      change(state.growths, v, [&](Growth& growth) { compute_growth(v, mesh, points, memory, growth); });
+      if (state.enclosures)
+        change(*state.enclosures, v, [](Enclosure& enclosure) { enclosure.is_known = false; });
     }
+  }
+
+  // Computes the planes of the faces in a part of the star of a vertex, or in all of it, and notes that its
+  // neighbours there have changed.
+  template <class VertexPointMap>
+  void compute_planes_around(Vertex v, const std::optional<Part_of_star>& part, const TriangleMesh& mesh,
+                             const VertexPointMap& points) const
+  {
+    Halfedge h = halfedge(v, mesh);
+    const auto advance = [&] { h = opposite(next(h, mesh), mesh); };
+    if (part)
+      while (source(h, mesh) != part->first)
+        advance();
+    const Halfedge first = h;
+    bool is_changed = true;
+    do {
+      const Vertex neighbour = source(h, mesh);
+      if (is_changed) {
+        m_state->changed.push_back(neighbour);
+        prefetch_around(h, mesh);
+      } else {
+        prefetch_value(m_state->growths, neighbour); // the loop is about to ask what its edge costs
+      }
+      is_changed = is_changed && !(part && neighbour == part->last);
+      if (is_changed && !CGAL::is_border(h, mesh))
+        compute_plane(face(h, mesh), mesh, points);
+      advance();
+    } while (h != first);
+  }
+
+  // Prefetches what `compute_growth` reads at the source of a halfedge. It is spread over memory, and would
+  // be waited for piece by piece.
+  void prefetch_around(Halfedge h, const TriangleMesh& mesh) const
+  {
+    prefetch_value(m_state->growths, source(h, mesh));
+    prefetch_value(m_state->accumulated, source(h, mesh));
+    for (const Halfedge g : CGAL::halfedges_around_source(h, mesh))
+      if (!CGAL::is_border(g, mesh))
+        prefetch_value(m_state->planes, face(g, mesh));
   }
 
   // The factor that brings areas of which faces differ by orders of magnitude nearer to each other.

@@ -87,6 +87,14 @@ public:
   /// Returns whether the merged vertex is placed at neither end.
   bool are_both_moved() const { return m_is_v0_moved && m_is_v1_moved; }
 
+  /// Returns where the merged vertex is placed.
+  Merged_at merged_at() const
+  {
+    if (are_both_moved())
+      return Merged_at::between;
+    return m_is_v1_moved ? Merged_at::v0 : Merged_at::v1;
+  }
+
   /// The halfedge along which a vertex moves, its source and its target. Where both ends move, the target is
   /// the end that is nearer to the place (v1 if both are as near), so that what belongs to vertices and
   /// cannot be mixed is that of the nearer end.

@@ -148,9 +148,9 @@ public:
   bool can_wait(Vertex kept, Edge edge) const { return m_quadrics.can_wait(kept, edge); }
 
   template <class Profile>
-  void update_after_collapse(const Profile& profile, Vertex kept) const
+  void update_after_collapse(const Profile& profile, Vertex kept, Merged_at at = Merged_at::between) const
   {
-    m_quadrics.update_after_collapse(profile, kept);
+    m_quadrics.update_after_collapse(profile, kept, at);
     m_poses->update_costs(profile.v0(), profile.v1(), kept);
   }
 

@@ -38,6 +38,19 @@ struct Is_updated<Cost, std::void_t<typename Cost::Update_tag>> : std::bool_cons
 {
 };
 
+// Notifies a cost, and tells one that takes it where the merged vertex is.
+template <class Cost, class Profile, class Vertex>
+auto update_after_collapse(const Cost& cost, const Collapse<Profile>& collapse, const Vertex& kept, int)
+    -> decltype(cost.update_after_collapse(collapse.profile(), kept, collapse.merged_at()))
+{
+  return cost.update_after_collapse(collapse.profile(), kept, collapse.merged_at());
+}
+template <class Cost, class Profile, class Vertex>
+void update_after_collapse(const Cost& cost, const Collapse<Profile>& collapse, const Vertex& kept, long)
+{
+  cost.update_after_collapse(collapse.profile(), kept);
+}
+
 /// Collapses an edge, notifies the visitor and the cost, and returns the merged vertex.
 ///
 /// Both the loop and the repetition of the collapses of cells use this function, so that the same is notified
@@ -63,7 +76,7 @@ auto perform_collapse(TriangleMesh& mesh, const VertexPointMap& points,
                                                  of_edge, kept)) { visitor.OnCollapsed(of_edge, kept); },
                     profile);
   if constexpr (Is_updated<Cost>::value)
-    cost.update_after_collapse(profile, kept);
+    update_after_collapse(cost, collapse, kept, 0);
   return kept;
 }
 
