@@ -134,7 +134,7 @@ public:
     const bool may_move_v1 = m_rule.may_move(profile.v1_v0());
     if (may_move_v0 != may_move_v1)
       return may_move_v0 ? onto_v1 : onto_v0;
-    return (std::min)(onto_v0, onto_v1);
+    return (std::min)(*onto_v0, *onto_v1);
   }
 
   /// Returns the collapse that a choice stands for.

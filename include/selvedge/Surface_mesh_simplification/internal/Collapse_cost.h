@@ -100,11 +100,10 @@ public:
       return {};
     if (!has_motions_alone(profile))
       return {cost_along(profile, motions[0]), cost_along(profile, motions[1])};
-    auto costs = m_quadrics.costs_along(profile);
-    if (may_attributes_cost())
-      for (std::size_t i = 0; i < 2; ++i)
-        *costs[i] += cost_of_attributes(motions[i]);
-    return costs;
+    if (!may_attributes_cost())
+      return m_quadrics.costs_along(profile); // in its place: a copy has to wait for what was just written
+    const auto [onto_v1, onto_v0] = m_quadrics.costs_along(profile);
+    return {*onto_v1 + cost_of_attributes(motions[0]), *onto_v0 + cost_of_attributes(motions[1])};
   }
 
   /// Returns the costs of the quadrics alone, below which `costs_along` does not fall. None where that would
