@@ -158,6 +158,10 @@ void print_content(const Contents& contents, const std::vector<Part_kind>& parts
                          : contents.normals == Normals_of_file::per_vertex ? "a normal per vertex"
                                                                            : "normals per corner");
   attributes.insert(attributes.end(), contents.attributes.begin(), contents.attributes.end());
+  for (const std::string& one : contents.attributes_of_some_primitives)
+    attributes.push_back(one + " of some primitives");
+  for (const std::string& one : contents.attributes_of_different_types)
+    attributes.push_back(one + " of different types");
   std::cout << "attributes: " << (attributes.empty() ? "none" : listed(attributes)) << '\n';
 }
 
@@ -309,7 +313,9 @@ Json to_json(const Contents& contents)
           {"material_libraries", contents.material_libraries},
           {"texture_coordinates", contents.texture_coordinates},
           {"normals", normals_name(contents.normals)},
-          {"attributes", contents.attributes}};
+          {"attributes", contents.attributes},
+          {"attributes_of_some_primitives", contents.attributes_of_some_primitives},
+          {"attributes_of_different_types", contents.attributes_of_different_types}};
 }
 
 void add_inspection(Json& report, const Inspection& mesh)

@@ -39,6 +39,10 @@ struct Contents
   std::size_t texture_coordinates = 0;
   Normals_of_file normals = Normals_of_file::none;
   std::vector<std::string> attributes; ///< names of all others, of vertices and then of triangles
+
+  /// Names of those that only some primitives of a glTF file have, and of those that all have, but not in one
+  /// type. Such attributes stay in glTF files, and are no columns of the soup.
+  std::vector<std::string> attributes_of_some_primitives, attributes_of_different_types;
 };
 
 /// Returns what a file holds. **Complexity** O(n).

@@ -15,7 +15,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
+#include <string>
 #include <utility>
 
 namespace selvedge {
@@ -71,6 +73,24 @@ std::vector<std::string> images_of(const Triangle_soup& soup)
                                                  : "image " + std::to_string(names.size()));
   }
   return names;
+}
+
+// Adds the names of attributes of a scene that are no columns of the soup.
+void add_attributes_of_scene_only(Contents& contents, const Gltf_scene& scene)
+{
+  std::map<std::string, std::size_t> instances_with;
+  for (const Gltf_scene::Instance& instance : scene.instances)
+    for (const Gltf_scene::Column& column : scene.blocks[instance.block].attributes)
+      ++instances_with[column.name];
+  std::set<std::string> of_soup(contents.attributes.begin(), contents.attributes.end());
+  of_soup.insert({"POSITION", "NORMAL", "TEXCOORD_0"});
+  if (of_soup.count("red") != 0)
+    of_soup.insert("COLOR_0");
+  for (const auto& [name, count] : instances_with)
+    if (of_soup.count(name) == 0)
+      (count < scene.instances.size() ? contents.attributes_of_some_primitives
+                                      : contents.attributes_of_different_types)
+          .push_back(name);
 }
 
 /// One call of `inspect`.
@@ -237,6 +257,8 @@ Contents contents_of(const Mesh_file& file)
       contents.attributes.push_back(attribute.name);
   if (has_tangents_in_scene_only(soup))
     contents.attributes.push_back("TANGENT");
+  if (soup.scene)
+    add_attributes_of_scene_only(contents, *soup.scene);
   return contents;
 }
 

@@ -79,6 +79,39 @@ TEST(App_info, NamesThePartsOfMostFacesFirst)
             std::string::npos);
 }
 
+// Two triangles, each a primitive of its own. Both have _WEAR, in different types, and only one has _HEAT.
+void write_primitives_unlike_each_other(const Workspace& folder, const std::string& name)
+{
+  std::vector<float> numbers{0, 0, 0, 1, 0, 0, 0, 1, 0, 0.25f, 0.5f, 0.75f};
+  write_text(folder / "numbers.bin",
+             {reinterpret_cast<const char*>(numbers.data()), sizeof(float) * numbers.size()});
+  write_text(name, R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+    "nodes": [{"mesh": 0}], "buffers": [{"uri": "numbers.bin", "byteLength": 48}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 12}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                   "min": [0, 0, 0], "max": [1, 1, 0]},
+                  {"bufferView": 1, "componentType": 5126, "count": 3, "type": "SCALAR"},
+                  {"bufferView": 1, "componentType": 5125, "count": 3, "type": "SCALAR"}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "_ALL": 1, "_HEAT": 1, "_WEAR": 1}},
+                               {"attributes": {"POSITION": 0, "_ALL": 1, "_WEAR": 2}}]}]})");
+}
+
+TEST(App_info, ListsAttributesThatNotEveryPrimitiveHas)
+{
+  const Workspace folder;
+  const std::string mesh = folder / "mesh.gltf";
+  write_primitives_unlike_each_other(folder, mesh);
+  const App_result text = run_app({"info", mesh});
+  EXPECT_EQ(text.code, 0) << text.err;
+  EXPECT_NE(text.out.find("\nattributes: _ALL, _HEAT of some primitives, _WEAR of different types\n"),
+            std::string::npos)
+      << text.out;
+  const Json contents = Json::parse(run_app({"info", mesh, "--json"}).out)["contents"];
+  EXPECT_EQ(contents["attributes"], Json({"_ALL"}));
+  EXPECT_EQ(contents["attributes_of_some_primitives"], Json({"_HEAT"}));
+  EXPECT_EQ(contents["attributes_of_different_types"], Json({"_WEAR"}));
+}
+
 TEST(App_info, RefusesWhatIsNoMesh)
 {
   const Workspace folder;
