@@ -273,7 +273,7 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->group(seams);
   add_attributes_option(command, request.dropped_attributes,
                         "Leaves out an attribute of IN, and the seams that it makes: texture (with the "
-                        "textures of glTF materials), colors, or a vertex attribute by the name that info "
+                        "textures of glTF materials, and their images), colors, or a vertex attribute by the name that info "
                         "gives it. For textures that are baked anew, and those of which every face has its "
                         "own piece.")
       ->group(seams);

@@ -15,7 +15,8 @@ namespace selvedge {
 /// Leaves out attributes of a mesh, so that no line is kept where nothing else differs, and returns how many
 /// corners name another vertex then. A name is one of these:
 /// - `texture`: texture coordinates, and in glTF all sets of them, the tangents that follow from them, and
-///   the textures of all materials, which would have no place any more;
+///   the textures of all materials, which would have no place any more, with the images and samplers of these
+///   alone (which stay where an extension that is not known here may refer to them);
 /// - `colors`: the colours of vertices, in glTF all sets of them, and the colours of faces;
 /// - otherwise, the name that an attribute of vertices or faces has in the file, such as `quality` or
 ///   `TEXCOORD_1`.

@@ -5,6 +5,7 @@
 
 #include "Gltf_scene.h"
 #include "flat_shading.h"
+#include "material_textures.h"
 #include "near_normals.h"
 #include "poles.h"
 #include "selection.h"
@@ -42,31 +43,6 @@ bool is_needed(const std::string& attribute)
 {
   return attribute == "POSITION" || attribute == "NORMAL" || begins_with(attribute, "JOINTS_") ||
          begins_with(attribute, "WEIGHTS_");
-}
-
-// Removes the references of materials to textures whose coordinates are left out.
-template <class Is_dropped>
-void drop_textures(Json& json, const Is_dropped& is_dropped)
-{
-  if (!json.is_structured())
-    return;
-  for (auto entry = json.begin(); entry != json.end();) {
-    const std::string key = json.is_object() ? entry.key() : "";
-    const bool is_texture = key.size() >= 7 && key.compare(key.size() - 7, 7, "Texture") == 0 &&
-                            entry->is_object() && entry->contains("index");
-    if (is_texture) {
-      Json number = entry->value("texCoord", Json(0));
-      const Json::json_pointer moved("/extensions/KHR_texture_transform/texCoord");
-      if (entry->contains(moved))
-        number = (*entry)[moved];
-      if (is_dropped("TEXCOORD_" + number.dump())) {
-        entry = json.erase(entry);
-        continue;
-      }
-    }
-    drop_textures(*entry, is_dropped);
-    ++entry;
-  }
 }
 
 class Attribute_dropper
@@ -291,8 +267,7 @@ private:
         std::remove_if(names.begin(), names.end(),
                        [&](const std::string& name) { return is_dropped(name.substr(0, name.find(','))); }),
         names.end());
-    if (scene->document.contains("materials"))
-      drop_textures(scene->document["materials"], [&](const std::string& set) { return is_dropped(set); });
+    drop_textures(*scene, [&](const std::string& set) { return is_dropped(set); });
     m_soup.scene = std::move(scene);
   }
 

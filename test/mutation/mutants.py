@@ -1428,8 +1428,18 @@ group(
      "pieces that lie beside each other become one"),
     ("append(kept, m_soup.normals.values[normals[v]]);", "append(dropped, m_soup.normals.values[normals[v]]);",
      "vertices of different normals become one"),
-    ("number = (*entry)", "(void)(*entry)", "the set that a texture's transform names is not asked for"),
     ("m_soup.uvs.of_triangle[t][k] = uvs[v];", ";", "texture coordinates stay those of vertices that are gone"),
+)
+group(
+    "src/soup/material_textures.cpp",
+    ("drop_attributes_test",),
+    ("reference.contains(moved) ? reference[moved]", "false ? reference[moved]",
+     "the set that a texture's transform names is not asked for"),
+    ("is_of_dropped[i] && !is_kept[i]", "is_of_dropped[i]", "what a texture that stays shows goes with others"),
+    ("is_of_dropped[i] && !is_kept[i]", "!is_kept[i]", "images go to which nothing has referred before"),
+    (" && are_all_references_known(scene.document)", "", "images go to which an unknown extension refers"),
+    ("m_images.renumber(source, \"source\");", ";", "textures that stay show other images"),
+    ("      if (is_freed[view]) {", "      if (false) {", "the bytes of images stay"),
 )
 group(
     "src/files/gltf_bind_poses.cpp",

@@ -320,6 +320,104 @@ TEST_F(Attributes_of_gltf, OneSetGoesWithTheTexturesThatItPlaces)
   EXPECT_FALSE(mesh.uvs.empty());
 }
 
+// Five images, of which the first is referred to by nothing and the last is beside the file.
+class Images_of_gltf : public Attributes_of_gltf
+{
+protected:
+  Images_of_gltf()
+  {
+    Json json = json_of("in.gltf");
+    json["images"] = {{{"name", "spare"}, {"uri", "spare.png"}},
+                      {{"name", "weave"}, {"mimeType", "image/png"}},
+                      {{"name", "both"}, {"uri", "both.png"}},
+                      {{"name", "shine"}, {"uri", "shine.png"}},
+                      {{"name", "packed"}, {"uri", "packed.ktx2"}}};
+    json["images"][1]["bufferView"] = json["bufferViews"].size();
+    json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 96}, {"name", "weave"}});
+    json["samplers"] = {{{"magFilter", 9728}}, {{"magFilter", 9729}}};
+    json["textures"] = {{{"source", 1}, {"sampler", 0}},
+                        {{"source", 2}, {"sampler", 1}},
+                        {{"source", 2}, {"sampler", 0}},
+                        {{"source", 3},
+                         {"sampler", 1},
+                         {"extensions", {{"KHR_texture_basisu", {{"source", 4}}}}}}};
+    json["extensionsUsed"] = {"KHR_materials_specular", "KHR_texture_basisu", "KHR_texture_transform"};
+    json["materials"] = Json::parse(R"([{
+      "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}},
+      "occlusionTexture": {"index": 1},
+      "normalTexture": {"index": 2, "texCoord": 1},
+      "extensions": {"KHR_materials_specular": {"specularTexture": {"index": 3, "texCoord": 1}}}}])");
+    write(json);
+  }
+
+  void write(const Json& json)
+  {
+    std::ofstream(folder / "in.gltf") << json;
+    mesh = read_mesh(folder / "in.gltf").soup;
+  }
+
+  static std::vector<std::string> images_in(const Json& json)
+  {
+    std::vector<std::string> names;
+    for (const Json& image : json.value("images", Json::array()))
+      names.push_back(image["name"]);
+    return names;
+  }
+};
+
+TEST_F(Images_of_gltf, GoWithTheirTexturesAndSamplers)
+{
+  const Json json = written_without({"texture"});
+  EXPECT_FALSE(json.contains("textures"));
+  EXPECT_FALSE(json.contains("samplers"));
+  EXPECT_EQ(images_in(json), std::vector<std::string>{"spare"}) << "to which nothing has referred before";
+  EXPECT_EQ(json.dump().find("weave"), std::string::npos) << "the bytes of an image stay";
+}
+
+TEST_F(Images_of_gltf, StayWhereATextureThatStaysShowsThem)
+{
+  const Json json = written_without({"TEXCOORD_1"});
+  EXPECT_EQ(images_in(json), (std::vector<std::string>{"spare", "weave", "both"}));
+  ASSERT_EQ(images_in(json).size(), 3u);
+  ASSERT_EQ(json["textures"].size(), 2u);
+  EXPECT_EQ(json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["index"], 0);
+  EXPECT_EQ(json["materials"][0]["occlusionTexture"]["index"], 1);
+  EXPECT_EQ(json["images"][json["textures"][1]["source"].get<std::size_t>()]["name"], "both");
+  EXPECT_EQ(json["samplers"], (Json{{{"magFilter", 9728}}, {{"magFilter", 9729}}}));
+}
+
+TEST_F(Images_of_gltf, OfTexturesThatStayGetOtherNumbers)
+{
+  Json json = json_of("in.gltf");
+  // What was seen by the first set is now seen by the second one, and the other way round.
+  json["materials"] = Json::parse(R"([{
+      "pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "texCoord": 1}},
+      "occlusionTexture": {"index": 1, "texCoord": 1},
+      "extensions": {"KHR_materials_specular": {"specularTexture": {"index": 3}}}}])");
+  json["textures"][0]["sampler"] = 0;
+  json["textures"].erase(2);
+  json["materials"][0]["extensions"]["KHR_materials_specular"]["specularTexture"]["index"] = 2;
+  write(json);
+  const Json written = written_without({"TEXCOORD_1"});
+  EXPECT_EQ(images_in(written), (std::vector<std::string>{"spare", "shine", "packed"}));
+  EXPECT_EQ(written["textures"], Json::parse(R"([{"source": 1, "sampler": 0,
+      "extensions": {"KHR_texture_basisu": {"source": 2}}}])"));
+  EXPECT_EQ(written["samplers"], Json::parse(R"([{"magFilter": 9729}])"));
+  EXPECT_EQ(written["materials"][0]["extensions"]["KHR_materials_specular"]["specularTexture"]["index"], 0);
+}
+
+TEST_F(Images_of_gltf, StayWhereAnExtensionThatIsNotKnownMayReferToThem)
+{
+  Json json = json_of("in.gltf");
+  json["extensionsUsed"].push_back("ACME_decals");
+  json["extensions"] = {{"ACME_decals", {{"texture", 0}}}};
+  write(json);
+  const Json written = written_without({"texture"});
+  EXPECT_EQ(images_in(written).size(), 5u);
+  for (const char* list : {"textures", "samplers"})
+    EXPECT_EQ(written.value(list, Json()), json[list]);
+}
+
 TEST_F(Attributes_of_gltf, NoSetGoesBeforeALaterOne)
 {
   try {
