@@ -100,6 +100,8 @@ struct Gaps
 /// of triangles it is a value alone. The combinations of the result are looked up among those of the
 /// original, bit for bit. In positions, texture coordinates and normals, −0 is 0. Where the result is a glTF
 /// scene and the original is none, texture coordinates are compared as glTF stores them, in 32-bit floats.
+/// Colours of different types are compared as the coarser of these holds them: fractions as numbers up to 255
+/// where the other mesh has such, and doubles as 32-bit floats.
 struct Kept_attribute
 {
   /// "uv", "normal", "group", "object", "material", "smoothing group", or the name in the file.

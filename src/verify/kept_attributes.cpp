@@ -4,14 +4,20 @@
 #include "kept_attributes.h"
 
 #include "positions.h"
+#include "soup/with_number.h"
 
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/rounding.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <functional>
+#include <limits>
+#include <map>
 #include <string_view>
+#include <type_traits>
 #include <unordered_map>
 #include <utility>
 
@@ -63,7 +69,78 @@ std::string row(const Attribute& attribute, Index number, std::size_t rows)
   return bytes.append(reinterpret_cast<const char*>(attribute.rows.data()) + size * number, size);
 }
 
-std::vector<Column> columns_of(const Triangle_soup& soup, const Corner_values<2>& uvs)
+/// Colours of two meshes, of which one may have numbers up to 255 or 65535 and the other fractions. Where they
+/// differ in that, those of both are taken in the coarser of the two scales.
+class Colours_in_one_scale
+{
+public:
+  Colours_in_one_scale(const Triangle_soup& a, const Triangle_soup& b)
+  {
+    add(a.vertex_attributes, b.vertex_attributes);
+    add(a.triangle_attributes, b.triangle_attributes);
+  }
+
+  /// Returns an attribute of one of the meshes as it is to be compared.
+  const Attribute& operator()(const Attribute& attribute) const
+  {
+    const auto found = m_scaled.find(&attribute);
+    return found == m_scaled.end() ? attribute : found->second;
+  }
+
+private:
+  static bool is_colour(const Attribute& attribute)
+  {
+    constexpr std::array<std::string_view, 4> names{"red", "green", "blue", "alpha"};
+    const bool holds_fractions = attribute.is_normalized || attribute.type == Attribute::Type::float32 ||
+                                 attribute.type == Attribute::Type::float64;
+    return attribute.components == 1 && holds_fractions &&
+           std::find(names.begin(), names.end(), attribute.name) != names.end();
+  }
+
+  void add(const std::vector<Attribute>& of_a, const std::vector<Attribute>& of_b)
+  {
+    for (const Attribute& a : of_a)
+      for (const Attribute& b : of_b)
+        if (a.name == b.name && a.type != b.type && is_colour(a) && is_colour(b)) {
+          const Attribute::Type coarser = std::min(a.type, b.type); // they are listed by size
+          m_scaled.emplace(&a, scaled(a, coarser));
+          m_scaled.emplace(&b, scaled(b, coarser));
+        }
+  }
+
+  // The numbers that a column of another type would have for the same colours.
+  static Attribute scaled(const Attribute& attribute, Attribute::Type type)
+  {
+    Attribute result{attribute.name, Attribute::Type::float64, 1, false, {}};
+    with_number(attribute.type, [&](auto number) {
+      using Number = decltype(number);
+      result.rows.resize(attribute.rows.size() / sizeof number * sizeof(double));
+      for (std::size_t i = 0; i < attribute.rows.size() / sizeof number; ++i) {
+        std::memcpy(&number, attribute.rows.data() + i * sizeof number, sizeof number);
+        const double largest = std::is_integral_v<Number> ? double(std::numeric_limits<Number>::max()) : 1;
+        const double value = in_scale_of(type, double(number) / largest) + 0.0; // no −0
+        std::memcpy(result.rows.data() + i * sizeof value, &value, sizeof value);
+      }
+    });
+    return result;
+  }
+
+  static double in_scale_of(Attribute::Type type, double fraction)
+  {
+    return with_number(type, [&](auto number) {
+      using Number = decltype(number);
+      if constexpr (std::is_integral_v<Number>)
+        return std::nearbyint(fraction * double(std::numeric_limits<Number>::max()));
+      else
+        return double(Number(fraction));
+    });
+  }
+
+  std::map<const Attribute*, Attribute> m_scaled;
+};
+
+std::vector<Column> columns_of(const Triangle_soup& soup, const Corner_values<2>& uvs,
+                               const Colours_in_one_scale& in_scale)
 {
   std::vector<Column> columns;
   add_column(columns, "uv", uvs);
@@ -72,14 +149,18 @@ std::vector<Column> columns_of(const Triangle_soup& soup, const Corner_values<2>
   add_column(columns, "object", soup.objects, true);
   add_column(columns, "material", soup.materials, true);
   add_column(columns, "smoothing group", soup.smoothing_groups, false);
-  for (const Attribute& attribute : soup.vertex_attributes)
+  for (const Attribute& stored : soup.vertex_attributes) {
+    const Attribute& attribute = in_scale(stored);
     columns.push_back({attribute.name, true, [&soup, &attribute](Index triangle, int place) {
                          return row(attribute, soup.triangles[triangle][place], soup.points.size());
                        }});
-  for (const Attribute& attribute : soup.triangle_attributes)
+  }
+  for (const Attribute& stored : soup.triangle_attributes) {
+    const Attribute& attribute = in_scale(stored);
     columns.push_back({attribute.name, false, [&soup, &attribute](Index triangle, int) {
                          return row(attribute, triangle, soup.triangles.size());
                        }});
+  }
   return columns;
 }
 
@@ -161,8 +242,10 @@ void compare_values(Comparison& comparison, const Triangle_soup& result, const T
     return is_only_result_gltf ? stored_in_gltf(soup.uvs) : Corner_values<2>();
   };
   const Corner_values<2> stored = uvs_of(result), stored_of_original = uvs_of(original);
-  const std::vector<Column> columns = columns_of(result, is_only_result_gltf ? stored : result.uvs);
-  for (const Column& column : columns_of(original, is_only_result_gltf ? stored_of_original : original.uvs)) {
+  const Colours_in_one_scale in_scale(result, original);
+  const std::vector<Column> columns = columns_of(result, is_only_result_gltf ? stored : result.uvs, in_scale);
+  for (const Column& column :
+       columns_of(original, is_only_result_gltf ? stored_of_original : original.uvs, in_scale)) {
     const auto same = std::find_if(columns.begin(), columns.end(), [&](const Column& other) {
       return other.name == column.name && other.is_by_position == column.is_by_position;
     });

@@ -262,6 +262,51 @@ TEST(App_verify, AcceptsWhatSimplifyMakesInEveryFormat)
   }
 }
 
+TEST(App_verify, ComparesColoursInOneScale)
+{
+  const Workspace folder;
+  const auto ply = [](const std::string& type, const std::vector<std::string>& colours) {
+    std::string text = "ply\nformat ascii 1.0\nelement vertex 4\n";
+    for (const char* const name : {"float x", "float y", "float z"})
+      text += "property " + std::string(name) + '\n';
+    for (const char* const name : {" red", " green", " blue"})
+      text += "property " + type + name + '\n';
+    text += "element face 2\nproperty list uchar int vertex_indices\nend_header\n";
+    const char* const places[] = {"0 0 0 ", "1 0 0 ", "0 1 0 ", "1 1 0 "};
+    for (std::size_t v = 0; v < 4; ++v)
+      text += places[v] + colours[v] + '\n';
+    return text + "3 0 1 2\n3 2 1 3\n";
+  };
+  const std::string bytes = folder / "bytes.ply", obj = folder / "fractions.obj";
+  write_text(bytes, ply("uchar", {"10 20 30", "1 255 77", "128 0 9", "200 3 55"}));
+  ASSERT_EQ(run_app({"simplify", bytes, "-o", obj, "--ratio", "1", "--quiet"}).code, 0);
+  write_text(folder / "rounded.obj", "v 0 0 0 0.0392 0.0784 0.1176\nv 1 0 0 0.0039 1 0.302\n"
+                                     "v 0 1 0 0.502 0 0.0353\nv 1 1 0 0.7843 0.0118 0.2157\n"
+                                     "f 1 2 3\nf 3 2 4\n");
+  write_text(folder / "floats.ply",
+             ply("float", {"0.0392 0.0784 0.1176", "0.0039 1 0.302", "0.502 0 0.0353", "0.7843 0.0118 0.2157"}));
+  write_text(folder / "shorts.ply",
+             ply("ushort", {"2570 5140 7710", "257 65535 19789", "32896 0 2313", "51400 771 14135"}));
+  write_text(folder / "changed.obj", "v 0 0 0 0.0392 0.0784 0.1176\nv 1 0 0 0.0039 1 0.302\n"
+                                     "v 0 1 0 0.502 0 0.0353\nv 1 1 0 0.7843 0.0118 0.3\n"
+                                     "f 1 2 3\nf 3 2 4\n");
+  const auto verdict = [&](const std::string& mesh, const std::string& original) {
+    const App_result result = run_app({"verify", mesh, "--against", original});
+    EXPECT_EQ(result.code, 0) << result.out;
+    return result.out;
+  };
+  const char* const wrong = "values are NOT the original's";
+  for (const std::string& other : {obj, folder / "rounded.obj", folder / "floats.ply", folder / "shorts.ply"}) {
+    EXPECT_EQ(verdict(other, bytes).find(wrong), std::string::npos) << other;
+    EXPECT_EQ(verdict(bytes, other).find(wrong), std::string::npos) << other;
+  }
+  EXPECT_EQ(verdict(folder / "floats.ply", folder / "rounded.obj").find(wrong), std::string::npos);
+  EXPECT_NE(verdict(folder / "changed.obj", bytes).find("blue: 1 of 4 " + std::string(wrong)),
+            std::string::npos);
+  EXPECT_NE(verdict(folder / "rounded.obj", obj).find(wrong), std::string::npos)
+      << "in one type, values are compared bit for bit";
+}
+
 TEST(App_verify, AcceptsClosedSeamsThatItIsToldOf)
 {
   const Workspace folder;
