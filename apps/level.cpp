@@ -7,6 +7,7 @@
 #include "text.h"
 
 #include <selvedge/Error.h>
+#include <selvedge/mesh_files.h>
 #include <selvedge/poses.h>
 #include <selvedge/progressive.h>
 
@@ -35,11 +36,25 @@ struct Level_request
 
 constexpr std::string_view s_mark_of_pose = "{pose}";
 
+// Says why a progressive file has no poses to write, and where its shapes are instead.
+std::string without_poses(const Triangle_soup& soup)
+{
+  std::string own;
+  for (const std::string& name : not_carried(soup, Mesh_format::obj))
+    for (const char* const shapes : {"morph targets", "animations", "skins"})
+      if (name == shapes)
+        own += (own.empty() ? "" : " and ") + name;
+  if (own.empty())
+    return "the file holds no poses beside its own; leave the option out";
+  return "the file holds no poses of other files, but " + own +
+         ", which its levels have themselves: leave the option out, and write the level to a .glb file";
+}
+
 // Writes the poses that a progressive file holds.
 void write_poses(const Level_request& request, const Triangle_soup& soup)
 {
   if (soup.poses.empty())
-    throw Argument_error("--poses-out: the file holds no poses beside its own; leave the option out");
+    throw Argument_error("--poses-out: " + without_poses(soup));
   if (is_point_cache(request.poses_output))
     return write_point_cache(output_path(request.poses_output), soup);
   std::vector<Named_file> written = {{"--output", request.output}};

@@ -98,6 +98,24 @@ TEST_F(Progressive_file, ALevelHasThePosesOfTheRun)
                  "holds no poses");
 }
 
+TEST_F(Progressive_file, OfMorphsSaysThatItsLevelsHaveThem)
+{
+  run({"generate", "skirt", "-o", folder / "skirt.obj", "--faces", "1000", "--layers", "1", "--poses", "1",
+       "--poses-out", folder / "skirt_{pose}.obj", "--quiet"});
+  const std::string morphs = folder / "morphs.glb"; // the pose as a morph target, and an animation of it
+  run({"simplify", folder / "skirt.obj", "-o", out, "--ratio", "1", "--pose", folder / "skirt_1.obj",
+       "--poses-out", morphs, "--quiet"});
+  run({"simplify", morphs, "-o", out, "--ratio", "0.5", "--morphs", "--progressive",
+       folder / "progressive.glb", "--quiet"});
+  expect_refused({"level", folder / "progressive.glb", "--ratio", "0.5", "-o", out, "--poses-out",
+                  folder / "a_{pose}.obj"},
+                 2,
+                 "--poses-out: the file holds no poses of other files, but morph targets and animations, which "
+                 "its levels have themselves: leave the option out, and write the level to a .glb file");
+  run({"level", folder / "progressive.glb", "--ratio", "0.5", "-o", out, "--quiet"});
+  EXPECT_EQ(run_app({"verify", out, "--against", folder / "progressive.glb", "--morphs"}).code, 0);
+}
+
 TEST_F(Progressive_file, WhatCannotBeIsRefused)
 {
   const std::vector<std::string> simplify{"simplify", in, "-o", out, "--ratio", "0.5", "--progressive"};
