@@ -7,36 +7,6 @@
 #include <selvedge/Parts.h>
 
 namespace selvedge::app {
-namespace {
-
-using Names = std::pair<std::string, std::string>;
-
-Names names_in(const std::string& text, const Triangle_soup& soup)
-{
-  const auto fail = [&](const std::string& why) {
-    throw Argument_error("--may-intersect: '" + text + "': " + why);
-  };
-  std::vector<Names> found;
-  std::string unknown = "this is not of the form A:B";
-  for (std::size_t colon = text.find(':'); colon != std::string::npos; colon = text.find(':', colon + 1)) {
-    const Names names{text.substr(0, colon), text.substr(colon + 1)};
-    try {
-      triangles_named(soup, names.first);
-      triangles_named(soup, names.second);
-      found.push_back(names);
-    } catch (const Argument_error& error) {
-      unknown = error.what();
-    }
-  }
-  if (found.empty())
-    fail(unknown);
-  if (found.size() > 1)
-    fail("this may be '" + found[0].first + "' and '" + found[0].second + "', or '" + found[1].first +
-         "' and '" + found[1].second + "'; rename a part");
-  return found.front();
-}
-
-} // namespace
 
 CLI::Option* add_part_pairs_option(CLI::App& command, std::vector<std::string>& texts,
                                    const char* description)
@@ -47,11 +17,16 @@ CLI::Option* add_part_pairs_option(CLI::App& command, std::vector<std::string>& 
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
-std::vector<Names> part_pairs(const std::vector<std::string>& texts, const Triangle_soup& soup)
+std::vector<std::pair<std::string, std::string>> part_pairs(const std::vector<std::string>& texts,
+                                                            const Triangle_soup& soup)
 {
-  std::vector<Names> pairs;
+  std::vector<std::pair<std::string, std::string>> pairs;
   for (const std::string& text : texts)
-    pairs.push_back(names_in(text, soup));
+    try {
+      pairs.push_back(parts_in_pair(soup, text));
+    } catch (const Argument_error& error) {
+      throw Argument_error(std::string("--may-intersect: ") + error.what());
+    }
   return pairs;
 }
 

@@ -18,10 +18,8 @@ namespace selvedge::app {
 CLI::Option* add_part_pairs_option(CLI::App& command, std::vector<std::string>& texts,
                                    const char* description);
 
-/// Returns the names of the two parts in each of some texts of the form A:B. A name may have a `:` of its
-/// own: the text is split where both sides name parts of the mesh.
-///
-/// @throws Argument_error  a text has no `:`, or it can be split so in no way, or in several
+/// Returns the names of the two parts in each of some texts of the form A:B (`parts_in_pair`). Errors begin
+/// with the name of the option.
 std::vector<std::pair<std::string, std::string>> part_pairs(const std::vector<std::string>& texts,
                                                             const Triangle_soup& soup);
 

@@ -7,6 +7,7 @@
 
 #include <selvedge/Error.h>
 #include <selvedge/Missed_target.h>
+#include <selvedge/Parts.h>
 #include <selvedge/Reduction_log.h>
 #include <selvedge/collapse_log.h>
 #include <selvedge/merge.h>
@@ -16,7 +17,9 @@
 #include <chrono>
 #include <optional>
 #include <sstream>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace selvedge::bindings {
 namespace {
@@ -27,6 +30,19 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start)
 {
   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::vector<std::pair<std::string, std::string>> part_pairs(const std::vector<std::string>& texts,
+                                                            const Triangle_soup& mesh)
+{
+  std::vector<std::pair<std::string, std::string>> pairs;
+  for (const std::string& text : texts)
+    try {
+      pairs.push_back(parts_in_pair(mesh, text));
+    } catch (const Argument_error& error) {
+      throw Argument_error(std::string("may_intersect: ") + error.what());
+    }
+  return pairs;
 }
 
 } // namespace
@@ -53,6 +69,7 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool
   if (!request.obstacle.triangles.empty())
     header.obstacle = {request.obstacle.points.size(), request.obstacle.triangles.size(), {}};
   Prepare_options prepare_options = request.complete_prepare_options();
+  prepare_options.may_intersect = part_pairs(request.may_intersect, input);
   keep_from_snapping(prepare_options, request.intent);
   m_prepared = prepare(std::move(input), prepare_options, request.obstacle);
 

@@ -138,18 +138,9 @@ void add_part_ratio(Request& request, const std::string& value)
 
 void add_part_pair(Request& request, const std::string& value)
 {
-  const std::size_t colon = value.find(':');
-  if (colon == std::string::npos || colon != value.rfind(':'))
-    refuse(value, "two parts with one colon between them, as in skin:dress");
-  request.prepare.may_intersect.emplace_back(value.substr(0, colon), value.substr(colon + 1));
-}
-
-Json part_pairs_json(const Request& request)
-{
-  Json list = Json::array();
-  for (const auto& [first, second] : request.prepare.may_intersect)
-    list.push_back(first + ':' + second);
-  return list;
+  if (value.find(':') == std::string::npos)
+    refuse(value, "two parts with a colon between them, as in skin:dress");
+  request.may_intersect.push_back(value);
 }
 
 Json part_ratios_json(const Request& request)
@@ -209,7 +200,7 @@ const std::vector<Option>& table()
        [](const Request& r) { return Json(r.intent.locked); }},
       {"keep", [](Request& r, const std::string& value) { r.intent.kept.push_back(value); },
        [](const Request& r) { return Json(r.intent.kept); }},
-      {"may_intersect", add_part_pair, part_pairs_json},
+      {"may_intersect", add_part_pair, [](const Request& r) { return Json(r.may_intersect); }},
       {"weights", [](Request& r, const std::string& value) { r.intent.weights = value; },
        [](const Request& r) { return r.intent.weights.empty() ? Json(nullptr) : Json(r.intent.weights); }},
       {"weld", set_weld,

@@ -46,6 +46,7 @@ struct Reduction_request
   Simplify_intent intent;
   Prepare_options prepare;
   Triangle_soup obstacle;
+  std::vector<std::string> may_intersect; ///< "PART:PART", with names of parts of the mesh
   bool is_sewn = false;
   bool is_log_wanted = false;
   bool is_error_given = false; ///< whether `options.max_error` is what the caller said, and no default

@@ -7,6 +7,7 @@
 #include <selvedge/Triangle_soup.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace selvedge {
@@ -44,6 +45,12 @@ std::vector<Part_kind> part_kinds(const Triangle_soup& soup);
 /// Throws `Argument_error`, which lists the known names, when neither a triangle nor an attribute has this
 /// name.
 std::vector<char> triangles_named(const Triangle_soup& soup, const std::string& name);
+
+/// Returns the names of the two parts in a text of the form A:B. A name may have a `:` of its own: the text is
+/// split where both sides name parts of the soup (`triangles_named`).
+///
+/// Throws `Argument_error` when the text has no `:`, or can be split so in no way, or in several.
+std::pair<std::string, std::string> parts_in_pair(const Triangle_soup& soup, const std::string& text);
 
 } // namespace selvedge
 

@@ -157,6 +157,25 @@ class Simplify(unittest.TestCase):
             with self.assertRaisesRegex(selvedge.ArgumentError, why):
                 selvedge.simplify(*mesh, lock_vertices=bad, ratio=0.2)
 
+    def test_parts_that_may_intersect_may_have_colons_in_their_names(self):
+        mesh = layers(500, 2)
+        half = len(mesh.triangles) // 2
+
+        def simplify(names, pairs):
+            groups = [names[0]] * half + [names[1]] * (len(mesh.triangles) - half)
+            return selvedge.simplify(*mesh, groups=groups, may_intersect=pairs, ratio=0.5)
+
+        names = ("material:skin", "material:dress")
+        result = simplify(names, "material:skin:material:dress")
+        self.assertEqual(result.report["options"]["may_intersect"], ["material:skin:material:dress"])
+        self.assertEqual(len(simplify(("low", "high"), ["low:high", "l*:high"]).report["options"]["may_intersect"]), 2)
+        for bad, why in (("material:skin", "'material:skin': no group, object or material is called"),
+                         ("skin", "'skin' is not two parts with a colon between them")):
+            with self.assertRaisesRegex(selvedge.ArgumentError, "may_intersect: " + why):
+                simplify(names, bad)
+        with self.assertRaisesRegex(selvedge.ArgumentError, "this may be '.*', or '.*'; rename a part"):
+            simplify(("a:a", "a"), "a:a:a")
+
     def test_meshes_are_taken_whole(self):
         mesh = layers(500)
         result = selvedge.simplify(*mesh, ratio=0.5, log=True)
