@@ -65,6 +65,41 @@ std::string unknown(const std::string& kind, const std::string& word, const std:
   return message;
 }
 
+// Has every option of a command, and of those within it, refuse an empty value, and say what it may be.
+void refuse_empty_values(CLI::App& command)
+{
+  for (CLI::Option* const option : command.get_options()) {
+    if (option->get_items_expected_max() == 0) // a flag
+      continue;
+    const std::string values = option->get_type_name();
+    const std::string message = "the value is empty; give " + (values.empty() ? "a name" : values);
+    // The first of its tests, which a transformation is.
+    option->transform(
+        CLI::Validator([message](const std::string& text) { return text.empty() ? message : ""; }, ""));
+  }
+  for (CLI::App* const within : command.get_subcommands({}))
+    refuse_empty_values(*within);
+}
+
+// Returns the arguments in reverse order, as CLI11 wants them. An option followed by `=` alone has an empty
+// value; CLI11 would take the next argument for it.
+std::vector<std::string> arguments_reversed(int argc, char** argv)
+{
+  std::vector<std::string> result;
+  for (int i = 1; i < argc; ++i) {
+    std::string argument = argv[i];
+    const bool is_without_value =
+        argument.size() > 3 && argument.rfind("--", 0) == 0 && argument.find('=') == argument.size() - 1;
+    if (is_without_value)
+      argument.pop_back();
+    result.push_back(std::move(argument));
+    if (is_without_value)
+      result.emplace_back();
+  }
+  std::reverse(result.begin(), result.end());
+  return result;
+}
+
 Exit_code run(int argc, char** argv)
 {
   CLI::App app("Reduces triangle meshes whose layers lie close together, such as garments, so that no layer\n"
@@ -110,6 +145,7 @@ Exit_code run(int argc, char** argv)
       add("cells", "Cut a mesh that is too large for one machine into pieces, and join them again.",
           add_cells)};
 
+  refuse_empty_values(app);
   std::vector<std::string> names;
   for (const Command& command : commands)
     names.push_back(command.app->get_name());
@@ -117,7 +153,7 @@ Exit_code run(int argc, char** argv)
     return fail(exit_usage, unknown("subcommand", argv[1], names) + " (see selvedge --help)");
 
   try {
-    app.parse(argc, argv);
+    app.parse(arguments_reversed(argc, argv));
   } catch (const CLI::Success& wish) {
     app.exit(wish); // prints the help or the version on stdout
     return exit_done;

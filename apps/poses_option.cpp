@@ -43,7 +43,6 @@ void add_pose_options(CLI::App& command, Pose_sources& sources, const std::strin
                       " (glTF), or of all of them, are further poses: skins, morph targets and moving "
                       "nodes are evaluated in double precision.")
       ->type_name("NAME|all")
-      ->check(CLI::Validator([](const std::string& name) { return name.empty() ? "no name" : ""; }, ""))
       ->group(group);
   command
       .add_option(

@@ -29,15 +29,32 @@ constexpr double default_error = 0.01;
   throw Argument_error("'" + value + "' is not " + expected);
 }
 
-double number(const std::string& value, double largest = std::numeric_limits<double>::max())
+std::optional<double> number_in(const std::string& value, double largest = std::numeric_limits<double>::max())
 {
   double result = 0;
   const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), result);
   if (error != std::errc() || end != value.data() + value.size() || !(result >= 0 && result <= largest))
+    return std::nullopt;
+  return result;
+}
+
+double number(const std::string& value, double largest = std::numeric_limits<double>::max())
+{
+  const std::optional<double> result = number_in(value, largest);
+  if (!result)
     refuse(value, largest == std::numeric_limits<double>::max()
                       ? "a number of at least 0"
                       : "a number from 0 to " + std::to_string(int(largest)));
-  return result;
+  return *result;
+}
+
+// The number that takes the place of a word.
+double number_or(const std::string& words, const std::string& value)
+{
+  const std::optional<double> result = number_in(value);
+  if (!result)
+    throw Argument_error("'" + value + "' is neither a number of at least 0 nor " + words);
+  return *result;
 }
 
 std::size_t count(const std::string& value, std::size_t least = 0)
@@ -125,7 +142,7 @@ Option cost_option(const char* name)
 void set_error(Request& request, const std::string& value)
 {
   request.is_error_given = value != "none";
-  request.options.max_error = request.is_error_given ? std::optional<double>(number(value)) : std::nullopt;
+  request.options.max_error = request.is_error_given ? std::optional<double>(number_or("none", value)) : std::nullopt;
 }
 
 void add_part_ratio(Request& request, const std::string& value)
@@ -156,7 +173,7 @@ void set_weld(Request& request, const std::string& value)
   request.is_weld_given = true;
   const auto word = std::find_if(seams.begin(), seams.end(), [&](const auto& s) { return s.first == value; });
   request.prepare.open_seams = word == seams.end() ? Open_seams::ignore : word->second;
-  request.prepare.weld_distance = word == seams.end() ? number(value) : 0;
+  request.prepare.weld_distance = word == seams.end() ? number_or("hold, auto or none", value) : 0;
 }
 
 const std::vector<Option>& table()

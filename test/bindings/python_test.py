@@ -176,6 +176,15 @@ class Simplify(unittest.TestCase):
         with self.assertRaisesRegex(selvedge.ArgumentError, "this may be '.*', or '.*'; rename a part"):
             simplify(("a:a", "a"), "a:a:a")
 
+    def test_empty_values_are_refused_with_what_they_may_be(self):
+        mesh = layers(500)
+        for option, why in (("weld", "weld: '' is neither a number of at least 0 nor hold, auto or none"),
+                            ("error", "error: '' is neither a number of at least 0 nor none"),
+                            ("placement", "placement: '' is not one of vertices, optimal"),
+                            ("keep", "''")):
+            with self.assertRaisesRegex(selvedge.ArgumentError, why):
+                selvedge.simplify(*mesh, ratio=0.5, **{option: ""})
+
     def test_meshes_are_taken_whole(self):
         mesh = layers(500)
         result = selvedge.simplify(*mesh, ratio=0.5, log=True)

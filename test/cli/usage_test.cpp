@@ -52,6 +52,35 @@ TEST(App_usage, ManualPageAndCompletionsHaveEveryOption)
   }
 }
 
+TEST(App_usage, EmptyValuesAreRefusedWithWhatTheyMayBe)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("grid", "in.obj", 200), out = folder / "out.obj";
+  for (const auto& [option, values] :
+       {std::pair("--weld", "EPS|auto|hold|none"), std::pair("--error", "E|none"),
+        std::pair("--ratio", "[PART=]R"), std::pair("--faces", "N"), std::pair("--lods", "R,R"),
+        std::pair("--placement", "vertices|optimal"), std::pair("--weights", "NAME"),
+        std::pair("--lock", "PART"), std::pair("--keep", "PART"), std::pair("--may-intersect", "PART:PART"),
+        std::pair("--drop-attribute", "NAME"), std::pair("--obstacle", "FILE"),
+        std::pair("--pose", "FILE|PATTERN"), std::pair("--animation", "NAME|all"),
+        std::pair("--obstacle-animation", "NAME|all"), std::pair("--poses-out", "PATTERN"),
+        std::pair("--threads", "N"), std::pair("--report", "FILE"), std::pair("--log", "FILE"),
+        std::pair("--html", "FILE"), std::pair("--progressive", "FILE"), std::pair("--output", "FILE")}) {
+    std::vector<std::string> arguments{"simplify", in, "-o", out, "--ratio", "0.5", option, ""};
+    if (option == std::string("--output"))
+      arguments.erase(arguments.begin() + 2, arguments.begin() + 4);
+    expect_refused(arguments, 2,
+                   std::string(option) + ": the value is empty; give " + values + " (see selvedge simplify");
+  }
+  expect_refused({"simplify", in, "-o", out, "--weld=", "--ratio", "0.5"}, 2,
+                 "--weld: the value is empty; give EPS|auto|hold|none");
+  expect_refused({"simplify", "", "-o", out, "--ratio", "0.5"}, 2, "IN: the value is empty; give a name");
+  expect_refused({"verify", in, "--against", ""}, 2, "--against: the value is empty; give FILE");
+  expect_refused({"replay", in, ""}, 2, "LOG: the value is empty; give a name");
+  expect_refused({"cells", "cut", in, "-o", ""}, 2, "--output: the value is empty; give ");
+  EXPECT_EQ(folder.files(), 1u);
+}
+
 TEST(App_usage, VersionIsTheProjects)
 {
   EXPECT_EQ(run_app({"--version"}).out, "selvedge " SELVEDGE_VERSION "\n");
