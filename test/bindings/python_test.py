@@ -250,6 +250,22 @@ class Simplify(unittest.TestCase):
         timer.join()
 
 
+class Generate(unittest.TestCase):
+    def test_numbers_that_cannot_be_are_refused_by_name(self):
+        for arguments, why in (({"faces": -5}, "faces is -5, and not a whole number from 0 to 18446744073709551615"),
+                               ({"faces": 2.5}, "faces is 2.5, and not a whole number"),
+                               ({"faces": "many"}, "faces is 'many', and not a whole number"),
+                               ({"layers": -1}, "layers is -1, and not"), ({"layers": 2**40}, "layers is 1099511627776, and"),
+                               ({"folds": None}, "folds is None, and"), ({"seed": -1}, "seed is -1, and not"),
+                               ({"gap": "wide"}, "gap is 'wide', and not a number"),
+                               ({"thickness": None}, "thickness is None, and not a number")):
+            with self.assertRaisesRegex(selvedge.ArgumentError, "^" + why):
+                selvedge.generate("sheets", **arguments)
+        with self.assertRaisesRegex(selvedge.ArgumentError, "5"):
+            selvedge.generate(5)
+        self.assertGreater(len(selvedge.generate("sheets", faces=np.int32(500), gap=np.float32(2**-8)).triangles), 0)
+
+
 class Compatible(unittest.TestCase):
     def test_fast_simplification(self):
         mesh = layers(2000, 1)

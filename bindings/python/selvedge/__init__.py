@@ -9,6 +9,7 @@ are read in place; others are converted. docs/python.md has examples.
 
 import json as _json
 import math as _math
+from operator import index as _index
 
 import numpy as _np
 
@@ -148,10 +149,29 @@ def replay(points, triangles, log, *, obstacle=None, all=False):
 def generate(name, *, faces=100_000, layers=3, thickness=5e-4, gap=1e-3, fold_depth=0.02, folds=14, seed=1):
     """Makes a scene of `selvedge generate`, free of intersections by construction. Returns a `Mesh` with `groups`, one
     name for each triangle. Lengths are in metres. Throws ArgumentError when a number is out of range."""
-    arrays, groups, names = _selvedge.generate(name, faces, layers, thickness, gap, fold_depth, folds, seed)
+    arrays, groups, names = _selvedge.generate(
+        str(name), _whole("faces", faces, 2**64 - 1), _whole("layers", layers), _number("thickness", thickness),
+        _number("gap", gap), _number("fold_depth", fold_depth), _whole("folds", folds), _whole("seed", seed, 2**32 - 1))
     mesh = Mesh(*arrays)
     mesh.groups = [names[group] for group in groups]
     return mesh
+
+
+def _whole(name, value, largest=2**31 - 1):
+    try:
+        number = _index(value)
+    except TypeError:
+        number = -1
+    if not 0 <= number <= largest:
+        raise ArgumentError(f"{name} is {value!r}, and not a whole number from 0 to {largest}")
+    return number
+
+
+def _number(name, value):
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise ArgumentError(f"{name} is {value!r}, and not a number") from None
 
 
 def _mesh(mesh, name):
