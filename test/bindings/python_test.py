@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The Python package keeps its promises, judged by the library. Run by ctest, with PYTHONPATH set to the build."""
 
+import copy
 import os
+import pickle
 import re
 import signal
 import threading
@@ -175,6 +177,24 @@ class Simplify(unittest.TestCase):
                 simplify(names, bad)
         with self.assertRaisesRegex(selvedge.ArgumentError, "this may be '.*', or '.*'; rename a part"):
             simplify(("a:a", "a"), "a:a:a")
+
+    def test_results_and_meshes_are_pickled_and_copied(self):
+        mesh = layers(500)
+        groups = mesh.groups
+        result = selvedge.simplify(*mesh, ratio=0.5, log=True)
+        for again in (pickle.loads(pickle.dumps(result)), copy.copy(result), copy.deepcopy(result)):
+            self.assertEqual(repr(again), repr(result))
+            self.assertEqual(again.report, result.report)
+            self.assertEqual((again.log, again.stopped), (result.log, result.stopped))
+            for name in ("points", "triangles", "vertices", "birth", "collapses"):
+                np.testing.assert_array_equal(getattr(again, name), getattr(result, name))
+            self.assertTrue(selvedge.verify(*again, original=mesh))
+        copied = pickle.loads(pickle.dumps(mesh))
+        self.assertEqual(copied.groups, groups)
+        np.testing.assert_array_equal(copied.triangles, mesh.triangles)
+        verdict = pickle.loads(pickle.dumps(selvedge.replay(*mesh, result.log)))
+        self.assertTrue(verdict)
+        np.testing.assert_array_equal(verdict.mesh.triangles, result.triangles)
 
     def test_empty_values_are_refused_with_what_they_may_be(self):
         mesh = layers(500)

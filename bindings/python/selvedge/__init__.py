@@ -48,6 +48,7 @@ class Result(Mesh):
         points, triangles = run.mesh()
         super().__init__(points, _as(triangles, index_type))
         self._run = run
+        self._report = None
         self.vertices = run.vertices()
         self.birth = run.triangles()
         self.accepted = run.is_accepted()
@@ -63,7 +64,15 @@ class Result(Mesh):
     @property
     def report(self):
         """The report of the run, as `selvedge simplify --report` writes it, without what is about files (docs/report.md)."""
-        return _json.loads(self._run.report())
+        return _json.loads(self._report_text())
+
+    def __getstate__(self):
+        return {**self.__dict__, "_report": self._report_text(), "_run": None}
+
+    def _report_text(self):
+        if self._report is None:
+            self._report = self._run.report()
+        return self._report
 
 
 class Verdict:
