@@ -159,6 +159,12 @@ class Simplify(unittest.TestCase):
             with self.assertRaisesRegex(selvedge.ArgumentError, why):
                 selvedge.simplify(*mesh, lock_vertices=bad, ratio=0.2)
 
+    def test_locked_vertices_are_not_numbers_and_booleans_at_once(self):
+        mesh = layers(500)
+        for mixed in ([True, 400], [400, False], (3, np.True_), {5, True}):
+            with self.assertRaisesRegex(selvedge.ArgumentError, "lock_vertices has both numbers and booleans"):
+                selvedge.simplify(*mesh, lock_vertices=mixed, ratio=0.2)
+
     def test_parts_that_may_intersect_may_have_colons_in_their_names(self):
         mesh = layers(500, 2)
         half = len(mesh.triangles) // 2

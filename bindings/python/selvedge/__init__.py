@@ -219,9 +219,12 @@ def _as(triangles, index_type):
 
 def _vertex_numbers(vertices, count):
     try:
-        array = vertices if isinstance(vertices, _np.ndarray) else _np.array(list(vertices))
+        listed = [] if isinstance(vertices, _np.ndarray) else list(vertices)
+        array = vertices if isinstance(vertices, _np.ndarray) else _np.array(listed)
     except (TypeError, ValueError):
         raise ArgumentError("lock_vertices is not a list of vertex numbers") from None
+    if array.dtype.kind != "b" and any(isinstance(vertex, (bool, _np.bool_)) for vertex in listed):
+        raise ArgumentError("lock_vertices has both numbers and booleans; give the numbers of vertices, or a boolean for each")
     if array.ndim != 1:
         raise ArgumentError(f"lock_vertices has {array.ndim} dimensions; it is a list of vertex numbers, which has one")
     if array.dtype.kind == "b":
