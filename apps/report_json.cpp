@@ -263,6 +263,19 @@ void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified
                         {"left_out_faces", prepared.left_out_by_rounding}};
 }
 
+void add_guarded_poses(Json& report, const std::vector<std::size_t>& guarded, const Simplified_soup& result)
+{
+  Json& poses = report["verified"]["poses"];
+  for (Json& pose : poses) {
+    pose["guarded"] = false;
+    pose["refused"] = 0;
+  }
+  for (std::size_t i = 0; i < guarded.size(); ++i) {
+    poses[guarded[i]]["guarded"] = true;
+    poses[guarded[i]]["refused"] = result.report.refused_in_poses[i];
+  }
+}
+
 void add_verification(Json& report, const Verification& verification, bool has_original)
 {
   report["verified"] = {{"embedded", verification.embedded()},

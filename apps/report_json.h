@@ -38,6 +38,10 @@ Json border_gaps_json(const Border_gaps& gaps);
 /// `welding`, `border_gaps`, `snap` and `rounding`.
 void add_reduction(Json& report, const Prepared_soup& prepared, const Simplified_soup& result);
 
+/// Says of each of the further poses, after `add_verification`, whether it was guarded, and how many collapses
+/// were refused in it. `guarded` are the numbers of those that were, in ascending order.
+void add_guarded_poses(Json& report, const std::vector<std::size_t>& guarded, const Simplified_soup& result);
+
 /// Sets `verified`, `pieces`, and `topology`, `matching` and `distance` where there is an original.
 void add_verification(Json& report, const Verification& verification, bool has_original);
 

@@ -34,7 +34,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -71,7 +70,7 @@ public:
       const Prepared_soup prepared = read_and_prepare();
       if (m_request.is_error_everywhere)
         m_error_search.emplace(*m_request.options.max_error);
-      m_guarded_poses = key_poses(prepared.soup, number_of_key_poses(prepared.soup.poses.size()));
+      m_guarded_poses = key_poses(prepared.soup, poses_guarded_first(prepared.soup.poses.size()));
       std::vector<Level> levels;
       do {
         levels = reduce(prepared);
@@ -157,7 +156,7 @@ private:
     const std::size_t poses = soup.poses.size(),
                       every = has_frames(m_request.poses, m_request.input) ? m_request.poses.every : 0;
     if (const std::string cost =
-            cost_of_poses(poses, soup.triangles.size(), number_of_key_poses(poses), every);
+            cost_of_poses(poses, soup.triangles.size(), poses_guarded_first(poses), every);
         !cost.empty())
       complain(cost);
   }
@@ -259,9 +258,9 @@ private:
     }
   }
 
-  std::size_t number_of_key_poses(std::size_t poses) const
+  std::size_t poses_guarded_first(std::size_t poses) const
   {
-    return m_request.are_key_poses_chosen ? std::size_t(std::ceil(std::sqrt(double(poses)))) : poses;
+    return m_request.are_key_poses_chosen ? number_of_key_poses(poses) : poses;
   }
 
   // Adds the poses in which the judge found new pairs or pieces too near to those that are guarded. Returns
@@ -272,12 +271,7 @@ private:
     if (m_outcome.is_interrupted || !m_request.options.check_intersections)
       return false;
     for (const Level& level : levels)
-      for (std::size_t pose = 0; pose < level.verification.poses.size(); ++pose)
-        if (const auto& judged = level.verification.poses[pose];
-            !judged.new_pairs.empty() || (judged.clearance && judged.clearance->too_near() > 0))
-          m_guarded_poses.push_back(pose);
-    std::sort(m_guarded_poses.begin(), m_guarded_poses.end());
-    m_guarded_poses.erase(std::unique(m_guarded_poses.begin(), m_guarded_poses.end()), m_guarded_poses.end());
+      add_refused_poses(m_guarded_poses, level.verification);
     if (m_guarded_poses.size() == guarded)
       return false;
     if (!m_request.is_quiet)
@@ -551,15 +545,7 @@ private:
       add_verification(json, level.verification, true);
       add_distances(json, level.verification, level.distances_anywhere);
       add_error_search(json, level.error_search);
-      for (Json& pose : json["verified"]["poses"]) {
-        pose["guarded"] = false;
-        pose["refused"] = 0;
-      }
-      for (std::size_t i = 0; i < level.guarded_poses.size(); ++i) {
-        Json& pose = json["verified"]["poses"][level.guarded_poses[i]];
-        pose["guarded"] = true;
-        pose["refused"] = level.result.report.refused_in_poses[i];
-      }
+      add_guarded_poses(json, level.guarded_poses, level.result);
       const Clock::time_point start = Clock::now();
       add_parts(json, prepared, level.result);
       seconds_parts += seconds_since(start);

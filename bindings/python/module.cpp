@@ -10,6 +10,7 @@
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
 #include <selvedge/generate.h>
+#include <selvedge/key_poses.h>
 
 #include <pybind11/functional.h>
 #include <pybind11/numpy.h>
@@ -223,6 +224,20 @@ Result reduce(const Points& points, const Triangles& triangles, const Options& o
   return Result(work.run([&] { return bindings::Reduction(std::move(soup), request); }));
 }
 
+py::array_t<std::size_t> choose_poses(const Points& points, const std::vector<Points>& poses,
+                                      std::size_t count)
+{
+  Triangle_soup mesh;
+  mesh.points = points_of(points);
+  for (const Points& pose : poses) {
+    mesh.poses.push_back({"", points_of(pose)});
+    if (mesh.poses.back().points.size() != mesh.points.size())
+      throw Argument_error("a pose has " + std::to_string(mesh.poses.back().points.size()) +
+                           " points, but the mesh has " + std::to_string(mesh.points.size()));
+  }
+  return array_of<std::size_t>(Work().run([&] { return key_poses(mesh, count); }));
+}
+
 py::tuple judge(const Points& points, const Triangles& triangles, const std::optional<Mesh_arrays>& original)
 {
   const Triangle_soup soup = soup_of(points, triangles);
@@ -285,6 +300,7 @@ PYBIND11_MODULE(_selvedge, module)
       .def("is_reached", [](const Result& result) { return result.reduction().is_reached(); })
       .def("is_stopped", [](const Result& result) { return result.reduction().is_stopped(); });
   module.def("reduce", &reduce);
+  module.def("key_poses", &choose_poses);
   module.def("judge", &judge);
   module.def("replay", &repeat);
   module.def("generate", &make);

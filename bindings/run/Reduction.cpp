@@ -6,14 +6,15 @@
 #include "apps/report_json.h"
 
 #include <selvedge/Error.h>
-#include <selvedge/Missed_target.h>
 #include <selvedge/Parts.h>
 #include <selvedge/Reduction_log.h>
 #include <selvedge/collapse_log.h>
+#include <selvedge/key_poses.h>
 #include <selvedge/merge.h>
 
 #include <oneapi/tbb/global_control.h>
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <sstream>
@@ -54,6 +55,8 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool
   if (request.is_sewn && !input.poses.empty())
     throw Argument_error(
         "sewn: vertices that meet in one pose may be apart in others; leave out one of the two");
+  if (request.are_key_poses_chosen && input.poses.empty())
+    throw Argument_error("key_poses: there are no further poses; give poses, or leave it out");
   std::optional<tbb::global_control> limit;
   if (request.threads)
     limit.emplace(tbb::global_control::max_allowed_parallelism, *request.threads);
@@ -73,21 +76,18 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool
   keep_from_snapping(prepare_options, request.intent);
   m_prepared = prepare(std::move(input), prepare_options, request.obstacle);
 
+  const std::size_t poses = m_prepared.soup.poses.size();
+  m_guarded_poses =
+      key_poses(m_prepared.soup, request.are_key_poses_chosen ? number_of_key_poses(poses) : poses);
   if (request.is_error_everywhere)
     m_error_search.emplace(*request.options.max_error);
   Missed_target missed_target(request.complete_options());
-  const auto is_another_due = [&] {
-    if (!is_accepted() || is_stopped())
-      return false;
-    if (m_error_search)
-      return m_error_search->advance(m_distances->larger().upper);
-    return request.intent.ratios.empty() &&
-           missed_target.advance(m_result, m_verification.distances->original_to_result);
-  };
   do {
     Simplify_options options = missed_target.options();
     if (m_error_search)
       options.max_error = m_error_search->max_error();
+    if (m_guarded_poses.size() < poses)
+      options.guarded_poses = m_guarded_poses;
     std::ostringstream stream;
     std::optional<Reduction_log> log;
     m_collapses.clear();
@@ -110,9 +110,33 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool
     if (m_error_search)
       m_distances = distances_anywhere(m_result.soup, m_prepared.soup);
     m_seconds["verify"] += seconds_since(start);
-  } while (is_another_due());
+  } while (is_to_be_repeated(request, missed_target));
   if (m_is_sewn)
     m_merged = merged_at_positions(m_result.soup);
+}
+
+// As in the program: guards the poses in which the result is refused or too far off, or chooses another
+// error. Where a target was missed, asks for faces that keep the shape.
+bool Reduction::is_to_be_repeated(const Reduction_request& request, Missed_target& missed_target)
+{
+  if (is_stopped())
+    return false;
+  if (request.options.check_intersections && add_refused_poses(m_guarded_poses, m_verification))
+    return true;
+  if (!is_accepted())
+    return false;
+  if (!m_error_search)
+    return request.intent.ratios.empty() &&
+           missed_target.advance(m_result, m_verification.distances->original_to_result);
+  const Bounds_over_poses largest = m_distances->larger();
+  if (largest.upper > *request.options.max_error && largest.pose) {
+    const auto place = std::lower_bound(m_guarded_poses.begin(), m_guarded_poses.end(), *largest.pose);
+    if (place == m_guarded_poses.end() || *place != *largest.pose) {
+      m_guarded_poses.insert(place, *largest.pose);
+      return true;
+    }
+  }
+  return m_error_search->advance(largest.upper);
 }
 
 std::vector<Index> Reduction::vertices() const
@@ -147,6 +171,7 @@ std::string Reduction::report() const
   report["options"] = Json::parse(m_options);
   app::add_reduction(report, m_prepared, m_result);
   app::add_verification(report, m_verification, true);
+  app::add_guarded_poses(report, m_guarded_poses, m_result);
   app::add_distances(report, m_verification, m_distances);
   app::add_error_search(report, m_error_search);
   app::add_parts(report, m_prepared, m_result);

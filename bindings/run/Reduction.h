@@ -8,6 +8,7 @@
 #include "apps/report_json.h"
 
 #include <selvedge/Error_search.h>
+#include <selvedge/Missed_target.h>
 #include <selvedge/compare.h>
 #include <selvedge/replay.h>
 #include <selvedge/verify.h>
@@ -52,10 +53,13 @@ public:
   std::string report() const;
 
 private:
+  bool is_to_be_repeated(const Reduction_request& request, Missed_target& missed_target);
+
   std::vector<Index_triple> m_input_triangles;
   std::string m_options;
   bool m_is_sewn;
   Prepared_soup m_prepared;
+  std::vector<std::size_t> m_guarded_poses;
   Simplified_soup m_result;
   Triangle_soup m_merged; // if it is sewn
   Verification m_verification;

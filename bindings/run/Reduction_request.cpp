@@ -89,6 +89,7 @@ const char* word_of(const Words<Value>& words, Value value)
 }
 
 const Words<bool> truth{{"true", true}, {"false", false}};
+const Words<bool> key_poses_words{{"all", false}, {"auto", true}};
 const Words<bool> orient{{"auto", true}, {"keep", false}};
 const Words<Placement> placements{{"vertices", Placement::vertices}, {"optimal", Placement::optimal}};
 const Words<Collapse_loop> loops{{"own", Collapse_loop::own}, {"cgal", Collapse_loop::cgal}};
@@ -220,6 +221,9 @@ const std::vector<Option>& table()
       {"may_intersect", add_part_pair, [](const Request& r) { return Json(r.may_intersect); }},
       {"weights", [](Request& r, const std::string& value) { r.intent.weights = value; },
        [](const Request& r) { return r.intent.weights.empty() ? Json(nullptr) : Json(r.intent.weights); }},
+      {"key_poses",
+       [](Request& r, const std::string& value) { r.are_key_poses_chosen = value_of(key_poses_words, value); },
+       [](const Request& r) { return Json(word_of(key_poses_words, r.are_key_poses_chosen)); }},
       {"weld", set_weld,
        [](const Request& r) {
          const Prepare_options prepare = r.complete_prepare_options();

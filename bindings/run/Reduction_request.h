@@ -52,6 +52,7 @@ struct Reduction_request
   bool is_error_given = false; ///< whether `options.max_error` is what the caller said, and no default
   bool is_error_everywhere = false;
   bool is_weld_given = false;
+  bool are_key_poses_chosen = false; ///< whether collapses are judged in some of the further poses at first
   std::optional<std::size_t> threads;
 };
 

@@ -5,6 +5,7 @@
 #define SELVEDGE_KEY_POSES_H
 
 #include <selvedge/Triangle_soup.h>
+#include <selvedge/verify.h>
 
 #include <cstddef>
 #include <vector>
@@ -20,6 +21,14 @@ namespace selvedge {
 ///
 /// **Complexity** O(count × poses × vertices); O(poses) when there are no more than `count`.
 std::vector<std::size_t> key_poses(const Triangle_soup& mesh, std::size_t count);
+
+/// Returns how many of so many further poses are guarded at first where it is left to the program: their
+/// square root, rounded up.
+std::size_t number_of_key_poses(std::size_t poses);
+
+/// Adds to the numbers of poses, which are in ascending order, those in which a judge has found new pairs, or
+/// pieces too near to each other. Returns whether it has added any, so that the reduction is to be done again.
+bool add_refused_poses(std::vector<std::size_t>& guarded, const Verification& verification);
 
 } // namespace selvedge
 

@@ -5,6 +5,7 @@
 #include <selvedge/key_poses.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -37,6 +38,24 @@ std::vector<std::size_t> key_poses(const Triangle_soup& mesh, std::size_t count)
   }
   std::sort(chosen.begin(), chosen.end());
   return chosen;
+}
+
+std::size_t number_of_key_poses(std::size_t poses)
+{
+  return std::size_t(std::ceil(std::sqrt(double(poses))));
+}
+
+bool add_refused_poses(std::vector<std::size_t>& guarded, const Verification& verification)
+{
+  const std::size_t before = guarded.size();
+  for (std::size_t number = 0; number < verification.poses.size(); ++number) {
+    const Verification::In_pose& pose = verification.poses[number];
+    const bool is_refused = !pose.new_pairs.empty() || (pose.clearance && pose.clearance->too_near() > 0);
+    const auto place = std::lower_bound(guarded.begin(), guarded.end(), number);
+    if (is_refused && (place == guarded.end() || *place != number))
+      guarded.insert(place, number);
+  }
+  return guarded.size() > before;
 }
 
 } // namespace selvedge

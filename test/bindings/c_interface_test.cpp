@@ -487,7 +487,7 @@ TEST(Bindings, HaveTheOptionsAndDefaultsOfTheProgram)
             0);
   nlohmann::json expected = nlohmann::json::parse(contents_of(report))["options"];
   for (const char* name :
-       {"animation", "drop_attribute", "every", "humanoid_poses", "key_poses", "lods", "morphs", "obstacle",
+       {"animation", "drop_attribute", "every", "humanoid_poses", "lods", "morphs", "obstacle",
         "obstacle_animation", "obstacle_humanoid_poses", "obstacle_pose", "polygons", "pose", "poses_out",
         "progressive", "strict", "without_pose"})
     EXPECT_EQ(expected.erase(name), 1u);
@@ -502,7 +502,7 @@ TEST(Bindings, EveryOptionTakesAValueAndRefusesAnother)
     bindings::Reduction_request request;
     std::size_t taken = 0;
     for (const char* value : {"0.25", "3", "optimal", "cgal", "clusters", "true", "false", "collar=0.5",
-                              "keep", "freeze", "apart", "skin:coat"}) {
+                              "keep", "freeze", "apart", "skin:coat", "auto"}) {
       try {
         const std::string before = request.json();
         request.set(name, value);

@@ -244,6 +244,48 @@ class Simplify(unittest.TestCase):
         with self.assertRaises(ValueError):
             selvedge.simplify(*mesh, poses=[bent[1:]], ratio=0.5)
 
+    def test_key_poses_are_those_that_differ_most_and_all_are_judged(self):
+        mesh = layers(1000, 2)
+        bends = (0, 0.01, 0.02, 3, 0.03)
+        poses = np.array([mesh.points + np.array([0, 0, 1]) * (bend * mesh.points[:, :1] ** 2) for bend in bends])
+        self.assertEqual(selvedge.key_poses(mesh.points, poses, 1).tolist(), [3])
+        self.assertEqual(selvedge.key_poses(mesh.points, poses, 2).tolist(), [3, 4])
+        self.assertEqual(selvedge.key_poses(mesh.points, poses, 9).tolist(), [0, 1, 2, 3, 4])
+        for bad in (-1, 1.5, "2"):
+            with self.assertRaisesRegex(selvedge.ArgumentError, "count is "):
+                selvedge.key_poses(mesh.points, poses, bad)
+        with self.assertRaises(selvedge.ArgumentError):
+            selvedge.key_poses(mesh.points, poses[:, 1:], 2)
+
+        def guarded(**options):
+            result = selvedge.simplify(*mesh, poses=poses, ratio=0.1, error=None, log=True, **options)
+            self.assertTrue(result.accepted)
+            for pose in poses:
+                self.assertEqual(len(selvedge.verify(pose[result.vertices], result.triangles).pairs), 0)
+            self.assertTrue(selvedge.replay(*mesh, result.log))
+            return [pose["guarded"] for pose in result.report["verified"]["poses"]]
+
+        self.assertEqual(guarded(), [True] * 5)
+        of_auto = guarded(key_poses="auto")
+        self.assertTrue(of_auto[3])
+        self.assertLess(sum(of_auto), 5)
+        with self.assertRaisesRegex(selvedge.ArgumentError, "key_poses: there are no further poses; give poses"):
+            selvedge.simplify(*mesh, ratio=0.5, key_poses="auto")
+
+    def test_poses_that_are_pierced_are_guarded_in_the_next_run(self):
+        mesh = layers(1000, 2)
+        # Two that move both layers far differ most, and tell nothing of the bent ones.
+        far = [mesh.points + np.array([0, 0, height]) for height in (50, -50)]
+        bent = [mesh.points + np.array([0, 0, 1]) * (bend * mesh.points[:, :1] ** 2) for bend in (3, 2.9)]
+        self.assertEqual(selvedge.key_poses(mesh.points, far + bent, 2).tolist(), [0, 1])
+        alone = selvedge.simplify(*mesh, poses=far, ratio=0.1, error=None)
+        self.assertGreater(len(selvedge.verify(bent[0][alone.vertices], alone.triangles).pairs), 0)
+        result = selvedge.simplify(*mesh, poses=far + bent, ratio=0.1, error=None, key_poses="auto")
+        self.assertTrue(result.accepted)
+        self.assertEqual(len(selvedge.verify(bent[0][result.vertices], result.triangles).pairs), 0)
+        guarded = [pose["guarded"] for pose in result.report["verified"]["poses"]]
+        self.assertTrue(guarded[0] and guarded[1] and (guarded[2] or guarded[3]))
+
     def test_log_is_replayed_and_a_wrong_one_is_not(self):
         mesh = layers()
         result = selvedge.simplify(*mesh, ratio=0.3, log=True)

@@ -17,8 +17,8 @@ from . import _selvedge
 from ._selvedge import ArgumentError, Error, InputError
 
 __version__ = _selvedge.version
-__all__ = ["ArgumentError", "Error", "InputError", "Mesh", "Result", "Verdict", "generate", "option_names", "replay",
-           "simplify", "verify"]
+__all__ = ["ArgumentError", "Error", "InputError", "Mesh", "Result", "Verdict", "generate", "key_poses", "option_names",
+           "replay", "simplify", "verify"]
 
 
 class Mesh:
@@ -102,7 +102,8 @@ def simplify(points, triangles, *, poses=None, obstacle=None, groups=None, weigh
     options: those of `selvedge simplify` by their names in its reports (`option_names`), such as ratio=0.3, faces=2000,
     error=0.001 (None: no limit), placement="optimal", lock=["collar"], part_ratios={"collar": 0.5}, threads=1.
     poses: further places of the points, an array of shape (poses, points, 3), such as frames of an animation: the result is
-    legal in each. Those of the result are poses[:, result.vertices].
+    legal in each. Those of the result are poses[:, result.vertices]. With key_poses="auto", for many poses, collapses are
+    judged in a few that differ most, and in those in which the result would have new pairs; the result is judged in all.
     obstacle: a `Mesh` or (points, triangles) that no face may touch or pass through.
     groups: one name for each triangle; `lock`, `keep`, `part_ratios` and `may_intersect` ("A:B") refer to them.
     weights: one number for each vertex, at least 0: how costly it is to remove, relative to the largest.
@@ -128,6 +129,12 @@ def simplify(points, triangles, *, poses=None, obstacle=None, groups=None, weigh
                            [] if poses is None else _poses(poses),
                            None if progress is None else lambda *counts: bool(progress(*counts)))
     return Result(run, triangle_array.dtype)
+
+
+def key_poses(points, poses, count):
+    """Returns the numbers of `count` poses, in ascending order, that differ most from `points` and from each other (all,
+    when there are no more): those in which simplify(..., key_poses="auto") begins, when `count` is their square root."""
+    return _selvedge.key_poses(_points(points), _poses(poses), _whole("count", count))
 
 
 def verify(points, triangles, original=None):

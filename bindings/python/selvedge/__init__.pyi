@@ -73,6 +73,7 @@ def simplify(
     lock: Union[str, Sequence[str]] = ...,
     keep: Union[str, Sequence[str]] = ...,
     may_intersect: Union[str, Sequence[str]] = ...,
+    key_poses: str = ...,
     weld: Union[float, str] = ...,
     sewn: bool = ...,
     normals: str = ...,
@@ -82,6 +83,7 @@ def simplify(
     cells: bool = ...,
     defects: str = ...,
 ) -> Result: ...
+def key_poses(points: ArrayLike, poses: ArrayLike, count: int) -> np.ndarray: ...
 def verify(points: ArrayLike, triangles: ArrayLike, original: Optional[_MeshLike] = None) -> Verdict: ...
 def replay(points: ArrayLike, triangles: ArrayLike, log: str, *, obstacle: Optional[_MeshLike] = None,
            all: bool = False) -> Verdict: ...
