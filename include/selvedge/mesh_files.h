@@ -208,11 +208,12 @@ struct Read_options
 ///   **Scenes** above. A group is a primitive in a node. It is named after the node, or after the mesh when
 ///   the node has no name. A material is one of the file. Texture coordinates are those of TEXCOORD_0; the
 ///   second is subtracted from 1, because it points down in glTF. Normals are turned with their nodes, and
-///   COLOR_0 is a colour. Other attributes are carried when all vertices have them in the same form. In
-///   primitives without indices, vertices that agree in every attribute become one. Buffers are in the file,
-///   data addresses, or files beside it. Of levels of detail (MSFT_lod) in nodes one is read, and the others
-///   are left out. What EXT_meshopt_compression, KHR_draco_mesh_compression (2.2) and
-///   KHR_mesh_quantization pack is decoded. Refused: other required extensions.
+///   COLOR_0 is a colour, in 32-bit floats where primitives have it in different types. Other attributes are
+///   carried when all vertices have them in the same form. In primitives without indices, vertices that agree
+///   in every attribute become one. Buffers are in the file, data addresses, or files beside it. Of levels of
+///   detail (MSFT_lod) in nodes one is read, and the others are left out. What EXT_meshopt_compression,
+///   KHR_draco_mesh_compression (2.2) and KHR_mesh_quantization pack is decoded. Refused: other required
+///   extensions.
 ///
 /// In OBJ, OFF and PLY files of at least 100 triangles, or of quads, in which no two faces share a vertex,
 /// corners at one position with the same vertex attributes refer to the first of their vertices, as in STL;

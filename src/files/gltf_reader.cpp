@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include "files/columns.h"
 #include "files/formats.h"
 #include "files/gltf_bind_poses.h"
 #include "files/gltf_column_reader.h"
@@ -666,7 +667,7 @@ private:
                       });
   }
 
-  // Adds the further attributes that all vertices have in the same form.
+  // Adds the further attributes that all vertices have in the same form, and colours in any.
   void add_attributes()
   {
     std::set<std::string> names;
@@ -690,6 +691,8 @@ private:
         attribute.rows.insert(attribute.rows.end(), column->rows.begin(), column->rows.end());
         attribute.is_normalized = column->is_normalized();
       }
+      if (!is_common && name == "COLOR_0" && add_colours_of_different_types())
+        continue;
       if (!is_common) {
         const bool is_everywhere =
             std::all_of(m_scene->instances.begin(), m_scene->instances.end(),
@@ -706,6 +709,32 @@ private:
       else
         soup().vertex_attributes.push_back(std::move(attribute));
     }
+  }
+
+  // Adds colours that primitives have in different types as floats, opaque where they have no alpha. Returns
+  // whether all vertices have some.
+  bool add_colours_of_different_types()
+  {
+    const auto is_colour = [](const Column* column) {
+      return column && (column->components == 3 || column->components == 4) &&
+             (column->component_type == type_float32 || column->is_normalized());
+    };
+    std::vector<const Column*> columns; // by instance
+    for (const Gltf_scene::Instance& instance : m_scene->instances)
+      columns.push_back(find(m_scene->blocks[instance.block], "COLOR_0"));
+    if (!std::all_of(columns.begin(), columns.end(), is_colour))
+      return false;
+    Attribute colours{"COLOR_0", Attribute::Type::float32, 3, false, {}};
+    for (const Column* const column : columns)
+      colours.components = std::max(colours.components, std::uint32_t(column->components));
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      for (Index row = 0; row < m_scene->blocks[m_scene->instances[i].block].size; ++row) {
+        m_poll();
+        for (std::size_t k = 0; k < colours.components; ++k)
+          append_number(colours.rows, k < columns[i]->components ? float(normalised(*columns[i], row, k)) : 1.f);
+      }
+    add_colours(colours);
+    return true;
   }
 
   void add_colours(const Attribute& colours)

@@ -137,6 +137,43 @@ TEST(Gltf, WhatNotEveryVertexHasIsNamedWhereItIsToWeigh)
   EXPECT_NO_THROW(simplify_soup(prepared, options, intent)) << "the control";
 }
 
+TEST(Gltf, ColoursOfDifferentTypesAreOne)
+{
+  Document document = one_triangle();
+  Json& primitives = document.json["meshes"][0]["primitives"];
+  primitives.push_back(primitives[0]);
+  primitives.push_back(primitives[0]);
+  primitives[0]["attributes"]["COLOR_0"] = add_rows<std::uint8_t>(
+      document, 3, 3, 5121, [](std::size_t, std::size_t k) { return 51 * k; }, true);
+  primitives[1]["attributes"]["COLOR_0"] = add_rows<std::uint16_t>(
+      document, 3, 4, 5123, [](std::size_t, std::size_t k) { return 13107 * k; }, true);
+  primitives[2]["attributes"]["COLOR_0"] =
+      add_rows<float>(document, 3, 4, 5126, [](std::size_t, std::size_t k) { return 0.25 * double(k); });
+  const Triangle_soup soup = read_glb(document).soup;
+  EXPECT_EQ(not_carried(soup, Mesh_format::ply),
+            (std::vector<std::string>{"groups", "nodes and their transforms"}));
+  ASSERT_EQ(soup.vertex_attributes.size(), 4u);
+  const float expected[4][3] = {{0, 0, 0}, {0.2f, 0.2f, 0.25f}, {0.4f, 0.4f, 0.5f}, {1, 0.6f, 0.75f}};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Attribute& colour = soup.vertex_attributes[k];
+    EXPECT_EQ(colour.name, (std::array{"red", "green", "blue", "alpha"}[k]));
+    EXPECT_EQ(colour.type, Attribute::Type::float32);
+    ASSERT_EQ(colour.rows.size(), 9 * sizeof(float));
+    const std::string rows(colour.rows.begin(), colour.rows.end());
+    for (std::size_t v = 0; v < 9; ++v)
+      EXPECT_EQ(get<float>(rows, v * sizeof(float)), expected[k][v / 3]) << k << ' ' << v;
+  }
+  const Temporary_folder folder;
+  write_mesh(folder / "out.glb", soup);
+  const Document written = from_glb(contents(folder / "out.glb"));
+  for (std::size_t p = 0; p < 3; ++p) {
+    const std::size_t before = primitives[p]["attributes"]["COLOR_0"];
+    const std::size_t after =
+        written.json["meshes"][0]["primitives"][p]["attributes"]["COLOR_0"].get<std::size_t>();
+    EXPECT_EQ(rows_of(written, after), rows_of(document, before)) << p;
+  }
+}
+
 TEST(Gltf, LayersInDifferentNodesSeeEachOther)
 {
   // Two triangles that cross each other only through the transform of one node.
