@@ -35,8 +35,9 @@ public:
   Soup_reduction(const Prepared_soup& prepared, const Simplify_options& options,
                  const Simplify_intent& intent)
       : m_options(scaled(options, prepared.scale)), m_clearance(options.clearance), m_prepared(prepared),
-        m_working(prepared.soup, prepared.positions, frozen(prepared, intent), prepared.obstacle,
-                  prepared.scale, prepared.is_turned, prepared.fronts),
+        m_is_frozen(frozen(prepared, intent)),
+        m_working(prepared.soup, prepared.positions, m_is_frozen, prepared.obstacle, prepared.scale,
+                  prepared.is_turned, prepared.fronts),
         m_seconds_sew(m_stopwatch.seconds()),
         m_simplification(m_working.mesh(), m_options, constraints(prepared.soup, intent), m_working)
   {
@@ -370,7 +371,7 @@ private:
       result.mended_normals =
           mend_normals(result.soup, result.triangles, original, taken.empty() ? original.normals : taken);
     if (are_fitted(m_prepared.normals))
-      result.fitted_normals = fit_normals(result.soup, result.triangles, left.corners, original);
+      result.fitted_normals = fit_normals(result.soup, result.triangles, left.corners, original, m_is_frozen);
     result.corners = std::move(left.corners);
     result.placed_vertices = left.placed_vertices;
     if (report.hindrances.total() > 0)
@@ -399,6 +400,7 @@ private:
   Simplify_options m_options;
   std::optional<double> m_clearance; // in the unit of the soup
   const Prepared_soup& m_prepared;
+  std::vector<char> m_is_frozen; // by triangle of the original
   Stopwatch m_stopwatch;
   Working_mesh m_working;
   double m_seconds_sew;

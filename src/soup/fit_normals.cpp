@@ -63,7 +63,8 @@ class Normal_fit
 {
 public:
   Normal_fit(Triangle_soup& result, const std::vector<Index>& triangles,
-             const std::vector<Index_triple>& corners, const Triangle_soup& original)
+             const std::vector<Index_triple>& corners, const Triangle_soup& original,
+             const std::vector<char>& stays)
       : m_result(result), m_triangles(triangles), m_original(original), m_exponent(exponent_of(original)),
         m_is_left(original.triangles.size(), false)
   {
@@ -74,7 +75,7 @@ public:
       m_fronts.push_back(unit_normal(result, i));
     }
     number_wedges();
-    fix_what_is_left(corners);
+    fix_what_is_left(corners, stays);
   }
 
   std::size_t run()
@@ -208,9 +209,10 @@ private:
     weigh_wedges();
   }
 
-  // Fixes the wedges around which nothing has changed. Others also count what they show on triangles that
-  // have not: such a triangle may be a sliver of a bevel, beside a large face.
-  void fix_what_is_left(const std::vector<Index_triple>& corners)
+  // Fixes the wedges around which nothing has changed, and those of triangles that stay. Others also count
+  // what they show on triangles that have not changed: such a one may be a sliver of a bevel, beside a large
+  // face.
+  void fix_what_is_left(const std::vector<Index_triple>& corners, const std::vector<char>& stays)
   {
     const std::size_t count = m_result.triangles.size();
     std::vector<char> are_changed(count), is_free(m_old.size(), false);
@@ -220,6 +222,10 @@ private:
         for (const Index wedge : m_wedges[i])
           is_free[wedge] = true;
     }
+    for (Index i = 0; i < count && !stays.empty(); ++i)
+      if (stays[m_triangles[i]] && has_normals(m_result, i))
+        for (const Index wedge : m_wedges[i])
+          is_free[wedge] = false;
     for (std::size_t w = 0; w < m_old.size(); ++w)
       m_is_fixed[w] |= !is_free[w];
     for (Index i = 0; i < count; ++i)
@@ -599,9 +605,10 @@ private:
 } // namespace
 
 std::size_t fit_normals(Triangle_soup& result, const std::vector<Index>& triangles,
-                        const std::vector<Index_triple>& corners, const Triangle_soup& original)
+                        const std::vector<Index_triple>& corners, const Triangle_soup& original,
+                        const std::vector<char>& stays)
 {
-  return result.normals.empty() ? 0 : Normal_fit(result, triangles, corners, original).run();
+  return result.normals.empty() ? 0 : Normal_fit(result, triangles, corners, original, stays).run();
 }
 
 } // namespace selvedge

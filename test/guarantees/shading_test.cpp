@@ -439,16 +439,18 @@ TEST(FittedShading, StaysBitForBitWhereNothingChanges)
   EXPECT_EQ(reduce(soup, to_ratio(1), fitting()).simplified.soup.normals.values, soup.normals.values);
   const Reduction half = reduce(soup, to_ratio(0.6), fitting());
   const Simplified_soup& result = half.simplified;
+  std::set<Index> around_changes; // vertices
+  for (Index i = 0; i < result.triangles.size(); ++i)
+    if (const Index t = result.triangles[i]; result.corners[i] != Index_triple{3 * t, 3 * t + 1, 3 * t + 2})
+      around_changes.insert(result.soup.triangles[i].begin(), result.soup.triangles[i].end());
   std::size_t unchanged = 0;
-  for (Index i = 0; i < result.triangles.size(); ++i) {
-    const Index t = result.triangles[i];
-    if (result.corners[i] != Index_triple{3 * t, 3 * t + 1, 3 * t + 2})
-      continue;
-    ++unchanged;
+  for (Index i = 0; i < result.triangles.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k)
-      EXPECT_EQ(result.soup.normals.values[result.soup.normals.of_triangle[i][k]],
-                soup.normals.values[soup.normals.of_triangle[t][k]]);
-  }
+      if (around_changes.count(result.soup.triangles[i][k]) == 0) {
+        ++unchanged;
+        EXPECT_EQ(result.soup.normals.values[result.soup.normals.of_triangle[i][k]],
+                  soup.normals.values[soup.normals.of_triangle[result.triangles[i]][k]]);
+      }
   EXPECT_GT(unchanged, 100u);
   EXPECT_GT(result.fitted_normals, 0u);
 }

@@ -309,7 +309,7 @@ group("src/files/poses.cpp", ("poses_files_test",),
 group("src/simplify/prepare.cpp", ("snapping_test",),
       ("    mark_what_stays(stays);\n", "", "parts that are kept snap"))
 group("src/soup/fit_normals.cpp", ("shading_test",),
-      ("|= !m_is_changed[corner / 3];", "|= false;", "triangles that have not changed get other normals"),
+      ("m_is_fixed[w] |= !is_free[w];", "", "triangles get other normals where nothing has changed"),
       ("[edges[i].second] = true;", "[edges[i].second] = false;", "normals on borders are fitted"),
       ("result.push_back(sets.find(positions[triangle[0]]));", "result.push_back(0);", "a layer is shaded as the one beside it"),
       ("std::min(s_cosine_of_sample, before)", "-2", "fitted normals point to the back"),

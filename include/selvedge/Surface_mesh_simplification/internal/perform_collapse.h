@@ -64,6 +64,8 @@ auto perform_collapse(TriangleMesh& mesh, const VertexPointMap& points,
 {
   const Profile& profile = collapse.profile();
   announce_collapse(visitor, collapse);
+  // A lazy profile finds what is beside the edge when it is asked: this must be what is there now.
+  static_cast<void>(profile.vL());
   const auto merge = [&] {
     if constexpr (std::is_same_v<EdgeIsConstrainedMap, No_constrained_edges>)
       return CGAL::Euler::collapse_edge(edge(profile.v0_v1(), mesh), mesh);
