@@ -9,7 +9,6 @@
 #include "html_report.h"
 #include "interruption.h"
 #include "output_files.h"
-#include "part_pairs.h"
 #include "poses_option.h"
 #include "report_json.h"
 #include "simplify_summary.h"
@@ -21,6 +20,7 @@
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
 #include <selvedge/Missed_target.h>
+#include <selvedge/Parts.h>
 #include <selvedge/Reduction_log.h>
 #include <selvedge/Sha256.h>
 #include <selvedge/collapse_log.h>
@@ -242,7 +242,7 @@ private:
     options.open_seams = m_request.open_seams;
     options.normals = m_request.normals;
     options.orient = m_request.are_faces_oriented;
-    options.may_intersect = part_pairs(m_request.may_intersect, file.soup);
+    options.may_intersect = parts_in_pairs(file.soup, m_request.may_intersect, "--may-intersect");
     keep_from_snapping(options, m_request.intent);
     try {
       Prepared_soup prepared = prepare(std::move(file.soup), options, obstacle);

@@ -9,6 +9,7 @@
 #include "standard_streams.h"
 #include "text.h"
 
+#include <selvedge/Missed_target.h>
 #include <selvedge/Parts.h>
 #include <selvedge/attributes.h>
 #include <selvedge/gltf_poses.h>
@@ -47,8 +48,6 @@ std::vector<Hindrances::Description> reasons(const Hindrances& hindrances)
 /// helps: many of the last faces are given for little.
 std::string what_shape_takes(const Simplify_request& request, const Level& level)
 {
-  constexpr double much = 0.25; // of the limit
-  const std::optional<double>& limit = request.options.max_error;
   const std::size_t faces = level.result.report.faces_output,
                     within_reach = level.result.report.faces_within_reach;
   if (within_reach > 0 && within_reach < faces)
@@ -56,10 +55,10 @@ std::string what_shape_takes(const Simplify_request& request, const Level& level
            " that could go, because all that nothing holds would be flattened for them; --faces " +
            std::to_string(within_reach) + " lets them go";
   const bool is_asked_for_target = request.options.ratio || request.options.faces || !request.lods.empty();
-  if (is_shape_kept(request) || !is_asked_for_target || !limit || *limit == 0 ||
-      level.verification.distances->original_to_result.maximum < much * *limit)
+  if (is_shape_kept(request) || !is_asked_for_target ||
+      !Missed_target::is_flattened(request.options, level.verification.distances->original_to_result))
     return "";
-  return "\nflattened: all that nothing holds, as far as --error " + with_digits(*limit) +
+  return "\nflattened: all that nothing holds, as far as --error " + with_digits(*request.options.max_error) +
          " allows; a ratio that is larger by a tenth keeps more of its shape";
 }
 

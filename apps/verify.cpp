@@ -349,7 +349,7 @@ Exit_code run(const Verify_request& request)
   Mesh_file original;
   Verify_options options;
   require_names(request, mesh.soup);
-  options.may_intersect = part_pairs(request.may_intersect, mesh.soup);
+  options.may_intersect = parts_in_pairs(mesh.soup, request.may_intersect, "--may-intersect");
   options.clearance = request.clearance;
   Triangle_soup obstacle;
   if (!request.obstacle.empty()) {

@@ -33,19 +33,6 @@ double seconds_since(Clock::time_point start)
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-std::vector<std::pair<std::string, std::string>> part_pairs(const std::vector<std::string>& texts,
-                                                            const Triangle_soup& mesh)
-{
-  std::vector<std::pair<std::string, std::string>> pairs;
-  for (const std::string& text : texts)
-    try {
-      pairs.push_back(parts_in_pair(mesh, text));
-    } catch (const Argument_error& error) {
-      throw Argument_error(std::string("may_intersect: ") + error.what());
-    }
-  return pairs;
-}
-
 } // namespace
 
 Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool has_normals_of_vertices)
@@ -72,7 +59,7 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool
   if (!request.obstacle.triangles.empty())
     header.obstacle = {request.obstacle.points.size(), request.obstacle.triangles.size(), {}};
   Prepare_options prepare_options = request.complete_prepare_options();
-  prepare_options.may_intersect = part_pairs(request.may_intersect, input);
+  prepare_options.may_intersect = parts_in_pairs(input, request.may_intersect, "may_intersect");
   keep_from_snapping(prepare_options, request.intent);
   m_prepared = prepare(std::move(input), prepare_options, request.obstacle);
 

@@ -32,6 +32,13 @@ public:
   /// `asked` are the options that the caller wants.
   explicit Missed_target(Simplify_options asked) : m_options(std::move(asked)) {}
 
+  /// Returns whether a result has used a quarter of the error that is allowed, if there is a limit above 0.
+  static bool is_flattened(const Simplify_options& options, const Distance& original_to_result)
+  {
+    const double error = options.max_error.value_or(0);
+    return error > 0 && original_to_result.maximum >= s_much * error;
+  }
+
   /// The options to reduce with.
   const Simplify_options& options() const { return m_options; }
 
@@ -41,10 +48,9 @@ public:
   bool advance(const Simplified_soup& result, const Distance& original_to_result)
   {
     const Simplify_report& report = result.report;
-    const double error = m_options.max_error.value_or(0);
     if (m_first || report.is_reached() || report.is_stopped || report.faces_target == 0 ||
-        report.faces_output <= with_a_tenth(report.faces_target) || error == 0 ||
-        original_to_result.maximum < s_much * error)
+        report.faces_output <= with_a_tenth(report.faces_target) ||
+        !is_flattened(m_options, original_to_result))
       return false;
     m_first.emplace(First{report, {}});
     for (std::size_t t = 0; t < result.held_by.size(); ++t)

@@ -46,11 +46,13 @@ std::vector<Part_kind> part_kinds(const Triangle_soup& soup);
 /// name.
 std::vector<char> triangles_named(const Triangle_soup& soup, const std::string& name);
 
-/// Returns the names of the two parts in a text of the form A:B. A name may have a `:` of its own: the text is
-/// split where both sides name parts of the soup (`triangles_named`).
+/// Returns the names of the two parts in each of some texts of the form A:B. A name may have a `:` of its
+/// own: the text is split where both sides name parts of the soup (`triangles_named`).
 ///
-/// Throws `Argument_error` when the text has no `:`, or can be split so in no way, or in several.
-std::pair<std::string, std::string> parts_in_pair(const Triangle_soup& soup, const std::string& text);
+/// Throws `Argument_error` when a text has no `:`, or can be split so in no way, or in several. The message
+/// begins with the name of the option that the texts are from.
+std::vector<std::pair<std::string, std::string>>
+parts_in_pairs(const Triangle_soup& soup, const std::vector<std::string>& texts, const std::string& option);
 
 } // namespace selvedge
 

@@ -144,27 +144,34 @@ std::vector<char> triangles_named(const Triangle_soup& soup, const std::string& 
                        (list.empty() ? "the mesh names none" : "there are " + list));
 }
 
-std::pair<std::string, std::string> parts_in_pair(const Triangle_soup& soup, const std::string& text)
+std::vector<std::pair<std::string, std::string>>
+parts_in_pairs(const Triangle_soup& soup, const std::vector<std::string>& texts, const std::string& option)
 {
-  const auto fail = [&](const std::string& why) { throw Argument_error("'" + text + "': " + why); };
-  std::vector<std::pair<std::string, std::string>> found;
-  std::string unknown = "this is not of the form A:B";
-  for (std::size_t colon = text.find(':'); colon != std::string::npos; colon = text.find(':', colon + 1)) {
-    const std::pair<std::string, std::string> names{text.substr(0, colon), text.substr(colon + 1)};
-    try {
-      triangles_named(soup, names.first);
-      triangles_named(soup, names.second);
-      found.push_back(names);
-    } catch (const Argument_error& error) {
-      unknown = error.what();
+  std::vector<std::pair<std::string, std::string>> pairs;
+  for (const std::string& text : texts) {
+    const auto fail = [&](const std::string& why) {
+      throw Argument_error(option + ": '" + text + "': " + why);
+    };
+    std::vector<std::pair<std::string, std::string>> found;
+    std::string unknown = "this is not of the form A:B";
+    for (std::size_t colon = text.find(':'); colon != std::string::npos; colon = text.find(':', colon + 1)) {
+      const std::pair<std::string, std::string> names{text.substr(0, colon), text.substr(colon + 1)};
+      try {
+        triangles_named(soup, names.first);
+        triangles_named(soup, names.second);
+        found.push_back(names);
+      } catch (const Argument_error& error) {
+        unknown = error.what();
+      }
     }
+    if (found.empty())
+      fail(unknown);
+    if (found.size() > 1)
+      fail("this may be '" + found[0].first + "' and '" + found[0].second + "', or '" + found[1].first +
+           "' and '" + found[1].second + "'; rename a part");
+    pairs.push_back(found.front());
   }
-  if (found.empty())
-    fail(unknown);
-  if (found.size() > 1)
-    fail("this may be '" + found[0].first + "' and '" + found[0].second + "', or '" + found[1].first +
-         "' and '" + found[1].second + "'; rename a part");
-  return found.front();
+  return pairs;
 }
 
 } // namespace selvedge
