@@ -20,6 +20,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace selvedge::test {
 
@@ -171,10 +172,45 @@ std::set<Position> positions_on_borders(const Triangle_soup& soup)
   return result;
 }
 
-// Judges the normals of a result that are fitted: those of triangles that have not changed are what they
-// were, those on borders are so too or mended, and no other one is farther from that of its triangle than was
-// promised.
-Verdict judge_fitted_normals(const World_run& run, const std::set<std::size_t>& placed)
+// Returns whether a triangle of the result is one of the original, with the same corners at the same places.
+bool is_as_it_was(const World_run& run, Index i)
+{
+  const Triangle_soup &result = run.result.soup, &original = run.prepared.soup;
+  const Index t = run.result.triangles[i];
+  bool is_same = run.result.corners[i] == Index_triple{3 * t, 3 * t + 1, 3 * t + 2};
+  for (std::size_t k = 0; k < 3; ++k)
+    is_same = is_same && result.points[result.triangles[i][k]] == original.points[original.triangles[t][k]];
+  return is_same;
+}
+
+// Returns the positions in a result at which a triangle has changed.
+std::set<Position> positions_of_changes(const World_run& run)
+{
+  std::set<Position> result;
+  for (Index i = 0; i < run.result.soup.triangles.size(); ++i)
+    if (!is_as_it_was(run, i))
+      for (const Index v : run.result.soup.triangles[i])
+        result.insert(position(run.result.soup, v));
+  return result;
+}
+
+// Returns which triangles of the original are frozen, or of parts that are locked or kept.
+std::vector<char> triangles_that_stay(const World& world, const World_run& run)
+{
+  std::vector<char> result = run.prepared.is_frozen;
+  for (const auto* names : {&world.intent.locked, &world.intent.kept})
+    for (const std::string& name : *names) {
+      const std::vector<char> is_named = triangles_named(run.prepared.soup, name);
+      for (Index t = 0; t < is_named.size(); ++t)
+        result[t] |= is_named[t];
+    }
+  return result;
+}
+
+// Judges the normals of a result that are fitted: those of triangles that stay, or around which nothing has
+// changed, are what they were, those on borders are so too or mended, and no other one is farther from that
+// of its triangle than was promised.
+Verdict judge_fitted_normals(const World& world, const World_run& run, const std::set<std::size_t>& placed)
 {
   constexpr double margin = 1e-6, limit = 0.2; // NaN is beyond no limit
   const Triangle_soup &result = run.result.soup, &original = run.prepared.soup;
@@ -182,7 +218,8 @@ Verdict judge_fitted_normals(const World_run& run, const std::set<std::size_t>& 
     return std::nullopt;
   if (result.normals.of_triangle.size() != result.triangles.size())
     return Broken_promise{Promise::attributes, "the result has no normals"};
-  const std::set<Position> on_borders = positions_on_borders(result);
+  const std::set<Position> on_borders = positions_on_borders(result), changes = positions_of_changes(run);
+  const std::vector<char> stays = triangles_that_stay(world, run);
   for (Index i = 0; i < result.triangles.size(); ++i) {
     const Index t = run.result.triangles[i];
     const bool is_missing = result.normals.of_triangle[i][0] == result.normals.missing;
@@ -193,23 +230,19 @@ Verdict judge_fitted_normals(const World_run& run, const std::set<std::size_t>& 
       return broken("it has lost or got normals");
     if (is_missing)
       continue;
-    const Index_triple& corners = run.result.corners[i];
-    bool is_as_it_was = corners == Index_triple{3 * t, 3 * t + 1, 3 * t + 2};
     double sum = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      is_as_it_was =
-          is_as_it_was && result.points[result.triangles[i][k]] == original.points[original.triangles[t][k]];
+    for (std::size_t k = 0; k < 3; ++k)
       sum += cosine(normal_of(original.normals, t, k), original, t);
-    }
     for (std::size_t k = 0; k < 3; ++k) {
-      const Index corner = corners[k];
+      const Index corner = run.result.corners[i][k];
+      const Position here = position(result, result.triangles[i][k]);
       const Normal now = normal_of(result.normals, i, k);
       const Normal old = normal_of(original.normals, corner / 3, corner % 3);
       if (now == old || placed.count(original.triangles[corner / 3][corner % 3]) > 0)
         continue;
-      if (is_as_it_was)
+      if (is_as_it_was(run, i) && (stays[t] != 0 || changes.count(here) == 0))
         return broken("another normal, and nothing has changed");
-      if (on_borders.count(position(result, result.triangles[i][k])) > 0)
+      if (on_borders.count(here) > 0)
         if (const char* what = wrong_in_mended_normal(result, i, k, original, original.normals, t, {old}))
           return broken(what);
       if (!is_unit(result.normals, i, k))
@@ -366,7 +399,7 @@ Verdict judge_attributes(const World& world, const World_run& run, const Judged_
   }
   if (auto broken = judge_mended_normals(run, placed))
     return broken;
-  if (auto broken = judge_fitted_normals(run, placed))
+  if (auto broken = judge_fitted_normals(world, run, placed))
     return broken;
   if (placed_left != run.result.placed_vertices)
     return Broken_promise{Promise::attributes, "the result counts other vertices at new places"};
