@@ -22,8 +22,8 @@ namespace selvedge {
 /// A lower and an upper bound of a figure.
 struct Bounds
 {
-  double lower;
-  double upper;
+  double lower = 0;
+  double upper = 0;
 };
 
 /// What is wrong with a triangle or a pair of them.
