@@ -299,11 +299,8 @@ private:
           of_level.upper >= largest.upper)
         largest = of_level;
     if (largest.upper > *m_request.options.max_error && largest.pose &&
-        !std::binary_search(m_guarded_poses.begin(), m_guarded_poses.end(), *largest.pose)) {
-      m_guarded_poses.insert(std::lower_bound(m_guarded_poses.begin(), m_guarded_poses.end(), *largest.pose),
-                             *largest.pose);
+        add_pose(m_guarded_poses, *largest.pose))
       return true;
-    }
     return m_error_search->advance(largest.upper);
   }
 

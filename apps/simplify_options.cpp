@@ -6,7 +6,7 @@
 #include "attributes_option.h"
 #include "html_report.h"
 #include "output_files.h"
-#include "part_pairs.h"
+#include "part_pairs_option.h"
 #include "poses_option.h"
 #include "standard_streams.h"
 #include "subcommands.h"

@@ -5,7 +5,7 @@
 #include "blind_spots.h"
 #include "html_report.h"
 #include "output_files.h"
-#include "part_pairs.h"
+#include "part_pairs_option.h"
 #include "poses_option.h"
 #include "report_json.h"
 #include "report_output.h"

@@ -14,7 +14,6 @@
 
 #include <oneapi/tbb/global_control.h>
 
-#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <sstream>
@@ -116,13 +115,8 @@ bool Reduction::is_to_be_repeated(const Reduction_request& request, Missed_targe
     return request.intent.ratios.empty() &&
            missed_target.advance(m_result, m_verification.distances->original_to_result);
   const Bounds_over_poses largest = m_distances->larger();
-  if (largest.upper > *request.options.max_error && largest.pose) {
-    const auto place = std::lower_bound(m_guarded_poses.begin(), m_guarded_poses.end(), *largest.pose);
-    if (place == m_guarded_poses.end() || *place != *largest.pose) {
-      m_guarded_poses.insert(place, *largest.pose);
-      return true;
-    }
-  }
+  if (largest.upper > *request.options.max_error && largest.pose && add_pose(m_guarded_poses, *largest.pose))
+    return true;
   return m_error_search->advance(largest.upper);
 }
 

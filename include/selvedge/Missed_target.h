@@ -7,12 +7,10 @@
 #include <selvedge/compare.h>
 #include <selvedge/simplify.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <unordered_map>
 #include <utility>
-#include <vector>
 
 namespace selvedge {
 

@@ -26,8 +26,13 @@ std::vector<std::size_t> key_poses(const Triangle_soup& mesh, std::size_t count)
 /// square root, rounded up.
 std::size_t number_of_key_poses(std::size_t poses);
 
+/// Adds a pose to the numbers of others, which are in ascending order, unless it is among them. Returns
+/// whether it has added it.
+bool add_pose(std::vector<std::size_t>& guarded, std::size_t pose);
+
 /// Adds to the numbers of poses, which are in ascending order, those in which a judge has found new pairs, or
-/// pieces too near to each other. Returns whether it has added any, so that the reduction is to be done again.
+/// pieces too near to each other. Returns whether it has added any, so that the reduction is to be done
+/// again.
 bool add_refused_poses(std::vector<std::size_t>& guarded, const Verification& verification);
 
 } // namespace selvedge

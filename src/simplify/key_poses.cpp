@@ -45,17 +45,24 @@ std::size_t number_of_key_poses(std::size_t poses)
   return std::size_t(std::ceil(std::sqrt(double(poses))));
 }
 
+bool add_pose(std::vector<std::size_t>& guarded, std::size_t pose)
+{
+  const auto place = std::lower_bound(guarded.begin(), guarded.end(), pose);
+  if (place != guarded.end() && *place == pose)
+    return false;
+  guarded.insert(place, pose);
+  return true;
+}
+
 bool add_refused_poses(std::vector<std::size_t>& guarded, const Verification& verification)
 {
-  const std::size_t before = guarded.size();
+  bool is_any_added = false;
   for (std::size_t number = 0; number < verification.poses.size(); ++number) {
     const Verification::In_pose& pose = verification.poses[number];
-    const bool is_refused = !pose.new_pairs.empty() || (pose.clearance && pose.clearance->too_near() > 0);
-    const auto place = std::lower_bound(guarded.begin(), guarded.end(), number);
-    if (is_refused && (place == guarded.end() || *place != number))
-      guarded.insert(place, number);
+    if (!pose.new_pairs.empty() || (pose.clearance && pose.clearance->too_near() > 0))
+      is_any_added |= add_pose(guarded, number);
   }
-  return guarded.size() > before;
+  return is_any_added;
 }
 
 } // namespace selvedge
