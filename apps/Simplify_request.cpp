@@ -370,9 +370,7 @@ bool has_own_error(const Simplify_request& request)
 
 bool is_shape_kept(const Simplify_request& request)
 {
-  // A progressive file has all levels on the way in any case.
-  return request.lods.empty() && request.intent.ratios.empty() && request.progressive.empty() &&
-         !request.is_error_everywhere;
+  return request.progressive.empty() && !request.is_error_everywhere;
 }
 
 Defects defects_of(const Simplify_request& request)

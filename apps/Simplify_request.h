@@ -94,7 +94,8 @@ bool has_standard_output(const Simplify_request& request);
 bool has_own_error(const Simplify_request& request);
 
 /// Returns whether a reduction that gets stuck above its target is done again, to more faces
-/// (`Missed_target`): when there is one target, for all faces.
+/// (`Missed_target`): neither where a file has every level on the way in any case, nor where the error is to
+/// be kept everywhere.
 bool is_shape_kept(const Simplify_request& request);
 
 /// Returns what becomes of offending pairs of the input.

@@ -310,8 +310,10 @@ private:
   {
     if (!is_shape_kept(m_request) || !m_outcome.is_accepted)
       return false;
-    const Level& level = levels.front();
-    return m_missed_target.advance(level.result, level.verification.distances->original_to_result);
+    std::vector<Missed_target::Judged> judged;
+    for (const Level& level : levels)
+      judged.push_back({level.result, level.verification.distances->original_to_result});
+    return m_missed_target.advance(judged);
   }
 
   std::vector<Level> reduce(const Prepared_soup& prepared)
@@ -354,11 +356,11 @@ private:
           m_collapses.push_back(collapse);
       };
     std::vector<Simplified_soup> results;
-    if (m_request.lods.empty()) {
+    if (m_request.lods.empty())
       results.push_back(simplify_soup(prepared, options, m_request.intent));
-      m_missed_target.complete(results.back());
-    } else
+    else
       results = simplify_lods(prepared, options, m_request.lods, m_request.intent);
+    m_missed_target.complete(results);
     const auto is_stopped = [](const Simplified_soup& result) { return result.report.is_stopped; };
     const auto is_untouched = [](const Simplified_soup& result) { return result.report.collapses == 0; };
     m_is_kept = std::any_of(results.begin(), results.end(), is_stopped);

@@ -44,6 +44,30 @@ std::vector<Hindrances::Description> reasons(const Hindrances& hindrances)
   return reasons;
 }
 
+/// Returns the options that let the faces go that were kept for the shape.
+std::string options_without_shape(const Simplify_request& request, const Simplify_report& report)
+{
+  const std::vector<Simplify_intent::Part_ratio>& parts = request.intent.ratios;
+  if (parts.empty() && request.lods.empty())
+    return " --faces " + std::to_string(report.faces_within_reach);
+  std::string options;
+  for (std::size_t i = 0; i < report.shares.size(); ++i) {
+    const Simplify_report::Share& share = report.shares[i];
+    if (share.within_reach == 0)
+      continue;
+    const std::string ratio =
+        with_digits_up(double(share.within_reach - share.fixed) / double(share.input - share.fixed));
+    if (i > 0)
+      options += " --ratio '" + parts[i - 1].name + '=' + ratio + '\'';
+    else if (!request.lods.empty())
+      options += " --lods " + ratio;
+    else
+      options +=
+          request.options.ratio ? " --ratio " + ratio : " --faces " + std::to_string(share.within_reach);
+  }
+  return options;
+}
+
 /// Says, where a target is missed, which faces were kept for the shape; or that it was flattened, and what
 /// helps: many of the last faces are given for little.
 std::string what_shape_takes(const Simplify_request& request, const Level& level)
@@ -52,8 +76,8 @@ std::string what_shape_takes(const Simplify_request& request, const Level& level
                     within_reach = level.result.report.faces_within_reach;
   if (within_reach > 0 && within_reach < faces)
     return "\nkept: " + counted(faces - within_reach, "face") +
-           " that could go, because all that nothing holds would be flattened for them; --faces " +
-           std::to_string(within_reach) + " lets them go";
+           " that could go, because all that nothing holds would be flattened for them;" +
+           options_without_shape(request, level.result.report) + " lets them go";
   const bool is_asked_for_target = request.options.ratio || request.options.faces || !request.lods.empty();
   if (is_shape_kept(request) || !is_asked_for_target ||
       !Missed_target::is_flattened(request.options, level.verification.distances->original_to_result))

@@ -84,8 +84,9 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool
         m_collapses.push_back(collapse);
       };
     }
-    m_result = simplify_soup(m_prepared, options, request.intent);
-    missed_target.complete(m_result);
+    std::vector<Simplified_soup> results{simplify_soup(m_prepared, options, request.intent)};
+    missed_target.complete(results);
+    m_result = std::move(results.front());
     m_seconds.add(m_prepared, {&m_result});
     if (log) {
       log->finish(m_result);
@@ -112,8 +113,7 @@ bool Reduction::is_to_be_repeated(const Reduction_request& request, Missed_targe
   if (!is_accepted())
     return false;
   if (!m_error_search)
-    return request.intent.ratios.empty() &&
-           missed_target.advance(m_result, m_verification.distances->original_to_result);
+    return missed_target.advance({{m_result, m_verification.distances->original_to_result}});
   const Bounds_over_poses largest = m_distances->larger();
   if (largest.upper > *request.options.max_error && largest.pose && add_pose(m_guarded_poses, *largest.pose))
     return true;

@@ -7,10 +7,12 @@
 #include <selvedge/compare.h>
 #include <selvedge/simplify.h>
 
+#include <algorithm>
 #include <cstddef>
-#include <optional>
+#include <limits>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 namespace selvedge {
 
@@ -21,12 +23,20 @@ namespace selvedge {
 /// and figures that got stuck above 10 %, the RMS distance at a tenth more faces was 0.44, 0.60, 0.66, 0.75,
 /// 0.75 and 0.90 of that at the end. Where a reduction is not stuck, it is about 0.9.
 ///
-/// A caller reduces with the options of `options()`, judges, hands result and distances to `advance`, and
-/// reduces again if this returns true. Then `complete` makes the second result one of the target that was
-/// asked for.
+/// A caller reduces with the options of `options()`, judges, hands the results to `advance`, and reduces
+/// again if this returns true. Then `complete` makes the second results those of the targets that were asked
+/// for. There is one result, or one for each level of detail. Parts with a ratio of their own have a target
+/// each (`Simplify_report::shares`).
 class Missed_target
 {
 public:
+  /// A result, and its distances at the vertices of the original.
+  struct Judged
+  {
+    const Simplified_soup& result;
+    const Distance& original_to_result;
+  };
+
   /// `asked` are the options that the caller wants.
   explicit Missed_target(Simplify_options asked) : m_options(std::move(asked)) {}
 
@@ -40,57 +50,107 @@ public:
   /// The options to reduce with.
   const Simplify_options& options() const { return m_options; }
 
-  /// Called after a reduction of all faces to one target, with the distances at the original's vertices.
-  /// Returns whether another one is due: when this was the first, ended by itself at more than a tenth above
-  /// its target, which is not 0, and has used a quarter of the error that is allowed.
-  bool advance(const Simplified_soup& result, const Distance& original_to_result)
+  /// Called after a reduction. Returns whether another one is due: when this was the first, and a result has
+  /// used a quarter of the error that is allowed, and ended by itself at more than a tenth above a target
+  /// that is not 0. In the next one, no level has more faces than one that has reached its target now.
+  bool advance(const std::vector<Judged>& levels)
   {
-    const Simplify_report& report = result.report;
-    if (m_first || report.is_reached() || report.is_stopped || report.faces_target == 0 ||
-        report.faces_output <= with_a_tenth(report.faces_target) ||
-        !is_flattened(m_options, original_to_result))
+    if (!m_first.empty())
       return false;
-    m_first.emplace(First{report, {}});
-    for (std::size_t t = 0; t < result.held_by.size(); ++t)
-      m_first->held_by.emplace(result.triangles[t], result.held_by[t]);
-    m_options.faces = with_a_tenth(report.faces_output);
+    std::vector<std::size_t> least;
+    for (const Judged& level : levels)
+      if (!level.result.report.is_stopped && is_flattened(m_options, level.original_to_result))
+        lower_to_missed(level.result.report.shares, least);
+    for (const Judged& level : levels)
+      lower_to_reached(level.result.report.shares, least);
+    std::replace(least.begin(), least.end(), s_none, std::size_t(0));
+    if (std::all_of(least.begin(), least.end(), [](std::size_t faces) { return faces == 0; }))
+      return false;
+    m_options.least_faces = std::move(least);
+    for (const Judged& level : levels)
+      m_first.emplace_back(level.result);
     return true;
   }
 
-  /// Has the report of the second result name the target that was asked for, how far it is within reach, and
-  /// what holds it back there. Triangles that could go are held by `Hindrance::target`. Does nothing to the
-  /// first result.
-  void complete(Simplified_soup& result) const
+  /// Has the report of each second result name the targets that were asked for, how far they are within
+  /// reach, and what holds the result back there. Triangles that could go are held by `Hindrance::target`.
+  /// Does nothing to first results.
+  void complete(std::vector<Simplified_soup>& levels) const
   {
-    if (!m_first)
-      return;
-    const Simplify_report& first = m_first->report;
-    Simplify_report& report = result.report;
-    report.faces_within_reach = first.faces_output;
-    report.faces_target = first.faces_target;
-    report.faces_to_go = first.faces_to_go + report.faces_output - first.faces_output;
-    report.hindrances = first.hindrances;
-    result.held_by.clear();
-    for (const Index triangle : result.triangles) {
-      const auto held = m_first->held_by.find(triangle);
-      result.held_by.push_back(held == m_first->held_by.end() ? Hindrance::target : held->second);
-    }
+    for (std::size_t i = 0; i < m_first.size(); ++i)
+      m_first[i].complete(levels[i]);
   }
 
 private:
+  using Shares = std::vector<Simplify_report::Share>;
+
   static constexpr double s_much = 0.25; // of the error allowed
+  static constexpr std::size_t s_none = std::numeric_limits<std::size_t>::max();
 
   static std::size_t with_a_tenth(std::size_t faces) { return faces + (faces + 9) / 10; }
 
-  // What the first reduction said: its report, and what held each of its triangles.
-  struct First
+  static bool is_missed(const Simplify_report::Share& share)
   {
-    Simplify_report report;
-    std::unordered_map<Index, Hindrance> held_by;
+    return share.target > 0 && share.output > with_a_tenth(share.target);
+  }
+
+  static void lower_to_missed(const Shares& shares, std::vector<std::size_t>& least)
+  {
+    least.resize(shares.size(), s_none);
+    for (std::size_t i = 0; i < shares.size(); ++i)
+      if (is_missed(shares[i]))
+        least[i] = std::min(least[i], with_a_tenth(shares[i].output));
+  }
+
+  static void lower_to_reached(const Shares& shares, std::vector<std::size_t>& least)
+  {
+    for (std::size_t i = 0; i < least.size(); ++i)
+      if (least[i] != s_none && shares[i].excess() == 0)
+        least[i] = std::min(least[i], shares[i].output);
+  }
+
+  // What the first reduction said of a level: its report, and what held each of its triangles.
+  class First
+  {
+  public:
+    explicit First(const Simplified_soup& result) : m_report(result.report)
+    {
+      for (std::size_t t = 0; t < result.held_by.size(); ++t)
+        m_held_by.emplace(result.triangles[t], result.held_by[t]);
+    }
+
+    void complete(Simplified_soup& result) const
+    {
+      Simplify_report& report = result.report;
+      report.faces_target = m_report.faces_target;
+      report.faces_to_go = 0;
+      for (std::size_t i = 0; i < report.shares.size(); ++i) {
+        Simplify_report::Share& share = report.shares[i];
+        const Simplify_report::Share& first = m_report.shares[i];
+        share.target = first.target;
+        report.faces_to_go += share.excess();
+        if (first.excess() > 0 && share.output > first.output) {
+          share.within_reach = first.output;
+          report.faces_within_reach = m_report.faces_output;
+        }
+      }
+      if (m_report.is_reached())
+        return;
+      report.hindrances = m_report.hindrances;
+      result.held_by.clear();
+      for (const Index triangle : result.triangles) {
+        const auto held = m_held_by.find(triangle);
+        result.held_by.push_back(held == m_held_by.end() ? Hindrance::target : held->second);
+      }
+    }
+
+  private:
+    Simplify_report m_report;
+    std::unordered_map<Index, Hindrance> m_held_by;
   };
 
   Simplify_options m_options;
-  std::optional<First> m_first;
+  std::vector<First> m_first; // of all levels, once they are to be reduced again
 };
 
 } // namespace selvedge

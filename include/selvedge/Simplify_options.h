@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <vector>
 
 namespace selvedge {
 
@@ -60,6 +61,11 @@ struct Simplify_options
 
   /// Faces to keep, of all.
   std::optional<std::size_t> faces;
+
+  /// Numbers of faces below which no target is, whatever ratios say: of the faces that belong to no part with
+  /// a ratio of its own, then of those of each such part (`Simplify_intent::ratios`). What is not listed has
+  /// none. `Missed_target` sets them.
+  std::vector<std::size_t> least_faces;
 
   /// The largest distance E between the surfaces of the original and the result, as a share of the diagonal
   /// of the bounding box, at least 0. It is measured at every collapse, and holds at any time: from every

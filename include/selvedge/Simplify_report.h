@@ -9,6 +9,7 @@
 #include <selvedge/Surface_mesh_simplification/Refusals.h>
 #include <selvedge/spatial/Index_statistics.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <string>
@@ -24,6 +25,18 @@ struct Simplify_report
   std::size_t faces_target = 0;
   std::size_t faces_output = 0;
   std::size_t faces_to_go = 0; ///< faces above the target at the end, summed over all parts with a target
+
+  /// The faces of a part with a target, or of what is in no such part.
+  struct Share
+  {
+    std::size_t input = 0, fixed = 0; ///< as `faces_input` and `faces_fixed`
+    std::size_t target = 0, output = 0;
+    std::size_t within_reach = 0; ///< as `faces_within_reach`, of this share
+
+    std::size_t excess() const { return output - std::min(output, target); }
+  };
+  std::vector<Share> shares; ///< first what is in no such part; the counts above are their sums
+
   /// Where a caller reduced to more faces than is possible, to keep shape (`Missed_target`): the fewest that
   /// are possible, for which `hindrances` are. Otherwise 0.
   std::size_t faces_within_reach = 0;

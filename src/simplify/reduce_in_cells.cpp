@@ -230,6 +230,7 @@ Cell_run run_cell(const Cell_context& whole, const Cell& cell, const std::vector
   working.constraints().diagonal = whole.diagonal;
   Simplify_options options = whole.options;
   options.ratio.reset();
+  options.least_faces.clear();
   const std::size_t faces = cell.faces.size() - working.constraints().uncounted_faces.size();
   options.faces = faces - std::min(faces, 2 * wanted);
   options.should_stop = stop.of_cell();

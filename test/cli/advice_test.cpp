@@ -266,23 +266,54 @@ TEST(App_simplify, KeepsFacesForTheShapeWhereATargetIsMissed)
   }
 }
 
-// With several targets, or every level in a file, no face is kept, and the summary says what helps.
+// So are those of levels, and of parts with ratios of their own.
+TEST(App_simplify, KeepsFacesForTheShapeOfLevelsAndParts)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("nested", "in.obj", 2000), report = folder / "report.json";
+  const auto run = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"simplify", in, "--report", report});
+    return run_app(arguments).out;
+  };
+  const auto kept_for = [](const std::string& summary, const std::string& option) {
+    const std::string text =
+        " faces that could go, because all that nothing holds would be flattened for them; " + option;
+    const std::size_t place = summary.find(text);
+    EXPECT_NE(place, std::string::npos) << summary;
+    return place == std::string::npos ? 1 : std::stod(summary.substr(place + text.size()));
+  };
+
+  const std::string levels = folder / "{lod}.obj";
+  const double level = kept_for(run({"-o", levels, "--lods", "0.5,0.01"}), "--lods ");
+  const auto lods = nlohmann::json::parse(contents_of(report)).at("lods");
+  EXPECT_EQ(lods[0].at("target").at("reached"), true);
+  EXPECT_EQ(lods[0].at("target").at("within_reach"), nullptr);
+  EXPECT_EQ(lods[1].at("target").at("reached"), false);
+  EXPECT_GT(lods[1].at("faces").at("output"), 1.08 * double(lods[1].at("target").at("within_reach")));
+  EXPECT_EQ(run({"-o", levels, "--lods", "0.5," + std::to_string(level)}).find("\nkept: "),
+            std::string::npos);
+
+  const std::string out = folder / "out.obj";
+  const double ratio =
+      kept_for(run({"-o", out, "--ratio", "0.5", "--ratio", "sphere_0=0.01"}), "--ratio 'sphere_0=");
+  EXPECT_EQ(
+      run({"-o", out, "--ratio", "0.5", "--ratio", "sphere_0=" + std::to_string(ratio)}).find("\nkept: "),
+      std::string::npos);
+  kept_for(run({"-o", out, "--ratio", "0.01", "--ratio", "sphere_0=0.5"}), "--ratio ");
+  kept_for(run({"-o", out, "--faces", "10", "--ratio", "sphere_0=0.5"}), "--faces ");
+}
+
+// Where a file has every level on the way, no face is kept, and the summary says what helps.
 TEST(App_simplify, SaysThatWhatIsNotHeldHasBeenFlattened)
 {
   const Workspace folder;
   const std::string in = folder.generate("nested", "in.obj", 2000), out = folder / "out.obj";
   const std::string text = "\nflattened: all that nothing holds, as far as --error 0.01 allows; a ratio that "
                            "is larger by a tenth keeps more of its shape";
-  for (const std::vector<std::string>& options :
-       {std::vector<std::string>{"-o", folder / "{lod}.obj", "--lods", "0.5,0.01"},
-        {"-o", out, "--ratio", "0.01", "--ratio", "sphere_0=0.5"},
-        {"-o", out, "--ratio", "0.01", "--progressive", folder / "all.glb"}}) {
-    std::vector<std::string> arguments{"simplify", in};
-    arguments.insert(arguments.end(), options.begin(), options.end());
-    const App_result result = run_app(arguments);
-    EXPECT_NE(result.out.find(text), std::string::npos) << result.out;
-    EXPECT_EQ(result.out.find("\nkept: "), std::string::npos);
-  }
+  const App_result result =
+      run_app({"simplify", in, "-o", out, "--ratio", "0.01", "--progressive", folder / "all.glb"});
+  EXPECT_NE(result.out.find(text), std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find("\nkept: "), std::string::npos);
 }
 
 // Where only a part has a ratio, nothing says how far to reduce the others.

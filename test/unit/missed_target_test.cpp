@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <selvedge/Missed_target.h>
+#include <selvedge/generate.h>
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -24,12 +26,26 @@ Simplify_options options_for_a_tenth()
 Simplified_soup result_above_its_target()
 {
   Simplified_soup result;
+  result.report.shares = {{1000, 0, 100, 200, 0}};
   result.report.faces_target = 100;
   result.report.faces_output = 200;
   result.report.faces_to_go = 100;
   result.report.hindrances[Hindrance::seam] = 7;
   result.triangles = {3, 5};
   result.held_by = {Hindrance::seam, Hindrance::error};
+  return result;
+}
+
+// Returns a result with shares of such targets and faces.
+Simplified_soup result_of(const std::vector<std::pair<std::size_t, std::size_t>>& shares)
+{
+  Simplified_soup result;
+  for (const auto& [target, output] : shares) {
+    result.report.shares.push_back({1000, 0, target, output, 0});
+    result.report.faces_target += target;
+    result.report.faces_output += output;
+    result.report.faces_to_go += result.report.shares.back().excess();
+  }
   return result;
 }
 
@@ -43,11 +59,12 @@ Distance at_most(double maximum)
 TEST(Missed_target, AsksForATenthMoreFacesOnce)
 {
   Missed_target missed(options_for_a_tenth());
-  EXPECT_FALSE(missed.options().faces);
-  EXPECT_TRUE(missed.advance(result_above_its_target(), at_most(0.0025)));
-  EXPECT_EQ(missed.options().faces, 220u);
-  EXPECT_FALSE(missed.advance(result_above_its_target(), at_most(0.0025)));
-  EXPECT_EQ(missed.options().faces, 220u);
+  EXPECT_TRUE(missed.options().least_faces.empty());
+  EXPECT_TRUE(missed.advance({{result_above_its_target(), at_most(0.0025)}}));
+  EXPECT_EQ(missed.options().least_faces, (std::vector<std::size_t>{220}));
+  EXPECT_EQ(missed.options().ratio, 0.1);
+  EXPECT_FALSE(missed.advance({{result_above_its_target(), at_most(0.0025)}}));
+  EXPECT_EQ(missed.options().least_faces, (std::vector<std::size_t>{220}));
 }
 
 TEST(Missed_target, AsksForNothingWhereTheSurfaceWasNotFlattenedForATarget)
@@ -58,37 +75,105 @@ TEST(Missed_target, AsksForNothingWhereTheSurfaceWasNotFlattenedForATarget)
       [](Simplify_options& options, auto&, auto&) { options.max_error.reset(); },
       [](Simplify_options& options, auto&, auto&) { options.max_error = 0; },
       [](auto&, Simplified_soup& result, auto&) { result.report.is_stopped = true; },
-      [](auto&, Simplified_soup& result, auto&) { result.report.faces_to_go = 0; },
-      [](auto&, Simplified_soup& result, auto&) { result.report.faces_target = 0; },
-      [](auto&, Simplified_soup& result, auto&) { result.report.faces_output = 110; }};
+      [](auto&, Simplified_soup& result, auto&) { result.report.shares[0].target = 200; },
+      [](auto&, Simplified_soup& result, auto&) { result.report.shares[0].target = 0; },
+      [](auto&, Simplified_soup& result, auto&) { result.report.shares[0].output = 110; }};
   for (const Change& change : changes) {
     Simplify_options options = options_for_a_tenth();
     Simplified_soup result = result_above_its_target();
     Distance distance = at_most(0.0025);
     change(options, result, distance);
-    EXPECT_FALSE(Missed_target(options).advance(result, distance));
+    EXPECT_FALSE(Missed_target(options).advance({{result, distance}}));
+  }
+}
+
+TEST(Missed_target, AsksForMoreFacesOfThePartsThatMissedTheirTargets)
+{
+  Missed_target missed(options_for_a_tenth());
+  EXPECT_TRUE(missed.advance({{result_of({{100, 100}, {50, 80}, {50, 54}}), at_most(0.01)}}));
+  EXPECT_EQ(missed.options().least_faces, (std::vector<std::size_t>{0, 88, 0}));
+
+  std::vector<Simplified_soup> second{result_of({{100, 99}, {88, 87}, {50, 54}})};
+  missed.complete(second);
+  const Simplify_report& report = second.front().report;
+  EXPECT_EQ(report.shares[0].within_reach, 0u);
+  EXPECT_EQ(report.shares[1].within_reach, 80u);
+  EXPECT_EQ(report.shares[2].within_reach, 0u);
+  EXPECT_EQ(report.shares[1].target, 50u);
+  EXPECT_EQ(report.faces_within_reach, 234u);
+  EXPECT_EQ(report.faces_target, 200u);
+  EXPECT_EQ(report.faces_to_go, 37u + 4u);
+}
+
+// Levels that are within reach stay as they are, and none has fewer faces than a finer one.
+TEST(Missed_target, AsksForNoMoreFacesThanTheLevelsThatReachedTheirTargets)
+{
+  for (const auto& [finer, least] : {std::pair<std::size_t, std::size_t>{500, 220}, {210, 210}}) {
+    Missed_target missed(options_for_a_tenth());
+    const Simplified_soup reached = result_of({{finer, finer}}), near = result_of({{190, 200}}),
+                          missing = result_of({{100, 200}});
+    EXPECT_TRUE(missed.advance({{reached, at_most(0.001)}, {near, at_most(0.01)}, {missing, at_most(0.01)}}));
+    EXPECT_EQ(missed.options().least_faces, std::vector<std::size_t>{least});
+
+    std::vector<Simplified_soup> second{result_of({{finer, finer}}), result_of({{least, least}}),
+                                        result_of({{least, least}})};
+    missed.complete(second);
+    EXPECT_TRUE(second[0].report.is_reached());
+    EXPECT_EQ(second[0].report.faces_within_reach, 0u);
+    EXPECT_EQ(second[1].report.faces_target, 190u);
+    for (const std::size_t i : {1, 2}) {
+      EXPECT_FALSE(second[i].report.is_reached());
+      EXPECT_EQ(second[i].report.faces_within_reach, 200u);
+    }
   }
 }
 
 TEST(Missed_target, MakesTheSecondResultOneOfTheTargetAskedFor)
 {
   Missed_target missed(options_for_a_tenth());
-  Simplified_soup first = result_above_its_target();
+  std::vector<Simplified_soup> first{result_above_its_target()};
   missed.complete(first);
-  EXPECT_EQ(first.report.faces_within_reach, 0u);
-  EXPECT_EQ(first.held_by, result_above_its_target().held_by);
+  EXPECT_EQ(first[0].report.faces_within_reach, 0u);
+  EXPECT_EQ(first[0].held_by, result_above_its_target().held_by);
 
-  ASSERT_TRUE(missed.advance(first, at_most(0.01)));
-  Simplified_soup second;
-  second.report.faces_target = 220;
-  second.report.faces_output = 219;
-  second.triangles = {3, 4, 5};
+  ASSERT_TRUE(missed.advance({{first[0], at_most(0.01)}}));
+  std::vector<Simplified_soup> second{result_of({{220, 219}})};
+  second[0].triangles = {3, 4, 5};
   missed.complete(second);
-  EXPECT_EQ(second.report.faces_within_reach, 200u);
-  EXPECT_EQ(second.report.faces_target, 100u);
-  EXPECT_EQ(second.report.faces_to_go, 119u);
-  EXPECT_EQ(second.report.outcome(), "border");
-  EXPECT_EQ(second.held_by, (std::vector<Hindrance>{Hindrance::seam, Hindrance::target, Hindrance::error}));
+  EXPECT_EQ(second[0].report.faces_within_reach, 200u);
+  EXPECT_EQ(second[0].report.faces_target, 100u);
+  EXPECT_EQ(second[0].report.faces_to_go, 119u);
+  EXPECT_EQ(second[0].report.outcome(), "border");
+  EXPECT_EQ(second[0].held_by,
+            (std::vector<Hindrance>{Hindrance::seam, Hindrance::target, Hindrance::error}));
+}
+
+// The fewest faces bound the targets of ratios, of levels and of numbers of faces, and cells do their part.
+TEST(Missed_target, ReducesToTheFewestFacesThatAreAllowed)
+{
+  Generate_options nested;
+  nested.faces = 4000;
+  const Prepared_soup prepared = prepare(generate("nested", nested));
+  Simplify_options options;
+  options.least_faces = {prepared.soup.triangles.size() / 2};
+  const auto expect_half = [&](const Simplified_soup& result) {
+    EXPECT_TRUE(result.report.is_reached());
+    EXPECT_EQ(result.report.faces_target, options.least_faces[0]);
+    EXPECT_NEAR(double(result.soup.triangles.size()), double(options.least_faces[0]), 2);
+  };
+  const std::vector<Simplified_soup> levels = simplify_lods(prepared, options, {0.1, 0.75, 0.2});
+  expect_half(levels[0]);
+  EXPECT_NEAR(double(levels[1].soup.triangles.size()), 1.5 * double(options.least_faces[0]), 2);
+  expect_half(levels[2]);
+  options.ratio = 0.1;
+  expect_half(simplify_soup(prepared, options));
+  options.ratio.reset();
+  options.faces = 10;
+  expect_half(simplify_soup(prepared, options));
+  options.faces_per_cell = 1000;
+  const Simplified_soup in_cells = simplify_soup(prepared, options);
+  expect_half(in_cells);
+  EXPECT_GT(in_cells.report.collapses_in_cells, 0u);
 }
 
 } // namespace

@@ -99,6 +99,7 @@ void write_world(const World& world, const std::filesystem::path& folder)
                      {"may_intersect", world.may_intersect},
                      {"ratio", optional_json(options.ratio)},
                      {"faces", optional_json(options.faces)},
+                     {"least_faces", options.least_faces},
                      {"guarded_poses", optional_json(options.guarded_poses)},
                      {"error", optional_json(options.max_error)},
                      {"normal_change", options.max_normal_change},
@@ -172,7 +173,9 @@ World read_world(const std::filesystem::path& folder)
   Simplify_options& options = world.options;
   read_optional(json["ratio"], options.ratio);
   read_optional(json["faces"], options.faces);
-  if (json.contains("guarded_poses")) // worlds of earlier versions have none
+  options.least_faces =
+      json.value("least_faces", options.least_faces); // worlds of earlier versions have none
+  if (json.contains("guarded_poses"))                 // worlds of earlier versions have none
     read_optional(json["guarded_poses"], options.guarded_poses);
   read_optional(json["error"], options.max_error);
   if (json.contains("clearance")) // likewise

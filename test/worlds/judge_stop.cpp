@@ -162,6 +162,8 @@ Verdict judge_stop(const World& world, const World_run& run)
     std::size_t aim = fixed + std::size_t(std::llround(ratios[share] * double(before - fixed)));
     if (share == 0)
       aim = std::max(world.options.ratio ? aim : 0, world.options.faces.value_or(0));
+    if (share < world.options.least_faces.size())
+      aim = std::max(aim, world.options.least_faces[share]);
     const std::size_t now =
         std::size_t(std::count_if(run.result.triangles.begin(), run.result.triangles.end(),
                                   [&](Index t) { return share_of[t] == share; }));

@@ -45,11 +45,12 @@ public:
     std::size_t faces = 0; ///< that it has now
     std::size_t fixed = 0; ///< of these, those that cannot change, because all their corners are locked
     std::size_t target = 0;
+    std::size_t least = 0; ///< what no target is below
 
     /// Returns the target for a ratio of the faces that it has now: the ratio is of those that are not fixed.
     std::size_t at_ratio(double ratio) const
     {
-      return fixed + Face_ratio_stop::face_target(ratio, faces - fixed);
+      return (std::max)(least, fixed + Face_ratio_stop::face_target(ratio, faces - fixed));
     }
 
     std::size_t excess() const { return faces - (std::min)(faces, target); }
@@ -58,7 +59,13 @@ public:
   explicit Face_targets(const TriangleMesh& mesh) : m_state(std::make_shared<State>(mesh)) {}
 
   const Share& share(std::size_t number) const { return m_state->shares[number]; }
-  void set_target(std::size_t number, std::size_t target) { m_state->shares[number].target = target; }
+  const std::vector<Share>& shares() const { return m_state->shares; }
+  void set_target(std::size_t number, std::size_t target)
+  {
+    Share& share = m_state->shares[number];
+    share.target = (std::max)(share.least, target);
+  }
+  void set_least(std::size_t number, std::size_t faces) { m_state->shares[number].least = faces; }
 
   bool has_several_shares() const { return m_state->shares.size() > 1; }
 
@@ -181,7 +188,10 @@ private:
 
   struct State
   {
-    explicit State(const TriangleMesh& mesh_) : mesh(mesh_), shares{{internal::face_count(mesh_), 0}} {}
+    explicit State(const TriangleMesh& mesh_) : mesh(mesh_), shares(1)
+    {
+      shares.front().faces = internal::face_count(mesh_);
+    }
 
     const TriangleMesh& mesh;
     std::optional<Record_map> records; // none while all are as they are made: in most meshes, to the end

@@ -187,6 +187,8 @@ private:
     m_quadrics.measure_by(m_diagonal);
     m_report.faces_input = targets().total().faces;
     m_report.faces_fixed = targets().total().fixed;
+    for (const auto& share : targets().shares())
+      m_report.shares.push_back({share.faces, share.fixed});
   }
 
   template <class Places>
@@ -417,6 +419,10 @@ private:
     report.faces_output = total.faces;
     report.faces_target = total.target;
     report.faces_to_go = targets().total_excess();
+    for (std::size_t i = 0; i < report.shares.size(); ++i) {
+      report.shares[i].target = targets().share(i).target;
+      report.shares[i].output = targets().share(i).faces;
+    }
     report.refused = refusals();
     report.refused_elsewhere = m_motions.refused_elsewhere();
     report.left_alone = m_filters.partners().alone();
