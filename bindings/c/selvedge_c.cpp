@@ -13,8 +13,12 @@
 #include <selvedge/mesh_files.h>
 #include <selvedge/references.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <new>
 #include <optional>
@@ -201,6 +205,43 @@ const double* selvedge_mesh_positions(const selvedge_mesh* mesh)
 const unsigned int* selvedge_mesh_indices(const selvedge_mesh* mesh)
 {
   return mesh ? reinterpret_cast<const unsigned int*>(mesh->soup.triangles.data()) : nullptr;
+}
+
+int selvedge_mesh_set_uvs(selvedge_mesh* mesh, const double* uvs)
+{
+  return guarded(-1, [&] {
+    const std::size_t corners = selvedge_mesh_index_count(&required(mesh, "mesh"));
+    Corner_values<2> result;
+    std::map<std::array<double, 2>, Index> numbers;
+    result.of_triangle.resize(uvs ? corners / 3 : 0);
+    for (std::size_t i = 0; uvs && i < corners; ++i) {
+      const std::array<double, 2> uv{uvs[2 * i], uvs[2 * i + 1]};
+      if (!std::isfinite(uv[0]) || !std::isfinite(uv[1]))
+        throw Argument_error("index " + std::to_string(i) + " has a texture coordinate that is not finite");
+      const auto [number, is_new] = numbers.emplace(uv, Index(result.values.size()));
+      if (is_new)
+        result.values.push_back(uv);
+      result.of_triangle[i / 3][i % 3] = number->second;
+    }
+    mesh->soup.uvs = std::move(result);
+    return 0;
+  });
+}
+
+int selvedge_mesh_get_uvs(const selvedge_mesh* mesh, double* uvs)
+{
+  return guarded(-1, [&] {
+    const Corner_values<2>& of_corners = required(mesh, "mesh").soup.uvs;
+    if (of_corners.empty())
+      return 0;
+    required(uvs, "uvs");
+    for (const Index_triple& triangle : of_corners.of_triangle)
+      for (const Index number : triangle) {
+        const auto uv = number == of_corners.missing ? std::array<double, 2>{} : of_corners.values[number];
+        uvs = std::copy(uv.begin(), uv.end(), uvs);
+      }
+    return 1;
+  });
 }
 
 selvedge_options* selvedge_options_new(void)

@@ -145,6 +145,15 @@ SELVEDGE_C_API size_t selvedge_mesh_index_count(const selvedge_mesh* mesh);
 SELVEDGE_C_API const double* selvedge_mesh_positions(const selvedge_mesh* mesh);
 SELVEDGE_C_API const unsigned int* selvedge_mesh_indices(const selvedge_mesh* mesh);
 
+/* Gives the mesh texture coordinates: two finite doubles for each index, that is for each corner of each
+   triangle. Corners at one position that differ in them are on a seam, which a reduction keeps. A null pointer
+   takes them away. Returns 0, or -1 when it fails. */
+SELVEDGE_C_API int selvedge_mesh_set_uvs(selvedge_mesh* mesh, const double* uvs);
+
+/* Copies the texture coordinates of the mesh, two for each index; those of a file's triangles without a texture
+   are 0. Returns 1, or 0 when the mesh has none, in which case nothing is written, or -1 when it fails. */
+SELVEDGE_C_API int selvedge_mesh_get_uvs(const selvedge_mesh* mesh, double* uvs);
+
 /* ---- Reduction
  * ---------------------------------------------------------------------------------------------------------
  */

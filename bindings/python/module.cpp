@@ -17,8 +17,10 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,6 +36,7 @@ namespace {
 using Points = py::array_t<double, py::array::c_style>;
 using Triangles = py::array_t<Index, py::array::c_style>;
 using Mesh_arrays = std::pair<Points, Triangles>;
+using Corner_arrays = std::optional<std::pair<py::array_t<double, py::array::c_style>, Triangles>>;
 using Options = std::vector<std::pair<std::string, std::string>>;
 using Progress = std::function<bool(std::size_t, std::size_t, std::size_t)>;
 
@@ -144,6 +147,49 @@ Triangle_soup soup_of(const Points& points, const Triangles& triangles)
       [&](std::size_t v) { return point_at(points, v); }, [](std::size_t v) { return v; });
 }
 
+/// Returns values of corners: rows of `dimension` numbers, and for each triangle the numbers of three rows.
+/// None are given without arrays. `name` is for messages.
+template <std::size_t dimension>
+Corner_values<dimension> corner_values_of(const Corner_arrays& arrays, std::size_t triangles,
+                                          const std::string& name)
+{
+  Corner_values<dimension> result;
+  if (!arrays)
+    return result;
+  const auto& [values, numbers] = *arrays;
+  if (values.ndim() != 2 || values.shape(1) != py::ssize_t(dimension))
+    throw Argument_error(name + ": the values are not an array of shape (k, " + std::to_string(dimension) +
+                         ")");
+  if (numbers.ndim() != 2 || numbers.shape(1) != 3 || std::size_t(numbers.shape(0)) != triangles)
+    throw Argument_error(name + ": the numbers of values are not an array of shape (" +
+                         std::to_string(triangles) + ", 3), with a row for each triangle");
+  result.values.resize(std::size_t(values.shape(0)));
+  for (std::size_t i = 0; i < result.values.size(); ++i)
+    for (std::size_t k = 0; k < dimension; ++k) {
+      result.values[i][k] = values.at(py::ssize_t(i), py::ssize_t(k));
+      if (!std::isfinite(result.values[i][k]))
+        throw Argument_error(name + ": the value " + std::to_string(i) + ", counted from 0, is not finite");
+    }
+  result.of_triangle.resize(triangles);
+  for (std::size_t t = 0; t < triangles; ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index value = result.of_triangle[t][k] = numbers.at(py::ssize_t(t), py::ssize_t(k));
+      if (value >= result.values.size())
+        throw Argument_error(name + ": triangle " + std::to_string(t) + ", counted from 0, has the value " +
+                             std::to_string(value) + ", but there are " +
+                             std::to_string(result.values.size()));
+    }
+  return result;
+}
+
+/// What the corners of a mesh and its triangles have.
+struct Labels
+{
+  Corner_arrays uvs, normals;
+  std::vector<Index> groups; // by triangle
+  std::vector<std::string> group_names;
+};
+
 /// An array of `columns` columns that owns `values` without copying them.
 template <class Number, class Value>
 py::array_t<Number> array_of(std::vector<Value> values, py::ssize_t columns = 1)
@@ -170,6 +216,14 @@ Triangle_labels labels_of(const std::vector<Index>& of_triangle, const std::vect
   return {of_triangle, names};
 }
 
+void add_labels(Triangle_soup& soup, const Labels& labels)
+{
+  soup.uvs = corner_values_of<2>(labels.uvs, soup.triangles.size(), "uvs");
+  soup.normals = corner_values_of<3>(labels.normals, soup.triangles.size(), "normals");
+  if (!labels.groups.empty())
+    soup.groups = labels_of(labels.groups, labels.group_names);
+}
+
 class Result
 {
 public:
@@ -180,6 +234,8 @@ public:
     return py::make_tuple(array_of<double>(std::vector<Point_3>(m_reduction.soup().points), 3),
                           array_of<Index>(std::vector<Index_triple>(m_reduction.soup().triangles), 3));
   }
+  py::object uvs() const { return values_of(m_reduction.soup().uvs); }
+  py::object normals() const { return values_of(m_reduction.soup().normals); }
   py::array_t<Index> vertices() const { return array_of<Index>(m_reduction.vertices()); }
   py::array_t<Index> triangles() const { return array_of<Index>(m_reduction.triangles()); }
   py::array_t<Index> collapses() const
@@ -192,14 +248,24 @@ public:
   const bindings::Reduction& reduction() const { return m_reduction; }
 
 private:
+  // Returns values and, for each triangle, the numbers of three of them; None where there are none.
+  template <std::size_t dimension>
+  static py::object values_of(const Corner_values<dimension>& of_corners)
+  {
+    if (of_corners.empty())
+      return py::none();
+    return py::make_tuple(
+        array_of<double>(std::vector<std::array<double, dimension>>(of_corners.values), dimension),
+        array_of<Index>(std::vector<Index_triple>(of_corners.of_triangle), 3));
+  }
+
   bindings::Reduction m_reduction;
 };
 
-Result reduce(const Points& points, const Triangles& triangles, const Options& options,
-              const std::vector<Index>& groups, const std::vector<std::string>& group_names,
-              const std::vector<Index>& locked, const std::optional<std::vector<double>>& weights,
-              const std::optional<Mesh_arrays>& obstacle, const std::vector<Points>& poses,
-              const Progress& progress)
+Result reduce(const Points& points, const Triangles& triangles, const Options& options, const Labels& labels,
+              bool has_normals_of_vertices, const std::vector<Index>& locked,
+              const std::optional<std::vector<double>>& weights, const std::optional<Mesh_arrays>& obstacle,
+              const std::vector<Points>& poses, const Progress& progress)
 {
   Triangle_soup soup = soup_of(points, triangles);
   for (const Points& pose : poses)
@@ -207,8 +273,7 @@ Result reduce(const Points& points, const Triangles& triangles, const Options& o
   bindings::Reduction_request request;
   for (const auto& [name, value] : options)
     request.set(name, value);
-  if (!groups.empty())
-    soup.groups = labels_of(groups, group_names);
+  add_labels(soup, labels);
   if (weights) {
     Attribute attribute;
     attribute.name = request.intent.weights = "weights";
@@ -221,7 +286,8 @@ Result reduce(const Points& points, const Triangles& triangles, const Options& o
     request.obstacle = soup_of(obstacle->first, obstacle->second);
   Work work;
   request.options.should_stop = [&](const Simplify_progress& now) { return work.report(progress, now); };
-  return Result(work.run([&] { return bindings::Reduction(std::move(soup), request); }));
+  return Result(
+      work.run([&] { return bindings::Reduction(std::move(soup), request, has_normals_of_vertices); }));
 }
 
 py::array_t<std::size_t> choose_poses(const Points& points, const std::vector<Points>& poses,
@@ -255,9 +321,10 @@ py::tuple judge(const Points& points, const Triangles& triangles, const std::opt
 }
 
 py::tuple repeat(const Points& points, const Triangles& triangles, const std::string& log,
-                 const std::optional<Mesh_arrays>& obstacle, bool is_all_wanted)
+                 const Labels& labels, const std::optional<Mesh_arrays>& obstacle, bool is_all_wanted)
 {
-  const Triangle_soup soup = soup_of(points, triangles);
+  Triangle_soup soup = soup_of(points, triangles);
+  add_labels(soup, labels);
   Replay_options options;
   if (obstacle)
     options.obstacle = soup_of(obstacle->first, obstacle->second);
@@ -274,7 +341,9 @@ py::tuple make(const std::string& name, std::size_t faces, int layers, double th
   Triangle_soup soup = Work().run([&] { return generate(name, options); });
   const py::array_t<Index> groups = array_of<Index>(std::move(soup.groups.of_triangle));
   const std::vector<std::string> names = std::move(soup.groups.names);
-  return py::make_tuple(arrays_of(std::move(soup)), groups, names);
+  const py::tuple uvs = py::make_tuple(array_of<double>(std::move(soup.uvs.values), 2),
+                                       array_of<Index>(std::move(soup.uvs.of_triangle), 3));
+  return py::make_tuple(arrays_of(std::move(soup)), groups, names, uvs);
 }
 
 } // namespace
@@ -286,10 +355,17 @@ PYBIND11_MODULE(_selvedge, module)
   py::register_exception<Argument_error>(module, "ArgumentError",
                                          py::make_tuple(error, py::handle(PyExc_ValueError)));
   module.attr("version") = SELVEDGE_VERSION;
+  py::class_<Labels>(module, "Labels")
+      .def(py::init([](Corner_arrays uvs, Corner_arrays normals, std::vector<Index> groups,
+                       std::vector<std::string> group_names) {
+        return Labels{std::move(uvs), std::move(normals), std::move(groups), std::move(group_names)};
+      }));
   module.def("option_names", &bindings::option_names);
   module.def("nearest", &bindings::nearest);
   py::class_<Result>(module, "Result")
       .def("mesh", &Result::mesh)
+      .def("uvs", &Result::uvs)
+      .def("normals", &Result::normals)
       .def("vertices", &Result::vertices)
       .def("triangles", &Result::triangles)
       .def("collapses", &Result::collapses)

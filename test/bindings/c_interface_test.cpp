@@ -419,6 +419,60 @@ TEST(C_interface, StaysClearOfAnObstacle)
     selvedge_mesh_free(m);
 }
 
+// The result is that of the file, whose seams stay; without them, others edges go.
+TEST(C_interface, KeepsTextureCoordinatesOfArrays)
+{
+  selvedge_mesh* const file = selvedge_mesh_generate("skirt", 6000, 2);
+  const auto copy_of = [](const selvedge_mesh* mesh) {
+    return selvedge_mesh_new(selvedge_mesh_positions(mesh), selvedge_mesh_vertex_count(mesh),
+                             selvedge_mesh_indices(mesh), selvedge_mesh_index_count(mesh));
+  };
+  const auto uvs_of = [](const selvedge_mesh* mesh) {
+    std::vector<double> uvs(2 * selvedge_mesh_index_count(mesh), -1);
+    if (selvedge_mesh_get_uvs(mesh, uvs.data()) != 1)
+      uvs.clear();
+    return uvs;
+  };
+  const auto reduced = [&](const selvedge_mesh* mesh) {
+    selvedge_options* const options = selvedge_options_new();
+    selvedge_options_set(options, "ratio", "0.3");
+    selvedge_result* const result = selvedge_reduce(mesh, options);
+    selvedge_options_free(options);
+    const selvedge_mesh* const small = selvedge_result_mesh(result);
+    const std::vector<unsigned int> indices(selvedge_mesh_indices(small),
+                                            selvedge_mesh_indices(small) + selvedge_mesh_index_count(small));
+    std::vector<double> uvs = uvs_of(small);
+    selvedge_result_free(result);
+    return std::make_pair(indices, uvs);
+  };
+  selvedge_mesh* const mesh = copy_of(file);
+  EXPECT_EQ(selvedge_mesh_get_uvs(mesh, nullptr), 0);
+  const auto bare = reduced(mesh);
+  EXPECT_TRUE(bare.second.empty());
+
+  std::vector<double> uvs = uvs_of(file);
+  ASSERT_EQ(selvedge_mesh_set_uvs(mesh, uvs.data()), 0);
+  EXPECT_EQ(uvs_of(mesh), uvs);
+  const auto result = reduced(mesh);
+  EXPECT_EQ(result.second.size(), 2 * result.first.size());
+  EXPECT_NE(result.first, bare.first);
+  selvedge_mesh* const again = copy_of(file);
+  ASSERT_EQ(selvedge_mesh_set_uvs(again, uvs.data()), 0);
+  EXPECT_EQ(reduced(again), result);
+
+  EXPECT_EQ(selvedge_mesh_set_uvs(mesh, nullptr), 0);
+  EXPECT_EQ(reduced(mesh), bare);
+  uvs[7] = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(selvedge_mesh_set_uvs(mesh, uvs.data()), -1);
+  EXPECT_NE(std::string(selvedge_last_error()).find("index 3 "), std::string::npos);
+  EXPECT_EQ(selvedge_mesh_get_uvs(mesh, nullptr), 0);
+  EXPECT_EQ(selvedge_mesh_get_uvs(file, nullptr), -1);
+  EXPECT_EQ(selvedge_mesh_set_uvs(nullptr, uvs.data()), -1);
+  EXPECT_EQ(selvedge_mesh_get_uvs(nullptr, uvs.data()), -1);
+  for (selvedge_mesh* m : {file, mesh, again})
+    selvedge_mesh_free(m);
+}
+
 // What the program refuses, `selvedge_reduce` does not take without a word.
 TEST(C_interface, RefusesOptionsThatDoNotGoTogetherAsTheProgramDoes)
 {
@@ -486,10 +540,9 @@ TEST(Bindings, HaveTheOptionsAndDefaultsOfTheProgram)
                 .code,
             0);
   nlohmann::json expected = nlohmann::json::parse(contents_of(report))["options"];
-  for (const char* name :
-       {"animation", "drop_attribute", "every", "humanoid_poses", "lods", "morphs", "obstacle",
-        "obstacle_animation", "obstacle_humanoid_poses", "obstacle_pose", "polygons", "pose", "poses_out",
-        "progressive", "strict", "without_pose"})
+  for (const char* name : {"animation", "drop_attribute", "every", "humanoid_poses", "lods", "morphs",
+                           "obstacle", "obstacle_animation", "obstacle_humanoid_poses", "obstacle_pose",
+                           "polygons", "pose", "poses_out", "progressive", "strict", "without_pose"})
     EXPECT_EQ(expected.erase(name), 1u);
   bindings::Reduction_request request;
   request.set("ratio", "0.5");

@@ -34,6 +34,78 @@ class Simplify(unittest.TestCase):
         self.assertFalse(control.accepted)
         self.assertGreater(len(selvedge.verify(*control).pairs), 0)
 
+    def test_texture_coordinates_keep_their_seams_in_every_form(self):
+        mesh = selvedge.generate("skirt", faces=6000, thickness=0)
+        rows, numbers = np.unique(mesh.uvs.reshape(-1, 2), axis=0, return_inverse=True)
+        of_corners = numbers.reshape(-1, 3)
+        bare = selvedge.simplify(*mesh, ratio=0.3, log=True)
+        self.assertIsNone(bare.uvs)
+        result = selvedge.simplify(*mesh, uvs=mesh.uvs, ratio=0.3, log=True)
+        self.assertTrue(result.accepted and result.reached)
+        self.assertFalse(np.array_equal(result.triangles, bare.triangles))
+
+        # Each corner has what a corner of the input has at its vertex.
+        known = {(*corner, *uv) for corner, uv in zip(mesh.triangles.reshape(-1, 1).tolist(), mesh.uvs.reshape(-1, 2).tolist())}
+        now = zip(result.vertices[result.triangles].reshape(-1, 1).tolist(), result.uvs.reshape(-1, 2).tolist())
+        self.assertTrue(all((*corner, *uv) in known for corner, uv in now))
+
+        def areas(uvs):
+            a, b, c = np.moveaxis(uvs, 1, 0)
+            return np.cross(b - a, c - a)
+        np.testing.assert_array_equal(np.sign(areas(result.uvs)), np.sign(areas(mesh.uvs))[result.birth])
+
+        pair = selvedge.simplify(*mesh, uvs=(rows, of_corners), ratio=0.3)
+        np.testing.assert_array_equal(pair.triangles, result.triangles)
+        np.testing.assert_array_equal(pair.uvs[0][pair.uvs[1]], result.uvs)
+
+        # As other files have it: seams part the vertices.
+        both = np.stack([mesh.triangles, of_corners], axis=2).reshape(-1, 2)
+        split, parted = np.unique(both, axis=0, return_inverse=True)
+        points, triangles = mesh.points[split[:, 0]], parted.reshape(-1, 3)
+        for placement in ("vertices", "optimal"):
+            by_vertex = selvedge.simplify(points, triangles, uvs=rows[split[:, 1]], ratio=0.3, placement=placement)
+            by_corner = selvedge.simplify(points, triangles, uvs=mesh.uvs, ratio=0.3, placement=placement)
+            self.assertTrue(by_vertex.accepted and by_vertex.reached)
+            self.assertEqual(by_vertex.uvs.shape, (len(by_vertex.points), 2))
+            np.testing.assert_array_equal(by_vertex.uvs[by_vertex.triangles], by_corner.uvs)
+            if placement == "vertices":
+                np.testing.assert_array_equal(by_vertex.uvs, rows[split[:, 1]][by_vertex.vertices])
+
+        self.assertTrue(selvedge.replay(*mesh, result.log, uvs=mesh.uvs))
+        self.assertFalse(selvedge.replay(*mesh, bare.log, uvs=mesh.uvs))  # which leaves seams that it does not know
+        self.assertIsInstance(pickle.loads(pickle.dumps(result)).uvs, np.ndarray)
+
+    def test_normals_keep_their_edges(self):
+        points, triangles = selvedge.generate("nested", faces=1000, layers=1)
+        smooth = points / np.linalg.norm(points, axis=1)[:, None]
+        bare = selvedge.simplify(points, triangles, ratio=0.3)
+        self.assertIsNone(bare.normal_vectors)
+        kept = selvedge.simplify(points, triangles, normal_vectors=smooth, normals="keep", ratio=0.3, log=True)
+        np.testing.assert_array_equal(kept.normal_vectors, smooth[kept.vertices][kept.triangles])
+        self.assertTrue(selvedge.replay(points, triangles, kept.log, normal_vectors=smooth))
+        corners = smooth[triangles]
+        corners[len(corners) // 2:] *= -1  # a hard edge
+        hard = selvedge.simplify(points, triangles, normal_vectors=corners, normals="keep", ratio=0.3)
+        self.assertTrue(hard.accepted)
+        self.assertEqual(hard.normal_vectors.shape, (len(hard.triangles), 3, 3))
+        is_turned = hard.birth >= len(triangles) // 2
+        outward = (hard.normal_vectors * hard.points[hard.triangles]).sum(axis=2) > 0
+        np.testing.assert_array_equal(outward.all(axis=1), ~is_turned)
+
+    def test_names_what_is_wrong_with_values_of_corners(self):
+        points, triangles = layers(500)
+        uvs = np.zeros((len(points), 2))
+        endless, high = np.full_like(uvs, np.nan), np.full_like(triangles, len(points))
+        for wrong, message in ((uvs[:-1], "has the shape"), (np.zeros((len(triangles), 3, 3)), "has the shape"),
+                               (endless, "is not finite"), ((uvs, triangles[:-1]), "a row for each triangle"),
+                               ((uvs, high), "but there are"), ((uvs[:, :1], triangles), "shape \\(k, 2\\)")):
+            with self.assertRaisesRegex(selvedge.ArgumentError, "uvs.*" + message):
+                selvedge.simplify(points, triangles, uvs=wrong, ratio=0.5)
+        with self.assertRaisesRegex(selvedge.ArgumentError, "uvs\\[triangles\\]"):
+            selvedge.simplify(points, triangles, uvs=uvs, sewn=True, ratio=0.5)
+        sewn = selvedge.simplify(points, triangles, uvs=uvs[triangles], sewn=True, ratio=0.5)
+        self.assertEqual(sewn.uvs.shape, (len(sewn.triangles), 3, 2))
+
     def test_results_print_what_they_are(self):
         mesh = layers()
         result = selvedge.simplify(*mesh, ratio=0.3)

@@ -22,7 +22,9 @@ __all__ = ["ArgumentError", "Error", "InputError", "Mesh", "Result", "Verdict", 
 
 
 class Mesh:
-    """Points and triangles; unpacks as `points, triangles = mesh`."""
+    """Points and triangles; unpacks as `points, triangles = mesh`. `uvs` and `groups` are None, or what `simplify` takes."""
+
+    uvs = groups = None
 
     def __init__(self, points, triangles):
         self.points = points
@@ -41,12 +43,15 @@ class Result(Mesh):
     `vertices[i]` is the vertex of the input that vertex i is (with placement="optimal", one of those that were merged
     there), `birth[i]` the triangle of the input that triangle i was. `accepted` says whether the exact judge accepts
     the mesh, `reached` whether the target was reached, `stopped` whether the progress function ended the reduction.
-    `log` and `collapses` (rows: removed, kept) are empty unless log=True was given.
+    `log` and `collapses` (rows: removed, kept) are empty unless log=True was given. `uvs` are texture coordinates in the
+    form in which they were given, `normal_vectors` those of corners, of shape (triangles, 3, 3); None where there are none.
     """
 
-    def __init__(self, run, index_type):
+    def __init__(self, run, index_type, form_of_uvs="corner"):
         points, triangles = run.mesh()
         super().__init__(points, _as(triangles, index_type))
+        self.uvs = _in_form(form_of_uvs, run.uvs(), len(points), triangles)
+        self.normal_vectors = _in_form("corner", run.normals(), len(points), triangles)
         self._run = run
         self._report = None
         self.vertices = run.vertices()
@@ -95,17 +100,22 @@ def option_names():
     return _selvedge.option_names()
 
 
-def simplify(points, triangles, *, poses=None, obstacle=None, groups=None, weights=None, lock_vertices=None, log=False,
-             progress=None, **options):
+def simplify(points, triangles, *, uvs=None, normal_vectors=None, groups=None, poses=None, obstacle=None, weights=None,
+             lock_vertices=None, log=False, progress=None, **options):
     """Reduces a mesh, and has the result judged. Returns a `Result`.
 
     options: those of `selvedge simplify` by their names in its reports (`option_names`), such as ratio=0.3, faces=2000,
     error=0.001 (None: no limit), placement="optimal", lock=["collar"], part_ratios={"collar": 0.5}, threads=1.
+    uvs: texture coordinates, of shape (vertices, 2), or (triangles, 3, 2) for corners, or a pair (values, triangles) as in
+    OBJ files and libigl: each triangle has the numbers of three rows of values. Seams stay seams, and no triangle of the
+    texture turns over.
+    normal_vectors: the same with three numbers each. `normals`, an option, says what becomes of them.
+    groups: one name for each triangle, such as its material; borders between groups are kept as seams are. `lock`, `keep`, `part_ratios` and
+    `may_intersect` ("A:B") refer to the names.
     poses: further places of the points, an array of shape (poses, points, 3), such as frames of an animation: the result is
     legal in each. Those of the result are poses[:, result.vertices]. With key_poses="auto", for many poses, collapses are
     judged in a few that differ most, and in those in which the result would have new pairs; the result is judged in all.
     obstacle: a `Mesh` or (points, triangles) that no face may touch or pass through.
-    groups: one name for each triangle; `lock`, `keep`, `part_ratios` and `may_intersect` ("A:B") refer to them.
     weights: one number for each vertex, at least 0: how costly it is to remove, relative to the largest.
     lock_vertices: vertices that do not move: their numbers, from 0, or an array of booleans with one for each vertex.
     progress: called as progress(faces_input, faces_target, faces) now and then; when it returns true, the reduction ends
@@ -120,15 +130,18 @@ def simplify(points, triangles, *, poses=None, obstacle=None, groups=None, weigh
         if name not in names:
             raise TypeError(f"simplify() has no option '{name}'; the nearest is '{_selvedge.nearest(name, names)}'")
     triangle_array = _np.asarray(triangles)
-    numbers, labels = _groups(groups, len(triangle_array))
+    labels, form_of_uvs, form_of_normals = _labels(len(points), triangle_array, uvs, normal_vectors, groups)
+    if form_of_uvs == "vertex" and options.get("sewn"):
+        raise ArgumentError("uvs: sewn makes one vertex of several, which differ in their texture coordinates along seams; give "
+                            "those of corners: uvs[triangles]")
     given = [pair for name, value in options.items() for pair in _texts(name, value)] + [("log", _text(bool(log)))]
-    run = _selvedge.reduce(_points(points), _triangles(triangle_array), given, numbers, labels,
+    run = _selvedge.reduce(_points(points), _triangles(triangle_array), given, labels, form_of_normals == "vertex",
                            [] if lock_vertices is None else _vertex_numbers(lock_vertices, len(points)),
                            None if weights is None else _weights(weights, len(points)),
                            None if obstacle is None else _mesh(obstacle, "obstacle"),
                            [] if poses is None else _poses(poses),
                            None if progress is None else lambda *counts: bool(progress(*counts)))
-    return Result(run, triangle_array.dtype)
+    return Result(run, triangle_array.dtype, form_of_uvs)
 
 
 def key_poses(points, poses, count):
@@ -149,27 +162,31 @@ def verify(points, triangles, original=None):
     return Verdict(accepted, report, pairs=pairs, new_pairs=new_pairs)
 
 
-def replay(points, triangles, log, *, obstacle=None, all=False):
+def replay(points, triangles, log, *, uvs=None, normal_vectors=None, groups=None, obstacle=None, all=False):
     """Repeats a log on the mesh that it was made of, and judges every step; with `all`, beyond the first bad one.
 
+    uvs, normal_vectors, groups: those of the reduction, if it had some: they make the lines that its limits are about.
     obstacle: a `Mesh` or (points, triangles) that the steps must keep clear of, too; that of the reduction, if it had one.
 
     Returns a `Verdict` with `mesh`, to which the steps lead. Throws InputError when the log cannot be read. The limits are
     those that the log declares; there are none of the judge, and further poses of the log are not judged.
     """
     beside = None if obstacle is None else _mesh(obstacle, "obstacle")
-    accepted, mesh, report = _selvedge.replay(_points(points), _triangles(triangles), log, beside, all)
+    labels, *_ = _labels(len(points), _np.asarray(triangles), uvs, normal_vectors, groups)
+    accepted, mesh, report = _selvedge.replay(_points(points), _triangles(triangles), log, labels, beside, all)
     return Verdict(accepted, report, mesh=Mesh(*mesh))
 
 
 def generate(name, *, faces=100_000, layers=3, thickness=5e-4, gap=1e-3, fold_depth=0.02, folds=14, seed=1):
     """Makes a scene of `selvedge generate`, free of intersections by construction. Returns a `Mesh` with `groups`, one
-    name for each triangle. Lengths are in metres. Throws ArgumentError when a number is out of range."""
-    arrays, groups, names = _selvedge.generate(
+    name for each triangle, and with `uvs` of shape (triangles, 3, 2). Lengths are in metres. Throws ArgumentError when a
+    number is out of range."""
+    arrays, groups, names, uvs = _selvedge.generate(
         str(name), _whole("faces", faces, 2**64 - 1), _whole("layers", layers), _number("thickness", thickness),
         _number("gap", gap), _number("fold_depth", fold_depth), _whole("folds", folds), _whole("seed", seed, 2**32 - 1))
     mesh = Mesh(*arrays)
     mesh.groups = [names[group] for group in groups]
+    mesh.uvs = _in_form("corner", uvs, 0, None) if len(uvs[1]) else None
     return mesh
 
 
@@ -254,6 +271,42 @@ def _weights(weights, count):
         if not 0 <= weight < _math.inf:
             raise ArgumentError(f"the weight of vertex {vertex}, counted from 0, is {weight}: no finite number of at least 0")
     return weights
+
+
+def _labels(vertices, triangles, uvs, normal_vectors, groups):
+    """Returns what corners and triangles have, and in which form uvs and normal_vectors are."""
+    uv_arrays, form_of_uvs = _corner_values("uvs", uvs, 2, vertices, triangles)
+    normal_arrays, form_of_normals = _corner_values("normal_vectors", normal_vectors, 3, vertices, triangles)
+    return _selvedge.Labels(uv_arrays, normal_arrays, *_groups(groups, len(triangles))), form_of_uvs, form_of_normals
+
+
+def _corner_values(name, given, columns, vertices, triangles):
+    """Returns values, each triangle's numbers of three of them, and the form in which they are given."""
+    if given is None:
+        return None, "corner"
+    if isinstance(given, tuple) and len(given) == 2:
+        return (_points(given[0]), _triangles(given[1])), "pair"
+    array = _points(given)
+    if array.shape == (vertices, columns):
+        return (array, _triangles(triangles)), "vertex"
+    if array.shape == (len(triangles), 3, columns):
+        rows = _np.ascontiguousarray(array.reshape(-1, columns) + 0.0)  # -0 is 0
+        _, first, numbers = _np.unique(rows.view(f"V{8 * columns}").reshape(-1), return_index=True, return_inverse=True)
+        return (rows[first], _triangles(numbers.reshape(-1, 3))), "corner"
+    raise ArgumentError(f"{name} has the shape {array.shape}, and not ({vertices}, {columns}), one for each vertex, nor "
+                        f"({len(triangles)}, 3, {columns}), one for each corner; or give a pair (values, triangles)")
+
+
+def _in_form(form, arrays, vertices, triangles):
+    """Returns the values of corners as a pair, by corner or by vertex."""
+    if arrays is None or form == "pair":
+        return arrays
+    of_corners = arrays[0][arrays[1]]
+    if form == "corner":
+        return of_corners
+    of_vertices = _np.zeros((vertices, of_corners.shape[-1]))
+    of_vertices[triangles] = of_corners
+    return of_vertices
 
 
 def _groups(groups, count):
