@@ -17,10 +17,12 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -216,6 +218,58 @@ Triangle_labels labels_of(const std::vector<Index>& of_triangle, const std::vect
   return {of_triangle, names};
 }
 
+/// A type of numbers that attributes have, as NumPy has it.
+struct Number_type
+{
+  Attribute::Type type;
+  py::dtype dtype;
+};
+
+const std::vector<Number_type>& number_types()
+{
+  using Type = Attribute::Type;
+  static const auto* const s_types = new std::vector<Number_type>{
+      // never destroyed: Python may be gone by then
+      {Type::int8, py::dtype::of<std::int8_t>()},   {Type::uint8, py::dtype::of<std::uint8_t>()},
+      {Type::int16, py::dtype::of<std::int16_t>()}, {Type::uint16, py::dtype::of<std::uint16_t>()},
+      {Type::int32, py::dtype::of<std::int32_t>()}, {Type::uint32, py::dtype::of<std::uint32_t>()},
+      {Type::float32, py::dtype::of<float>()},      {Type::float64, py::dtype::of<double>()}};
+  return *s_types;
+}
+
+/// Returns the values of vertices in an array with a row for each. Throws `Argument_error`.
+Attribute attribute_of(const std::string& name, const py::array& given, std::size_t vertices)
+{
+  const py::array values = py::array::ensure(given, py::array::c_style);
+  const auto fail = [&](const std::string& why) {
+    throw Argument_error("attributes: '" + name + "' " + why);
+  };
+  if ((values.ndim() != 1 && values.ndim() != 2) || std::size_t(values.shape(0)) != vertices)
+    fail("has no row for each of the " + std::to_string(vertices) + " vertices");
+  const auto type =
+      std::find_if(number_types().begin(), number_types().end(),
+                   [&](const Number_type& number) { return number.dtype.equal(values.dtype()); });
+  if (type == number_types().end())
+    fail("has the type " + std::string(py::str(values.dtype())) +
+         ", and not one of floats of 32 or 64 bits or of whole numbers of 8, 16 or 32 bits");
+  Attribute attribute;
+  attribute.name = name;
+  attribute.type = type->type;
+  attribute.components = values.ndim() == 1 ? 1 : std::uint32_t(values.shape(1));
+  const auto* const bytes = static_cast<const unsigned char*>(values.data());
+  attribute.rows.assign(bytes, bytes + values.nbytes());
+  return attribute;
+}
+
+py::array array_of(const Attribute& attribute)
+{
+  const auto type = std::find_if(number_types().begin(), number_types().end(),
+                                 [&](const Number_type& number) { return number.type == attribute.type; });
+  const py::ssize_t row = type->dtype.itemsize() * py::ssize_t(attribute.components);
+  return py::array(type->dtype, {py::ssize_t(attribute.rows.size()) / row, py::ssize_t(attribute.components)},
+                   attribute.rows.data());
+}
+
 void add_labels(Triangle_soup& soup, const Labels& labels)
 {
   soup.uvs = corner_values_of<2>(labels.uvs, soup.triangles.size(), "uvs");
@@ -223,6 +277,8 @@ void add_labels(Triangle_soup& soup, const Labels& labels)
   if (!labels.groups.empty())
     soup.groups = labels_of(labels.groups, labels.group_names);
 }
+
+constexpr const char* s_weights = "weights"; // the attribute that holds the costs of vertices
 
 class Result
 {
@@ -236,6 +292,14 @@ public:
   }
   py::object uvs() const { return values_of(m_reduction.soup().uvs); }
   py::object normals() const { return values_of(m_reduction.soup().normals); }
+  py::dict attributes() const
+  {
+    py::dict result;
+    for (const Attribute& attribute : m_reduction.soup().vertex_attributes)
+      if (attribute.name != s_weights)
+        result[py::str(attribute.name)] = array_of(attribute);
+    return result;
+  }
   py::array_t<Index> vertices() const { return array_of<Index>(m_reduction.vertices()); }
   py::array_t<Index> triangles() const { return array_of<Index>(m_reduction.triangles()); }
   py::array_t<Index> collapses() const
@@ -263,9 +327,10 @@ private:
 };
 
 Result reduce(const Points& points, const Triangles& triangles, const Options& options, const Labels& labels,
-              bool has_normals_of_vertices, const std::vector<Index>& locked,
-              const std::optional<std::vector<double>>& weights, const std::optional<Mesh_arrays>& obstacle,
-              const std::vector<Points>& poses, const Progress& progress)
+              bool has_normals_of_vertices, const std::vector<std::pair<std::string, py::array>>& attributes,
+              const std::vector<Index>& locked, const std::optional<std::vector<double>>& weights,
+              const std::optional<Mesh_arrays>& obstacle, const std::vector<Points>& poses,
+              const Progress& progress)
 {
   Triangle_soup soup = soup_of(points, triangles);
   for (const Points& pose : poses)
@@ -274,9 +339,14 @@ Result reduce(const Points& points, const Triangles& triangles, const Options& o
   for (const auto& [name, value] : options)
     request.set(name, value);
   add_labels(soup, labels);
+  for (const auto& [name, values] : attributes) {
+    if (name == s_weights)
+      throw Argument_error("attributes: 'weights' are the costs of vertices; give another name");
+    soup.vertex_attributes.push_back(attribute_of(name, values, soup.points.size()));
+  }
   if (weights) {
     Attribute attribute;
-    attribute.name = request.intent.weights = "weights";
+    attribute.name = request.intent.weights = s_weights;
     const auto* const bytes = reinterpret_cast<const unsigned char*>(weights->data());
     attribute.rows.assign(bytes, bytes + weights->size() * sizeof(double));
     soup.vertex_attributes.push_back(std::move(attribute));
@@ -366,6 +436,7 @@ PYBIND11_MODULE(_selvedge, module)
       .def("mesh", &Result::mesh)
       .def("uvs", &Result::uvs)
       .def("normals", &Result::normals)
+      .def("attributes", &Result::attributes)
       .def("vertices", &Result::vertices)
       .def("triangles", &Result::triangles)
       .def("collapses", &Result::collapses)

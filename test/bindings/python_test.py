@@ -92,6 +92,28 @@ class Simplify(unittest.TestCase):
         outward = (hard.normal_vectors * hard.points[hard.triangles]).sum(axis=2) > 0
         np.testing.assert_array_equal(outward.all(axis=1), ~is_turned)
 
+    def test_attributes_follow_their_vertices(self):
+        mesh = layers(1000)
+        given = {"height": mesh.points[:, 1].copy(), "place": mesh.points.astype(np.float32),
+                 "number": np.arange(len(mesh.points), dtype=np.uint32)[:, None]}
+        kept = selvedge.simplify(*mesh, attributes=given, weights=np.ones(len(mesh.points)), ratio=0.3)
+        self.assertEqual(set(kept.attributes), set(given))
+        for name, values in given.items():
+            self.assertEqual(kept.attributes[name].dtype, values.dtype)
+            np.testing.assert_array_equal(kept.attributes[name], values[kept.vertices])
+        placed = selvedge.simplify(*mesh, attributes=given, ratio=0.3, placement="optimal")
+        self.assertGreater((placed.points != mesh.points[placed.vertices]).sum(), 0)
+        # On flat sheets a mixture of heights is the height of the mixture, but for places beside the surface.
+        self.assertLess(np.abs(placed.attributes["height"] - placed.points[:, 1]).max(), 0.01)
+        self.assertGreater((placed.attributes["height"] != mesh.points[placed.vertices, 1]).sum(), 0)
+        np.testing.assert_array_equal(placed.attributes["number"][:, 0], placed.vertices)
+        self.assertEqual(pickle.loads(pickle.dumps(kept)).attributes["place"].shape, (len(kept.points), 3))
+        for name, wrong, message in (("a", np.zeros(3), "row for each"), ("a", np.zeros((len(mesh.points), 2, 2)), "row"),
+                                     ("a", np.zeros(len(mesh.points), dtype=np.int64), "int64"),
+                                     ("weights", mesh.points, "another name")):
+            with self.assertRaisesRegex(selvedge.ArgumentError, message):
+                selvedge.simplify(*mesh, attributes={name: wrong}, ratio=0.5)
+
     def test_names_what_is_wrong_with_values_of_corners(self):
         points, triangles = layers(500)
         uvs = np.zeros((len(points), 2))

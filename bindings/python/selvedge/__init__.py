@@ -45,6 +45,7 @@ class Result(Mesh):
     the mesh, `reached` whether the target was reached, `stopped` whether the progress function ended the reduction.
     `log` and `collapses` (rows: removed, kept) are empty unless log=True was given. `uvs` are texture coordinates in the
     form in which they were given, `normal_vectors` those of corners, of shape (triangles, 3, 3); None where there are none.
+    `attributes` are those of its vertices, by name.
     """
 
     def __init__(self, run, index_type, form_of_uvs="corner"):
@@ -52,6 +53,7 @@ class Result(Mesh):
         super().__init__(points, _as(triangles, index_type))
         self.uvs = _in_form(form_of_uvs, run.uvs(), len(points), triangles)
         self.normal_vectors = _in_form("corner", run.normals(), len(points), triangles)
+        self.attributes = run.attributes()
         self._run = run
         self._report = None
         self.vertices = run.vertices()
@@ -100,8 +102,8 @@ def option_names():
     return _selvedge.option_names()
 
 
-def simplify(points, triangles, *, uvs=None, normal_vectors=None, groups=None, poses=None, obstacle=None, weights=None,
-             lock_vertices=None, log=False, progress=None, **options):
+def simplify(points, triangles, *, uvs=None, normal_vectors=None, groups=None, attributes=None, poses=None, obstacle=None,
+             weights=None, lock_vertices=None, log=False, progress=None, **options):
     """Reduces a mesh, and has the result judged. Returns a `Result`.
 
     options: those of `selvedge simplify` by their names in its reports (`option_names`), such as ratio=0.3, faces=2000,
@@ -112,6 +114,8 @@ def simplify(points, triangles, *, uvs=None, normal_vectors=None, groups=None, p
     normal_vectors: the same with three numbers each. `normals`, an option, says what becomes of them.
     groups: one name for each triangle, such as its material; borders between groups are kept as seams are. `lock`, `keep`, `part_ratios` and
     `may_intersect` ("A:B") refer to the names.
+    attributes: what else vertices have, such as colours: a dictionary of arrays with a row for each. `Result.attributes` has
+    them of the result, interpolated where placement="optimal" has put a vertex to a new place.
     poses: further places of the points, an array of shape (poses, points, 3), such as frames of an animation: the result is
     legal in each. Those of the result are poses[:, result.vertices]. With key_poses="auto", for many poses, collapses are
     judged in a few that differ most, and in those in which the result would have new pairs; the result is judged in all.
@@ -136,12 +140,17 @@ def simplify(points, triangles, *, uvs=None, normal_vectors=None, groups=None, p
                             "those of corners: uvs[triangles]")
     given = [pair for name, value in options.items() for pair in _texts(name, value)] + [("log", _text(bool(log)))]
     run = _selvedge.reduce(_points(points), _triangles(triangle_array), given, labels, form_of_normals == "vertex",
+                           [(str(name), _np.asarray(values)) for name, values in (attributes or {}).items()],
                            [] if lock_vertices is None else _vertex_numbers(lock_vertices, len(points)),
                            None if weights is None else _weights(weights, len(points)),
                            None if obstacle is None else _mesh(obstacle, "obstacle"),
                            [] if poses is None else _poses(poses),
                            None if progress is None else lambda *counts: bool(progress(*counts)))
-    return Result(run, triangle_array.dtype, form_of_uvs)
+    result = Result(run, triangle_array.dtype, form_of_uvs)
+    for name, values in (attributes or {}).items():
+        if _np.ndim(values) == 1:
+            result.attributes[str(name)] = result.attributes[str(name)][:, 0]
+    return result
 
 
 def key_poses(points, poses, count):
@@ -186,7 +195,7 @@ def generate(name, *, faces=100_000, layers=3, thickness=5e-4, gap=1e-3, fold_de
         _number("gap", gap), _number("fold_depth", fold_depth), _whole("folds", folds), _whole("seed", seed, 2**32 - 1))
     mesh = Mesh(*arrays)
     mesh.groups = [names[group] for group in groups]
-    mesh.uvs = _in_form("corner", uvs, 0, None) if len(uvs[1]) else None
+    mesh.uvs = _in_form("corner", uvs) if len(uvs[1]) else None
     return mesh
 
 
@@ -297,7 +306,7 @@ def _corner_values(name, given, columns, vertices, triangles):
                         f"({len(triangles)}, 3, {columns}), one for each corner; or give a pair (values, triangles)")
 
 
-def _in_form(form, arrays, vertices, triangles):
+def _in_form(form, arrays, vertices=0, triangles=None):
     """Returns the values of corners as a pair, by corner or by vertex."""
     if arrays is None or form == "pair":
         return arrays
