@@ -15,6 +15,7 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 
 // Reads glTF and GLB up to the transforms of the nodes, and refuses documents that are not valid or not

@@ -22,6 +22,7 @@
 #include <memory>
 #include <numeric>
 #include <set>
+#include <tuple>
 #include <unordered_map>
 
 // Reads glTF and GLB: all triangles of the scene become one soup in world space. The rest of the document is

@@ -15,6 +15,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
+#include <set>
 
 // Writes PLY, text and binary: positions, normals, texture coordinates, and attributes as properties.
 

@@ -50,7 +50,7 @@ def level(file):
 def includes(tree, file):
     """Yields the files of the tree that a file includes."""
     for name in re.findall(r'^#include [<"]([^>"]+)[>"]', (tree / file).read_text(encoding="utf-8"), re.MULTILINE):
-        for folder in ("include", os.path.dirname(file), "src", "apps", "."):
+        for folder in ("include", os.path.dirname(file), "src", "apps", "test", "."):
             candidate = os.path.normpath(os.path.join(folder, name))
             if (tree / candidate).is_file():
                 yield candidate

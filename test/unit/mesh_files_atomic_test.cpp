@@ -14,6 +14,7 @@
 #include <cmath>
 #include <csignal>
 #include <fstream>
+#include <iterator>
 #include <string>
 
 #include <sys/resource.h>

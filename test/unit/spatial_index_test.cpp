@@ -15,6 +15,7 @@
 #include <cmath>
 #include <random>
 #include <set>
+#include <tuple>
 
 namespace {
 

@@ -5,6 +5,7 @@
 #define SELVEDGE_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COLLAPSE_COST_H
 
 #include <selvedge/Simplify_options.h>
+#include <selvedge/Surface_mesh_simplification/No_observer.h>
 #include <selvedge/Surface_mesh_simplification/Quadric_cost.h>
 #include <selvedge/Surface_mesh_simplification/internal/Collapse.h>
 #include <selvedge/Surface_mesh_simplification/internal/Filter_chain.h>
@@ -17,6 +18,7 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
 
 namespace selvedge {
 namespace internal {
