@@ -3,6 +3,7 @@
 """The Python package keeps its promises, judged by the library. Run by ctest, with PYTHONPATH set to the build."""
 
 import copy
+import inspect
 import os
 import pickle
 import re
@@ -167,6 +168,8 @@ class Simplify(unittest.TestCase):
         with open(os.path.join(os.path.dirname(selvedge.__file__), "__init__.pyi"), encoding="utf-8") as stub:
             typed = set(re.findall(r"^    (\w+): ", stub.read(), re.MULTILINE))
         self.assertLessEqual(set(selvedge.option_names()), typed)
+        for function in (selvedge.simplify, selvedge.replay):
+            self.assertLessEqual(set(inspect.signature(function).parameters) - {"options"}, typed)
         with self.assertRaisesRegex(TypeError, "'placement'"):
             selvedge.simplify(*mesh, placemnt="optimal")
         with self.assertRaisesRegex(ValueError, "ratio"):

@@ -12,13 +12,17 @@ class ArgumentError(Error, ValueError): ...
 class Mesh:
     points: np.ndarray
     triangles: np.ndarray
-    groups: List[str]  # of a generated mesh alone
+    uvs: Optional[Union[np.ndarray, Tuple[np.ndarray, np.ndarray]]]
+    groups: Optional[List[str]]  # of a generated mesh alone
     def __init__(self, points: np.ndarray, triangles: np.ndarray) -> None: ...
     def __iter__(self) -> Iterator[np.ndarray]: ...
 
 _MeshLike = Union[Mesh, Tuple[ArrayLike, ArrayLike]]
+_CornerValues = Union[ArrayLike, Tuple[ArrayLike, ArrayLike]]  # by vertex, by corner, or values and their numbers
 
 class Result(Mesh):
+    normal_vectors: Optional[np.ndarray]
+    attributes: Dict[str, np.ndarray]
     vertices: np.ndarray
     birth: np.ndarray
     accepted: bool
@@ -42,9 +46,12 @@ def simplify(
     points: ArrayLike,
     triangles: ArrayLike,
     *,
+    uvs: Optional[_CornerValues] = None,
+    normal_vectors: Optional[_CornerValues] = None,
+    groups: Optional[Sequence[Any]] = None,
+    attributes: Optional[Mapping[str, ArrayLike]] = None,
     poses: Optional[ArrayLike] = None,
     obstacle: Optional[_MeshLike] = None,
-    groups: Optional[Sequence[Any]] = None,
     weights: Optional[Sequence[float]] = None,
     lock_vertices: Optional[Union[Sequence[int], Sequence[bool], np.ndarray]] = None,  # numbers, or a boolean for each vertex
     log: bool = False,
@@ -85,8 +92,17 @@ def simplify(
 ) -> Result: ...
 def key_poses(points: ArrayLike, poses: ArrayLike, count: int) -> np.ndarray: ...
 def verify(points: ArrayLike, triangles: ArrayLike, original: Optional[_MeshLike] = None) -> Verdict: ...
-def replay(points: ArrayLike, triangles: ArrayLike, log: str, *, obstacle: Optional[_MeshLike] = None,
-           all: bool = False) -> Verdict: ...
+def replay(
+    points: ArrayLike,
+    triangles: ArrayLike,
+    log: str,
+    *,
+    uvs: Optional[_CornerValues] = None,
+    normal_vectors: Optional[_CornerValues] = None,
+    groups: Optional[Sequence[Any]] = None,
+    obstacle: Optional[_MeshLike] = None,
+    all: bool = False,
+) -> Verdict: ...
 def generate(
     name: str,
     *,
