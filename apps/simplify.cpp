@@ -522,7 +522,8 @@ private:
       print_input(stream, m_request, prepared, levels.front().verification.distances->diagonal,
                   m_report["input"]["notes"], dropped, m_references);
       for (const Level& level : levels)
-        print_summary(stream, m_request, prepared, level, m_outcome);
+        print_summary(stream, m_request, prepared, level, m_outcome,
+                      &level == &levels.front() ? nullptr : &level - 1);
       print_progression(stream);
     }
     if (m_request.report.empty() && m_request.html.empty())

@@ -513,7 +513,7 @@ bool would_new_places_help(const Simplify_request& request, const Prepared_soup&
 }
 
 void print_summary(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
-                   const Level& level, const Outcome& outcome)
+                   const Level& level, const Outcome& outcome, const Level* before)
 {
   const auto& [output, result, verification, distances_anywhere, guarded, polygons, number, error_search,
                notes, bytes_more] = level;
@@ -531,6 +531,12 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
                                  : " not reached");
   else
     stream << (done.is_stopped ? "interrupted" : "as far as the limits allow");
+  if (before && before->result.soup.points == result.soup.points &&
+      before->result.soup.triangles == result.soup.triangles) {
+    stream << "; the same mesh as the level before\n"
+           << (outcome.is_written() ? "written: " : "NOT written: ") << name_of(level) << std::endl;
+    return;
+  }
   if (!done.is_reached() && !done.is_stopped)
     stream << "\nheld back: " << held_back(request, prepared, done) << what_shape_takes(request, level);
   if (done.is_reached() && request.progressive.empty())

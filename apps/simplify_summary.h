@@ -56,9 +56,10 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
                  double diagonal, const Json& notes, const std::vector<std::string>& dropped,
                  const std::vector<std::string>& references);
 
-/// Prints to `stream` what the reduction and the judge say of a level.
+/// Prints to `stream` what the reduction and the judge say of a level. Where it has the mesh of the one
+/// `before`, if there is one, all has been said.
 void print_summary(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
-                   const Level& level, const Outcome& outcome);
+                   const Level& level, const Outcome& outcome, const Level* before = nullptr);
 
 /// Returns what the user must be told of a level on the error stream; empty when all went well.
 std::string complaint(const Simplify_request& request, const Level& level, const Outcome& outcome);

@@ -283,6 +283,13 @@ TEST(App_simplify, KeepsFacesForTheShapeOfLevelsAndParts)
     return place == std::string::npos ? 1 : std::stod(summary.substr(place + text.size()));
   };
 
+  const std::string twice = run({"-o", folder / "twice_{lod}.obj", "--lods", "0.5,0.01,0.001"});
+  const std::size_t said = twice.find("; the same mesh as the level before\nwritten: ");
+  ASSERT_NE(said, std::string::npos) << twice;
+  EXPECT_EQ(twice.find("; the same mesh", said + 1), std::string::npos);
+  EXPECT_EQ(twice.find("\nkept: "), twice.rfind("\nkept: "));
+  EXPECT_EQ(contents_of(folder / "twice_2.obj"), contents_of(folder / "twice_3.obj"));
+
   const std::string levels = folder / "{lod}.obj";
   const double level = kept_for(run({"-o", levels, "--lods", "0.5,0.01"}), "--lods ");
   const auto lods = nlohmann::json::parse(contents_of(report)).at("lods");
