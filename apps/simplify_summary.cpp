@@ -49,7 +49,7 @@ std::string options_without_shape(const Simplify_request& request, const Simplif
 {
   const std::vector<Simplify_intent::Part_ratio>& parts = request.intent.ratios;
   if (parts.empty() && request.lods.empty())
-    return " --faces " + std::to_string(report.faces_within_reach);
+    return " --faces " + std::to_string(report.shares.front().within_reach);
   std::string options;
   for (std::size_t i = 0; i < report.shares.size(); ++i) {
     const Simplify_report::Share& share = report.shares[i];

@@ -51,8 +51,9 @@ public:
   const Simplify_options& options() const { return m_options; }
 
   /// Called after a reduction. Returns whether another one is due: when this was the first, and a result has
-  /// used a quarter of the error that is allowed, and ended by itself at more than a tenth above a target
-  /// that is not 0. In the next one, no level has more faces than one that has reached its target now.
+  /// used a quarter of the error that is allowed, ended by itself at more than a tenth above a target that is
+  /// not 0, and a tenth of what is left there is at most half of what went. Faces that cannot change do not
+  /// count. In the next one, no level has more faces than one that has reached its target now.
   bool advance(const std::vector<Judged>& levels)
   {
     if (!m_first.empty())
@@ -87,11 +88,15 @@ private:
   static constexpr double s_much = 0.25; // of the error allowed
   static constexpr std::size_t s_none = std::numeric_limits<std::size_t>::max();
 
-  static std::size_t with_a_tenth(std::size_t faces) { return faces + (faces + 9) / 10; }
+  static std::size_t a_tenth(std::size_t faces) { return (faces + 9) / 10; }
 
   static bool is_missed(const Simplify_report::Share& share)
   {
-    return share.target > 0 && share.output > with_a_tenth(share.target);
+    const bool is_asked_for = share.target > 0 && share.target != share.fixed; // which a ratio of 0 gives
+    const std::size_t left = share.output - share.fixed,
+                      wanted = (std::max)(share.target, share.fixed) - share.fixed;
+    return is_asked_for && left > wanted + a_tenth(wanted) &&
+           a_tenth(left) <= (share.input - share.output) / 2;
   }
 
   static void lower_to_missed(const Shares& shares, std::vector<std::size_t>& least)
@@ -99,7 +104,7 @@ private:
     least.resize(shares.size(), s_none);
     for (std::size_t i = 0; i < shares.size(); ++i)
       if (is_missed(shares[i]))
-        least[i] = std::min(least[i], with_a_tenth(shares[i].output));
+        least[i] = std::min(least[i], shares[i].output + a_tenth(shares[i].output - shares[i].fixed));
   }
 
   static void lower_to_reached(const Shares& shares, std::vector<std::size_t>& least)

@@ -67,6 +67,22 @@ TEST(Missed_target, AsksForATenthMoreFacesOnce)
   EXPECT_EQ(missed.options().least_faces, (std::vector<std::size_t>{220}));
 }
 
+// Faces that cannot change keep no shape.
+TEST(Missed_target, AsksForATenthMoreOfTheFacesThatCanChange)
+{
+  Simplified_soup result = result_above_its_target();
+  Simplify_report::Share& share = result.report.shares[0];
+  share = {2000, 1000, 1100, 1200, 0};
+  for (const std::size_t target : {1100, 50}) { // one is below what cannot change
+    share.target = target;
+    Missed_target missed(options_for_a_tenth());
+    EXPECT_TRUE(missed.advance({{result, at_most(0.0025)}}));
+    EXPECT_EQ(missed.options().least_faces, (std::vector<std::size_t>{1220}));
+  }
+  share = {2000, 1000, 1100, 1110, 0};
+  EXPECT_FALSE(Missed_target(options_for_a_tenth()).advance({{result, at_most(0.0025)}}));
+}
+
 TEST(Missed_target, AsksForNothingWhereTheSurfaceWasNotFlattenedForATarget)
 {
   using Change = std::function<void(Simplify_options&, Simplified_soup&, Distance&)>;
@@ -77,6 +93,10 @@ TEST(Missed_target, AsksForNothingWhereTheSurfaceWasNotFlattenedForATarget)
       [](auto&, Simplified_soup& result, auto&) { result.report.is_stopped = true; },
       [](auto&, Simplified_soup& result, auto&) { result.report.shares[0].target = 200; },
       [](auto&, Simplified_soup& result, auto&) { result.report.shares[0].target = 0; },
+      [](auto&, Simplified_soup& result, auto&) { result.report.shares[0].input = 239; },
+      [](auto&, Simplified_soup& result, auto&) { // a ratio of 0
+        result.report.shares[0].fixed = result.report.shares[0].target;
+      },
       [](auto&, Simplified_soup& result, auto&) { result.report.shares[0].output = 110; }};
   for (const Change& change : changes) {
     Simplify_options options = options_for_a_tenth();
