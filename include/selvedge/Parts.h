@@ -19,7 +19,7 @@ struct Part_kind
 {
   enum class Name : unsigned char { piece, group, object, material };
 
-  Name name;
+  Name name = Name::piece;
   std::vector<Index> of_triangle; ///< for every triangle, the number of its part
   std::vector<std::string> names; ///< names of the parts, by number; empty for pieces
   Index count = 0;                ///< number of parts

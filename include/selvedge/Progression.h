@@ -30,7 +30,7 @@ struct Progression
 {
   struct Move
   {
-    Index from, to; ///< wedges
+    Index from = 0, to = 0; ///< wedges
   };
 
   /// For every triangle of the original, the wedges of its three corners. Wedges are numbered from 0; the
@@ -50,8 +50,8 @@ struct Progression
 /// What is left of a triangle after some steps.
 struct Wedge_triangle
 {
-  Index triangle;      ///< of the original
-  Index_triple wedges; ///< where its corners are, in the order that they have in the original
+  Index triangle = 0;       ///< of the original
+  Index_triple wedges = {}; ///< where its corners are, in the order that they have in the original
 };
 
 /// Returns the triangles that are left after some steps, in their order.

@@ -29,10 +29,10 @@ struct Reduction_limits
 struct Limit_description
 {
   std::optional<double> Reduction_limits::*value;
-  const char* key;    ///< in the `limit` lines of a log, in JSON, and as the name of its `Violation_kind`
-  const char* unit;   ///< follows the number in a sentence
-  const char* bounds; ///< what the limit bounds
-  const char* broken; ///< what a step does that breaks the limit; the number and its unit follow
+  const char* key = "";  ///< in the `limit` lines of a log, in JSON, and as the name of its `Violation_kind`
+  const char* unit = ""; ///< follows the number in a sentence
+  const char* bounds = ""; ///< what the limit bounds
+  const char* broken = ""; ///< what a step does that breaks the limit; the number and its unit follow
 };
 
 inline constexpr std::array<Limit_description, 7> limit_descriptions{

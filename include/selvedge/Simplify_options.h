@@ -17,9 +17,9 @@ namespace selvedge {
 /// How far a reduction has come.
 struct Simplify_progress
 {
-  std::size_t faces_input;
-  std::size_t faces_target;
-  std::size_t faces; ///< faces left now
+  std::size_t faces_input = 0;
+  std::size_t faces_target = 0;
+  std::size_t faces = 0; ///< faces left now
 };
 
 /// Where a collapse puts the merged vertex.

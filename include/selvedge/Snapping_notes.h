@@ -15,8 +15,8 @@ namespace selvedge {
 /// was there before anything was snapped.
 struct Snap
 {
-  Index from;
-  Index to;
+  Index from = 0;
+  Index to = 0;
 };
 
 /// What snapping found and did, for the user; `Prepare_options::weld_distance` explains partners. Vertices

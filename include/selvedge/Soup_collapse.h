@@ -13,8 +13,8 @@ namespace selvedge {
 /// A collapse of a soup.
 struct Soup_collapse
 {
-  std::size_t removed; ///< a vertex at the position that moves away
-  std::size_t kept;    ///< a vertex at the position with which it merges
+  std::size_t removed = 0; ///< a vertex at the position that moves away
+  std::size_t kept = 0;    ///< a vertex at the position with which it merges
 
   /// Where both go, if that is neither of the two positions.
   std::optional<std::array<double, 3>> place = std::nullopt;

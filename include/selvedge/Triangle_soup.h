@@ -68,9 +68,9 @@ struct Attribute
 /// after another.
 struct Cut_polygon
 {
-  Index first_triangle;
-  Index corners; ///< how many it has
-  Index start;   ///< its first corner: 3 × triangle + place in it, counting triangles from `first_triangle`
+  Index first_triangle = 0;
+  Index corners = 0; ///< how many it has
+  Index start = 0; ///< its first corner: 3 × triangle + place in it, counting triangles from `first_triangle`
 };
 
 /// Other places of the vertices of a mesh: a frame of a simulation, a skeleton's posture, a morph target.

@@ -132,9 +132,10 @@ struct Normal_deviation
 /// which layer.
 struct Layer_swap
 {
-  Point_3 point; ///< of the original, in the unit of its coordinates, through which the line was drawn
-  std::array<Index, 2> of_original; ///< the triangle of each layer that the line crosses, in their order
-  std::array<Index, 2> of_result;   ///< the triangle of each of the same layers
+  /// Of the original, in the unit of its coordinates, through which the line was drawn.
+  Point_3 point{0, 0, 0};
+  std::array<Index, 2> of_original = {}; ///< the triangle of each layer that the line crosses, in their order
+  std::array<Index, 2> of_result = {};   ///< the triangle of each of the same layers
 };
 
 /// Tells whether layers have kept their order, as far as lines through them show it.

@@ -92,8 +92,8 @@ std::vector<Pose> moving_poses(const Triangle_soup& soup, std::size_t count);
 struct Tunnel_scene
 {
   Triangle_soup soup;
-  Index moving;
-  Index target;
+  Index moving = 0;
+  Index target = 0;
 };
 
 Tunnel_scene tunnel_scene();

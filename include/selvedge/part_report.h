@@ -20,8 +20,8 @@ namespace selvedge {
 /// is as large as the surface, and displacements are shares of the diagonal of the original.
 struct Uv_deviation
 {
-  double mean; ///< weighted by area
-  double maximum;
+  double mean = 0; ///< weighted by area
+  double maximum = 0;
 };
 
 /// Returns the displacement of the texture over the whole original; none when nothing has a texture. A
@@ -55,9 +55,9 @@ std::vector<Part_distance> part_distances(const Simplified_soup& result, const P
 /// What became of one part of a soup.
 struct Part_report
 {
-  Part_kind::Name kind;
-  std::string name;     ///< empty for a piece
-  Index first_triangle; ///< of the original
+  Part_kind::Name kind = Part_kind::Name::piece;
+  std::string name;         ///< empty for a piece
+  Index first_triangle = 0; ///< of the original
   std::size_t faces_input = 0;
   std::size_t faces_output = 0;
   Refusals refused; ///< see `Simplified_soup::refused_by_part`

@@ -40,7 +40,7 @@ struct Simplify_intent
   struct Part_ratio
   {
     std::string name;
-    double ratio;
+    double ratio = 1;
   };
   std::vector<Part_ratio> ratios;
 

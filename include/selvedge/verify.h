@@ -37,9 +37,9 @@ enum class Offence {
 /// degenerate triangle.
 struct Offending_pair
 {
-  Index first;
-  Index second;
-  Offence offence;
+  Index first = 0;
+  Index second = 0;
+  Offence offence = Offence::degenerate;
 };
 
 /// Returns all pairs that keep a soup from being embedded, sorted by `first`, then `second`; none when it is
@@ -112,19 +112,19 @@ std::vector<Offending_pair> pairs_without_descent(const Triangle_soup& result,
 /// one face for all counts but `faces`.
 struct Piece
 {
-  Index first_triangle;
-  std::size_t faces;
-  std::size_t vertices;
+  Index first_triangle = 0;
+  std::size_t faces = 0;
+  std::size_t vertices = 0;
   /// Edges of exactly one face.
-  std::size_t border_edges;
+  std::size_t border_edges = 0;
   /// Edges of more than two faces.
-  std::size_t non_manifold_edges;
+  std::size_t non_manifold_edges = 0;
   /// The number of closed lines that the border edges form. At a vertex, a line goes on to the border edge at
   /// the other end of the same fan of faces, so that lines that only touch at a vertex are separate. Around
   /// an edge of three or more faces the fan branches, and all lines that end in it count as one.
-  std::size_t boundary_loops;
+  std::size_t boundary_loops = 0;
   /// Vertices − edges + faces, each vertex counted once, even where several fans of faces meet in it.
-  long euler_characteristic;
+  long euler_characteristic = 0;
 };
 
 /// Returns the pieces of a soup, in the order of their first triangles. **Complexity.** O(n log n).
@@ -133,10 +133,10 @@ std::vector<Piece> pieces(const Triangle_soup& soup);
 /// A kind of which original and result have different numbers of pieces.
 struct Topology_difference
 {
-  std::size_t boundary_loops;
-  long euler_characteristic;
-  std::size_t pieces_of_original;
-  std::size_t pieces_of_result;
+  std::size_t boundary_loops = 0;
+  long euler_characteristic = 0;
+  std::size_t pieces_of_original = 0;
+  std::size_t pieces_of_result = 0;
 };
 
 /// Returns all kinds of which two meshes have different numbers of pieces. A kind is a number of boundary
@@ -166,7 +166,7 @@ struct Piece_match
 {
   std::vector<Index> of_original; ///< numbers of pieces of the original
   std::vector<Index> of_result;   ///< numbers of pieces of the result
-  Matched_by by;
+  Matched_by by = Matched_by::vertices;
 
   /// The root mean square distance from the vertices of one side to the surface of the other, in the
   /// direction in which it is larger, as a share of the diagonal of the bounding box of `of_original`.
@@ -190,7 +190,7 @@ enum class Mismatch {
 /// Pieces that do not match.
 struct Piece_mismatch
 {
-  Mismatch what;
+  Mismatch what = Mismatch::missing;
   std::vector<Index> of_original; ///< numbers of pieces of the original
   std::vector<Index> of_result;   ///< numbers of pieces of the result
   std::string message; ///< one line for a person: which pieces, how many faces, where; counted from 1
@@ -214,10 +214,10 @@ struct Piece_matching
 /// `Piece`, a triangle with two corners at one position belongs to none.
 struct Near_pieces
 {
-  Index first;              ///< the first triangle of one, in the result
-  Index second;             ///< the first triangle of the other
+  Index first = 0;          ///< the first triangle of one, in the result
+  Index second = 0;         ///< the first triangle of the other
   Bounds now;               ///< of their least distance in the result
-  Bounds before{0, 0};      ///< likewise in the original; both 0 when there is none
+  Bounds before{};          ///< likewise in the original; both 0 when there is none
   bool is_too_near = false; ///< nearer than the clearance and, when there is an original, than in that
 };
 
@@ -231,7 +231,7 @@ struct Clearance_verdict
   std::vector<Near_pieces> near;
 
   /// Of the distances of any two pieces, the least; infinite when there is one piece only.
-  Bounds least{0, 0};
+  Bounds least{};
   std::optional<Bounds> least_of_original;
 
   /// Returns how many of `near` are too near.
@@ -332,8 +332,8 @@ Piece_matching match_pieces(const Triangle_soup& result, const Triangle_soup& or
 /// How far the vertices of one mesh are from the surface of another.
 struct Distance
 {
-  double root_mean_square;
-  double maximum;
+  double root_mean_square = 0;
+  double maximum = 0;
   Index farthest = 0; ///< a vertex that has the largest distance
 };
 
@@ -362,7 +362,7 @@ struct Distances
   Distance result_to_original;
   /// The diagonal of the bounding box of the original's triangles, in the unit of the coordinates; infinite
   /// when it is too long for a double. When it is zero, the distances are in that unit, too.
-  double diagonal;
+  double diagonal = 0;
 };
 
 Distances distances(const Triangle_soup& result, const Triangle_soup& original);

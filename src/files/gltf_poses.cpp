@@ -43,12 +43,12 @@ enum class Interpolation : unsigned char { step, linear, cubic };
 // What moves one property of one node.
 struct Channel
 {
-  Index node;
-  Path path;
-  Interpolation interpolation;
+  Index node = 0;
+  Path path = Path::translation;
+  Interpolation interpolation = Interpolation::linear;
   std::vector<double> times;
   std::vector<double> values; // one after another; in a cubic spline with the tangents before and after each
-  std::size_t size;           // numbers in a value
+  std::size_t size = 0;       // numbers in a value
 
   using Value = std::vector<double>;
 

@@ -53,9 +53,9 @@ struct Part
 {
   std::string name;
   std::string body_name;
-  bool closed;
+  bool closed = false;
   /// Typical extent in metres; the bodies share their faces by these areas.
-  double width, height;
+  double width = 0, height = 0;
   /// Returns columns and rows for cells of a given size.
   std::function<Division(double cell)> divide;
   /// Sets base and direction of a lattice that has its parameters.

@@ -93,8 +93,8 @@ private:
   struct Sample
   {
     std::optional<Triangle_finder::Nearest> nearest;
-    Vector normal;
-    double weight;
+    Vector normal{};
+    double weight = 0;
   };
 
   // What the samples on a triangle come to: the sums of the products of weights of its corners, and of

@@ -60,7 +60,7 @@ struct Simplify_constraints
   struct Share
   {
     std::vector<Face> faces;
-    double ratio;
+    double ratio = 1;
   };
   std::vector<Share> shares;
 

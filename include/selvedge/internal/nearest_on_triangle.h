@@ -16,9 +16,9 @@ namespace internal {
 /// A point of a triangle, and how far it is from another point.
 struct Nearest_on_triangle
 {
-  std::array<double, 3> weights; ///< of the corners
+  std::array<double, 3> weights = {}; ///< of the corners
   Vector_of_doubles point;
-  double squared_distance;
+  double squared_distance = 0;
 };
 
 inline Nearest_on_triangle weighted(const std::array<Vector_of_doubles, 3>& corners,
