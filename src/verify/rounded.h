@@ -49,6 +49,7 @@ inline Triangle_soup rounded(const Triangle_soup& soup)
   result.objects = soup.objects;
   result.materials = soup.materials;
   result.scene = soup.scene;
+  result.scene_vertices = soup.scene_vertices;
   // The coordinates of an unused vertex do not matter, but may be too large to be rounded.
   std::vector<bool> is_used(soup.points.size());
   for (const Index vertex : used_vertices(soup))

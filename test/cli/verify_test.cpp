@@ -59,6 +59,25 @@ TEST(App_verify, ComparesARoundedResultWithTheRoundedOriginal)
   EXPECT_NE(result.out.find(" are the original's, bit for bit"), std::string::npos) << result.out;
 }
 
+// The transforms of nodes bring vertices to places that are no 32-bit floats.
+TEST(App_verify, ComparesARoundedResultWithARoundedScene)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("nested", "in.gltf", 400);
+  nlohmann::json document = nlohmann::json::parse(contents_of(in));
+  for (nlohmann::json& node : document.at("nodes"))
+    node["scale"] = {1.1, 1.1, 1.1};
+  write_text(in, document.dump());
+  for (const char* name : {"out.stl", "out.ply", "out.obj"}) {
+    const std::string out = folder / name;
+    ASSERT_EQ(run_app({"simplify", in, "-o", folder / "small.stl", "--ratio", "0.8", "--quiet"}).code, 0);
+    ASSERT_EQ(run_app({"simplify", folder / "small.stl", "-o", out, "--ratio", "1", "--quiet"}).code, 0);
+    const App_result result = run_app({"verify", out, "--against", in});
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_NE(result.out.find("the original was rounded"), std::string::npos) << result.out;
+  }
+}
+
 TEST(App_verify, PartsThatMayIntersectNeedNames)
 {
   const Workspace folder;
@@ -283,8 +302,8 @@ TEST(App_verify, ComparesColoursInOneScale)
   write_text(folder / "rounded.obj", "v 0 0 0 0.0392 0.0784 0.1176\nv 1 0 0 0.0039 1 0.302\n"
                                      "v 0 1 0 0.502 0 0.0353\nv 1 1 0 0.7843 0.0118 0.2157\n"
                                      "f 1 2 3\nf 3 2 4\n");
-  write_text(folder / "floats.ply",
-             ply("float", {"0.0392 0.0784 0.1176", "0.0039 1 0.302", "0.502 0 0.0353", "0.7843 0.0118 0.2157"}));
+  write_text(folder / "floats.ply", ply("float", {"0.0392 0.0784 0.1176", "0.0039 1 0.302", "0.502 0 0.0353",
+                                                  "0.7843 0.0118 0.2157"}));
   write_text(folder / "shorts.ply",
              ply("ushort", {"2570 5140 7710", "257 65535 19789", "32896 0 2313", "51400 771 14135"}));
   write_text(folder / "changed.obj", "v 0 0 0 0.0392 0.0784 0.1176\nv 1 0 0 0.0039 1 0.302\n"
@@ -296,7 +315,8 @@ TEST(App_verify, ComparesColoursInOneScale)
     return result.out;
   };
   const char* const wrong = "values are NOT the original's";
-  for (const std::string& other : {obj, folder / "rounded.obj", folder / "floats.ply", folder / "shorts.ply"}) {
+  for (const std::string& other :
+       {obj, folder / "rounded.obj", folder / "floats.ply", folder / "shorts.ply"}) {
     EXPECT_EQ(verdict(other, bytes).find(wrong), std::string::npos) << other;
     EXPECT_EQ(verdict(bytes, other).find(wrong), std::string::npos) << other;
   }
