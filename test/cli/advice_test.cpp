@@ -7,6 +7,7 @@
 #include "support/soups.h"
 
 #include <selvedge/Parts.h>
+#include <selvedge/generate.h>
 #include <selvedge/mesh_files.h>
 
 #include <nlohmann/json.hpp>
@@ -263,6 +264,53 @@ TEST(App_simplify, KeepsFacesForTheShapeWhereATargetIsMissed)
     std::vector<std::string> arguments{"simplify", in, "-o", out};
     arguments.insert(arguments.end(), options.begin(), options.end());
     EXPECT_EQ(run_app(arguments).out.find("\nkept: "), std::string::npos);
+  }
+}
+
+// Parts that stay have no shape to lose, and no options count the faces of those that are kept.
+TEST(App_simplify, KeepsATenthOfTheFacesThatCanChangeForTheShape)
+{
+  const Workspace folder;
+  Generate_options sphere;
+  sphere.faces = 1000;
+  sphere.layers = 1;
+  Triangle_soup soup = generate("nested", sphere);
+  soup.uvs = {};
+  const std::size_t points = soup.points.size(), triangles = soup.triangles.size();
+  for (std::size_t v = 0; v < points; ++v)
+    soup.points.emplace_back(soup.points[v].x() + 5, soup.points[v].y(), soup.points[v].z());
+  for (std::size_t t = 0; t < triangles; ++t) {
+    Index_triple triangle = soup.triangles[t];
+    for (Index& vertex : triangle)
+      vertex += Index(points);
+    soup.triangles.push_back(triangle);
+  }
+  soup.groups = {std::vector<Index>(2 * triangles, 0), {"left", "right"}};
+  std::fill_n(soup.groups.of_triangle.begin(), triangles, Index(1));
+  const std::string in = folder / "in.obj", out = folder / "out.obj", report = folder / "report.json";
+  write_mesh(in, soup);
+  const auto run = [&](const std::string& option, const std::vector<std::string>& target) {
+    std::vector<std::string> arguments{"simplify", in, "-o", out, "--report", report, option, "right"};
+    arguments.insert(arguments.end(), target.begin(), target.end());
+    return run_app(arguments).out;
+  };
+  const auto json = [&] { return nlohmann::json::parse(contents_of(report)); };
+  for (const std::string option : {"--keep", "--lock"}) {
+    const std::string summary = run(option, {"--ratio", "0.001"});
+    const std::string text = " lets them go", before = "--faces ";
+    const std::size_t end = summary.find(text);
+    ASSERT_NE(end, std::string::npos) << summary;
+    const std::size_t begin = summary.rfind(before, end) + before.size();
+    const std::size_t within_reach = json().at("target").at("within_reach"),
+                      output = json().at("faces").at("output"), fixed = json().at("faces").at("fixed");
+    EXPECT_EQ(fixed, triangles);
+    const std::size_t left = within_reach - fixed;
+    EXPECT_LE(output - fixed, left + (left + 9) / 10);
+    EXPECT_GT(output, within_reach);
+    run(option, {"--faces", summary.substr(begin, end - begin)});
+    EXPECT_EQ(json().at("target").at("within_reach"), nullptr);
+    EXPECT_EQ(json().at("faces").at("output"), within_reach);
+    EXPECT_EQ(run(option, {"--error", "0.01"}).find("\nkept: "), std::string::npos) << "there is no target";
   }
 }
 
