@@ -19,7 +19,6 @@
 #include <selvedge/compare.h>
 #include <selvedge/mesh_files.h>
 #include <selvedge/normals.h>
-#include <selvedge/rounding.h>
 #include <selvedge/verify.h>
 
 #include <algorithm>
@@ -203,9 +202,10 @@ void print_pairs_of_original(std::size_t pairs)
                  "with a log\n";
 }
 
-void print(const Verify_request& request, const Mesh_file& mesh, const Verification& verification,
-           const std::optional<Comparison>& comparison, const std::vector<std::string>& cannot_see)
+void print(const Verify_request& request, const Mesh_file& mesh, const Judgement& judgement,
+           const std::vector<std::string>& cannot_see)
 {
+  const auto& [verification, comparison] = judgement;
   const bool has_original = !request.original.empty();
   std::size_t loops = 0;
   long euler = 0;
@@ -283,22 +283,6 @@ void print(const Verify_request& request, const Mesh_file& mesh, const Verificat
   std::cout << std::flush;
 }
 
-/// Leaves out the layers that changed places because they may intersect each other.
-void leave_out_permitted(std::vector<Layer_swap>& swaps, const Triangle_soup& result,
-                         const Verify_options& options)
-{
-  for (const auto& parts : options.may_intersect) {
-    const std::vector<char> is_of_first = triangles_named(result, parts.first),
-                            is_of_second = triangles_named(result, parts.second);
-    swaps.erase(std::remove_if(swaps.begin(), swaps.end(),
-                               [&](const Layer_swap& swap) {
-                                 return are_between(is_of_first, is_of_second, swap.of_result[0],
-                                                    swap.of_result[1]);
-                               }),
-                swaps.end());
-  }
-}
-
 /// Says of a file without names, such as OFF and STL, what to do instead of "there is no such part".
 void require_names(const Verify_request& request, const Triangle_soup& mesh)
 {
@@ -344,8 +328,7 @@ Exit_code run(const Verify_request& request)
   read_poses(of_mesh, request.mesh, mesh.soup);
   Json report = new_report("verify");
   report["input"] = input_json(request.mesh, mesh);
-  std::optional<Verification> verification;
-  std::optional<Comparison> comparison;
+  Judgement judgement;
   Mesh_file original;
   Verify_options options;
   require_names(request, mesh.soup);
@@ -373,36 +356,29 @@ Exit_code run(const Verify_request& request)
       share_vertices_without_normals(original.soup);
     }
     options.weld_distance = request.weld_distance.value_or(0);
-    verification = verify(mesh.soup, original.soup, options, obstacle);
-    report["original"]["rounded"] = verification->is_original_rounded;
-    if (verification->is_original_rounded)
-      round_to_float32(original.soup);
-    comparison = compare(mesh.soup, original.soup);
-    leave_out_permitted(comparison->layers.swaps, mesh.soup, options);
-    if (!comparison->layers.swaps.empty() && verification->pairs_of_original > 0)
-      leave_out_without_order(comparison->layers, mesh.soup, original.soup, offending_pairs(original.soup));
+    judgement = judge(mesh.soup, original.soup, options, obstacle);
+    report["original"]["rounded"] = judgement.verification.is_original_rounded;
   } else {
-    verification = verify(mesh.soup, options, obstacle);
+    judgement.verification = verify(mesh.soup, options, obstacle);
   }
-  const bool is_good = has_original ? verification->accepted() && comparison->layers.swaps.empty()
-                                    : verification->embedded() && verification->is_clearance_kept();
-  const Exit_code code = is_good ? exit_done : exit_not_verified;
+  const auto& [verification, comparison] = judgement;
+  const Exit_code code = judgement.is_accepted() ? exit_done : exit_not_verified;
   std::vector<std::string> cannot_see;
-  add_verification(report, *verification, has_original);
+  add_verification(report, verification, has_original);
   if (comparison) {
-    add_comparison(report, *verification, *comparison);
-    cannot_see = blind_spots(*verification, *comparison, mesh.soup.scene || original.soup.scene);
+    add_comparison(report, verification, *comparison);
+    cannot_see = blind_spots(verification, *comparison, mesh.soup.scene || original.soup.scene);
     report["cannot_see"] = cannot_see;
   }
   report["memory"] = {{"peak_bytes", peak_memory_bytes()}};
   report["exit_code"] = int(code);
   {
     const Text_to_standard_error elsewhere(is_standard_output(request.html));
-    put_report(request, report, [&] { print(request, mesh, *verification, comparison, cannot_see); });
+    put_report(request, report, [&] { print(request, mesh, judgement, cannot_see); });
   }
   if (!request.html.empty()) {
     Html_report html(has_original ? original.soup : mesh.soup, has_original ? mesh.soup : original.soup);
-    html.add_result(request.mesh, *verification);
+    html.add_result(request.mesh, verification);
     write_file(output_path(request.html), html.page(report));
   }
   return code;

@@ -5,12 +5,14 @@
 
 #include "apps/text.h"
 #include "bindings/run/Reduction.h"
+#include "bindings/run/Verdict.h"
 #include "bindings/run/soup_of.h"
 #include "meshopt_call.h"
 
 #include <selvedge/Error.h>
 #include <selvedge/generate.h>
 #include <selvedge/mesh_files.h>
+#include <selvedge/normals.h>
 #include <selvedge/references.h>
 
 #include <algorithm>
@@ -47,6 +49,12 @@ struct selvedge_result
   selvedge_mesh mesh;
   std::vector<Index> vertices;
   std::optional<std::string> report;
+};
+
+struct selvedge_verdict
+{
+  bindings::Verdict verdict;
+  std::string report;
 };
 
 namespace {
@@ -93,6 +101,23 @@ Object& required(Object* object, const char* name)
                        (error_before.empty()        ? ""
                         : last != std::string::npos ? error_before.substr(last)
                                                     : before + error_before));
+}
+
+/// Judges as `selvedge verify` judges files: vertices that a file has for its normals alone make no pieces.
+bindings::Verdict judge_mesh(const selvedge_mesh& mesh, const selvedge_mesh* original,
+                             const bindings::Reduction_request& request)
+{
+  bindings::Verdict_request asked;
+  asked.weld_distance = original ? request.prepare.weld_distance : 0;
+  asked.clearance = request.options.clearance;
+  asked.may_intersect = request.may_intersect;
+  asked.threads = request.threads;
+  if (!original || !(mesh.has_normals_of_vertices || original->has_normals_of_vertices))
+    return {mesh.soup, original ? &original->soup : nullptr, request.obstacle, asked};
+  Triangle_soup after = mesh.soup, before = original->soup;
+  share_vertices_without_normals(after);
+  share_vertices_without_normals(before);
+  return {after, &before, request.obstacle, asked};
 }
 
 } // namespace
@@ -343,14 +368,39 @@ int selvedge_verify(const selvedge_mesh* mesh, const selvedge_mesh* original, si
                     size_t* new_pairs)
 {
   return guarded(-1, [&] {
-    const Triangle_soup& soup = required(mesh, "mesh").soup;
-    const Verification verification = original ? verify(soup, original->soup) : verify(soup);
+    const bindings::Verdict verdict = judge_mesh(required(mesh, "mesh"), original, {});
     if (pairs)
-      *pairs = verification.pairs.size();
+      *pairs = verdict.verification().pairs.size();
     if (new_pairs)
-      *new_pairs = verification.new_pairs.size();
-    return int(verification.accepted());
+      *new_pairs = verdict.verification().new_pairs.size();
+    return int(verdict.is_accepted());
   });
+}
+
+selvedge_verdict* selvedge_verdict_new(const selvedge_mesh* mesh, const selvedge_mesh* original,
+                                       const selvedge_options* options)
+{
+  return guarded(static_cast<selvedge_verdict*>(nullptr), [&] {
+    bindings::Verdict verdict = judge_mesh(required(mesh, "mesh"), original,
+                                           options ? options->request : bindings::Reduction_request());
+    std::string report = verdict.report();
+    return new selvedge_verdict{std::move(verdict), std::move(report)};
+  });
+}
+
+void selvedge_verdict_free(selvedge_verdict* verdict)
+{
+  delete verdict;
+}
+
+int selvedge_verdict_is_accepted(const selvedge_verdict* verdict)
+{
+  return guarded(-1, [&] { return int(required(verdict, "verdict").verdict.is_accepted()); });
+}
+
+const char* selvedge_verdict_report(const selvedge_verdict* verdict)
+{
+  return verdict ? verdict->report.c_str() : nullptr;
 }
 
 int selvedge_replay(const selvedge_mesh* original, const char* log)

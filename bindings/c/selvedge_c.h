@@ -217,15 +217,31 @@ SELVEDGE_C_API const char* selvedge_result_report(selvedge_result* result);
  */
 
 /* Judges a mesh exactly, by itself or, where `original` is not null, as a result of reducing that. Returns 1
-   when no triangles intersect or are degenerate (beside those that do in the original) and every piece has
-   become one, 0 when not, and -1 when it fails. `pairs` and `new_pairs` may be null; they get the number of
-   pairs of triangles that intersect, and how many of them the original does not have.
-
-   The program judges more (`selvedge verify`): it compares the order of layers, on which its exit code
-   depends as well, and borders, seams, gaps, normals and attributes, and it takes an obstacle, a clearance, a
-   weld distance, parts that may intersect, and further poses. Nothing of this is judged here. */
+   when `selvedge verify` would accept it: no triangles intersect or are degenerate (beside those that do in
+   the original), every piece has become one, and no layers have changed places. Returns 0 when not, and -1
+   when it fails. `pairs` and `new_pairs` may be null; they get the number of pairs of triangles that
+   intersect, and how many of them the original does not have. */
 SELVEDGE_C_API int selvedge_verify(const selvedge_mesh* mesh, const selvedge_mesh* original, size_t* pairs,
                                    size_t* new_pairs);
+
+/* What the judge says of a mesh, with all figures. */
+typedef struct selvedge_verdict selvedge_verdict;
+
+/* Judges like selvedge_verify, by some of the options by which a mesh was reduced; all others have no effect.
+   These are the obstacle, which the mesh may not touch or pass through, "clearance", "may_intersect",
+   "threads", and "weld", if it is a number: borders of the original may have been joined within this length.
+   `options` may be null. Returns null when it fails. */
+SELVEDGE_C_API selvedge_verdict* selvedge_verdict_new(const selvedge_mesh* mesh,
+                                                      const selvedge_mesh* original,
+                                                      const selvedge_options* options);
+SELVEDGE_C_API void selvedge_verdict_free(selvedge_verdict* verdict);
+
+/* Returns whether the mesh is accepted: 1 or 0. For a null pointer, -1. */
+SELVEDGE_C_API int selvedge_verdict_is_accepted(const selvedge_verdict* verdict);
+
+/* Returns a report in JSON, with the keys of `selvedge verify --report` that are not about files, in
+   docs/report.md. For a null pointer, null. */
+SELVEDGE_C_API const char* selvedge_verdict_report(const selvedge_verdict* verdict);
 
 /* Repeats a log on the mesh that it was made of, and judges every step by the limits that the log declares,
    but not against an obstacle, nor in further poses, nor by limits of the caller, as `selvedge replay` can.

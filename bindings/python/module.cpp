@@ -5,6 +5,7 @@
 // selvedge/__init__.py.
 
 #include "bindings/run/Reduction.h"
+#include "bindings/run/Verdict.h"
 #include "bindings/run/soup_of.h"
 
 #include <selvedge/Cancellation_scope.h>
@@ -27,6 +28,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -192,6 +194,12 @@ struct Labels
   std::vector<std::string> group_names;
 };
 
+void add_poses(Triangle_soup& soup, const std::vector<Points>& poses)
+{
+  for (const Points& pose : poses)
+    soup.poses.push_back({"pose_" + std::to_string(soup.poses.size() + 1), points_of(pose)});
+}
+
 /// An array of `columns` columns that owns `values` without copying them.
 template <class Number, class Value>
 py::array_t<Number> array_of(std::vector<Value> values, py::ssize_t columns = 1)
@@ -333,8 +341,7 @@ Result reduce(const Points& points, const Triangles& triangles, const Options& o
               const Progress& progress)
 {
   Triangle_soup soup = soup_of(points, triangles);
-  for (const Points& pose : poses)
-    soup.poses.push_back({"pose_" + std::to_string(soup.poses.size() + 1), points_of(pose)});
+  add_poses(soup, poses);
   bindings::Reduction_request request;
   for (const auto& [name, value] : options)
     request.set(name, value);
@@ -374,20 +381,46 @@ py::array_t<std::size_t> choose_poses(const Points& points, const std::vector<Po
   return array_of<std::size_t>(Work().run([&] { return key_poses(mesh, count); }));
 }
 
-py::tuple judge(const Points& points, const Triangles& triangles, const std::optional<Mesh_arrays>& original)
+/// Points, triangles, further poses, and the groups of the triangles with their names.
+using Judged_mesh =
+    std::tuple<Points, Triangles, std::vector<Points>, std::vector<Index>, std::vector<std::string>>;
+
+Triangle_soup soup_of(const Judged_mesh& mesh)
 {
-  const Triangle_soup soup = soup_of(points, triangles);
-  const Triangle_soup before = original ? soup_of(original->first, original->second) : Triangle_soup();
-  const Verification verification =
-      Work().run([&] { return original ? verify(soup, before) : verify(soup); });
+  const auto& [points, triangles, poses, groups, group_names] = mesh;
+  Triangle_soup soup = soup_of(points, triangles);
+  add_poses(soup, poses);
+  if (!groups.empty())
+    soup.groups = labels_of(groups, group_names);
+  return soup;
+}
+
+py::tuple judge_mesh(const Judged_mesh& mesh, const std::optional<Judged_mesh>& original,
+                     const std::optional<Mesh_arrays>& obstacle, double weld_distance,
+                     std::optional<double> clearance, const std::vector<std::string>& may_intersect,
+                     std::optional<std::size_t> threads)
+{
+  const Triangle_soup soup = soup_of(mesh);
+  const Triangle_soup before = original ? soup_of(*original) : Triangle_soup();
+  const Triangle_soup beside = obstacle ? soup_of(obstacle->first, obstacle->second) : Triangle_soup();
+  const auto run = [&] {
+    return bindings::Verdict(soup, original ? &before : nullptr, beside,
+                             {weld_distance, clearance, may_intersect, threads});
+  };
+  const bindings::Verdict verdict = Work().run(run);
   const auto pairs = [](const std::vector<Offending_pair>& list) {
     std::vector<Index> numbers;
     for (const Offending_pair& pair : list)
       numbers.insert(numbers.end(), {pair.first, pair.second});
     return array_of<Index>(std::move(numbers)).reshape({-1, 2});
   };
-  return py::make_tuple(verification.accepted(), pairs(verification.pairs), pairs(verification.new_pairs),
-                        bindings::report_of(verification, original.has_value()));
+  std::vector<Index> swaps;
+  for (const Layer_swap& swap : verdict.swaps())
+    swaps.insert(swaps.end(),
+                 {swap.of_original[0], swap.of_original[1], swap.of_result[0], swap.of_result[1]});
+  return py::make_tuple(verdict.is_accepted(), pairs(verdict.verification().pairs),
+                        pairs(verdict.verification().new_pairs),
+                        array_of<Index>(std::move(swaps)).reshape({-1, 4}), verdict.report());
 }
 
 py::tuple repeat(const Points& points, const Triangles& triangles, const std::string& log,
@@ -448,7 +481,7 @@ PYBIND11_MODULE(_selvedge, module)
       .def("is_stopped", [](const Result& result) { return result.reduction().is_stopped(); });
   module.def("reduce", &reduce);
   module.def("key_poses", &choose_poses);
-  module.def("judge", &judge);
+  module.def("judge", &judge_mesh);
   module.def("replay", &repeat);
   module.def("generate", &make);
 }

@@ -167,13 +167,6 @@ Replay_verdict replay(const Triangle_soup& original, const std::string& log, Rep
   return selvedge::replay(original, false, reader, options);
 }
 
-std::string report_of(const Verification& verification, bool has_original)
-{
-  Json report = app::new_report("verify");
-  app::add_verification(report, verification, has_original);
-  return app::to_text(report);
-}
-
 std::string report_of(const Replay_verdict& verdict)
 {
   Json report = app::new_report("replay");

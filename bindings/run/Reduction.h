@@ -74,7 +74,6 @@ private:
 Replay_verdict replay(const Triangle_soup& original, const std::string& log, Replay_options options);
 
 /// Returns what the program's reports say of a verdict, in JSON.
-std::string report_of(const Verification& verification, bool has_original);
 std::string report_of(const Replay_verdict& verdict);
 
 } // namespace selvedge::bindings

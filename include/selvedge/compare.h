@@ -218,6 +218,27 @@ struct Comparison
 /// triangles.
 Comparison compare(const Triangle_soup& result, const Triangle_soup& original);
 
+/// What `selvedge verify` says of a mesh: the verdict and, where there is an original, the comparison with
+/// it.
+struct Judgement
+{
+  Verification verification;
+  std::optional<Comparison> comparison;
+
+  /// Returns whether nothing is wrong that was not wrong before, and no layers have changed places.
+  bool is_accepted() const
+  {
+    return verification.accepted() && (!comparison || comparison->layers.swaps.empty());
+  }
+};
+
+/// Judges a result against its original by `verify`, and compares the two by `compare`. An original that was
+/// rounded for the one is rounded for the other. Layers that changed places are left out where they may
+/// intersect each other (`Verify_options::may_intersect`; every name must then be one of the result,
+/// see `triangles_named`), and where they have no order (`leave_out_without_order`).
+Judgement judge(const Triangle_soup& result, const Triangle_soup& original,
+                const Verify_options& options = {}, const Triangle_soup& obstacle = {});
+
 } // namespace selvedge
 
 #endif // SELVEDGE_COMPARE_H

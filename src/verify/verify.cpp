@@ -15,6 +15,7 @@
 #include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 // The judge, which decides whether a result may be written. It puts together what `offending_pairs`,
@@ -38,6 +39,8 @@ void check_options(const Verify_options& options)
 {
   if (!(options.weld_distance >= 0))
     throw Argument_error("the length within which borders may have been joined is a number of at least 0");
+  if (options.clearance && !(*options.clearance > 0 && std::isfinite(*options.clearance)))
+    throw Argument_error("clearance: a distance is positive and finite");
   if (options.clearance && !options.may_intersect.empty())
     throw Argument_error("parts that may intersect have no clearance; leave out one of the two options");
 }

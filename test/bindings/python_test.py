@@ -4,10 +4,13 @@
 
 import copy
 import inspect
+import json
 import os
 import pickle
 import re
 import signal
+import subprocess
+import tempfile
 import threading
 import unittest
 
@@ -413,6 +416,102 @@ class Simplify(unittest.TestCase):
         with self.assertRaises(KeyboardInterrupt):
             selvedge.simplify(*mesh, ratio=0.01)
         timer.join()
+
+
+class Verify(unittest.TestCase):
+    def test_layers_that_have_changed_places_are_refused(self):
+        scene = selvedge.generate("tunnel", faces=1000)
+        passed = selvedge.simplify(*scene, ratio=0, intersection_check=False)
+        self.assertTrue(selvedge.verify(*passed))  # the mesh alone does not show it
+        verdict = selvedge.verify(*passed, scene)
+        self.assertFalse(verdict)
+        self.assertEqual(len(verdict.new_pairs), 0)
+        self.assertEqual(verdict.swaps.shape, (verdict.report["layers"]["swaps"], 4))
+        self.assertGreater(len(verdict.swaps), 0)
+        first = verdict.report["layers"]["first_swaps"][0]
+        self.assertEqual((verdict.swaps[0] + 1).tolist(), first["of_original"] + first["of_result"])
+        self.assertTrue(selvedge.verify(*selvedge.simplify(*scene, ratio=0), scene))
+        mesh = layers()
+        kept = selvedge.verify(*selvedge.simplify(*mesh, ratio=0.3), mesh)
+        self.assertTrue(kept)
+        self.assertEqual(kept.swaps.shape, (0, 4))
+        self.assertGreater(kept.report["layers"]["compared"], 0)
+        self.assertEqual(selvedge.verify(*scene).swaps.shape, (0, 4))
+
+    @unittest.skipUnless("SELVEDGE_APP" in os.environ, "there is no program")
+    def test_says_what_the_program_says(self):
+        mesh = layers(1000, 2)
+        half = len(mesh.triangles) // 2
+        groups = ["low"] * half + ["high"] * half
+        bent = mesh.points + np.array([0, 0, 1]) * (3 * mesh.points[:, :1] ** 2)
+
+        def write(name, points, triangles, groups=None):
+            with open(name, "w", encoding="utf-8") as file:
+                file.writelines("v %r %r %r\n" % tuple(map(float, point)) for point in points)
+                for number, triangle in enumerate(triangles):
+                    file.write(f"g {groups[number]}\n" if groups else "")
+                    file.write("f %d %d %d\n" % tuple(triangle + 1))
+            return name
+
+        def judged(result, options, **arguments):
+            words = ["verify", write("small.obj", *result, arguments.get("groups")), "--report", "report.json",
+                     "--against", write("in.obj", *mesh, arguments.get("original_groups")), *options]
+            code = subprocess.run([os.environ["SELVEDGE_APP"], *words], stdout=subprocess.DEVNULL).returncode
+            with open("report.json", encoding="utf-8") as file:
+                expected = json.load(file)
+            verdict = selvedge.verify(*result, mesh, **arguments)
+            self.assertEqual(verdict.accepted, code == 0)
+            for key in ("verified", "pieces", "distance", "matching", "layers", "borders", "seams", "normals", "cannot_see"):
+                self.assertEqual(self.without_names(verdict.report[key]), self.without_names(expected[key]), key)
+            return verdict.accepted
+
+        folder = os.getcwd()
+        with tempfile.TemporaryDirectory() as temporary:
+            os.chdir(temporary)
+            try:
+                guarded = selvedge.simplify(*mesh, ratio=0.2, error=None, poses=[bent])
+                pierced = selvedge.simplify(*mesh, ratio=0.1, error=None)
+                for result, are_good in ((guarded, True), (pierced, False)):
+                    self.assertTrue(judged(result, []))
+                    pose, original_pose = bent[result.vertices], bent
+                    options = ["--pose", write("pose.obj", pose, result.triangles),
+                               "--against-pose", write("bent.obj", bent, mesh.triangles)]
+                    self.assertEqual(judged(result, options, poses=[pose], original_poses=[original_pose]), are_good)
+                    names = [groups[triangle] for triangle in result.birth]
+                    self.assertTrue(judged(result, [], groups=names, original_groups=groups))
+                    other = [groups[-1 - triangle] for triangle in result.birth]
+                    self.assertFalse(judged(result, [], groups=other, original_groups=groups))
+                    judged(result, ["--clearance", "0.5"], clearance=0.5)
+                unchecked = selvedge.simplify(*mesh, ratio=0.1, error=None, intersection_check=False)
+                names = [groups[triangle] for triangle in unchecked.birth]
+                self.assertFalse(judged(unchecked, [], groups=names, original_groups=groups))
+                self.assertTrue(judged(unchecked, ["--may-intersect", "low:high"], groups=names, original_groups=groups,
+                                       may_intersect="low:high"))
+                self.assertFalse(judged(guarded, ["--obstacle", "in.obj"], obstacle=mesh))
+            finally:
+                os.chdir(folder)
+
+    @staticmethod
+    def without_names(value):
+        """Poses have the names of their files in the one, and numbers in the other."""
+        if isinstance(value, dict):
+            return {key: Verify.without_names(part) for key, part in value.items()
+                    if not (key in ("name", "max_pose") and str(part).startswith(("pose", "bent")))}
+        return [Verify.without_names(part) for part in value] if isinstance(value, list) else value
+
+    def test_what_cannot_be_is_refused_by_name(self):
+        mesh = layers(200)
+        for arguments, why in (({"clearance": 0}, "clearance: "), ({"clearance": np.nan}, "clearance: "),
+                               ({"clearance": "wide"}, "clearance is 'wide'"), ({"weld": 1}, "weld: there is no original"),
+                               ({"weld": -1, "original": mesh}, "joined is a number of at least 0"),
+                               ({"original_poses": [mesh.points]}, "but no original"),
+                               ({"original_groups": ["a"] * len(mesh.triangles)}, "but no original"),
+                               ({"may_intersect": "a:b"}, "may_intersect: "), ({"threads": 0}, "threads is 0, and not a whole"),
+                               ({"groups": ["a"]}, "names of groups"), ({"poses": [mesh.points[1:]]}, "pose"),
+                               ({"poses": [mesh.points], "original": mesh}, "pose"),
+                               ({"obstacle": mesh.points}, "obstacle is neither")):
+            with self.assertRaisesRegex(selvedge.ArgumentError, why, msg=str(arguments)):
+                selvedge.verify(*mesh, **arguments)
 
 
 class Generate(unittest.TestCase):

@@ -159,16 +159,34 @@ def key_poses(points, poses, count):
     return _selvedge.key_poses(_points(points), _poses(poses), _whole("count", count))
 
 
-def verify(points, triangles, original=None):
+def verify(points, triangles, original=None, *, obstacle=None, poses=None, original_poses=None, groups=None,
+           original_groups=None, clearance=None, weld=0, may_intersect=(), threads=None):
     """Judges a mesh exactly: by itself, or as a result of reducing `original`, a `Mesh` or (points, triangles).
 
-    Returns a `Verdict` with `pairs` and `new_pairs`, arrays of shape (k, 2): triangles that intersect or coincide (a
-    degenerate one is a pair with itself), and those of them that the original does not have. It is true when there are no new
-    pairs (without `original`: no pairs), and every piece has become one. docs/python.md says what `selvedge verify` adds.
+    Returns a `Verdict`, which is true when `selvedge verify` would exit with 0 for a file of this mesh: there are no new pairs
+    (without `original`: no pairs), every piece has become one, and no layers have changed places. It has `pairs` and
+    `new_pairs`, arrays of shape (k, 2): triangles that intersect or coincide (a degenerate one is a pair with itself), and
+    those of them that the original does not have; `swaps`, an array of shape (k, 4): two triangles of the original, and the
+    two of the mesh that have taken their places in the other order; and `report`, with the keys of `selvedge verify --report`
+    that are not about files, such as report["layers"] (docs/report.md). All of it is numbered from 0 but for the report.
+
+    obstacle: a `Mesh` or (points, triangles) that the mesh may not touch or pass through.
+    poses, original_poses: further places of the points of each, in all of which the mesh is judged. For a result of
+    `simplify`: poses[:, result.vertices] and poses.
+    groups, original_groups: one name for each triangle, which stay where they were. For a result of `simplify`:
+    [groups[triangle] for triangle in result.birth] and groups. `may_intersect` ("A:B", or several) refers to `groups`.
+    clearance: a distance that pieces keep from each other, or as far as they are in the original.
+    weld: within what length borders of the original may have been joined, where the mesh does not keep pieces apart.
     """
-    before = None if original is None else _mesh(original, "original")
-    accepted, pairs, new_pairs, report = _selvedge.judge(_points(points), _triangles(triangles), before)
-    return Verdict(accepted, report, pairs=pairs, new_pairs=new_pairs)
+    if original is None and (original_poses is not None or original_groups is not None):
+        raise ArgumentError("original_poses or original_groups are given, but no original")
+    before = None if original is None else _judged("original", original, original_poses, original_groups)
+    accepted, pairs, new_pairs, swaps, report = _selvedge.judge(
+        _judged("mesh", (points, triangles), poses, groups), before, None if obstacle is None else _mesh(obstacle, "obstacle"),
+        _number("weld", weld), None if clearance is None else _number("clearance", clearance),
+        [str(pair) for pair in ([may_intersect] if isinstance(may_intersect, str) else may_intersect or ())],
+        None if threads is None else _whole("threads", threads, least=1))
+    return Verdict(accepted, report, pairs=pairs, new_pairs=new_pairs, swaps=swaps)
 
 
 def replay(points, triangles, log, *, uvs=None, normal_vectors=None, groups=None, obstacle=None, all=False):
@@ -199,13 +217,13 @@ def generate(name, *, faces=100_000, layers=3, thickness=5e-4, gap=1e-3, fold_de
     return mesh
 
 
-def _whole(name, value, largest=2**31 - 1):
+def _whole(name, value, largest=2**31 - 1, least=0):
     try:
         number = _index(value)
     except TypeError:
         number = -1
-    if not 0 <= number <= largest:
-        raise ArgumentError(f"{name} is {value!r}, and not a whole number from 0 to {largest}")
+    if not least <= number <= largest:
+        raise ArgumentError(f"{name} is {value!r}, and not a whole number from {least} to {largest}")
     return number
 
 
@@ -222,6 +240,11 @@ def _mesh(mesh, name):
     except (TypeError, ValueError):
         raise ArgumentError(f"{name} is neither a Mesh nor a pair (points, triangles)") from None
     return _points(points), _triangles(triangles)
+
+
+def _judged(name, mesh, poses, groups):
+    points, triangles = _mesh(mesh, name)
+    return (points, triangles, [] if poses is None else _poses(poses), *_groups(groups, len(triangles)))
 
 
 def _points(points):

@@ -38,6 +38,7 @@ class Verdict:
     report: Dict[str, Any]
     pairs: np.ndarray  # of `verify`
     new_pairs: np.ndarray  # of `verify`
+    swaps: np.ndarray  # of `verify`
     mesh: Mesh  # of `replay`
     def __bool__(self) -> bool: ...
 
@@ -91,7 +92,21 @@ def simplify(
     defects: str = ...,
 ) -> Result: ...
 def key_poses(points: ArrayLike, poses: ArrayLike, count: int) -> np.ndarray: ...
-def verify(points: ArrayLike, triangles: ArrayLike, original: Optional[_MeshLike] = None) -> Verdict: ...
+def verify(
+    points: ArrayLike,
+    triangles: ArrayLike,
+    original: Optional[_MeshLike] = None,
+    *,
+    obstacle: Optional[_MeshLike] = None,
+    poses: Optional[ArrayLike] = None,
+    original_poses: Optional[ArrayLike] = None,
+    groups: Optional[Sequence[Any]] = None,
+    original_groups: Optional[Sequence[Any]] = None,
+    clearance: Optional[float] = None,
+    weld: float = 0,
+    may_intersect: Union[str, Sequence[str]] = (),
+    threads: Optional[int] = None,
+) -> Verdict: ...
 def replay(
     points: ArrayLike,
     triangles: ArrayLike,

@@ -1,0 +1,61 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "Verdict.h"
+
+#include "apps/blind_spots.h"
+#include "apps/report_json.h"
+
+#include <selvedge/Error.h>
+#include <selvedge/Parts.h>
+
+#include <oneapi/tbb/global_control.h>
+
+namespace selvedge::bindings {
+namespace {
+
+Judgement judgement_of(const Triangle_soup& mesh, const Triangle_soup* original,
+                       const Triangle_soup& obstacle, const Verdict_request& request)
+{
+  if (!original && request.weld_distance > 0)
+    throw Argument_error("weld: there is no original; give one, or leave it out");
+  std::optional<tbb::global_control> limit;
+  if (request.threads)
+    limit.emplace(tbb::global_control::max_allowed_parallelism, *request.threads);
+  Verify_options options;
+  options.weld_distance = request.weld_distance;
+  options.clearance = request.clearance;
+  options.may_intersect = parts_in_pairs(mesh, request.may_intersect, "may_intersect");
+  return original ? judge(mesh, *original, options, obstacle)
+                  : Judgement{verify(mesh, options, obstacle), {}};
+}
+
+} // namespace
+
+Verdict::Verdict(const Triangle_soup& mesh, const Triangle_soup* original, const Triangle_soup& obstacle,
+                 const Verdict_request& request)
+    : m_judgement(judgement_of(mesh, original, obstacle, request)),
+      m_is_gltf(mesh.scene || (original && original->scene))
+{
+}
+
+const std::vector<Layer_swap>& Verdict::swaps() const
+{
+  static const std::vector<Layer_swap> none;
+  return m_judgement.comparison ? m_judgement.comparison->layers.swaps : none;
+}
+
+std::string Verdict::report() const
+{
+  const auto& [verification, comparison] = m_judgement;
+  app::Json report = app::new_report("verify");
+  app::add_verification(report, verification, comparison.has_value());
+  if (comparison) {
+    report["original"]["rounded"] = verification.is_original_rounded;
+    app::add_comparison(report, verification, *comparison);
+    report["cannot_see"] = app::blind_spots(verification, *comparison, m_is_gltf);
+  }
+  return app::to_text(report);
+}
+
+} // namespace selvedge::bindings
