@@ -53,7 +53,8 @@ constexpr double s_cosine_of_sample = 0.2;
 // may have another normal.
 constexpr double s_cosine_of_split = 0.766;
 
-// How much of the squared error around a wedge may be left if it is split. What is smooth is to stay so.
+// How much of the squared error around a wedge may be left if it is split though one normal would suit all
+// triangles there. What is smooth is to stay so.
 constexpr double s_share_left_of_split = 0.5;
 
 // Where samples are in a triangle: quadratic functions are integrated exactly.
@@ -83,10 +84,10 @@ public:
     if (std::all_of(m_is_fixed.begin(), m_is_fixed.end(), [](char is_fixed) { return is_fixed != 0; }))
       return 0;
     take_samples();
-    std::vector<Vector> fitted = solution();
+    std::vector<Vector> fitted = unit_solution();
     if (split_wedges(fitted))
-      fitted = solution();
-    return assign(std::move(fitted));
+      fitted = unit_solution();
+    return assign(suited(std::move(fitted)));
   }
 
 private:
@@ -385,6 +386,14 @@ private:
     return result;
   }
 
+  std::vector<Vector> unit_solution() const
+  {
+    std::vector<Vector> result = solution();
+    for (Vector& normal : result)
+      normal = unit(normal);
+    return result;
+  }
+
   void improve(std::vector<double>& x, const std::vector<double>& right,
                const std::vector<double>& diagonal) const
   {
@@ -467,21 +476,23 @@ private:
   }
 
   // Makes wedges of the smooth parts of those whose fitted normal is far from that of a triangle there, if
-  // most of the error around goes by this. Such are left where a bevel is gone: the triangles on both sides
-  // of the edge have the normal that it had. Returns whether there are new wedges.
+  // most of the error around goes by this, or, where no one normal suits all triangles, any of it. Such are
+  // left where a bevel is gone: the triangles on both sides of the edge have the normal that it had. Returns
+  // whether there are new wedges.
   bool split_wedges(const std::vector<Vector>& fitted)
   {
     const std::size_t count = m_old.size();
     std::vector<char> is_far(count, false);
     for (Index i = 0; i < m_wedges.size(); ++i)
       for (std::size_t k = 0; k < 3 && m_sides[i] != 0; ++k)
-        is_far[m_wedges[i][k]] |= cosine(i, unit(fitted[m_wedges[i][k]])) < s_cosine_of_split;
+        is_far[m_wedges[i][k]] |= cosine(i, fitted[m_wedges[i][k]]) < s_cosine_of_split;
     if (std::find(is_far.begin(), is_far.end(), true) == is_far.end())
       return false;
 
     const std::vector<Index_triple> whole = m_wedges;
     const std::vector<Vector> old = m_old;
-    const std::vector<double> errors_before = errors(whole, fitted);
+    const std::vector<char> do_suit = suit(fitted);
+    const std::vector<double> errors_before = errors(whole, suited(fitted));
     internal::Disjoint_sets parts = smooth_parts();
     std::map<std::size_t, Index> wedges;                            // of the parts
     std::vector<char> is_taken(count, false), is_cut(count, false); // whether it has parts, and several
@@ -510,7 +521,7 @@ private:
       if (w >= count || is_cut[w])
         m_old[w] = unit(means[w]);
     weigh_wedges();
-    const std::vector<double> errors_after = errors(whole, solution());
+    const std::vector<double> errors_after = errors(whole, suited(unit_solution()));
 
     m_is_split.assign(m_old.size(), false);
     bool is_any_split = false;
@@ -519,7 +530,7 @@ private:
         const Index w = whole[i][k];
         if (m_sides[i] == 0 || !is_cut[w])
           continue;
-        if (errors_after[w] < s_share_left_of_split * errors_before[w]) {
+        if (errors_after[w] < (do_suit[w] ? s_share_left_of_split : 1) * errors_before[w]) {
           m_is_split[m_wedges[i][k]] = true;
           is_any_split = true;
         } else {
@@ -549,21 +560,28 @@ private:
     return result;
   }
 
-  bool is_split(std::size_t wedge) const { return !m_is_split.empty() && m_is_split[wedge]; }
-
-  // Gives corners their new normals, or those halfway there that suit all triangles, but for those that would
-  // look like the old ones.
-  std::size_t assign(std::vector<Vector> fitted)
+  // Returns fitted normals of length 1, each as far on the way from the old one as suits all triangles.
+  std::vector<Vector> suited(std::vector<Vector> fitted) const
   {
     constexpr int most_halvings = 3;
     for (int halvings = 0; halvings <= most_halvings; ++halvings) {
-      for (Vector& normal : fitted)
-        normal = unit(normal);
       const std::vector<char> do_suit = suit(fitted);
-      for (std::size_t w = 0; w < fitted.size(); ++w)
-        for (std::size_t axis = 0; axis < 3 && !do_suit[w]; ++axis)
+      for (std::size_t w = 0; w < fitted.size(); ++w) {
+        if (do_suit[w])
+          continue;
+        for (std::size_t axis = 0; axis < 3; ++axis)
           fitted[w][axis] = halvings < most_halvings ? fitted[w][axis] + m_old[w][axis] : m_old[w][axis];
+        fitted[w] = unit(fitted[w]);
+      }
     }
+    return fitted;
+  }
+
+  bool is_split(std::size_t wedge) const { return !m_is_split.empty() && m_is_split[wedge]; }
+
+  // Gives corners their new normals, but for those that would look like the old ones.
+  std::size_t assign(const std::vector<Vector>& fitted)
+  {
     std::vector<char> is_kept = m_is_fixed;
     for (std::size_t w = 0; w < fitted.size(); ++w)
       is_kept[w] |= fitted[w] == Vector{} || (!is_split(w) && are_near_normals(fitted[w], m_old[w]));

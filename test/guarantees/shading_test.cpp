@@ -696,6 +696,56 @@ TEST(FittedShading, IsThatOfLargeFacesBesideTheBevelThatIsLeft)
   EXPECT_EQ(found, 228u);
 }
 
+// The rounded edge of a thick cloth, of which one flat face is left. No normal suits both this and a side of
+// the cloth, and a mean of the two would shade the whole side as if it were bent.
+TEST(FittedShading, IsThatOfASideUpToItsEdgeWhereTheRoundingIsGone)
+{
+  constexpr int steps = 8; // of the rounding
+  std::vector<std::array<double, 2>> profile;
+  std::vector<std::array<double, 3>> normals;
+  const auto add = [&](double x, double z, const std::array<double, 3>& normal) {
+    profile.push_back({x, z});
+    normals.push_back(normal);
+  };
+  for (int i = 0; i < 8; ++i)
+    add(i, 0, {0, 0, 1});
+  for (int i = 0; i <= steps; ++i) {
+    const double angle = CGAL_PI * i / steps;
+    add(8 + 0.2 * std::sin(angle), 0.2 * (std::cos(angle) - 1), {std::sin(angle), 0, std::cos(angle)});
+  }
+  for (int i = 7; i >= 0; --i)
+    add(i, -0.4, {0, 0, -1});
+  std::vector<double> rows;
+  for (int j = 0; j <= 20; ++j)
+    rows.push_back(j);
+  const Triangle_soup original = extruded(profile, normals, rows);
+  const int first = 8 + 2, last = 8 + steps - 2; // vertices of the profile that are left, beside its ends
+  Triangle_soup result = extruded({profile.front(), profile[first], profile[last], profile.back()},
+                                  {normals.front(), normals[first], normals[last], normals.back()}, rows);
+  const std::size_t strips = profile.size() - 1;
+  const std::array<std::size_t, 3> strip_of_original{0, 8 + steps / 2, strips - 1};
+  std::vector<Index> triangles;
+  std::vector<Index_triple> corners;
+  for (Index t = 0; t < result.triangles.size(); ++t) {
+    const std::size_t row = t / 6, strip = t / 2 % 3;
+    triangles.push_back(Index(2 * (row * strips + strip_of_original[strip]) + t % 2));
+    corners.push_back({3 * triangles.back(), 3 * triangles.back() + 1, 3 * triangles.back() + 2});
+  }
+  EXPECT_GT(fit_normals(result, triangles, corners, original), 0u);
+  std::size_t found = 0;
+  for (Index t = 0; t < result.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3 && t / 2 % 3 != 1; ++k) {
+      const double y = result.points[result.triangles[t][k]].y();
+      if (y == 0 || y == 20) // borders stay
+        continue;
+      ++found;
+      EXPECT_GT(internal::dot(shading::unit_normal(result, t),
+                              result.normals.values[result.normals.of_triangle[t][k]]),
+                0.95);
+    }
+  EXPECT_EQ(found, 228u);
+}
+
 // So that it goes on in what lies beside, in another file or as the next place of the same mesh.
 TEST(FittedShading, StaysBitForBitOnBorders)
 {

@@ -316,7 +316,8 @@ group("src/soup/fit_normals.cpp", ("shading_test",),
       ("keys.emplace_back(positions[m_result.triangles[i][k]]", "keys.emplace_back(m_result.triangles[i][k]", "seams of the texture are hard edges where normals are fitted"),
       ("!are_near_normals(normal, m_old[wedge])", "true", "normals that differ in their last digits across a seam are fitted apart"),
       ("if (split_wedges(fitted))", "if (false)", "an edge shades round where its bevel is gone"),
-      ("errors_after[w] < s_share_left_of_split * errors_before[w]", "errors_after[w] < 0", "no wedge is split, whatever its error"))
+      ("errors_after[w] < (do_suit[w] ? s_share_left_of_split : 1) * errors_before[w]", "errors_after[w] < 0", "no wedge is split, whatever its error"),
+      ("errors(whole, suited(fitted))", "errors(whole, fitted)", "a wedge is compared with a normal that it does not get"))
 group("src/files/Polygon_starts.h", ("polygons_test",),
       ("return k;", "return 0;", "the two sides of a cloth are cut along other diagonals"))
 group("src/files/Written_faces.cpp", ("polygons_test",),
