@@ -99,6 +99,21 @@ std::string place_of(const Part_triangles& part, const Triangle_soup& soup)
   return "(" + middle(0) + ", " + middle(1) + ", " + middle(2) + ")";
 }
 
+/// Says in which group, object or material all triangles of a piece are, if the mesh has several: the first
+/// kind that knows it.
+std::string home_of(const Part_triangles& piece, const std::vector<Part_kind>& kinds)
+{
+  for (const Part_kind& kind : kinds) {
+    if (kind.names.empty() || kind.count < 2)
+      continue;
+    const Index part = kind.of_triangle[piece.before.front()];
+    if (!kind.names[part].empty() && std::all_of(piece.before.begin(), piece.before.end(),
+                                                 [&](Index t) { return kind.of_triangle[t] == part; }))
+      return std::string(" in ") + name(kind.name) + " '" + kind.names[part] + "'";
+  }
+  return "";
+}
+
 } // namespace
 
 std::string coarse_part(const Simplify_request& request, const Prepared_soup& original,
@@ -130,7 +145,8 @@ std::string coarse_part(const Simplify_request& request, const Prepared_soup& or
   const auto piece =
       largest_coarse_part(kinds.front(), has_ratio, share_of_whole, least_piece, original, result);
   if (piece)
-    text = "the piece around " + place_of(piece->triangles, original.soup) + what_it_keeps(*piece) +
+    text = "the piece around " + place_of(piece->triangles, original.soup) +
+           home_of(piece->triangles, kinds) + what_it_keeps(*piece) +
            "; in a group of its own, it could keep more by --ratio 'GROUP=R'";
   return text;
 }

@@ -281,6 +281,18 @@ std::string held_back(const Simplify_request& request, const Prepared_soup& prep
   return text + seams + gaping;
 }
 
+/// Says how few faces a missed target leaves for each piece, if that is hardly enough for a shape. Islands of
+/// an atlas are pieces, and so are stitches, and none of them vanishes.
+std::string what_is_left_for_pieces(const Prepared_soup& prepared, const Simplify_report& report)
+{
+  constexpr double hardly_enough = 8;
+  const double pieces = double(part_kinds(prepared.soup).front().count);
+  if (pieces < 2 || double(report.faces_target) > hardly_enough * pieces)
+    return "";
+  return "\npieces: the target leaves " + with_digits(double(report.faces_target) / pieces) +
+         " faces for each of the " + with_commas(std::size_t(pieces)) + ", and none of them vanishes";
+}
+
 /// Says in a clause where a vertex of the original is.
 std::string place_of(Index vertex, const Triangle_soup& original)
 {
@@ -538,7 +550,8 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
     return;
   }
   if (!done.is_reached() && !done.is_stopped)
-    stream << "\nheld back: " << held_back(request, prepared, done) << what_shape_takes(request, level);
+    stream << "\nheld back: " << held_back(request, prepared, done) << what_shape_takes(request, level)
+           << what_is_left_for_pieces(prepared, done);
   if (done.is_reached() && request.progressive.empty())
     stream << what_texture_takes(request, result.soup);
   if (done.faces_fixed > 0)

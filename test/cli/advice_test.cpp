@@ -33,6 +33,10 @@ TEST(App_simplify, WritesWhenTheTargetIsOutOfReach)
   EXPECT_EQ(lenient.code, 0);
   EXPECT_EQ(lenient.err, "");
   EXPECT_NE(lenient.out.find("target 1 not reached\nheld back: of "), std::string::npos) << lenient.out;
+  const std::string pieces = std::to_string(part_kinds(read_mesh(in).soup).front().count);
+  EXPECT_NE(lenient.out.find(" faces for each of the " + pieces + ", and none of them vanishes\n"),
+            std::string::npos)
+      << lenient.out;
   const std::string written = contents_of(out);
   std::filesystem::remove(out);
   expect_refused(
@@ -156,11 +160,25 @@ TEST(App_simplify, NamesThePieceThatHasLostItsShape)
       p = Point_3(width * p.x(), width * p.y(), width * std::sin(p.x()) * std::sin(p.y()));
     return soup;
   };
-  write_mesh(folder / "in.off", test::joined(test::moved(waves(12, 0.001), 0, 0, 3), waves(40, 1)));
-  const std::string out =
-      run_app({"simplify", folder / "in.off", "-o", folder / "out.off", "--ratio", "0.3"}).out;
+  Triangle_soup soup = test::joined(test::moved(waves(12, 0.001), 0, 0, 3), waves(40, 1));
+  write_mesh(folder / "in.off", soup);
+  const auto summary_of = [&](const std::string& in) {
+    return run_app({"simplify", folder / in, "-o", folder / ("out_" + in), "--ratio", "0.3"}).out;
+  };
+  std::string out = summary_of("in.off");
   EXPECT_NE(out.find("parts: the piece around (0.006, 0.006, "), std::string::npos) << out;
+  EXPECT_NE(out.find(") keeps "), std::string::npos) << out;
   EXPECT_NE(out.find("in a group of its own, it could keep more by --ratio 'GROUP=R'"), std::string::npos);
+  EXPECT_EQ(out.find("\npieces: "), std::string::npos) << out;
+
+  const std::size_t waving = soup.triangles.size();
+  soup = test::joined(soup, test::moved(test::sheet(5, 5), 0, 0, 9));
+  soup.groups.names = {"waves", "flat"};
+  soup.groups.of_triangle.assign(soup.triangles.size(), 1);
+  std::fill_n(soup.groups.of_triangle.begin(), waving, Index(0));
+  write_mesh(folder / "in.obj", soup);
+  out = summary_of("in.obj");
+  EXPECT_NE(out.find(") in group 'waves' keeps "), std::string::npos) << out;
 }
 
 // Every column of squares is an island of the texture.
