@@ -67,8 +67,8 @@ void add_options(CLI::App& command, Simplify_request& request)
   command
       .add_option(
           "--lods", request.lods,
-          "Ratios of several levels of detail, made in one run. Each is what a run for it alone gives. "
-          "In the name of the output, {lod} stands for the number of the level. A .glb or .gltf output "
+          "Ratios of several levels of detail, made in one run. Each is what a run for it alone gives "
+          "where that reaches its target. In the name of the output, {lod} stands for the number of the level. A .glb or .gltf output "
           "without {lod} holds all levels, from fine to coarse, by the extension MSFT_lod; 1 is the mesh as "
           "it came.")
       ->delimiter(',')

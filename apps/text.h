@@ -85,12 +85,17 @@ inline std::string describe(const Violation& violation)
          ": " + name(violation.kind) + ": " + violation.message;
 }
 
-/// Says how many border vertices have a partner within the clear length, which there is.
+/// Says how many border vertices have a partner within the clear length, which there is. Lengths that floats
+/// of 32 bits hardly hold are the work of arithmetic, such as the sine of 180°.
 inline std::string partners_in_clear_gaps(const Border_gaps& gaps, double diagonal)
 {
+  constexpr double share_of_rounding = 0x1p-22;
   return with_commas(gaps.within_clear_length) + " of " + with_commas(gaps.border_vertices) +
          " border vertices have a partner within " + with_digits_up(*gaps.clear_length) + " (" +
-         percent(*gaps.clear_length / diagonal) + " of the size)";
+         (*gaps.clear_length <= share_of_rounding * diagonal
+              ? "no more than rounding"
+              : percent(*gaps.clear_length / diagonal) + " of the size") +
+         ")";
 }
 
 /// The same of the clear length to edges.

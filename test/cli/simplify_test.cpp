@@ -125,6 +125,21 @@ TEST(App_simplify, ClosesSeamsAndLeavesThemSewnWhenAsked)
                  "at least 0");
 }
 
+TEST(App_simplify, TellsGapsFromRounding)
+{
+  const Workspace folder;
+  const auto says = [&](const std::string& right, const char* what) {
+    std::string text = two_squares();
+    for (std::size_t at; (at = text.find("v 2.001000 ")) != std::string::npos;)
+      text.replace(at, 10, "v " + right);
+    write_text(folder / "in.obj", text);
+    const std::string out = run_app({"info", folder / "in.obj"}).out;
+    EXPECT_NE(out.find(what), std::string::npos) << out;
+  };
+  says("2.001", " % of the size); --weld auto closes them");
+  says("2.000000000001", " (no more than rounding); --weld auto closes them");
+}
+
 TEST(App_simplify, HoldsOpenSeamsUnlessToldOtherwise)
 {
   const Workspace folder;
