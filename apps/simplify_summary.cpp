@@ -287,7 +287,7 @@ std::string what_is_left_for_pieces(const Prepared_soup& prepared, const Simplif
 {
   constexpr double hardly_enough = 8;
   const double pieces = double(part_kinds(prepared.soup).front().count);
-  if (pieces < 2 || double(report.faces_target) > hardly_enough * pieces)
+  if (pieces < 2 || report.faces_target == 0 || double(report.faces_target) > hardly_enough * pieces)
     return "";
   return "\npieces: the target leaves " + with_digits(double(report.faces_target) / pieces) +
          " faces for each of the " + with_commas(std::size_t(pieces)) + ", and none of them vanishes";

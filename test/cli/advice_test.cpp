@@ -37,6 +37,8 @@ TEST(App_simplify, WritesWhenTheTargetIsOutOfReach)
   EXPECT_NE(lenient.out.find(" faces for each of the " + pieces + ", and none of them vanishes\n"),
             std::string::npos)
       << lenient.out;
+  const App_result without_target = run_app({"simplify", in, "-o", folder / "far.obj", "--error", "0.01"});
+  EXPECT_EQ(without_target.out.find("\npieces: "), std::string::npos);
   const std::string written = contents_of(out);
   std::filesystem::remove(out);
   expect_refused(
