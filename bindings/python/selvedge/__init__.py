@@ -112,8 +112,8 @@ def simplify(points, triangles, *, uvs=None, normal_vectors=None, groups=None, a
     OBJ files and libigl: each triangle has the numbers of three rows of values. Seams stay seams, and no triangle of the
     texture turns over.
     normal_vectors: the same with three numbers each. `normals`, an option, says what becomes of them.
-    groups: one name for each triangle, such as its material; borders between groups are kept as seams are. `lock`, `keep`, `part_ratios` and
-    `may_intersect` ("A:B") refer to the names.
+    groups: one name for each triangle, such as its material; borders between groups are kept as seams are. `lock`, `keep`,
+    `part_ratios` and `may_intersect` ("A:B") refer to the names.
     attributes: what else vertices have, such as colours: a dictionary of arrays with a row for each. `Result.attributes` has
     them of the result, interpolated where placement="optimal" has put a vertex to a new place.
     poses: further places of the points, an array of shape (poses, points, 3), such as frames of an animation: the result is
