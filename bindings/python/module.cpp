@@ -236,8 +236,8 @@ struct Number_type
 const std::vector<Number_type>& number_types()
 {
   using Type = Attribute::Type;
+  // They are never destroyed, since Python may be gone by then.
   static const auto* const s_types = new std::vector<Number_type>{
-      // never destroyed: Python may be gone by then
       {Type::int8, py::dtype::of<std::int8_t>()},   {Type::uint8, py::dtype::of<std::uint8_t>()},
       {Type::int16, py::dtype::of<std::int16_t>()}, {Type::uint16, py::dtype::of<std::uint16_t>()},
       {Type::int32, py::dtype::of<std::int32_t>()}, {Type::uint32, py::dtype::of<std::uint32_t>()},
@@ -381,17 +381,15 @@ py::array_t<std::size_t> choose_poses(const Points& points, const std::vector<Po
   return array_of<std::size_t>(Work().run([&] { return key_poses(mesh, count); }));
 }
 
-/// Points, triangles, further poses, and the groups of the triangles with their names.
-using Judged_mesh =
-    std::tuple<Points, Triangles, std::vector<Points>, std::vector<Index>, std::vector<std::string>>;
+/// Points, triangles, further poses and labels.
+using Judged_mesh = std::tuple<Points, Triangles, std::vector<Points>, Labels>;
 
 Triangle_soup soup_of(const Judged_mesh& mesh)
 {
-  const auto& [points, triangles, poses, groups, group_names] = mesh;
+  const auto& [points, triangles, poses, labels] = mesh;
   Triangle_soup soup = soup_of(points, triangles);
   add_poses(soup, poses);
-  if (!groups.empty())
-    soup.groups = labels_of(groups, group_names);
+  add_labels(soup, labels);
   return soup;
 }
 

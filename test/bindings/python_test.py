@@ -79,6 +79,26 @@ class Simplify(unittest.TestCase):
         self.assertFalse(selvedge.replay(*mesh, bare.log, uvs=mesh.uvs))  # which leaves seams that it does not know
         self.assertIsInstance(pickle.loads(pickle.dumps(result)).uvs, np.ndarray)
 
+    def test_verify_compares_texture_coordinates_and_normals(self):
+        mesh = selvedge.generate("skirt", faces=6000, thickness=0)
+        upward = np.tile((0.0, 1.0, 0.0), (len(mesh.points), 1))
+        result = selvedge.simplify(*mesh, uvs=mesh.uvs, normal_vectors=upward, normals="keep", ratio=0.3)
+
+        def attributes_with(uvs):
+            verdict = selvedge.verify(*result, original=mesh, uvs=uvs, original_uvs=mesh.uvs,
+                                      normal_vectors=result.normal_vectors, original_normal_vectors=upward)
+            self.assertTrue(verdict)
+            found = verdict.report["attributes"]
+            return {kept["name"]: (kept["combinations"], kept["original"]) for kept in found["kept"]}, found["lost"]
+        kept, lost = attributes_with(result.uvs)
+        self.assertEqual(lost, [])
+        for combinations, original in (kept["uv"], kept["normal"]):
+            self.assertTrue(combinations == original > 0)
+        self.assertEqual(attributes_with(result.uvs + 0.5)[0]["uv"][1], 0)
+        self.assertEqual(attributes_with(None)[1], ["uv"])
+        with self.assertRaisesRegex(selvedge.ArgumentError, "no original"):
+            selvedge.verify(*result, original_uvs=mesh.uvs)
+
     def test_normals_keep_their_edges(self):
         points, triangles = selvedge.generate("nested", faces=1000, layers=1)
         smooth = points / np.linalg.norm(points, axis=1)[:, None]
@@ -171,7 +191,7 @@ class Simplify(unittest.TestCase):
         with open(os.path.join(os.path.dirname(selvedge.__file__), "__init__.pyi"), encoding="utf-8") as stub:
             typed = set(re.findall(r"^    (\w+): ", stub.read(), re.MULTILINE))
         self.assertLessEqual(set(selvedge.option_names()), typed)
-        for function in (selvedge.simplify, selvedge.replay):
+        for function in (selvedge.simplify, selvedge.verify, selvedge.replay):
             self.assertLessEqual(set(inspect.signature(function).parameters) - {"options"}, typed)
         with self.assertRaisesRegex(TypeError, "'placement'"):
             selvedge.simplify(*mesh, placemnt="optimal")

@@ -160,7 +160,8 @@ def key_poses(points, poses, count):
 
 
 def verify(points, triangles, original=None, *, obstacle=None, poses=None, original_poses=None, groups=None,
-           original_groups=None, clearance=None, weld=0, may_intersect=(), threads=None):
+           original_groups=None, uvs=None, original_uvs=None, normal_vectors=None, original_normal_vectors=None,
+           clearance=None, weld=0, may_intersect=(), threads=None):
     """Judges a mesh exactly: by itself, or as a result of reducing `original`, a `Mesh` or (points, triangles).
 
     Returns a `Verdict`, which is true when `selvedge verify` would exit with 0 for a file of this mesh: there are no new pairs
@@ -175,14 +176,17 @@ def verify(points, triangles, original=None, *, obstacle=None, poses=None, origi
     `simplify`: poses[:, result.vertices] and poses.
     groups, original_groups: one name for each triangle, which stay where they were. For a result of `simplify`:
     [groups[triangle] for triangle in result.birth] and groups. `may_intersect` ("A:B", or several) refers to `groups`.
+    uvs, original_uvs, normal_vectors, original_normal_vectors: those of a result of `simplify`, and what it was given. The
+    report says where seams and values differ; the verdict does not depend on them.
     clearance: a distance that pieces keep from each other, or as far as they are in the original.
     weld: within what length borders of the original may have been joined, where the mesh does not keep pieces apart.
     """
-    if original is None and (original_poses is not None or original_groups is not None):
-        raise ArgumentError("original_poses or original_groups are given, but no original")
-    before = None if original is None else _judged("original", original, original_poses, original_groups)
+    of_original = (original_poses, original_groups, original_uvs, original_normal_vectors)
+    if original is None and any(value is not None for value in of_original):
+        raise ArgumentError("something is given of the original, but no original")
+    before = None if original is None else _judged("original", original, *of_original)
     accepted, pairs, new_pairs, swaps, report = _selvedge.judge(
-        _judged("mesh", (points, triangles), poses, groups), before, None if obstacle is None else _mesh(obstacle, "obstacle"),
+        _judged("mesh", (points, triangles), poses, groups, uvs, normal_vectors), before, None if obstacle is None else _mesh(obstacle, "obstacle"),
         _number("weld", weld), None if clearance is None else _number("clearance", clearance),
         [str(pair) for pair in ([may_intersect] if isinstance(may_intersect, str) else may_intersect or ())],
         None if threads is None else _whole("threads", threads, least=1))
@@ -242,9 +246,10 @@ def _mesh(mesh, name):
     return _points(points), _triangles(triangles)
 
 
-def _judged(name, mesh, poses, groups):
+def _judged(name, mesh, poses, groups, uvs, normal_vectors):
     points, triangles = _mesh(mesh, name)
-    return (points, triangles, [] if poses is None else _poses(poses), *_groups(groups, len(triangles)))
+    labels, *_ = _labels(len(points), triangles, uvs, normal_vectors, groups)
+    return points, triangles, [] if poses is None else _poses(poses), labels
 
 
 def _points(points):
