@@ -316,8 +316,7 @@ group("src/soup/fit_normals.cpp", ("shading_test",),
       ("keys.emplace_back(positions[m_result.triangles[i][k]]", "keys.emplace_back(m_result.triangles[i][k]", "seams of the texture are hard edges where normals are fitted"),
       ("!are_near_normals(normal, m_old[wedge])", "true", "normals that differ in their last digits across a seam are fitted apart"),
       ("if (split_wedges(fitted))", "if (false)", "an edge shades round where its bevel is gone"),
-      ("errors_after[w] < (do_suit[w] ? s_share_left_of_split : 1) * errors_before[w]", "errors_after[w] < 0", "no wedge is split, whatever its error"),
-      ("errors(whole, suited(fitted))", "errors(whole, fitted)", "a wedge is compared with a normal that it does not get"))
+      ("errors_after[w] < (do_suit[w] ? s_share_left_of_split : 1) * errors_before[w]", "errors_after[w] < 0", "no wedge is split, whatever its error"))
 group("src/files/Polygon_starts.h", ("polygons_test",),
       ("return k;", "return 0;", "the two sides of a cloth are cut along other diagonals"))
 group("src/files/Written_faces.cpp", ("polygons_test",),
@@ -1478,6 +1477,9 @@ group("src/verify/near_positions.cpp", ("verify_match_pieces_test",),
       ("      positions[vertex] = numbers[nearest];", "      positions[vertex] = positions[vertex];",
        "results of few digits are matched by the distances of surfaces alone"))
 
+group("src/simplify/reduce_in_cells.cpp", ("missed_target_test",),
+      ("  options.least_faces.clear();", "", "no cell does anything where the whole has a least number of faces"))
+
 group("include/selvedge/Missed_target.h", ("missed_target_test",),
       ("shares[i].output + a_tenth(shares[i].output - shares[i].fixed)", "shares[i].output",
        "a missed target keeps no face for the shape"),
@@ -1485,6 +1487,7 @@ group("include/selvedge/Missed_target.h", ("missed_target_test",),
       ("(share.input - share.output) / 2", "share.input", "a mesh that is hardly reduced is not reduced at all"),
       ("share.target != share.fixed", "true", "a ratio of 0 keeps shape"),
       ("        least[i] = std::min(least[i], shares[i].output);", "        ;", "a coarser level has more faces"),
+      ("first.excess() > 0 && share.output", "share.output", "a part that has reached its target could lose faces"),
       ("report.faces_target = m_report.faces_target;", "", "a report names another target than was asked for"),
       ("original_to_result.maximum >= s_much * error", "original_to_result.maximum >= 0",
        "a mesh that kept its shape is reduced again"))
