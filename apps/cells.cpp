@@ -1,12 +1,13 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include "Thread_limit.h"
 #include "output_files.h"
 #include "report_json.h"
 #include "standard_streams.h"
 #include "subcommands.h"
 #include "text.h"
-#include "threads.h"
+#include "threads_option.h"
 
 #include <selvedge/Error.h>
 #include <selvedge/Sha256.h>
@@ -286,7 +287,7 @@ Action add_cells(CLI::App& command)
   command.add_flag("--verify", request->is_verified,
                    "Judge the joined mesh as a whole as well, which needs memory for all of it.");
   command.add_flag("--quiet", request->is_quiet, "Print no summary.");
-  Thread_limit::add_option(command, request->threads);
+  add_threads_option(command, request->threads);
   command.footer(
       "Examples:\n"
       "  selvedge cells cut city.ply -o 'cell_{cell}.ply' --faces-per-cell 1e6\n"

@@ -1,13 +1,14 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include "Thread_limit.h"
 #include "output_files.h"
 #include "report_json.h"
 #include "report_output.h"
 #include "standard_streams.h"
 #include "subcommands.h"
 #include "text.h"
-#include "threads.h"
+#include "threads_option.h"
 
 #include <selvedge/Error.h>
 #include <selvedge/Parts.h>
@@ -426,7 +427,7 @@ Action add_info(CLI::App& command)
   add_level_option(command, request->level, "MESH");
   add_format_option(command, request->format);
   add_report_options(command, *request);
-  Thread_limit::add_option(command, request->threads);
+  add_threads_option(command, request->threads);
   command.footer(
       "Examples:\n"
       "  selvedge info jacket.obj\n"

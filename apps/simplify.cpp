@@ -4,6 +4,7 @@
 #include "Outcome.h"
 #include "Progress_bar.h"
 #include "Simplify_request.h"
+#include "Thread_limit.h"
 #include "attributes_option.h"
 #include "cost_of_poses.h"
 #include "html_report.h"
@@ -15,7 +16,6 @@
 #include "standard_streams.h"
 #include "subcommands.h"
 #include "text.h"
-#include "threads.h"
 
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>

@@ -10,7 +10,7 @@
 #include "poses_option.h"
 #include "standard_streams.h"
 #include "subcommands.h"
-#include "threads.h"
+#include "threads_option.h"
 
 #include <string>
 namespace selvedge::app {
@@ -348,7 +348,7 @@ void add_options(CLI::App& command, Simplify_request& request)
       .add_flag("--require-target", request.is_target_required,
                 "End with exit code 1 when the target is missed.")
       ->group(conduct);
-  Thread_limit::add_option(command, request.threads)->group(conduct);
+  add_threads_option(command, request.threads)->group(conduct);
   command
       .add_flag("--cells", request.is_in_cells,
                 "For large meshes: first reduce boxes of space at once, on all threads, then the whole. This "

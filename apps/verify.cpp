@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the Selvedge authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include "Thread_limit.h"
 #include "attributes_option.h"
 #include "blind_spots.h"
 #include "html_report.h"
@@ -12,7 +13,7 @@
 #include "standard_streams.h"
 #include "subcommands.h"
 #include "text.h"
-#include "threads.h"
+#include "threads_option.h"
 
 #include <selvedge/Error.h>
 #include <selvedge/Parts.h>
@@ -434,7 +435,7 @@ Action add_verify(CLI::App& command)
   add_format_option(command, request->format);
   add_report_options(command, *request);
   add_html_option(command, request->html)->excludes("--obstacle");
-  Thread_limit::add_option(command, request->threads);
+  add_threads_option(command, request->threads);
   command.footer(
       "Examples:\n"
       "  selvedge verify jacket.obj                        # do any triangles touch or cross?\n"

@@ -3,6 +3,7 @@
 
 #include "Reduction.h"
 
+#include "apps/Thread_limit.h"
 #include "apps/report_json.h"
 
 #include <selvedge/Error.h>
@@ -11,8 +12,6 @@
 #include <selvedge/collapse_log.h>
 #include <selvedge/key_poses.h>
 #include <selvedge/merge.h>
-
-#include <oneapi/tbb/global_control.h>
 
 #include <chrono>
 #include <optional>
@@ -43,9 +42,7 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool
         "sewn: vertices that meet in one pose may be apart in others; leave out one of the two");
   if (request.are_key_poses_chosen && input.poses.empty())
     throw Argument_error("key_poses: there are no further poses; give poses, or leave it out");
-  std::optional<tbb::global_control> limit;
-  if (request.threads)
-    limit.emplace(tbb::global_control::max_allowed_parallelism, *request.threads);
+  const app::Thread_limit limit(request.threads);
   Log_header header;
   if (has_normals_of_vertices && joins_vertices(request.prepare.normals) &&
       share_vertices_without_normals(input, request.prepare.normals) > 0)

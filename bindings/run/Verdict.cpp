@@ -3,13 +3,12 @@
 
 #include "Verdict.h"
 
+#include "apps/Thread_limit.h"
 #include "apps/blind_spots.h"
 #include "apps/report_json.h"
 
 #include <selvedge/Error.h>
 #include <selvedge/Parts.h>
-
-#include <oneapi/tbb/global_control.h>
 
 namespace selvedge::bindings {
 namespace {
@@ -19,9 +18,7 @@ Judgement judgement_of(const Triangle_soup& mesh, const Triangle_soup* original,
 {
   if (!original && request.weld_distance > 0)
     throw Argument_error("weld: there is no original; give one, or leave it out");
-  std::optional<tbb::global_control> limit;
-  if (request.threads)
-    limit.emplace(tbb::global_control::max_allowed_parallelism, *request.threads);
+  const app::Thread_limit limit(request.threads);
   Verify_options options;
   options.weld_distance = request.weld_distance;
   options.clearance = request.clearance;
