@@ -48,8 +48,6 @@ std::vector<Hindrances::Description> reasons(const Hindrances& hindrances)
 std::string options_without_shape(const Simplify_request& request, const Simplify_report& report)
 {
   const std::vector<Simplify_intent::Part_ratio>& parts = request.intent.ratios;
-  if (parts.empty() && request.lods.empty())
-    return " --faces " + std::to_string(report.shares.front().within_reach);
   std::string options;
   for (std::size_t i = 0; i < report.shares.size(); ++i) {
     const Simplify_report::Share& share = report.shares[i];
@@ -61,9 +59,10 @@ std::string options_without_shape(const Simplify_request& request, const Simplif
       options += " --ratio '" + parts[i - 1].name + '=' + ratio + '\'';
     else if (!request.lods.empty())
       options += " --lods " + ratio;
+    else if (request.options.ratio && !parts.empty())
+      options += " --ratio " + ratio;
     else
-      options +=
-          request.options.ratio ? " --ratio " + ratio : " --faces " + std::to_string(share.within_reach);
+      options += " --faces " + std::to_string(share.within_reach);
   }
   return options;
 }

@@ -40,7 +40,8 @@ namespace {
 using Points = py::array_t<double, py::array::c_style>;
 using Triangles = py::array_t<Index, py::array::c_style>;
 using Mesh_arrays = std::pair<Points, Triangles>;
-using Corner_arrays = std::optional<std::pair<py::array_t<double, py::array::c_style>, Triangles>>;
+// Values of corners, and for each triangle the numbers of three.
+using Corner_arrays = std::optional<std::pair<Points, Triangles>>;
 using Options = std::vector<std::pair<std::string, std::string>>;
 using Progress = std::function<bool(std::size_t, std::size_t, std::size_t)>;
 

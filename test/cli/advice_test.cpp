@@ -296,15 +296,8 @@ TEST(App_simplify, KeepsATenthOfTheFacesThatCanChangeForTheShape)
   sphere.layers = 1;
   Triangle_soup soup = generate("nested", sphere);
   soup.uvs = {};
-  const std::size_t points = soup.points.size(), triangles = soup.triangles.size();
-  for (std::size_t v = 0; v < points; ++v)
-    soup.points.emplace_back(soup.points[v].x() + 5, soup.points[v].y(), soup.points[v].z());
-  for (std::size_t t = 0; t < triangles; ++t) {
-    Index_triple triangle = soup.triangles[t];
-    for (Index& vertex : triangle)
-      vertex += Index(points);
-    soup.triangles.push_back(triangle);
-  }
+  const std::size_t triangles = soup.triangles.size();
+  soup = test::joined(soup, test::moved(soup, 5, 0, 0));
   soup.groups = {std::vector<Index>(2 * triangles, 0), {"left", "right"}};
   std::fill_n(soup.groups.of_triangle.begin(), triangles, Index(1));
   const std::string in = folder / "in.obj", out = folder / "out.obj", report = folder / "report.json";

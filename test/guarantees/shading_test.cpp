@@ -649,6 +649,34 @@ TEST(FittedShading, IsHardAgainWhereABevelIsGone)
   EXPECT_EQ(found, 12u);
 }
 
+// Fits the normals of a result of three strips to an original of `strips`, of which these are the first, that
+// of number `middle`, and the last, and expects that the first and the last are shaded as planes.
+void expect_planes_beside_middle(const Triangle_soup& original, std::size_t strips, std::size_t middle,
+                                 Triangle_soup result)
+{
+  const std::array<std::size_t, 3> strip_of_original{0, middle, strips - 1};
+  std::vector<Index> triangles;
+  std::vector<Index_triple> corners;
+  for (Index t = 0; t < result.triangles.size(); ++t) {
+    const std::size_t row = t / 6, strip = t / 2 % 3;
+    triangles.push_back(Index(2 * (row * strips + strip_of_original[strip]) + t % 2));
+    corners.push_back({3 * triangles.back(), 3 * triangles.back() + 1, 3 * triangles.back() + 2});
+  }
+  EXPECT_GT(fit_normals(result, triangles, corners, original), 0u);
+  std::size_t found = 0;
+  for (Index t = 0; t < result.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3 && t / 2 % 3 != 1; ++k) {
+      const double y = result.points[result.triangles[t][k]].y();
+      if (y == 0 || y == 20) // borders stay
+        continue;
+      ++found;
+      EXPECT_GT(internal::dot(shading::unit_normal(result, t),
+                              result.normals.values[result.normals.of_triangle[t][k]]),
+                0.95);
+    }
+  EXPECT_EQ(found, 228u);
+}
+
 // Between two planes at a right angle, the faces of a bevel are left. They turn the normals along its sides.
 // The planes are larger, and are shaded as planes.
 TEST(FittedShading, IsThatOfLargeFacesBesideTheBevelThatIsLeft)
@@ -672,28 +700,7 @@ TEST(FittedShading, IsThatOfLargeFacesBesideTheBevelThatIsLeft)
   const Triangle_soup original = extruded(profile, normals, rows);
   Triangle_soup result =
       extruded({{0, 0}, {7.9, 0}, {8, -0.1}, {8, -8}}, {up, between, between, aside}, rows);
-  const std::size_t strips = profile.size() - 1;
-  const std::array<std::size_t, 3> strip_of_original{0, 9, strips - 1};
-  std::vector<Index> triangles;
-  std::vector<Index_triple> corners;
-  for (Index t = 0; t < result.triangles.size(); ++t) {
-    const std::size_t row = t / 6, strip = t / 2 % 3;
-    triangles.push_back(Index(2 * (row * strips + strip_of_original[strip]) + t % 2));
-    corners.push_back({3 * triangles.back(), 3 * triangles.back() + 1, 3 * triangles.back() + 2});
-  }
-  EXPECT_GT(fit_normals(result, triangles, corners, original), 0u);
-  std::size_t found = 0;
-  for (Index t = 0; t < result.triangles.size(); ++t)
-    for (std::size_t k = 0; k < 3 && t / 2 % 3 != 1; ++k) {
-      const double y = result.points[result.triangles[t][k]].y();
-      if (y == 0 || y == 20) // borders stay
-        continue;
-      ++found;
-      EXPECT_GT(internal::dot(shading::unit_normal(result, t),
-                              result.normals.values[result.normals.of_triangle[t][k]]),
-                0.95);
-    }
-  EXPECT_EQ(found, 228u);
+  expect_planes_beside_middle(original, profile.size() - 1, 9, std::move(result));
 }
 
 // The rounded edge of a thick cloth, of which one flat face is left. No normal suits both this and a side of
@@ -722,28 +729,7 @@ TEST(FittedShading, IsThatOfASideUpToItsEdgeWhereTheRoundingIsGone)
   const int first = 8 + 2, last = 8 + steps - 2; // vertices of the profile that are left, beside its ends
   Triangle_soup result = extruded({profile.front(), profile[first], profile[last], profile.back()},
                                   {normals.front(), normals[first], normals[last], normals.back()}, rows);
-  const std::size_t strips = profile.size() - 1;
-  const std::array<std::size_t, 3> strip_of_original{0, 8 + steps / 2, strips - 1};
-  std::vector<Index> triangles;
-  std::vector<Index_triple> corners;
-  for (Index t = 0; t < result.triangles.size(); ++t) {
-    const std::size_t row = t / 6, strip = t / 2 % 3;
-    triangles.push_back(Index(2 * (row * strips + strip_of_original[strip]) + t % 2));
-    corners.push_back({3 * triangles.back(), 3 * triangles.back() + 1, 3 * triangles.back() + 2});
-  }
-  EXPECT_GT(fit_normals(result, triangles, corners, original), 0u);
-  std::size_t found = 0;
-  for (Index t = 0; t < result.triangles.size(); ++t)
-    for (std::size_t k = 0; k < 3 && t / 2 % 3 != 1; ++k) {
-      const double y = result.points[result.triangles[t][k]].y();
-      if (y == 0 || y == 20) // borders stay
-        continue;
-      ++found;
-      EXPECT_GT(internal::dot(shading::unit_normal(result, t),
-                              result.normals.values[result.normals.of_triangle[t][k]]),
-                0.95);
-    }
-  EXPECT_EQ(found, 228u);
+  expect_planes_beside_middle(original, profile.size() - 1, 8 + steps / 2, std::move(result));
 }
 
 // So that it goes on in what lies beside, in another file or as the next place of the same mesh.

@@ -173,10 +173,9 @@ World read_world(const std::filesystem::path& folder)
   Simplify_options& options = world.options;
   read_optional(json["ratio"], options.ratio);
   read_optional(json["faces"], options.faces);
-  options.least_faces =
-      json.value("least_faces", options.least_faces); // worlds of earlier versions have none
-  if (json.contains("guarded_poses"))                 // worlds of earlier versions have none
+  if (json.contains("guarded_poses")) // worlds of earlier versions have none
     read_optional(json["guarded_poses"], options.guarded_poses);
+  options.least_faces = json.value("least_faces", options.least_faces); // likewise
   read_optional(json["error"], options.max_error);
   if (json.contains("clearance")) // likewise
     read_optional(json["clearance"], options.clearance);
