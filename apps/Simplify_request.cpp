@@ -354,6 +354,8 @@ Json options_json(const Simplify_request& request)
           {"weld", weld_json(request)},
           {"sewn", request.is_sewn},
           {"normals", name_of(request.normals)},
+          {"drop_part", request.dropped_parts.names},
+          {"drop_smaller", request.dropped_parts.smaller_than},
           {"drop_attribute", request.dropped_attributes},
           {"orient", request.are_faces_oriented ? "auto" : "keep"},
           {"polygons", request.are_polygons_split ? "split" : "keep"},

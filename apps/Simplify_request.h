@@ -7,6 +7,7 @@
 #include "poses_option.h"
 #include "report_json.h"
 
+#include <selvedge/drop_parts.h>
 #include <selvedge/simplify.h>
 
 #include <CLI/CLI.hpp>
@@ -45,6 +46,7 @@ struct Simplify_request
   double weld_distance = 0; // 0 unless EPS is given; then open seams are ignored
   Open_seams open_seams = Open_seams::hold;
   Normals_choice normals = Normals_choice::automatic;
+  Parts_to_drop dropped_parts;
   std::vector<std::string> dropped_attributes;
   bool are_faces_oriented = true;
   bool is_sewn = false;

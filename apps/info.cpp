@@ -5,6 +5,7 @@
 #include "output_files.h"
 #include "report_json.h"
 #include "report_output.h"
+#include "small_pieces.h"
 #include "standard_streams.h"
 #include "subcommands.h"
 #include "text.h"
@@ -166,11 +167,16 @@ void print_content(const Contents& contents, const std::vector<Part_kind>& parts
   std::cout << "attributes: " << (attributes.empty() ? "none" : listed(attributes)) << '\n';
 }
 
-void print_surfaces(const Inspection& mesh)
+void print_surfaces(const Inspection& mesh, const std::optional<Small_pieces>& small)
 {
   std::cout << "pieces: " << with_commas(mesh.pieces.size()) << ", connected by vertex numbers\n"
             << "surfaces: " << with_commas(mesh.surfaces.size())
             << ", where coincident borders are sewn: " << kinds_of(mesh.surfaces) << '\n';
+  if (small)
+    std::cout << "small surfaces: " << with_commas(small->count) << ", with "
+              << counted(small->triangles, "face") << ", are smaller than " << small->length
+              << " and than all others by far; `simplify --drop-smaller " << small->length
+              << "` leaves them out\n";
   const auto list_of = [](const std::vector<Index>& pieces) {
     std::vector<std::string> names;
     for (const Index piece : pieces)
@@ -284,7 +290,8 @@ void print_freedom(const Inspection& mesh)
 }
 
 void print(const Info_request& request, const Contents& contents, const std::vector<std::string>& notes,
-           const std::vector<Part_kind>& parts, const Inspection& mesh)
+           const std::vector<Part_kind>& parts, const Inspection& mesh,
+           const std::optional<Small_pieces>& small)
 {
   std::cout << input_name(request.mesh) << ": " << format_name(contents.format) << ", "
             << with_commas(contents.vertices) << (contents.vertices == 1 ? " vertex, " : " vertices, ")
@@ -298,7 +305,7 @@ void print(const Info_request& request, const Contents& contents, const std::vec
   if (mesh.unused_vertices > 0)
     std::cout << "  " << with_commas(mesh.unused_vertices) << " of the vertices belong to no face\n";
   print_content(contents, parts);
-  print_surfaces(mesh);
+  print_surfaces(mesh, small);
   print_seams(mesh);
   print_freedom(mesh);
   std::cout << std::flush;
@@ -402,6 +409,7 @@ Exit_code run(const Info_request& request)
   report["input"] = input_json(request.mesh, file);
   const Contents contents = contents_of(file);
   const std::vector<Part_kind> parts = part_kinds(file.soup);
+  const std::optional<Small_pieces> small = small_pieces(file.soup);
   Inspection mesh;
   try {
     mesh = inspect(std::move(file.soup));
@@ -410,9 +418,12 @@ Exit_code run(const Info_request& request)
   }
   report["contents"] = to_json(contents);
   add_inspection(report, mesh);
+  report["surfaces"]["small"] =
+      small ? Json{{"below", std::stod(small->length)}, {"count", small->count}, {"faces", small->triangles}}
+            : Json(nullptr);
   report["memory"] = {{"peak_bytes", peak_memory_bytes()}};
   report["exit_code"] = int(exit_done);
-  put_report(request, report, [&] { print(request, contents, describe(file.notes), parts, mesh); });
+  put_report(request, report, [&] { print(request, contents, describe(file.notes), parts, mesh, small); });
   return exit_done;
 }
 

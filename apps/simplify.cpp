@@ -7,6 +7,7 @@
 #include "Thread_limit.h"
 #include "attributes_option.h"
 #include "cost_of_poses.h"
+#include "dropped_parts_options.h"
 #include "html_report.h"
 #include "interruption.h"
 #include "output_files.h"
@@ -128,6 +129,20 @@ private:
              : "write poses of their own, as with --poses-out 'NAME_{pose}.obj', or the mesh as .obj"));
   }
 
+  void drop_parts_of(Mesh_file& file)
+  {
+    const Parts_left left = drop_parts(file.soup, m_request.dropped_parts, m_request.input);
+    if (!m_request.dropped_parts.names.empty())
+      file.notes.remarks["faces left out by --drop-part"] += left.named;
+    if (left.small > 0)
+      file.notes.remarks["faces left out by --drop-smaller, in " + counted(left.small_pieces, "piece")] +=
+          left.small;
+    else if (m_request.dropped_parts.smaller_than > 0 && !m_request.is_quiet)
+      complain("--drop-smaller leaves out nothing: no piece of " + input_name(m_request.input) +
+               " is that small");
+    m_log_header.dropped_parts = m_request.dropped_parts;
+  }
+
   void drop_attributes_of(Mesh_file& file)
   {
     const std::size_t joined = drop_attributes(file.soup, m_request.dropped_attributes, m_request.input);
@@ -197,6 +212,12 @@ private:
     Mesh_file file = input.read();
     m_seconds["read"] = seconds_since(start);
     read_poses(m_request.poses, m_request.input, file.soup);
+    if (!m_request.log.empty()) {
+      m_numbering.emplace(file.soup, file.format == Mesh_format::stl);
+      m_log_header.vertices = m_numbering->size();
+      m_log_header.triangles = file.soup.triangles.size();
+    }
+    drop_parts_of(file);
     drop_attributes_of(file);
     if (joins_vertices(m_request.normals))
       join_without_normals(file);
@@ -214,9 +235,6 @@ private:
       file.soup.polygons.clear();
     m_polygons = file.soup.polygons.size();
     if (!m_request.log.empty()) {
-      m_numbering.emplace(file.soup, file.format == Mesh_format::stl);
-      m_log_header.vertices = m_numbering->size();
-      m_log_header.triangles = file.soup.triangles.size();
       m_log_header.sha256 = input.sha256();
       m_log_header.is_rounded_to_float32 = is_rounded(file.soup);
       for (const Pose& pose : file.soup.poses)

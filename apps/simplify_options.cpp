@@ -4,6 +4,7 @@
 #include "Simplify_request.h"
 
 #include "attributes_option.h"
+#include "dropped_parts_options.h"
 #include "html_report.h"
 #include "output_files.h"
 #include "part_pairs_option.h"
@@ -106,6 +107,12 @@ void add_options(CLI::App& command, Simplify_request& request)
                   "Parts whose faces must not change. The target is for the other faces.")
       ->type_name("PART")
       ->group(parts);
+  add_dropped_parts_options(
+      command, request.dropped_parts,
+      "Part that is left out before the reduction, such as stitches that a texture shows. Targets are of the other faces.",
+      "Leaves out likewise what is smaller than this, in the unit of the file, such as stitches and buttons: faces that "
+      "common positions connect to nothing larger, by the diagonal of their bounding box.",
+      parts);
   add_part_pairs_option(
       command, request.may_intersect,
       "Two parts that are not joined, and that may come to pierce each other, as skin under an opaque layer "

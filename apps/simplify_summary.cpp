@@ -6,6 +6,7 @@
 #include "coarse_part.h"
 #include "fate_of_limit.h"
 #include "output_files.h"
+#include "small_pieces.h"
 #include "standard_streams.h"
 #include "text.h"
 
@@ -288,8 +289,12 @@ std::string what_is_left_for_pieces(const Prepared_soup& prepared, const Simplif
   const double pieces = double(part_kinds(prepared.soup).front().count);
   if (pieces < 2 || report.faces_target == 0 || double(report.faces_target) > hardly_enough * pieces)
     return "";
+  const std::optional<Small_pieces> small = small_pieces(prepared.soup);
   return "\npieces: the target leaves " + with_digits(double(report.faces_target) / pieces) +
-         " faces for each of the " + with_commas(std::size_t(pieces)) + ", and none of them vanishes";
+         " faces for each of the " + with_commas(std::size_t(pieces)) + ", and none of them vanishes" +
+         (small ? "; --drop-smaller " + small->length + " leaves out the small ones, " +
+                      with_commas(small->count) + " with " + counted(small->triangles, "face")
+                : "");
 }
 
 /// Says in a clause where a vertex of the original is.

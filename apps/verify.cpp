@@ -4,6 +4,7 @@
 #include "Thread_limit.h"
 #include "attributes_option.h"
 #include "blind_spots.h"
+#include "dropped_parts_options.h"
 #include "html_report.h"
 #include "output_files.h"
 #include "part_pairs_option.h"
@@ -44,6 +45,7 @@ struct Verify_request
   std::string html;
   std::optional<Mesh_format> format;
   std::optional<double> weld_distance;
+  Parts_to_drop dropped_parts;
   std::vector<std::string> dropped_attributes;
   std::vector<std::string> may_intersect;
   std::optional<double> clearance;
@@ -298,6 +300,8 @@ void require_original(const Verify_request& request)
 {
   const char* const option = !request.files_of_poses_of_original.empty() ? "--against-pose"
                              : request.weld_distance                     ? "--weld"
+                             : !request.dropped_parts.names.empty()      ? "--drop-part"
+                             : request.dropped_parts.smaller_than > 0    ? "--drop-smaller"
                              : !request.dropped_attributes.empty()       ? "--drop-attribute"
                                                                          : nullptr;
   if (option && request.original.empty())
@@ -349,6 +353,7 @@ Exit_code run(const Verify_request& request)
       of_original.every = has_frames(of_original, request.original) ? of_original.every : 1;
     }
     read_poses(of_original, request.original, original.soup);
+    drop_parts(original.soup, request.dropped_parts, request.original);
     drop_attributes(original.soup, request.dropped_attributes, request.original);
     report["original"] = input_json(request.original, original);
     if (has_normals_of_vertices(mesh.format) || has_normals_of_vertices(original.format)) {
@@ -397,6 +402,9 @@ Action add_verify(CLI::App& command)
       ->type_name("FILE");
   add_attributes_option(command, request->dropped_attributes,
                         "Attribute of the original that MESH has lost by this option of simplify.");
+  add_dropped_parts_options(command, request->dropped_parts,
+                            "Part of the original that this option of simplify has left out.",
+                            "What simplify has left out of the original by this option.", "");
   add_level_option(command, request->level, "MESH");
   const char* const poses = "Poses (the same vertices and faces at other places)";
   add_pose_options(command, request->poses, "MESH, and of its original",

@@ -6,6 +6,7 @@
 
 #include <selvedge/Reduction_limits.h>
 #include <selvedge/Triangle_soup.h>
+#include <selvedge/drop_parts.h>
 
 #include <array>
 #include <cstddef>
@@ -31,6 +32,8 @@ namespace selvedge {
 ///     rounding none|float32                  once at most; none where it is missing
 ///     normals kept|joined|ignored|dropped|smooth|smooth_shared
 ///                                            once at most; kept where it is missing
+///     drop_part PART                         any number of them
+///     drop_smaller NUMBER                    once at most
 ///     dropped NAME                           any number of them
 ///     defects freeze|descend                 once at most; freeze where it is missing
 ///     may_intersect PART PART                any number of them
@@ -57,7 +60,11 @@ namespace selvedge {
 ///   first (`join_near_normals`), or smooth ones may have taken the place of all (`smooth_normals`). They are
 ///   ignored when the writer makes the normals anew. Where they are dropped, or smooth and shared, vertices
 ///   that differ in nothing else are one (`share_vertices_without_normals`), before anything else is done.
-/// - *dropped*: an attribute that the writer left out, before anything else (`drop_attributes`).
+/// - *drop_part*, *drop_smaller*: what the writer left out before anything else (`drop_parts`): all triangles
+/// of
+///   a part, and those that positions connect to nothing as large as NUMBER, which is positive, in the unit
+///   of the file. PART is written as in *may_intersect*.
+/// - *dropped*: an attribute that the writer left out, before all that follows (`drop_attributes`).
 ///   Vertices that differ in nothing else are one, and no edge is a line because of it. NAME is written as in
 ///   *may_intersect*.
 /// - *defects*: what becomes of the offending pairs of the input. Their triangles stay as they are, or the
@@ -90,9 +97,9 @@ namespace selvedge {
 /// - *w*, a group of coincident vertices, which move together from here on. Coincident vertices always do,
 ///   stated or not; the line spares readers the search for them. A writer states all groups or none.
 /// - *t*, triangles that run against the others of their surface, by their 0-based numbers among those that
-///   have corners at three positions. From here on the second and the third corner of each change places, so
-///   that the sides at an edge run opposite ways: such an edge is no border. Nothing moves by that, and the
-///   text for *result* has the corners in the order of the input.
+///   are not dropped and have corners at three positions. From here on the second and the third corner of
+///   each change places, so that the sides at an edge run opposite ways: such an edge is no border. Nothing
+///   moves by that, and the text for *result* has the corners in the order of the input.
 /// - *c*, a collapse: the vertices at the position of REMOVED go to the position of KEPT, along their common
 ///   edge, and merge with the vertices there. When X Y Z is given, both go to that place instead: KEPT first,
 ///   or REMOVED first when FIRST is `removed`. FIRST may also be `kept`. Numbers are decimal, with a point,
@@ -104,8 +111,8 @@ namespace selvedge {
 ///   that was, before the first c-line, at the position where the corner is now. (A position X Y Z has the
 ///   number of the vertex that went there as KEPT.)
 ///
-/// Triangles with two corners at one position, at the start or after rounding, are left out of everything but
-/// the count in *input*.
+/// Triangles that are dropped, and those with two corners at one position, at the start or after rounding,
+/// are left out of everything but the count in *input*.
 ///
 /// **Complexity** Logs are read and written line by line: memory does not grow with their length.
 
@@ -151,6 +158,7 @@ struct Log_header
   std::string sha256; ///< of the file; empty when unknown
   bool is_rounded_to_float32 = false;
   Logged_normals normals = Logged_normals::kept;
+  Parts_to_drop dropped_parts;
   std::vector<std::string> dropped; ///< attributes that were left out (`drop_attributes`)
   bool may_pairs_descend = false;   ///< the policy for offending pairs is `descend`
 

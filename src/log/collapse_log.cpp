@@ -95,6 +95,10 @@ Log_writer::Log_writer(std::ostream& stream, const Log_header& header) : m_strea
   m_stream << "rounding " << (header.is_rounded_to_float32 ? "float32" : "none") << '\n';
   if (header.normals != Logged_normals::kept)
     m_stream << "normals " << s_words_for_normals[std::size_t(header.normals)] << '\n';
+  for (const std::string& name : header.dropped_parts.names)
+    m_stream << "drop_part " << text_of_name(name) << '\n';
+  if (const double size = header.dropped_parts.smaller_than; size > 0)
+    m_stream << "drop_smaller " << text_of(size) << '\n';
   for (const std::string& name : header.dropped)
     m_stream << "dropped " << text_of_name(name) << '\n';
   if (header.may_pairs_descend)
@@ -159,6 +163,14 @@ public:
       } else if (m_words[0] == "normals" && !are_normals_known) {
         header.normals = Logged_normals(second_word(s_words_for_normals));
         are_normals_known = true;
+      } else if (m_words[0] == "drop_part") {
+        expect_words(2, 2, "drop_part PART");
+        header.dropped_parts.names.push_back(part_name(1));
+      } else if (m_words[0] == "drop_smaller" && header.dropped_parts.smaller_than == 0) {
+        expect_words(2, 2, "drop_smaller NUMBER");
+        header.dropped_parts.smaller_than = number<double>(1);
+        if (!(header.dropped_parts.smaller_than > 0))
+          fail("the size below which parts are dropped is positive");
       } else if (m_words[0] == "dropped") {
         expect_words(2, 2, "dropped NAME");
         header.dropped.push_back(part_name(1));
@@ -280,9 +292,9 @@ private:
 
   static bool is_of_header(std::string_view word)
   {
-    constexpr std::array<std::string_view, 10> words{"selvedge-log", "input",        "rounding", "normals",
-                                                     "dropped",      "defects",      "obstacle", "pose",
-                                                     "limit",        "may_intersect"};
+    constexpr std::array<std::string_view, 12> words{
+        "selvedge-log", "input",   "rounding", "normals", "drop_part", "drop_smaller",
+        "dropped",      "defects", "obstacle", "pose",    "limit",     "may_intersect"};
     return std::find(words.begin(), words.end(), word) != words.end();
   }
 

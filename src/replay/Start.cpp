@@ -10,6 +10,7 @@
 #include "verify/triangles_of_part.h"
 #include <selvedge/Error.h>
 #include <selvedge/attributes.h>
+#include <selvedge/drop_parts.h>
 #include <selvedge/normals.h>
 #include <selvedge/rounding.h>
 #include <selvedge/verify.h>
@@ -18,10 +19,21 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace selvedge {
 namespace reference {
 namespace {
+
+// Returns the numbers of the triangles that are left.
+std::vector<Index> drop_from(Triangle_soup& soup, const Parts_to_drop& parts)
+{
+  try {
+    return drop_parts(soup, parts).triangles;
+  } catch (const Argument_error& error) {
+    throw Input_error(std::string("the log leaves out a part that is not there: ") + error.what());
+  }
+}
 
 void leave_out_needless(Start& start)
 {
@@ -128,6 +140,7 @@ Start start_of(const Triangle_soup& original, const Triangle_soup& obstacle, con
 {
   Start start;
   start.soup = original;
+  start.numbers = drop_from(start.soup, header.dropped_parts);
   drop_attributes(start.soup, header.dropped);
   if (header.normals == Logged_normals::dropped || header.normals == Logged_normals::smooth_shared)
     share_vertices_without_normals(start.soup);
@@ -150,8 +163,6 @@ Start start_of(const Triangle_soup& original, const Triangle_soup& obstacle, con
     join_near_normals(start.soup);
   else if (header.normals != Logged_normals::kept && !are_smooth)
     start.soup.normals = {};
-  for (Index t = 0; t < original.triangles.size(); ++t)
-    start.numbers.push_back(t);
   leave_out_needless(start);
   const std::vector<Index> before = first_at_position_of_both(start.soup.points, beside.points);
   if (header.is_rounded_to_float32) {

@@ -3,9 +3,23 @@
 
 #include <selvedge/replay.h>
 
+#include <sstream>
+#include <string>
+#include <vector>
+
 // Lists what a verdict of `replay` does not cover, so that reports can state it.
 
 namespace selvedge {
+namespace {
+
+std::string text_of(double number)
+{
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
+
+} // namespace
 
 std::vector<Not_judged> not_judged(const Replay_verdict& verdict)
 {
@@ -31,6 +45,11 @@ std::vector<Not_judged> not_judged(const Replay_verdict& verdict)
         {"normals", std::string("whether edges across which normals differ move only along themselves: the "
                                 "log says that normals are ") +
                         (normals == Logged_normals::dropped ? "dropped" : "ignored")});
+  for (const std::string& name : verdict.header.dropped_parts.names)
+    result.push_back({"drop_part", "the part '" + name + "': the log says that it is left out"});
+  if (const double size = verdict.header.dropped_parts.smaller_than; size > 0)
+    result.push_back({"drop_smaller", "parts that are smaller than " + text_of(size) +
+                                          ": the log says that they are left out"});
   for (const std::string& name : verdict.header.dropped)
     result.push_back(
         {"dropped", "whether edges across which the attribute '" + name +

@@ -649,9 +649,10 @@ TEST(Bindings, HaveTheOptionsAndDefaultsOfTheProgram)
                 .code,
             0);
   nlohmann::json expected = nlohmann::json::parse(contents_of(report))["options"];
-  for (const char* name : {"animation", "drop_attribute", "every", "humanoid_poses", "lods", "morphs",
-                           "obstacle", "obstacle_animation", "obstacle_humanoid_poses", "obstacle_pose",
-                           "polygons", "pose", "poses_out", "progressive", "strict", "without_pose"})
+  for (const char* name :
+       {"animation", "drop_attribute", "drop_part", "drop_smaller", "every", "humanoid_poses", "lods",
+        "morphs", "obstacle", "obstacle_animation", "obstacle_humanoid_poses", "obstacle_pose", "polygons",
+        "pose", "poses_out", "progressive", "strict", "without_pose"})
     EXPECT_EQ(expected.erase(name), 1u);
   bindings::Reduction_request request;
   request.set("ratio", "0.5");

@@ -56,16 +56,30 @@ TEST(App_usage, EmptyValuesAreRefusedWithWhatTheyMayBe)
 {
   const Workspace folder;
   const std::string in = folder.generate("grid", "in.obj", 200), out = folder / "out.obj";
-  for (const auto& [option, values] :
-       {std::pair("--weld", "EPS|auto|hold|none"), std::pair("--error", "E|none"),
-        std::pair("--ratio", "[PART=]R"), std::pair("--faces", "N"), std::pair("--lods", "R,R"),
-        std::pair("--placement", "vertices|optimal"), std::pair("--weights", "NAME"),
-        std::pair("--lock", "PART"), std::pair("--keep", "PART"), std::pair("--may-intersect", "PART:PART"),
-        std::pair("--drop-attribute", "NAME"), std::pair("--obstacle", "FILE"),
-        std::pair("--pose", "FILE|PATTERN"), std::pair("--animation", "NAME|all"),
-        std::pair("--obstacle-animation", "NAME|all"), std::pair("--poses-out", "PATTERN"),
-        std::pair("--threads", "N"), std::pair("--report", "FILE"), std::pair("--log", "FILE"),
-        std::pair("--html", "FILE"), std::pair("--progressive", "FILE"), std::pair("--output", "FILE")}) {
+  for (const auto& [option, values] : {std::pair("--weld", "EPS|auto|hold|none"),
+                                       std::pair("--error", "E|none"),
+                                       std::pair("--ratio", "[PART=]R"),
+                                       std::pair("--faces", "N"),
+                                       std::pair("--lods", "R,R"),
+                                       std::pair("--placement", "vertices|optimal"),
+                                       std::pair("--weights", "NAME"),
+                                       std::pair("--lock", "PART"),
+                                       std::pair("--keep", "PART"),
+                                       std::pair("--may-intersect", "PART:PART"),
+                                       std::pair("--drop-attribute", "NAME"),
+                                       std::pair("--drop-part", "PART"),
+                                       std::pair("--drop-smaller", "LENGTH"),
+                                       std::pair("--obstacle", "FILE"),
+                                       std::pair("--pose", "FILE|PATTERN"),
+                                       std::pair("--animation", "NAME|all"),
+                                       std::pair("--obstacle-animation", "NAME|all"),
+                                       std::pair("--poses-out", "PATTERN"),
+                                       std::pair("--threads", "N"),
+                                       std::pair("--report", "FILE"),
+                                       std::pair("--log", "FILE"),
+                                       std::pair("--html", "FILE"),
+                                       std::pair("--progressive", "FILE"),
+                                       std::pair("--output", "FILE")}) {
     std::vector<std::string> arguments{"simplify", in, "-o", out, "--ratio", "0.5", option, ""};
     if (option == std::string("--output"))
       arguments.erase(arguments.begin() + 2, arguments.begin() + 4);

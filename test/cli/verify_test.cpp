@@ -424,7 +424,8 @@ TEST(App_verify, RefusesOptionsOfAnOriginalWithoutOne)
   const std::string mesh = folder.generate("skirt", "in.obj", 600);
   for (const auto& [option, value] :
        {std::pair("--against-pose", folder / "absent.obj"), std::pair("--weld", std::string("0")),
-        std::pair("--drop-attribute", std::string("texture"))})
+        std::pair("--drop-attribute", std::string("texture")), std::pair("--drop-part", std::string("grid")),
+        std::pair("--drop-smaller", std::string("0.1"))})
     expect_refused({"verify", mesh, option, value}, 2,
                    std::string(option) + ": there is no original; give --against FILE");
 }

@@ -703,7 +703,8 @@ TEST(Log, ALineOfTheHeaderThatStandsTwiceOrTooLateIsRefused)
     }
     return "";
   };
-  for (const char* line : {"rounding none\n", "normals kept\n", "defects freeze\n", "obstacle 3 1 -\n"}) {
+  for (const char* line :
+       {"rounding none\n", "normals kept\n", "defects freeze\n", "obstacle 3 1 -\n", "drop_smaller 0.1\n"}) {
     const std::string quoted = "the line '" + std::string(line, std::strchr(line, ' ')) + "' ";
     EXPECT_NE(message(std::string(line) + line).find(quoted + "stands here for the second time"),
               std::string::npos)
@@ -711,7 +712,8 @@ TEST(Log, ALineOfTheHeaderThatStandsTwiceOrTooLateIsRefused)
     EXPECT_NE(message("c 12 13\n" + std::string(line)).find(quoted + "comes too late"), std::string::npos)
         << message("c 12 13\n" + std::string(line));
   }
-  for (const char* line : {"limit seam_turn 3\n", "pose one -\n", "dropped uv\n", "may_intersect a b\n"})
+  for (const char* line : {"limit seam_turn 3\n", "pose one -\n", "dropped uv\n", "drop_part a\n",
+                           "drop_smaller 1\n", "may_intersect a b\n"})
     EXPECT_NE(message("c 12 13\n" + std::string(line)).find("comes too late"), std::string::npos) << line;
 }
 
@@ -719,13 +721,29 @@ TEST(Log, WhatIsNoLogIsRefusedWithItsLine)
 {
   const Triangle_soup flat = sheet(4, 4);
   const std::string head = head_of(flat);
-  for (const std::string& text :
-       {std::string(), std::string("solid\n"), std::string("selvedge-log 2\n"), head, head + "c 1\n",
-        head + "c 1 99\nresult 0 0 -\n", head + "c 1 -1\n", head + "c 1 2 3\n", head + "c 12 13 1 2 nan\n",
-        head + "q\n", head + "result 0 32 zz\n", head + "limit speed 3\n",
-        head + "limit seam_turn 3\nlimit seam_turn 3\n", head + "c 12 13\ns 1 2\n",
-        head + "w 1 2\nresult 0 32 -\n", head + "result 0 32 -\nc 12 13\n", head + "obstacle 1 2\n",
-        head + "pose one - - -\nresult 0 32 -\n", head + "obstacle 3 1 -\nobstacle 3 1 -\nresult 0 32 -\n"}) {
+  for (const std::string& text : {std::string(),
+                                  std::string("solid\n"),
+                                  std::string("selvedge-log 2\n"),
+                                  head,
+                                  head + "c 1\n",
+                                  head + "c 1 99\nresult 0 0 -\n",
+                                  head + "c 1 -1\n",
+                                  head + "c 1 2 3\n",
+                                  head + "c 12 13 1 2 nan\n",
+                                  head + "drop_smaller 0\n",
+                                  head + "drop_smaller big\n",
+                                  head + "drop_part zip\nresult 0 32 -\n",
+                                  head + "drop_smaller 99\nresult 0 32 -\n",
+                                  head + "q\n",
+                                  head + "result 0 32 zz\n",
+                                  head + "limit speed 3\n",
+                                  head + "limit seam_turn 3\nlimit seam_turn 3\n",
+                                  head + "c 12 13\ns 1 2\n",
+                                  head + "w 1 2\nresult 0 32 -\n",
+                                  head + "result 0 32 -\nc 12 13\n",
+                                  head + "obstacle 1 2\n",
+                                  head + "pose one - - -\nresult 0 32 -\n",
+                                  head + "obstacle 3 1 -\nobstacle 3 1 -\nresult 0 32 -\n"}) {
     SCOPED_TRACE(text);
     EXPECT_THROW(replay_text(flat, text), Input_error);
   }

@@ -1422,6 +1422,15 @@ group(
     ("corner = positions[corner];", ";", "seams are borders"),
 )
 group(
+    "src/soup/drop_parts.cpp",
+    ("drop_parts_test",),
+    ("sets.unite(positions[a], positions[b]);", "sets.unite(a, b);", "pieces are connected by vertex numbers"),
+    (".size < parts.smaller_than)", ".size <= parts.smaller_than)", "what is just as large goes"),
+    ("      ++left.named;\n", "      ++left.named;\n      soup.points[soup.triangles[t][0]] = {};\n",
+     "vertices of parts left out change"),
+    ("if (left.triangles.empty() && !soup.triangles.empty())", "if (false)", "nothing may be left"),
+)
+group(
     "src/soup/drop_attributes.cpp",
     ("drop_attributes_test",),
     ("is_shared[first[v]] |= found.dropped != dropped;", "is_shared[first[v]] = true;",

@@ -93,6 +93,8 @@ void write_world(const World& world, const std::filesystem::path& folder)
                      {"defects", name_of(world.defects)},
                      {"weld", world.weld_distance},
                      {"open_seams", world.open_seams},
+                     {"dropped_parts", world.dropped_parts.names},
+                     {"dropped_smaller", world.dropped_parts.smaller_than},
                      {"dropped", world.dropped},
                      {"normals", name_of(world.normals)},
                      {"orient", world.are_faces_oriented},
@@ -161,6 +163,8 @@ World read_world(const std::filesystem::path& folder)
   // Worlds of earlier versions say only whether they are welded.
   world.open_seams =
       json.value("open_seams", json.value("weld_auto", false) ? Open_seams::weld : Open_seams::ignore);
+  world.dropped_parts.names = json.value("dropped_parts", world.dropped_parts.names);
+  world.dropped_parts.smaller_than = json.value("dropped_smaller", 0.);
   world.dropped = json.value("dropped", world.dropped);
   const std::string normals = json.value("normals", "keep"); // worlds of earlier versions have none
   for (const Normals_choice choice :
@@ -268,6 +272,9 @@ std::string command_line(const World& world)
     add("--weld", "auto");
   if (world.open_seams == Open_seams::ignore && world.weld_distance == 0)
     add("--weld", "none");
+  for (const std::string& name : world.dropped_parts.names)
+    add("--drop-part", quoted(name));
+  add_if_other("--drop-smaller", world.dropped_parts.smaller_than, 0);
   for (const std::string& name : world.dropped)
     add("--drop-attribute", name);
   if (world.normals != Normals_choice::automatic)

@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_TEST_WORLDS_WORLD_H
 #define SELVEDGE_TEST_WORLDS_WORLD_H
 
+#include <selvedge/drop_parts.h>
 #include <selvedge/mesh_files.h>
 #include <selvedge/simplify.h>
 
@@ -34,6 +35,7 @@ struct World
   Defects defects = Defects::freeze;
   double weld_distance = 0;
   Open_seams open_seams = Open_seams::ignore; ///< if the distance is not 0, they are ignored
+  Parts_to_drop dropped_parts;
   std::vector<std::string> dropped; ///< attributes
   Normals_choice normals = Normals_choice::automatic;
   bool are_faces_oriented = true;

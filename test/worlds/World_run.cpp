@@ -9,6 +9,7 @@
 #include <selvedge/Reduction_log.h>
 #include <selvedge/attributes.h>
 #include <selvedge/collapse_log.h>
+#include <selvedge/drop_parts.h>
 #include <selvedge/merge.h>
 #include <selvedge/progressive.h>
 
@@ -57,6 +58,7 @@ const char* file_name(const World& world)
 Triangle_soup input_of(const World& world)
 {
   Triangle_soup soup = world.soup;
+  drop_parts(soup, world.dropped_parts);
   drop_attributes(soup, world.dropped);
   if (joins_vertices(world.normals))
     share_vertices_without_normals(soup, world.normals);
@@ -92,6 +94,7 @@ World_run run(const World& world)
   header.vertices = numbering.size();
   header.triangles = world.soup.triangles.size();
   header.is_rounded_to_float32 = prepare_options.round_to_float32;
+  header.dropped_parts = world.dropped_parts;
   header.dropped = world.dropped;
   if (joins_vertices(world.normals))
     header.normals = Logged_normals::dropped;

@@ -40,9 +40,9 @@ Point_3 rounded(const Point_3& p)
 }
 
 // In which of the two objects that may intersect a triangle is: 1, 2, or 0 for neither.
-char part_of_triangle(const World& world, Index triangle)
+char part_of_triangle(const World& world, const Triangle_soup& input, Index triangle)
 {
-  return world.may_intersect.empty() ? 0 : char(world.soup.objects.of_triangle[triangle]);
+  return world.may_intersect.empty() ? 0 : char(input.objects.of_triangle[triangle]);
 }
 
 } // namespace
@@ -62,7 +62,7 @@ Expected_start::Expected_start(const World& world)
     if (const Index_triple& triangle = input.triangles[t];
         has_three_positions(triangle, first) && has_three_positions(triangle, first_after)) {
       soup.triangles.push_back(triangle);
-      part_of.push_back(part_of_triangle(world, t));
+      part_of.push_back(part_of_triangle(world, input, t));
     }
   obstacle.points = world.obstacle.points;
   const std::vector<Index> first_of_obstacle = first_at_position(obstacle.points);
@@ -93,7 +93,8 @@ World in_pose(const World& world, std::size_t pose)
 {
   World posed = world;
   posed.soup = input_of(world);
-  posed.dropped.clear(); // already are
+  posed.dropped_parts = {}; // already are
+  posed.dropped.clear();
   if (world.normals == Normals_choice::smooth)
     smooth_normals(posed.soup);
   posed.normals = Normals_choice::keep; // what is joined or smooth is so in all poses
@@ -159,18 +160,19 @@ Verdict judge_refusal(const World& world, const std::string& message)
       if (!std::isfinite(rounded(p).x()) || !std::isfinite(rounded(p).y()) || !std::isfinite(rounded(p).z()))
         return std::nullopt;
   if (world.defects == Defects::refuse) {
-    const std::vector<Index> first = first_at_position(world.soup.points),
+    const Triangle_soup input = input_of(world);
+    const std::vector<Index> first = first_at_position(input.points),
                              first_of_obstacle = first_at_position(world.obstacle.points);
-    for (const Index_triple& t : world.soup.triangles)
+    for (const Index_triple& t : input.triangles)
       if (!has_three_positions(t, first))
         return std::nullopt;
     for (const Index_triple& t : world.obstacle.triangles)
       if (!has_three_positions(t, first_of_obstacle))
         return std::nullopt;
-    Judged_complex complex(world.soup, world.obstacle);
+    Judged_complex complex(input, world.obstacle);
     std::vector<char> part_of;
-    for (Index t = 0; t < world.soup.triangles.size(); ++t)
-      part_of.push_back(part_of_triangle(world, t));
+    for (Index t = 0; t < input.triangles.size(); ++t)
+      part_of.push_back(part_of_triangle(world, input, t));
     complex.permit(part_of);
     if (!complex.offending_pairs().empty())
       return std::nullopt;

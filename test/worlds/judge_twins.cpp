@@ -113,6 +113,7 @@ std::optional<int> random_exponent(const World& world, Random& random)
       add_all(pose.points);
   }
   add(world.weld_distance);
+  add(world.dropped_parts.smaller_than);
   add(world.options.clearance.value_or(0));
   const bool is_rounded = world.prepare_options().round_to_float32;
   const int least = is_rounded ? -100 : -960, most = is_rounded ? 120 : 960;
@@ -361,6 +362,7 @@ Verdict judge_twins(const World& world, const World_run& run, Judgement_counts& 
       ++counts.twins;
       World twin = with_points(world, [&](double x) { return std::ldexp(x, *exponent); });
       twin.weld_distance = std::ldexp(world.weld_distance, *exponent);
+      twin.dropped_parts.smaller_than = std::ldexp(world.dropped_parts.smaller_than, *exponent);
       if (twin.options.clearance)
         twin.options.clearance = std::ldexp(*world.options.clearance, *exponent);
       if (auto broken = compare(run_without_output(twin), run,

@@ -5,9 +5,13 @@
 #include "random_changes.h"
 #include "random_scene.h"
 #include "soup/flat_shading.h"
+#include "soup/selection.h"
 #include "support/Temporary_folder.h"
 #include "support/soups.h"
 
+#include <selvedge/Error.h>
+#include <selvedge/Parts.h>
+#include <selvedge/drop_parts.h>
 #include <selvedge/mesh_files.h>
 #include <selvedge/normals.h>
 #include <selvedge/rounding.h>
@@ -175,22 +179,29 @@ Triangle_soup as_scene(Triangle_soup soup, Random& random, Random* others)
   return read_mesh(folder / "mesh.gltf").soup;
 }
 
-// Of parts that have a triangle with an area to speak of: of others a reduction does not know.
-std::vector<std::string> part_names(const Triangle_soup& soup)
+// Of those without area a reduction does not know.
+std::vector<Index> triangles_with_area(const Triangle_soup& soup)
 {
-  const auto has_area = [&](const Index_triple& triangle) {
+  std::vector<Index> result;
+  for (Index t = 0; t < soup.triangles.size(); ++t) {
     const auto corner = [&](std::size_t k) {
-      const Point_3& p = soup.points[triangle[k]];
+      const Point_3& p = soup.points[soup.triangles[t][k]];
       return std::array{float(p.x()), float(p.y()), float(p.z())};
     };
-    return corner(0) != corner(1) && corner(1) != corner(2) && corner(2) != corner(0);
-  };
+    if (corner(0) != corner(1) && corner(1) != corner(2) && corner(2) != corner(0))
+      result.push_back(t);
+  }
+  return result;
+}
+
+std::vector<std::string> part_names(const Triangle_soup& soup)
+{
   std::set<std::string> names;
   for (const auto* labels : {&soup.groups, &soup.objects, &soup.materials})
-    for (std::size_t t = 0; t < labels->of_triangle.size(); ++t)
-      if (const std::string& name = labels->names[labels->of_triangle[t]];
-          !name.empty() && has_area(soup.triangles[t]))
-        names.insert(name);
+    for (const Index t : triangles_with_area(soup))
+      if (!labels->empty())
+        if (const std::string& name = labels->names[labels->of_triangle[t]]; !name.empty())
+          names.insert(name);
   return {names.begin(), names.end()};
 }
 
@@ -295,6 +306,47 @@ void choose_parts(World& world, Random& random)
   for (const Attribute& attribute : world.soup.vertex_attributes)
     if (attribute.name == "w" && random.one_in(2))
       intent.weights = attribute.name;
+}
+
+/// Whether the mesh without the dropped parts still has faces, some in each part that has a name in the
+/// world. Faces without area do not count, since a reduction leaves them out.
+bool are_parts_left(const World& world)
+{
+  Triangle_soup soup = world.soup;
+  try {
+    drop_parts(soup, world.dropped_parts);
+    keep_triangles(soup, triangles_with_area(soup));
+    std::vector<std::string> names = world.intent.locked;
+    names.insert(names.end(), world.intent.kept.begin(), world.intent.kept.end());
+    for (const Simplify_intent::Part_ratio& part : world.intent.ratios)
+      names.push_back(part.name);
+    for (const auto& [a, b] : world.may_intersect)
+      names.insert(names.end(), {a, b});
+    for (const std::string& name : names)
+      triangles_named(soup, name);
+  } catch (const Error&) {
+    return false;
+  }
+  return !soup.triangles.empty();
+}
+
+/// Leaves out a part, or what is small, where that leaves what else is asked for. Other random numbers, so
+/// that worlds of earlier versions stay what they were but for that.
+void choose_dropped_parts(World& world, std::uint64_t number)
+{
+  world.dropped_parts = {};
+  if (world.seed % 7 != 3)
+    return;
+  Random random(world.seed + 11 + number);
+  const std::vector<std::string> names = part_names(world.soup);
+  if (random.one_in(2) && !names.empty())
+    world.dropped_parts.names.push_back(random.one_of(names));
+  if (const std::vector<Sized_piece> pieces = sized_pieces(world.soup);
+      !pieces.empty() && (world.dropped_parts.names.empty() || random.one_in(4)))
+    world.dropped_parts.smaller_than =
+        std::nextafter(pieces[random.below(pieces.size())].size, random.one_in(2) ? 1e300 : 0);
+  if (!are_parts_left(world))
+    world.dropped_parts = {};
 }
 
 /// Has patterns in place of names of parts. No random number, so that worlds of earlier versions stay what
@@ -620,6 +672,7 @@ World random_world(std::uint64_t seed)
   if (world.seed % 4 <= 1 && world.intent.weights.empty() && !world.soup.vertex_attributes.empty() &&
       !world.soup.scene)
     world.dropped.push_back(world.soup.vertex_attributes.back().name);
+  choose_dropped_parts(world, 0);
   return world;
 }
 
@@ -638,6 +691,7 @@ World with_other_options(const World& world, std::uint64_t number)
     other.intent.weights.clear();
   fit_options_to_poses(other);
   choose_clearance(other, number);
+  choose_dropped_parts(other, number);
   return other;
 }
 

@@ -117,6 +117,9 @@ private:
     clear<std::vector<std::pair<std::string, std::string>>>(
         [](World& w) -> std::vector<std::pair<std::string, std::string>>& { return w.may_intersect; });
     clear<std::string>([](World& w) -> std::string& { return w.intent.weights; });
+    clear<std::vector<std::string>>(
+        [](World& w) -> std::vector<std::string>& { return w.dropped_parts.names; });
+    set<double>([](World& w) -> double& { return w.dropped_parts.smaller_than; }, 0);
     clear<std::vector<std::string>>([](World& w) -> std::vector<std::string>& { return w.dropped; });
 
     if (m_world.soup.scene || m_world.input_format != Mesh_format::obj)

@@ -1,0 +1,41 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "small_pieces.h"
+
+#include "text.h"
+
+#include <selvedge/drop_parts.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace selvedge::app {
+
+std::optional<Small_pieces> small_pieces(const Triangle_soup& soup)
+{
+  constexpr std::size_t least_count = 8;
+  constexpr double least_step = 1.5, largest_share = 0.05;
+  const std::vector<Sized_piece> pieces = sized_pieces(soup);
+  std::size_t count = 0, triangles = 0, triangles_so_far = 0;
+  double largest_step = least_step;
+  for (std::size_t i = 1; i < pieces.size(); ++i) {
+    triangles_so_far += pieces[i - 1].triangles;
+    const double size = pieces[i - 1].size;
+    if (i < std::max(least_count, (pieces.size() + 1) / 2) || !(size > 0))
+      continue;
+    if (size > largest_share * pieces.back().size)
+      break;
+    if (const double step = pieces[i].size / size; step >= largest_step) {
+      largest_step = step;
+      count = i;
+      triangles = triangles_so_far;
+    }
+  }
+  if (count == 0)
+    return std::nullopt;
+  // Nearly as large as the largest of them, rounded up to three digits: less than the next.
+  return Small_pieces{with_digits_up(1.01 * pieces[count - 1].size), count, triangles};
+}
+
+} // namespace selvedge::app

@@ -1,0 +1,96 @@
+// Copyright (c) 2026 the Selvedge authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <selvedge/drop_parts.h>
+
+#include "Disjoint_sets.h"
+#include "number_positions.h"
+#include "selection.h"
+
+#include <selvedge/Error.h>
+#include <selvedge/Parts.h>
+
+#include <CGAL/Bbox_3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace selvedge {
+namespace {
+
+struct Pieces
+{
+  std::vector<std::size_t> of_triangle;
+  std::map<std::size_t, Sized_piece> pieces;
+};
+
+Pieces pieces_by_positions(const Triangle_soup& soup)
+{
+  const std::vector<Index> positions = number_positions(soup.points);
+  internal::Disjoint_sets sets(soup.points.size());
+  for (const auto& [a, b, c] : soup.triangles) {
+    sets.unite(positions[a], positions[b]);
+    sets.unite(positions[b], positions[c]);
+  }
+  Pieces result;
+  std::map<std::size_t, CGAL::Bbox_3> boxes;
+  for (const Index_triple& triangle : soup.triangles) {
+    const std::size_t piece = sets.find(positions[triangle[0]]);
+    result.of_triangle.push_back(piece);
+    ++result.pieces[piece].triangles;
+    for (const Index v : triangle)
+      boxes[piece] += soup.points[v].bbox();
+  }
+  for (const auto& [piece, box] : boxes)
+    result.pieces[piece].size = std::hypot(box.x_span(), box.y_span(), box.z_span());
+  return result;
+}
+
+} // namespace
+
+std::vector<Sized_piece> sized_pieces(const Triangle_soup& soup)
+{
+  std::vector<Sized_piece> result;
+  for (const auto& [number, piece] : pieces_by_positions(soup).pieces)
+    result.push_back(piece);
+  std::stable_sort(result.begin(), result.end(),
+                   [](const Sized_piece& a, const Sized_piece& b) { return a.size < b.size; });
+  return result;
+}
+
+Parts_left drop_parts(Triangle_soup& soup, const Parts_to_drop& parts)
+{
+  if (!(parts.smaller_than >= 0))
+    throw Argument_error("the size below which pieces are left out must be at least 0");
+  std::vector<char> is_named(soup.triangles.size(), false);
+  for (const std::string& name : parts.names) {
+    const std::vector<char> is_of_part = triangles_named(soup, name);
+    for (std::size_t t = 0; t < is_named.size(); ++t)
+      is_named[t] |= is_of_part[t];
+  }
+  const Pieces pieces = parts.smaller_than > 0 ? pieces_by_positions(soup) : Pieces();
+  Parts_left left;
+  std::set<std::size_t> small_pieces;
+  for (Index t = 0; t < soup.triangles.size(); ++t) {
+    if (is_named[t]) {
+      ++left.named;
+    } else if (parts.smaller_than > 0 && pieces.pieces.at(pieces.of_triangle[t]).size < parts.smaller_than) {
+      ++left.small;
+      small_pieces.insert(pieces.of_triangle[t]);
+    } else {
+      left.triangles.push_back(t);
+    }
+  }
+  left.small_pieces = small_pieces.size();
+  if (left.triangles.empty() && !soup.triangles.empty())
+    throw Input_error("no face would be left, for all belong to parts that are to be left out");
+  if (left.triangles.size() < soup.triangles.size())
+    keep_triangles(soup, left.triangles);
+  return left;
+}
+
+} // namespace selvedge
