@@ -43,8 +43,10 @@ struct Parts_left
   std::size_t small_pieces = 0; ///< in so many pieces
 };
 
-/// Leaves out triangles of a mesh. Vertices keep their numbers, used or not. Pieces are those of the mesh as
-/// it comes, together with the parts that go by name.
+/// Leaves out triangles of a mesh. Vertices keep their numbers, used or not. In glTF, the textures go that
+/// only primitives without a triangle show, and their images, where no extension that is not known here may
+/// refer to them; so the materials of these primitives have none. Pieces are those of the mesh as it comes,
+/// together with the parts that go by name.
 ///
 /// Throws `Argument_error` when the size is negative or no number, or the mesh has no part of a name
 /// (`triangles_named`), and `Input_error` when nothing would be left.

@@ -4,6 +4,8 @@
 #include <selvedge/drop_parts.h>
 
 #include "Disjoint_sets.h"
+#include "Gltf_scene.h"
+#include "material_textures.h"
 #include "number_positions.h"
 #include "selection.h"
 
@@ -15,8 +17,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace selvedge {
@@ -48,6 +52,20 @@ Pieces pieces_by_positions(const Triangle_soup& soup)
   for (const auto& [piece, box] : boxes)
     result.pieces[piece].size = std::hypot(box.x_span(), box.y_span(), box.z_span());
   return result;
+}
+
+/// Removes the textures of a glTF scene that only materials of parts without a triangle show. `had_triangles`
+/// says which parts had some.
+void drop_textures_of_parts(Triangle_soup& soup, std::vector<char> had_triangles)
+{
+  for (const Index part : soup.groups.of_triangle)
+    had_triangles[part] = false;
+  const std::vector<Index> materials = materials_of(*soup.scene, had_triangles);
+  if (materials.empty())
+    return;
+  auto scene = std::make_shared<Gltf_scene>(*soup.scene);
+  drop_textures_of(*scene, materials);
+  soup.scene = std::move(scene);
 }
 
 } // namespace
@@ -88,8 +106,14 @@ Parts_left drop_parts(Triangle_soup& soup, const Parts_to_drop& parts)
   left.small_pieces = small_pieces.size();
   if (left.triangles.empty() && !soup.triangles.empty())
     throw Input_error("no face would be left, for all belong to parts that are to be left out");
-  if (left.triangles.size() < soup.triangles.size())
-    keep_triangles(soup, left.triangles);
+  if (left.triangles.size() == soup.triangles.size())
+    return left;
+  std::vector<char> has_triangles(soup.scene ? soup.scene->parts.size() : 0, false);
+  for (std::size_t t = 0; t < soup.triangles.size() && soup.scene; ++t)
+    has_triangles[soup.groups.of_triangle[t]] = true;
+  keep_triangles(soup, left.triangles);
+  if (soup.scene)
+    drop_textures_of_parts(soup, std::move(has_triangles));
   return left;
 }
 

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <vector>
 
@@ -36,6 +38,18 @@ void erase_texture_references(Json& json, const Function& is_erased)
   }
 }
 
+/// Adds the numbers of all materials that are named anywhere in meshes: by primitives, and by their variants.
+void find_materials(const Json& json, std::set<Index>& materials)
+{
+  if (!json.is_structured())
+    return;
+  for (const auto& [key, value] : json.items())
+    if (key == "material" && value.is_number_unsigned())
+      materials.insert(value.get<Index>());
+    else
+      find_materials(value, materials);
+}
+
 Json set_of(const Json& reference)
 {
   const Json::json_pointer moved("/extensions/KHR_texture_transform/texCoord");
@@ -47,15 +61,17 @@ bool are_all_references_known(const Json& document)
 {
   constexpr std::array<std::string_view, 5> prefixes{"KHR_materials_", "KHR_texture_", "EXT_texture_",
                                                      "MSFT_texture_", "KHR_lights_"};
-  constexpr std::array<std::string_view, 6> names{
-      "KHR_mesh_quantization",   "KHR_draco_mesh_compression", "EXT_meshopt_compression",
-      "EXT_mesh_gpu_instancing", "MSFT_lod",                   "MSFT_screencoverage"};
+  constexpr std::array<std::string_view, 6> names{"KHR_mesh_quantization",
+                                                  "KHR_draco_mesh_compression",
+                                                  "EXT_meshopt_compression",
+                                                  "EXT_mesh_gpu_instancing",
+                                                  "MSFT_lod",
+                                                  "MSFT_screencoverage"};
   const auto is_known = [&](const Json& extension) {
     const std::string name = extension.is_string() ? extension.get<std::string>() : "";
     return std::find(names.begin(), names.end(), name) != names.end() ||
-           std::any_of(prefixes.begin(), prefixes.end(), [&](std::string_view prefix) {
-             return name.compare(0, prefix.size(), prefix) == 0;
-           });
+           std::any_of(prefixes.begin(), prefixes.end(),
+                       [&](std::string_view prefix) { return name.compare(0, prefix.size(), prefix) == 0; });
   };
   const Json used = document.value("extensionsUsed", Json::array());
   return std::all_of(used.begin(), used.end(), is_known);
@@ -226,6 +242,44 @@ private:
 };
 
 } // namespace
+
+std::vector<Index> materials_of(const Gltf_scene& scene, const std::vector<char>& is_dropped)
+{
+  const Json& document = scene.document;
+  if (!document.contains("materials") || !document.contains("meshes") || !are_all_references_known(document))
+    return {};
+  Json others = document["meshes"];
+  std::set<Index> dropped, kept;
+  for (std::size_t part = 0; part < is_dropped.size(); ++part)
+    if (is_dropped[part]) {
+      Json& primitive = others[scene.parts[part].mesh]["primitives"][scene.parts[part].primitive];
+      find_materials(primitive, dropped);
+      primitive = nullptr;
+    }
+  find_materials(others, kept);
+  const Json::json_pointer levels("/extensions/MSFT_lod/ids");
+  for (const Json& material : document["materials"])
+    if (material.contains(levels))
+      for (const Json& id : material[levels])
+        if (id.is_number_unsigned())
+          kept.insert(id.get<Index>());
+  std::vector<Index> result;
+  std::set_difference(dropped.begin(), dropped.end(), kept.begin(), kept.end(), std::back_inserter(result));
+  return result;
+}
+
+void drop_textures_of(Gltf_scene& scene, const std::vector<Index>& materials)
+{
+  std::vector<Json> removed;
+  for (const Index material : materials)
+    if (material < scene.document["materials"].size())
+      erase_texture_references(scene.document["materials"][material], [&](const Json& reference) {
+        removed.push_back(reference);
+        return true;
+      });
+  if (!removed.empty())
+    Unused_textures(scene).drop(removed);
+}
 
 void drop_textures(Gltf_scene& scene, const std::function<bool(const std::string& set)>& is_dropped)
 {

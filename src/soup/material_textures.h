@@ -8,14 +8,22 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace selvedge {
 
-/// Removes the references of materials to textures whose coordinates are left out, as `is_dropped` says of the
-/// name of a set (`TEXCOORD_0`). Textures to which only these referred go from the document, and so do images
-/// and samplers of these textures alone; others get new numbers. They all stay in a document with an extension
-/// that is not known to leave textures to the materials, because it may refer to them by number.
+/// Removes the references of materials to textures whose coordinates are left out, as `is_dropped` says of
+/// the name of a set (`TEXCOORD_0`). Textures to which only these referred go from the document, and so do
+/// images and samplers of these textures alone; others get new numbers. They all stay in a document with an
+/// extension that is not known to leave textures to the materials, because it may refer to them by number.
 void drop_textures(Gltf_scene& scene, const std::function<bool(const std::string& set)>& is_dropped);
+
+/// Returns the materials, by number, that only some primitives have, `is_dropped` for each of the scene's
+/// parts; ascending, and none in a document with an extension as above.
+std::vector<Index> materials_of(const Gltf_scene& scene, const std::vector<char>& is_dropped);
+
+/// Removes the references of these materials to textures, and the textures, as above.
+void drop_textures_of(Gltf_scene& scene, const std::vector<Index>& materials);
 
 } // namespace selvedge
 

@@ -1424,11 +1424,23 @@ group(
 group(
     "src/soup/drop_parts.cpp",
     ("drop_parts_test",),
-    ("sets.unite(positions[a], positions[b]);", "sets.unite(a, b);", "pieces are connected by vertex numbers"),
+    ("positions = number_positions(soup.points);",
+     "positions = [&] { std::vector<Index> all(soup.points.size()); std::iota(all.begin(), all.end(), 0); return all; }();",
+     "pieces are connected by vertex numbers"),
     (".size < parts.smaller_than)", ".size <= parts.smaller_than)", "what is just as large goes"),
-    ("      ++left.named;\n", "      ++left.named;\n      soup.points[soup.triangles[t][0]] = {};\n",
-     "vertices of parts left out change"),
     ("if (left.triangles.empty() && !soup.triangles.empty())", "if (false)", "nothing may be left"),
+    ("had_triangles[part] = false;", ";", "textures go that a part with triangles shows"),
+)
+group(
+    "src/soup/material_textures.cpp",
+    ("drop_parts_test",),
+    ("      primitive = nullptr;\n", "", "parts without a triangle keep their textures"),
+    ("kept.insert(id.get<Index>());", ";", "textures of coarser materials go"),
+    ("|| !are_all_references_known(document))\n    return {};", ")\n    return {};",
+     "textures go to which an unknown extension may refer"),
+    ("if (key == \"material\" && value.is_number_unsigned())",
+     "if (key == \"material\" && value.is_number_unsigned() && !json.contains(\"variants\"))",
+     "textures of variants go"),
 )
 group(
     "src/soup/drop_attributes.cpp",

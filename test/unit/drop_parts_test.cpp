@@ -3,16 +3,22 @@
 
 // Parts that are left out, by name or for their size.
 
+#include "support/Temporary_folder.h"
 #include "support/soups.h"
 
 #include <selvedge/Error.h>
 #include <selvedge/drop_parts.h>
+#include <selvedge/mesh_files.h>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <cstddef>
+#include <fstream>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -133,6 +139,103 @@ TEST(Drop_parts, RefusesWhatMakesNoSense)
   }
   Triangle_soup soup = sheet_with_buttons();
   EXPECT_THROW(drop_parts(soup, {{"zip"}, 0}), Argument_error);
+}
+
+// Of the materials cloth, trim, brass and wood, which the parts of the same names have; trim is also what a
+// variant of cloth has. All show a texture of their own but for cloth, which shows that of wood.
+class Materials_of_parts : public ::testing::Test
+{
+protected:
+  using Json = nlohmann::ordered_json;
+  using Names = std::vector<std::string>;
+
+  Materials_of_parts()
+  {
+    Triangle_soup soup;
+    for (Index i = 0; i < 4; ++i) {
+      soup = joined(soup, sheet(2, 2, i));
+      soup.materials.of_triangle.resize(soup.triangles.size(), i);
+    }
+    soup.materials.names = {"cloth", "trim", "brass", "wood"};
+    for (const Point_3& p : soup.points)
+      soup.uvs.values.push_back({p.x() / 2, p.y() / 2});
+    soup.uvs.of_triangle = soup.triangles;
+    write_mesh(folder / "in.gltf", soup);
+    json = Json::parse(std::ifstream(folder / "in.gltf"));
+    json["images"] = Json::array();
+    for (std::size_t i = 0; i < 3; ++i) {
+      json["images"].push_back({{"name", soup.materials.names[i + 1]}, {"uri", std::to_string(i) + ".png"}});
+      json["textures"].push_back({{"source", i}});
+      material(soup.materials.names[i + 1])["normalTexture"] = {{"index", i}};
+    }
+    material("cloth")["normalTexture"] = {{"index", 2}};
+    json["extensionsUsed"] = {"KHR_materials_variants"};
+    json["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "plain"}}};
+    for (Json& mesh : json["meshes"])
+      for (Json& primitive : mesh["primitives"])
+        if (primitive["material"] == number_of("cloth"))
+          primitive["extensions"]["KHR_materials_variants"]["mappings"] = {
+              {{"material", number_of("trim")}, {"variants", {0}}}};
+  }
+
+  std::size_t number_of(const std::string& name) const
+  {
+    for (std::size_t i = 0; i < json["materials"].size(); ++i)
+      if (json["materials"][i]["name"] == name)
+        return i;
+    throw std::logic_error(name);
+  }
+  Json& material(const std::string& name) { return json["materials"][number_of(name)]; }
+
+  // Returns the names of the images that are left, and keeps the document in `json`.
+  Names images_without(const Names& parts)
+  {
+    std::ofstream(folder / "in.gltf") << json;
+    Triangle_soup soup = read_mesh(folder / "in.gltf").soup;
+    drop_parts(soup, {parts, 0});
+    write_mesh(folder / "out.gltf", soup);
+    json = Json::parse(std::ifstream(folder / "out.gltf"));
+    Names names;
+    for (const Json& image : json.value("images", Json::array()))
+      names.push_back(image["name"]);
+    return names;
+  }
+
+  const Temporary_folder folder;
+  Json json;
+};
+
+TEST_F(Materials_of_parts, TakeTheirTexturesAlong)
+{
+  EXPECT_EQ(images_without({"brass"}), (Names{"trim", "wood"}));
+  EXPECT_FALSE(material("brass").contains("normalTexture"));
+  EXPECT_EQ(json["textures"], Json::parse(R"([{"source": 0}, {"source": 1}])"));
+  EXPECT_EQ(material("cloth")["normalTexture"]["index"], 1);
+}
+
+TEST_F(Materials_of_parts, LeaveWhatIsSeenElsewhere)
+{
+  EXPECT_EQ(images_without({"wood", "trim"}), (Names{"trim", "brass", "wood"}));
+  EXPECT_TRUE(material("trim").contains("normalTexture")) << "which a variant of cloth has";
+  EXPECT_FALSE(material("wood").contains("normalTexture"));
+}
+
+TEST_F(Materials_of_parts, GoWithTheLastThatNamesThem)
+{
+  EXPECT_EQ(images_without({"cloth", "trim"}), (Names{"brass", "wood"}));
+}
+
+TEST_F(Materials_of_parts, StayWhereACoarserLevelMayShowThem)
+{
+  material("wood")["extensions"]["MSFT_lod"]["ids"] = {number_of("brass")};
+  EXPECT_EQ(images_without({"brass"}), (Names{"trim", "brass", "wood"}));
+}
+
+TEST_F(Materials_of_parts, StayWhereAnExtensionThatIsNotKnownMayReferToThem)
+{
+  json["extensionsUsed"].push_back("ACME_decals");
+  EXPECT_EQ(images_without({"brass"}), (Names{"trim", "brass", "wood"}));
+  EXPECT_TRUE(material("brass").contains("normalTexture"));
 }
 
 } // namespace
