@@ -112,6 +112,8 @@ bindings::Verdict judge_mesh(const selvedge_mesh& mesh, const selvedge_mesh* ori
   asked.clearance = request.options.clearance;
   asked.may_intersect = request.may_intersect;
   asked.threads = request.threads;
+  if (original)
+    asked.dropped_parts = request.dropped_parts;
   if (!original || !(mesh.has_normals_of_vertices || original->has_normals_of_vertices))
     return {mesh.soup, original ? &original->soup : nullptr, request.obstacle, asked};
   Triangle_soup after = mesh.soup, before = original->soup;

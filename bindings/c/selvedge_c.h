@@ -167,9 +167,9 @@ SELVEDGE_C_API selvedge_options* selvedge_options_new(void);
 SELVEDGE_C_API void selvedge_options_free(selvedge_options* options);
 
 /* Sets one option: "ratio" to "0.3", "placement" to "optimal", "lock" to the name of a part, and so on. Names
-   are those in docs/report.md (without drop_attribute, drop_part, drop_smaller, key_poses, lods, obstacle,
-   polygons, poses, progressive and strict), values those of the command line ("true" or "false" for flags); "log" "true" asks for a log.
-   "lock", "keep", "part_ratios" ("collar=0.5") and "may_intersect" ("skin:dress") add to what was set before.
+   are those in docs/report.md (without drop_attribute, key_poses, lods, obstacle, polygons, poses, progressive
+   and strict), values those of the command line ("true" or "false" for flags); "log" "true" asks for a log.
+   "lock", "keep", "drop_part", "part_ratios" ("collar=0.5") and "may_intersect" ("skin:dress") add to what was set before.
    Returns 0, or -1 when there is no such option or value; the error then names the nearest. */
 SELVEDGE_C_API int selvedge_options_set(selvedge_options* options, const char* name, const char* value);
 
@@ -229,7 +229,8 @@ typedef struct selvedge_verdict selvedge_verdict;
 
 /* Judges like selvedge_verify, by some of the options by which a mesh was reduced; all others have no effect.
    These are the obstacle, which the mesh may not touch or pass through, "clearance", "may_intersect",
-   "threads", and "weld", if it is a number: borders of the original may have been joined within this length.
+   "threads", "drop_part" and "drop_smaller", which leave out the same of the original, and "weld", if it is a
+   number: borders of the original may have been joined within this length.
    `options` may be null. Returns null when it fails. */
 SELVEDGE_C_API selvedge_verdict* selvedge_verdict_new(const selvedge_mesh* mesh,
                                                       const selvedge_mesh* original,

@@ -397,14 +397,15 @@ Triangle_soup soup_of(const Judged_mesh& mesh)
 py::tuple judge_mesh(const Judged_mesh& mesh, const std::optional<Judged_mesh>& original,
                      const std::optional<Mesh_arrays>& obstacle, double weld_distance,
                      std::optional<double> clearance, const std::vector<std::string>& may_intersect,
-                     std::optional<std::size_t> threads)
+                     std::optional<std::size_t> threads, const std::vector<std::string>& dropped_parts,
+                     double dropped_below)
 {
   const Triangle_soup soup = soup_of(mesh);
   const Triangle_soup before = original ? soup_of(*original) : Triangle_soup();
   const Triangle_soup beside = obstacle ? soup_of(obstacle->first, obstacle->second) : Triangle_soup();
   const auto run = [&] {
     return bindings::Verdict(soup, original ? &before : nullptr, beside,
-                             {weld_distance, clearance, may_intersect, threads});
+                             {weld_distance, clearance, may_intersect, threads, {dropped_parts, dropped_below}});
   };
   const bindings::Verdict verdict = Work().run(run);
   const auto pairs = [](const std::vector<Offending_pair>& list) {

@@ -10,6 +10,7 @@
 #include <selvedge/Parts.h>
 #include <selvedge/Reduction_log.h>
 #include <selvedge/collapse_log.h>
+#include <selvedge/drop_parts.h>
 #include <selvedge/key_poses.h>
 #include <selvedge/merge.h>
 
@@ -47,10 +48,12 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool
   if (has_normals_of_vertices && joins_vertices(request.prepare.normals) &&
       share_vertices_without_normals(input, request.prepare.normals) > 0)
     header.normals = Logged_normals::dropped;
-  m_input_triangles = input.triangles;
   const Log_numbering numbering(input, false);
   header.vertices = input.points.size();
   header.triangles = input.triangles.size();
+  header.dropped_parts = request.dropped_parts;
+  m_numbers = drop_parts(input, request.dropped_parts).triangles;
+  m_input_triangles = input.triangles;
   header.is_rounded_to_float32 = request.prepare.round_to_float32;
   if (!request.obstacle.triangles.empty())
     header.obstacle = {request.obstacle.points.size(), request.obstacle.triangles.size(), {}};
@@ -130,12 +133,12 @@ std::vector<Index> Reduction::vertices() const
 
 std::vector<Index> Reduction::triangles() const
 {
-  // What was prepared are the triangles of the input in their order, but for those that were left out.
+  // What was prepared are these triangles in their order, but for those that were left out.
   std::vector<Index> numbers;
   numbers.reserve(m_prepared.soup.triangles.size());
   for (Index t = 0; numbers.size() < m_prepared.soup.triangles.size(); ++t)
     if (m_input_triangles[t] == m_prepared.soup.triangles[numbers.size()])
-      numbers.push_back(t);
+      numbers.push_back(m_numbers[t]);
   std::vector<Index> result;
   result.reserve(m_result.triangles.size());
   for (const Index t : m_result.triangles)

@@ -55,7 +55,8 @@ public:
 private:
   bool is_to_be_repeated(const Reduction_request& request, Missed_target& missed_target);
 
-  std::vector<Index_triple> m_input_triangles;
+  std::vector<Index> m_numbers;                // in the input, of the triangles that are not dropped
+  std::vector<Index_triple> m_input_triangles; // these
   std::string m_options;
   bool m_is_sewn;
   Prepared_soup m_prepared;

@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_BINDINGS_RUN_REDUCTION_REQUEST_H
 #define SELVEDGE_BINDINGS_RUN_REDUCTION_REQUEST_H
 
+#include <selvedge/drop_parts.h>
 #include <selvedge/simplify.h>
 
 #include <cstddef>
@@ -22,7 +23,7 @@ struct Reduction_request
   /// Sets one option. Throws `Argument_error` when there is no such option, with a message that names the
   /// nearest, and when the value is not one that it takes.
   ///
-  /// One more option is "log": whether a log is wanted. The parts of `lock` and `keep` and the ratios of
+  /// One more option is "log": whether a log is wanted. The parts of `lock`, `keep` and `drop_part` and the ratios of
   /// `part_ratios` ("PART=R") are added to those set before.
   void set(const std::string& name, const std::string& value);
 
@@ -47,6 +48,7 @@ struct Reduction_request
   Prepare_options prepare;
   Triangle_soup obstacle;
   std::vector<std::string> may_intersect; ///< "PART:PART", with names of parts of the mesh
+  Parts_to_drop dropped_parts;
   bool is_sewn = false;
   bool is_log_wanted = false;
   bool is_error_given = false; ///< whether `options.max_error` is what the caller said, and no default

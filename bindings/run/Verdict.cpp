@@ -18,13 +18,20 @@ Judgement judgement_of(const Triangle_soup& mesh, const Triangle_soup* original,
 {
   if (!original && request.weld_distance > 0)
     throw Argument_error("weld: there is no original; give one, or leave it out");
+  if (!original && !request.dropped_parts.empty())
+    throw Argument_error("drop_part, drop_smaller: there is no original; give one, or leave them out");
   const app::Thread_limit limit(request.threads);
   Verify_options options;
   options.weld_distance = request.weld_distance;
   options.clearance = request.clearance;
   options.may_intersect = parts_in_pairs(mesh, request.may_intersect, "may_intersect");
-  return original ? judge(mesh, *original, options, obstacle)
-                  : Judgement{verify(mesh, options, obstacle), {}};
+  if (!original)
+    return {verify(mesh, options, obstacle), {}};
+  if (request.dropped_parts.empty())
+    return judge(mesh, *original, options, obstacle);
+  Triangle_soup left = *original;
+  drop_parts(left, request.dropped_parts);
+  return judge(mesh, left, options, obstacle);
 }
 
 } // namespace

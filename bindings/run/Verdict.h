@@ -5,6 +5,7 @@
 #define SELVEDGE_BINDINGS_RUN_VERDICT_H
 
 #include <selvedge/compare.h>
+#include <selvedge/drop_parts.h>
 
 #include <cstddef>
 #include <optional>
@@ -20,6 +21,7 @@ struct Verdict_request
   std::optional<double> clearance;
   std::vector<std::string> may_intersect; ///< "PART:PART", with names of parts of the mesh
   std::optional<std::size_t> threads;
+  Parts_to_drop dropped_parts = {}; ///< of the original
 };
 
 /// What the judge says of a mesh in memory, as `selvedge verify` says it of a file.

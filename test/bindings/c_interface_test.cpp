@@ -623,6 +623,10 @@ TEST(Bindings, JudgeAsTheProgramDoes)
   EXPECT_EQ(verdict_of_both(folder, small, "", {{"clearance", "1"}}), 1);
   verdict_of_both(folder, small, skirt, {{"clearance", "1"}});
   EXPECT_EQ(verdict_of_both(folder, small, skirt, {{"weld", "0.001"}}), 0);
+  const std::string part = "waistband",
+                    without = reduced(skirt, "without.obj", {"--ratio", "0.3", "--drop-part", part});
+  EXPECT_EQ(verdict_of_both(folder, without, skirt, {}), 1);
+  EXPECT_EQ(verdict_of_both(folder, without, skirt, {{"drop_part", part}}), 0);
   EXPECT_EQ(verdict_of_both(folder, small, "", {}, skirt), 1);
   EXPECT_EQ(verdict_of_both(folder, small, skirt, {}, skirt), 1);
 }
@@ -649,10 +653,9 @@ TEST(Bindings, HaveTheOptionsAndDefaultsOfTheProgram)
                 .code,
             0);
   nlohmann::json expected = nlohmann::json::parse(contents_of(report))["options"];
-  for (const char* name :
-       {"animation", "drop_attribute", "drop_part", "drop_smaller", "every", "humanoid_poses", "lods",
-        "morphs", "obstacle", "obstacle_animation", "obstacle_humanoid_poses", "obstacle_pose", "polygons",
-        "pose", "poses_out", "progressive", "strict", "without_pose"})
+  for (const char* name : {"animation", "drop_attribute", "every", "humanoid_poses", "lods", "morphs",
+                           "obstacle", "obstacle_animation", "obstacle_humanoid_poses", "obstacle_pose",
+                           "polygons", "pose", "poses_out", "progressive", "strict", "without_pose"})
     EXPECT_EQ(expected.erase(name), 1u);
   bindings::Reduction_request request;
   request.set("ratio", "0.5");

@@ -258,6 +258,31 @@ class Simplify(unittest.TestCase):
         with self.assertRaisesRegex(selvedge.ArgumentError, "poses is not an array of shape"):
             selvedge.simplify(*mesh, ratio=0.5, poses=mesh.points)
 
+    def test_small_and_named_parts_are_left_out(self):
+        mesh = layers(500)
+        corners = np.array([[0, 0, 9], [1, 0, 9], [0, 1, 9], [0, 0, 10.0]]) / 100
+        faces = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+        points = np.vstack([corners, mesh.points, corners + 1])
+        triangles = np.vstack([faces, mesh.triangles + 4, faces + 4 + len(mesh.points)])
+        groups = ["stitch"] * 4 + ["cloth"] * len(mesh.triangles) + ["stitch"] * 4
+        for options in ({"drop_smaller": 0.05}, {"drop_part": "stitch"}, {"drop_part": ["st*"], "drop_smaller": 1e-6}):
+            result = selvedge.simplify(points, triangles, groups=groups, ratio=0.5, log=True, **options)
+            self.assertTrue(result.accepted)
+            self.assertEqual(len(result.triangles), len(mesh.triangles) // 2)
+            self.assertEqual({groups[triangle] for triangle in result.birth}, {"cloth"})
+            np.testing.assert_array_equal(points[result.vertices], result.points)
+            self.assertTrue(selvedge.replay(points, triangles, result.log, groups=groups))
+            left = [groups[triangle] for triangle in result.birth]
+            original = (points, triangles)
+            self.assertTrue(selvedge.verify(result.points, result.triangles, original, groups=left, original_groups=groups, **options))
+            self.assertFalse(selvedge.verify(result.points, result.triangles, original, groups=left, original_groups=groups))
+            with self.assertRaisesRegex(selvedge.ArgumentError, "drop_smaller: there is no original"):
+                selvedge.verify(result.points, result.triangles, **options)
+        with self.assertRaisesRegex(selvedge.ArgumentError, "no group, object or material is called 'zip'"):
+            selvedge.simplify(points, triangles, groups=groups, ratio=0.5, drop_part="zip")
+        with self.assertRaisesRegex(selvedge.InputError, "no face would be left"):
+            selvedge.simplify(points, triangles, ratio=0.5, drop_smaller=100)
+
     def test_locked_vertices_are_numbers_or_a_mask(self):
         mesh = layers(500)
         count = len(mesh.points)

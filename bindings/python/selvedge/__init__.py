@@ -113,7 +113,7 @@ def simplify(points, triangles, *, uvs=None, normal_vectors=None, groups=None, a
     texture turns over.
     normal_vectors: the same with three numbers each. `normals`, an option, says what becomes of them.
     groups: one name for each triangle, such as its material; borders between groups are kept as seams are. `lock`, `keep`,
-    `part_ratios` and `may_intersect` ("A:B") refer to the names.
+    `drop_part`, `part_ratios` and `may_intersect` ("A:B") refer to the names.
     attributes: what else vertices have, such as colours: a dictionary of arrays with a row for each. `Result.attributes` has
     them of the result, interpolated where placement="optimal" has put a vertex to a new place.
     poses: further places of the points, an array of shape (poses, points, 3), such as frames of an animation: the result is
@@ -161,7 +161,7 @@ def key_poses(points, poses, count):
 
 def verify(points, triangles, original=None, *, obstacle=None, poses=None, original_poses=None, groups=None,
            original_groups=None, uvs=None, original_uvs=None, normal_vectors=None, original_normal_vectors=None,
-           clearance=None, weld=0, may_intersect=(), threads=None):
+           clearance=None, weld=0, may_intersect=(), drop_part=(), drop_smaller=0, threads=None):
     """Judges a mesh exactly: by itself, or as a result of reducing `original`, a `Mesh` or (points, triangles).
 
     Returns a `Verdict`, which is true when `selvedge verify` would exit with 0 for a file of this mesh: there are no new pairs
@@ -180,6 +180,7 @@ def verify(points, triangles, original=None, *, obstacle=None, poses=None, origi
     report says where seams and values differ; the verdict does not depend on them.
     clearance: a distance that pieces keep from each other, or as far as they are in the original.
     weld: within what length borders of the original may have been joined, where the mesh does not keep pieces apart.
+    drop_part, drop_smaller: what `simplify` was given: this is left out of the original.
     """
     of_original = (original_poses, original_groups, original_uvs, original_normal_vectors)
     if original is None and any(value is not None for value in of_original):
@@ -188,8 +189,8 @@ def verify(points, triangles, original=None, *, obstacle=None, poses=None, origi
     accepted, pairs, new_pairs, swaps, report = _selvedge.judge(
         _judged("mesh", (points, triangles), poses, groups, uvs, normal_vectors), before, None if obstacle is None else _mesh(obstacle, "obstacle"),
         _number("weld", weld), None if clearance is None else _number("clearance", clearance),
-        [str(pair) for pair in ([may_intersect] if isinstance(may_intersect, str) else may_intersect or ())],
-        None if threads is None else _whole("threads", threads, least=1))
+        _names(may_intersect), None if threads is None else _whole("threads", threads, least=1), _names(drop_part),
+        _number("drop_smaller", drop_smaller))
     return Verdict(accepted, report, pairs=pairs, new_pairs=new_pairs, swaps=swaps)
 
 
@@ -363,13 +364,17 @@ def _text(value):
     return str(value)
 
 
+def _names(value):
+    return [str(name) for name in ([value] if isinstance(value, str) else value or ())]
+
+
 def _texts(name, value):
     if value is None:
         return [(name, "none")] if name == "error" else []
     if isinstance(value, dict):
         return [(name, f"{part}={_text(ratio)}") for part, ratio in value.items()]
     if isinstance(value, (list, tuple, set, frozenset)) or getattr(value, "ndim", 0) > 0:
-        if name not in ("lock", "keep", "may_intersect", "part_ratios"):
+        if name not in ("lock", "keep", "drop_part", "may_intersect", "part_ratios"):
             raise ArgumentError(f"{name} takes one value, and not several")
         return [(name, _text(part)) for part in value]
     return [(name, _text(value))]

@@ -81,6 +81,8 @@ def simplify(
     lock: Union[str, Sequence[str]] = ...,
     keep: Union[str, Sequence[str]] = ...,
     may_intersect: Union[str, Sequence[str]] = ...,
+    drop_part: Union[str, Sequence[str]] = ...,
+    drop_smaller: float = ...,
     key_poses: str = ...,
     weld: Union[float, str] = ...,
     sewn: bool = ...,
@@ -109,6 +111,8 @@ def verify(
     clearance: Optional[float] = None,
     weld: float = 0,
     may_intersect: Union[str, Sequence[str]] = (),
+    drop_part: Union[str, Sequence[str]] = (),
+    drop_smaller: float = 0,
     threads: Optional[int] = None,
 ) -> Verdict: ...
 def replay(
