@@ -47,6 +47,8 @@ public:
   {
     if (m_options.faces_per_cell > 0)
       run_in_cells();
+    else
+      begin();
     return state(m_simplification.run());
   }
 
@@ -54,6 +56,7 @@ public:
   std::vector<Simplified_soup> run(const std::vector<double>& ratios)
   {
     std::vector<Simplified_soup> levels;
+    begin();
     m_simplification.run(ratios, [&](const Simplify_report& report) { levels.push_back(state(report)); });
     return levels;
   }
@@ -292,6 +295,13 @@ private:
       if (m_prepared.defects == Defects::descend)
         pose.offending_pairs = pairs_of_faces(m_prepared.offending_pairs_in_poses[i]);
     }
+  }
+
+  // Does at once what only reads the mesh.
+  void begin()
+  {
+    tbb::parallel_invoke(Cancellation_scope::inherited([this] { m_simplification.build_index(); }),
+                         Cancellation_scope::inherited([this] { m_simplification.begin(); }));
   }
 
   // Finds collapses in cells, and does them to the whole mesh, which then knows as much of them as of its own
