@@ -272,7 +272,9 @@ private:
             "one for each vertex; leave out --normals");
       return prepared;
     } catch (const Input_error& error) {
-      throw Input_error(input_name(m_request.input) + ": " + error.what());
+      throw Input_error(input_name(m_request.input) +
+                        (m_request.dropped_parts.empty() ? ": " : ", without what is left out: ") +
+                        error.what());
     }
   }
 

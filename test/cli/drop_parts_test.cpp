@@ -120,6 +120,12 @@ TEST(App_drop_parts, RefusesWhatLeavesNothing)
                  "no group, object or material is called 'stitches'; there are cloth");
   expect_refused(simplify + Arguments{"--drop-smaller", "0"}, 2,
                  "--drop-smaller: '0' is not a positive number");
+  Triangle_soup pierced = joined(stitched_sheet(1), moved(crossing(), 0, 0, 9));
+  pierced.groups = {};
+  write_mesh(folder / "crossing.obj", pierced);
+  expect_refused(
+      {"simplify", folder / "crossing.obj", "-o", out, "--ratio", "0.5", "--strict", "--drop-smaller", "0.5"},
+      3, "crossing.obj, without what is left out: ");
   const App_result none = run_app(simplify + Arguments{"--drop-smaller", "0.01"});
   EXPECT_EQ(none.code, 0);
   EXPECT_NE(none.err.find("--drop-smaller leaves out nothing: no piece of "), std::string::npos) << none.err;
