@@ -303,7 +303,8 @@ void print(const Info_request& request, const Contents& contents, const std::vec
     std::cout << "  " << counted(mesh.left_out_faces, "face")
               << " with two corners at one position, which count for nothing below\n";
   if (mesh.unused_vertices > 0)
-    std::cout << "  " << with_commas(mesh.unused_vertices) << " of the vertices belong to no face\n";
+    std::cout << "  " << with_commas(mesh.unused_vertices) << " of the vertices "
+              << (mesh.unused_vertices == 1 ? "belongs" : "belong") << " to no face\n";
   print_content(contents, parts);
   print_surfaces(mesh, small);
   print_seams(mesh);
@@ -413,6 +414,7 @@ Exit_code run(const Info_request& request)
   Inspection mesh;
   try {
     mesh = inspect(std::move(file.soup));
+    mesh.unused_vertices -= file.notes.joined_vertices;
   } catch (const Input_error& error) {
     throw Input_error(input_name(request.mesh) + ": " + error.what());
   }

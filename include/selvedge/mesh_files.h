@@ -161,6 +161,9 @@ struct Read_notes
   std::size_t repeated_corner = 0;  ///< faces that name a vertex more than once; kept
   std::size_t fewer_than_three = 0; ///< faces of fewer than three corners; skipped
 
+  /// Vertices that triangles name in the file and not in the soup: those that are one with another.
+  std::size_t joined_vertices = 0;
+
   /// What was read otherwise than it stands in the file, and how often.
   std::map<std::string, std::size_t> remarks;
 

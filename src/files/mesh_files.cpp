@@ -105,9 +105,19 @@ void refuse_what_is_no_mesh(std::string_view contents, Mesh_format format, const
     throw Input_error(name + ": the text of the file is in UTF-16; save it in UTF-8 or ASCII");
 }
 
+std::size_t count_of_used_vertices(const Triangle_soup& soup)
+{
+  std::vector<char> is_used(soup.points.size(), false);
+  for (const Index_triple& triangle : soup.triangles)
+    for (const Index v : triangle)
+      is_used[v] = true;
+  return std::size_t(std::count(is_used.begin(), is_used.end(), true));
+}
+
 // PLY and glTF: connects the faces of a file that has several vertices at a place because of their normals.
 Mesh_file with_shared_vertices(Mesh_file file)
 {
+  const std::size_t used = count_of_used_vertices(file.soup);
   const bool is_flat = has_flat_normals(file.soup);
   if (const std::size_t joined = share_split_vertices(file.soup); joined > 0)
     file.notes.remarks[std::string("corners joined, for their vertices differ in nothing, or only in ") +
@@ -115,6 +125,7 @@ Mesh_file with_shared_vertices(Mesh_file file)
   if (const std::size_t joined = share_poles(file.soup); joined > 0)
     file.notes.remarks["corners joined, for around a pole every face has texture coordinates of its own"] +=
         joined;
+  file.notes.joined_vertices += used - count_of_used_vertices(file.soup);
   return file;
 }
 
@@ -166,11 +177,7 @@ std::vector<std::string> not_carried_by_gltf(const Triangle_soup& soup)
 Mesh_file connected(Mesh_file file)
 {
   Triangle_soup& soup = file.soup;
-  std::vector<char> is_used(soup.points.size(), false);
-  for (const Index_triple& triangle : soup.triangles)
-    for (const Index v : triangle)
-      is_used[v] = true;
-  const std::size_t used = std::count(is_used.begin(), is_used.end(), true);
+  const std::size_t used = count_of_used_vertices(soup);
   constexpr std::size_t few = 100;
   const std::size_t triangles = soup.triangles.size();
   const bool is_of_quads = 2 * file.notes.polygons_cut == triangles;
@@ -181,8 +188,10 @@ Mesh_file connected(Mesh_file file)
   for (Index_triple& triangle : soup.triangles)
     for (Index& v : triangle)
       joined += std::exchange(v, first[v]) != first[v];
-  if (joined > 0)
+  if (joined > 0) {
     file.notes.remarks["corners of faces joined, for every face has vertices of its own"] += joined;
+    file.notes.joined_vertices += used - count_of_used_vertices(soup);
+  }
   return file;
 }
 

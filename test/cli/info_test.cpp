@@ -112,6 +112,27 @@ TEST(App_info, ListsAttributesThatNotEveryPrimitiveHas)
   EXPECT_EQ(contents["attributes_of_different_types"], Json({"_WEAR"}));
 }
 
+// Vertices that are one for a reduction, because every face has its own, have faces in the file.
+TEST(App_info, CountsVerticesWithoutFacesAsTheFileHasThem)
+{
+  const Workspace folder;
+  std::string text = "v 9 9 9\n";
+  std::size_t vertex = 1;
+  for (int i = 0; i < 100; ++i) {
+    for (const char* corner : {" 0 0\n", " 1 0\n", " 0 1\n"})
+      text += "v " + std::to_string(i / 2) + corner;
+    text += "f";
+    for (int k = 0; k < 3; ++k)
+      text += ' ' + std::to_string(++vertex);
+    text += '\n';
+  }
+  const std::string mesh = folder / "apart.obj";
+  write_text(mesh, text);
+  const App_result result = run_app({"info", mesh});
+  EXPECT_NE(result.out.find("corners of faces joined"), std::string::npos) << result.out << result.err;
+  EXPECT_NE(result.out.find("\n  1 of the vertices belongs to no face\n"), std::string::npos) << result.out;
+}
+
 TEST(App_info, RefusesWhatIsNoMesh)
 {
   const Workspace folder;
