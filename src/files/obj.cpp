@@ -247,8 +247,11 @@ private:
     return static_cast<Index>(index);
   }
 
+  // What has no name is nothing until something with a name has begun: Houdini writes «g» alone.
   void start_label(Label_reader& reader, const std::string& name)
   {
+    if (name.empty() && !reader.is_begun)
+      return;
     if (reader.is_unused)
       m_builder.ignore(reader.plural + " without faces");
     if (!reader.is_begun && !m_builder.soup().triangles.empty())

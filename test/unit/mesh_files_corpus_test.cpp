@@ -192,6 +192,7 @@ const std::vector<Entry>& corpus()
        "not carried, texture coordinates that no face names: 1"},
       {"ObjEmptyGroup", obj, corner + "g nothing\ng all\nf 1 2 3\n", "", 3, 1,
        "not carried, groups without faces: 1"},
+      {"ObjGroupsWithoutName", obj, "g\n" + corner + "g\nf 1 2 3\n", "", 3, 1},
 
       // Nothing there
       {"ObjEmpty", obj, "", ": the file is empty"},
