@@ -61,7 +61,7 @@ public:
     drop_nodes(std::move(nodes_before));
     drop_meshes(std::move(meshes));
     m_document.remarks["levels of detail (MSFT_lod), of which this is number " + std::to_string(level + 1) +
-                       "; the others are left out"] = levels;
+                       "; the others are left out"] = levels - 1;
     const Json& materials = member(m_json, "materials");
     if (std::none_of(materials.begin(), materials.end(), levels_of))
       remove_extension(m_json, levels_extension);
