@@ -33,6 +33,9 @@ namespace {
 // From here on a user should know where the result is off.
 constexpr double far_off = 0.01;
 
+/// What the arithmetic of distances leaves where there is none, as a share of the size.
+constexpr double rounding = 0x1p-44;
+
 /// Returns the reasons that hold edges back, those of most edges first.
 std::vector<Hindrances::Description> reasons(const Hindrances& hindrances)
 {
@@ -528,11 +531,27 @@ bool would_new_places_help(const Simplify_request& request, const Prepared_soup&
          level.verification.distances->original_to_result.root_mean_square > near;
 }
 
+void print_normals(std::ostream& stream, Normals_treatment treatment, const Simplified_soup& result)
+{
+  const std::size_t others = std::max(result.fitted_normals, result.mended_normals);
+  if (treatment == Normals_treatment::smoothed)
+    stream << "\nnormals: fitted to the smooth shading of the input";
+  else if (are_fitted(treatment) && others > 0)
+    stream << "\nnormals: fitted to the shading of the input, other ones at " << counted(others, "corner")
+           << " of " << with_commas(3 * result.soup.triangles.size());
+  else if (others > 0)
+    stream << "\nnormals: kept, but for " << counted(others, "corner")
+           << " with a new one, as the old one is too far from the normal of the face";
+}
+
 void print_summary(std::ostream& stream, const Simplify_request& request, const Prepared_soup& prepared,
                    const Level& level, const Outcome& outcome, const Level* before)
 {
   const auto& [output, result, verification, distances_anywhere, guarded, polygons, number, error_search,
                notes, bytes_more] = level;
+  const Mesh_format format = format_of(request.output, request.format);
+  const bool has_normals = format != Mesh_format::off && format != Mesh_format::stl;
+  const bool has_polygons = format != Mesh_format::stl && !is_gltf(format);
   const Simplify_report& done = result.report;
   const std::size_t faces = result.soup.triangles.size();
   const Distance& distance = verification.distances->original_to_result;
@@ -595,16 +614,9 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
     stream << "\nvertices: " << with_commas(result.soup.points.size() - result.placed_vertices)
            << " kept bit for bit, " << with_commas(result.placed_vertices) << " at new places"
            << (has_vertex_values(prepared.soup) ? " with interpolated attributes" : "");
-  if (prepared.normals == Normals_treatment::smoothed)
-    stream << "\nnormals: fitted to the smooth shading of the input";
-  else if (prepared.normals == Normals_treatment::fitted) {
-    if (const std::size_t others = std::max(result.fitted_normals, result.mended_normals); others > 0)
-      stream << "\nnormals: fitted to the shading of the input, other ones at " << counted(others, "corner")
-             << " of " << with_commas(3 * faces);
-  } else if (result.mended_normals > 0)
-    stream << "\nnormals: kept, but for " << counted(result.mended_normals, "corner")
-           << " with a new one, as the old one is too far from the normal of the face";
-  if (polygons.input > 0)
+  if (has_normals)
+    print_normals(stream, prepared.normals, result);
+  if (polygons.input > 0 && has_polygons)
     stream << "\npolygons: " << with_commas(polygons.output) << " of " << counted(polygons.input, "face")
            << " of more than three corners written as they were";
   stream << "\njudged: ";
@@ -627,10 +639,13 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
     stream << "\nmay intersect: " << counted(parts.pairs_of_original, "pair") << " between '" << parts.first
            << "' and '" << parts.second << "' before, " << with_commas(parts.pairs) << " now";
   stream << "\ndistance from the original's vertices"
-         << (verification.poses.empty() ? "" : " in the mesh's own pose") << ": "
-         << percent(distance.root_mean_square) << " of the diagonal (RMS), at most "
-         << percent(distance.maximum)
-         << (would_new_places_help(request, prepared, level) ? "; --placement optimal comes nearer" : "")
+         << (verification.poses.empty() ? "" : " in the mesh's own pose") << ": ";
+  if (distance.maximum > 0 && distance.maximum <= rounding)
+    stream << "no more than rounding";
+  else
+    stream << percent(distance.root_mean_square) << " of the diagonal (RMS), at most "
+           << percent(distance.maximum);
+  stream << (would_new_places_help(request, prepared, level) ? "; --placement optimal comes nearer" : "")
          << '\n';
   if (distances_anywhere)
     print_distances(stream, level, *distances_anywhere, *request.options.max_error);

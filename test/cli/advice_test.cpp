@@ -17,7 +17,9 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -242,6 +244,56 @@ double rms_of(const std::string& summary)
   const std::string before = "distance from the original's vertices: ";
   const std::size_t place = summary.find(before);
   return place == std::string::npos ? -1 : std::stod(summary.substr(place + before.size()));
+}
+
+TEST(App_simplify, CallsADistanceOfRoundingSo)
+{
+  const Workspace folder;
+  const std::string in = folder / "tilted.obj";
+  std::ostringstream text;
+  text.precision(17);
+  constexpr int columns = 20;
+  for (int i = 0; i <= columns; ++i)
+    for (int j = 0; j <= columns; ++j)
+      text << "v " << 0.1 * i << ' ' << 0.1 * j << ' ' << 0.1 * i / 3 + 0.1 * j / 7 << '\n';
+  for (int i = 0; i < columns; ++i)
+    for (int j = 0; j < columns; ++j) {
+      const int a = (columns + 1) * i + j + 1, c = a + columns + 1;
+      text << "f " << a << ' ' << c << ' ' << c + 1 << "\nf " << a << ' ' << c + 1 << ' ' << a + 1 << '\n';
+    }
+  write_text(in, text.str());
+  const App_result result = run_app({"simplify", in, "-o", folder / "out.obj", "--ratio", "0.1"});
+  EXPECT_NE(result.out.find("\ndistance from the original's vertices: no more than rounding\n"),
+            std::string::npos)
+      << result.out << result.err;
+}
+
+TEST(App_simplify, SaysNothingOfNormalsAndPolygonsThatTheFormatCannotHold)
+{
+  const Workspace folder;
+  const std::string in = folder / "waves.obj";
+  std::ostringstream text;
+  constexpr int columns = 20;
+  for (int i = 0; i <= columns; ++i)
+    for (int j = 0; j <= columns; ++j)
+      text << "v " << i << ' ' << j << ' ' << std::sin(i) << "\nvn " << -std::cos(i) << " 0 1\n";
+  for (int i = 0; i < columns; ++i)
+    for (int j = 0; j < columns; ++j) {
+      text << 'f';
+      for (const int corner : {0, columns + 1, columns + 2, 1}) {
+        const int vertex = (columns + 1) * i + j + 1 + corner;
+        text << ' ' << vertex << "//" << vertex;
+      }
+      text << '\n';
+    }
+  write_text(in, text.str());
+  for (const auto& [name, has_normals, has_polygons] :
+       {std::tuple("out.obj", true, true), std::tuple("out.off", false, true),
+        std::tuple("out.glb", true, false), std::tuple("out.stl", false, false)}) {
+    const std::string out = run_app({"simplify", in, "-o", folder / name, "--ratio", "0.5"}).out;
+    EXPECT_EQ(out.find("\nnormals: fitted") != std::string::npos, has_normals) << out;
+    EXPECT_EQ(out.find("\npolygons: ") != std::string::npos, has_polygons) << out;
+  }
 }
 
 // Where a target is missed, the last faces cost much: they are kept. What the summary names lets them go.
