@@ -261,13 +261,12 @@ void add_options(CLI::App& command, Simplify_request& request)
           "Normals of the input: keep them as they are, so that an edge with different normals on its "
           "two sides is a seam; mend them: those that give every face its own normal, or that would come to "
           "belong to another side of the surface, are made anew, and those that differ by at most 0.1 "
-          "degrees at a vertex become one; loose also makes no seams of edges: each face gets those normals "
-          "of its vertices that suit it best; recompute makes all anew, with the hard edges of the input; "
-          "smooth makes smooth ones first, hard where faces turn by more than 60 degrees, for scans that are "
-          "shaded flat or have none; or "
-          "leave them out, so that vertices of PLY and glTF that differ in nothing else are one. "
-          "auto mends them, and then fits them to the shading of the input, which is truer on large faces "
-          "than what is kept at their corners.")
+          "degrees at a vertex become one; loose is auto without seams where normals differ: each face first "
+          "gets those normals of its vertices that suit it best; recompute makes all anew, with the hard "
+          "edges of the input; smooth makes smooth ones first, hard where faces turn by more than 60 degrees, "
+          "for scans that are shaded flat or have none; or leave them out, so that vertices of PLY and glTF "
+          "that differ in nothing else are one. auto mends them, and then fits them to the shading of the "
+          "input, which is truer on large faces than what is kept at their corners.")
       ->transform(one_of<Normals_choice>({{"auto", Normals_choice::automatic},
                                           {"keep", Normals_choice::keep},
                                           {"mend", Normals_choice::mend},

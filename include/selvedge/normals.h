@@ -23,8 +23,8 @@ enum class Normals_choice {
   mend,      ///< flat normals are made anew for the faces that change (`keep_flat_normals`); all others are
              ///< kept, those that are nearly alike at a vertex as one (`join_near_normals`), and mended
              ///< (`mend_normals`)
-  loose,     ///< as `mend`; but different normals make no lines: every corner gets that normal of its vertex
-             ///< which suits its triangle best (`pick_normals`)
+  loose,     ///< as `automatic`; but different normals make no lines: every corner gets that normal of its
+             ///< vertex which suits its triangle best (`pick_normals`), before they are fitted
   recompute, ///< the result gets new normals, made as those of the input seem to be made
   smooth,    ///< as `automatic`, with smooth normals in place of those of the input (`smooth_normals`)
   drop       ///< the result has no normals
@@ -36,7 +36,8 @@ enum class Normals_treatment {
   kept,     ///< they are treated like any other attribute
   mended,   ///< as kept; but those that were nearly alike at a vertex are one, and a corner gets a new one
             ///< where its own is too far from that of its triangle
-  picked,   ///< every corner gets one of those that its vertex has in the input, or a new one as in mended
+  picked,   ///< every corner gets one of those that its vertex has in the input, or a new one as in mended,
+            ///< and they are then fitted
   fitted,   ///< as mended, and then fitted to the shading of the input
   smoothed, ///< as fitted, with smooth normals in place of those of the input
   flat,     ///< every corner gets the normal of its triangle, or of the polygon or face (`keep_flat_normals`)
@@ -62,14 +63,15 @@ inline bool are_joined(Normals_treatment treatment)
 /// Returns whether a reduction fits the normals to the shading of the input.
 inline bool are_fitted(Normals_treatment treatment)
 {
-  return treatment == Normals_treatment::fitted || treatment == Normals_treatment::smoothed;
+  return treatment == Normals_treatment::fitted || treatment == Normals_treatment::smoothed ||
+         treatment == Normals_treatment::picked;
 }
 
-/// Returns whether a reduction keeps the normals that the prepared soup has: they are kept, mended or fitted.
+/// Returns whether a reduction keeps the normals that the prepared soup has, mended or fitted in the end.
 inline bool are_kept(Normals_treatment treatment)
 {
-  return treatment == Normals_treatment::kept || treatment == Normals_treatment::mended ||
-         are_fitted(treatment);
+  return treatment == Normals_treatment::kept || are_joined(treatment) ||
+         treatment == Normals_treatment::smoothed;
 }
 
 /// Returns whether normals are *flat*: those of 99 % of all corners differ from the normal of their triangle
@@ -179,8 +181,8 @@ std::size_t mend_normals(Triangle_soup& result, const std::vector<Index>& triang
 /// Gives corners of a result the normals with which its surface shades most like the original: those that,
 /// interpolated over each triangle, are nearest to those of the original there, in the sense of least
 /// squares. A normal that is kept is right at its vertex alone; on large triangles it also shades what was
-/// far from there. Triangle i is what is left of triangle `triangles[i]` of the original, and has its corners
-/// from the corners `corners[i]`, numbered as 3 × triangle + place.
+/// far from there. Triangle i is what is left of triangle `triangles[i]` of the original, whose corners have
+/// `normals`, and has its corners from the corners `corners[i]`, numbered as 3 × triangle + place.
 ///
 /// The original is sampled at three points of every triangle. A sample counts for the triangle of the result
 /// that is nearest, of those of the same surface (what is connected by positions) that face the same side, if
@@ -202,7 +204,7 @@ std::size_t mend_normals(Triangle_soup& result, const std::vector<Index>& triang
 /// **Complexity** O(n log n) as a rule for n triangles of the original. Computed in double.
 std::size_t fit_normals(Triangle_soup& result, const std::vector<Index>& triangles,
                         const std::vector<Index_triple>& corners, const Triangle_soup& original,
-                        const std::vector<char>& stays = {});
+                        const Corner_values<3>& normals, const std::vector<char>& stays = {});
 
 } // namespace selvedge
 

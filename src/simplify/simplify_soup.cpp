@@ -374,14 +374,15 @@ private:
     const Corner_values<3>& taken = m_prepared.taken_normals;
     if (m_prepared.normals == Normals_treatment::flat && !taken.empty())
       keep_flat_normals(result.soup, result.triangles, original, taken);
-    if (m_prepared.normals == Normals_treatment::picked)
-      pick_normals(result.soup, result.triangles, left.corners, original, taken);
-    if (m_prepared.normals == Normals_treatment::picked || m_prepared.normals == Normals_treatment::mended ||
-        are_fitted(m_prepared.normals))
-      result.mended_normals =
-          mend_normals(result.soup, result.triangles, original, taken.empty() ? original.normals : taken);
+    const bool are_picked = m_prepared.normals == Normals_treatment::picked;
+    const Corner_values<3>& normals = are_picked ? taken : original.normals;
+    if (are_picked)
+      pick_normals(result.soup, result.triangles, left.corners, original, normals);
+    if (m_prepared.normals == Normals_treatment::mended || are_fitted(m_prepared.normals))
+      result.mended_normals = mend_normals(result.soup, result.triangles, original, normals);
     if (are_fitted(m_prepared.normals))
-      result.fitted_normals = fit_normals(result.soup, result.triangles, left.corners, original, m_is_frozen);
+      result.fitted_normals =
+          fit_normals(result.soup, result.triangles, left.corners, original, normals, m_is_frozen);
     result.corners = std::move(left.corners);
     result.placed_vertices = left.placed_vertices;
     if (report.hindrances.total() > 0)

@@ -65,14 +65,14 @@ class Normal_fit
 public:
   Normal_fit(Triangle_soup& result, const std::vector<Index>& triangles,
              const std::vector<Index_triple>& corners, const Triangle_soup& original,
-             const std::vector<char>& stays)
-      : m_result(result), m_triangles(triangles), m_original(original), m_exponent(exponent_of(original)),
-        m_is_left(original.triangles.size(), false)
+             const Corner_values<3>& normals, const std::vector<char>& stays)
+      : m_result(result), m_triangles(triangles), m_original(original), m_normals(normals),
+        m_exponent(exponent_of(original)), m_is_left(original.triangles.size(), false)
   {
     for (Index i = 0; i < triangles.size(); ++i) {
       const Index t = triangles[i];
       m_sides.push_back(
-          has_normals(result, i) ? side_of(cosines(unit_normal(original, t), original.normals, t)) : 0);
+          has_normals(result.normals, i) ? side_of(cosines(unit_normal(original, t), normals, t)) : 0);
       m_fronts.push_back(unit_normal(result, i));
     }
     number_wedges();
@@ -116,9 +116,9 @@ private:
     return largest > 0 ? -std::ilogb(largest) : 0;
   }
 
-  static bool has_normals(const Triangle_soup& soup, Index triangle)
+  static bool has_normals(const Corner_values<3>& normals, Index triangle)
   {
-    return soup.normals.of_triangle[triangle][0] != soup.normals.missing;
+    return normals.of_triangle[triangle][0] != normals.missing;
   }
 
   bool is_changed(Index i, const Index_triple& corners) const
@@ -190,7 +190,7 @@ private:
     using Key = std::tuple<Index, Vector, Index>; // position, normal, corner
     std::vector<Key> keys;
     for (Index i = 0; i < m_result.triangles.size(); ++i)
-      if (has_normals(m_result, i))
+      if (has_normals(m_result.normals, i))
         for (Index k = 0; k < 3; ++k)
           keys.emplace_back(positions[m_result.triangles[i][k]], finite(normal_at(m_result.normals, i, k)),
                             3 * i + k);
@@ -219,18 +219,19 @@ private:
     std::vector<char> are_changed(count), is_free(m_old.size(), false);
     for (Index i = 0; i < count; ++i) {
       are_changed[i] = is_changed(i, corners[i]);
-      if (are_changed[i] && has_normals(m_result, i))
+      if (are_changed[i] && has_normals(m_result.normals, i))
         for (const Index wedge : m_wedges[i])
           is_free[wedge] = true;
     }
     for (Index i = 0; i < count && !stays.empty(); ++i)
-      if (stays[m_triangles[i]] && has_normals(m_result, i))
+      if (stays[m_triangles[i]] && has_normals(m_result.normals, i))
         for (const Index wedge : m_wedges[i])
           is_free[wedge] = false;
     for (std::size_t w = 0; w < m_old.size(); ++w)
       m_is_fixed[w] |= !is_free[w];
     for (Index i = 0; i < count; ++i)
-      m_is_left[m_triangles[i]] = !are_changed[i] && (!has_normals(m_result, i) || are_fixed(m_wedges[i]));
+      m_is_left[m_triangles[i]] =
+          !are_changed[i] && (!has_normals(m_result.normals, i) || are_fixed(m_wedges[i]));
   }
 
   bool are_fixed(const Index_triple& wedges) const
@@ -242,7 +243,7 @@ private:
   {
     m_mass.assign(m_old.size(), 0);
     for (Index i = 0; i < m_result.triangles.size(); ++i)
-      if (has_normals(m_result, i))
+      if (has_normals(m_result.normals, i))
         for (const Index wedge : m_wedges[i])
           m_mass[wedge] += area(scaled(m_result, i)) / 3;
   }
@@ -305,14 +306,14 @@ private:
   std::array<Sample, 3> samples_of(Index t, const Triangle_finder& finder, std::size_t surface) const
   {
     std::array<Sample, 3> samples;
-    if (!has_normals(m_original, t))
+    if (!has_normals(m_normals, t))
       return samples;
     const std::array<Vector, 3> corners = scaled(m_original, t);
     const double weight = area(corners) / 3;
-    const int side = side_of(cosines(unit_normal(m_original, t), m_original.normals, t));
+    const int side = side_of(cosines(unit_normal(m_original, t), m_normals, t));
     std::array<Vector, 3> normals;
     for (std::size_t k = 0; k < 3; ++k)
-      normals[k] = unit(finite(normal_at(m_original.normals, t, k)));
+      normals[k] = unit(finite(normal_at(m_normals, t, k)));
     for (std::size_t j = 0; j < 3 && weight > 0; ++j) {
       Vector place{}, normal{};
       for (std::size_t k = 0; k < 3; ++k)
@@ -550,7 +551,7 @@ private:
   {
     std::vector<char> result(normals.size(), true);
     for (Index i = 0; i < m_result.triangles.size(); ++i)
-      if (has_normals(m_result, i))
+      if (has_normals(m_result.normals, i))
         for (std::size_t k = 0; k < 3; ++k) {
           const Index w = m_wedges[i][k];
           const double before =
@@ -593,7 +594,7 @@ private:
       }
     std::size_t changed = 0;
     for (Index i = 0; i < m_result.triangles.size(); ++i)
-      if (has_normals(m_result, i))
+      if (has_normals(m_result.normals, i))
         for (std::size_t k = 0; k < 3; ++k)
           if (const Index w = m_wedges[i][k]; !is_kept[w]) {
             m_result.normals.of_triangle[i][k] = numbers[w];
@@ -608,6 +609,7 @@ private:
   Triangle_soup& m_result;
   const std::vector<Index>& m_triangles;
   const Triangle_soup& m_original;
+  const Corner_values<3>& m_normals; // of the corners of the original
   int m_exponent;
   std::vector<char> m_is_left;        // by triangle of the original: it is in the result with its normals
   std::vector<int> m_sides;           // by triangle of the result
@@ -624,9 +626,9 @@ private:
 
 std::size_t fit_normals(Triangle_soup& result, const std::vector<Index>& triangles,
                         const std::vector<Index_triple>& corners, const Triangle_soup& original,
-                        const std::vector<char>& stays)
+                        const Corner_values<3>& normals, const std::vector<char>& stays)
 {
-  return result.normals.empty() ? 0 : Normal_fit(result, triangles, corners, original, stays).run();
+  return result.normals.empty() ? 0 : Normal_fit(result, triangles, corners, original, normals, stays).run();
 }
 
 } // namespace selvedge

@@ -207,15 +207,31 @@ std::vector<char> triangles_that_stay(const World& world, const World_run& run)
   return result;
 }
 
-// Judges the normals of a result that are fitted: those of triangles that stay, or around which nothing has
-// changed, are what they were, those on borders are so too or mended, and no other one is farther from that
-// of its triangle than was promised.
+// Returns the normals of the original at each vertex.
+std::map<Index, std::vector<Normal>> normals_at_vertices(const Triangle_soup& original,
+                                                         const Corner_values<3>& normals)
+{
+  std::map<Index, std::vector<Normal>> result;
+  for (Index t = 0; t < original.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3 && normals.of_triangle[t][0] != normals.missing; ++k)
+      result[original.triangles[t][k]].push_back(normal_of(normals, t, k));
+  return result;
+}
+
+// Judges the normals of a result that are fitted, after some were picked or not: those of triangles that
+// stay, or around which nothing has changed, are what they were, those on borders are so too, picked or
+// mended, and no other one is farther from that of its triangle than was promised.
 Verdict judge_fitted_normals(const World& world, const World_run& run, const std::set<std::size_t>& placed)
 {
   constexpr double margin = 1e-6, limit = 0.2; // NaN is beyond no limit
   const Triangle_soup &result = run.result.soup, &original = run.prepared.soup;
-  if (run.prepared.normals != Normals_treatment::fitted)
+  const bool are_picked = run.prepared.normals == Normals_treatment::picked;
+  if (!are_picked && run.prepared.normals != Normals_treatment::fitted)
     return std::nullopt;
+  const Corner_values<3>& normals = are_picked ? run.prepared.taken_normals : original.normals;
+  std::map<Index, std::vector<Normal>> at_vertices;
+  if (are_picked)
+    at_vertices = normals_at_vertices(original, normals);
   if (result.normals.of_triangle.size() != result.triangles.size())
     return Broken_promise{Promise::attributes, "the result has no normals"};
   const std::set<Position> on_borders = positions_on_borders(result), changes = positions_of_changes(run);
@@ -226,49 +242,52 @@ Verdict judge_fitted_normals(const World& world, const World_run& run, const std
     const auto broken = [&](const char* what) {
       return Broken_promise{Promise::attributes, "triangle " + std::to_string(i) + " of the result: " + what};
     };
-    if (is_missing != (original.normals.of_triangle[t][0] == original.normals.missing))
+    if (is_missing != (normals.of_triangle[t][0] == normals.missing))
       return broken("it has lost or got normals");
     if (is_missing)
       continue;
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k)
-      sum += cosine(normal_of(original.normals, t, k), original, t);
+      sum += cosine(normal_of(normals, t, k), original, t);
+    const double side = sum < 0 ? -1 : 1;
+    const bool is_left = run.result.corners[i] == Index_triple{3 * t, 3 * t + 1, 3 * t + 2};
     for (std::size_t k = 0; k < 3; ++k) {
       const Index corner = run.result.corners[i][k];
       const Position here = position(result, result.triangles[i][k]);
       const Normal now = normal_of(result.normals, i, k);
-      const Normal old = normal_of(original.normals, corner / 3, corner % 3);
-      if (now == old || placed.count(original.triangles[corner / 3][corner % 3]) > 0)
+      const Index vertex = original.triangles[corner / 3][corner % 3];
+      std::vector<Normal> old = {normal_of(normals, corner / 3, corner % 3)};
+      if (are_picked && !is_left) {
+        old = at_vertices[vertex];
+        if (old.empty())
+          old.push_back(normal_of(normals, t, k));
+      }
+      if (std::find(old.begin(), old.end(), now) != old.end() || (!are_picked && placed.count(vertex) > 0))
         continue;
       if (is_as_it_was(run, i) && (stays[t] != 0 || changes.count(here) == 0))
         return broken("another normal, and nothing has changed");
       if (on_borders.count(here) > 0)
-        if (const char* what = wrong_in_mended_normal(result, i, k, original, original.normals, t, {old}))
+        if (const char* what = wrong_in_mended_normal(result, i, k, original, normals, t, old))
           return broken(what);
       if (!is_unit(result.normals, i, k))
         return broken("a new normal of another length");
-      const double side = sum < 0 ? -1 : 1;
-      if (std::abs(sum) > margin &&
-          side * cosine(now, result, i) < std::min(limit, side * cosine(old, result, i)) - margin)
+      double nearest = -1;
+      for (const Normal& normal : old)
+        nearest = std::max(nearest, side * cosine(normal, result, i));
+      if (std::abs(sum) > margin && side * cosine(now, result, i) < std::min(limit, nearest) - margin)
         return broken("a new normal of another side");
     }
   }
   return std::nullopt;
 }
 
-// Judges the normals of a result that are kept, but for those that are mended, or picked.
+// Judges the normals of a result that are kept, but for those that are mended.
 Verdict judge_mended_normals(const World_run& run, const std::set<std::size_t>& placed)
 {
   const Triangle_soup &result = run.result.soup, &original = run.prepared.soup;
-  const bool are_picked = run.prepared.normals == Normals_treatment::picked;
-  if (!are_picked && run.prepared.normals != Normals_treatment::mended)
+  const Corner_values<3>& normals = original.normals;
+  if (run.prepared.normals != Normals_treatment::mended)
     return std::nullopt;
-  const Corner_values<3>& normals = are_picked ? run.prepared.taken_normals : original.normals;
-  const auto vertex_of = [&](Index corner) { return original.triangles[corner / 3][corner % 3]; };
-  std::map<Index, std::vector<Normal>> at_vertices;
-  for (Index corner = 0; corner < 3 * original.triangles.size(); ++corner)
-    if (normals.of_triangle[corner / 3][0] != normals.missing)
-      at_vertices[vertex_of(corner)].push_back(normal_of(normals, corner / 3, corner % 3));
   if (result.normals.of_triangle.size() != result.triangles.size())
     return Broken_promise{Promise::attributes, "the result has no normals"};
   for (Index i = 0; i < result.triangles.size(); ++i) {
@@ -278,13 +297,9 @@ Verdict judge_mended_normals(const World_run& run, const std::set<std::size_t>& 
       return Broken_promise{Promise::attributes, "a triangle has lost or got normals"};
     for (std::size_t k = 0; k < 3 && !is_missing; ++k) {
       const Index corner = run.result.corners[i][k];
-      std::vector<Normal> old = at_vertices[vertex_of(corner)];
-      if (!are_picked)
-        old = {normal_of(normals, corner / 3, corner % 3)};
-      else if (old.empty() || corner == 3 * t + k)
-        old.push_back(normal_of(normals, t, k));
-      if (const bool is_mixed = !are_picked && placed.count(vertex_of(corner)) > 0; !is_mixed)
-        if (const char* const what = wrong_in_mended_normal(result, i, k, original, normals, t, old))
+      const Normal old = normal_of(normals, corner / 3, corner % 3);
+      if (placed.count(original.triangles[corner / 3][corner % 3]) == 0)
+        if (const char* const what = wrong_in_mended_normal(result, i, k, original, normals, t, {old}))
           return Broken_promise{Promise::attributes,
                                 "triangle " + std::to_string(i) + " of the result: " + what};
     }
