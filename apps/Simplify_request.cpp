@@ -317,6 +317,7 @@ Json options_json(const Simplify_request& request)
           {"normal_change", options.max_normal_change},
           {"aspect_ratio", options.min_aspect_ratio},
           {"border_turn", options.max_border_turn},
+          {"corner_height", options.max_corner_height},
           {"seam_turn", options.max_seam_turn},
           {"border_drift", options.max_border_drift},
           {"placement", options.placement == Placement::optimal ? "optimal" : "vertices"},

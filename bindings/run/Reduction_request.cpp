@@ -191,6 +191,7 @@ const std::vector<Option>& table()
       number_option<&Simplify_options::max_normal_change, 180>("normal_change"),
       number_option<&Simplify_options::min_aspect_ratio, 1>("aspect_ratio"),
       number_option<&Simplify_options::max_border_turn, 180>("border_turn"),
+      number_option<&Simplify_options::max_corner_height>("corner_height"),
       number_option<&Simplify_options::max_seam_turn, 180>("seam_turn"),
       number_option<&Simplify_options::max_border_drift>("border_drift"),
       {"placement",

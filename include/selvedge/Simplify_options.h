@@ -99,6 +99,12 @@ struct Simplify_options
   /// Misiak and Fuhrmann use 8°, with which a border keeps faces that the surface needs more.)
   double max_border_turn = 30;
 
+  /// The largest height of a *low corner*, as a share of the diagonal of the bounding box, at least 0. There
+  /// a border may turn by up to 50° (`Border_rule_options::turn_of_low_corner`): no original vertex of it is
+  /// farther than this from the segment that replaces it. So the open ends of pipes need not keep all their
+  /// vertices, and rectangular pieces keep their corners, however small. 0 makes no corner low.
+  double max_corner_height = 0.0025;
+
   /// The same for a line inside the surface: a sewn seam, or a chain of edges across which texture
   /// coordinates, normals, groups, objects, materials or the values of large regions of faces change. The
   /// default is larger than for borders, because no outline frays there, and such lines are often bent.

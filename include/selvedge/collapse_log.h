@@ -85,10 +85,12 @@ namespace selvedge {
 ///   vertices in this pose, made alike; it may be missing, or `-` when unknown. Snaps and new places (X Y Z)
 ///   do not go together with poses.
 /// - *limit*: a limit that the writer kept to, and by which it wants to be judged. NAME is a key of
-///   `limit_descriptions` (`normal_change`, `aspect_ratio`, `border_turn`, `seam_turn`, `border_drift`,
-///   `weld_distance`, `clearance`). NUMBER is at least 0; `Reduction_limits` has the units. The diagonal is
-///   that of the bounding box of the vertices that triangles use, after all snaps. A limit that is not
-///   declared is not judged, except that a log with snaps must declare its `weld_distance`. When
+///   `limit_descriptions` (`normal_change`, `aspect_ratio`, `border_turn`, `corner_height`, `seam_turn`,
+///   `border_drift`, `weld_distance`, `clearance`). NUMBER is at least 0; `Reduction_limits` has the units.
+///   The diagonal is that of the bounding box of the vertices that triangles use, after all snaps. A limit
+///   that is not declared is not judged, except that a log with snaps must declare its `weld_distance`, and
+///   that `corner_height` only eases `border_turn`: a border may turn by up to 50° where every vertex that it
+///   has had lies within this height of the segment that replaces it; without it, it may not. When
 ///   `border_turn`, `seam_turn` or `border_drift` is declared, vertices of borders and seams must also stay
 ///   on their lines.
 /// - *s*, a snap: the vertices at the position of MOVED go in a straight line to the position of KEPT, their

@@ -13,6 +13,7 @@ Reduction_limits limits_of(const Simplify_options& options)
   limits.normal_change = options.max_normal_change;
   limits.aspect_ratio = options.min_aspect_ratio;
   limits.border_turn = options.max_border_turn;
+  limits.corner_height = options.max_corner_height;
   limits.seam_turn = options.max_seam_turn;
   limits.border_drift = options.max_border_drift;
   limits.clearance = options.clearance;

@@ -13,6 +13,7 @@ namespace selvedge::reference {
 namespace {
 
 constexpr double s_degree = 3.14159265358979323846 / 180;
+constexpr double s_turn_of_low_corner = 50;
 // More than rounding adds to the distance from a point to a segment, as a share of the diagonal.
 constexpr double s_rounded_distance = 0x1p-46;
 
@@ -45,6 +46,12 @@ double distance_to_segment(const Coordinates& p, const Coordinates& a, const Coo
   const double square = dot(along, along);
   const double share = square > 0 ? std::clamp(dot(to_p, along) / square, 0.0, 1.0) : 0;
   return length({to_p[0] - share * along[0], to_p[1] - share * along[1], to_p[2] - share * along[2]});
+}
+
+std::string with_unit(double limit, const Limit_description& description)
+{
+  char number[32];
+  return std::string(number, std::to_chars(number, number + sizeof number, limit).ptr) + description.unit;
 }
 
 double aspect_ratio(const Coordinates& a, const Coordinates& b, const Coordinates& c)
@@ -88,9 +95,7 @@ const Limit_description* limit_of(Violation_kind kind)
 std::string message_of_limit(Violation_kind kind, double limit)
 {
   const Limit_description& description = *limit_of(kind);
-  char number[32];
-  return std::string(description.broken) + ' ' +
-         std::string(number, std::to_chars(number, number + sizeof number, limit).ptr) + description.unit;
+  return std::string(description.broken) + ' ' + with_unit(limit, description);
 }
 
 void Limits::set_size(const Coordinates& low, const Coordinates& high)
@@ -153,18 +158,29 @@ std::optional<Violation_kind> Limits::judge_line(const Complex& complex, Index m
   const Coordinates m = scaled(complex.point(mover)), u = scaled(complex.point(behind.neighbour)),
                     p = scaled(place);
   const auto& turn = ahead->is_border() ? m_limits.border_turn : m_limits.seam_turn;
-  if (turn && !is_angle_within(difference(m, u), difference(p, m), *turn))
-    return ahead->is_border() ? Violation_kind::border_turn : Violation_kind::seam_turn;
-  if (!m_limits.border_drift)
-    return std::nullopt;
-  const double most = (*m_limits.border_drift * (1 + limit_tolerance) + s_rounded_distance) * m_diagonal;
-  const auto is_far = [&](const Coordinates& q) { return distance_to_segment(scaled(q), u, p) > most; };
-  if (is_far(complex.point(mover)))
+  const auto turns_within = [&](double degrees) {
+    return is_angle_within(difference(m, u), difference(p, m), degrees);
+  };
+  const auto drifts_within = [&](double limit) {
+    const double most = (limit * (1 + limit_tolerance) + s_rounded_distance) * m_diagonal;
+    const auto is_far = [&](const Coordinates& q) { return distance_to_segment(scaled(q), u, p) > most; };
+    if (is_far(complex.point(mover)))
+      return false;
+    for (const Index neighbour : {behind.neighbour, other})
+      if (const auto* passed = complex.passed(mover, neighbour))
+        if (std::any_of(passed->begin(), passed->end(), is_far))
+          return false;
+    return true;
+  };
+  if (turn && !turns_within(*turn)) {
+    if (!ahead->is_border())
+      return Violation_kind::seam_turn;
+    if (!m_limits.corner_height || !turns_within(s_turn_of_low_corner) ||
+        !drifts_within(*m_limits.corner_height))
+      return Violation_kind::border_turn;
+  }
+  if (m_limits.border_drift && !drifts_within(*m_limits.border_drift))
     return Violation_kind::border_drift;
-  for (const Index neighbour : {behind.neighbour, other})
-    if (const auto* passed = complex.passed(mover, neighbour))
-      if (std::any_of(passed->begin(), passed->end(), is_far))
-        return Violation_kind::border_drift;
   return std::nullopt;
 }
 
@@ -247,7 +263,12 @@ std::string Limits::message(Violation_kind kind) const
   if (kind == Violation_kind::line)
     return "the vertex that moves leaves its border or seam, or is a corner or an end of it, or a seam "
            "beside it would end";
-  return message_of_limit(kind, *(m_limits.*limit_of(kind)->value));
+  std::string message = message_of_limit(kind, *(m_limits.*limit_of(kind)->value));
+  if (kind == Violation_kind::border_turn && m_limits.corner_height)
+    message += ", and by more than " + with_unit(s_turn_of_low_corner, *limit_of(kind)) +
+               " or at a corner higher than " +
+               with_unit(*m_limits.corner_height, describe(&Reduction_limits::corner_height));
+  return message;
 }
 
 } // namespace selvedge::reference

@@ -25,10 +25,12 @@ std::vector<Not_judged> not_judged(const Replay_verdict& verdict)
 {
   const Reduction_limits& limits = verdict.limits;
   std::vector<Not_judged> result;
-  // Without a weld distance nothing snaps, and pieces need a distance only where somebody asks for one.
+  // Without a weld distance nothing snaps, without a height no corner is low, and pieces need a distance only
+  // where somebody asks for one.
   const auto is_expected = [&](const Limit_description& limit) {
     return limit.value == &Reduction_limits::clearance ? verdict.header.limits.clearance.has_value()
-                                                       : limit.value != &Reduction_limits::weld_distance;
+                                                       : limit.value != &Reduction_limits::weld_distance &&
+                                                             limit.value != &Reduction_limits::corner_height;
   };
   for (const Limit_description& limit : limit_descriptions)
     if (is_expected(limit) && !(limits.*limit.value))

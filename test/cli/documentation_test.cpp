@@ -88,7 +88,7 @@ TEST(App_documentation, OptionsInReportsAreThoseOfTheHelp)
     }
     ++defaults;
   }
-  EXPECT_EQ(defaults, 23u);
+  EXPECT_EQ(defaults, 24u);
 }
 
 } // namespace

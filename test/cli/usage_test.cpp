@@ -131,6 +131,7 @@ TEST(App_usage, RefusesWhatMakesNoSense)
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--normal-change", "181"}, "--normal-change"},
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--aspect-ratio", "2"}, "--aspect-ratio"},
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--border-turn", "-8"}, "--border-turn"},
+      {{"simplify", in, "-o", out, "--ratio", "0.5", "--corner-height", "-1"}, "--corner-height"},
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--seam-turn", "999"}, "--seam-turn"},
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--border-drift", "-1"}, "--border-drift"},
       {{"simplify", in, "-o", out, "--ratio", "0.5", "--clearance", "0"},

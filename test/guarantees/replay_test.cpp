@@ -8,6 +8,8 @@
 #include "support/reduction.h"
 #include "support/soups.h"
 
+#include "verify/Diagonal.h"
+
 #include <selvedge/Error.h>
 #include <selvedge/Sha256.h>
 #include <selvedge/mesh_files.h>
@@ -19,6 +21,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <sstream>
 #include <utility>
 
@@ -275,6 +278,39 @@ TEST(Replay, AllowsForRoundingWhereNoDriftIsAllowed)
       {{0, 1, 3}, {1, 4, 3}, {1, 2, 4}});
   EXPECT_TRUE(
       replay_text(strip, head_of(strip, "limit border_drift 0\n") + "c 1 0\nresult 1 2 -\n").is_accepted());
+}
+
+TEST(Replay, LetsBordersTurnByMoreAtLowCorners)
+{
+  const Triangle_soup strip = strip_with_low_corner();
+  const double diagonal = internal::diagonal(strip.points);
+  const auto replayed = [&](const Triangle_soup& original, double height, const std::string& collapses) {
+    std::ostringstream limits;
+    limits << std::setprecision(17) << "limit border_turn 30\nlimit corner_height " << height / diagonal
+           << '\n';
+    return replay_text(original, head_of(original, limits.str()) + collapses);
+  };
+  const std::string corner = "c 2 3\nresult 1 5 -\n", both = "c 1 0\nc 2 3\nresult 2 4 -\n";
+  EXPECT_TRUE(replayed(strip, 0.7, corner).is_accepted());
+  EXPECT_TRUE(replayed(strip, 0.75, both).is_accepted());
+  const Replay_verdict high = replayed(strip, 0.6, corner), passed = replayed(strip, 0.6, both);
+  ASSERT_EQ(high.violations.size(), 1u);
+  EXPECT_EQ(high.violations[0].kind, Violation_kind::border_turn);
+  EXPECT_NE(high.violations[0].message.find(
+                "by more than 30°, and by more than 50° or at a corner higher than 0.0"),
+            std::string::npos)
+      << high.violations[0].message;
+  ASSERT_EQ(passed.violations.size(), 1u);
+  EXPECT_EQ(passed.violations[0].kind, Violation_kind::border_turn);
+  EXPECT_EQ(passed.violations[0].removed, 2u) << "vertex 1 was farther off";
+  EXPECT_EQ(kind_of_first(strip, head_of(strip, "limit border_turn 30\n") + corner),
+            Violation_kind::border_turn)
+      << "a log without the limit is judged as ever";
+  Triangle_soup sharp = strip;
+  sharp.points[3] = Point_3(10.6, 0.8, 0); // 53° from the level
+  const Replay_verdict refused = replayed(sharp, 10, both);
+  ASSERT_EQ(refused.violations.size(), 1u);
+  EXPECT_EQ(refused.violations[0].removed, 2u);
 }
 
 TEST(Replay, RefusesWhatTheDeclaredLimitsForbid)
@@ -674,6 +710,9 @@ TEST(Replay, RefusesToLeaveALineAndToTurnASeamTooFar)
   ASSERT_TRUE(is_embedded(soup));
   const std::string along = "c 7 8\nresult 1 14 -\n", off = "c 7 2\nresult 1 14 -\n";
   EXPECT_EQ(kind_of_first(soup, head_of(soup, "limit seam_turn 44\n") + along), Violation_kind::seam_turn);
+  EXPECT_EQ(kind_of_first(soup, head_of(soup, "limit seam_turn 44\nlimit corner_height 1\n") + along),
+            Violation_kind::seam_turn)
+      << "corners of seams are never low";
   EXPECT_TRUE(replay_text(soup, head_of(soup, "limit seam_turn 46\n") + along).is_accepted());
   EXPECT_EQ(kind_of_first(soup, head_of(soup, "limit seam_turn 180\n") + off), Violation_kind::line);
   EXPECT_TRUE(replay_text(soup, head_of(soup) + off).is_accepted()) << "without a limit there is no line";

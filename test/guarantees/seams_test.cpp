@@ -7,6 +7,8 @@
 #include "support/reduction.h"
 #include "support/soups.h"
 
+#include "verify/Diagonal.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -118,6 +120,81 @@ TEST(Seams, BordersTurnByNoMoreThanAllowed)
   EXPECT_EQ(zigzag_left(31), s_zigzag_edges);
   options.max_border_turn = 32;
   EXPECT_LT(zigzag_left(31), s_zigzag_edges - 10);
+}
+
+TEST(Seams, BordersTurnByMoreAtLowCorners)
+{
+  Simplify_options options = to_ratio(0);
+  options.max_border_drift = 10;
+  const auto loses_teeth = [&](double degrees, double share_of_height) {
+    const Triangle_soup original = sheet_with_zigzag_border(degrees);
+    options.max_corner_height =
+        share_of_height * std::abs(original.points[1].y()) / internal::diagonal(original.points);
+    const Reduction reduction = reduce(original, options);
+    const std::vector<Point_3>& points = reduction.simplified.soup.points;
+    return std::count_if(points.begin(), points.end(), [](const Point_3& p) { return p.y() <= 0; }) <=
+           s_zigzag_edges;
+  };
+  EXPECT_TRUE(loses_teeth(49, 1.01));
+  EXPECT_FALSE(loses_teeth(49, 0.99)) << "too high";
+  EXPECT_FALSE(loses_teeth(49, 0));
+  EXPECT_FALSE(loses_teeth(51, 10)) << "too sharp";
+  options.max_border_turn = 52;
+  EXPECT_TRUE(loses_teeth(51, 0)) << "the control";
+}
+
+// What is left of a soup when only one or two of its vertices may go.
+std::size_t left_of(const Triangle_soup& soup, const std::vector<Index>& may_go,
+                    const Simplify_options& options)
+{
+  Simplify_intent intent;
+  for (Index v = 0; v < soup.points.size(); ++v)
+    if (std::find(may_go.begin(), may_go.end(), v) == may_go.end())
+      intent.locked_vertices.push_back(v);
+  return simplify_soup(prepare(soup), options, intent).soup.points.size();
+}
+
+TEST(Seams, ALowCornerIsNearEverythingThatTheBorderWas)
+{
+  const Triangle_soup strip = strip_with_low_corner();
+  const double diagonal = internal::diagonal(strip.points);
+  Simplify_options options = without_limits(to_ratio(0));
+  options.max_border_turn = 30;
+  const auto left = [&](double height, const std::vector<Index>& may_go) {
+    options.max_corner_height = height / diagonal;
+    return left_of(strip, may_go, options);
+  };
+  EXPECT_EQ(left(0.6, {2}), 8u);
+  EXPECT_EQ(left(0.7, {2}), 7u);
+  EXPECT_EQ(left(0.6, {1, 2}), 7u) << "the corner is low enough, but vertex 1 was not";
+  EXPECT_EQ(left(0.75, {1, 2}), 6u);
+
+  // In another pose, it is twice as high.
+  Triangle_soup posed = strip;
+  posed.poses.push_back(
+      {"large", mapped(strip, [](const Point_3& p) { return Point_3(2 * p.x(), 2 * p.y(), 0); }).points});
+  for (const auto& [height, count] : {std::pair(0.7, 8u), std::pair(1.4, 7u)}) {
+    options.max_corner_height = height / diagonal;
+    EXPECT_EQ(left_of(posed, {2}, options), count);
+  }
+}
+
+TEST(Seams, CornersOfSeamsAreNeverLow)
+{
+  // Another strip below, so that the line lies inside.
+  Triangle_soup soup =
+      joined(strip_with_low_corner(), test::soup({{0, -5, 0}, {5, -5, 0}, {10, -5, 0}, {10.8, -5, 0}}, {}));
+  for (const Index_triple& t :
+       {Index_triple{8, 1, 0}, {8, 9, 1}, {9, 2, 1}, {9, 10, 2}, {10, 3, 2}, {10, 11, 3}})
+    soup.triangles.push_back(t);
+  soup.groups = {std::vector<Index>(12, 0), {"above", "below"}};
+  std::fill(soup.groups.of_triangle.begin() + 6, soup.groups.of_triangle.end(), 1);
+  Simplify_options options = without_limits(to_ratio(0));
+  options.max_border_turn = options.max_seam_turn = 30;
+  options.max_corner_height = 10;
+  EXPECT_EQ(left_of(soup, {2}, options), soup.points.size());
+  options.max_seam_turn = 49;
+  EXPECT_EQ(left_of(soup, {2}, options), soup.points.size() - 1) << "the control";
 }
 
 TEST(Seams, DriftIsBounded)

@@ -692,6 +692,26 @@ group(
     sources=("src/simplify/simplify_soup.cpp",),
 )
 group(
+    headers + "Surface_mesh_simplification/Border_rule.h",
+    ("seams_test:Seams.*orner*",),
+    ("!(is_border && state.max_squared_height > 0 &&", "!(state.max_squared_height > 0 &&", "corners of seams are low"),
+    ("is_turn_small(m - u, p - m, state.min_low_cosine)", "true", "the sharpest corner may be low"),
+    ("[&](const Passed&) { return state.max_squared_height; }", "[&](const Passed& one) { return one.max_squared_drift; }",
+     "corners are low as far as lines may drift"),
+    ("if (!is_near(passed_at(source(ahead, state.mesh))))", "if (false)", "the vertex of a corner may be far off"),
+    ("!std::all_of(found->second.begin(), found->second.end(), is_near)", "false",
+     "what lines have passed may be far off"),
+    ("max_squared_height(options.max_corner_height * options.max_corner_height)",
+     "max_squared_height(options.max_corner_height)", "the height is not squared"),
+    sources=("src/simplify/simplify_soup.cpp",),
+)
+group(
+    headers + "Surface_mesh_simplification/internal/Reduction_setup.h",
+    ("seams_test:Seams.*orner*",),
+    ("options.max_corner_height * diagonal;", "options.max_corner_height;", "the height is no share of the diagonal"),
+    sources=("src/simplify/simplify_soup.cpp",),
+)
+group(
     "src/simplify/simplify_soup.cpp",
     ("snapping_test:Snapping.WhatIsHeld*",),
     ("    if (m_options.loop == Collapse_loop::own)\n      hold_gaps", "    hold_gaps", "CGAL's loop gets ties that it cannot keep"),
@@ -777,6 +797,10 @@ group(
     "src/replay/limits.cpp",
     ("replay_test",),
     ("if (ahead == lines.end() || lines.size() != 2)", "if (ahead == lines.end())", "corners of lines move"),
+    ("!turns_within(s_turn_of_low_corner) ||", "false ||", "the sharpest corner may be low"),
+    ("!drifts_within(*m_limits.corner_height))", "false)", "corners of any height are low"),
+    ("if (!m_limits.corner_height ||", "if (m_limits.corner_height ||", "no corner is low"),
+    ("    if (!ahead->is_border())\n      return Violation_kind::seam_turn;", "", "corners of seams are low"),
     ("if (is_far(complex.point(mover)))", "if (false)", "the vertex that moves may drift"),
     ("if (std::any_of(passed->begin(), passed->end(), is_far))", "if (false)", "what was passed before may drift"),
     ("least_after <= least_before * (1 - limit_tolerance))", "false)", "triangles get thin"),

@@ -101,6 +101,16 @@ inline Triangle_soup sheet(Index width, Index depth, double z = 0)
   return result;
 }
 
+/// A strip whose lower border turns to the right by 23° at vertex 1, and to the left by 48° at vertex 2: by
+/// 37° once vertex 1 is gone. Vertex 2 is 0.65 beside the segment from 1 to 3, and 0.55 beside that from 0 to
+/// 3. Vertex 1 is 0.72 beside the latter. Vertices 4 to 7 are its upper border, opposite them.
+inline Triangle_soup strip_with_low_corner()
+{
+  return soup(
+      {{0, 0, 0}, {5, 1, 0}, {10, 0, 0}, {10.8, 0.6, 0}, {0, 5, 0}, {5, 5, 0}, {10, 5, 0}, {10.8, 5, 0}},
+      {{0, 1, 4}, {1, 5, 4}, {1, 2, 5}, {2, 6, 5}, {2, 3, 6}, {3, 7, 6}});
+}
+
 /// The same with texture coordinates, of which every triangle at one vertex has its own there.
 inline Triangle_soup with_own_uvs_at(Triangle_soup soup, Index vertex)
 {

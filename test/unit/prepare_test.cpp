@@ -31,6 +31,7 @@ TEST(Refusal, OptionsOutOfRange)
   expect_refused([](Simplify_options& o) { o.max_normal_change = 181; });
   expect_refused([](Simplify_options& o) { o.min_aspect_ratio = 1.5; });
   expect_refused([](Simplify_options& o) { o.max_border_turn = -1; });
+  expect_refused([](Simplify_options& o) { o.max_corner_height = -1; });
   expect_refused([](Simplify_options& o) { o.max_seam_turn = std::nan(""); });
   expect_refused([](Simplify_options& o) { o.max_border_drift = -1; });
   expect_refused([](Simplify_options& o) { o.faces_per_cluster = 0; });

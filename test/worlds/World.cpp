@@ -107,6 +107,7 @@ void write_world(const World& world, const std::filesystem::path& folder)
                      {"normal_change", options.max_normal_change},
                      {"aspect_ratio", options.min_aspect_ratio},
                      {"border_turn", options.max_border_turn},
+                     {"corner_height", options.max_corner_height},
                      {"seam_turn", options.max_seam_turn},
                      {"border_drift", options.max_border_drift},
                      {"check_intersections", options.check_intersections},
@@ -186,6 +187,7 @@ World read_world(const std::filesystem::path& folder)
   options.max_normal_change = json["normal_change"];
   options.min_aspect_ratio = json["aspect_ratio"];
   options.max_border_turn = json["border_turn"];
+  options.max_corner_height = json.value("corner_height", 0.0); // likewise
   options.max_seam_turn = json["seam_turn"];
   options.max_border_drift = json["border_drift"];
   options.check_intersections = json["check_intersections"];
@@ -258,6 +260,7 @@ std::string command_line(const World& world)
   add_if_other("--normal-change", options.max_normal_change, plain.max_normal_change);
   add_if_other("--aspect-ratio", options.min_aspect_ratio, plain.min_aspect_ratio);
   add_if_other("--border-turn", options.max_border_turn, plain.max_border_turn);
+  add_if_other("--corner-height", options.max_corner_height, plain.max_corner_height);
   add_if_other("--seam-turn", options.max_seam_turn, plain.max_seam_turn);
   add_if_other("--border-drift", options.max_border_drift, plain.max_border_drift);
   if (options.clearance)

@@ -245,7 +245,11 @@ void choose_limits(Simplify_options& options, Random& random)
   };
   sometimes(options.max_normal_change, {0, 1, 30, 45, 90, 120, 180});
   sometimes(options.min_aspect_ratio, {0, 0.01, 0.2, 0.7, 1});
-  sometimes(options.max_border_turn, {0, 1, 8, 60, 90, 180});
+  sometimes(options.max_border_turn, {0, 1, 8, 30, 60, 90, 180});
+  if (random.one_in(6)) { // low corners, and others
+    options.max_border_turn = random.one_of({0, 8, 30});
+    options.max_corner_height = random.one_of({0.0, 1e-9, 0.0005, 0.0025, 0.02, 0.1, 10.0});
+  }
   sometimes(options.max_seam_turn, {0, 1, 8, 60, 90, 180});
   sometimes(options.max_border_drift, {0, 1e-9, 0.002, 0.05, 10});
   sometimes(options.uv_weight, {0, 1e-3, 0.1, 10});

@@ -90,6 +90,8 @@ private:
       set_limit(&Simplify_options::min_aspect_ratio, limit, plain.min_aspect_ratio);
     for (const double limit : {plain.max_border_turn, 180.})
       set_limit(&Simplify_options::max_border_turn, limit, plain.max_border_turn);
+    for (const double limit : {plain.max_corner_height, 0.})
+      set_limit(&Simplify_options::max_corner_height, limit, plain.max_corner_height);
     for (const double limit : {plain.max_seam_turn, 180.})
       set_limit(&Simplify_options::max_seam_turn, limit, plain.max_seam_turn);
     for (const double limit : {plain.max_border_drift, 10.})

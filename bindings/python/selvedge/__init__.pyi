@@ -64,6 +64,7 @@ def simplify(
     normal_change: float = ...,
     aspect_ratio: float = ...,
     border_turn: float = ...,
+    corner_height: float = ...,
     seam_turn: float = ...,
     border_drift: float = ...,
     placement: str = ...,

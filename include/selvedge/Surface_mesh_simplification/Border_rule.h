@@ -35,6 +35,14 @@ struct Border_rule_options
   /// The same for marked edges. It can be larger: there is surface on both sides, and no outline to fray.
   double max_seam_turn = 60;
 
+  /// The largest height, in units of the mesh and at least 0, of a *low corner*: a border may turn by more
+  /// than `max_border_turn`, up to `turn_of_low_corner`, where no original vertex of it is farther than this
+  /// from the segment that replaces it. 0 lets no corner pass for low.
+  double max_corner_height = 0;
+
+  /// In degrees. A ring of eight turns by 45°; heptagons and rectangles keep their corners.
+  static constexpr double turn_of_low_corner = 50;
+
   /// The largest distance, in units of the mesh and at least 0, from an original vertex of a line to the
   /// segment that replaced it. Infinity sets no limit.
   double max_drift = std::numeric_limits<double>::infinity();
@@ -64,8 +72,9 @@ enum class Line_refusal : unsigned char {
 /// **Guarantees** for a mesh reduced by collapses that `allows` accepts:
 /// 1. A locked vertex stays where it is.
 /// 2. A vertex on a line moves only along the line, to the next vertex of the same line, and only where the
-///    line turns by at most `max_border_turn` or `max_seam_turn`. Ends of lines, vertices with more than two
-///    line edges, and vertices where a border becomes a marked line never move.
+///    line turns by at most `max_border_turn` or `max_seam_turn`, or where the corner of a border is low
+///    (`max_corner_height`). Ends of lines, vertices with more than two line edges, and vertices where a
+///    border becomes a marked line never move.
 /// 3. No collapse removes a face whose three edges are all lines. One may remove a face between two spokes,
 ///    if a third line ends at the same pole. No vertex moves along a spoke to its pole.
 /// 4. Every original vertex of a line lies within `max_drift`, or within its own limit of drift, of the
@@ -288,6 +297,8 @@ private:
     State(const TriangleMesh& mesh_, const VertexPointMap& points_, const Border_rule_options& options)
         : mesh(mesh_), points(points_), min_border_cosine(std::cos(options.max_border_turn * CGAL_PI / 180)),
           min_seam_cosine(std::cos(options.max_seam_turn * CGAL_PI / 180)),
+          min_low_cosine(std::cos(Border_rule_options::turn_of_low_corner * CGAL_PI / 180)),
+          max_squared_height(options.max_corner_height * options.max_corner_height),
           max_squared_drift(options.max_drift * options.max_drift),
           freedoms(get(CGAL::dynamic_vertex_property_t<Freedom>(), mesh_)),
           marks(get(CGAL::dynamic_halfedge_property_t<unsigned char>(), mesh_))
@@ -295,6 +306,8 @@ private:
       for (const double turn : {options.max_border_turn, options.max_seam_turn})
         if (!(turn >= 0 && turn <= 180))
           throw Argument_error("the turn allowed at a border or seam is an angle between 0 and 180 degrees");
+      if (!(options.max_corner_height >= 0))
+        throw Argument_error("the height of a low corner is a length of at least 0");
       if (!(options.max_drift >= 0))
         throw Argument_error("the drift allowed at a border is a length of at least 0");
       for (const Halfedge h : halfedges(mesh))
@@ -312,6 +325,8 @@ private:
     VertexPointMap points;
     double min_border_cosine;
     double min_seam_cosine;
+    double min_low_cosine;
+    double max_squared_height;
     double max_squared_drift;
     typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<Freedom>>::const_type freedoms;
     typename boost::property_map<TriangleMesh, CGAL::dynamic_halfedge_property_t<unsigned char>>::const_type
@@ -389,24 +404,38 @@ private:
     const State& state = *m_state;
     const Point& m = get(state.points, source(ahead, state.mesh));
     const Point& u = get(state.points, target(behind, state.mesh));
-    if (!is_turn_small(m - u, p - m, is_border_edge(ahead) ? state.min_border_cosine : state.min_seam_cosine))
+    const typename Geom_traits::Segment_3 segment(u, p);
+    const bool is_border = is_border_edge(ahead);
+    if (!is_turn_small(m - u, p - m, is_border ? state.min_border_cosine : state.min_seam_cosine) &&
+        !(is_border && state.max_squared_height > 0 && is_turn_small(m - u, p - m, state.min_low_cosine) &&
+          are_passed_near(segment, behind, ahead, [&](const Passed&) { return state.max_squared_height; })))
       return Line_refusal::turn;
     if (state.max_squared_drift == std::numeric_limits<double>::infinity() && state.squared_drift_of.empty())
       return Line_refusal::none;
-    const typename Geom_traits::Segment_3 segment(u, p);
+    return are_passed_near(segment, behind, ahead,
+                           [](const Passed& passed) { return passed.max_squared_drift; })
+               ? Line_refusal::none
+               : Line_refusal::drift;
+  }
+
+  // Whether each original vertex that `segment` would replace, with `behind` and `ahead` or before them, is
+  // within its limit of it.
+  template <class MaxSquaredDistance>
+  bool are_passed_near(const typename Geom_traits::Segment_3& segment, Halfedge behind, Halfedge ahead,
+                       const MaxSquaredDistance& limit) const
+  {
+    const State& state = *m_state;
     const auto is_near = [&](const Passed& passed) {
-      return CGAL::to_double(CGAL::squared_distance(passed.point, segment)) <= passed.max_squared_drift;
+      return CGAL::to_double(CGAL::squared_distance(passed.point, segment)) <= limit(passed);
     };
     if (!is_near(passed_at(source(ahead, state.mesh))))
-      return Line_refusal::drift;
+      return false;
     for (const Halfedge h : {behind, ahead}) {
       const auto found = state.passed.find(edge(h, state.mesh));
-      if (found != state.passed.end())
-        for (const Passed& passed : found->second)
-          if (!is_near(passed))
-            return Line_refusal::drift;
+      if (found != state.passed.end() && !std::all_of(found->second.begin(), found->second.end(), is_near))
+        return false;
     }
-    return Line_refusal::none;
+    return true;
   }
 
   static bool is_turn_small(const Vector& before, const Vector& after, double min_cosine)

@@ -63,6 +63,7 @@ struct Reduction_setup
     Border_rule_options of_rule;
     of_rule.max_border_turn = options.max_border_turn;
     of_rule.max_seam_turn = options.max_seam_turn;
+    of_rule.max_corner_height = options.max_corner_height * diagonal;
     of_rule.max_drift = options.max_border_drift * diagonal;
     Border_rule<TriangleMesh, Points> rule(mesh, points, of_rule);
     for (const auto e : constraints.line_edges)
