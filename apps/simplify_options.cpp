@@ -192,7 +192,7 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->group(limits);
   command
       .add_option("--border-turn", options.max_border_turn,
-                  "Largest turn of a border at a vertex that is removed, in degrees.")
+                  "Largest turn of a border at a vertex that is removed, in degrees, where the corner is not low.")
       ->check(in_range(0, 180))
       ->type_name("DEG")
       ->capture_default_str()

@@ -22,8 +22,9 @@ struct Small_pieces
 };
 
 /// Returns the small pieces of a mesh: at least eight, and half of all, none larger than a twentieth of the
-/// largest piece, and the next at least half as large again. Where several lengths do, it is the one with the
-/// largest step. **Complexity** O(n log n).
+/// largest piece, and the next at least half as large again. Together they spread over half of the size of
+/// the mesh, as stitches do, and the parts of a figure in a large room do not. Where several lengths do, it
+/// is the one with the largest step. **Complexity** O(n log n).
 std::optional<Small_pieces> small_pieces(const Triangle_soup& soup);
 
 } // namespace selvedge::app

@@ -178,10 +178,10 @@ struct Layer_order
   std::size_t without_order = 0; ///< swaps that `leave_out_without_order` has left out
 };
 
-/// Leaves out the swaps of layers that have no order: where the same two pieces of the original intersect
-/// near both triangles of the result, no farther from the box of each than its longest side and the reach of
-/// a line together. There, either may come to lie on either side. `pairs_of_original` are the
-/// `offending_pairs` of the original.
+/// Leaves out the swaps of layers that have no order: where the same two surfaces of the original, connected
+/// by positions, intersect near both triangles of the result, no farther from the box of each than its
+/// longest side and the reach of a line together. There, either may come to lie on either side.
+/// `pairs_of_original` are the `offending_pairs` of the original.
 ///
 /// **Complexity** O(n + p log p + s p) for n triangles, p pairs and s swaps.
 void leave_out_without_order(Layer_order& layers, const Triangle_soup& result, const Triangle_soup& original,

@@ -6,6 +6,8 @@
 
 #include <selvedge/Triangle_soup.h>
 
+#include <CGAL/Bbox_3.h>
+
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -15,7 +17,8 @@ namespace selvedge {
 /// Triangles that are connected by positions, as stitches and buttons are that touch nothing larger.
 struct Sized_piece
 {
-  double size = 0; ///< the diagonal of its bounding box in the first pose, in the unit of the file
+  CGAL::Bbox_3 box; ///< in the first pose
+  double size = 0;  ///< the length of the box's diagonal, in the unit of the file
   std::size_t triangles = 0;
 };
 

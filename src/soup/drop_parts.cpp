@@ -12,8 +12,6 @@
 #include <selvedge/Error.h>
 #include <selvedge/Parts.h>
 
-#include <CGAL/Bbox_3.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -41,16 +39,15 @@ Pieces pieces_by_positions(const Triangle_soup& soup)
     sets.unite(positions[b], positions[c]);
   }
   Pieces result;
-  std::map<std::size_t, CGAL::Bbox_3> boxes;
   for (const Index_triple& triangle : soup.triangles) {
     const std::size_t piece = sets.find(positions[triangle[0]]);
     result.of_triangle.push_back(piece);
     ++result.pieces[piece].triangles;
     for (const Index v : triangle)
-      boxes[piece] += soup.points[v].bbox();
+      result.pieces[piece].box += soup.points[v].bbox();
   }
-  for (const auto& [piece, box] : boxes)
-    result.pieces[piece].size = std::hypot(box.x_span(), box.y_span(), box.z_span());
+  for (auto& [number, piece] : result.pieces)
+    piece.size = std::hypot(piece.box.x_span(), piece.box.y_span(), piece.box.z_span());
   return result;
 }
 

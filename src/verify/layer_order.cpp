@@ -10,7 +10,6 @@
 #include "soup/Disjoint_sets.h"
 
 #include <selvedge/Cancellation_scope.h>
-#include <selvedge/Parts.h>
 
 #include <CGAL/Exact_rational.h>
 
@@ -452,6 +451,25 @@ Layer_order layer_order(const Triangle_soup& result, const Triangle_soup& origin
 } // namespace selvedge::internal
 
 namespace selvedge {
+namespace {
+
+/// Returns, for each triangle, a number of what positions connect with it: files part surfaces at their
+/// seams.
+std::vector<std::size_t> surfaces_of(const Triangle_soup& soup)
+{
+  const std::vector<Index> positions = internal::position_numbers(soup.points);
+  internal::Disjoint_sets sets(soup.points.size());
+  for (const auto& [a, b, c] : soup.triangles) {
+    sets.unite(positions[a], positions[b]);
+    sets.unite(positions[b], positions[c]);
+  }
+  std::vector<std::size_t> result;
+  for (const Index_triple& triangle : soup.triangles)
+    result.push_back(sets.find(positions[triangle[0]]));
+  return result;
+}
+
+} // namespace
 
 void leave_out_without_order(Layer_order& layers, const Triangle_soup& result, const Triangle_soup& original,
                              const std::vector<Offending_pair>& pairs_of_original)
@@ -462,12 +480,12 @@ void leave_out_without_order(Layer_order& layers, const Triangle_soup& result, c
       box += soup.points[v].bbox();
     return box;
   };
-  const std::vector<Index> pieces = part_kinds(original).front().of_triangle;
-  const auto pieces_of = [&](const std::array<Index, 2>& triangles) {
-    const auto [least, most] = std::minmax(pieces[triangles[0]], pieces[triangles[1]]);
-    return std::pair<Index, Index>(least, most);
+  const std::vector<std::size_t> surfaces = surfaces_of(original);
+  const auto surfaces_of_both = [&](const std::array<Index, 2>& triangles) {
+    const auto [least, most] = std::minmax(surfaces[triangles[0]], surfaces[triangles[1]]);
+    return std::pair<std::size_t, std::size_t>(least, most);
   };
-  std::map<std::pair<Index, Index>, std::vector<CGAL::Bbox_3>> places; // by the two pieces
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<CGAL::Bbox_3>> places; // by the two surfaces
   for (const Offending_pair& pair : pairs_of_original) {
     const CGAL::Bbox_3 a = box_of(original, pair.first), b = box_of(original, pair.second);
     std::array<double, 3> least{}, most{};
@@ -475,8 +493,8 @@ void leave_out_without_order(Layer_order& layers, const Triangle_soup& result, c
       least[std::size_t(axis)] = std::max(a.min(axis), b.min(axis)) - layers.reach;
       most[std::size_t(axis)] = std::min(a.max(axis), b.max(axis)) + layers.reach;
     }
-    places[pieces_of({pair.first, pair.second})].emplace_back(least[0], least[1], least[2], most[0], most[1],
-                                                              most[2]);
+    places[surfaces_of_both({pair.first, pair.second})].emplace_back(least[0], least[1], least[2], most[0],
+                                                                     most[1], most[2]);
   }
   // A triangle of the result may come from farther away than it reaches.
   const auto around = [&](Index triangle) {
@@ -486,7 +504,7 @@ void leave_out_without_order(Layer_order& layers, const Triangle_soup& result, c
                         box.ymax() + side, box.zmax() + side);
   };
   const auto is_without_order = [&](const Layer_swap& swap) {
-    const auto found = places.find(pieces_of(swap.of_original));
+    const auto found = places.find(surfaces_of_both(swap.of_original));
     if (found == places.end())
       return false;
     const CGAL::Bbox_3 a = around(swap.of_result[0]), b = around(swap.of_result[1]);

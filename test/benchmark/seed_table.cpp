@@ -40,6 +40,7 @@ Simplify_options reduction(bool is_guarded)
   options.ratio = ratio_of_seed;
   options.min_aspect_ratio = aspect_ratio_of_seed;
   options.max_border_turn = border_turn_of_seed;
+  options.max_corner_height = 0;
   options.check_intersections = is_guarded;
   return options;
 }

@@ -101,7 +101,14 @@ TEST(App_drop_parts, AreNamedWhereTheyTakeTheTarget)
       << followed.out;
 
   write_mesh(folder / "few.obj", stitched_sheet(7));
-  EXPECT_EQ(run_app({"info", folder / "few.obj"}).out.find("small surfaces"), std::string::npos);
+  // A figure of many parts in a large room.
+  Triangle_soup room =
+      joined(stitched_sheet(20),
+             mapped(sheet(2, 2), [](const Point_3& p) { return Point_3(1000 * p.x(), 1000 * p.y(), -1); }));
+  room.groups = {};
+  write_mesh(folder / "room.obj", room);
+  for (const char* name : {"few.obj", "room.obj"})
+    EXPECT_EQ(run_app({"info", folder / name}).out.find("small surfaces"), std::string::npos) << name;
 }
 
 TEST(App_drop_parts, RefusesWhatLeavesNothing)

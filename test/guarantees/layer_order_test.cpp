@@ -91,24 +91,27 @@ TEST(Layers, DoNotDependOnNumbersOfVertices)
   EXPECT_EQ(compare(result, unshared(scene.soup)).layers.swaps.size(), swaps);
 }
 
-// Two sheets, of which one dips through the other at a corner.
+// Two sheets, of which one dips through the other at a corner; and the same with vertices of its own for each
+// face, as files have them at seams.
 TEST(Layers, ThatIntersectNearbyInTheOriginalHaveNoOrder)
 {
-  Triangle_soup original = joined(sheet(10, 10), sheet(10, 10, 0.25));
-  original.points.back() = Point_3(10, 10, -0.25);
-  const std::vector<Offending_pair> pairs = offending_pairs(original);
-  ASSERT_FALSE(pairs.empty());
-  Layer_order layers;
-  layers.reach = 1;
-  layers.swaps = {{Point_3(9, 9, 0), {199, 399}, {199, 399}}, {Point_3(3, 3, 0), {66, 266}, {66, 266}}};
-  leave_out_without_order(layers, original, original, pairs);
-  EXPECT_EQ(layers.without_order, 1u);
-  ASSERT_EQ(layers.swaps.size(), 1u);
-  EXPECT_EQ(layers.swaps[0].point, Point_3(3, 3, 0));
-  // One piece, which does not intersect itself.
-  layers.swaps = {{Point_3(9, 9, 0), {199, 198}, {199, 198}}};
-  leave_out_without_order(layers, original, original, pairs);
-  EXPECT_EQ(layers.swaps.size(), 1u);
+  Triangle_soup whole = joined(sheet(10, 10), sheet(10, 10, 0.25));
+  whole.points.back() = Point_3(10, 10, -0.25);
+  for (const Triangle_soup& original : {whole, unshared(whole)}) {
+    const std::vector<Offending_pair> pairs = offending_pairs(original);
+    ASSERT_FALSE(pairs.empty());
+    Layer_order layers;
+    layers.reach = 1;
+    layers.swaps = {{Point_3(9, 9, 0), {197, 397}, {197, 397}}, {Point_3(3, 3, 0), {66, 266}, {66, 266}}};
+    leave_out_without_order(layers, original, original, pairs);
+    EXPECT_EQ(layers.without_order, 1u);
+    ASSERT_EQ(layers.swaps.size(), 1u);
+    EXPECT_EQ(layers.swaps[0].point, Point_3(3, 3, 0));
+    // One surface, which does not intersect itself.
+    layers.swaps = {{Point_3(9, 9, 0), {199, 198}, {199, 198}}};
+    leave_out_without_order(layers, original, original, pairs);
+    EXPECT_EQ(layers.swaps.size(), 1u);
+  }
 }
 
 // Nothing lies close enough to have changed places.
