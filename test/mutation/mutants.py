@@ -546,7 +546,8 @@ group(
 group(
     "src/simplify/simplify_soup.cpp",
     ("cells_test:Cells.GoAsFar*",),
-    ("[this] { m_simplification.begin(); }", "[] {}", "the error counts from what cells have left"),
+    ("                         }),\n                         Cancellation_scope::inherited([this] { m_simplification.begin(); }));",
+     "                         }), [] {});", "the error counts from what cells have left"),
 )
 group(
     "src/soup/Parts.cpp",
