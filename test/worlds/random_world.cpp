@@ -336,12 +336,11 @@ bool are_parts_left(const World& world)
 
 /// Leaves out a part, or what is small, where that leaves what else is asked for. Other random numbers, so
 /// that worlds of earlier versions stay what they were but for that.
-void choose_dropped_parts(World& world, std::uint64_t number)
+void choose_dropped_parts(World& world)
 {
-  world.dropped_parts = {};
   if (world.seed % 7 != 3)
     return;
-  Random random(world.seed + 11 + number);
+  Random random(world.seed + 11);
   const std::vector<std::string> names = part_names(world.soup);
   if (random.one_in(2) && !names.empty())
     world.dropped_parts.names.push_back(random.one_of(names));
@@ -676,7 +675,7 @@ World random_world(std::uint64_t seed)
   if (world.seed % 4 <= 1 && world.intent.weights.empty() && !world.soup.vertex_attributes.empty() &&
       !world.soup.scene)
     world.dropped.push_back(world.soup.vertex_attributes.back().name);
-  choose_dropped_parts(world, 0);
+  choose_dropped_parts(world);
   return world;
 }
 
@@ -695,7 +694,11 @@ World with_other_options(const World& world, std::uint64_t number)
     other.intent.weights.clear();
   fit_options_to_poses(other);
   choose_clearance(other, number);
-  choose_dropped_parts(other, number);
+  if (!are_parts_left(other)) { // what is dropped is part of the preparation, which stays
+    other.intent.locked.clear();
+    other.intent.kept.clear();
+    other.intent.ratios.clear();
+  }
   return other;
 }
 
