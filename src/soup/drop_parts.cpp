@@ -3,11 +3,10 @@
 
 #include <selvedge/drop_parts.h>
 
-#include "Disjoint_sets.h"
 #include "Gltf_scene.h"
 #include "material_textures.h"
-#include "number_positions.h"
 #include "selection.h"
+#include "surfaces_of.h"
 
 #include <selvedge/Error.h>
 #include <selvedge/Parts.h>
@@ -32,19 +31,12 @@ struct Pieces
 
 Pieces pieces_by_positions(const Triangle_soup& soup)
 {
-  const std::vector<Index> positions = number_positions(soup.points);
-  internal::Disjoint_sets sets(soup.points.size());
-  for (const auto& [a, b, c] : soup.triangles) {
-    sets.unite(positions[a], positions[b]);
-    sets.unite(positions[b], positions[c]);
-  }
-  Pieces result;
-  for (const Index_triple& triangle : soup.triangles) {
-    const std::size_t piece = sets.find(positions[triangle[0]]);
-    result.of_triangle.push_back(piece);
-    ++result.pieces[piece].triangles;
-    for (const Index v : triangle)
-      result.pieces[piece].box += soup.points[v].bbox();
+  Pieces result{surfaces_of(soup), {}};
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    Sized_piece& piece = result.pieces[result.of_triangle[t]];
+    ++piece.triangles;
+    for (const Index v : soup.triangles[t])
+      piece.box += soup.points[v].bbox();
   }
   for (auto& [number, piece] : result.pieces)
     piece.size = std::hypot(piece.box.x_span(), piece.box.y_span(), piece.box.z_span());

@@ -248,24 +248,9 @@ private:
           m_mass[wedge] += area(scaled(m_result, i)) / 3;
   }
 
-  // The number of the surface of each triangle of the original.
-  std::vector<std::size_t> surfaces() const
-  {
-    const std::vector<Index> positions = number_positions(m_original.points);
-    internal::Disjoint_sets sets(m_original.points.size());
-    for (const auto& [a, b, c] : m_original.triangles) {
-      sets.unite(positions[a], positions[b]);
-      sets.unite(positions[a], positions[c]);
-    }
-    std::vector<std::size_t> result;
-    for (const Index_triple& triangle : m_original.triangles)
-      result.push_back(sets.find(positions[triangle[0]]));
-    return result;
-  }
-
   void take_samples()
   {
-    const std::vector<std::size_t> of_original = surfaces();
+    const std::vector<std::size_t> of_original = surfaces_of(m_original);
     std::vector<std::array<Vector, 3>> searched;
     std::vector<std::size_t> of_searched;
     std::vector<Index> numbers;

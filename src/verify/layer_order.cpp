@@ -8,6 +8,7 @@
 #include "for_each_chunk.h"
 #include "positions.h"
 #include "soup/Disjoint_sets.h"
+#include "soup/surfaces_of.h"
 
 #include <selvedge/Cancellation_scope.h>
 
@@ -451,25 +452,6 @@ Layer_order layer_order(const Triangle_soup& result, const Triangle_soup& origin
 } // namespace selvedge::internal
 
 namespace selvedge {
-namespace {
-
-/// Returns, for each triangle, a number of what positions connect with it: files part surfaces at their
-/// seams.
-std::vector<std::size_t> surfaces_of(const Triangle_soup& soup)
-{
-  const std::vector<Index> positions = internal::position_numbers(soup.points);
-  internal::Disjoint_sets sets(soup.points.size());
-  for (const auto& [a, b, c] : soup.triangles) {
-    sets.unite(positions[a], positions[b]);
-    sets.unite(positions[b], positions[c]);
-  }
-  std::vector<std::size_t> result;
-  for (const Index_triple& triangle : soup.triangles)
-    result.push_back(sets.find(positions[triangle[0]]));
-  return result;
-}
-
-} // namespace
 
 void leave_out_without_order(Layer_order& layers, const Triangle_soup& result, const Triangle_soup& original,
                              const std::vector<Offending_pair>& pairs_of_original)

@@ -311,7 +311,7 @@ group("src/simplify/prepare.cpp", ("snapping_test",),
 group("src/soup/fit_normals.cpp", ("shading_test",),
       ("m_is_fixed[w] |= !is_free[w];", "", "triangles get other normals where nothing has changed"),
       ("[edges[i].second] = true;", "[edges[i].second] = false;", "normals on borders are fitted"),
-      ("result.push_back(sets.find(positions[triangle[0]]));", "result.push_back(0);", "a layer is shaded as the one beside it"),
+      ("of_searched.push_back(of_original[m_triangles[i]]);", "of_searched.push_back(of_original[0]);", "a layer is shaded as the one beside it"),
       ("std::min(s_cosine_of_sample, before)", "-2", "fitted normals point to the back"),
       ("keys.emplace_back(positions[m_result.triangles[i][k]]", "keys.emplace_back(m_result.triangles[i][k]", "seams of the texture are hard edges where normals are fitted"),
       ("!are_near_normals(normal, m_old[wedge])", "true", "normals that differ in their last digits across a seam are fitted apart"),
@@ -1447,11 +1447,15 @@ group(
     ("corner = positions[corner];", ";", "seams are borders"),
 )
 group(
-    "src/soup/drop_parts.cpp",
-    ("drop_parts_test",),
+    "src/soup/surfaces_of.cpp",
+    ("drop_parts_test", "layer_order_test"),
     ("positions = number_positions(soup.points);",
      "positions = [&] { std::vector<Index> all(soup.points.size()); std::iota(all.begin(), all.end(), 0); return all; }();",
-     "pieces are connected by vertex numbers"),
+     "surfaces are connected by vertex numbers"),
+)
+group(
+    "src/soup/drop_parts.cpp",
+    ("drop_parts_test",),
     (".size < parts.smaller_than)", ".size <= parts.smaller_than)", "what is just as large goes"),
     ("if (left.triangles.empty() && !soup.triangles.empty())", "if (false)", "nothing may be left"),
     ("had_triangles[part] = false;", ";", "textures go that a part with triangles shows"),
