@@ -397,11 +397,13 @@ private:
       all.push_back(&result);
     m_seconds.add(prepared, all);
     const std::vector<std::string> names = outputs(m_request);
+    m_seconds_of_levels.resize(results.size(), 0);
     std::vector<Level> levels;
     for (std::size_t i = 0; i < results.size(); ++i) {
       const bool is_one_of_file = are_levels_in_one_file(m_request);
       levels.push_back({names[is_one_of_file ? 0 : i], std::move(results[i]), {}, {}, m_guarded_poses, {}});
       levels.back().error_search = m_error_search;
+      levels.back().seconds = m_seconds_of_levels[i] += levels.back().result.report.seconds_reduce;
       if (is_one_of_file)
         levels.back().number = i + 1;
     }
@@ -657,6 +659,7 @@ private:
   std::vector<Soup_collapse> m_collapses;     // if a page shows them
   Progression m_progression;                  // if it is written
   Phase_seconds m_seconds;
+  std::vector<double> m_seconds_of_levels; // of all reductions so far
   std::size_t m_polygons = 0; // of the input, faces of more than three corners that may be written
   bool m_is_stop_told = false;
   std::atomic<bool> m_is_kept = false; // a signal keeps what the reduction has reached

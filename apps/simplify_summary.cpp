@@ -548,7 +548,7 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
                    const Level& level, const Outcome& outcome, const Level* before)
 {
   const auto& [output, result, verification, distances_anywhere, guarded, polygons, number, error_search,
-               notes, bytes_more] = level;
+               notes, bytes_more, seconds] = level;
   const Mesh_format format = format_of(request.output, request.format);
   const bool has_normals = format != Mesh_format::off && format != Mesh_format::stl;
   const bool has_polygons = format != Mesh_format::stl && !is_gltf(format);
@@ -557,7 +557,7 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
   const Distance& distance = verification.distances->original_to_result;
   stream << "reduced to " << counted(faces, "face") << " ("
          << with_digits(100.0 * double(faces) / double(prepared.soup.triangles.size())) << " %) in "
-         << with_digits(done.seconds_reduce) << " s: ";
+         << with_digits(seconds) << " s: ";
   if (request.options.ratio || request.options.faces || !request.lods.empty() ||
       !request.intent.ratios.empty())
     stream << "target " << with_commas(done.faces_target)

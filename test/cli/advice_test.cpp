@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -318,6 +319,9 @@ TEST(App_simplify, KeepsFacesForTheShapeWhereATargetIsMissed)
   EXPECT_GT(faces.at("output"), 1.08 * double(within_reach));
   EXPECT_LT(faces.at("output"), 1.12 * double(within_reach));
   EXPECT_NE(kept.out.find(" edges left at " + std::to_string(within_reach) + " faces, "), std::string::npos);
+  char seconds[32]; // of both reductions
+  std::snprintf(seconds, sizeof seconds, " in %.3g s: ", json().at("seconds").at("reduce").get<double>());
+  EXPECT_NE(kept.out.find(seconds), std::string::npos) << seconds << kept.out;
   EXPECT_EQ(run_app({"replay", in, log}).code, 0);
 
   const App_result flattened =
