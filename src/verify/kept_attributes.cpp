@@ -3,6 +3,7 @@
 
 #include "kept_attributes.h"
 
+#include "part_names.h"
 #include "positions.h"
 #include "soup/with_number.h"
 
@@ -16,6 +17,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <unordered_map>
@@ -61,6 +63,18 @@ void add_column(std::vector<Column>& columns, const char* name, const Triangle_l
                        }});
 }
 
+void add_groups(std::vector<Column>& columns, const Triangle_labels& groups, bool is_gltf)
+{
+  if (groups.empty())
+    return;
+  std::vector<std::string> names = groups.names;
+  if (is_gltf)
+    std::transform(names.begin(), names.end(), names.begin(), internal::without_numbers);
+  columns.push_back({"group", true, [&groups, names = std::move(names)](Index triangle, int) {
+                       return names[groups.of_triangle[triangle]];
+                     }});
+}
+
 std::string row(const Attribute& attribute, Index number, std::size_t rows)
 {
   const std::size_t size = attribute.rows.size() / rows;
@@ -69,8 +83,8 @@ std::string row(const Attribute& attribute, Index number, std::size_t rows)
   return bytes.append(reinterpret_cast<const char*>(attribute.rows.data()) + size * number, size);
 }
 
-/// Colours of two meshes, of which one may have numbers up to 255 or 65535 and the other fractions. Where they
-/// differ in that, those of both are taken in the coarser of the two scales.
+/// Colours of two meshes, of which one may have numbers up to 255 or 65535 and the other fractions. Where
+/// they differ in that, those of both are taken in the coarser of the two scales.
 class Colours_in_one_scale
 {
 public:
@@ -140,12 +154,12 @@ private:
 };
 
 std::vector<Column> columns_of(const Triangle_soup& soup, const Corner_values<2>& uvs,
-                               const Colours_in_one_scale& in_scale)
+                               const Colours_in_one_scale& in_scale, bool is_gltf)
 {
   std::vector<Column> columns;
   add_column(columns, "uv", uvs);
   add_column(columns, "normal", soup.normals);
-  add_column(columns, "group", soup.groups, true);
+  add_groups(columns, soup.groups, is_gltf);
   add_column(columns, "object", soup.objects, true);
   add_column(columns, "material", soup.materials, true);
   add_column(columns, "smoothing group", soup.smoothing_groups, false);
@@ -243,9 +257,11 @@ void compare_values(Comparison& comparison, const Triangle_soup& result, const T
   };
   const Corner_values<2> stored = uvs_of(result), stored_of_original = uvs_of(original);
   const Colours_in_one_scale in_scale(result, original);
-  const std::vector<Column> columns = columns_of(result, is_only_result_gltf ? stored : result.uvs, in_scale);
+  const bool is_gltf = result.scene || original.scene;
+  const std::vector<Column> columns =
+      columns_of(result, is_only_result_gltf ? stored : result.uvs, in_scale, is_gltf);
   for (const Column& column :
-       columns_of(original, is_only_result_gltf ? stored_of_original : original.uvs, in_scale)) {
+       columns_of(original, is_only_result_gltf ? stored_of_original : original.uvs, in_scale, is_gltf)) {
     const auto same = std::find_if(columns.begin(), columns.end(), [&](const Column& other) {
       return other.name == column.name && other.is_by_position == column.is_by_position;
     });

@@ -7,6 +7,7 @@
 #include <selvedge/Triangle_soup.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
@@ -30,6 +31,18 @@ public:
 private:
   const Triangle_soup& m_soup;
 };
+
+/// Returns a name without the numbers (`/0`, `#2`) by which the reader tells glTF primitives and nodes of one
+/// name apart. They change when a primitive before them is left out.
+inline std::string without_numbers(std::string name)
+{
+  for (const char mark : {'#', '/'}) {
+    const std::size_t last = name.find_last_not_of("0123456789");
+    if (last != std::string::npos && last > 0 && last + 1 < name.size() && name[last] == mark)
+      name.resize(last);
+  }
+  return name;
+}
 
 /// Numbers the names of two meshes in common (groups, objects or materials), so that the judge can compare
 /// them.
@@ -88,21 +101,10 @@ private:
     return std::size_t(std::count(used.begin(), used.end(), true));
   }
 
-  // Returns a name without the numbers (`/0`, `#2`) by which the reader tells glTF primitives and nodes of
-  // one name apart.
-  std::string stem(std::string name) const
-  {
-    for (const char mark : {'#', '/'}) {
-      const std::size_t last = name.find_last_not_of("0123456789");
-      if (m_is_gltf && last != std::string::npos && last > 0 && last + 1 < name.size() && name[last] == mark)
-        name.resize(last);
-    }
-    return name;
-  }
-
   Index number_of(const std::string& name)
   {
-    const auto [it, is_new] = m_numbers.emplace(stem(name), Index(m_texts.size()));
+    const auto [it, is_new] =
+        m_numbers.emplace(m_is_gltf ? without_numbers(name) : name, Index(m_texts.size()));
     if (is_new)
       m_texts.push_back(it->first);
     return it->second;

@@ -10,8 +10,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace selvedge::test {
@@ -77,6 +79,26 @@ TEST(App_drop_parts, AreInNoOutputAndInNoVerdict)
       EXPECT_EQ(options["drop_part"].size(), way[0] == "--drop-part" ? 1u : 0u);
     }
   }
+}
+
+// The primitives of a glTF mesh are numbered, and those after one that is left out get other numbers.
+TEST(App_drop_parts, LeaveTheNamesOfOtherPrimitives)
+{
+  const Workspace folder;
+  Triangle_soup soup = stitched_sheet(20);
+  soup.materials = std::exchange(soup.groups, {});
+  std::reverse(soup.triangles.begin(), soup.triangles.end()); // the stitches come first
+  std::reverse(soup.materials.of_triangle.begin(), soup.materials.of_triangle.end());
+  write_mesh(folder / "in.glb", soup);
+  ASSERT_NE(read_mesh(folder / "in.glb").soup.groups.names.at(1).find("/1"), std::string::npos);
+  ASSERT_EQ(run_app({"simplify", folder / "in.glb", "-o", folder / "out.glb", "--ratio", "0.5", "--drop-part",
+                     "stitches", "--quiet"})
+                .code,
+            0);
+  const App_result judged =
+      run_app({"verify", folder / "out.glb", "--against", folder / "in.glb", "--drop-part", "stitches"});
+  EXPECT_EQ(judged.code, 0);
+  EXPECT_EQ(judged.out.find("NOT the original's"), std::string::npos) << judged.out;
 }
 
 TEST(App_drop_parts, AreNamedWhereTheyTakeTheTarget)
