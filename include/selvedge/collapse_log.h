@@ -61,9 +61,8 @@ namespace selvedge {
 ///   ignored when the writer makes the normals anew. Where they are dropped, or smooth and shared, vertices
 ///   that differ in nothing else are one (`share_vertices_without_normals`), before anything else is done.
 /// - *drop_part*, *drop_smaller*: what the writer left out before anything else (`drop_parts`): all triangles
-/// of
-///   a part, and those that positions connect to nothing as large as NUMBER, which is positive, in the unit
-///   of the file. PART is written as in *may_intersect*.
+///   of a part, and those that positions connect to nothing as large as NUMBER, which is positive, in the
+///   unit of the file. PART is written as in *may_intersect*.
 /// - *dropped*: an attribute that the writer left out, before all that follows (`drop_attributes`).
 ///   Vertices that differ in nothing else are one, and no edge is a line because of it. NAME is written as in
 ///   *may_intersect*.

@@ -18,8 +18,9 @@ namespace selvedge {
 /// extension that is not known to leave textures to the materials, because it may refer to them by number.
 void drop_textures(Gltf_scene& scene, const std::function<bool(const std::string& set)>& is_dropped);
 
-/// Returns the materials, by number, that only some primitives have, `is_dropped` for each of the scene's
-/// parts; ascending, and none in a document with an extension as above.
+/// Returns the numbers of the materials that no primitive has but those that are dropped, nor a variant of
+/// another one, nor a material as its coarser level; ascending. It returns none where the document has an
+/// extension as above. `is_dropped` says by part of the scene which are dropped.
 std::vector<Index> materials_of(const Gltf_scene& scene, const std::vector<char>& is_dropped);
 
 /// Removes the references of these materials to textures, and the textures, as above.
