@@ -169,8 +169,8 @@ SELVEDGE_C_API void selvedge_options_free(selvedge_options* options);
 /* Sets one option: "ratio" to "0.3", "placement" to "optimal", "lock" to the name of a part, and so on. Names
    are those in docs/report.md (without drop_attribute, key_poses, lods, obstacle, polygons, poses, progressive
    and strict), values those of the command line ("true" or "false" for flags); "log" "true" asks for a log.
-   "lock", "keep", "drop_part", "part_ratios" ("collar=0.5") and "may_intersect" ("skin:dress") add to what was set before.
-   Returns 0, or -1 when there is no such option or value; the error then names the nearest. */
+   "lock", "keep", "drop_part", "part_ratios" ("collar=0.5") and "may_intersect" ("skin:dress") add to what was
+   set before. Returns 0, or -1 when there is no such option or value; the error then names the nearest. */
 SELVEDGE_C_API int selvedge_options_set(selvedge_options* options, const char* name, const char* value);
 
 /* Copies a mesh that no face may touch or pass through. Null removes it. Returns 0, or -1 when it fails. */

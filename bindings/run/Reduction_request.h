@@ -23,8 +23,8 @@ struct Reduction_request
   /// Sets one option. Throws `Argument_error` when there is no such option, with a message that names the
   /// nearest, and when the value is not one that it takes.
   ///
-  /// One more option is "log": whether a log is wanted. The parts of `lock`, `keep` and `drop_part` and the ratios of
-  /// `part_ratios` ("PART=R") are added to those set before.
+  /// One more option is "log": whether a log is wanted. The parts of `lock`, `keep` and `drop_part` and the
+  /// ratios of `part_ratios` ("PART=R") are added to those set before.
   void set(const std::string& name, const std::string& value);
 
   /// Refuses what does not fit together. Throws `Argument_error`.

@@ -55,23 +55,15 @@ void add_column(std::vector<Column>& columns, const char* name, const Corner_val
 }
 
 void add_column(std::vector<Column>& columns, const char* name, const Triangle_labels& labels,
-                bool is_by_position)
+                bool is_by_position, bool is_numbered = false)
 {
-  if (!labels.empty())
-    columns.push_back({name, is_by_position, [&labels](Index triangle, int) {
-                         return labels.names[labels.of_triangle[triangle]];
-                       }});
-}
-
-void add_groups(std::vector<Column>& columns, const Triangle_labels& groups, bool is_gltf)
-{
-  if (groups.empty())
+  if (labels.empty())
     return;
-  std::vector<std::string> names = groups.names;
-  if (is_gltf)
-    std::transform(names.begin(), names.end(), names.begin(), internal::without_numbers);
-  columns.push_back({"group", true, [&groups, names = std::move(names)](Index triangle, int) {
-                       return names[groups.of_triangle[triangle]];
+  std::vector<std::string> names = labels.names;
+  if (is_numbered)
+    std::transform(names.begin(), names.end(), names.begin(), without_numbers);
+  columns.push_back({name, is_by_position, [&labels, names = std::move(names)](Index triangle, int) {
+                       return names[labels.of_triangle[triangle]];
                      }});
 }
 
@@ -159,7 +151,7 @@ std::vector<Column> columns_of(const Triangle_soup& soup, const Corner_values<2>
   std::vector<Column> columns;
   add_column(columns, "uv", uvs);
   add_column(columns, "normal", soup.normals);
-  add_groups(columns, soup.groups, is_gltf);
+  add_column(columns, "group", soup.groups, true, is_gltf);
   add_column(columns, "object", soup.objects, true);
   add_column(columns, "material", soup.materials, true);
   add_column(columns, "smoothing group", soup.smoothing_groups, false);

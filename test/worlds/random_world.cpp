@@ -197,11 +197,11 @@ std::vector<Index> triangles_with_area(const Triangle_soup& soup)
 std::vector<std::string> part_names(const Triangle_soup& soup)
 {
   std::set<std::string> names;
+  const std::vector<Index> triangles = triangles_with_area(soup);
   for (const auto* labels : {&soup.groups, &soup.objects, &soup.materials})
-    for (const Index t : triangles_with_area(soup))
-      if (!labels->empty())
-        if (const std::string& name = labels->names[labels->of_triangle[t]]; !name.empty())
-          names.insert(name);
+    for (std::size_t i = 0; i < triangles.size() && !labels->empty(); ++i)
+      if (const std::string& name = labels->names[labels->of_triangle[triangles[i]]]; !name.empty())
+        names.insert(name);
   return {names.begin(), names.end()};
 }
 
