@@ -50,17 +50,19 @@ public:
   /// The options to reduce with.
   const Simplify_options& options() const { return m_options; }
 
-  /// Called after a reduction. Returns whether another one is due: when this was the first, and a result has
-  /// used a quarter of the error that is allowed, ended by itself at more than a tenth above a target that is
-  /// not 0, and a tenth of what is left there is at most half of what went. Faces that cannot change do not
-  /// count. In the next one, no level has more faces than one that has reached its target now.
+  /// Called after a reduction. Returns whether another one is due: when this was the first, nothing has
+  /// stopped it, and a result has used a quarter of the error that is allowed, ended by itself at more than a
+  /// tenth above a target that is not 0, and a tenth of what is left there is at most half of what went.
+  /// Faces that cannot change do not count. In the next one, no level has more faces than one that has
+  /// reached its target now.
   bool advance(const std::vector<Judged>& levels)
   {
-    if (!m_first.empty())
+    const auto is_stopped = [](const Judged& level) { return level.result.report.is_stopped; };
+    if (!m_first.empty() || std::any_of(levels.begin(), levels.end(), is_stopped))
       return false;
     std::vector<std::size_t> least;
     for (const Judged& level : levels)
-      if (!level.result.report.is_stopped && is_flattened(m_options, level.original_to_result))
+      if (is_flattened(m_options, level.original_to_result))
         lower_to_missed(level.result.report.shares, least);
     for (const Judged& level : levels)
       lower_to_reached(level.result.report.shares, least);

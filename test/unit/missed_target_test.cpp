@@ -107,6 +107,18 @@ TEST(Missed_target, AsksForNothingWhereTheSurfaceWasNotFlattenedForATarget)
   }
 }
 
+// What an interrupted reduction has reached is not given up for another one, which would end at once.
+TEST(Missed_target, AsksForNothingWhereALaterLevelWasStopped)
+{
+  const Simplified_soup first = result_above_its_target();
+  Simplified_soup second = first;
+  EXPECT_TRUE(
+      Missed_target(options_for_a_tenth()).advance({{first, at_most(0.0025)}, {second, at_most(0.0025)}}));
+  second.report.is_stopped = true;
+  EXPECT_FALSE(
+      Missed_target(options_for_a_tenth()).advance({{first, at_most(0.0025)}, {second, at_most(0.0025)}}));
+}
+
 TEST(Missed_target, AsksForMoreFacesOfThePartsThatMissedTheirTargets)
 {
   Missed_target missed(options_for_a_tenth());
