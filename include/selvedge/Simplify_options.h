@@ -133,10 +133,16 @@ struct Simplify_options
   /// this part of the cost off.
   double uv_weight = 0.02;
 
-  /// The same for normals that are kept: of how much the normal of a point of the surface turns, relative to
-  /// the displacement of the surface itself. A radian counts as a length: the radius of the mean curvature
-  /// that the normals tell. More weight keeps the shading truer, and the shape less so.
+  /// The same for normals: of how much the normal of a point of the surface turns, relative to the
+  /// displacement of the surface itself. A radian counts as a length: the radius of the mean curvature that
+  /// the normals tell. More weight keeps the shading truer, and the shape less so.
+  ///
+  /// The normals are those that a soup keeps. If it keeps none, is not shaded flat, and has at most
+  /// `most_faces_shaded` triangles, they are the smooth ones with which viewers shade such a mesh, so that
+  /// eyes, lapels and folds stay to be seen; a radian then counts as at most 3 % of the diagonal. For larger
+  /// meshes, this would take time and memory for what is too small to be seen. `simplify_mesh` counts none.
   double normal_weight = 0.005;
+  static constexpr std::size_t most_faces_shaded = 500'000;
 
   /// The loop that does the collapses. Both loops give the guarantees; `own` is faster.
   Collapse_loop loop = Collapse_loop::own;

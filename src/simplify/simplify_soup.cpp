@@ -10,17 +10,20 @@
 #include "soup/obstacle.h"
 #include "soup/selection.h"
 #include "soup/texture.h"
+#include "soup/vertex_normals.h"
 #include "soup/vertex_weights.h"
 
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
 #include <selvedge/Parts.h>
 #include <selvedge/Surface_mesh_simplification/internal/Simplification.h>
+#include <selvedge/Surface_mesh_simplification/internal/mesh_diagonal.h>
 
 #include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -142,8 +145,8 @@ private:
       m_working.allow_new_places(m_prepared.is_float32);
     if (m_options.uv_weight > 0)
       m_working.measure_uvs(uv_unit(soup, m_prepared.scale));
-    if (m_options.normal_weight > 0 && are_kept(m_prepared.normals))
-      m_working.measure_normals(normal_unit(soup, m_prepared.scale));
+    if (m_options.normal_weight > 0)
+      measure_normals();
     m_working.count_refusals(part_kinds(soup));
     if (m_options.is_progression_recorded)
       m_working.record_progression(m_progression);
@@ -164,6 +167,23 @@ private:
           m_options.on_collapse(collapse);
       });
     return constraints;
+  }
+
+  void measure_normals()
+  {
+    const Triangle_soup& soup = m_prepared.soup;
+    if (are_kept(m_prepared.normals) && !soup.normals.empty() && !soup.normals.missing) {
+      m_working.measure_normals(normal_unit(soup, m_prepared.scale));
+    } else if (m_prepared.normals != Normals_treatment::flat &&
+               soup.triangles.size() <= Simplify_options::most_faces_shaded) {
+      const auto normals = std::make_shared<const Vertex_normals>(
+          vertex_normals(soup, m_prepared.positions, m_prepared.is_turned, m_prepared.fronts));
+      constexpr double widest =
+          0.03; // Of the diagonal. The shading of a smooth shape follows from its places.
+      m_working.measure_normals(std::min(normal_unit(soup, m_prepared.scale, normals.get()),
+                                         widest * m_prepared.scale(internal::Diagonal(soup).length())),
+                                normals);
+    }
   }
 
   // Returns the pairs of faces in the working mesh, which has none for doubles.

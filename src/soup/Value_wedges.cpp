@@ -17,7 +17,8 @@ namespace selvedge {
 
 template <std::size_t dimension>
 Value_wedges<dimension>::Value_wedges(const Corner_mesh& corners, const Scale& scale,
-                                      const Simplify_constraints<Mesh>& constraints, double unit)
+                                      const Simplify_constraints<Mesh>& constraints, double unit,
+                                      const std::vector<Value>* of_vertices)
     : m_corners(corners), m_unit(unit)
 {
   Wedge_numbers numbers = number_wedges(corners, constraints);
@@ -39,7 +40,7 @@ Value_wedges<dimension>::Value_wedges(const Corner_mesh& corners, const Scale& s
     for (std::size_t k = 0; k < 3; ++k) {
       const Point_3 p = scale(corners.soup().points[corners.vertex_of(corners.corners(face)[k])]);
       points[k] = {p.x(), p.y(), p.z()};
-      values[k] = at_unit(value_of(corners.corners(face)[k]));
+      values[k] = at_unit(value_of(corners.corners(face)[k], of_vertices));
     }
     const Quadric of_face(points, values, 1);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -122,17 +123,24 @@ void Value_wedges<dimension>::merge(Halfedge moving)
 }
 
 template <std::size_t dimension>
-void Value_wedges<dimension>::merge_at(Halfedge moving, const Point_3& place, const Value& of_soup)
+void Value_wedges<dimension>::merge_at(Halfedge moving, const Point_3& place,
+                                       const std::optional<Value>& of_soup)
 {
-  const Value value = at_unit(of_soup);
   for_each_moved_wedge(moving, [&](Index from, Index to) {
     // No line meets a vertex at a new place, so that there is one wedge at either end.
     const Wedge& gone = m_wedges[from];
     Wedge& merged = m_wedges[to];
+    const Value value = of_soup ? at_unit(*of_soup) : merged.value;
     merged.quadric =
         merged.quadric.moved_by(motion(mesh().target(moving), place), merged.value_motion(value));
     merged.quadric += gone.quadric.moved_by(motion(mesh().source(moving), place), gone.value_motion(value));
     merged.value = value;
+    if (of_soup)
+      return;
+    const Value best = merged.quadric.best_value_motion();
+    merged.quadric = merged.quadric.moved_by({0, 0, 0}, best);
+    for (std::size_t k = 0; k < dimension; ++k)
+      merged.value[k] += best[k];
   });
 }
 

@@ -10,6 +10,9 @@
 #include <selvedge/Surface_mesh_simplification/internal/Value_quadric.h>
 #include <selvedge/internal/Scale.h>
 
+#include <array>
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace selvedge {
@@ -29,11 +32,12 @@ public:
   using Value = typename Quadric::Value;
 
   /// Measures a texture, in which `unit` is the `uv_unit` of the soup at the scale, or normals, in which it
-  /// is the `normal_unit`. The constraints say which edges are lines, and weigh the vertices.
+  /// is the `normal_unit`. The constraints say which edges are lines, and weigh the vertices. The values are
+  /// those of the corners of the soup, or `of_vertices`, by vertex of the soup.
   ///
   /// **Preconditions** Nothing has been collapsed, and every corner of the soup has a value.
   Value_wedges(const Corner_mesh& corners, const Scale& scale, const Simplify_constraints<Mesh>& constraints,
-               double unit);
+               double unit, const std::vector<Value>* of_vertices = nullptr);
 
   double unit() const { return m_unit; }
 
@@ -46,8 +50,9 @@ public:
   /// Adds what the wedges that move know to those at the goal.
   void merge(Halfedge moving);
 
-  /// Adds up what the wedges at both ends know, and moves them to a place with its own value, in no unit.
-  void merge_at(Halfedge moving, const Point_3& place, const Value& of_soup);
+  /// Adds up what the wedges at both ends know, and moves them to a place with a value, in no unit. Without
+  /// one, they get that for which the displacement is least.
+  void merge_at(Halfedge moving, const Point_3& place, const std::optional<Value>& of_soup);
 
   /// Puts the corner at the target of h into the wedge at the target of `from`.
   void carry(Halfedge h, Halfedge from) { number_at(h) = number_at(from); }
@@ -81,8 +86,10 @@ private:
       x *= m_unit;
     return value;
   }
-  Value value_of(Index corner) const
+  Value value_of(Index corner, const std::vector<Value>* of_vertices) const
   {
+    if (of_vertices)
+      return (*of_vertices)[m_corners.vertex_of(corner)];
     if constexpr (dimension == 2)
       return m_corners.uv_of(corner);
     else

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
+#include <utility>
 
 namespace selvedge {
 
@@ -29,7 +31,7 @@ Working_mesh::Working_mesh(const Working_mesh& whole, const Border_rule<Mesh>& r
   if (whole.m_texture)
     measure_uvs(whole.m_texture->unit());
   if (whole.m_shading)
-    measure_normals(whole.m_shading->unit());
+    measure_normals(whole.m_shading->unit(), whole.m_vertex_normals);
 }
 
 void Working_mesh::share(std::vector<Shared_mesh> meshes, double clearance)
@@ -46,10 +48,12 @@ void Working_mesh::measure_uvs(double unit)
     m_texture.emplace(*this, m_scale, constraints(), unit);
 }
 
-void Working_mesh::measure_normals(double unit)
+void Working_mesh::measure_normals(double unit, std::shared_ptr<const Vertex_normals> normals)
 {
-  if (!soup().normals.empty() && !soup().normals.missing && own_face_count() > 0 && unit > 0)
-    m_shading.emplace(*this, m_scale, constraints(), unit);
+  if (own_face_count() == 0 || !(unit > 0))
+    return;
+  m_vertex_normals = std::move(normals);
+  m_shading.emplace(*this, m_scale, constraints(), unit, m_vertex_normals.get());
 }
 
 void Working_mesh::allow_new_places(bool is_float32)
@@ -104,7 +108,9 @@ void Working_mesh::before_placement(Halfedge moving, const Point_3& place, bool 
   if (m_texture)
     m_texture->merge_at(moving, place, m_placed.uv_at(corner_at(moving)));
   if (m_shading)
-    m_shading->merge_at(moving, place, m_placed.normal_at(corner_at(moving)));
+    m_shading->merge_at(moving, place,
+                        m_vertex_normals ? std::nullopt
+                                         : std::optional(m_placed.normal_at(corner_at(moving))));
   for (const Halfedge h : mesh().halfedges_around_target(mesh().prev(moving))) {
     carry(h, moving);
     for_each_measure([&](auto& wedges) { wedges.carry(h, moving); });

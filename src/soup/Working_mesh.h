@@ -12,6 +12,7 @@
 #include "Value_wedges.h"
 #include "keeps_pieces.h"
 #include "keeps_uv_orientation.h"
+#include "vertex_normals.h"
 
 #include <selvedge/Parts.h>
 #include <selvedge/Simplify_options.h>
@@ -20,6 +21,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -52,8 +54,9 @@ public:
   /// it is 0. Weights that should count must be set before. `unit` is the `uv_unit` of the soup at the scale.
   void measure_uvs(double unit);
 
-  /// The same for `normal_cost`, in which `unit` is the `normal_unit` of the soup at the scale.
-  void measure_normals(double unit);
+  /// The same for `normal_cost`, in which `unit` is the `normal_unit` of the soup at the scale. The normals
+  /// are those of the corners of the soup, or others, by vertex of the soup.
+  void measure_normals(double unit, std::shared_ptr<const Vertex_normals> normals = nullptr);
 
   /// Makes `rounded_place` return places from now on, as `Place_rounding` does; before, it returns none.
   void allow_new_places(bool is_float32);
@@ -172,10 +175,11 @@ private:
 
   Scale m_scale;
   Placed_vertices m_placed;
-  std::optional<Place_rounding> m_rounding; // none until new places are allowed
-  std::optional<Texture_wedges> m_texture;  // none until it is measured
-  std::optional<Shading_wedges> m_shading;  // none until it is measured
-  std::optional<Shared_places> m_shared;    // none until meshes are shared
+  std::optional<Place_rounding> m_rounding;               // none until new places are allowed
+  std::optional<Texture_wedges> m_texture;                // none until it is measured
+  std::optional<Shading_wedges> m_shading;                // none until it is measured
+  std::shared_ptr<const Vertex_normals> m_vertex_normals; // null where it is that of normals of the soup
+  std::optional<Shared_places> m_shared;                  // none until meshes are shared
   std::optional<Progression_recorder> m_progression;
   std::function<void(const Soup_collapse&)> m_listener;
   std::function<void(const Collapse&)> m_recorder;

@@ -46,16 +46,19 @@ double uv_unit(const Triangle_soup& soup, const Scale& scale)
   return rounded_unit(std::sqrt(area / uv_area));
 }
 
-double normal_unit(const Triangle_soup& soup, const Scale& scale)
+double normal_unit(const Triangle_soup& soup, const Scale& scale, const Vertex_normals* of_vertices)
 {
+  if (!of_vertices && soup.normals.empty())
+    return 0;
   using Direction = std::array<double, 3>;
   double area = 0, turns = 0;
-  for (std::size_t t = 0; t < soup.normals.of_triangle.size(); ++t) {
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
     std::array<Point_3, 3> points;
     std::array<Direction, 3> normals;
     for (std::size_t k = 0; k < 3; ++k) {
-      points[k] = scale(soup.points[soup.triangles[t][k]]);
-      normals[k] = soup.normals.values[soup.normals.of_triangle[t][k]];
+      const Index v = soup.triangles[t][k];
+      points[k] = scale(soup.points[v]);
+      normals[k] = of_vertices ? (*of_vertices)[v] : soup.normals.values[soup.normals.of_triangle[t][k]];
     }
     const double of_triangle = std::sqrt(CGAL::squared_area(points[0], points[1], points[2]));
     if (!(of_triangle > 0))

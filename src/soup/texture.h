@@ -4,6 +4,8 @@
 #ifndef SELVEDGE_SOUP_TEXTURE_H
 #define SELVEDGE_SOUP_TEXTURE_H
 
+#include "vertex_normals.h"
+
 #include <selvedge/Triangle_soup.h>
 #include <selvedge/internal/Scale.h>
 
@@ -16,8 +18,9 @@ double uv_unit(const Triangle_soup& soup, const Scale& scale = Scale());
 
 /// Returns the length on the surface that a turn of the normal by one radian stands for, divided by the
 /// scale: the radius of a curvature like that which the normals tell, on the mean over the area. 0 when they
-/// do not turn.
-double normal_unit(const Triangle_soup& soup, const Scale& scale = Scale());
+/// do not turn. The normals are those of the corners of the soup, or `of_vertices`.
+double normal_unit(const Triangle_soup& soup, const Scale& scale = Scale(),
+                   const Vertex_normals* of_vertices = nullptr);
 
 } // namespace selvedge
 

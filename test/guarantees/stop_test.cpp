@@ -37,6 +37,7 @@ TEST(Stop, SmallSteepBumpsAreLetGoByDefault)
     return Point_3(p.x(), p.y(), is_bump ? 1.5 : 0);
   });
   Simplify_options options = to_ratio(0.05);
+  options.normal_weight = 0; // otherwise, the order is another one, and less is in the way
   EXPECT_TRUE(reduce(bumpy, options).simplified.report.is_reached());
   options.max_normal_change = limits_of_seed().normal_change.value();
   EXPECT_EQ(reduce(bumpy, options).simplified.report.outcome(), "normal_change");

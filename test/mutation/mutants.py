@@ -292,6 +292,15 @@ group("src/soup/smooth_normals.cpp", ("smooth_normals_test",),
       ("  if (soup.scene)\n    add_normals_to_scene(soup);\n", "", "scenes without normals stay without"))
 group("src/replay/Start.cpp", ("smooth_normals_test",),
       ("  if (are_smooth)\n    smooth_normals(start.soup);\n", "", "the replay does not make normals smooth"))
+group("src/soup/vertex_normals.cpp", ("vertex_normals_test",),
+      ("    if (!fronts.empty() && fronts[t] != t)\n      continue;\n", "", "doubles count in the normals of vertices"),
+      ("is_turned[t] ? -1 : 1", "is_turned[t] ? 1 : 1", "turned faces count as they came"),
+      ("sums[positions[soup.triangles[t][k]]]", "sums[soup.triangles[t][k]]", "normals of vertices end at seams"))
+group(headers + "Surface_mesh_simplification/internal/Value_quadric.h", ("vertex_normals_test",),
+      ("motion[k] = m_numbers[s_displacements + k] / weight();", "motion[k] = m_numbers[s_displacements + k];", "a value at a new place is not the best one"))
+group("src/simplify/simplify_soup.cpp", ("vertex_normals_test",),
+      ("      measure_normals();\n", "", "normals do not count"),
+      ("m_prepared.normals != Normals_treatment::flat &&", "", "flat shading counts as smooth"))
 derived = ("derived_policies_test",)
 group(headers + "Surface_mesh_simplification/internal/Filter_base.h", derived,
       ("    : std::is_same<typename Filter::Judging_filter, Filter>", "    : std::true_type", "a filter around ours is not asked itself"),

@@ -93,6 +93,15 @@ public:
     return sum;
   }
 
+  /// Returns the motion of the value alone for which the displacement is least.
+  Value best_value_motion() const
+  {
+    Value motion{};
+    for (std::size_t k = 0; k < dimension && weight() > 0; ++k)
+      motion[k] = m_numbers[s_displacements + k] / weight();
+    return motion;
+  }
+
   /// Returns the function whose origin is that of this one after a motion.
   Value_quadric moved_by(const Vector& motion, const Value& value_motion) const
   {
