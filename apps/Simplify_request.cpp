@@ -9,6 +9,7 @@
 #include "standard_streams.h"
 
 #include <selvedge/Error.h>
+#include <selvedge/cells.h>
 #include <selvedge/poses.h>
 
 #include <algorithm>
@@ -27,6 +28,13 @@ constexpr std::string_view level_mark = "{lod}", pose_mark = "{pose}";
 
 // As far off as a shape may be by default. Beyond it, ears become slabs, and a hat becomes a tent.
 constexpr double default_error = 0.01;
+
+const char* word_for(Placement_choice choice)
+{
+  return choice == Placement_choice::automatic ? "auto"
+         : choice == Placement_choice::optimal ? "optimal"
+                                               : "vertices";
+}
 
 /// Returns the number that a text consists of, or NaN.
 double number_in(const std::string& text)
@@ -122,7 +130,7 @@ void check_poses(const Simplify_request& request)
     refuse_with("--weld", "gaps are closed in one pose only");
   if (request.is_sewn)
     refuse_with("--sewn", "vertices that meet in one pose may be apart in others");
-  if (request.options.placement == Placement::optimal)
+  if (request.placement == Placement_choice::optimal)
     refuse_with("--placement optimal", "a new place is a place in one pose only");
   const bool is_one_file = is_one_file_of_poses(request.poses_output);
   const std::string example =
@@ -150,7 +158,7 @@ void check_progressive(const Simplify_request& request)
   const Mesh_format format = output_format(request.progressive);
   if (format != Mesh_format::glb && format != Mesh_format::gltf)
     refuse("the file is a glTF file; choose a name that ends in .glb");
-  if (request.options.placement == Placement::optimal)
+  if (request.placement == Placement_choice::optimal)
     refuse("--placement optimal makes new vertices, and a progressive file has those of the input; leave out "
            "one of the two");
   if (request.is_unguarded)
@@ -320,7 +328,7 @@ Json options_json(const Simplify_request& request)
           {"corner_height", options.max_corner_height},
           {"seam_turn", options.max_seam_turn},
           {"border_drift", options.max_border_drift},
-          {"placement", options.placement == Placement::optimal ? "optimal" : "vertices"},
+          {"placement", word_for(request.placement)},
           {"instances", options.instances == Instances::shared ? "shared" : "apart"},
           {"loop", options.loop == Collapse_loop::own ? "own" : "cgal"},
           {"index", options.index == Face_index::packed ? "packed" : "clusters"},
@@ -374,6 +382,27 @@ bool has_own_error(const Simplify_request& request)
 bool is_shape_kept(const Simplify_request& request)
 {
   return request.progressive.empty() && !request.is_error_everywhere;
+}
+
+Placement placement_for(const Simplify_request& request, const Triangle_soup& soup)
+{
+  const auto is_number_in_whole = [](const Attribute& attribute) {
+    return attribute.name == vertex_in_whole_property;
+  };
+  if (request.placement != Placement_choice::automatic)
+    return request.placement == Placement_choice::optimal ? Placement::optimal : Placement::vertices;
+  const bool are_vertices_needed =
+      !soup.poses.empty() || !request.progressive.empty() ||
+      (soup.scene && are_levels_in_one_file(request)) ||
+      std::any_of(soup.vertex_attributes.begin(), soup.vertex_attributes.end(), is_number_in_whole);
+  return are_vertices_needed || soup.triangles.size() > Simplify_options::most_faces_shaded
+             ? Placement::vertices
+             : Placement::optimal;
+}
+
+const char* name_of(Placement placement)
+{
+  return placement == Placement::optimal ? "optimal" : "vertices";
 }
 
 Defects defects_of(const Simplify_request& request)

@@ -19,6 +19,9 @@
 
 namespace selvedge::app {
 
+/// Where collapses put merged vertices, as the user wants it.
+enum class Placement_choice { automatic, vertices, optimal };
+
 /// What the command line asks of `selvedge simplify`.
 struct Simplify_request
 {
@@ -38,7 +41,8 @@ struct Simplify_request
   bool are_key_poses_chosen = false;
   std::string poses_output;               // with {pose}
   std::vector<std::string> may_intersect; // "PART:PART"
-  Simplify_options options;
+  Placement_choice placement = Placement_choice::automatic;
+  Simplify_options options; // but for the placement
   Simplify_intent intent;
   bool is_unguarded = false;
   bool is_in_cells = false;
@@ -99,6 +103,15 @@ bool has_own_error(const Simplify_request& request);
 /// (`Missed_target`): neither where a file has every level on the way in any case, nor where the error is to
 /// be kept everywhere.
 bool is_shape_kept(const Simplify_request& request);
+
+/// Returns where collapses put merged vertices. `Placement_choice::automatic` is where the surface changes
+/// least, in a mesh of at most `Simplify_options::most_faces_shaded` faces. But vertices stay at those of the
+/// input where something needs them there: further poses, a progressive file, levels of detail that share the
+/// vertices of a glTF file, or a piece of `selvedge cells cut`, whose box no vertex may leave.
+Placement placement_for(const Simplify_request& request, const Triangle_soup& soup);
+
+/// Returns the word for this in reports: vertices or optimal.
+const char* name_of(Placement placement);
 
 /// Returns what becomes of offending pairs of the input.
 Defects defects_of(const Simplify_request& request);

@@ -225,7 +225,7 @@ private:
     check_pose_outputs(file.soup.poses);
     require_one_rounding(file.soup);
     say_what_poses_cost(file.soup);
-    if (are_levels_in_one_file(m_request) && m_request.options.placement == Placement::optimal &&
+    if (are_levels_in_one_file(m_request) && m_request.placement == Placement_choice::optimal &&
         file.soup.scene)
       throw Argument_error(
           "--lods: levels with vertices at new places (--placement optimal) cannot share the "
@@ -340,6 +340,7 @@ private:
   {
     m_bar.begin("sewing and indexing");
     Simplify_options options = m_missed_target.options();
+    options.placement = placement_for(m_request, prepared.soup);
     if (m_error_search)
       options.max_error = m_error_search->max_error();
     if (m_guarded_poses.size() < prepared.soup.poses.size())
@@ -560,6 +561,7 @@ private:
           {"larger", level.bytes_more == 0 ? Json(nullptr) : Json(enlargement(m_request, level))},
           {"not_carried", dropped},
           {"references", m_references},
+          {"placement", name_of(placement_for(m_request, prepared.soup))},
           {"normals", name_of(prepared.normals)}};
       if (&json == &m_report)
         json["options"] = options_json(m_request);

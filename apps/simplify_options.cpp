@@ -86,13 +86,16 @@ void add_options(CLI::App& command, Simplify_request& request)
       ->group(how_far);
 
   command
-      .add_option("--placement", options.placement,
+      .add_option("--placement", request.placement,
                   "Where a collapse puts the merged vertex: at one of the two vertices, or where the surface "
-                  "changes least. The latter interpolates the attributes of vertices that it puts to new "
-                  "places.")
-      ->transform(one_of<Placement>({{"vertices", Placement::vertices}, {"optimal", Placement::optimal}}))
-      ->type_name("vertices|optimal")
-      ->default_str("vertices")
+                  "changes least. The latter comes nearer, takes more time, and interpolates the attributes of "
+                  "vertices at new places; auto takes it in meshes of up to 500,000 faces, unless something "
+                  "needs the vertices of the input (--pose, --progressive, levels in one glTF file, cells).")
+      ->transform(one_of<Placement_choice>({{"auto", Placement_choice::automatic},
+                                            {"vertices", Placement_choice::vertices},
+                                            {"optimal", Placement_choice::optimal}}))
+      ->type_name("auto|vertices|optimal")
+      ->default_str("auto")
       ->group(how_far);
 
   const char* const parts = "Parts (PART names a group, an object, a material, or a property of 0 and 1 of "
@@ -338,8 +341,8 @@ void add_options(CLI::App& command, Simplify_request& request)
              "ignores it.");
   add_weight(
       "--normal-weight", options.normal_weight,
-      "The same for the turn of normals that are kept. More keeps the shading truer, and the shape less "
-      "so.");
+      "The same for the turn of normals: those that are kept or, in a mesh of up to 500,000 faces that keeps "
+      "none, smooth ones, as viewers shade it. More keeps the shading truer, and the shape less so.");
   add_weight("--border-weight", options.cost.border_weight,
              "Weight of borders, and of edges over which the surface folds, in the cost.");
 

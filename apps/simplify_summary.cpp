@@ -454,7 +454,7 @@ void print_input(std::ostream& stream, const Simplify_request& request, const Pr
     stream << "  " << note.get<std::string>() << '\n';
   // Otherwise, further poses are refused.
   const bool may_guard = !request.is_in_cells && !request.is_sewn && !are_gaps_welded(request) &&
-                         request.options.placement != Placement::optimal;
+                         request.placement != Placement_choice::optimal;
   std::string unguarded;
   if (!request.poses.are_morphs && has_morph_targets(prepared.soup))
     unguarded =
@@ -526,7 +526,7 @@ bool would_new_places_help(const Simplify_request& request, const Prepared_soup&
   constexpr double near = 1e-4; // root mean square distance, as a share of the diagonal
   const bool are_allowed = request.poses.empty() && request.progressive.empty() && request.lods.empty() &&
                            level.result.shared_meshes == 0;
-  return are_allowed && request.options.placement == Placement::vertices &&
+  return are_allowed && placement_for(request, prepared.soup) == Placement::vertices &&
          double(level.result.soup.triangles.size()) <= few * double(prepared.soup.triangles.size()) &&
          level.verification.distances->original_to_result.root_mean_square > near;
 }
@@ -584,7 +584,8 @@ void print_summary(std::ostream& stream, const Simplify_request& request, const 
   if (result.shared_meshes > 0)
     stream << "\ninstances: " << counted(result.shared_meshes, "mesh", "meshes") << " in "
            << with_commas(result.shared_places) << " places reduced once, alike in all"
-           << (request.options.placement == Placement::optimal ? ", at vertices of the input" : "");
+           << (placement_for(request, prepared.soup) == Placement::optimal ? ", at vertices of the input"
+                                                                           : "");
   if (request.is_sewn && prepared.soup.scene)
     stream << "\nseams: not merged, because --sewn leaves the vertices of a glTF input as they are";
   if (result.apart_meshes > 0)

@@ -25,6 +25,8 @@ struct Logged_run
     reduced = folder / "out.obj";
     log = folder / "run.log";
     options.insert(options.begin(), {"simplify", original, "-o", reduced, "--quiet", "--log", log});
+    if (std::find(options.begin(), options.end(), "--placement") == options.end())
+      options.insert(options.end(), {"--placement", "vertices"}); // of which replay judges everything
     const App_result result = run_app(options);
     code = result.code;
     text = contents_of(log);

@@ -142,7 +142,8 @@ TEST(App_report, CountsOneOfWhatMakesAFileLarger)
   scene["nodes"].push_back({{"mesh", 0}, {"translation", {100, 0, 0}}, {"scale", {1, 5, 1}}});
   scene["scenes"][0]["nodes"].push_back(scene["nodes"].size() - 1);
   write_file(in, scene.dump());
-  const Json report = report_of(folder, in, folder / "out.gltf", {"--ratio", "0.9", "--instances", "apart"});
+  const Json report = report_of(folder, in, folder / "out.gltf",
+                                {"--ratio", "0.9", "--instances", "apart", "--placement", "vertices"});
   ASSERT_EQ(Json::parse(read_file(folder / "out.gltf"))["meshes"].size(), meshes + 1);
   const std::string sentence = report["output"]["larger"];
   EXPECT_NE(sentence.find("1 mesh more than in the input"), std::string::npos) << sentence;

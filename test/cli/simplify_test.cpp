@@ -31,7 +31,8 @@ TEST(App_simplify, ReducesVerifiesAndSaysSo)
 {
   const Workspace folder;
   const std::string in = folder.generate("skirt", "in.obj", 3000);
-  const App_result result = run_app({"simplify", in, "-o", folder / "out.obj", "--ratio", "0.6"});
+  const App_result result =
+      run_app({"simplify", in, "-o", folder / "out.obj", "--ratio", "0.6", "--placement", "vertices"});
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(result.err, "");
   for (const char* word :
@@ -42,6 +43,44 @@ TEST(App_simplify, ReducesVerifiesAndSaysSo)
   EXPECT_LE(after.triangles.size(), before.triangles.size() * 6 / 10 + 1);
   EXPECT_TRUE(verify(after, before).accepted());
   EXPECT_EQ(folder.files(), 2u);
+}
+
+TEST(App_simplify, PutsVerticesToNewPlacesUnlessThoseOfTheInputAreNeeded)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("skirt", "in.ply", 1000),
+                    scene = folder.generate("skirt", "in.glb", 1000);
+  const auto placement = [&](std::vector<std::string> arguments) {
+    const std::string report = folder / "report.json";
+    arguments.insert(arguments.begin(), "simplify");
+    arguments.insert(arguments.end(), {"--report", report, "--quiet"});
+    const App_result result = run_app(arguments);
+    EXPECT_EQ(result.code, 0) << result.err;
+    const nlohmann::json json = nlohmann::json::parse(contents_of(report));
+    EXPECT_EQ(json["options"]["placement"], "auto");
+    EXPECT_EQ(json["vertices"]["placed"] > 0, json["output"]["placement"] == "optimal");
+    return json["output"]["placement"].get<std::string>();
+  };
+  const std::string out = folder / "out.ply", levels = folder / "levels.glb";
+  EXPECT_EQ(placement({in, "-o", out, "--ratio", "0.5"}), "optimal");
+  EXPECT_EQ(placement({in, "-o", out, "--ratio", "0.5", "--cells"}), "optimal");
+  EXPECT_EQ(placement({scene, "-o", folder / "{lod}.glb", "--lods", "0.8,0.5"}), "optimal");
+  EXPECT_EQ(placement({scene, "-o", levels, "--lods", "0.8,0.5"}), "vertices");
+  EXPECT_EQ(placement({in, "-o", out, "--ratio", "0.5", "--pose", in}), "vertices");
+  EXPECT_EQ(placement({in, "-o", out, "--ratio", "0.5", "--progressive", levels}), "vertices");
+  EXPECT_EQ(run_app({"cells", "cut", in, "-o", folder / "cell_{cell}.ply", "--cells", "2"}).code, 0);
+  EXPECT_EQ(placement({folder / "cell_1.ply", "-o", out, "--ratio", "0.5", "--keep", "fixed"}), "vertices");
+}
+
+// A mesh of more faces than are reduced for their looks.
+TEST(App_simplify, PutsVerticesOfLargeMeshesToThoseOfTheInput)
+{
+  const Workspace folder;
+  const std::string in = folder.generate("grid", "in.ply", 500'002), report = folder / "report.json";
+  const App_result result =
+      run_app({"simplify", in, "-o", folder / "out.ply", "--ratio", "0.99", "--quiet", "--report", report});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(nlohmann::json::parse(contents_of(report))["output"]["placement"], "vertices");
 }
 
 TEST(App_simplify, PutsVerticesToNewPlacesWhenAsked)
@@ -231,7 +270,8 @@ TEST(App_simplify, GoesThroughEveryFormat)
     for (const bool is_ascii : {false, true}) {
       SCOPED_TRACE(std::string(name) + (is_ascii ? " ascii" : ""));
       const std::string out = folder / name, again = folder / "again.obj";
-      std::vector<std::string> command{"simplify", in, "-o", out, "--ratio", "0.6", "--quiet"};
+      std::vector<std::string> command{"simplify", in,        "-o",          out,       "--ratio",
+                                       "0.6",      "--quiet", "--placement", "vertices"};
       if (is_ascii)
         command.push_back("--ascii");
       const App_result result = run_app(command);
@@ -377,7 +417,8 @@ TEST(App_simplify, EndsWhereFewerFacesWouldMoveTheSurfaceTooFar)
 {
   const Workspace folder;
   const std::string in = folder.generate("nested", "in.obj", 2000), out = folder / "out.obj";
-  const App_result bounded = run_app({"simplify", in, "-o", out, "--ratio", "0.01"});
+  const App_result bounded =
+      run_app({"simplify", in, "-o", out, "--ratio", "0.01", "--placement", "vertices"});
   EXPECT_NE(bounded.out.find(" by the error bound"), std::string::npos) << bounded.out;
   EXPECT_NE(bounded.out.find("; try --error 0.05, which costs shape\n"), std::string::npos) << bounded.out;
   EXPECT_EQ(bounded.out.find("worst deviation"), std::string::npos) << bounded.out;

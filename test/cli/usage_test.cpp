@@ -61,7 +61,7 @@ TEST(App_usage, EmptyValuesAreRefusedWithWhatTheyMayBe)
                                        std::pair("--ratio", "[PART=]R"),
                                        std::pair("--faces", "N"),
                                        std::pair("--lods", "R,R"),
-                                       std::pair("--placement", "vertices|optimal"),
+                                       std::pair("--placement", "auto|vertices|optimal"),
                                        std::pair("--weights", "NAME"),
                                        std::pair("--lock", "PART"),
                                        std::pair("--keep", "PART"),

@@ -284,8 +284,7 @@ std::string command_line(const World& world)
     add("--normals", name_of(world.normals));
   if (!world.are_faces_oriented)
     add("--orient", "keep");
-  if (options.placement != plain.placement)
-    add("--placement", "optimal");
+  add("--placement", options.placement == Placement::optimal ? "optimal" : "vertices");
   if (options.loop != plain.loop)
     add("--loop", "cgal");
   if (options.instances != plain.instances)

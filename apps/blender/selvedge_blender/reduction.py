@@ -37,6 +37,8 @@ def reduce_selected(context):
         places = numpy.concatenate([item.places_of(item.basis) for item in inputs])
         command = [program, "simplify", files.write("selected_objects", places), "-o", _OUTPUT, "--report", _REPORT]
         command += settings.arguments()
+        if "--placement" not in command:
+            command += ["--placement", "vertices"]
         obstacle = _Obstacle(folder, obstacles, context.evaluated_depsgraph_get()) if obstacles else None
         if obstacle:
             command += ["--obstacle", obstacle.write("obstacle", context.evaluated_depsgraph_get())]

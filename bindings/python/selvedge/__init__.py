@@ -108,6 +108,7 @@ def simplify(points, triangles, *, uvs=None, normal_vectors=None, groups=None, a
 
     options: those of `selvedge simplify` by their names in its reports (`option_names`), such as ratio=0.3, faces=2000,
     error=0.001 (None: no limit), placement="optimal", lock=["collar"], part_ratios={"collar": 0.5}, threads=1.
+    By default, placement is "vertices": every vertex of the result is one of the input. "optimal" comes nearer.
     uvs: texture coordinates, of shape (vertices, 2), or (triangles, 3, 2) for corners, or a pair (values, triangles) as in
     OBJ files and libigl: each triangle has the numbers of three rows of values. Seams stay seams, and no triangle of the
     texture turns over.
