@@ -45,7 +45,8 @@ struct selvedge_options
 
 struct selvedge_result
 {
-  bindings::Reduction reduction;
+  std::shared_ptr<const bindings::Reduction> reduction; // which all of its levels share
+  std::size_t level;
   selvedge_mesh mesh;
   std::vector<Index> vertices;
   std::optional<std::string> report;
@@ -101,6 +102,24 @@ Object& required(Object* object, const char* name)
                        (error_before.empty()        ? ""
                         : last != std::string::npos ? error_before.substr(last)
                                                     : before + error_before));
+}
+
+using Results = std::vector<std::unique_ptr<selvedge_result>>;
+
+/// Returns a result for each level of detail; one, if none are asked for.
+Results results_of(const selvedge_mesh& mesh, const bindings::Reduction_request& request)
+{
+  const auto reduction =
+      std::make_shared<const bindings::Reduction>(mesh.soup, request, mesh.has_normals_of_vertices);
+  Results results;
+  for (std::size_t level = 0; level < reduction->level_count(); ++level)
+    results.emplace_back(
+        new selvedge_result{reduction,
+                            level,
+                            {reduction->soup(level), mesh.has_normals_of_vertices, mesh.folder},
+                            reduction->vertices(level),
+                            {}});
+  return results;
 }
 
 /// Judges as `selvedge verify` judges files: vertices that a file has for its normals alone make no pieces.
@@ -315,14 +334,26 @@ selvedge_result* selvedge_reduce(const selvedge_mesh* mesh, const selvedge_optio
 {
   return guarded(static_cast<selvedge_result*>(nullptr), [&] {
     const selvedge_mesh& input = required(mesh, "mesh");
-    auto result = std::unique_ptr<selvedge_result>(new selvedge_result{
-        bindings::Reduction(input.soup, required(options, "options").request, input.has_normals_of_vertices),
-        {},
-        {},
-        {}});
-    result->vertices = result->reduction.vertices();
-    result->mesh = {result->reduction.soup(), input.has_normals_of_vertices, input.folder};
-    return result.release();
+    const bindings::Reduction_request& request = required(options, "options").request;
+    if (!request.lods.empty())
+      throw Argument_error("lods: selvedge_reduce makes one result; call selvedge_reduce_lods");
+    return results_of(input, request).front().release();
+  });
+}
+
+int selvedge_reduce_lods(const selvedge_mesh* mesh, const selvedge_options* options,
+                         selvedge_result** results, size_t count)
+{
+  return guarded(-1, [&] {
+    const selvedge_mesh& input = required(mesh, "mesh");
+    const bindings::Reduction_request& request = required(options, "options").request;
+    required(results, "results");
+    if (request.lods.empty() || request.lods.size() != count)
+      throw Argument_error("lods: the option has " + std::to_string(request.lods.size()) +
+                           " ratios, and there is room for " + std::to_string(count) + " results");
+    for (auto& result : results_of(input, request))
+      *results++ = result.release();
+    return 0;
   });
 }
 
@@ -333,12 +364,18 @@ void selvedge_result_free(selvedge_result* result)
 
 int selvedge_result_is_accepted(const selvedge_result* result)
 {
-  return guarded(-1, [&] { return int(required(result, "result").reduction.is_accepted()); });
+  return guarded(-1, [&] {
+    const selvedge_result& level = required(result, "result");
+    return int(level.reduction->is_accepted(level.level));
+  });
 }
 
 int selvedge_result_is_reached(const selvedge_result* result)
 {
-  return guarded(-1, [&] { return int(required(result, "result").reduction.is_reached()); });
+  return guarded(-1, [&] {
+    const selvedge_result& level = required(result, "result");
+    return int(level.reduction->is_reached(level.level));
+  });
 }
 
 const selvedge_mesh* selvedge_result_mesh(const selvedge_result* result)
@@ -353,7 +390,7 @@ const unsigned int* selvedge_result_vertices(const selvedge_result* result)
 
 const char* selvedge_result_log(const selvedge_result* result)
 {
-  return result ? result->reduction.log().c_str() : nullptr;
+  return result ? result->reduction->log(result->level).c_str() : nullptr;
 }
 
 const char* selvedge_result_report(selvedge_result* result)
@@ -361,7 +398,7 @@ const char* selvedge_result_report(selvedge_result* result)
   return guarded(static_cast<const char*>(nullptr), [&] {
     std::optional<std::string>& report = required(result, "result").report;
     if (!report)
-      report = result->reduction.report();
+      report = result->reduction->report(result->level);
     return report->c_str();
   });
 }

@@ -168,10 +168,11 @@ SELVEDGE_C_API selvedge_options* selvedge_options_new(void);
 SELVEDGE_C_API void selvedge_options_free(selvedge_options* options);
 
 /* Sets one option: "ratio" to "0.3", "placement" to "optimal", "lock" to the name of a part, and so on. Names
-   are those in docs/report.md (without drop_attribute, key_poses, lods, obstacle, polygons, poses, progressive
-   and strict), values those of the command line ("true" or "false" for flags); "log" "true" asks for a log.
-   "lock", "keep", "drop_part", "part_ratios" ("collar=0.5") and "may_intersect" ("skin:dress") add to what was
-   set before. Returns 0, or -1 when there is no such option or value; the error then names the nearest. */
+   are those in docs/report.md (without drop_attribute, key_poses, obstacle, polygons, poses, progressive and
+   strict), values those of the command line ("true" or "false" for flags); "log" "true" asks for a log.
+   "lock", "keep", "drop_part", "part_ratios" ("collar=0.5"), "may_intersect" ("skin:dress") and "lods"
+   ("0.5,0.25", for selvedge_reduce_lods) add to what was set before. Returns 0, or -1 when there is no such
+   option or value; the error then names the nearest. */
 SELVEDGE_C_API int selvedge_options_set(selvedge_options* options, const char* name, const char* value);
 
 /* Copies a mesh that no face may touch or pass through. Null removes it. Returns 0, or -1 when it fails. */
@@ -192,6 +193,14 @@ typedef struct selvedge_result selvedge_result;
 /* Reduces a mesh, and judges the result. Returns null when an option is out of range, nothing says how far to
    reduce, or the mesh is not acceptable. */
 SELVEDGE_C_API selvedge_result* selvedge_reduce(const selvedge_mesh* mesh, const selvedge_options* options);
+
+/* Makes several levels of detail in one run: one for each ratio of the option "lods". `results` gets
+   `count` results in the order of the ratios, which must be as many. Each is judged, has its own report and
+   the log that led to it, and is freed by selvedge_result_free. The options "ratio" and "faces" must not be
+   set. Returns 0, or -1 when it fails, as selvedge_reduce does, with `results` as they were. */
+SELVEDGE_C_API int selvedge_reduce_lods(const selvedge_mesh* mesh, const selvedge_options* options,
+                                        selvedge_result** results, size_t count);
+
 SELVEDGE_C_API void selvedge_result_free(selvedge_result* result);
 
 /* Returns whether the judge accepts the result (anything else is a defect of Selvedge, unless

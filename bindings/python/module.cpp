@@ -289,38 +289,51 @@ void add_labels(Triangle_soup& soup, const Labels& labels)
 
 constexpr const char* s_weights = "weights"; // the attribute that holds the costs of vertices
 
+/// One level of a reduction.
 class Result
 {
 public:
-  explicit Result(bindings::Reduction reduction) : m_reduction(std::move(reduction)) {}
+  Result(std::shared_ptr<const bindings::Reduction> reduction, std::size_t level)
+      : m_reduction(std::move(reduction)), m_level(level)
+  {
+  }
 
   py::tuple mesh() const
   {
-    return py::make_tuple(array_of<double>(std::vector<Point_3>(m_reduction.soup().points), 3),
-                          array_of<Index>(std::vector<Index_triple>(m_reduction.soup().triangles), 3));
+    return py::make_tuple(array_of<double>(std::vector<Point_3>(soup().points), 3),
+                          array_of<Index>(std::vector<Index_triple>(soup().triangles), 3));
   }
-  py::object uvs() const { return values_of(m_reduction.soup().uvs); }
-  py::object normals() const { return values_of(m_reduction.soup().normals); }
+  py::object uvs() const { return values_of(soup().uvs); }
+  py::object normals() const { return values_of(soup().normals); }
   py::dict attributes() const
   {
     py::dict result;
-    for (const Attribute& attribute : m_reduction.soup().vertex_attributes)
+    for (const Attribute& attribute : soup().vertex_attributes)
       if (attribute.name != s_weights)
         result[py::str(attribute.name)] = array_of(attribute);
     return result;
   }
-  py::array_t<Index> vertices() const { return array_of<Index>(m_reduction.vertices()); }
-  py::array_t<Index> triangles() const { return array_of<Index>(m_reduction.triangles()); }
+  py::array_t<Index> vertices() const { return array_of<Index>(m_reduction->vertices(m_level)); }
+  py::array_t<Index> triangles() const { return array_of<Index>(m_reduction->triangles(m_level)); }
   py::array_t<Index> collapses() const
   {
     std::vector<Index_triple::value_type> pairs;
-    for (const Soup_collapse& collapse : m_reduction.collapses())
+    for (const Soup_collapse& collapse : m_reduction->collapses(m_level))
       pairs.insert(pairs.end(), {Index(collapse.removed), Index(collapse.kept)});
     return array_of<Index>(std::move(pairs)).reshape({-1, 2});
   }
-  const bindings::Reduction& reduction() const { return m_reduction; }
+  std::string log() const { return m_reduction->log(m_level); }
+  std::string report() const
+  {
+    return Work().run([this] { return m_reduction->report(m_level); });
+  }
+  bool is_accepted() const { return m_reduction->is_accepted(m_level); }
+  bool is_reached() const { return m_reduction->is_reached(m_level); }
+  bool is_stopped() const { return m_reduction->is_stopped(m_level); }
 
 private:
+  const Triangle_soup& soup() const { return m_reduction->soup(m_level); }
+
   // Returns values and, for each triangle, the numbers of three of them; None where there are none.
   template <std::size_t dimension>
   static py::object values_of(const Corner_values<dimension>& of_corners)
@@ -332,14 +345,16 @@ private:
         array_of<Index>(std::vector<Index_triple>(of_corners.of_triangle), 3));
   }
 
-  bindings::Reduction m_reduction;
+  std::shared_ptr<const bindings::Reduction> m_reduction;
+  std::size_t m_level;
 };
 
-Result reduce(const Points& points, const Triangles& triangles, const Options& options, const Labels& labels,
-              bool has_normals_of_vertices, const std::vector<std::pair<std::string, py::array>>& attributes,
-              const std::vector<Index>& locked, const std::optional<std::vector<double>>& weights,
-              const std::optional<Mesh_arrays>& obstacle, const std::vector<Points>& poses,
-              const Progress& progress)
+/// Returns a result for each level of detail; one, if none are asked for.
+std::vector<Result>
+reduce(const Points& points, const Triangles& triangles, const Options& options, const Labels& labels,
+       bool has_normals_of_vertices, const std::vector<std::pair<std::string, py::array>>& attributes,
+       const std::vector<Index>& locked, const std::optional<std::vector<double>>& weights,
+       const std::optional<Mesh_arrays>& obstacle, const std::vector<Points>& poses, const Progress& progress)
 {
   Triangle_soup soup = soup_of(points, triangles);
   add_poses(soup, poses);
@@ -364,8 +379,13 @@ Result reduce(const Points& points, const Triangles& triangles, const Options& o
     request.obstacle = soup_of(obstacle->first, obstacle->second);
   Work work;
   request.options.should_stop = [&](const Simplify_progress& now) { return work.report(progress, now); };
-  return Result(
-      work.run([&] { return bindings::Reduction(std::move(soup), request, has_normals_of_vertices); }));
+  const auto reduction = work.run([&] {
+    return std::make_shared<const bindings::Reduction>(std::move(soup), request, has_normals_of_vertices);
+  });
+  std::vector<Result> results;
+  for (std::size_t level = 0; level < reduction->level_count(); ++level)
+    results.emplace_back(reduction, level);
+  return results;
 }
 
 py::array_t<std::size_t> choose_poses(const Points& points, const std::vector<Points>& poses,
@@ -404,8 +424,9 @@ py::tuple judge_mesh(const Judged_mesh& mesh, const std::optional<Judged_mesh>& 
   const Triangle_soup before = original ? soup_of(*original) : Triangle_soup();
   const Triangle_soup beside = obstacle ? soup_of(obstacle->first, obstacle->second) : Triangle_soup();
   const auto run = [&] {
-    return bindings::Verdict(soup, original ? &before : nullptr, beside,
-                             {weld_distance, clearance, may_intersect, threads, {dropped_parts, dropped_below}});
+    return bindings::Verdict(
+        soup, original ? &before : nullptr, beside,
+        {weld_distance, clearance, may_intersect, threads, {dropped_parts, dropped_below}});
   };
   const bindings::Verdict verdict = Work().run(run);
   const auto pairs = [](const std::vector<Offending_pair>& list) {
@@ -473,12 +494,11 @@ PYBIND11_MODULE(_selvedge, module)
       .def("vertices", &Result::vertices)
       .def("triangles", &Result::triangles)
       .def("collapses", &Result::collapses)
-      .def("log", [](const Result& result) { return result.reduction().log(); })
-      .def("report",
-           [](const Result& result) { return Work().run([&] { return result.reduction().report(); }); })
-      .def("is_accepted", [](const Result& result) { return result.reduction().is_accepted(); })
-      .def("is_reached", [](const Result& result) { return result.reduction().is_reached(); })
-      .def("is_stopped", [](const Result& result) { return result.reduction().is_stopped(); });
+      .def("log", &Result::log)
+      .def("report", &Result::report)
+      .def("is_accepted", &Result::is_accepted)
+      .def("is_reached", &Result::is_reached)
+      .def("is_stopped", &Result::is_stopped);
   module.def("reduce", &reduce);
   module.def("key_poses", &choose_poses);
   module.def("judge", &judge_mesh);

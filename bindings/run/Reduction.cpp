@@ -14,8 +14,9 @@
 #include <selvedge/key_poses.h>
 #include <selvedge/merge.h>
 
+#include <algorithm>
 #include <chrono>
-#include <optional>
+#include <cstddef>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -74,64 +75,108 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool
       options.max_error = m_error_search->max_error();
     if (m_guarded_poses.size() < poses)
       options.guarded_poses = m_guarded_poses;
-    std::ostringstream stream;
-    std::optional<Reduction_log> log;
-    m_collapses.clear();
-    if (request.is_log_wanted) {
-      log.emplace(stream, header, numbering, m_prepared, options);
-      options.on_collapse = [&](const Soup_collapse& collapse) {
-        log->add_collapse(collapse);
-        m_collapses.push_back(collapse);
-      };
-    }
-    std::vector<Simplified_soup> results{simplify_soup(m_prepared, options, request.intent)};
+    std::vector<Soup_collapse> collapses;
+    if (request.is_log_wanted)
+      options.on_collapse = [&](const Soup_collapse& collapse) { collapses.push_back(collapse); };
+    std::vector<Simplified_soup> results;
+    if (request.lods.empty())
+      results.push_back(simplify_soup(m_prepared, options, request.intent));
+    else
+      results = simplify_lods(m_prepared, options, request.lods, request.intent);
     missed_target.complete(results);
-    m_result = std::move(results.front());
-    m_seconds.add(m_prepared, {&m_result});
-    if (log) {
-      log->finish(m_result);
-      m_log = stream.str();
+    take(std::move(results));
+    if (request.is_log_wanted) {
+      share_out(collapses, request.intent.ratios.empty() && request.options.faces_per_cell == 0);
+      for (Level& level : m_levels) {
+        std::ostringstream stream;
+        Reduction_log log(stream, header, numbering, m_prepared, options);
+        for (const Soup_collapse& collapse : level.collapses)
+          log.add_collapse(collapse);
+        log.finish(level.result);
+        level.log = stream.str();
+      }
     }
-    const Clock::time_point start = Clock::now();
-    m_verification = verify(m_result, m_prepared);
-    if (m_error_search)
-      m_distances = distances_anywhere(m_result.soup, m_prepared.soup);
-    m_seconds["verify"] += seconds_since(start);
   } while (is_to_be_repeated(request, missed_target));
-  if (m_is_sewn)
-    m_merged = merged_at_positions(m_result.soup);
+  for (Level& level : m_levels)
+    if (m_is_sewn)
+      level.merged = merged_at_positions(level.result.soup);
 }
 
-// As in the program: guards the poses in which the result is refused or too far off, or chooses another
-// error. Where a target was missed, asks for faces that keep the shape.
+// Judges results, which become the levels.
+void Reduction::take(std::vector<Simplified_soup> results)
+{
+  m_levels.clear();
+  std::vector<const Simplified_soup*> all;
+  for (const Simplified_soup& result : results)
+    all.push_back(&result);
+  m_seconds.add(m_prepared, all);
+  const Clock::time_point start = Clock::now();
+  for (Simplified_soup& result : results) {
+    Level& level = m_levels.emplace_back();
+    level.result = std::move(result);
+    level.verification = verify(level.result, m_prepared);
+    if (m_error_search)
+      level.distances = distances_anywhere(level.result.soup, m_prepared.soup);
+  }
+  m_seconds["verify"] += seconds_since(start);
+}
+
+// One reduction passes through all levels, or each has its own, and their collapses follow each other. The
+// levels after one that was stopped are the same as that.
+void Reduction::share_out(const std::vector<Soup_collapse>& collapses, bool are_of_one_reduction)
+{
+  auto begin = collapses.begin();
+  for (Level& level : m_levels) {
+    const auto end = begin + std::ptrdiff_t(level.result.report.collapses);
+    level.collapses.assign(begin, end);
+    if (!are_of_one_reduction && !level.result.report.is_stopped)
+      begin = end;
+  }
+}
+
+// As in the program: guards the poses in which a result is refused or too far off, or chooses another error.
+// Where a target was missed, asks for faces that keep the shape.
 bool Reduction::is_to_be_repeated(const Reduction_request& request, Missed_target& missed_target)
 {
-  if (is_stopped())
+  const auto is_stopped = [](const Level& level) { return level.result.report.is_stopped; };
+  if (std::any_of(m_levels.begin(), m_levels.end(), is_stopped))
     return false;
-  if (request.options.check_intersections && add_refused_poses(m_guarded_poses, m_verification))
-    return true;
-  if (!is_accepted())
-    return false;
-  if (!m_error_search)
-    return missed_target.advance({{m_result, m_verification.distances->original_to_result}});
-  const Bounds_over_poses largest = m_distances->larger();
+  bool are_poses_added = false, are_all_accepted = true;
+  for (const Level& level : m_levels) {
+    are_poses_added |=
+        request.options.check_intersections && add_refused_poses(m_guarded_poses, level.verification);
+    are_all_accepted &= level.is_accepted();
+  }
+  if (are_poses_added || !are_all_accepted)
+    return are_poses_added;
+  if (!m_error_search) {
+    std::vector<Missed_target::Judged> judged;
+    for (const Level& level : m_levels)
+      judged.push_back({level.result, level.verification.distances->original_to_result});
+    return missed_target.advance(judged);
+  }
+  Bounds_over_poses largest;
+  for (const Level& level : m_levels)
+    if (level.distances->larger().upper >= largest.upper)
+      largest = level.distances->larger();
   if (largest.upper > *request.options.max_error && largest.pose && add_pose(m_guarded_poses, *largest.pose))
     return true;
   return m_error_search->advance(largest.upper);
 }
 
-std::vector<Index> Reduction::vertices() const
+std::vector<Index> Reduction::vertices(std::size_t level) const
 {
-  std::vector<Index> vertices(soup().points.size());
-  for (std::size_t t = 0; t < soup().triangles.size(); ++t)
+  const Triangle_soup& of_level = soup(level);
+  std::vector<Index> vertices(of_level.points.size());
+  for (std::size_t t = 0; t < of_level.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
-      const Index corner = m_result.corners[t][k];
-      vertices[soup().triangles[t][k]] = m_prepared.soup.triangles[corner / 3][corner % 3];
+      const Index corner = m_levels[level].result.corners[t][k];
+      vertices[of_level.triangles[t][k]] = m_prepared.soup.triangles[corner / 3][corner % 3];
     }
   return vertices;
 }
 
-std::vector<Index> Reduction::triangles() const
+std::vector<Index> Reduction::triangles(std::size_t level) const
 {
   // What was prepared are these triangles in their order, but for those that were left out.
   std::vector<Index> numbers;
@@ -140,22 +185,23 @@ std::vector<Index> Reduction::triangles() const
     if (m_input_triangles[t] == m_prepared.soup.triangles[numbers.size()])
       numbers.push_back(m_numbers[t]);
   std::vector<Index> result;
-  result.reserve(m_result.triangles.size());
-  for (const Index t : m_result.triangles)
+  result.reserve(m_levels[level].result.triangles.size());
+  for (const Index t : m_levels[level].result.triangles)
     result.push_back(numbers[t]);
   return result;
 }
 
-std::string Reduction::report() const
+std::string Reduction::report(std::size_t level) const
 {
+  const Level& of_level = m_levels[level];
   Json report = app::new_report("simplify");
   report["options"] = Json::parse(m_options);
-  app::add_reduction(report, m_prepared, m_result);
-  app::add_verification(report, m_verification, true);
-  app::add_guarded_poses(report, m_guarded_poses, m_result);
-  app::add_distances(report, m_verification, m_distances);
+  app::add_reduction(report, m_prepared, of_level.result);
+  app::add_verification(report, of_level.verification, true);
+  app::add_guarded_poses(report, m_guarded_poses, of_level.result);
+  app::add_distances(report, of_level.verification, of_level.distances);
   app::add_error_search(report, m_error_search);
-  app::add_parts(report, m_prepared, m_result);
+  app::add_parts(report, m_prepared, of_level.result);
   report["seconds"] = m_seconds.json({"weld", "check", "snap", "index", "cells", "reduce", "verify"});
   return app::to_text(report);
 }

@@ -19,8 +19,9 @@
 
 namespace selvedge::bindings {
 
-/// A reduction from a mesh in memory to a judged mesh in memory, as `selvedge simplify` makes it from file to
-/// file.
+/// A reduction from a mesh in memory to judged meshes in memory, as `selvedge simplify` makes it from file to
+/// files: one for each level of detail, or one where the request has no `lods`. Levels have the order of the
+/// request, and are numbered from 0.
 class Reduction
 {
 public:
@@ -29,30 +30,48 @@ public:
   /// each vertex: vertices that differ in their normals alone then become one where these are made anew.
   Reduction(Triangle_soup input, const Reduction_request& request, bool has_normals_of_vertices = false);
 
-  const Triangle_soup& soup() const { return m_is_sewn ? m_merged : m_result.soup; }
+  std::size_t level_count() const { return m_levels.size(); }
+
+  const Triangle_soup& soup(std::size_t level) const
+  {
+    return m_is_sewn ? m_levels[level].merged : m_levels[level].result.soup;
+  }
 
   /// For every vertex of the result, the vertex of the input that it is or, at a new place
   /// (`Placement::optimal`), the one of whose attributes most were taken. For every triangle of the result,
   /// the triangle of the input that it was.
-  std::vector<Index> vertices() const;
-  std::vector<Index> triangles() const;
+  std::vector<Index> vertices(std::size_t level) const;
+  std::vector<Index> triangles(std::size_t level) const;
 
-  const Verification& verification() const { return m_verification; }
-  bool is_accepted() const { return m_verification.accepted() && m_verification.same_topology(); }
-  bool is_reached() const { return m_result.report.is_reached(); }
-  bool is_stopped() const { return m_result.report.is_stopped; }
+  bool is_accepted(std::size_t level) const { return m_levels[level].is_accepted(); }
+  bool is_reached(std::size_t level) const { return m_levels[level].result.report.is_reached(); }
+  bool is_stopped(std::size_t level) const { return m_levels[level].result.report.is_stopped; }
 
-  /// Every collapse, in the format of collapse_log.h; empty unless the request asks for it.
-  const std::string& log() const { return m_log; }
+  /// Every collapse that led to the level, in the format of collapse_log.h; empty unless the request asks for
+  /// it.
+  const std::string& log(std::size_t level) const { return m_levels[level].log; }
 
-  /// The collapses as pairs (removed, kept) of vertices of the input; empty unless a log was asked for.
-  const std::vector<Soup_collapse>& collapses() const { return m_collapses; }
+  /// These collapses as pairs (removed, kept) of vertices of the input; empty unless a log was asked for.
+  const std::vector<Soup_collapse>& collapses(std::size_t level) const { return m_levels[level].collapses; }
 
-  /// Returns a report in JSON: what the program's reports say of a reduction, apart from files
-  /// (docs/report.md).
-  std::string report() const;
+  /// Returns a report in JSON: what the program's reports say of a level, apart from files (docs/report.md).
+  std::string report(std::size_t level) const;
 
 private:
+  struct Level
+  {
+    bool is_accepted() const { return verification.accepted() && verification.same_topology(); }
+
+    Simplified_soup result;
+    Triangle_soup merged; // if it is sewn
+    Verification verification;
+    std::optional<Distances_anywhere> distances; // where the error is to be kept everywhere
+    std::string log;
+    std::vector<Soup_collapse> collapses;
+  };
+
+  void take(std::vector<Simplified_soup> results);
+  void share_out(const std::vector<Soup_collapse>& collapses, bool are_of_one_reduction);
   bool is_to_be_repeated(const Reduction_request& request, Missed_target& missed_target);
 
   std::vector<Index> m_numbers;                // in the input, of the triangles that are not dropped
@@ -61,13 +80,8 @@ private:
   bool m_is_sewn;
   Prepared_soup m_prepared;
   std::vector<std::size_t> m_guarded_poses;
-  Simplified_soup m_result;
-  Triangle_soup m_merged; // if it is sewn
-  Verification m_verification;
-  std::optional<Distances_anywhere> m_distances; // these two where the error is to be kept everywhere
-  std::optional<Error_search> m_error_search;
-  std::string m_log;
-  std::vector<Soup_collapse> m_collapses;
+  std::vector<Level> m_levels;
+  std::optional<Error_search> m_error_search; // where the error is to be kept everywhere
   app::Phase_seconds m_seconds;
 };
 

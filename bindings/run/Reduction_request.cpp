@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -143,7 +144,8 @@ Option cost_option(const char* name)
 void set_error(Request& request, const std::string& value)
 {
   request.is_error_given = value != "none";
-  request.options.max_error = request.is_error_given ? std::optional<double>(number_or("none", value)) : std::nullopt;
+  request.options.max_error =
+      request.is_error_given ? std::optional<double>(number_or("none", value)) : std::nullopt;
 }
 
 void add_part_ratio(Request& request, const std::string& value)
@@ -152,6 +154,15 @@ void add_part_ratio(Request& request, const std::string& value)
   if (equals == std::string::npos)
     refuse(value, "a part and its ratio, as in collar=0.5");
   request.intent.ratios.push_back({value.substr(0, equals), number(value.substr(equals + 1), 1)});
+}
+
+void add_lods(Request& request, const std::string& value)
+{
+  std::istringstream list(value + ',');
+  std::vector<double> ratios;
+  for (std::string ratio; std::getline(list, ratio, ',');)
+    ratios.push_back(number(ratio, 1));
+  request.lods.insert(request.lods.end(), ratios.begin(), ratios.end());
 }
 
 void add_part_pair(Request& request, const std::string& value)
@@ -215,6 +226,7 @@ const std::vector<Option>& table()
       number_option<&Simplify_options::uv_weight>("uv_weight"),
       number_option<&Simplify_options::normal_weight>("normal_weight"),
       {"part_ratios", add_part_ratio, part_ratios_json},
+      {"lods", add_lods, [](const Request& r) { return Json(r.lods); }},
       {"lock", [](Request& r, const std::string& value) { r.intent.locked.push_back(value); },
        [](const Request& r) { return Json(r.intent.locked); }},
       {"keep", [](Request& r, const std::string& value) { r.intent.kept.push_back(value); },
@@ -222,14 +234,15 @@ const std::vector<Option>& table()
       {"may_intersect", add_part_pair, [](const Request& r) { return Json(r.may_intersect); }},
       {"weights", [](Request& r, const std::string& value) { r.intent.weights = value; },
        [](const Request& r) { return r.intent.weights.empty() ? Json(nullptr) : Json(r.intent.weights); }},
-      {"drop_part",
-       [](Request& r, const std::string& value) { r.dropped_parts.names.push_back(value); },
+      {"drop_part", [](Request& r, const std::string& value) { r.dropped_parts.names.push_back(value); },
        [](const Request& r) { return Json(r.dropped_parts.names); }},
       {"drop_smaller",
        [](Request& r, const std::string& value) { r.dropped_parts.smaller_than = number(value); },
        [](const Request& r) { return Json(r.dropped_parts.smaller_than); }},
       {"key_poses",
-       [](Request& r, const std::string& value) { r.are_key_poses_chosen = value_of(key_poses_words, value); },
+       [](Request& r, const std::string& value) {
+         r.are_key_poses_chosen = value_of(key_poses_words, value);
+       },
        [](const Request& r) { return Json(word_of(key_poses_words, r.are_key_poses_chosen)); }},
       {"weld", set_weld,
        [](const Request& r) {
@@ -317,7 +330,9 @@ Prepare_options Reduction_request::complete_prepare_options() const
 void Reduction_request::check() const
 {
   if (is_without_target() && intent.ratios.empty())
-    throw Argument_error("say how far to reduce the mesh: give ratio, faces, error or part_ratios");
+    throw Argument_error("say how far to reduce the mesh: give ratio, faces, error, lods or part_ratios");
+  if (!lods.empty() && (options.ratio || options.faces))
+    throw Argument_error("lods: they already say how far to reduce the mesh; leave out ratio and faces");
   if (is_error_everywhere && !options.max_error)
     throw Argument_error("error_everywhere: there is no limit to keep; give a number as error");
   if (options.clearance && (prepare.open_seams == Open_seams::weld || prepare.weld_distance > 0))

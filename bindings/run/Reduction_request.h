@@ -24,14 +24,17 @@ struct Reduction_request
   /// nearest, and when the value is not one that it takes.
   ///
   /// One more option is "log": whether a log is wanted. The parts of `lock`, `keep` and `drop_part` and the
-  /// ratios of `part_ratios` ("PART=R") are added to those set before.
+  /// ratios of `part_ratios` ("PART=R") and `lods` ("R,R") are added to those set before.
   void set(const std::string& name, const std::string& value);
 
   /// Refuses what does not fit together. Throws `Argument_error`.
   void check() const;
 
   /// Returns whether nothing says how far to reduce the whole mesh.
-  bool is_without_target() const { return !options.ratio && !options.faces && !is_error_given; }
+  bool is_without_target() const
+  {
+    return !options.ratio && !options.faces && !is_error_given && lods.empty();
+  }
 
   /// Returns the options for a reduction. Where only parts have ratios, all else has the ratio 1.
   Simplify_options complete_options() const;
@@ -46,6 +49,7 @@ struct Reduction_request
   Simplify_options options;
   Simplify_intent intent;
   Prepare_options prepare;
+  std::vector<double> lods; ///< ratios of levels of detail, in the order of the results
   Triangle_soup obstacle;
   std::vector<std::string> may_intersect; ///< "PART:PART", with names of parts of the mesh
   Parts_to_drop dropped_parts;

@@ -182,6 +182,100 @@ class Simplify(unittest.TestCase):
         self.assertLess(kept.report["distance"]["original_to_result"]["rms"],
                         0.95 * flattened.report["distance"]["original_to_result"]["rms"])
 
+    def test_levels_of_detail_are_what_single_runs_give(self):
+        mesh = selvedge.generate("skirt", faces=4000, thickness=0)
+        given = {"uvs": mesh.uvs, "attributes": {"height": mesh.points[:, 1].copy()}}
+        ratios = (0.3, 0.6, 0.25)
+        levels = selvedge.simplify(*mesh, lods=ratios, log=True, **given)
+        self.assertEqual(len(levels), 3)
+        for level, ratio in zip(levels, ratios):
+            alone = selvedge.simplify(*mesh, ratio=ratio, log=True, **given)
+            self.assertTrue(level.accepted and level.reached)
+            self.assertEqual(level.log, alone.log)
+            for name in ("points", "triangles", "uvs", "vertices", "birth", "collapses"):
+                np.testing.assert_array_equal(getattr(level, name), getattr(alone, name))
+            np.testing.assert_array_equal(level.attributes["height"], level.points[:, 1])
+            self.assertEqual(level.report["faces"], alone.report["faces"])
+            self.assertEqual(level.report["options"]["lods"], list(ratios))
+            replayed = selvedge.replay(*mesh, level.log, uvs=mesh.uvs)
+            self.assertTrue(replayed)
+            np.testing.assert_array_equal(replayed.mesh.triangles, level.triangles)
+            self.assertTrue(selvedge.verify(*pickle.loads(pickle.dumps(level)), mesh))
+        for one in (0.25, [0.25], np.array([0.25])):
+            (only,) = selvedge.simplify(*mesh, lods=one, **given)
+            np.testing.assert_array_equal(only.triangles, levels[2].triangles)
+        self.assertIsInstance(selvedge.simplify(*mesh, ratio=0.5, lods=None), selvedge.Result)
+
+    def test_levels_of_parts_with_ratios_have_logs_of_their_own(self):
+        mesh = layers(2000, 2)
+        half = len(mesh.triangles) // 2
+        groups = ["low"] * half + ["high"] * (len(mesh.triangles) - half)
+        for level in selvedge.simplify(*mesh, groups=groups, part_ratios={"low": 0.8}, lods=[0.2, 0.5], log=True):
+            self.assertAlmostEqual((level.birth < half).sum(), 0.8 * half, delta=1)
+            replayed = selvedge.replay(*mesh, level.log, groups=groups)
+            self.assertTrue(replayed)
+            np.testing.assert_array_equal(replayed.mesh.triangles, level.triangles)
+
+    def test_levels_of_a_mesh_with_poses_are_guarded_in_all(self):
+        mesh = layers(1000, 2)
+        # As below: two that differ most, and tell nothing of the bent ones, which the judge finds pierced.
+        far = [mesh.points + np.array([0, 0, height]) for height in (50, -50)]
+        bent = [mesh.points + np.array([0, 0, 1]) * (bend * mesh.points[:, :1] ** 2) for bend in (3, 2.9)]
+        for level in selvedge.simplify(*mesh, poses=far + bent, lods=[0.5, 0.1], error=None, key_poses="auto"):
+            self.assertTrue(level.accepted)
+            self.assertEqual(len(selvedge.verify(bent[0][level.vertices], level.triangles).pairs), 0)
+            guarded = [pose["guarded"] for pose in level.report["verified"]["poses"]]
+            self.assertTrue(guarded[0] and guarded[1] and (guarded[2] or guarded[3]))
+
+    def test_levels_after_a_stop_are_the_mesh_as_it_is_then(self):
+        mesh = layers(20000)
+        for options in ({}, {"cells": True}):
+            levels = selvedge.simplify(*mesh, lods=[0.9, 0.5, 0.1], log=True, progress=lambda *counts: True, **options)
+            self.assertTrue(levels[2].stopped and levels[2].accepted and not levels[2].reached)
+            np.testing.assert_array_equal(levels[1].triangles, levels[2].triangles)
+            for level in levels:
+                self.assertTrue(selvedge.replay(*mesh, level.log))
+
+    def test_levels_of_detail_are_refused_as_in_the_program(self):
+        mesh = layers(500)
+        for options, why in (({"lods": [0.5], "ratio": 0.5}, "they already say how far"),
+                             ({"lods": [0.5], "faces": 100}, "they already say how far"),
+                             ({"lods": [0.5, 1.5]}, "'1.5' is not a number from 0 to 1"), ({"lods": []}, "not a list of ratios"),
+                             ({"lods": [], "ratio": 0.5}, "not a list of ratios"), ({"lods": {0.5, 0.2}}, "not a list of ratios"),
+                             ({"lods": {"high": 0.5}}, "'high=0.5' is not a number")):
+            with self.assertRaisesRegex(selvedge.ArgumentError, "^lods: .*" + why if "not a list" not in why else why):
+                selvedge.simplify(*mesh, **options)
+        with self.assertRaisesRegex(selvedge.ArgumentError, "in cells no part"):
+            selvedge.simplify(*mesh, lods=[0.5], cells=True, part_ratios={"sheet_1": 0.5})
+
+    @unittest.skipUnless("SELVEDGE_APP" in os.environ, "there is no program")
+    def test_levels_of_detail_are_those_of_the_program(self):
+        mesh = selvedge.generate("skirt", faces=20000)  # so large that a run for one ratio gives others
+        rows, numbers = np.unique(mesh.uvs.reshape(-1, 2), axis=0, return_inverse=True)
+        numbers = numbers.reshape(-1, 3)
+        ratios = [0.5, 0.25, 0.1]
+        with tempfile.TemporaryDirectory() as folder:
+            name = os.path.join(folder, "in.obj")
+            with open(name, "w", encoding="utf-8") as file:
+                file.writelines("v %r %r %r\n" % tuple(map(float, point)) for point in mesh.points)
+                file.writelines("vt %r %r\n" % tuple(map(float, uv)) for uv in rows)
+                for group, triangle, of_texture in zip(mesh.groups, mesh.triangles + 1, numbers + 1):
+                    file.write("g %s\nf %d/%d %d/%d %d/%d\n" % (group, *np.stack([triangle, of_texture], axis=1).reshape(-1)))
+            subprocess.run([os.environ["SELVEDGE_APP"], "simplify", name, "-o", os.path.join(folder, "out_{lod}.obj"), "--lods",
+                            ",".join(map(str, ratios)), "--quiet"], check=True)
+            levels = selvedge.simplify(*mesh, uvs=(rows, numbers), groups=mesh.groups, lods=ratios)
+            for number, level in enumerate(levels, 1):
+                lines = {"v": [], "vt": [], "f": []}
+                with open(os.path.join(folder, f"out_{number}.obj"), encoding="utf-8") as file:
+                    for words in map(str.split, file):
+                        lines.get(words[0] if words else "", []).append(words[1:])
+                corners = np.array([[word.split("/")[:2] for word in face] for face in lines["f"]], dtype=int) - 1
+                np.testing.assert_array_equal(np.array(lines["v"], dtype=float), level.points)
+                np.testing.assert_array_equal(corners[:, :, 0], level.triangles)
+                np.testing.assert_array_equal(np.array(lines["vt"], dtype=float)[corners[:, :, 1]], level.uvs[0][level.uvs[1]])
+        alone = selvedge.simplify(*mesh, uvs=(rows, numbers), groups=mesh.groups, ratio=0.5)
+        self.assertFalse(np.array_equal(alone.triangles, levels[0].triangles))
+
     def test_options_are_those_of_the_program(self):
         mesh = layers(500)
         report = selvedge.simplify(*mesh, ratio=0.5, error=None, lock=[], normal_change=30).report

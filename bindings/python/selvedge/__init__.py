@@ -104,11 +104,13 @@ def option_names():
 
 def simplify(points, triangles, *, uvs=None, normal_vectors=None, groups=None, attributes=None, poses=None, obstacle=None,
              weights=None, lock_vertices=None, log=False, progress=None, **options):
-    """Reduces a mesh, and has the result judged. Returns a `Result`.
+    """Reduces a mesh, and has the result judged. Returns a `Result`; with `lods`, a list of them.
 
     options: those of `selvedge simplify` by their names in its reports (`option_names`), such as ratio=0.3, faces=2000,
     error=0.001 (None: no limit), placement="optimal", lock=["collar"], part_ratios={"collar": 0.5}, threads=1.
     By default, placement is "vertices": every vertex of the result is one of the input. "optimal" comes nearer.
+    lods, an option: ratios of levels of detail, such as [0.5, 0.25, 0.1], in place of ratio or faces. The list has a `Result`
+    for each, in their order, the same as `--lods` makes in one run. Each is judged, and has its own report and log.
     uvs: texture coordinates, of shape (vertices, 2), or (triangles, 3, 2) for corners, or a pair (values, triangles) as in
     OBJ files and libigl: each triangle has the numbers of three rows of values. Seams stay seams, and no triangle of the
     texture turns over.
@@ -140,18 +142,19 @@ def simplify(points, triangles, *, uvs=None, normal_vectors=None, groups=None, a
         raise ArgumentError("uvs: sewn makes one vertex of several, which differ in their texture coordinates along seams; give "
                             "those of corners: uvs[triangles]")
     given = [pair for name, value in options.items() for pair in _texts(name, value)] + [("log", _text(bool(log)))]
-    run = _selvedge.reduce(_points(points), _triangles(triangle_array), given, labels, form_of_normals == "vertex",
-                           [(str(name), _np.asarray(values)) for name, values in (attributes or {}).items()],
-                           [] if lock_vertices is None else _vertex_numbers(lock_vertices, len(points)),
-                           None if weights is None else _weights(weights, len(points)),
-                           None if obstacle is None else _mesh(obstacle, "obstacle"),
-                           [] if poses is None else _poses(poses),
-                           None if progress is None else lambda *counts: bool(progress(*counts)))
-    result = Result(run, triangle_array.dtype, form_of_uvs)
+    runs = _selvedge.reduce(_points(points), _triangles(triangle_array), given, labels, form_of_normals == "vertex",
+                            [(str(name), _np.asarray(values)) for name, values in (attributes or {}).items()],
+                            [] if lock_vertices is None else _vertex_numbers(lock_vertices, len(points)),
+                            None if weights is None else _weights(weights, len(points)),
+                            None if obstacle is None else _mesh(obstacle, "obstacle"),
+                            [] if poses is None else _poses(poses),
+                            None if progress is None else lambda *counts: bool(progress(*counts)))
+    results = [Result(run, triangle_array.dtype, form_of_uvs) for run in runs]
     for name, values in (attributes or {}).items():
-        if _np.ndim(values) == 1:
-            result.attributes[str(name)] = result.attributes[str(name)][:, 0]
-    return result
+        for result in results:
+            if _np.ndim(values) == 1:
+                result.attributes[str(name)] = result.attributes[str(name)][:, 0]
+    return results[0] if options.get("lods") is None else results
 
 
 def key_poses(points, poses, count):
@@ -375,7 +378,9 @@ def _texts(name, value):
     if isinstance(value, dict):
         return [(name, f"{part}={_text(ratio)}") for part, ratio in value.items()]
     if isinstance(value, (list, tuple, set, frozenset)) or getattr(value, "ndim", 0) > 0:
-        if name not in ("lock", "keep", "drop_part", "may_intersect", "part_ratios"):
+        if name not in ("lock", "keep", "drop_part", "may_intersect", "part_ratios", "lods"):
             raise ArgumentError(f"{name} takes one value, and not several")
+        if name == "lods" and (len(value) == 0 or isinstance(value, (set, frozenset))):
+            raise ArgumentError(f"lods is {value!r}, and not a list of ratios, with a level for each")
         return [(name, _text(part)) for part in value]
     return [(name, _text(value))]

@@ -1,4 +1,4 @@
-from typing import Any, Callable, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -43,6 +43,15 @@ class Verdict:
     def __bool__(self) -> bool: ...
 
 def option_names() -> List[str]: ...
+@overload
+def simplify(
+    points: ArrayLike,
+    triangles: ArrayLike,
+    *,
+    lods: Union[float, Sequence[float], np.ndarray],  # with all below but ratio and faces
+    **others: Any,
+) -> List[Result]: ...
+@overload
 def simplify(
     points: ArrayLike,
     triangles: ArrayLike,
@@ -57,6 +66,7 @@ def simplify(
     lock_vertices: Optional[Union[Sequence[int], Sequence[bool], np.ndarray]] = None,  # numbers, or a boolean for each vertex
     log: bool = False,
     progress: Optional[Callable[[int, int, int], Any]] = None,
+    lods: None = None,
     ratio: float = ...,
     faces: int = ...,
     error: Optional[float] = ...,
