@@ -236,6 +236,26 @@ class Simplify(unittest.TestCase):
             for level in levels:
                 self.assertTrue(selvedge.replay(*mesh, level.log))
 
+    def test_a_stop_in_the_reduction_of_a_later_level_leaves_those_before(self):
+        mesh = layers(20000, 2)
+        groups = ["low"] * (len(mesh.triangles) // 2) + ["high"] * (len(mesh.triangles) - len(mesh.triangles) // 2)
+        seen = []
+
+        def has_begun_again(faces_input, target, faces):
+            seen.append(faces)
+            return any(later > earlier for earlier, later in zip(seen, seen[1:]))
+
+        # The first level misses its target, for which all would be made again.
+        levels = selvedge.simplify(*mesh, groups=groups, part_ratios={"low": 0.001}, lods=[0.001, 0.1, 0.2], log=True,
+                                   progress=has_begun_again)
+        self.assertEqual([level.stopped for level in levels], [False, True, True])
+        self.assertFalse(levels[0].reached)
+        np.testing.assert_array_equal(levels[1].triangles, levels[2].triangles)
+        for level in levels:
+            replayed = selvedge.replay(*mesh, level.log, groups=groups)
+            self.assertTrue(replayed)
+            np.testing.assert_array_equal(replayed.mesh.triangles, level.triangles)
+
     def test_levels_of_detail_are_refused_as_in_the_program(self):
         mesh = layers(500)
         for options, why in (({"lods": [0.5], "ratio": 0.5}, "they already say how far"),
