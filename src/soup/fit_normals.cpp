@@ -9,6 +9,7 @@
 #include "near_normals.h"
 #include "number_positions.h"
 #include "selection.h"
+#include "surfaces_of.h"
 #include "triangle_normals.h"
 
 #include <selvedge/Cancellation_scope.h>
