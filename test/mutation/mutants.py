@@ -317,7 +317,7 @@ group("src/files/poses.cpp", ("poses_files_test",),
       ("mesh.triangles[t], pose))\n      continue;", "mesh.triangles[t], mesh))\n      continue;", "vertices that the mesh has made one part in a pose"))
 group("src/simplify/prepare.cpp", ("snapping_test",),
       ("    mark_what_stays(stays);\n", "", "parts that are kept snap"))
-group("src/soup/fit_normals.cpp", ("shading_test",),
+group("src/soup/fit_normals.cpp", ("fitted_shading_test",),
       ("m_is_fixed[w] |= !is_free[w];", "", "triangles get other normals where nothing has changed"),
       ("[edges[i].second] = true;", "[edges[i].second] = false;", "normals on borders are fitted"),
       ("of_original = surfaces_of(m_original);", "of_original(m_original.triangles.size(), 0);", "a layer is shaded as the one beside it"),
