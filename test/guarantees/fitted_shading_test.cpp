@@ -217,6 +217,39 @@ TEST(FittedShading, PointsToTheBackOfNoFace)
   EXPECT_EQ(count_of_wrong_sides(result), 0u);
 }
 
+// The large side of a peak would turn its normal to the back of the other sides. No edge there is sharp
+// enough to become hard.
+TEST(FittedShading, PointsToTheBackOfNoSideOfAPeak)
+{
+  constexpr Index sides = 12;
+  Triangle_soup original;
+  original.points = {{0, 0, 0}};
+  for (Index i = 0; i < sides; ++i) {
+    const double angle = 2 * CGAL_PI * i / sides, length = i < 2 ? 20 : 1;
+    original.points.emplace_back(length * std::cos(angle), length * std::sin(angle), -1.7 * length);
+    original.triangles.push_back({0, i + 1, (i + 1) % sides + 1});
+  }
+  std::vector<Index> triangles;
+  std::vector<Index_triple> corners;
+  for (Index i = 0; i < sides; ++i) {
+    original.normals.values.push_back(shading::unit_normal(original, i));
+    original.normals.of_triangle.push_back({i, i, i});
+    triangles.push_back(i);
+    corners.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  Triangle_soup result = original;
+  result.points[0] = {0, 0, 0.01};
+  result.normals.values.push_back({0, 0, 1});
+  for (Index_triple& normals : result.normals.of_triangle)
+    normals[0] = sides;
+  EXPECT_EQ(fit_normals(result, triangles, corners, original, original.normals), sides);
+  EXPECT_EQ(count_of_wrong_sides(result), 0u);
+  const auto& [x, y, z] = result.normals.values[result.normals.of_triangle[0][0]];
+  EXPECT_GT(x, 0.1); // it has turned, as far as the others let it
+  EXPECT_GT(y, 0);
+  EXPECT_GT(z, 0);
+}
+
 // A layer that lies nearer than the result is to its original, with quite other normals.
 TEST(FittedShading, DoesNotDependOnOtherLayers)
 {

@@ -233,6 +233,24 @@ TEST(Shading, OfFacesThatHaveNoMeanIsTheirOwn)
       EXPECT_NEAR(result.normals.values[number][0], t == 0 ? 1 : -1, 0.001);
 }
 
+// A large face, and two slivers that fold back under it, each so little from the last that they are one fan.
+// Its mean is nearly the normal of the large face, which is the back of the last sliver.
+TEST(Shading, OfAFaceFarFromTheMeanIsItsOwn)
+{
+  Triangle_soup original;
+  original.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-0.06, 1, -0.08}, {-0.032, 1, -0.176}};
+  original.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}; // 53° from the first to the second, and on
+  original.normals = {{{0, 0, 1}, {-0.8, 0, 0.6}, {-0.96, 0, -0.28}}, {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}};
+  Triangle_soup result = original;
+  for (auto& normal : result.normals.values)
+    normal = {-normal[0], 0, -normal[2]};
+  EXPECT_EQ(mend_normals(result, {0, 1, 2}, original, original.normals), 9u);
+  EXPECT_EQ(count_of_wrong_sides(result), 0u);
+  const auto normal = [&](std::size_t t) { return result.normals.values[result.normals.of_triangle[t][0]]; };
+  EXPECT_EQ(normal(0), normal(1)); // the control: they have one
+  EXPECT_LT(normal(2)[2], 0);
+}
+
 TEST(Shading, NeedsNoNormals)
 {
   Triangle_soup result = hem();
