@@ -52,8 +52,8 @@ std::vector<std::string> blind_spots(const Verification& verification, const Com
       "on average, or 1 % of the diagonal where little is left of a small one; the most of any piece "
       "is " +
       with_digits(100 * farthest) + " %");
-  lines.push_back(
-      "faces that turned over, unless they make up nine tenths of a piece; the normals say how many");
+  lines.push_back("faces that turned over, unless they make up nine tenths of a piece and turn its border, "
+                  "if it has one; the normals say how many");
 
   if (const std::string some = pieces_matched(matching, Matched_by::distance); !some.empty())
     lines.push_back("whether " + some +

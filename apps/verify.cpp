@@ -271,9 +271,15 @@ void print(const Verify_request& request, const Mesh_file& mesh, const Judgement
       std::cout << "the original was rounded to 32-bit floats before the comparison, because the result "
                    "stores only these\n";
     print(verification.matching);
-    std::cout << (verification.same_topology()          ? "topology: as in the original\n"
-                  : verification.matching.is_complete() ? "topology: the files number vertices differently:\n"
-                                                        : "topology CHANGED:\n");
+    const std::vector<Piece_mismatch>& mismatches = verification.matching.mismatches;
+    const bool is_changed =
+        std::any_of(mismatches.begin(), mismatches.end(), [](const Piece_mismatch& mismatch) {
+          return mismatch.what == Mismatch::missing || mismatch.what == Mismatch::added ||
+                 mismatch.what == Mismatch::topology;
+        });
+    std::cout << (verification.same_topology() ? "topology: as in the original\n"
+                  : is_changed                 ? "topology CHANGED:\n"
+                                               : "topology: the files number vertices differently:\n");
     for (const Topology_difference& difference : verification.topology_differences)
       std::cout << "  pieces with " << counted(difference.boundary_loops, "boundary loop")
                 << " and Euler characteristic " << difference.euler_characteristic << ": "

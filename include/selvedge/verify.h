@@ -184,7 +184,7 @@ enum class Mismatch {
   name,     ///< faces have a group, object or material that the original has elsewhere, or a name is gone
   far,   ///< pieces are farther from those of the original than a quarter of their size, and than 1 % of the
          ///< whole diagonal or without a vertex of the original's pieces
-  turned ///< the inside has become the outside
+  turned ///< nine tenths of the area face the other way, and no border runs as it did
 };
 
 /// Pieces that do not match.

@@ -4,6 +4,7 @@
 #ifndef SELVEDGE_SRC_VERIFY_SHAPE_H
 #define SELVEDGE_SRC_VERIFY_SHAPE_H
 
+#include "Border_lines.h"
 #include "Diagonal.h"
 #include "Lists.h"
 
@@ -45,6 +46,13 @@ public:
   /// Returns the share of this shape's area whose normal is more than 104° from that of the triangle of
   /// `other` that is nearest to the centroid of its own triangle.
   double turned_against(const Shape& other) const;
+
+  /// Returns whether the border of this shape runs as that of `other` does, where both have points in common
+  /// (`Border_lines`).
+  bool has_border_of(const Shape& other) const
+  {
+    return Border_lines(other.m_surface).are_followed_by(m_surface);
+  }
 
 private:
   static Triangle_soup submesh(const Triangle_soup& soup, const std::vector<Index>& triangles);

@@ -42,6 +42,7 @@ bool has_vertex_of_original(Matching& matching, const Piece_match& match)
 void judge_shapes(Matching& matching)
 {
   std::vector<double> diagonals(matching.found.matches.size()); // of the pieces of the original
+  std::vector<char> are_turned(matching.found.matches.size());
   const auto judge = [&](std::size_t i) {
     Piece_match& match = matching.found.matches[i];
     const Shape before(matching.original.soup, matching.original.triangles_of(match.of_original),
@@ -51,6 +52,7 @@ void judge_shapes(Matching& matching)
     match.distance = likeness.distance;
     diagonals[i] = before.diagonal();
     match.turned = likeness.turned;
+    are_turned[i] = likeness.is_turned;
   };
   tbb::parallel_for(std::size_t(0), matching.found.matches.size(), Cancellation_scope::inherited(judge));
   const double allowed = most_distance_of_own * Diagonal(matching.original.soup).length(matching.exponent);
@@ -67,7 +69,7 @@ void judge_shapes(Matching& matching)
       matching.add_mismatch(Mismatch::far, match.of_original, match.of_result,
                             what() + " are " + percents + " of their size apart in the mean");
     }
-    if (match.turned >= least_turned)
+    if (are_turned[i])
       matching.add_mismatch(Mismatch::turned, match.of_original, match.of_result,
                             what() + " have their outsides on different sides");
   }

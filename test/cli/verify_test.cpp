@@ -143,6 +143,15 @@ TEST(App_verify, AgainstTheOriginalTopologyCounts)
   const App_result result = run_app({"verify", folder / "one.obj", "--against", folder / "apart.obj"});
   EXPECT_EQ(result.code, 1);
   EXPECT_NE(result.out.find("topology CHANGED"), std::string::npos) << result.out;
+  // What is wrong is not the topology: the vertices of an edge come twice, and all faces are turned.
+  write_text(folder / "square.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n");
+  write_text(folder / "turned.obj",
+             "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 2 1 3\nf 4 5 6\n");
+  const App_result turned = run_app({"verify", folder / "turned.obj", "--against", folder / "square.obj"});
+  EXPECT_EQ(turned.code, 1);
+  EXPECT_NE(turned.out.find("outsides on different sides\ntopology: the files number vertices differently"),
+            std::string::npos)
+      << turned.out;
 }
 
 TEST(App_verify, SaysTheSameInJson)

@@ -375,6 +375,35 @@ TEST(MatchPieces, FindAPieceThatIsTurnedInsideOut)
   EXPECT_TRUE(match_pieces(result, fine(), options).is_complete());
 }
 
+// The nearest triangles of the original are those around the mouth, whose outsides look away from it.
+TEST(MatchPieces, OfABagThatIsDrawnFlatToItsMouthAreNotTurned)
+{
+  constexpr Index corners = 6, top = 2 * corners;
+  Triangle_soup bag;
+  for (const double level : {0, 1})
+    for (Index i = 0; i < corners; ++i)
+      bag.points.emplace_back((1 + level) * std::cos(i * M_PI / 3), (1 + level) * std::sin(i * M_PI / 3),
+                              level);
+  bag.points.emplace_back(0, 0, 1.2);
+  for (Index i = 0; i < corners; ++i) {
+    const Index next = (i + 1) % corners;
+    bag.triangles.push_back({i, next, corners + next});
+    bag.triangles.push_back({i, corners + next, corners + i});
+    bag.triangles.push_back({corners + i, corners + next, top});
+  }
+  Triangle_soup flat;
+  flat.points = {bag.points[0], bag.points[2], bag.points[4]};
+  flat.triangles = {{0, 1, 2}};
+  const Piece_matching matching = match_pieces(flat, bag);
+  EXPECT_TRUE(matching.is_complete()) << matching.mismatches.front().message;
+  EXPECT_EQ(matching.matches.at(0).turned, 1) << "the control";
+
+  Triangle_soup turned = bag;
+  for (Index_triple& triangle : turned.triangles)
+    std::swap(triangle[0], triangle[1]);
+  EXPECT_EQ(mismatches(turned, bag), Mismatches{Mismatch::turned});
+}
+
 TEST(MatchPieces, ThatCoincide)
 {
   const Triangle_soup twice = joined(layer(4, 0), layer(4, 0));
