@@ -131,8 +131,9 @@ void join_near_normals(Triangle_soup& soup);
 std::size_t share_vertices_without_normals(Triangle_soup& soup, Normals_choice choice = Normals_choice::drop);
 
 /// Makes the normals of a reduced soup where they are flat or smooth. They have the precision of 32-bit
-/// floats. A mean is weighted by the angles at the vertex (Thürmer and Wüthrich 1998). A triangle without an
-/// area has the normal (0, 0, 1).
+/// floats. A mean is weighted by the angles at the vertex (Thürmer and Wüthrich 1998). Where it is more than
+/// 90° from the normal of a triangle, as at a fold, that triangle has its own there, so that its front is not
+/// shaded as its back. A triangle without an area has the normal (0, 0, 1).
 void restore_normals(Triangle_soup& soup, Normals_treatment treatment);
 
 /// Gives triangles with flat normals those of the original again, bit for bit, where they still are theirs:

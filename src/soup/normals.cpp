@@ -177,6 +177,21 @@ void restore_smooth(Triangle_soup& soup)
   for (Index i = 0; i < count; ++i)
     sums[i] = stored(unit(sums[i]));
   normals.values = std::move(sums);
+  for (Index t = 0; t < soup.triangles.size(); ++t) {
+    if (normals.of_triangle[t][0] == normals.missing)
+      continue;
+    const Vector normal = unit_normal(soup, t);
+    Index number = s_no_normal;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (dot(normal_at(normals, t, k), normal) >= 0)
+        continue;
+      if (number == s_no_normal) {
+        number = Index(normals.values.size());
+        normals.values.push_back(stored(normal));
+      }
+      normals.of_triangle[t][k] = number;
+    }
+  }
 }
 
 } // namespace

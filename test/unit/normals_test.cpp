@@ -68,6 +68,24 @@ Prepared_soup prepared(const Triangle_soup& soup, Normals_choice choice)
   return prepare(soup, options);
 }
 
+// Of two triangles at a sharp fold, each has the larger angle at one end of the edge.
+TEST(Normals, SmoothOnesPointToTheFrontOfEveryTriangle)
+{
+  Triangle_soup soup;
+  soup.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0.3, -0.05}};
+  soup.triangles = {{0, 1, 2}, {1, 0, 3}};
+  soup.normals = {{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}}, soup.triangles};
+  restore_normals(soup, Normals_treatment::smooth);
+  const auto upwards = [&](Index triangle, std::size_t corner) {
+    return soup.normals.values[soup.normals.of_triangle[triangle][corner]][2];
+  };
+  for (const std::size_t corner : {0, 1, 2}) {
+    EXPECT_GT(upwards(0, corner), 0.9) << corner;
+    EXPECT_LT(upwards(1, corner), -0.9) << corner;
+  }
+  EXPECT_LT(upwards(0, 0), 1) << "the control: the mean with the other triangle, where it may be";
+}
+
 TEST(Normals, FlatOnesDoNotHoldTheMeshTogether)
 {
   const Triangle_soup soup = with_flat_normals(hills());
