@@ -5,6 +5,7 @@
 
 #include "part_names.h"
 #include "positions.h"
+#include "soup/Gltf_scene.h"
 #include "soup/with_number.h"
 
 #include <selvedge/Cancellation_scope.h>
@@ -228,6 +229,19 @@ std::size_t at_new_places(const Combinations& after, const Combinations& before)
   return count;
 }
 
+/// Whether a mesh that names no such attribute has it in its scene alone, as tangents are where vertices of
+/// different tangents have become one.
+bool is_left_to_scene(const Triangle_soup& soup, const std::string& name)
+{
+  if (!soup.scene)
+    return false;
+  const std::vector<Gltf_scene::Block>& blocks = soup.scene->blocks;
+  return std::any_of(blocks.begin(), blocks.end(), [&](const Gltf_scene::Block& block) {
+    return std::any_of(block.attributes.begin(), block.attributes.end(),
+                       [&](const Gltf_scene::Column& column) { return column.name == name; });
+  });
+}
+
 } // namespace
 
 void compare_values(Comparison& comparison, const Triangle_soup& result, const Triangle_soup& original)
@@ -258,7 +272,8 @@ void compare_values(Comparison& comparison, const Triangle_soup& result, const T
       return other.name == column.name && other.is_by_position == column.is_by_position;
     });
     if (same == columns.end()) {
-      comparison.lost_attributes.push_back(column.name);
+      if (!is_left_to_scene(result, column.name))
+        comparison.lost_attributes.push_back(column.name);
       continue;
     }
     Value_numbers numbers;

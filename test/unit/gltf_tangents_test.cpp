@@ -10,6 +10,7 @@
 
 #include "files/Local_normals.h"
 #include "soup/Gltf_scene.h"
+#include <selvedge/compare.h>
 #include <selvedge/inspect.h>
 #include <selvedge/normals.h>
 
@@ -361,6 +362,8 @@ TEST(Gltf_tangents, AreApartOnTheTwoSidesOfAMirroredTexture)
     EXPECT_EQ(vertices_used(loose), apart);
     share_vertices_without_normals(dropped);
     EXPECT_EQ(vertices_used(dropped), places);
+    EXPECT_EQ(dropped.vertex_attributes.size(), is_mirrored ? 0u : 1u);
+    EXPECT_TRUE(compare(dropped, file).lost_attributes.empty()) << "the scene has the tangents";
     // That is why the middle is a seam.
     const auto seams = inspect(file).seams.by_attributes;
     EXPECT_EQ(seams.size(), is_mirrored ? 1u : 0u);
