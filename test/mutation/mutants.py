@@ -1536,6 +1536,13 @@ group("src/verify/near_positions.cpp", ("verify_match_pieces_test",),
       ("      positions[vertex] = numbers[nearest];", "      positions[vertex] = positions[vertex];",
        "results of few digits are matched by the distances of surfaces alone"))
 
+group("src/verify/Border_lines.cpp", ("verify_match_pieces_test",),
+      ("return sum > 0;", "return false;", "what is left of a bag is turned inside out"),
+      ("return sum > 0;", "return true;", "no piece is turned inside out"))
+
+group("src/soup/normals.cpp", ("normals_test",),
+      ("dot(normal_at(normals, t, k), normal) >= 0", "true", "recomputed normals point to the back of a face at a fold"))
+
 group("src/simplify/reduce_in_cells.cpp", ("missed_target_test",),
       ("  options.least_faces.clear();", "", "no cell does anything where the whole has a least number of faces"))
 
