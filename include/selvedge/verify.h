@@ -172,7 +172,7 @@ struct Piece_match
   /// direction in which it is larger, as a share of the diagonal of the bounding box of `of_original`.
   double distance = 0;
   /// The share of the area of `of_result` whose normal is more than 104° from that of the nearest face of
-  /// `of_original`.
+  /// `of_original`, where no face as near is on the same side.
   double turned = 0;
 };
 

@@ -51,16 +51,25 @@ double Shape::turned_against(const Shape& other) const
   constexpr double cosine_of_turned = -0.25;
   double all = 0, turned = 0;
   Index guess = 0;
+  std::vector<Vector_3> directions; // of the triangles of `other`; few pieces need them
   Cancellation_poll poll;
   for (Index t = 0; t < m_surface.triangles.size(); ++t) {
     poll();
     const Vector_3 normal = m_surface.normal(t);
     const double area = std::sqrt(normal.squared_length());
     const Triangle_3 triangle = m_surface.triangle(t);
-    guess = other.nearest(CGAL::centroid(triangle[0], triangle[1], triangle[2]), guess);
+    const Point_3 centre = CGAL::centroid(triangle[0], triangle[1], triangle[2]);
+    const Surface_tree::Nearest nearest = other.m_tree.nearest(centre, guess);
+    guess = nearest.triangle;
     all += area;
     const Vector_3 other_normal = other.m_surface.normal(guess);
-    if (normal * other_normal < cosine_of_turned * area * std::sqrt(other_normal.squared_length()))
+    if (normal * other_normal >= cosine_of_turned * area * std::sqrt(other_normal.squared_length()))
+      continue;
+    // Both sides of a closed piece that is flat lie in one place, and either may be found.
+    for (Index u = Index(directions.size()); u < other.m_surface.triangles.size(); ++u)
+      directions.push_back(other.m_surface.normal(u));
+    const double as_near = 1.000001 * std::sqrt(CGAL::squared_distance(centre, nearest.point)) + 1e-12;
+    if (!other.m_tree.nearest_facing(centre, directions, normal, as_near))
       turned += area;
   }
   return all > 0 ? turned / all : 0;

@@ -44,7 +44,8 @@ public:
   double root_mean_square_distance(const Shape& to) const;
 
   /// Returns the share of this shape's area whose normal is more than 104° from that of the triangle of
-  /// `other` that is nearest to the centroid of its own triangle.
+  /// `other` that is nearest to the centroid of its own triangle, and for which no triangle of `other` that
+  /// is as near faces the same side.
   double turned_against(const Shape& other) const;
 
   /// Returns whether the border of this shape runs as that of `other` does, where both have points in common

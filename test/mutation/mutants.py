@@ -1540,6 +1540,10 @@ group("src/verify/Border_lines.cpp", ("verify_match_pieces_test",),
       ("return sum > 0;", "return false;", "what is left of a bag is turned inside out"),
       ("return sum > 0;", "return true;", "no piece is turned inside out"))
 
+group("src/verify/Shape.cpp", ("verify_match_pieces_test",),
+      ("!other.m_tree.nearest_facing(centre, directions, normal, as_near)", "true",
+       "a flat piece is turned where its other side is found"))
+
 group("src/soup/normals.cpp", ("normals_test",),
       ("dot(normal_at(normals, t, k), normal) >= 0", "true", "recomputed normals point to the back of a face at a fold"))
 

@@ -404,6 +404,16 @@ TEST(MatchPieces, OfABagThatIsDrawnFlatToItsMouthAreNotTurned)
   EXPECT_EQ(mismatches(turned, bag), Mismatches{Mismatch::turned});
 }
 
+// Its two sides have different diagonals, and lie in one place.
+TEST(MatchPieces, OfAFlatTetrahedronAreNotTurned)
+{
+  Triangle_soup original, result;
+  original.points = result.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  original.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
+  result.triangles = {{0, 3, 1}, {1, 3, 2}, {0, 1, 2}, {0, 2, 3}};
+  EXPECT_EQ(match_pieces(result, original).matches.at(0).turned, 0);
+}
+
 TEST(MatchPieces, ThatCoincide)
 {
   const Triangle_soup twice = joined(layer(4, 0), layer(4, 0));
