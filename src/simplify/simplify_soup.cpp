@@ -12,12 +12,12 @@
 #include "soup/texture.h"
 #include "soup/vertex_normals.h"
 #include "soup/vertex_weights.h"
+#include "verify/Diagonal.h"
 
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
 #include <selvedge/Parts.h>
 #include <selvedge/Surface_mesh_simplification/internal/Simplification.h>
-#include <selvedge/Surface_mesh_simplification/internal/mesh_diagonal.h>
 
 #include <oneapi/tbb/parallel_invoke.h>
 
