@@ -294,9 +294,10 @@ struct Verify_options
 ///    from it nor turned (`Mismatch`), if shapes are judged.
 ///    Where `Verify_options::triangles_of_original` is given: then, by triangles, each piece whose triangles
 ///    were all of one piece of the original, of the same kind, which no other piece comes from and no step
-///    has matched. Where `Verify_options::weld_distance` is: then, by borders, pieces of one kind, all of
-///    whose vertices are within that length of the piece of the original, by the fewest different names,
-///    where all that are left there go up one to one.
+///    has matched. (If all steps together leave fewer mismatches so, this one comes first.) Where
+///    `Verify_options::weld_distance` is: then, by borders, pieces of one kind, all of whose vertices are
+///    within that length of the piece of the original, by the fewest different names, where all that are left
+///    there go up one to one.
 ///    Then, by distance, likewise where the coordinates of the result were written with few digits: a vertex
 ///    counts as one at the position of the original that it is clearly next to, no farther than 3e-6 of the
 ///    diagonal of the original, with every other position at least ten times as far.

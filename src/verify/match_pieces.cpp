@@ -14,14 +14,19 @@
 
 namespace selvedge {
 
-Piece_matching match_pieces(const Triangle_soup& result, const Triangle_soup& original,
-                            const Verify_options& options)
+namespace {
+
+Piece_matching matching_of(const Triangle_soup& result, const Triangle_soup& original,
+                           const Verify_options& options, bool is_by_triangles_first)
 {
   using namespace internal;
   Matching matching(result, original, options);
+  if (is_by_triangles_first)
+    match_by_triangles(matching);
   match_by_vertices(matching);
   Cancellation_scope::check();
-  match_by_triangles(matching);
+  if (!is_by_triangles_first)
+    match_by_triangles(matching);
   match_within_reach(matching);
   match_by_near_vertices(matching);
   match_joined(matching, false);
@@ -40,6 +45,20 @@ Piece_matching match_pieces(const Triangle_soup& result, const Triangle_soup& or
     judge_shapes(matching);
   found.pieces_of_original = matching.original.pieces();
   return std::move(found);
+}
+
+} // namespace
+
+Piece_matching match_pieces(const Triangle_soup& result, const Triangle_soup& original,
+                            const Verify_options& options)
+{
+  Piece_matching found = matching_of(result, original, options, false);
+  if (found.mismatches.empty() || options.triangles_of_original.empty())
+    return found;
+  // A patch has all its vertices in common with the piece around it. Where that has new places, the patch may
+  // be taken for it.
+  Piece_matching by_triangles = matching_of(result, original, options, true);
+  return by_triangles.mismatches.size() < found.mismatches.size() ? by_triangles : found;
 }
 
 } // namespace selvedge

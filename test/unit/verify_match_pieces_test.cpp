@@ -69,6 +69,27 @@ TEST(MatchPieces, FindAPieceReplacedByATriangleOfItsOwn)
   EXPECT_EQ(mismatches(result, fine()), Mismatches{Mismatch::far});
 }
 
+// A patch has all its vertices in common with the sheet, which has none left of its own.
+TEST(MatchPieces, GoByTrianglesWhereVerticesTellWrongly)
+{
+  const Triangle_soup patch = soup({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}),
+                      original = joined(sheet(4, 4), patch),
+                      result = joined(mapped(sheet(1, 1),
+                                             [](const Point_3&p) {
+                                               return Point_3(0.5 + 3 * p.x(), 0.5 + 3 * p.y(), 0);
+                                             }),
+                                      patch);
+  EXPECT_FALSE(match_pieces(result, original).is_complete()) << "the control";
+  Verify_options options;
+  options.are_shapes_judged = false;
+  options.triangles_of_original = {0, 17, 32};
+  const Piece_matching matching = match_pieces(result, original, options);
+  EXPECT_TRUE(matching.is_complete());
+  ASSERT_EQ(matching.matches.size(), 2U);
+  for (const Piece_match& match : matching.matches)
+    EXPECT_EQ(match.of_original, match.of_result);
+}
+
 // A button may become a triangle of its own, as a reduction to 1 % of the diagonal allows; but no other one.
 TEST(MatchPieces, OfWhichLittleIsLeftAreRightWhereTheyAreSmall)
 {
