@@ -16,7 +16,8 @@ from pathlib import Path
 from vtkmodules.all import (vtkActor, vtkOBJReader, vtkPNGWriter, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow,
                             vtkTextActor, vtkWindowToImageFilter)
 
-PROGRAMS = ["selvedge vertices", "selvedge optimal", "CGAL plane", "CGAL LindstromTurk", "OpenMesh", "meshoptimizer"]
+PROGRAMS = ["selvedge", "selvedge distance alone", "selvedge at vertices", "CGAL plane", "CGAL LindstromTurk", "OpenMesh",
+            "meshoptimizer"]
 PANEL = (420, 520)
 
 
