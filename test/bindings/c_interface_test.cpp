@@ -693,6 +693,8 @@ nlohmann::json levels_of_both(const Workspace& folder, const std::string& input,
     if (value != "true")
       words.push_back(value);
   }
+  if (std::find(words.begin(), words.end(), "--placement") == words.end())
+    words.insert(words.end(), {"--placement", "vertices"});
   EXPECT_EQ(run_app(words).code, 0);
   const nlohmann::json expected = nlohmann::json::parse(contents_of(path));
   selvedge_mesh* const mesh = selvedge_mesh_read(input.c_str());

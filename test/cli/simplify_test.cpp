@@ -357,14 +357,14 @@ TEST(App_simplify, CellsAreReplayedAndDoNotDependOnThreads)
   const std::string in = folder.generate("skirt", "in.obj", 60000), out = folder / "out.obj";
   std::string bytes;
   for (const char* threads : {"1", "2"}) {
-    const App_result result = run_app({"simplify", in, "-o", out, "--ratio", "0.7", "--cells", "--log",
-                                       folder / "log", "--threads", threads});
+    const App_result result = run_app({"simplify", in, "-o", out, "--ratio", "0.7", "--cells", "--placement",
+                                       "vertices", "--log", folder / "log", "--threads", threads});
     EXPECT_EQ(result.code, 0) << result.err;
     EXPECT_TRUE(bytes.empty() || contents_of(out) == bytes) << threads;
     bytes = contents_of(out);
   }
   EXPECT_EQ(run_app({"replay", in, folder / "log", "-o", folder / "again.obj"}).code, 0);
-  EXPECT_EQ(contents_of(folder / "again.obj"), bytes);
+  EXPECT_TRUE(contents_of(folder / "again.obj") == bytes);
 }
 
 TEST(App_simplify, MayReplaceItsInput)
