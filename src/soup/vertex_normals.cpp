@@ -7,9 +7,27 @@
 
 #include <selvedge/Cancellation_scope.h>
 
+#include <cmath>
 #include <cstddef>
 
 namespace selvedge {
+namespace {
+
+using shading::Vector;
+
+// Returns the chord of the angle of a triangle at a corner: twice the sine of its half. Unlike the angle, it
+// is the same on every machine, and so is the order of collapses.
+double chord_at(const Triangle_soup& soup, Index triangle, std::size_t place)
+{
+  const Index_triple& v = soup.triangles[triangle];
+  const Point_3& p = soup.points[v[place]];
+  const Vector u = shading::unit(shading::difference(soup.points[v[(place + 1) % 3]], p)),
+               w = shading::unit(shading::difference(soup.points[v[(place + 2) % 3]], p));
+  const Vector chord = internal::difference(u, w);
+  return std::sqrt(internal::dot(chord, chord));
+}
+
+} // namespace
 
 Vertex_normals vertex_normals(const Triangle_soup& soup, const std::vector<Index>& positions,
                               const std::vector<char>& is_turned, const std::vector<Index>& fronts)
@@ -20,19 +38,19 @@ Vertex_normals vertex_normals(const Triangle_soup& soup, const std::vector<Index
     poll();
     if (!fronts.empty() && fronts[t] != t)
       continue;
-    const shading::Vector normal = shading::unit_normal(soup, t);
+    const Vector normal = shading::unit_normal(soup, t);
     const double side = !is_turned.empty() && is_turned[t] ? -1 : 1;
     for (std::size_t k = 0; k < 3; ++k) {
-      const double weight = side * shading::angle_at(soup, 3 * t + Index(k));
-      std::array<double, 3>& sum = sums[positions[soup.triangles[t][k]]];
+      const double weight = side * chord_at(soup, t, k);
+      Vector& sum = sums[positions[soup.triangles[t][k]]];
       for (std::size_t i = 0; i < 3; ++i)
         sum[i] += weight * normal[i];
     }
   }
   Vertex_normals normals;
   normals.reserve(sums.size());
-  for (const Index position : positions)
-    normals.push_back(shading::unit(sums[position]));
+  for (std::size_t v = 0; v < sums.size(); ++v) // further positions are those of an obstacle
+    normals.push_back(shading::unit(sums[positions[v]]));
   return normals;
 }
 

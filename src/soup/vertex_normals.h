@@ -15,9 +15,9 @@ namespace selvedge {
 using Vertex_normals = std::vector<std::array<double, 3>>;
 
 /// Returns the normals with which viewers shade a mesh that has none: for each vertex the mean of those of
-/// the triangles at its position, weighted by the angles there (Thürmer and Wüthrich 1998), without hard
-/// edges. `positions`, `is_turned` and `fronts` are those of `Prepared_soup`: turned triangles count as they
-/// were turned, and doubles do not count.
+/// the triangles at its position, weighted by the chords of the angles there (by the angles: Thürmer and
+/// Wüthrich 1998), without hard edges. `positions`, `is_turned` and `fronts` are those of `Prepared_soup`:
+/// turned triangles count as they were turned, and doubles do not count.
 ///
 /// **Complexity** Linear. Computed in double; no decision about intersections depends on it.
 Vertex_normals vertex_normals(const Triangle_soup& soup, const std::vector<Index>& positions,

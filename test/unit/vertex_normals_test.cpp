@@ -15,6 +15,7 @@
 #include <selvedge/internal/Vector_of_doubles.h>
 #include <selvedge/normals.h>
 #include <selvedge/prepare.h>
+#include <selvedge/simplify.h>
 
 #include <CGAL/Kernel/global_functions.h>
 #include <gtest/gtest.h>
@@ -63,6 +64,22 @@ TEST(VertexNormals, DoNotEndAtSeams)
       ++on_seam;
     }
   EXPECT_EQ(on_seam, 10U);
+}
+
+// An obstacle has positions behind those of the mesh, some of them in common.
+TEST(VertexNormals, AreThoseOfTheMeshAlone)
+{
+  const Triangle_soup mesh = sheet(3, 3),
+                      wall =
+                          mapped(sheet(3, 3), [](const Point_3&p) { return Point_3(p.x(), -p.z(), -p.y()); });
+  const Prepared_soup prepared = prepare(mesh, {}, wall);
+  ASSERT_GT(prepared.positions.size(), mesh.points.size());
+  const Vertex_normals normals = vertex_normals_of(prepared);
+  ASSERT_EQ(normals.size(), mesh.points.size());
+  for (const std::array<double, 3>& normal : normals)
+    EXPECT_EQ(std::abs(normal[2]), 1);
+  Simplify_options options = to_ratio(0.5);
+  EXPECT_NO_THROW(simplify_soup(prepared, options));
 }
 
 TEST(VertexNormals, CountTurnedFacesAsTurnedAndDoublesOnce)
