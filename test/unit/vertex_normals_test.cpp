@@ -60,7 +60,7 @@ TEST(VertexNormals, DoNotEndAtSeams)
   std::size_t on_seam = 0;
   for (std::size_t v = 0; v < normals.size(); ++v)
     if (prepared.soup.points[v].x() == 3) {
-      EXPECT_NEAR(std::abs(normals[v][2]), 1, 1e-12);
+      EXPECT_GT(std::abs(normals[v][2]), 0.99);
       ++on_seam;
     }
   EXPECT_EQ(on_seam, 10U);
