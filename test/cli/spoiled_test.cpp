@@ -321,7 +321,7 @@ const std::vector<Spoiled> ways = {
     // ---- Layers
     {"ALayerHasGoneThroughTheNext", "pairs", true,
      [](Result& r) {
-       r.move(r.triangles("lining_front"), [](const Point_3& p) { return widened(p, 1.1); });
+       r.move(r.triangles("lining_front"), [](const Point_3& p) { return widened(p, 1.03); });
      }},
     {"TwoLayersHaveExchangedPlaces", "name", true,
      [](Result& r) {
