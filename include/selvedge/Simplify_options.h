@@ -139,7 +139,7 @@ struct Simplify_options
   ///
   /// The normals are those that a soup keeps. If it keeps none, is not shaded flat, and has at most
   /// `most_faces_shaded` triangles, they are the smooth ones with which viewers shade such a mesh, so that
-  /// eyes, lapels and folds stay to be seen; a radian then counts as at most 3 % of the diagonal. For larger
+  /// eyes, lips and folds stay to be seen; a radian then counts as at most 3 % of the diagonal. For larger
   /// meshes, this would take time and memory for what is too small to be seen. `simplify_mesh` counts none.
   double normal_weight = 0.005;
   static constexpr std::size_t most_faces_shaded = 500'000;
