@@ -25,6 +25,7 @@
 #include <cmath>
 #include <cstddef>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace selvedge::test {
@@ -99,6 +100,24 @@ TEST(VertexNormals, CountTurnedFacesAsTurnedAndDoublesOnce)
     EXPECT_EQ(std::abs(normal[2]), 1);
   for (const std::array<double, 3>& normal : normals)
     EXPECT_EQ(normal, normals.front());
+}
+
+TEST(VertexNormals, OfAVertexWhoseOnlyFaceIsTurnedAreThoseOfTheSheet)
+{
+  Triangle_soup soup = sheet(4, 4);
+  std::vector<int> faces_at(soup.points.size());
+  for (const Index_triple& triangle : soup.triangles)
+    for (const Index v : triangle)
+      ++faces_at[v];
+  for (auto& [a, b, c] : soup.triangles)
+    if (faces_at[a] == 1 || faces_at[b] == 1 || faces_at[c] == 1)
+      std::swap(b, c);
+  Prepare_options options;
+  options.orient = true;
+  const Prepared_soup prepared = prepare(soup, options);
+  ASSERT_GT(prepared.turned_faces(), 0U);
+  for (const std::array<double, 3>& normal : vertex_normals_of(prepared))
+    EXPECT_EQ(normal[2], vertex_normals_of(prepared).front()[2]);
 }
 
 // The same normals, at the corners of the soup and by its vertices.
