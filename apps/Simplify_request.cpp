@@ -29,11 +29,10 @@ constexpr std::string_view level_mark = "{lod}", pose_mark = "{pose}";
 // As far off as a shape may be by default. Beyond it, ears become slabs, and a hat becomes a tent.
 constexpr double default_error = 0.01;
 
-const char* word_for(Placement_choice choice)
+// The placement that the user has chosen.
+Placement chosen(Placement_choice choice)
 {
-  return choice == Placement_choice::automatic ? "auto"
-         : choice == Placement_choice::optimal ? "optimal"
-                                               : "vertices";
+  return choice == Placement_choice::optimal ? Placement::optimal : Placement::vertices;
 }
 
 /// Returns the number that a text consists of, or NaN.
@@ -328,7 +327,8 @@ Json options_json(const Simplify_request& request)
           {"corner_height", options.max_corner_height},
           {"seam_turn", options.max_seam_turn},
           {"border_drift", options.max_border_drift},
-          {"placement", word_for(request.placement)},
+          {"placement",
+           request.placement == Placement_choice::automatic ? "auto" : name_of(chosen(request.placement))},
           {"instances", options.instances == Instances::shared ? "shared" : "apart"},
           {"loop", options.loop == Collapse_loop::own ? "own" : "cgal"},
           {"index", options.index == Face_index::packed ? "packed" : "clusters"},
@@ -390,7 +390,7 @@ Placement placement_for(const Simplify_request& request, const Triangle_soup& so
     return attribute.name == vertex_in_whole_property;
   };
   if (request.placement != Placement_choice::automatic)
-    return request.placement == Placement_choice::optimal ? Placement::optimal : Placement::vertices;
+    return chosen(request.placement);
   const bool are_vertices_needed =
       !soup.poses.empty() || !request.progressive.empty() ||
       (soup.scene && are_levels_in_one_file(request)) ||

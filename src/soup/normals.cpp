@@ -31,6 +31,7 @@ using internal::cross;
 using internal::dot;
 using internal::Edge_side;
 using internal::for_each_inner_edge;
+using shading::add;
 using shading::angle_at;
 using shading::cosines;
 using shading::difference;
@@ -139,12 +140,6 @@ void restore_flat(Triangle_soup& soup)
   for_each_face(soup, [&](const std::vector<Index>& face) {
     set_normal(soup, face, face.size() == 1 ? unit_normal(soup, face[0]) : unit_normal(soup, face));
   });
-}
-
-void add(Vector& sum, const Vector& normal, double weight)
-{
-  for (std::size_t i = 0; i < 3; ++i)
-    sum[i] += weight * normal[i];
 }
 
 void restore_smooth(Triangle_soup& soup)

@@ -49,14 +49,28 @@ inline Vector unit_normal(const Triangle_soup& soup, Index triangle)
   return unit(internal::cross(u, v));
 }
 
-/// Returns the angle of a triangle at a corner, in radians. Corners have the numbers 3 × triangle + place.
-inline double angle_at(const Triangle_soup& soup, Index corner)
+/// Returns the directions of the two edges of a triangle at a corner. Corners have the numbers 3 × triangle +
+/// place.
+inline std::array<Vector, 2> directions_at(const Triangle_soup& soup, Index corner)
 {
   const Index_triple& v = soup.triangles[corner / 3];
   const auto direction = [&](Index turn) {
     return unit(difference(soup.points[v[(corner + turn) % 3]], soup.points[v[corner % 3]]));
   };
-  return std::acos(std::clamp(internal::dot(direction(1), direction(2)), -1.0, 1.0));
+  return {direction(1), direction(2)};
+}
+
+/// Returns the angle of a triangle at a corner, in radians.
+inline double angle_at(const Triangle_soup& soup, Index corner)
+{
+  const auto [u, v] = directions_at(soup, corner);
+  return std::acos(std::clamp(internal::dot(u, v), -1.0, 1.0));
+}
+
+inline void add(Vector& sum, const Vector& normal, double weight)
+{
+  for (std::size_t i = 0; i < 3; ++i)
+    sum[i] += weight * normal[i];
 }
 
 /// Rounds to what the formats that store floats hold, so that all formats show the same.

@@ -17,13 +17,10 @@ using shading::Vector;
 
 // Returns the chord of the angle of a triangle at a corner: twice the sine of its half. Unlike the angle, it
 // is the same on every machine, and so is the order of collapses.
-double chord_at(const Triangle_soup& soup, Index triangle, std::size_t place)
+double chord_at(const Triangle_soup& soup, Index corner)
 {
-  const Index_triple& v = soup.triangles[triangle];
-  const Point_3& p = soup.points[v[place]];
-  const Vector u = shading::unit(shading::difference(soup.points[v[(place + 1) % 3]], p)),
-               w = shading::unit(shading::difference(soup.points[v[(place + 2) % 3]], p));
-  const Vector chord = internal::difference(u, w);
+  const auto [u, v] = shading::directions_at(soup, corner);
+  const Vector chord = internal::difference(u, v);
   return std::sqrt(internal::dot(chord, chord));
 }
 
@@ -40,12 +37,8 @@ Vertex_normals vertex_normals(const Triangle_soup& soup, const std::vector<Index
       continue;
     const Vector normal = shading::unit_normal(soup, t);
     const double side = !is_turned.empty() && is_turned[t] ? -1 : 1;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double weight = side * chord_at(soup, t, k);
-      Vector& sum = sums[positions[soup.triangles[t][k]]];
-      for (std::size_t i = 0; i < 3; ++i)
-        sum[i] += weight * normal[i];
-    }
+    for (std::size_t k = 0; k < 3; ++k)
+      shading::add(sums[positions[soup.triangles[t][k]]], normal, side * chord_at(soup, 3 * t + Index(k)));
   }
   Vertex_normals normals;
   normals.reserve(sums.size());
