@@ -89,6 +89,7 @@ class Quadric_cost
   using Graph_traits = boost::graph_traits<TriangleMesh>;
   using Vertex = typename Graph_traits::vertex_descriptor;
   using Halfedge = typename Graph_traits::halfedge_descriptor;
+  using Edge = typename Graph_traits::edge_descriptor;
 
   // The faces around a vertex: the sum of their normals, each as long as twice its area, unless the vertex is
   // on a border. It is computed when it is asked for, and forgotten when one of the faces changes.
@@ -370,11 +371,8 @@ public:
   /// See `Collapse_locality`: what a collapse changes around its vertex changes the costs at its neighbours,
   /// unless the cost is of what has accumulated alone.
   bool reaches_neighbours(Vertex /*kept*/) const { return m_state->options.memory < 1; }
-  bool reaches(Vertex /*kept*/, typename Graph_traits::edge_descriptor /*edge*/) const
-  {
-    return m_state->options.memory < 1;
-  }
-  bool can_wait(Vertex /*kept*/, typename Graph_traits::edge_descriptor /*edge*/) const { return true; }
+  bool reaches(Vertex /*kept*/, Edge /*edge*/) const { return m_state->options.memory < 1; }
+  bool can_wait(Vertex /*kept*/, Edge /*edge*/) const { return true; }
 
   /// Gives the merged vertex what both have accumulated, and computes what there is around it. The loop calls
   /// it.
@@ -655,19 +653,25 @@ private:
     Matrix matrix;
     if (memory < 1 && halfedge(v, mesh) != Graph_traits::null_halfedge()) {
       Matrix of_lines;
-      for (const Halfedge to_v : CGAL::halfedges_around_target(v, mesh)) {
-        if (CGAL::is_border(to_v, mesh))
-          continue;
-        const Vector normal = normal_at(to_v, mesh);
-        matrix.add_square(normal, 1);
-        for (const Halfedge h : {next(to_v, mesh), to_v}) {
-          const double share =
-              (std::max)(share_of_fold(h, normal, mesh), growth.has_lines ? share_of_line(h, mesh) : 0);
-          if (share != 0)
-            add_line(share, normal, vector(get(points, source(h, mesh))),
-                     vector(get(points, target(h, mesh))), of_lines);
+      const Halfedge first = halfedge(v, mesh);
+      Side before = side_at(opposite(first, mesh), mesh), here = side_at(first, mesh);
+      double fold_before = internal::dot(here.normal, before.normal);
+      Halfedge to_v = first;
+      do { // in the order of `halfedges_around_target`
+        const Halfedge from_v = next(to_v, mesh), next_to_v = opposite(from_v, mesh);
+        const Side after = side_at(next_to_v, mesh);
+        const double fold_after = internal::dot(here.normal, after.normal);
+        if (here.has_face) {
+          matrix.add_square(here.normal, 1);
+          if (growth.has_lines || fold_after < 0)
+            add_line_between(here, after, from_v, growth.has_lines, mesh, points, of_lines);
+          if (growth.has_lines || fold_before < 0)
+            add_line_between(here, before, to_v, growth.has_lines, mesh, points, of_lines);
         }
-      }
+        fold_before = fold_after;
+        before = std::exchange(here, after);
+        to_v = next_to_v;
+      } while (to_v != first);
       matrix.add_identity(state.options.stabiliser * matrix.trace()); // which is the weight of the planes
       matrix += of_lines;
       matrix *= (1 - memory) * (state.weights ? get(*state.weights, v) : 1);
@@ -689,48 +693,62 @@ private:
     if (halfedge(v, mesh) == Graph_traits::null_halfedge())
       return false;
     const auto around = CGAL::halfedges_around_target(v, mesh);
-    return std::any_of(around.begin(), around.end(),
-                       [&](Halfedge h) { return CGAL::is_border(h, mesh) || share_of_line(h, mesh) > 0; });
+    return std::any_of(around.begin(), around.end(), [&](Halfedge h) {
+      return CGAL::is_border(h, mesh) ||
+             share_of_line(edge(h, mesh), CGAL::is_border(opposite(h, mesh), mesh)) > 0;
+    });
   }
 
   // Returns which share of the weight of a border an edge has: 1 for a border, 0 for an edge that is no line.
-  double share_of_line(Halfedge h, const TriangleMesh& mesh) const
+  double share_of_line(Edge edge, bool is_border) const
   {
-    if (CGAL::is_border(opposite(h, mesh), mesh))
+    if (is_border)
       return 1;
     // The surface on both sides holds a line inside it, so that little is enough.
     constexpr double share_of_inner_line = 0.1;
-    return get(m_state->edge_is_line, edge(h, mesh)) ? share_of_inner_line : 0;
+    return get(m_state->edge_is_line, edge) ? share_of_inner_line : 0;
   }
 
-  // Returns the normal of the face of a halfedge, as long as the square root of the weight of the face.
-  Vector normal_at(Halfedge h, const TriangleMesh& mesh) const
+  // What is on the side of an edge to which a halfedge belongs.
+  struct Side
   {
+    bool has_face;
+    Vector normal; // as long as the square root of the weight of the face
+  };
+  Side side_at(Halfedge h, const TriangleMesh& mesh) const
+  {
+    if (CGAL::is_border(h, mesh))
+      return {false, {0, 0, 0}};
     const Face_plane& plane = get(m_state->planes, face(h, mesh));
-    return {plane.normal[0], plane.normal[1], plane.normal[2]};
+    return {true, {plane.normal[0], plane.normal[1], plane.normal[2]}};
   }
 
   // Returns which share of the weight of a border an edge has on one of its sides because the surface folds
   // over it. Where both sides lie on each other, the planes of their faces do not say how far the surface
   // goes, as at a border; so the planes of both together have the weight of one. Where the surface turns by
-  // 90° or less, each side says where the other ends.
-  double share_of_fold(Halfedge h, const Vector& normal, const TriangleMesh& mesh) const
+  // 90° or less, each side says where the other ends. A side without a face has a normal of 0.
+  static double share_of_fold(const Side& a, const Side& b)
   {
-    const Halfedge other_side = opposite(h, mesh);
-    if (CGAL::is_border(other_side, mesh))
-      return 0;
-    const Vector other = normal_at(other_side, mesh);
-    const double product = internal::dot(normal, other);
-    return product < 0
-               ? -0.5 * product / std::sqrt(internal::dot(normal, normal) * internal::dot(other, other))
-               : 0;
+    const double product = internal::dot(a.normal, b.normal);
+    return product < 0 ? -0.5 * product /
+                             std::sqrt(internal::dot(a.normal, a.normal) * internal::dot(b.normal, b.normal))
+                       : 0;
   }
 
-  // Adds the plane that stands on an edge of a face with a normal of this direction.
-  void add_line(double share, Vector normal, const Vector& start, const Vector& end, Matrix& sum) const
+  // Adds the plane that stands on an edge of the face of `here`, if the edge is a line or the surface folds
+  // over it.
+  template <class VertexPointMap>
+  void add_line_between(const Side& here, const Side& beyond, Halfedge h, bool may_be_line,
+                        const TriangleMesh& mesh, const VertexPointMap& points, Matrix& sum) const
   {
+    const double of_line = may_be_line ? share_of_line(edge(h, mesh), !beyond.has_face) : 0;
+    const double share = (std::max)(share_of_fold(here, beyond), of_line);
+    if (share == 0)
+      return;
+    Vector normal = here.normal;
     normalise(normal);
-    Vector along = internal::difference(end, start);
+    Vector along =
+        internal::difference(vector(get(points, target(h, mesh))), vector(get(points, source(h, mesh))));
     const double length = normalise(along);
     sum.add_square(internal::cross(normal, along),
                    m_state->options.border_weight * share * weight_of_area(length * length));
