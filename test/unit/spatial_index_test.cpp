@@ -13,9 +13,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <numeric>
 #include <random>
 #include <set>
 #include <tuple>
+#include <vector>
 
 namespace {
 
@@ -300,6 +303,42 @@ TYPED_TEST(Spatial_index, MovesWithItsContent)
   TypeParam second = std::move(first);
   second.set(1, CGAL::Bbox_3(0, 0, 0, 1, 1, 1));
   EXPECT_EQ(overlapping(second, CGAL::Bbox_3(0, 0, 0, 1, 1, 1)), (std::multiset<Id>{0, 1}));
+}
+
+// The boxes of a square of 64 × 64 unit squares, in some order of their numbers.
+std::size_t boxes_asked_for(const std::vector<Id>& faces)
+{
+  Packed_R_tree index;
+  std::size_t questions = 0;
+  const auto box_of = [](Id face) {
+    const double x = face % 64, y = face / 64;
+    return CGAL::Bbox_3(x, y, 0, x + 1, y + 1, 0);
+  };
+  index.build(faces, [&](Id face) {
+    ++questions;
+    return box_of(face);
+  });
+  for (const Id face : faces)
+    EXPECT_EQ(overlapping(index, box_of(face)).count(face), 1u);
+  return questions;
+}
+
+TEST(Packed_index, SortsNoFacesOfWhichNeighboursComeTogether)
+{
+  std::vector<Id> rows(64 * 64), blocks, shuffled;
+  std::iota(rows.begin(), rows.end(), Id(0));
+  for (const Id place : rows) { // the bits of both coordinates alternate in the place
+    Id face = 0;
+    for (int bit = 0; bit < 6; ++bit)
+      face |= (place >> 2 * bit & 1) << bit | (place >> (2 * bit + 1) & 1) << (6 + bit);
+    blocks.push_back(face);
+  }
+  shuffled = rows;
+  std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(1));
+  const std::size_t sample = 1024; // at most, which says where the middle is
+  EXPECT_LE(boxes_asked_for(blocks), blocks.size() + sample);
+  EXPECT_GE(boxes_asked_for(rows), 3 * rows.size()); // blocks of 4 × 4 are smaller than 16 in a row
+  EXPECT_GE(boxes_asked_for(shuffled), 3 * shuffled.size());
 }
 
 TEST(SpatialIndex, RefusesEmptyClusters)
