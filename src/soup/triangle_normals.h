@@ -33,8 +33,11 @@ inline Vector unit(Vector a)
   const double largest = std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
   if (!(largest > 0 && std::isfinite(largest)))
     return {};
-  for (double& x : a)
-    x = std::scalbn(x, -std::ilogb(largest));
+  // Within these bounds, squares neither overflow nor lose digits that count: scaling would not change a bit.
+  constexpr double small = 0x1p-200, large = 0x1p+200;
+  if (!(largest > small && largest < large))
+    for (double& x : a)
+      x = std::scalbn(x, -std::ilogb(largest));
   const double norm = std::sqrt(internal::dot(a, a));
   for (double& x : a)
     x /= norm;
