@@ -510,18 +510,22 @@ TEST(Own_loop, ComputesACostWithABoundOnlyWhenTheEdgeIsTheCheapest)
 {
   for (const auto& [name, mesh] : meshes()) {
     SCOPED_TRACE(name);
-    const auto reduce = [&, &input = mesh](auto make_cost, std::size_t& questions) {
+    const auto reduce = [&, &input = mesh](auto make_cost, std::size_t& questions, double share = ratio) {
       Surface_mesh reduced = input;
       const auto cost = make_cost(reduced, questions);
       const Halfedge_placement<Surface_mesh, std::decay_t<decltype(cost)>> placement(cost);
       std::vector<Step> steps;
       std::vector<double> costs;
       selvedge::edge_collapse(
-          reduced, Edge_ratio_stop(ratio),
+          reduced, Edge_ratio_stop(share),
           CGAL::parameters::get_cost(cost).get_placement(placement).visitor(Recorder(steps, costs)));
       return steps;
     };
     std::size_t questions = 0, questions_with_bound = 0;
+    const std::size_t edges = num_edges(mesh);
+    reduce([](auto&... of) { return Bounded_cost<true>(of...); }, questions_with_bound, 1);
+    EXPECT_LT(questions_with_bound, edges); // of the edges that have a bound, only the first
+    questions_with_bound = 0;
     const auto steps = reduce([](auto&... of) { return Bounded_cost<false>(of...); }, questions);
     const auto steps_with_bound =
         reduce([](auto&... of) { return Bounded_cost<true>(of...); }, questions_with_bound);

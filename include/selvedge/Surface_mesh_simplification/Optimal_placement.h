@@ -41,10 +41,10 @@ struct No_place_rounding
 /// A model of CGAL's concept `GetPlacement`; CGAL's own loop sees the first choice alone, unless
 /// `Filtered_halfedge_placement` decorates this one. `Cost` has, beyond what `Halfedge_placement` needs,
 /// `least_place(profile, reach)` and `cost_at(profile, point)`, as `Quadric_cost` has. It may also have
-/// `least_cost_bound(profile)`, a number that `cost_at` does not fall below, beside the `cost_bounds` of
-/// `Halfedge_placement`. `Rule` also has `is_free(vertex)`, as `Border_rule` has. `Rounding` is a function
-/// `Optional<Point>(halfedge, point)`: it returns the point as it will be stored, or none where no vertex may
-/// be.
+/// `least_cost_bound(profile)`, an optional number that the costs at places and at both ends do not fall
+/// below, beside the `cost_bounds` of `Halfedge_placement`. `Rule` also has `is_free(vertex)`, as
+/// `Border_rule` has. `Rounding` is a function `Optional<Point>(halfedge, point)`: it returns the point as it
+/// will be stored, or none where no vertex may be.
 ///
 /// **Exactness** Floating point. Filters judge the place that is chosen.
 ///
@@ -101,18 +101,12 @@ public:
   }
 
   /// Returns a cost that the first choice does not fall below, apart from rounding, and that takes less time
-  /// to compute. None where a line limits the ends and `Halfedge_placement` has none.
+  /// to compute. None where the cost policy has none.
   template <class Profile, class Policy = Cost>
   auto first_cost_bound(const Profile& profile) const
-      -> decltype(std::declval<const Policy&>().least_cost_bound(profile), internal::Optional<double>())
+      -> decltype(std::declval<const Policy&>().least_cost_bound(profile))
   {
-    auto bound = m_ends.first_cost_bound(profile);
-    if (!are_ends_free(profile))
-      return bound;
-    if (!bound)
-      if (const auto end = m_ends.choice(profile, 0))
-        bound = end->cost;
-    return bound ? (std::min)(*bound, m_cost.least_cost_bound(profile)) : bound;
+    return are_ends_free(profile) ? m_cost.least_cost_bound(profile) : m_ends.first_cost_bound(profile);
   }
 
   /// Returns the collapse that a choice stands for.

@@ -137,10 +137,13 @@ public:
     return m_quadrics.least_place(profile, reach);
   }
 
-  /// Returns a cost that `cost_at` does not fall below anywhere, apart from rounding.
+  /// Returns a number that neither `cost_at` nor `costs_along` falls below anywhere, apart from rounding.
+  /// None in several poses, or for vertices that do not move alone.
   template <class Profile>
-  double least_cost_bound(const Profile& profile) const
+  Optional<double> least_cost_bound(const Profile& profile) const
   {
+    if (!has_cost(profile.v0_v1()) || !has_motions_alone(profile))
+      return {};
     return m_quadrics.least_cost(profile);
   }
 

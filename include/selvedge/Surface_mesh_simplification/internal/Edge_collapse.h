@@ -195,7 +195,7 @@ private:
       if (get(m_is_constrained, e))
         continue;
       const Profile of_edge = profile(h);
-      const Optional_cost cost = cost_of(of_edge, m_records[id(h)]);
+      const Optional_cost cost = initial_cost_of(of_edge, m_records[id(h)]);
       if (cost) {
         m_queue.append(id(h), *cost);
         note_queued(id(h), *cost);
@@ -406,6 +406,15 @@ private:
       enqueue(edge_id, *cost);
     else
       dequeue(edge_id);
+  }
+
+  // Visitors of CGAL's concept are told the cost itself.
+  Optional_cost initial_cost_of(const Profile& of_edge, Edge_record& record) const
+  {
+    if constexpr (std::is_base_of_v<No_visitor, Visitor>)
+      return bound_or_cost_of(of_edge, record);
+    else
+      return cost_of(of_edge, record);
   }
 
   // Returns a bound of the cost of the first placement, and notes that the cost itself is still to be
