@@ -3,16 +3,15 @@
 
 #include "match_names.h"
 
+#include "Patches.h"
 #include "Shape.h"
 #include "part_names.h"
-#include "soup/Disjoint_sets.h"
 
 #include <selvedge/Cancellation_scope.h>
 
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 namespace selvedge::internal {
@@ -106,48 +105,37 @@ private:
       return nearest == names.none() ? name : nearest;
     };
 
-    // Patches: triangles of one name with common vertices.
-    std::vector<std::tuple<Index, Index, Index>> corners; // vertex, name, number in `now`
-    for (Index i = 0; i < now.size(); ++i)
-      for (const Index vertex : m_result.soup.triangles[now[i]])
-        corners.emplace_back(vertex, names.now(now[i]), i);
-    Cancellation_scope::check();
-    std::sort(corners.begin(), corners.end());
-    Disjoint_sets patches(now.size());
-    for (std::size_t i = 1; i < corners.size(); ++i)
-      if (std::get<0>(corners[i]) == std::get<0>(corners[i - 1]) &&
-          std::get<1>(corners[i]) == std::get<1>(corners[i - 1]))
-        patches.unite(std::get<2>(corners[i]), std::get<2>(corners[i - 1]));
-    struct Patch
-    {
-      std::size_t faces = 0, right = 0;
-      std::map<Index, std::size_t> others;
-    };
-    std::map<std::size_t, Patch> found;
-    Cancellation_poll poll;
-    for (Index i = 0; i < now.size(); ++i) {
-      poll();
-      Patch& patch = found[patches.find(i)];
-      ++patch.faces;
-      const Index name = name_before(now[i]);
-      if (name == names.now(now[i]))
-        ++patch.right;
-      else
-        ++patch.others[name];
-    }
     const auto quoted = [&](Index name) {
       return name == names.none() ? "no name" : "'" + names.text(name) + "'";
     };
+    std::optional<Patch_shapes> patches_before;
     bool is_any_wrong = false;
-    for (const auto& [first, patch] : found) {
-      if (2 * patch.right >= patch.faces)
+    Cancellation_poll poll;
+    for (const Patch& patch : patches_of(m_result.soup, now, [&](Index t) { return names.now(t); })) {
+      std::map<Index, std::size_t> others; // how many of its faces have another name before, and which
+      std::size_t right = 0;
+      for (const Index t : patch.triangles) {
+        poll();
+        if (const Index name = name_before(t); name == patch.name)
+          ++right;
+        else
+          ++others[name];
+      }
+      if (2 * right >= patch.triangles.size())
+        continue;
+      // Where little is left of a piece, a face may lie nearest to one that was beside it.
+      if (!patches_before)
+        patches_before.emplace(m_original.soup,
+                               patches_of(m_original.soup, before, [&](Index t) { return names.before(t); }),
+                               m_exponent);
+      if (patches_before->is_likest_of_its_name(m_result.soup, patch))
         continue;
       is_any_wrong = true;
-      const auto most = std::max_element(patch.others.begin(), patch.others.end(),
+      const auto most = std::max_element(others.begin(), others.end(),
                                          [](const auto& a, const auto& b) { return a.second < b.second; });
-      add(match, std::string("the ") + what + " of " + counted(patch.faces, "face") + " of " +
-                     describe(m_result, m_result.piece(now[first])) + " of the result is " +
-                     quoted(names.now(now[first])) + ", where the original has " + quoted(most->first));
+      add(match, std::string("the ") + what + " of " + counted(patch.triangles.size(), "face") + " of " +
+                     describe(m_result, m_result.piece(patch.triangles.front())) + " of the result is " +
+                     quoted(patch.name) + ", where the original has " + quoted(most->first));
     }
     if (is_any_wrong)
       return;
@@ -156,6 +144,16 @@ private:
         add(match, std::string("the ") + what + ' ' + quoted(name) + " of " +
                        describe(m_original, m_original.piece(triangle)) +
                        " of the original has no face left in the result");
+  }
+
+  template <class Name_of>
+  static std::vector<Patch> patches_of(const Triangle_soup& soup, const std::vector<Index>& triangles,
+                                       const Name_of& name_of)
+  {
+    std::vector<Index> names;
+    for (const Index t : triangles)
+      names.push_back(name_of(t));
+    return patches(soup, triangles, names);
   }
 
   void add(const Piece_match& match, std::string message)
