@@ -264,6 +264,12 @@ struct Verify_options
   /// another length, or with a number that the original does not have.
   std::vector<Index> triangles_of_original;
 
+  /// For every triangle of the result, its vertices as the file numbers them that it was read from, where
+  /// some have been made one since (`share_vertices_without_normals`). They show pieces that lie on others.
+  /// Empty when there is nothing to say. `Argument_error` is thrown for a list of another length, or with a
+  /// vertex that the result does not have or has elsewhere.
+  std::vector<Index_triple> triangles_in_file;
+
   /// The collapses that led from the original to the result, when its pairs were allowed to descend from
   /// those of the original: then `Verification::new_pairs` are `pairs_without_descent`. It needs
   /// `triangles_of_original`. Null when all pairs had to stay as they were.
@@ -307,7 +313,9 @@ struct Verify_options
 ///    corners of no other piece, or is one of its triangles and there as often as in the original; or what it
 ///    is joined to would be of another kind without it, as a patch within a surface would leave a hole. So a
 ///    notch in a border, filled by a piece without vertices of its own, may be called missing though it is
-///    there.
+///    there. Where `Verify_options::triangles_in_file` is given, these pieces show as well if the file has a
+///    piece for each of them, of the same kind and names and with no position that is not theirs, which no
+///    other piece of the original needs and without which the rest is of the same kinds as theirs is.
 /// 3. By distance, for results whose vertices are not the original's: two pieces of one kind, each of which
 ///    is, up to a factor of two, the nearest to the vertices of the other, and no farther from them than a
 ///    quarter of the size of the piece of the original.
@@ -320,7 +328,9 @@ struct Verify_options
 /// judged by patches. A patch is a set of triangles with one name that are connected by vertex numbers. At
 /// least half of its triangles must lie where the original has the same name or none: their three corners are
 /// at positions of such triangles, or their centre is nearest to such a triangle among those of the matched
-/// pieces. No name of a matched piece may be gone. The names of glTF primitives count without the numbers
+/// pieces. Or the patch as a whole is most like one of the same name: by the root mean square distance from
+/// the vertices of one to the surface of the other, in the direction in which it is larger. No name of a
+/// matched piece may be gone. The names of glTF primitives count without the numbers
 /// (`/0`, `#2`) that distinguish them.
 ///
 /// **Not promised.** A piece may have lost a part at its border, or be another piece of the same kind whose

@@ -99,4 +99,13 @@ const std::vector<Index>& Matching::positions_nearby()
   return *m_positions_nearby;
 }
 
+const Pieces_in_file* Matching::pieces_in_file()
+{
+  if (options.triangles_in_file.size() != result.soup.triangles.size())
+    return nullptr;
+  if (!m_pieces_in_file)
+    m_pieces_in_file.emplace(result, options.triangles_in_file, original);
+  return &*m_pieces_in_file;
+}
+
 } // namespace selvedge::internal

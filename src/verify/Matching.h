@@ -5,6 +5,7 @@
 #define SELVEDGE_SRC_VERIFY_MATCHING_H
 
 #include "Piece_mesh.h"
+#include "Pieces_in_file.h"
 #include "one_to_one.h"
 
 #include <optional>
@@ -55,6 +56,9 @@ struct Matching
   /// Returns the positions of the vertices of the result, as `near_positions` says.
   const std::vector<Index>& positions_nearby();
 
+  /// Returns the pieces of the result as its file numbers them, or null where this is not known.
+  const Pieces_in_file* pieces_in_file();
+
   const Verify_options& options;
   std::vector<Index> positions;
   std::size_t position_count;
@@ -70,6 +74,7 @@ struct Matching
 private:
   std::optional<Lists> m_reach;
   std::optional<std::vector<Index>> m_positions_nearby;
+  std::optional<Pieces_in_file> m_pieces_in_file;
 };
 
 } // namespace selvedge::internal

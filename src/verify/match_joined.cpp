@@ -214,7 +214,10 @@ void match_joined(Matching& matching, bool is_by_distance)
             matching.result.kinds_by_position(triangles_now) &&
         (!is_by_distance || are_near(matching, of_original, triangles_now)) &&
         unseen.size() < of_original.size()) {
-      const std::vector<Index> hidden = perhaps_missing(matching, unseen, of_original);
+      std::vector<Index> hidden = perhaps_missing(matching, unseen, of_original);
+      if (const Pieces_in_file* in_file = hidden.empty() ? nullptr : matching.pieces_in_file();
+          in_file && in_file->have(hidden, of_original, of_result, matching.original_at))
+        hidden.clear();
       std::vector<Index> seen;
       std::set_difference(of_original.begin(), of_original.end(), hidden.begin(), hidden.end(),
                           std::back_inserter(seen));

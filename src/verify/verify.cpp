@@ -61,6 +61,21 @@ void require_triangles(const std::vector<Index>& of_original, const Triangle_sou
                            std::to_string(original.triangles.size()) + " of the original");
 }
 
+void require_same_places(const std::vector<Index_triple>& in_file, const Triangle_soup& result)
+{
+  if (in_file.empty())
+    return;
+  if (in_file.size() != result.triangles.size())
+    throw Argument_error("the result has " + std::to_string(result.triangles.size()) +
+                         " triangles, and triangles_in_file has " + std::to_string(in_file.size()));
+  for (std::size_t t = 0; t < in_file.size(); ++t)
+    for (int place = 0; place < 3; ++place)
+      if (const Index v = in_file[t][place];
+          v >= result.points.size() || result.points[v] != result.points[result.triangles[t][place]])
+        throw Argument_error("triangle " + std::to_string(t) +
+                             " (counted from 0) of the result has other corners in triangles_in_file");
+}
+
 // Takes out what may intersect by the names of the original.
 void permit_of_original(const Triangle_soup& original, std::vector<Offending_pair>& pairs,
                         std::vector<Permitted>& permitted)
@@ -194,6 +209,7 @@ Verification verify(const Triangle_soup& result, const Triangle_soup& original,
   check_geometry(obstacle, "the obstacle");
   check_options(options);
   require_triangles(options.triangles_of_original, result, original);
+  require_same_places(options.triangles_in_file, result);
   require_fitting_poses(obstacle, result);
   Verification verification;
   verification.permitted = begin_permitted(options);

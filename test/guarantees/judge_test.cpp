@@ -126,6 +126,15 @@ TEST(Judge, RefusesSoupsThatAreNoMeshes)
   EXPECT_THROW(verify(mesh, mesh, options), Argument_error);
   options.triangles_of_original.assign(mesh.triangles.size(), Index(mesh.triangles.size()));
   EXPECT_THROW(verify(mesh, mesh, options), Argument_error);
+  options = {};
+  options.triangles_in_file = {{0, 1, 5}};
+  EXPECT_THROW(verify(mesh, mesh, options), Argument_error);
+  options.triangles_in_file = mesh.triangles;
+  EXPECT_NO_THROW(verify(mesh, mesh, options));
+  for (const Index vertex : {Index(0), Index(mesh.points.size())}) {
+    options.triangles_in_file[4][1] = vertex;
+    EXPECT_THROW(verify(mesh, mesh, options), Argument_error);
+  }
 }
 
 TEST(Judge, RefusesANewPair)

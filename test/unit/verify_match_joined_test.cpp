@@ -272,6 +272,94 @@ TEST(MatchPieces, OfReducedPatchesWithoutVerticesOfTheirOwn)
   }
 }
 
+/// Gives corners at one position the first vertex there.
+Triangle_soup with_first_vertices(Triangle_soup soup)
+{
+  for (Index_triple& corners : soup.triangles)
+    for (Index& v : corners)
+      v = Index(std::find(soup.points.begin(), soup.points.end(), soup.points[v]) - soup.points.begin());
+  return soup;
+}
+
+/// What is wrong with a result whose vertices are one at each position, where its file has them like this.
+Mismatches mismatches_in_file(const Triangle_soup& file, const Triangle_soup& original)
+{
+  Verify_options options;
+  options.triangles_in_file = file.triangles;
+  return mismatches(match_pieces(with_first_vertices(file), original, options));
+}
+
+/// A sheet of `width` × `depth` squares, of which that from (`x`, 0) is cut along its other diagonal.
+Triangle_soup with_other_diagonal(Index width, Index depth, Index x)
+{
+  Triangle_soup soup = sheet(width, depth);
+  const Index a = x, b = x + 1, d = x + width + 1, c = d + 1;
+  soup.triangles[2 * x] = {a, b, d};
+  soup.triangles[2 * x + 1] = {b, c, d};
+  return soup;
+}
+
+/// Numbers the vertices of some triangles apart from those of the others.
+Triangle_soup with_own_vertices(Triangle_soup soup, std::size_t first, std::size_t beyond)
+{
+  const Index count = Index(soup.points.size());
+  const std::vector<Point_3> points = soup.points;
+  soup.points.insert(soup.points.end(), points.begin(), points.end());
+  for (std::size_t t = first; t < beyond; ++t)
+    for (Index& v : soup.triangles[t])
+      v += count;
+  return soup;
+}
+
+// A small piece lies on a sheet, and has no vertex of its own. Reduced, it is a triangle that the original
+// does not have.
+TEST(MatchPieces, OfPiecesThatOnlyTheFileNumbersApart)
+{
+  const Triangle_soup original = joined(sheet(2, 2), sheet(1, 1));
+  const Triangle_soup rest = soup({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  const Triangle_soup file = joined(sheet(2, 2), rest);
+  EXPECT_EQ(mismatches(with_first_vertices(file), original), Mismatches{Mismatch::missing}) << "the control";
+  EXPECT_EQ(mismatches_in_file(file, original), Mismatches{});
+
+  EXPECT_EQ(mismatches_in_file(sheet(2, 2), original), Mismatches{Mismatch::missing});
+
+  // One of two that lie there is missed.
+  const Triangle_soup with_two = joined(original, sheet(1, 1));
+  EXPECT_EQ(mismatches_in_file(joined(file, rest), with_two), Mismatches{});
+  EXPECT_NE(mismatches_in_file(file, with_two), Mismatches{});
+}
+
+// The file cuts a part off what a piece lay on, which could be taken for it.
+TEST(MatchPieces, AreMissedWhereTheFileCutsWhatTheyLayOn)
+{
+  // It is a triangle of that.
+  EXPECT_EQ(mismatches_in_file(with_own_vertices(sheet(1, 1), 0, 1),
+                               joined(sheet(1, 1), soup({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {{0, 1, 2}}))),
+            Mismatches{Mismatch::missing});
+
+  // It is a new triangle, without which a vertex inside would be on the border.
+  const std::vector<Point_3> around{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0},
+                                    {2, 2, 0}, {1, 2, 0}, {0, 2, 0}, {0, 1, 0}};
+  const auto fan = [](std::vector<Point_3> points, Index triangles) {
+    Triangle_soup result;
+    for (Index i = 0; i < triangles; ++i)
+      result.triangles.push_back({i, Index((i + 1) % points.size()), Index(points.size())});
+    points.emplace_back(1, 1, 0);
+    result.points = points;
+    return result;
+  };
+  std::vector<Point_3> fewer = around;
+  fewer.erase(fewer.begin() + 1);
+  EXPECT_EQ(
+      mismatches_in_file(with_own_vertices(fan(fewer, 7), 0, 1), joined(fan(around, 8), fan(around, 2))),
+      Mismatches{Mismatch::missing});
+
+  // They are new triangles, without which there would be two pieces.
+  const Triangle_soup original = joined(sheet(3, 1), moved(sheet(1, 1), 1, 0, 0));
+  EXPECT_EQ(mismatches_in_file(with_own_vertices(with_other_diagonal(3, 1, 1), 2, 4), original),
+            Mismatches{Mismatch::missing});
+}
+
 // Pieces that were joined elsewhere than at their borders are not.
 TEST(MatchPieces, OfLayersThatWereJoinedInside)
 {
