@@ -1540,6 +1540,22 @@ group("src/verify/near_positions.cpp", ("verify_match_pieces_test",),
       ("      positions[vertex] = numbers[nearest];", "      positions[vertex] = positions[vertex];",
        "results of few digits are matched by the distances of surfaces alone"))
 
+group("src/verify/Pieces_in_file.cpp", ("verify_match_joined_test",),
+      ("pairs.size() != matched(std::move(of_others)).size() + hidden.size()", "pairs.empty()",
+       "one double in the file counts for two"),
+      ("std::binary_search(corners_of_others.begin(), corners_of_others.end(), of_this.front())", "of_this.empty()",
+       "a triangle of another piece counts as a missing one"),
+      ("if (original_at[position].size() > 0 &&", "if (false &&", "a cut that leaves a notch counts as a missing piece"),
+      ("return m_result.kinds_by_position(left) == m_original.kinds_by_position(others);", "return true;",
+       "a cut that divides a piece counts as a missing one"))
+
+group("src/verify/Patches.cpp", ("verify_match_names_test",),
+      ("if (distance(shape, i) < least)", "if (false)", "names of parts may be exchanged"))
+
+group("src/verify/match_names.cpp", ("verify_match_names_test",),
+      ("if (patches_before->is_likest_of_its_name(m_result.soup, patch))", "if (false)",
+       "what is left of a part has the name of what is beside it"))
+
 group("src/verify/Border_lines.cpp", ("verify_match_pieces_test",),
       ("return sum > 0;", "return false;", "what is left of a bag is turned inside out"),
       ("return sum > 0;", "return true;", "no piece is turned inside out"))
