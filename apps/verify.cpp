@@ -365,8 +365,7 @@ Exit_code run(const Verify_request& request)
     if (has_normals_of_vertices(mesh.format) || has_normals_of_vertices(original.format)) {
       // Vertices that a file has for its normals alone make no pieces.
       options.triangles_in_file = mesh.soup.triangles;
-      if (share_vertices_without_normals(mesh.soup) == 0)
-        options.triangles_in_file.clear();
+      share_vertices_without_normals(mesh.soup);
       share_vertices_without_normals(original.soup);
     }
     options.weld_distance = request.weld_distance.value_or(0);

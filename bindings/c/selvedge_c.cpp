@@ -136,6 +136,7 @@ bindings::Verdict judge_mesh(const selvedge_mesh& mesh, const selvedge_mesh* ori
   if (!original || !(mesh.has_normals_of_vertices || original->has_normals_of_vertices))
     return {mesh.soup, original ? &original->soup : nullptr, request.obstacle, asked};
   Triangle_soup after = mesh.soup, before = original->soup;
+  asked.triangles_in_file = after.triangles;
   share_vertices_without_normals(after);
   share_vertices_without_normals(before);
   return {after, &before, request.obstacle, asked};

@@ -24,6 +24,7 @@ Judgement judgement_of(const Triangle_soup& mesh, const Triangle_soup* original,
   Verify_options options;
   options.weld_distance = request.weld_distance;
   options.clearance = request.clearance;
+  options.triangles_in_file = request.triangles_in_file;
   options.may_intersect = parts_in_pairs(mesh, request.may_intersect, "may_intersect");
   if (!original)
     return {verify(mesh, options, obstacle), {}};

@@ -22,6 +22,7 @@ struct Verdict_request
   std::vector<std::string> may_intersect; ///< "PART:PART", with names of parts of the mesh
   std::optional<std::size_t> threads;
   Parts_to_drop dropped_parts = {}; ///< of the original
+  std::vector<Index_triple> triangles_in_file = {};
 };
 
 /// What the judge says of a mesh in memory, as `selvedge verify` says it of a file.

@@ -9,6 +9,7 @@
 #include "apps/report_json.h"
 #include "bindings/run/Reduction_request.h"
 #include "support/Temporary_folder.h"
+#include "support/doubles.h"
 #include "support/meshes.h"
 #include "support/soups.h"
 
@@ -760,6 +761,9 @@ TEST(Bindings, JudgeFlatShadedFilesAsTheProgramDoes)
                 .code,
             0);
   EXPECT_EQ(verdict_of_both(folder, folder / "flat.glb", spheres, {}), 0);
+  write_mesh(folder / "original.ply", original_with_double());
+  write_mesh(folder / "result.ply", reduced_double());
+  verdict_of_both(folder, folder / "result.ply", folder / "original.ply", {});
 }
 
 // One list of options: that of the program, with its defaults.

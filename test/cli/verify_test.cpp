@@ -4,6 +4,7 @@
 #include "App_run.h"
 
 #include "soup/selection.h"
+#include "support/doubles.h"
 #include <selvedge/mesh_files.h>
 #include <selvedge/verify.h>
 
@@ -290,25 +291,12 @@ TEST(App_verify, AcceptsWhatSimplifyMakesInEveryFormat)
   }
 }
 
-// A small piece without a vertex of its own lies on a sheet. Read, both have the same vertices in the result,
-// for these differ in their normals alone.
 TEST(App_verify, CountsDoublesThatTheFileNumbersApart)
 {
-  const auto ply = [](const std::string& vertices, int points, const std::string& faces, int triangles) {
-    return "ply\nformat ascii 1.0\nelement vertex " + std::to_string(points) +
-           "\nproperty float x\nproperty float y\nproperty float z\n"
-           "property float nx\nproperty float ny\nproperty float nz\nelement face " +
-           std::to_string(triangles) + "\nproperty list uchar int vertex_indices\nend_header\n" + vertices +
-           faces;
-  };
-  const std::string sheet = "0 0 0 0 0 1\n4 0 0 0 0 1\n4 4 0 0 0 1\n0 4 0 0 0 1\n2 2 0 0 0 1\n",
-                    faces = "3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n";
   const Workspace folder;
-  write_text(folder / "original.ply", ply(sheet + "0 0 0 0 0 1\n4 0 0 0 0 1\n4 4 0 0 0 1\n2 2 0 0 0 1\n", 9,
-                                          faces + "3 5 6 8\n3 6 7 8\n", 6));
-  write_text(folder / "result.ply",
-             ply(sheet + "0 0 0 0 1 0\n4 0 0 0 1 0\n4 4 0 0 1 0\n", 8, faces + "3 5 6 7\n", 5));
-  write_text(folder / "spoiled.ply", ply(sheet, 5, faces, 4));
+  write_mesh(folder / "original.ply", original_with_double());
+  write_mesh(folder / "result.ply", reduced_double());
+  write_mesh(folder / "spoiled.ply", with_double({}, 0));
   const App_result right = run_app({"verify", folder / "result.ply", "--against", folder / "original.ply"});
   EXPECT_NE(right.out.find("pieces: all match those of the original; matched 2 by positions"),
             std::string::npos)
