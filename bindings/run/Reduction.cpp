@@ -36,7 +36,8 @@ double seconds_since(Clock::time_point start)
 } // namespace
 
 Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool has_normals_of_vertices)
-    : m_options(request.json()), m_is_sewn(request.is_sewn)
+    : m_options(request.json()), m_is_sewn(request.is_sewn),
+      m_is_error_given(request.is_error_given && request.options.max_error), m_threads(request.threads)
 {
   request.check();
   if (request.is_sewn && !input.poses.empty())
@@ -199,7 +200,12 @@ std::string Reduction::report(std::size_t level) const
   app::add_reduction(report, m_prepared, of_level.result);
   app::add_verification(report, of_level.verification, true);
   app::add_guarded_poses(report, m_guarded_poses, of_level.result);
-  app::add_distances(report, of_level.verification, of_level.distances);
+  std::optional<Distances_anywhere> distances = of_level.distances;
+  if (m_is_error_given && !distances) {
+    const app::Thread_limit limit(m_threads);
+    distances = distances_anywhere(of_level.result.soup, m_prepared.soup);
+  }
+  app::add_distances(report, of_level.verification, distances);
   app::add_error_search(report, m_error_search);
   app::add_parts(report, m_prepared, of_level.result);
   report["seconds"] = m_seconds.json({"weld", "check", "snap", "index", "cells", "reduce", "verify"});

@@ -78,6 +78,8 @@ private:
   std::vector<Index_triple> m_input_triangles; // these
   std::string m_options;
   bool m_is_sewn;
+  bool m_is_error_given; // a number, of which the report tells how well it was kept
+  std::optional<std::size_t> m_threads;
   Prepared_soup m_prepared;
   std::vector<std::size_t> m_guarded_poses;
   std::vector<Level> m_levels;

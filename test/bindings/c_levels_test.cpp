@@ -128,9 +128,9 @@ TEST(Bindings, MakeTheLevelsOfDetailThatTheProgramMakes)
   const Workspace folder;
   const std::string skirt = folder.generate("skirt", "skirt.obj", 4000),
                     spheres = folder.generate("nested", "spheres.obj", 2000);
-  for (const Choices& choices :
-       {Choices{}, Choices{{"placement", "optimal"}, {"sewn", "true"}}, Choices{{"cells", "true"}},
-        Choices{{"part_ratios", "waistband=0.8"}}, Choices{{"drop_part", "waistband"}}}) {
+  for (const Choices& choices : {Choices{}, Choices{{"placement", "optimal"}, {"sewn", "true"}},
+                                 Choices{{"cells", "true"}}, Choices{{"part_ratios", "waistband=0.8"}},
+                                 Choices{{"drop_part", "waistband"}}, Choices{{"error", "0.004"}}}) {
     SCOPED_TRACE(choices.empty() ? "" : choices.front().first);
     levels_of_both(folder, skirt, "0.25,0.6,0.1", choices);
   }
