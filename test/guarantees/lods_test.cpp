@@ -29,6 +29,9 @@ void expect_same(const Simplified_soup& level, const Simplified_soup& alone)
   EXPECT_EQ(level.report.outcome(), alone.report.outcome());
 }
 
+// A single run that knows its target may take the edges of several tiles in another order. Meshes of up to
+// 5,000 faces have one tile.
+//
 // 0.02 is out of reach; 1 is there from the start; two are the same, and they come in no order.
 const std::vector<double> ratios{0.25, 0.5, 0.02, 1, 0.5, 0.1};
 
@@ -86,7 +89,7 @@ TEST(Lods, SoTheyAreWherePartsHaveRatiosOfTheirOwn)
 
 TEST(Lods, AnInterruptedRunKeepsTheLevelsThatItHasPassed)
 {
-  const Prepared_soup prepared = prepare(garment("jacket", 6000));
+  const Prepared_soup prepared = prepare(garment("jacket", 5000));
   Simplify_options options;
   options.should_stop = [](const Simplify_progress& progress) {
     return 4 * progress.faces < 3 * progress.faces_input;
