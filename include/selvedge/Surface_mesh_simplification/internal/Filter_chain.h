@@ -166,6 +166,7 @@ public:
     m_intersection->let_intersect(m_may_intersect);
     if (m_options.clearance)
       m_intersection->keep_clearance(*m_options.clearance, m_obstacle);
+    m_visitor = m_intersection->visitor();
     m_poses.build_index([this] { return empty_index(); }, m_multiplicities, m_may_intersect,
                         m_options.clearance, m_obstacle);
   }
@@ -258,8 +259,8 @@ public:
   /// Called when a loop begins to ask.
   void on_started()
   {
-    if (m_intersection)
-      m_intersection->visitor().OnStarted(m_mesh);
+    if (m_visitor)
+      m_visitor->OnStarted(m_mesh);
     m_poses.on_started();
   }
 
@@ -271,16 +272,16 @@ public:
     m_tracked.before_collapse(collapse);
     m_rule.before_collapse(collapse);
     m_poses.before_collapse(collapse);
-    if (m_intersection)
-      m_intersection->visitor().before_collapse(collapse);
+    if (m_visitor)
+      m_visitor->before_collapse(collapse);
   }
   void after_collapse(Vertex kept)
   {
     m_partners.after_collapse(kept);
     m_rule.after_collapse(kept);
     m_poses.after_collapse(kept);
-    if (m_intersection)
-      m_intersection->visitor().after_collapse(kept);
+    if (m_visitor)
+      m_visitor->after_collapse(kept);
   }
 
   Refusals refusals() const
@@ -340,6 +341,7 @@ private:
   decltype(Constraints::uncounted_faces) m_obstacle;
   double m_diagonal, m_max_error;
   std::optional<Intersection> m_intersection;
+  std::optional<typename Intersection::Visitor> m_visitor; // of that filter
   const std::vector<Face>* m_blockers = nullptr;
   std::size_t m_refused_by_contact = 0;   // or by lack of clearance, in the mesh's own pose
   std::size_t m_refused_by_clearance = 0; // in any pose
