@@ -21,7 +21,8 @@ namespace selvedge::internal {
 namespace {
 
 // Several pieces may have all vertices of one: a tube has those of its caps, and a doubled sheet lies in
-// one place twice. Where neither vertices nor names tell pieces apart, those of different shapes come last.
+// one place twice. Where neither vertices nor names tell pieces apart, those come first of which the least is
+// turned, and those of different shapes last.
 void compare_shapes_of_equals(const Matching& matching, std::vector<Possible_match>& possible)
 {
   using Rank = std::tuple<Index, double, std::size_t>;
@@ -41,8 +42,10 @@ void compare_shapes_of_equals(const Matching& matching, std::vector<Possible_mat
   Cancellation_poll poll;
   for (Possible_match& pair : possible) {
     poll();
-    if (results[rank_of_result(pair)] > 1 || originals[rank_of_original(pair)] > 1)
-      pair.is_wrong = Likeness(now[pair.of_result], before[pair.of_original]).is_wrong();
+    if (results[rank_of_result(pair)] > 1 || originals[rank_of_original(pair)] > 1) {
+      const Likeness likeness(now[pair.of_result], before[pair.of_original]);
+      pair.unlikeness = likeness.turned + (likeness.is_wrong() ? 1 : 0);
+    }
   }
 }
 

@@ -16,12 +16,12 @@ struct Possible_match
   double distance;             ///< any measure; 0 is best
   std::size_t names_differing; ///< that only one of the two has; decides between equal distances
   Index of_result, of_original;
-  bool is_wrong = false; ///< the two have different shapes; decides where names do not
+  double unlikeness = 0; ///< how different the two shapes are; decides where names do not
 
   bool operator<(const Possible_match& other) const
   {
-    return std::tie(distance, names_differing, is_wrong, of_result, of_original) <
-           std::tie(other.distance, other.names_differing, other.is_wrong, other.of_result,
+    return std::tie(distance, names_differing, unlikeness, of_result, of_original) <
+           std::tie(other.distance, other.names_differing, other.unlikeness, other.of_result,
                     other.of_original);
   }
 };

@@ -431,6 +431,41 @@ TEST(MatchPieces, OfATubeAndItsCap)
   EXPECT_EQ(way(matching), Matched_by::vertices);
 }
 
+// All vertices of a lid are vertices of its box too. A seventh of its area lies nearer to the walls, which
+// stand upright on it, than to the bottom, which faces the other way. Of the box, half of the vertices are
+// new.
+TEST(MatchPieces, OfABoxAndItsLid)
+{
+  constexpr Index sides = 8;
+  const auto on_circle = [](Index i, double radius, double z) {
+    const double angle = (i % sides) * (8 * std::atan(1.0) / sides);
+    return Point_3(radius * std::cos(angle), radius * std::sin(angle), z);
+  };
+  const auto box = [&](double radius_below) {
+    Triangle_soup result;
+    for (Index i = 0; i < 2 * sides; ++i)
+      result.points.push_back(i < sides ? on_circle(i, 1, 0) : on_circle(i, radius_below, -0.2));
+    for (Index i = 0, next = 1; i < sides; ++i, next = (i + 1) % sides) {
+      result.triangles.push_back({i, sides + i, sides + next});
+      result.triangles.push_back({i, sides + next, next});
+      if (i >= 2)
+        result.triangles.push_back({sides, sides + i, sides + i - 1});
+    }
+    return result;
+  };
+  Triangle_soup lid;
+  for (Index i = 0; i < sides; ++i) {
+    lid.points.push_back(on_circle(i, 1, 0));
+    if (i >= 2)
+      lid.triangles.push_back({0, i - 1, i});
+  }
+  const Piece_matching matching = match_pieces(joined(lid, box(0.99)), joined(box(1), lid));
+  EXPECT_TRUE(matching.is_complete()) << matching.mismatches.front().message;
+  ASSERT_EQ(matching.matches.size(), 2u);
+  for (const Piece_match& match : matching.matches)
+    EXPECT_EQ(match.of_original.at(0), 1 - match.of_result.at(0));
+}
+
 // The first piece of the result could be either of the original's, the second only the one that the first
 // would take.
 TEST(MatchPieces, GivesWayWhereAnotherHasNoChoice)
