@@ -1536,6 +1536,8 @@ group("src/soup/Corner_mesh.cpp", ("attributes_test",),
       ("!are_edges_around_regions(differing, neighbours.size())", "differing == 0", "a value that is another on each face makes lines"),
       ("m_regions && (*m_regions)[a / 3] != (*m_regions)[b / 3]", "false", "painted regions lose their outlines"))
 
+group("src/verify/match_by_vertices.cpp", ("verify_match_pieces_test",),
+      ("likeness.turned + (likeness.is_wrong() ? 1 : 0)", "(likeness.is_wrong() ? 1 : 0)", "a lid is taken for its box"))
 group("src/verify/near_positions.cpp", ("verify_match_pieces_test",),
       ("      positions[vertex] = numbers[nearest];", "      positions[vertex] = positions[vertex];",
        "results of few digits are matched by the distances of surfaces alone"))
