@@ -222,22 +222,25 @@ private:
   // 5 times as far, as a mean over a level.
   bool are_neighbours_together() const
   {
+    if (m_size == 0)
+      return true;
     constexpr double most = 5.5;
-    double below = 0;
+    double below = 0; // the mean over a level
     for (const Leaf& leaf : m_leaves)
       below += extent_of_members(leaf.boxes);
     below /= double(m_size);
-    const auto is_grown = [&below](const auto& blocks, const auto& boxes_of) {
-      double sum = 0;
-      for (const auto& block : blocks)
-        sum += extent(boxes_of(block).bounding_box());
-      const double mean = sum / double(blocks.size());
-      return std::exchange(below, mean) * most < mean;
-    };
-    return !is_grown(m_leaves, [](const Leaf& leaf) { return leaf.boxes; }) &&
-           std::none_of(m_levels.begin(), m_levels.end(), [&](const std::vector<Box_block>& level) {
-             return is_grown(level, [](const Box_block& block) { return block; });
-           });
+    std::size_t count = m_leaves.size();
+    for (const std::vector<Box_block>& level : m_levels) { // which has the boxes of the blocks below it
+      double mean = 0;
+      for (const Box_block& block : level)
+        mean += extent_of_members(block);
+      mean /= double(count);
+      if (below * most < mean)
+        return false;
+      below = mean;
+      count = level.size();
+    }
+    return !(below * most < extent(m_levels.back().front().bounding_box()));
   }
 
   static double extent(const internal::Monotone_box& box)

@@ -138,7 +138,7 @@ public:
   }
 
   /// Returns a number that neither `cost_at` nor `costs_along` falls below anywhere, apart from rounding.
-  /// None in several poses, or for vertices that do not move alone.
+  /// None for an edge without a cost, in several poses, or for vertices that do not move alone.
   template <class Profile>
   Optional<double> least_cost_bound(const Profile& profile) const
   {
