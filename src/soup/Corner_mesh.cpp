@@ -228,12 +228,14 @@ Corner_mesh::Halfedge Corner_mesh::halfedge(const Side& side) const
 
 namespace {
 
-// Compares values and not their numbers, since a file may write a value twice.
+// Compares values where their numbers differ, since a file may write a value twice.
 template <class Values>
 bool differ(const Values& corners, Index a, Index b)
 {
-  return !corners.empty() && corners.values[corners.of_triangle[a / 3][a % 3]] !=
-                                 corners.values[corners.of_triangle[b / 3][b % 3]];
+  if (corners.empty())
+    return false;
+  const Index of_a = corners.of_triangle[a / 3][a % 3], of_b = corners.of_triangle[b / 3][b % 3];
+  return of_a != of_b && corners.values[of_a] != corners.values[of_b];
 }
 
 } // namespace
@@ -293,6 +295,7 @@ void Corner_mesh::carry(Halfedge h, Halfedge from)
 
 void Corner_mesh::carry_places(Halfedge moving)
 {
+  ++m_collapse_count;
   // Each contracted face takes the edge before h with it. The edge after h takes the place of that edge in
   // the face beyond it.
   for (const Halfedge h : {moving, m_mesh.opposite(moving)})

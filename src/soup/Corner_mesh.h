@@ -92,6 +92,9 @@ public:
   /// faces may be gone. **Precondition** This is no part of another mesh.
   std::vector<Face> faces_of_triangles() const;
 
+  /// The number of collapses until now. What was computed from the mesh is still true where it is the same.
+  std::size_t collapse_count() const { return m_collapse_count; }
+
   /// The place of the target of a halfedge among the corners of its face.
   unsigned char place(Halfedge h) const { return m_places[h]; }
 
@@ -200,12 +203,13 @@ private:
 
   const Triangle_soup& m_soup;
   Mesh m_mesh;
-  std::vector<Index> m_triangles;                      // by face, its front
-  std::vector<Index_triple> m_corners;                 // by face
-  std::vector<Ply> m_plies;                            // by face, if it has doubles
-  std::vector<Index> m_first_ply;                      // by face, and one more; or empty
-  std::vector<char> m_is_turned;                       // by face, or empty
-  std::vector<unsigned char> m_places;                 // by halfedge that is no border
+  std::vector<Index> m_triangles;      // by face, its front
+  std::vector<Index_triple> m_corners; // by face
+  std::vector<Ply> m_plies;            // by face, if it has doubles
+  std::vector<Index> m_first_ply;      // by face, and one more; or empty
+  std::vector<char> m_is_turned;       // by face, or empty
+  std::vector<unsigned char> m_places; // by halfedge that is no border
+  std::size_t m_collapse_count = 0;
   std::shared_ptr<const std::vector<Index>> m_regions; // by triangle of the soup; or null
 };
 

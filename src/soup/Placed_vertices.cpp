@@ -14,10 +14,7 @@ namespace selvedge {
 
 const Placed_vertices::Placed_vertex* Placed_vertices::find(Index corner) const
 {
-  if (m_placed.empty())
-    return nullptr;
-  const auto found = m_placed.find(m_corners.vertex_of(corner));
-  return found == m_placed.end() ? nullptr : &found->second;
+  return has_any() ? m_placed[m_corners.vertex_of(corner)].get() : nullptr;
 }
 
 Placed_vertices::Uv Placed_vertices::uv_at(Index corner) const
@@ -28,7 +25,7 @@ Placed_vertices::Uv Placed_vertices::uv_at(Index corner) const
 
 Placed_vertices::Uv Placed_vertices::uv_at(Halfedge moving, const Point_3& place) const
 {
-  const Mixture mixture = mixture_at(moving, place);
+  const Mixture& mixture = mixture_at(moving, place);
   return m_values->mixed_uv(mixture.shares, mixture.own);
 }
 
@@ -40,11 +37,13 @@ std::array<double, 3> Placed_vertices::normal_at(Index corner) const
 
 void Placed_vertices::merge_at(Halfedge moving, const Point_3& place, const Point_3& point)
 {
-  const Mixture mixture = mixture_at(moving, place);
+  const Mixture& mixture = mixture_at(moving, place);
   Vertex_values::Numbers values = m_values->mixed(mixture.shares, mixture.own);
+  m_last.reset(); // it refers to values of vertices that are placed
   const auto [removed, kept] = m_corners.ends_in_soup(moving);
-  m_placed.erase(removed);
-  m_placed[kept] = {point, std::move(values)};
+  m_placed.resize(m_corners.soup().points.size());
+  m_placed[removed].reset();
+  m_placed[kept] = std::make_unique<Placed_vertex>(Placed_vertex{point, std::move(values)});
 }
 
 Vertex_values::Share Placed_vertices::share(Index corner, double weight) const
@@ -53,10 +52,18 @@ Vertex_values::Share Placed_vertices::share(Index corner, double weight) const
   return {corner, weight, placed ? &placed->values : nullptr};
 }
 
+const Placed_vertices::Mixture& Placed_vertices::mixture_at(Halfedge moving, const Point_3& place) const
+{
+  const std::size_t count = m_corners.collapse_count();
+  if (!m_last || m_last->moving != moving || m_last->place != place || m_last->collapse_count != count)
+    m_last = {moving, place, count, computed_mixture_at(moving, place)};
+  return m_last->mixture;
+}
+
 // Returns the mixture that the faces around both ends of an edge have at the point nearest to a place. The
 // result does not depend on the order of halfedges around a vertex, so that it is the same in a cell and in
 // the whole.
-Placed_vertices::Mixture Placed_vertices::mixture_at(Halfedge moving, const Point_3& place) const
+Placed_vertices::Mixture Placed_vertices::computed_mixture_at(Halfedge moving, const Point_3& place) const
 {
   const Vertex_values::Share own = share(m_corners.corner_at(moving), 1);
   if (m_values->is_empty())
@@ -83,7 +90,7 @@ Placed_vertices::Mixture Placed_vertices::mixture_at(Halfedge moving, const Poin
 
 std::size_t Placed_vertices::put(const std::vector<Index_triple>& corners, Triangle_soup& result) const
 {
-  if (m_placed.empty())
+  if (!has_any())
     return 0;
   std::size_t count = 0;
   const std::vector<Point_3> points_before = result.points;

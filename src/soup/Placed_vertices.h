@@ -10,7 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
-#include <unordered_map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -52,10 +52,14 @@ public:
   /// soup.
   void merge_at(Halfedge moving, const Point_3& place, const Point_3& point);
 
-  bool has_any() const { return !m_placed.empty(); }
+  bool has_any() const { return !m_placed.empty(); } ///< or has had some
 
   /// Forgets a vertex of the soup, of which no corner is left.
-  void erase(Index vertex) { m_placed.erase(vertex); }
+  void erase(Index vertex)
+  {
+    if (has_any())
+      m_placed[vertex].reset();
+  }
 
   /// Puts the vertices into a soup that was selected from that of the mesh, whose triangles have these
   /// corners. Returns their number.
@@ -72,13 +76,24 @@ private:
     Vertex_values::Shares shares;
     Vertex_values::Share own; // of the end that is kept
   };
-  Mixture mixture_at(Halfedge moving, const Point_3& place) const;
+  // The mixture that was asked for last: that of a collapse is asked for when it is judged and when it is
+  // done.
+  struct Last_mixture
+  {
+    Halfedge moving;
+    Point_3 place;
+    std::size_t collapse_count; // of the mesh at that time
+    Mixture mixture;
+  };
+  const Mixture& mixture_at(Halfedge moving, const Point_3& place) const;
+  Mixture computed_mixture_at(Halfedge moving, const Point_3& place) const;
   Vertex_values::Share share(Index corner, double weight) const;
   const Placed_vertex* find(Index corner) const;
 
   const Corner_mesh& m_corners;
   std::shared_ptr<const Vertex_values> m_values;
-  std::unordered_map<Index, Placed_vertex> m_placed; // by the number that the vertex has in the soup
+  std::vector<std::unique_ptr<Placed_vertex>> m_placed; // by vertex of the soup; empty until one is placed
+  mutable std::optional<Last_mixture> m_last;
 };
 
 } // namespace selvedge

@@ -3,32 +3,21 @@
 
 #include "keeps_uv_orientation.h"
 
-#include <array>
-
 namespace selvedge {
 namespace {
 
 using Uv = Placed_vertices::Uv;
-
-// Returns the orientation that a triangle would have in the texture with other coordinates at one corner.
-CGAL::Orientation uv_orientation(const Placed_vertices& placed, const Index_triple& corners,
-                                 unsigned char place, const Uv& uv)
-{
-  std::array<Kernel::Point_2, 3> points;
-  for (unsigned char k = 0; k < 3; ++k) {
-    const Uv here = k == place ? uv : placed.uv_at(corners[k]);
-    points[k] = {here[0], here[1]};
-  }
-  return CGAL::orientation(points[0], points[1], points[2]);
-}
 
 // Returns whether a triangle keeps its orientation in the texture when one of its corners gets other
 // coordinates.
 bool keeps_orientation(const Placed_vertices& placed, const Index_triple& corners, unsigned char place,
                        const Uv& uv)
 {
-  const CGAL::Orientation before = uv_orientation(placed, corners, place, placed.uv_at(corners[place]));
-  return before == CGAL::COLLINEAR || uv_orientation(placed, corners, place, uv) == before;
+  const auto point = [](const Uv& at) { return Kernel::Point_2(at[0], at[1]); };
+  const Kernel::Point_2 ahead = point(placed.uv_at(corners[(place + 1) % 3])),
+                        behind = point(placed.uv_at(corners[(place + 2) % 3]));
+  const CGAL::Orientation before = CGAL::orientation(point(placed.uv_at(corners[place])), ahead, behind);
+  return before == CGAL::COLLINEAR || CGAL::orientation(point(uv), ahead, behind) == before;
 }
 
 } // namespace

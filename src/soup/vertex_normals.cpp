@@ -7,6 +7,7 @@
 
 #include <selvedge/Cancellation_scope.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -15,12 +16,12 @@ namespace {
 
 using shading::Vector;
 
-// Returns the chord of the angle of a triangle at a corner: twice the sine of its half. Unlike the angle, it
-// is the same on every machine, and so is the order of collapses.
-double chord_at(const Triangle_soup& soup, Index corner)
+// Returns the chord of the angle between the directions of two edges that follow each other around a
+// triangle: twice the sine of half the angle. Unlike the angle, it is the same on every machine, and so is
+// the order of collapses.
+double chord_between(const Vector& from, const Vector& on)
 {
-  const auto [u, v] = shading::directions_at(soup, corner);
-  const Vector chord = internal::difference(u, v);
+  const Vector chord{on[0] + from[0], on[1] + from[1], on[2] + from[2]};
   return std::sqrt(internal::dot(chord, chord));
 }
 
@@ -35,10 +36,15 @@ Vertex_normals vertex_normals(const Triangle_soup& soup, const std::vector<Index
     poll();
     if (!fronts.empty() && fronts[t] != t)
       continue;
-    const Vector normal = shading::unit_normal(soup, t);
+    const Index_triple& corners = soup.triangles[t];
+    std::array<Vector, 3> along; // of the edge that begins at each corner
+    for (std::size_t k = 0; k < 3; ++k)
+      along[k] =
+          shading::unit(shading::difference(soup.points[corners[(k + 1) % 3]], soup.points[corners[k]]));
+    const Vector normal = shading::unit(internal::cross(along[2], along[0]));
     const double side = !is_turned.empty() && is_turned[t] ? -1 : 1;
     for (std::size_t k = 0; k < 3; ++k)
-      shading::add(sums[positions[soup.triangles[t][k]]], normal, side * chord_at(soup, 3 * t + Index(k)));
+      shading::add(sums[positions[corners[k]]], normal, side * chord_between(along[(k + 2) % 3], along[k]));
   }
   Vertex_normals normals;
   normals.reserve(sums.size());
