@@ -378,6 +378,19 @@ TEST(Own_loop, GoesAsCgalsOnAPolyhedron)
   EXPECT_EQ(points(own), points(cgal));
 }
 
+// Makes a rule with limits along borders and along some inner edges.
+Border_rule<Surface_mesh> rule_with_lines(const Surface_mesh& mesh)
+{
+  Border_rule_options options;
+  options.max_border_turn = 30;
+  options.max_drift = 0.01;
+  Border_rule<Surface_mesh> rule(mesh, options);
+  for (const auto e : mesh.edges())
+    if (std::size_t(e) % 50 == 0)
+      rule.mark(e);
+  return rule;
+}
+
 // What a placement tells the loop saves work and changes nothing, along lines neither.
 TEST(Own_loop, GoesTheSameWayWhenItIsToldLess)
 {
@@ -386,13 +399,7 @@ TEST(Own_loop, GoesTheSameWayWhenItIsToldLess)
     const Edge_ratio_stop stop(ratio);
     const auto reduce = [&](Surface_mesh& reduced, const Recorder& recorder, const auto& told) {
       using Rule = Border_rule<Surface_mesh>;
-      Border_rule_options options;
-      options.max_border_turn = 30;
-      options.max_drift = 0.01;
-      Rule rule(reduced, options);
-      for (const auto e : reduced.edges())
-        if (std::size_t(e) % 50 == 0)
-          rule.mark(e);
+      const Rule rule = rule_with_lines(reduced);
       using Cost = Quadric_cost<Surface_mesh, Rule>;
       const Cost cost(reduced, {}, rule);
       const Border_filter<Rule, Aspect_ratio_filter<>> filter(rule, Aspect_ratio_filter<>(0.2));
@@ -512,13 +519,18 @@ TEST(Own_loop, ComputesACostWithABoundOnlyWhenTheEdgeIsTheCheapest)
     SCOPED_TRACE(name);
     const auto reduce = [&, &input = mesh](auto make_cost, std::size_t& questions, double share = ratio) {
       Surface_mesh reduced = input;
+      using Rule = Border_rule<Surface_mesh>;
+      const Rule rule = rule_with_lines(reduced);
       const auto cost = make_cost(reduced, questions);
-      const Halfedge_placement<Surface_mesh, std::decay_t<decltype(cost)>> placement(cost);
+      const Halfedge_placement<Surface_mesh, std::decay_t<decltype(cost)>, Rule> placement(cost, rule);
       std::vector<Step> steps;
       std::vector<double> costs;
       selvedge::edge_collapse(
           reduced, Edge_ratio_stop(share),
-          CGAL::parameters::get_cost(cost).get_placement(placement).visitor(Recorder(steps, costs)));
+          CGAL::parameters::get_cost(cost)
+              .get_placement(placement)
+              .filter(Border_filter<Rule>(rule))
+              .visitor(Visitor_chain(Recorder(steps, costs), Border_visitor<Surface_mesh>(rule))));
       return steps;
     };
     std::size_t questions = 0, questions_with_bound = 0;

@@ -61,7 +61,8 @@ struct No_border_rule
 /// of the profile's edge onto its target. It may also have `costs_along(profile)`, which returns the costs of
 /// moving v0 onto v1 and v1 onto v0 in less time. With `cost_bounds(profile)`, two optional costs that these
 /// do not fall below, a loop computes most costs only when an edge comes to be the cheapest. `Rule`
-/// has `may_move(halfedge)`, `reaches_neighbours(vertex)` and `reaches(vertex, edge)`, as `Border_rule` has.
+/// has `may_move(halfedge)`, `is_free(vertex)`, `reaches_neighbours(vertex)` and `reaches(vertex, edge)`, as
+/// `Border_rule` has.
 ///
 /// **Reference** Derichs, Misiak, Fuhrmann, section 3 and figure 4.
 template <class TriangleMesh, class Cost, class Rule = No_border_rule>
@@ -120,9 +121,9 @@ public:
                                               : Choice{Merged_at::v1, onto_v1};
   }
 
-  /// Returns a cost that the first choice does not fall below, and that takes less time to compute: the least
-  /// of `cost_bounds` of the cost policy for a motion that the rule allows. None where the policy has no
-  /// bound.
+  /// Returns a cost that a first choice that the rule allows does not fall below, and that takes less time to
+  /// compute: of `cost_bounds` of the cost policy that for the end that is free, if one is, or else the
+  /// least. None where the policy has no bound.
   template <class Profile, class Policy = Cost>
   auto first_cost_bound(const Profile& profile) const ->
       typename std::decay_t<decltype(std::declval<const Policy&>().cost_bounds(profile))>::value_type
@@ -130,10 +131,10 @@ public:
     const auto [onto_v1, onto_v0] = m_cost.cost_bounds(profile);
     if (!onto_v0 || !onto_v1)
       return {};
-    const bool may_move_v0 = m_rule.may_move(profile.v0_v1());
-    const bool may_move_v1 = m_rule.may_move(profile.v1_v0());
-    if (may_move_v0 != may_move_v1)
-      return may_move_v0 ? onto_v1 : onto_v0;
+    // An end on a line moves along a line only, and then both are on it. Whether it may takes long to ask.
+    const bool is_v0_free = m_rule.is_free(profile.v0()), is_v1_free = m_rule.is_free(profile.v1());
+    if (is_v0_free != is_v1_free)
+      return is_v0_free ? onto_v1 : onto_v0;
     return (std::min)(*onto_v0, *onto_v1);
   }
 

@@ -86,16 +86,18 @@ public:
   template <class Profile>
   internal::Optional<internal::Placement_choice> choice(const Profile& profile, unsigned rank) const
   {
+    const auto place = least_place(profile);
+    const auto cost = place ? m_cost.cost_at(profile, *place) : internal::Optional<double>();
+    const internal::Placement_choice between{internal::Merged_at::between, cost};
+    if (rank == 0 && cost && *cost < s_most_cost * bound_at_ends(profile, 0))
+      return between;
     const auto end = m_ends.choice(profile, 0);
     if (!end || !end->cost)
       return rank == 0 ? end : decltype(end)();
-    if (const auto place = least_place(profile)) {
-      const internal::Optional<double> cost = m_cost.cost_at(profile, *place);
-      if (cost && *cost < s_most_cost * *end->cost) {
-        if (rank == 0)
-          return internal::Placement_choice{internal::Merged_at::between, cost};
-        --rank;
-      }
+    if (cost && *cost < s_most_cost * *end->cost) {
+      if (rank == 0)
+        return between;
+      --rank;
     }
     return rank == 0 ? end : m_ends.choice(profile, rank);
   }
@@ -131,6 +133,21 @@ private:
   bool are_ends_free(const Profile& profile) const
   {
     return m_rule.is_free(profile.v0()) && m_rule.is_free(profile.v1());
+  }
+
+  // Returns a number that the cost at an end does not fall below, in less time; 0 where the cost policy has
+  // none.
+  template <class Profile, class Policy = Cost>
+  auto bound_at_ends(const Profile& profile, int) const
+      -> decltype(std::declval<const Policy&>().cost_bounds(profile), double())
+  {
+    const auto bound = m_ends.first_cost_bound(profile);
+    return bound ? *bound : 0;
+  }
+  template <class Profile>
+  double bound_at_ends(const Profile&, long) const
+  {
+    return 0;
   }
 
   // Returns the place of least cost as it will be stored; none where it is an end, or may not be used.
