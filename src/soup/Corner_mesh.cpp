@@ -4,6 +4,8 @@
 #include "Corner_mesh.h"
 
 #include "Sewing.h"
+#include "inner_edges.h"
+#include "number_positions.h"
 #include "selection.h"
 
 #include <algorithm>
@@ -140,32 +142,22 @@ std::vector<Corner_mesh::Halfedge> Corner_mesh::build(const Sewing& sewing,
   return halfedges;
 }
 
-void Corner_mesh::find_regions(const std::function<Index(Mesh::Vertex_index)>& position_of)
+void Corner_mesh::find_regions()
 {
   if (m_soup.triangle_attributes.empty())
     return;
-  struct Directed_side
-  {
-    std::pair<Index, Index> ends; // positions, in ascending order
-    bool is_ascending;
-    Face face;
-  };
-  std::vector<Directed_side> sides;
-  for (Index f = 0; f < own_face_count(); ++f)
-    for (const Halfedge h : m_mesh.halfedges_around_face(m_mesh.halfedge(Face(f)))) {
-      const Index from = position_of(m_mesh.source(h)), to = position_of(m_mesh.target(h));
-      sides.push_back({std::minmax(from, to), from < to, Face(f)});
-    }
-  std::sort(sides.begin(), sides.end(),
-            [](const Directed_side& a, const Directed_side& b) { return a.ends < b.ends; });
-  std::vector<std::pair<Face, Face>> neighbours;
-  for (std::size_t first = 0, beyond; first < sides.size(); first = beyond) {
-    beyond = first + 1;
-    while (beyond < sides.size() && sides[beyond].ends == sides[first].ends)
-      ++beyond;
-    if (beyond - first == 2 && sides[first].is_ascending != sides[first + 1].is_ascending)
-      neighbours.emplace_back(sides[first].face, sides[first + 1].face);
-  }
+  const std::vector<Index> positions = number_positions(m_soup.points);
+  std::vector<Index_triple> triangles; // of positions, by face
+  for (const auto& [a, b, c] : m_corners)
+    triangles.push_back({positions[vertex_of(a)], positions[vertex_of(b)], positions[vertex_of(c)]});
+  std::vector<std::pair<Face, Face>> neighbours; // which run along their edge in opposite directions
+  internal::for_each_inner_edge(triangles, [&](const internal::Edge_side& a, const internal::Edge_side& b) {
+    const auto is_ascending = [](const internal::Edge_side& side) {
+      return Sewing::next(side.at_low) == side.at_high;
+    };
+    if (is_ascending(a) != is_ascending(b))
+      neighbours.emplace_back(a.at_low / 3, b.at_low / 3);
+  });
   const std::size_t triangle_count = m_soup.triangles.size();
   std::vector<Index> regions;
   for (const Attribute& attribute : m_soup.triangle_attributes) {

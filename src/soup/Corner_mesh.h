@@ -177,10 +177,10 @@ protected:
   std::vector<Halfedge> build(const Sewing& sewing, const std::function<Point_3(Index vertex)>& point_of);
 
   /// Finds the regions of triangles that attributes tell apart, such as the number of a material or a painted
-  /// colour. Called once, after `build`, with the positions of vertices: edges are counted where two faces
-  /// run along them in opposite directions, as a replay counts them. Parts of this mesh have the same
-  /// regions.
-  void find_regions(const std::function<Index(Mesh::Vertex_index)>& position_of);
+  /// colour. Called once, of the whole mesh. Edges are counted where two faces run along them in opposite
+  /// directions, as a replay counts them: in the points of the soup, so that vertices which only rounding has
+  /// brought together are one, though nothing is sewn there. Parts of this mesh have the same regions.
+  void find_regions();
 
   /// Gives all plies at the target of h the corners that those beside `from` have at the target of `from`.
   void carry(Halfedge h, Halfedge from);

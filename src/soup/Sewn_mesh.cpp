@@ -144,7 +144,7 @@ Sewn_mesh::Sewn_mesh(const Triangle_soup& soup, const std::vector<Index>& positi
   }
 
   Cancellation_scope::check();
-  find_regions(position_of);
+  find_regions();
   for (Index side = 0; side < own_corners; ++side) {
     const Index mate = sewing.mate(side);
     if (mate != Sewing::none && side < mate && differences(mesh().edge(halfedges[side])).any())
