@@ -74,6 +74,7 @@ Judged_complex::Judged_complex(const Triangle_soup& own, const Triangle_soup& ob
 
 void Judged_complex::freeze(Index face)
 {
+  m_frozen_faces.insert(face);
   for (const Index p : m_faces[face].positions)
     m_is_frozen[p] = true;
 }
@@ -261,7 +262,7 @@ void Judged_complex::set_doubles_aside(const Triangle_soup& own)
   m_slots.resize(m_faces.size());
   for (Index f = 0; f < m_faces.size(); ++f) {
     m_fronts.push_back(f);
-    if (!m_faces[f].is_own || m_ancestors.empty() || !has_area(f))
+    if (!m_faces[f].is_own || m_ancestors.empty() || !has_area(f) || m_frozen_faces.count(f) > 0)
       continue;
     std::vector<Index> key(m_faces[f].positions.begin(), m_faces[f].positions.end());
     std::sort(key.begin(), key.end());

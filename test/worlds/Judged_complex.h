@@ -31,7 +31,7 @@ public:
   /// Pairs of faces that meet beyond what they share, and faces without an area as pairs with themselves.
   std::set<std::pair<Index, Index>> offending_pairs() const;
 
-  /// Nothing at the corners of this face moves from now on.
+  /// Nothing at the corners of this face moves from now on, and it is neither a double nor the front of one.
   void freeze(Index face);
   void freeze_position(Index position) { m_is_frozen[position] = true; }
 
@@ -131,7 +131,8 @@ private:
   std::vector<Index> m_position_of_vertex;
   std::vector<Face> m_faces;
   std::vector<std::vector<Index>> m_faces_at;
-  std::vector<char> m_is_frozen;                 // by position
+  std::vector<char> m_is_frozen; // by position
+  std::set<Index> m_frozen_faces;
   std::set<Index> m_offending;                   // positions
   std::vector<std::set<Index>> m_ancestors;      // by face
   std::vector<Index> m_fronts;                   // by face; empty before `find_seams`

@@ -148,7 +148,8 @@ Verdict judge_reduction(const World& world, const World_run& run, Judged_complex
   const std::vector<char> is_held = held(world, run.prepared.soup, true);
   for (Index t = 0; t < is_held.size(); ++t)
     if (is_held[t])
-      complex.freeze(t);
+      for (const Index v : run.prepared.soup.triangles[t])
+        complex.freeze_position(complex.position(v));
   for (const Index v : world.intent.locked_vertices)
     complex.freeze_position(complex.position(v));
   const auto turn_faces = [&] {

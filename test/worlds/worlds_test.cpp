@@ -58,6 +58,19 @@ TEST(Worlds, KeepEveryPromise)
   EXPECT_GT(counts.option_sets, s_seeds / 3);
 }
 
+TEST(Worlds, HaveTheRegionsThatRoundingLeaves)
+{
+  // Numbers of triangles make lines if they change across at most a sixteenth of the edges. In the first
+  // world, edges count that only rounding has made, and in the second, faces that rounding has frozen are no
+  // doubles.
+  for (const std::uint64_t seed : {90000083u, 48303917u}) {
+    Judgement_counts counts;
+    const auto broken = judge(random_world(seed), counts);
+    EXPECT_FALSE(broken) << seed << ": " << broken->message;
+    EXPECT_GT(counts.collapses, 0u);
+  }
+}
+
 TEST(Worlds, AreReducedAgainWithOtherOptions)
 {
   int judged = 0;
