@@ -184,7 +184,8 @@ enum class Mismatch {
   name,     ///< faces have a group, object or material that the original has elsewhere, or a name is gone
   far,   ///< pieces are farther from those of the original than a quarter of their size, and than 1 % of the
          ///< whole diagonal or without a vertex of the original's pieces
-  turned ///< nine tenths of the area face the other way, and no border runs as it did
+  turned ///< nine tenths of the area face the other way, no border runs as it did, and the sides of the piece
+         ///< are not nearer to each other than the pieces are
 };
 
 /// Pieces that do not match.

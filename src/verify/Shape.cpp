@@ -44,7 +44,17 @@ double Shape::root_mean_square_distance(const Shape& to) const
   return std::sqrt(sum / double(points().size()));
 }
 
-double Shape::turned_against(const Shape& other) const
+namespace {
+
+Vector_3 unit(const Vector_3& v)
+{
+  const double length = std::sqrt(v.squared_length());
+  return length > 0 ? v / length : v;
+}
+
+} // namespace
+
+double Shape::turned_against(const Shape& other, double margin) const
 {
   // Of some 104°. Where little is left of a piece, as the cap of a tube, the nearest triangle of the original
   // may well be at a right angle, and neither side is that of the other.
@@ -67,9 +77,11 @@ double Shape::turned_against(const Shape& other) const
       continue;
     // Both sides of a closed piece that is flat lie in one place, and either may be found.
     for (Index u = Index(directions.size()); u < other.m_surface.triangles.size(); ++u)
-      directions.push_back(other.m_surface.normal(u));
+      directions.push_back(unit(other.m_surface.normal(u)));
     const double as_near = 1.000001 * std::sqrt(CGAL::squared_distance(centre, nearest.point)) + 1e-12;
-    if (!other.m_tree.nearest_facing(centre, directions, normal, as_near))
+    if (!other.m_tree.nearest_facing(centre, directions, normal, as_near) &&
+        !(margin > 0 && other.m_tree.nearest_facing(centre, directions, normal, as_near + margin,
+                                                    -cosine_of_turned * area)))
       turned += area;
   }
   return all > 0 ? turned / all : 0;

@@ -173,14 +173,15 @@ public:
   }
 
   /// Returns the nearest point that is nearer than `limit`, among the triangles whose entry in `directions`
-  /// has a positive scalar product with `direction`; none if there is none.
+  /// has a scalar product above `least_product` with `direction`; none if there is none.
   std::optional<Nearest> nearest_facing(const Point_3& query, const std::vector<Vector_3>& directions,
-                                        const Vector_3& direction, double limit) const
+                                        const Vector_3& direction, double limit,
+                                        double least_product = 0) const
   {
     constexpr Index none = -1;
     Nearest nearest{query, none};
     approach(query, limit * limit, nearest,
-             [&](Index triangle) { return directions[triangle] * direction > 0; });
+             [&](Index triangle) { return directions[triangle] * direction > least_product; });
     return nearest.triangle == none ? std::nullopt : std::optional(nearest);
   }
 

@@ -1562,9 +1562,15 @@ group("src/verify/Border_lines.cpp", ("verify_match_pieces_test",),
       ("return sum > 0;", "return false;", "what is left of a bag is turned inside out"),
       ("return sum > 0;", "return true;", "no piece is turned inside out"))
 
+group("src/verify/Likeness.h", ("verify_match_pieces_test",),
+      ("std::min(distance, most_thickness)", "0", "a piece is turned whose sides are nearer to each other than the pieces"),
+      ("std::min(distance, most_thickness)", "distance", "a piece is not turned of which little is left"),
+      ("std::min(distance, most_thickness)", "most_thickness", "a flat piece is not turned"))
+
 group("src/verify/Shape.cpp", ("verify_match_pieces_test",),
       ("!other.m_tree.nearest_facing(centre, directions, normal, as_near)", "true",
-       "a flat piece is turned where its other side is found"))
+       "a flat piece is turned where its other side is found"),
+      ("-cosine_of_turned * area)", "0)", "walls at a right angle show which side a piece has"))
 
 group("src/soup/normals.cpp", ("normals_test",),
       ("dot(normal_at(normals, t, k), normal) >= 0", "true", "recomputed normals point to the back of a face at a fold"))

@@ -370,6 +370,75 @@ TEST(MatchPieces, OfAFlatTetrahedronAreNotTurned)
   EXPECT_EQ(match_pieces(result, original).matches.at(0).turned, 0);
 }
 
+// A stitch of cargo pants that intersects itself. Its sides are 0.05 apart where it is flat, and exchange
+// their places when a vertex moves by less than 0.2: no face turns by more than 12°, but nine tenths of the
+// area are nearer to what was the other side.
+TEST(MatchPieces, WhoseSidesAreNearerToEachOtherAreNotTurned)
+{
+  const Triangle_soup stitch =
+      soup({{0, 0, 0},
+            {1.688, -15.19, 1.687},
+            {2.25, -14.06, 1.687},
+            {-2.25, 0, 0},
+            {0, -12.94, 0.5625},
+            {-1.125, 2.25, 0}},
+           {{0, 1, 2}, {1, 0, 3}, {2, 1, 4}, {4, 1, 3}, {2, 4, 5}, {5, 4, 3}, {2, 5, 0}, {0, 5, 3}});
+  Triangle_soup result = soup({{0, 0, 0}, {1.5, -14.13, 1.401}, {-1.125, 2.25, 0}, {-2.25, 0, 0}},
+                              {{1, 0, 3}, {2, 1, 3}, {1, 2, 0}, {0, 2, 3}});
+  const Piece_matching matching = match_pieces(result, stitch);
+  EXPECT_TRUE(matching.is_complete()) << matching.mismatches.front().message;
+  EXPECT_GT(matching.matches.at(0).turned, 0.9) << "the control";
+
+  Triangle_soup turned = stitch;
+  for (Index_triple& triangle : turned.triangles)
+    std::swap(triangle[0], triangle[1]);
+  EXPECT_EQ(mismatches(turned, stitch), Mismatches{Mismatch::turned});
+}
+
+TEST(MatchPieces, ThatAreNotFlatAreTurnedThoughTheyHaveLostMore)
+{
+  // A prism that is 0.05 thick. Its fourth corners are gone, which were 0.28 away from what is left.
+  Triangle_soup prism, result;
+  for (const double z : {0.0, 0.05})
+    for (const auto& [x, y] : {std::pair(0.0, 0.0), {1.0, 0.0}, {0.7, 0.7}, {0.0, 1.0}})
+      prism.points.emplace_back(x, y, z);
+  result.points = prism.points;
+  prism.triangles = {{4, 5, 6}, {4, 6, 7}, {0, 2, 1}, {0, 3, 2}};
+  result.triangles = {{4, 5, 7}, {0, 3, 1}};
+  const auto add_side = [](Triangle_soup& soup, Index from, Index to) {
+    soup.triangles.push_back({from, to, to + 4});
+    soup.triangles.push_back({from, to + 4, from + 4});
+  };
+  for (const Index i : {0, 1, 2, 3})
+    add_side(prism, i, (i + 1) % 4);
+  for (const auto& [from, to] : {std::pair(0, 1), {1, 3}, {3, 0}})
+    add_side(result, Index(from), Index(to));
+  EXPECT_TRUE(match_pieces(result, prism).is_complete()) << "the control";
+  for (Index_triple& triangle : result.triangles)
+    std::swap(triangle[0], triangle[1]);
+  EXPECT_EQ(mismatches(result, prism), Mismatches{Mismatch::turned});
+}
+
+// What is left of a lid on a robot's arm, and the box below it. A wall of this that is nearly as near as the
+// one that faces the other way stands at a right angle, and shows nothing.
+TEST(MatchPieces, OfALidThatIsTakenForItsBoxIsTurned)
+{
+  const Triangle_soup box =
+      soup({{0, 0.2, 0},
+            {2.9, 0, 0},
+            {2.9, 0, 3.2},
+            {2.54, 5.64, 0},
+            {2.54, 5.64, 3.2},
+            {0, 0.2, 3.2},
+            {0.37, 5.78, 0.1},
+            {0.37, 5.78, 3.2}},
+           {{0, 1, 2}, {1, 3, 4}, {5, 2, 4}, {0, 6, 3}, {5, 0, 2}, {2, 1, 4}, {7, 5, 4}, {1, 0, 3}});
+  Triangle_soup lid;
+  lid.points = {box.points[4], box.points[3], box.points[0]};
+  lid.triangles = {{0, 1, 2}};
+  EXPECT_EQ(mismatches(lid, box), (Mismatches{Mismatch::far, Mismatch::turned}));
+}
+
 TEST(MatchPieces, ThatCoincide)
 {
   const Triangle_soup twice = joined(layer(4, 0), layer(4, 0));
