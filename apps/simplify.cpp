@@ -307,21 +307,16 @@ private:
     return further == 0 ? "" : " in " + counted(1 + further, "pose");
   }
 
-  // Where the error is to be kept everywhere, chooses that of the next reduction; or guards the pose where it
-  // is not kept, if that was not judged. Returns whether the reduction is to be done again.
+  // Where the error is to be kept everywhere, chooses that of the next reduction. Returns whether there is to
+  // be one.
   bool advance_error_search(const std::vector<Level>& levels)
   {
     if (!m_error_search || !m_outcome.is_accepted || m_outcome.is_interrupted)
       return false;
-    Bounds_over_poses largest;
+    std::vector<Bounds_over_poses> largest;
     for (const Level& level : levels)
-      if (const Bounds_over_poses& of_level = level.distances_anywhere->larger();
-          of_level.upper >= largest.upper)
-        largest = of_level;
-    if (largest.upper > *m_request.options.max_error && largest.pose &&
-        add_pose(m_guarded_poses, *largest.pose))
-      return true;
-    return m_error_search->advance(largest.upper);
+      largest.push_back(level.distances_anywhere->larger());
+    return m_error_search->advance(largest, m_guarded_poses);
   }
 
   // Where the target was missed and the surface was flattened for it, has the next reduction end before.

@@ -156,13 +156,10 @@ bool Reduction::is_to_be_repeated(const Reduction_request& request, Missed_targe
       judged.push_back({level.result, level.verification.distances->original_to_result});
     return missed_target.advance(judged);
   }
-  Bounds_over_poses largest;
+  std::vector<Bounds_over_poses> largest;
   for (const Level& level : m_levels)
-    if (level.distances->larger().upper >= largest.upper)
-      largest = level.distances->larger();
-  if (largest.upper > *request.options.max_error && largest.pose && add_pose(m_guarded_poses, *largest.pose))
-    return true;
-  return m_error_search->advance(largest.upper);
+    largest.push_back(level.distances->larger());
+  return m_error_search->advance(largest, m_guarded_poses);
 }
 
 std::vector<Index> Reduction::vertices(std::size_t level) const

@@ -4,7 +4,11 @@
 #ifndef SELVEDGE_ERROR_SEARCH_H
 #define SELVEDGE_ERROR_SEARCH_H
 
+#include <selvedge/compare.h>
+#include <selvedge/key_poses.h>
+
 #include <cstddef>
+#include <vector>
 
 namespace selvedge {
 
@@ -59,6 +63,20 @@ public:
     }
     ++m_reductions;
     return true;
+  }
+
+  /// The same for one reduction or several, one for each level of detail, with the largest distances of their
+  /// results. Where these are too large in a further pose that is not guarded, adds this to the numbers of
+  /// those that are, and leaves the error as it is.
+  bool advance(const std::vector<Bounds_over_poses>& levels, std::vector<std::size_t>& guarded_poses)
+  {
+    Bounds_over_poses largest;
+    for (const Bounds_over_poses& level : levels)
+      if (level.upper >= largest.upper)
+        largest = level;
+    if (largest.upper > m_wanted && largest.pose && add_pose(guarded_poses, *largest.pose))
+      return true;
+    return advance(largest.upper);
   }
 
 private:

@@ -14,7 +14,7 @@ import re
 import sys
 
 LEVELS = [
-    ("basics", ["include/selvedge/Cancellation_scope.h", "include/selvedge/Error.h", "include/selvedge/Error_search.h", "include/selvedge/Soup_collapse.h", "include/selvedge/internal/base64.h", "include/selvedge/internal/inflated.h", "include/selvedge/internal/instructions.h",
+    ("basics", ["include/selvedge/Cancellation_scope.h", "include/selvedge/Error.h", "include/selvedge/Soup_collapse.h", "include/selvedge/internal/base64.h", "include/selvedge/internal/inflated.h", "include/selvedge/internal/instructions.h",
                 "include/selvedge/internal/Vector_of_doubles.h", "include/selvedge/internal/nearest_on_triangle.h", "include/selvedge/internal/saturated_float.h", "include/selvedge/internal/exact_predicates.h"]),
     ("geometry", ["include/selvedge/geometry/", "include/selvedge/spatial/"]),
     ("policies", ["include/selvedge/Surface_mesh_simplification/", "include/selvedge/Simplify_options.h",
@@ -27,7 +27,7 @@ LEVELS = [
     ("judge", ["include/selvedge/verify.h", "include/selvedge/compare.h", "src/verify/"]),
     ("logs", ["include/selvedge/Reduction_limits.h", "include/selvedge/collapse_log.h", "include/selvedge/Sha256.h", "src/log/"]),
     ("replay", ["include/selvedge/replay.h", "src/replay/"]),
-    ("reduction", ["include/selvedge/prepare.h", "include/selvedge/simplify.h", "include/selvedge/Missed_target.h", "include/selvedge/Reduction_history.h", "include/selvedge/Reduction_log.h",
+    ("reduction", ["include/selvedge/prepare.h", "include/selvedge/simplify.h", "include/selvedge/Error_search.h", "include/selvedge/Missed_target.h", "include/selvedge/Reduction_history.h", "include/selvedge/Reduction_log.h",
                    "include/selvedge/key_poses.h", "include/selvedge/part_report.h", "src/simplify/"]),
     ("cells", ["include/selvedge/cells.h", "src/cells/"]),
     ("progressive files", ["include/selvedge/progressive.h", "src/progressive/"]),

@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <optional>
 #include <random>
+#include <vector>
 
 namespace selvedge::test {
 namespace {
@@ -113,6 +115,29 @@ TEST(Error_search, HasNothingLessThanNoError)
 {
   Error_search search(0);
   EXPECT_FALSE(search.advance(1e-17));
+}
+
+TEST(Error_search, GuardsThePoseWhereTheLargestDistanceIsBeforeItLowersTheError)
+{
+  const auto upper_in = [](double upper, std::optional<std::size_t> pose = {}) {
+    Bounds_over_poses bounds;
+    bounds.upper = upper;
+    bounds.pose = pose;
+    return bounds;
+  };
+  Error_search search(2);
+  std::vector<std::size_t> guarded{1, 4};
+  EXPECT_TRUE(search.advance({upper_in(1, 0), upper_in(3, 2), upper_in(2.5)}, guarded));
+  EXPECT_EQ(guarded, (std::vector<std::size_t>{1, 2, 4}));
+  EXPECT_EQ(search.max_error(), 2);
+  EXPECT_EQ(search.reductions(), 1u);
+  // It is guarded now, or it is the first pose, or the limit is kept.
+  EXPECT_TRUE(search.advance({upper_in(3, 2), upper_in(1, 0)}, guarded));
+  EXPECT_LT(search.max_error(), 2);
+  EXPECT_EQ(search.reductions(), 2u);
+  EXPECT_TRUE(search.advance({upper_in(2.5, 0), upper_in(3)}, guarded));
+  EXPECT_FALSE(search.advance({upper_in(1.99, 0), upper_in(1.9)}, guarded));
+  EXPECT_EQ(guarded, (std::vector<std::size_t>{1, 2, 4}));
 }
 
 } // namespace
