@@ -607,24 +607,19 @@ private:
     std::vector<std::string> still = m_request.intent.locked;
     still.insert(still.end(), m_request.intent.kept.begin(), m_request.intent.kept.end());
     html.add_input(prepared, still);
-    // Levels are states of one reduction, or each has its own: then the collapses of one follow those of
-    // another. The levels after one that was stopped are the same as that.
-    const bool is_one = m_request.intent.ratios.empty() && !m_request.is_in_cells;
-    auto begin = m_collapses.begin();
+    std::vector<const Simplified_soup*> results;
+    for (const Level& level : levels)
+      results.push_back(&level.result);
+    const std::vector<Collapses_of_level> collapses =
+        collapses_of_levels(results, m_request.options, m_request.intent);
     std::size_t number = 0;
-    bool is_stopped = false;
-    for (const Level& level : levels) {
-      const std::size_t steps = level.result.report.collapses;
-      if (&level == &levels.front()) {
-        const auto end = is_one || levels.size() == 1 ? m_collapses.end() : begin + std::ptrdiff_t(steps);
-        number = html.add_collapses({begin, end});
-        begin = end;
-      } else if (!is_one && !is_stopped) {
-        number = html.add_collapses({begin, begin + std::ptrdiff_t(steps)});
-        begin += std::ptrdiff_t(steps);
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+      if (i == 0 || collapses[i].reduction != collapses[i - 1].reduction) {
+        const auto first = m_collapses.begin() + std::ptrdiff_t(collapses[i].first);
+        number = html.add_collapses({first, first + std::ptrdiff_t(collapses[i].of_reduction)});
       }
-      is_stopped = level.result.report.is_stopped;
-      html.add_level(name_of(level), level.result, level.verification, number, steps);
+      html.add_level(name_of(levels[i]), levels[i].result, levels[i].verification, number,
+                     collapses[i].count);
     }
     return html.page(m_report);
   }

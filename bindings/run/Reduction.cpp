@@ -87,8 +87,14 @@ Reduction::Reduction(Triangle_soup input, const Reduction_request& request, bool
     missed_target.complete(results);
     take(std::move(results));
     if (request.is_log_wanted) {
-      share_out(collapses, request.intent.ratios.empty() && request.options.faces_per_cell == 0);
-      for (Level& level : m_levels) {
+      std::vector<const Simplified_soup*> all;
+      for (const Level& level : m_levels)
+        all.push_back(&level.result);
+      const std::vector<Collapses_of_level> shares = collapses_of_levels(all, options, request.intent);
+      for (std::size_t i = 0; i < m_levels.size(); ++i) {
+        Level& level = m_levels[i];
+        const auto first = collapses.begin() + std::ptrdiff_t(shares[i].first);
+        level.collapses.assign(first, first + std::ptrdiff_t(shares[i].count));
         std::ostringstream stream;
         Reduction_log log(stream, header, numbering, m_prepared, options);
         for (const Soup_collapse& collapse : level.collapses)
@@ -120,19 +126,6 @@ void Reduction::take(std::vector<Simplified_soup> results)
       level.distances = distances_anywhere(level.result.soup, m_prepared.soup);
   }
   m_seconds["verify"] += seconds_since(start);
-}
-
-// One reduction passes through all levels, or each has its own, and their collapses follow each other. The
-// levels after one that was stopped are the same as that.
-void Reduction::share_out(const std::vector<Soup_collapse>& collapses, bool are_of_one_reduction)
-{
-  auto begin = collapses.begin();
-  for (Level& level : m_levels) {
-    const auto end = begin + std::ptrdiff_t(level.result.report.collapses);
-    level.collapses.assign(begin, end);
-    if (!are_of_one_reduction && !level.result.report.is_stopped)
-      begin = end;
-  }
 }
 
 // As in the program: guards the poses in which a result is refused or too far off, or chooses another error.

@@ -71,7 +71,6 @@ private:
   };
 
   void take(std::vector<Simplified_soup> results);
-  void share_out(const std::vector<Soup_collapse>& collapses, bool are_of_one_reduction);
   bool is_to_be_repeated(const Reduction_request& request, Missed_target& missed_target);
 
   std::vector<Index> m_numbers;                // in the input, of the triangles that are not dropped

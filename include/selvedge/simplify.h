@@ -150,6 +150,20 @@ std::vector<Simplified_soup> simplify_lods(const Prepared_soup& prepared, const 
                                            const std::vector<double>& ratios,
                                            const Simplify_intent& intent = {});
 
+/// Which collapses led to a result: `count` of those that `Simplify_options::on_collapse` was told, from
+/// number `first` on. Results of one reduction have its number and its first collapse.
+struct Collapses_of_level
+{
+  std::size_t reduction = 0, first = 0, count = 0;
+  std::size_t of_reduction = 0; ///< how many the reduction made in all
+};
+
+/// Shares out the collapses of one call of `simplify_soup` or `simplify_lods` among its results, which are
+/// given in their order.
+std::vector<Collapses_of_level> collapses_of_levels(const std::vector<const Simplified_soup*>& levels,
+                                                    const Simplify_options& options,
+                                                    const Simplify_intent& intent = {});
+
 /// Judges a result against its original, as `verify` of verify.h does. Offending pairs are those of the
 /// result and the obstacle together, whose triangles are numbered after those of the result. Pieces, topology
 /// and distances are those of the result alone. Shapes of pieces are not judged

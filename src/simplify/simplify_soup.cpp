@@ -486,6 +486,16 @@ Simplified_soup simplify_soup(const Prepared_soup& prepared, const Simplify_opti
   return Soup_reduction(prepared, options, intent).run();
 }
 
+namespace {
+
+// Whether levels of detail are states of one reduction, so that each does not need its own.
+bool are_of_one_reduction(const Simplify_options& options, const Simplify_intent& intent)
+{
+  return intent.ratios.empty() && options.faces_per_cell == 0;
+}
+
+} // namespace
+
 std::vector<Simplified_soup> simplify_lods(const Prepared_soup& prepared, const Simplify_options& options,
                                            const std::vector<double>& ratios, const Simplify_intent& intent)
 {
@@ -494,7 +504,7 @@ std::vector<Simplified_soup> simplify_lods(const Prepared_soup& prepared, const 
   check(prepared, options, intent);
   std::vector<Simplified_soup> levels(ratios.size());
   Simplify_options to_level = options;
-  if (!intent.ratios.empty() || options.faces_per_cell > 0) {
+  if (!are_of_one_reduction(options, intent)) {
     for (std::size_t i = 0; i < ratios.size(); ++i) {
       to_level.ratio = ratios[i];
       levels[i] = simplify_soup(prepared, to_level, intent);
@@ -519,6 +529,28 @@ std::vector<Simplified_soup> simplify_lods(const Prepared_soup& prepared, const 
   for (std::size_t i = 0; i < order.size(); ++i)
     levels[order[i]] = std::move(states[i]);
   return levels;
+}
+
+// The levels after one that was stopped are the same as that.
+std::vector<Collapses_of_level> collapses_of_levels(const std::vector<const Simplified_soup*>& levels,
+                                                    const Simplify_options& options,
+                                                    const Simplify_intent& intent)
+{
+  std::size_t most = 0;
+  for (const Simplified_soup* level : levels)
+    most = std::max(most, level->report.collapses);
+  const bool is_one = are_of_one_reduction(options, intent);
+  std::vector<Collapses_of_level> result;
+  std::size_t reduction = 0, first = 0;
+  for (const Simplified_soup* level : levels) {
+    const std::size_t count = level->report.collapses;
+    result.push_back({reduction, first, count, is_one ? most : count});
+    if (!is_one && !level->report.is_stopped) {
+      ++reduction;
+      first += count;
+    }
+  }
+  return result;
 }
 
 Verification verify(const Simplified_soup& result, const Prepared_soup& original)

@@ -8,6 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace selvedge::test {
@@ -50,6 +53,75 @@ TEST(Lods, EachLevelIsWhatARunToItAloneGives)
     EXPECT_FALSE(levels[2].report.is_reached());
     EXPECT_TRUE(levels[1].report.is_reached());
     EXPECT_EQ(levels[3].soup.triangles, prepared.soup.triangles);
+  }
+}
+
+std::vector<Soup_collapse> collapses_to(const Prepared_soup& prepared, Simplify_options options,
+                                        const Simplify_intent& intent)
+{
+  std::vector<Soup_collapse> result;
+  options.on_collapse = [&](const Soup_collapse& collapse) { result.push_back(collapse); };
+  simplify_soup(prepared, options, intent);
+  return result;
+}
+
+TEST(Lods, EachHasTheCollapsesOfARunToItAlone)
+{
+  const Prepared_soup prepared = prepare(garment("jacket", 5000));
+  Simplify_options in_cells;
+  in_cells.faces_per_cell = 1000;
+  Simplify_intent with_ratio;
+  with_ratio.ratios = {{prepared.soup.groups.names.front(), 0.6}};
+  const std::vector<std::pair<Simplify_options, Simplify_intent>> cases{
+      {{}, {}}, {in_cells, {}}, {{}, with_ratio}};
+  for (const auto& [options, intent] : cases) {
+    const bool is_one = &options == &cases.front().first;
+    std::vector<Soup_collapse> all;
+    Simplify_options with_collapses = options;
+    with_collapses.on_collapse = [&](const Soup_collapse& collapse) { all.push_back(collapse); };
+    const std::vector<Simplified_soup> levels = simplify_lods(prepared, with_collapses, ratios, intent);
+    std::vector<const Simplified_soup*> results;
+    for (const Simplified_soup& level : levels)
+      results.push_back(&level);
+    const std::vector<Collapses_of_level> shares = collapses_of_levels(results, options, intent);
+    ASSERT_EQ(shares.size(), levels.size());
+    std::size_t last = 0;
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+      const auto& [reduction, first, count, of_reduction] = shares[i];
+      last = std::max(last, first + count);
+      EXPECT_EQ(reduction, is_one ? 0 : i);
+      EXPECT_EQ(of_reduction, is_one ? all.size() : count);
+      ASSERT_LE(first + count, all.size());
+      Simplify_options to_level = options;
+      to_level.ratio = ratios[i];
+      EXPECT_EQ(std::vector<Soup_collapse>(all.begin() + std::ptrdiff_t(first),
+                                           all.begin() + std::ptrdiff_t(first + count)),
+                collapses_to(prepared, to_level, intent));
+    }
+    EXPECT_EQ(last, all.size());
+  }
+}
+
+TEST(Lods, AfterOneThatWasStoppedHaveItsCollapses)
+{
+  const Prepared_soup prepared = prepare(garment("jacket", 5000));
+  Simplify_options options;
+  options.faces_per_cell = 1000;
+  std::size_t collapses = 0;
+  options.on_collapse = [&](const Soup_collapse&) { ++collapses; };
+  options.should_stop = [&](const Simplify_progress&) { return collapses > 1500; };
+  const std::vector<Simplified_soup> levels = simplify_lods(prepared, options, {0.8, 0.5, 0.2, 0.1});
+  ASSERT_TRUE(levels.back().report.is_stopped);
+  std::vector<const Simplified_soup*> results;
+  for (const Simplified_soup& level : levels)
+    results.push_back(&level);
+  const std::vector<Collapses_of_level> shares = collapses_of_levels(results, options);
+  EXPECT_EQ(shares[0].count, shares[1].first);
+  EXPECT_EQ(shares[1].reduction, 1u);
+  for (std::size_t i = 2; i < levels.size(); ++i) {
+    EXPECT_EQ(shares[i].reduction, shares[1].reduction);
+    EXPECT_EQ(shares[i].first, shares[1].first);
+    EXPECT_EQ(shares[i].first + shares[i].count, collapses);
   }
 }
 

@@ -1562,6 +1562,13 @@ group("src/verify/Border_lines.cpp", ("verify_match_pieces_test",),
       ("return sum > 0;", "return false;", "what is left of a bag is turned inside out"),
       ("return sum > 0;", "return true;", "no piece is turned inside out"))
 
+group("src/simplify/simplify_soup.cpp", ("lods_test",),
+      ("!is_one && !level->report.is_stopped", "!is_one", "levels after one that was stopped have no collapses"),
+      ("is_one ? most : count", "count", "a reduction that passes through all levels ends at the first"))
+group("include/selvedge/Error_search.h", ("error_search_test",),
+      ("largest.pose && add_pose(guarded_poses, *largest.pose)", "false", "the error is lowered for a pose that nobody guards"),
+      ("level.upper >= largest.upper", "true", "the last level decides"))
+
 group("src/verify/Likeness.h", ("verify_match_pieces_test",),
       ("std::min(distance, most_thickness)", "0", "a piece is turned whose sides are nearer to each other than the pieces"),
       ("std::min(distance, most_thickness)", "distance", "a piece is not turned of which little is left"),
