@@ -51,7 +51,7 @@ enum {
   /* Errors are distances in the unit of the coordinates. */
   selvedge_SimplifyErrorAbsolute = 1 << 2,
   /* Refused (meshoptimizer's Prune, 1 << 3): no piece is ever removed. */
-  /* Triangles that get thinner keep an aspect ratio of 0.2, in place of 0.05. */
+  /* Triangles that get thinner keep an aspect ratio of 0.2, in place of 0.01. */
   selvedge_SimplifyRegularize = 1 << 4,
   /* Accepted without effect: seams move along themselves alone, as without it. */
   selvedge_SimplifyPermissive = 1 << 5,

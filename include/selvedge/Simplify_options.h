@@ -89,10 +89,11 @@ struct Simplify_options
   /// and for faces of a strip between two lines (borders or seams): all three corners are on lines, and at
   /// most one edge is a line. Along the edge of thick cloth, faces can only be as wide as the cloth is thick.
   ///
-  /// The default looks best, because folds keep their long, thin triangles. For cloth that is to be
-  /// simulated, 0.2 keeps triangles rounder, which is the value of Derichs, Misiak and Fuhrmann; at 10 % of
-  /// the faces, the error is then 1.3 to 2 times as large.
-  double min_aspect_ratio = 0.05;
+  /// The default is small, because what bends in one direction alone, as folds, ribs, tubes and mouldings do,
+  /// is told best by long, thin triangles along it. For cloth that is to be simulated, 0.2 keeps triangles
+  /// rounder, which is the value of Derichs, Misiak and Fuhrmann; at 10 % of the faces, the error is then 1.3
+  /// to 2 times as large.
+  double min_aspect_ratio = 0.01;
 
   /// The largest turn that a border may have at a vertex that a collapse removes from it, in degrees from 0
   /// to 180. The default keeps corners, and lets the cost and the drift decide about the rest. (Derichs,

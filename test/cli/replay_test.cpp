@@ -56,7 +56,7 @@ TEST(App_replay, AcceptsItsOwnLogAndMakesTheSameFile)
   EXPECT_EQ(result.err, "");
   EXPECT_NE(result.out.find("\nACCEPTED: limits of the log, input bound, result bound\n"), std::string::npos)
       << result.out;
-  EXPECT_NE(result.out.find("\nlimits judged: normal_change 75°, aspect_ratio 0.05, border_turn 30°, "
+  EXPECT_NE(result.out.find("\nlimits judged: normal_change 75°, aspect_ratio 0.01, border_turn 30°, "
                             "corner_height 0.0025 of the "
                             "diagonal, seam_turn 90°, border_drift 0.01 of the diagonal\n"),
             std::string::npos)

@@ -95,6 +95,21 @@ TEST(Placement, OptimalIsNearerToTheOriginalAndReachesTheTarget)
   }
 }
 
+// A surface that bends in one direction alone is told by triangles along it, as thin as it takes.
+TEST(Placement, StraightRibsKeepTheirShape)
+{
+  const Triangle_soup ribs =
+      mapped(sheet(60, 60), [](const Point_3& p) { return Point_3(p.x(), p.y(), std::sin(0.8 * p.x())); });
+  for (const Placement placement : {Placement::vertices, Placement::optimal}) {
+    Simplify_options options = to_ratio(0.05);
+    options.placement = placement;
+    const Reduction thin = reduce(ribs, options);
+    options.min_aspect_ratio = 0.05;
+    EXPECT_TRUE(thin.verification.accepted());
+    EXPECT_LT(deviation(thin), 0.2 * deviation(reduce(ribs, options)));
+  }
+}
+
 TEST(Placement, EveryStepIsEmbeddedAndLegalOnTheWay)
 {
   for (const Collapse_loop loop : {Collapse_loop::own, Collapse_loop::cgal}) {
