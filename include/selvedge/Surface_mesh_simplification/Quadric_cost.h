@@ -651,27 +651,11 @@ private:
   {
     const State& state = *m_state;
     Matrix matrix;
-    if (memory < 1 && halfedge(v, mesh) != Graph_traits::null_halfedge()) {
+    const Halfedge first = halfedge(v, mesh);
+    if (memory < 1 && first != Graph_traits::null_halfedge()) {
       Matrix of_lines;
-      const Halfedge first = halfedge(v, mesh);
-      Side before = side_at(opposite(first, mesh), mesh), here = side_at(first, mesh);
-      double fold_before = internal::dot(here.normal, before.normal);
-      Halfedge to_v = first;
-      do { // in the order of `halfedges_around_target`
-        const Halfedge from_v = next(to_v, mesh), next_to_v = opposite(from_v, mesh);
-        const Side after = side_at(next_to_v, mesh);
-        const double fold_after = internal::dot(here.normal, after.normal);
-        if (here.has_face) {
-          matrix.add_square(here.normal, 1);
-          if (growth.has_lines || fold_after < 0)
-            add_line_between(here, after, from_v, growth.has_lines, mesh, points, of_lines);
-          if (growth.has_lines || fold_before < 0)
-            add_line_between(here, before, to_v, growth.has_lines, mesh, points, of_lines);
-        }
-        fold_before = fold_after;
-        before = std::exchange(here, after);
-        to_v = next_to_v;
-      } while (to_v != first);
+      if (growth.has_lines || !add_planes_around(first, mesh, matrix))
+        add_planes_and_lines_around(first, growth.has_lines, mesh, points, matrix, of_lines);
       matrix.add_identity(state.options.stabiliser * matrix.trace()); // which is the weight of the planes
       matrix += of_lines;
       matrix *= (1 - memory) * (state.weights ? get(*state.weights, v) : 1);
@@ -686,6 +670,60 @@ private:
       growth.linear = floats(remembered.half_gradient(from_place), state.unit);
     }
     growth.matrix = internal::Float_symmetric_matrix(matrix);
+  }
+
+  // Adds up the planes of the faces around the target of `first`, in single precision, in which the sum is
+  // kept. Returns false, and adds nothing, where there is a border or the surface folds.
+  bool add_planes_around(Halfedge first, const TriangleMesh& mesh, Matrix& sum) const
+  {
+    float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+    bool is_folded = false;
+    const Halfedge before = opposite(first, mesh);
+    if (CGAL::is_border(before, mesh))
+      return false;
+    Float_vector last = get(m_state->planes, face(before, mesh)).normal;
+    for (const Halfedge to_v : CGAL::halfedges_around_target(first, mesh)) {
+      if (CGAL::is_border(to_v, mesh))
+        return false;
+      const Float_vector here = get(m_state->planes, face(to_v, mesh)).normal;
+      const auto [x, y, z] = here;
+      xx += x * x;
+      xy += x * y;
+      xz += x * z;
+      yy += y * y;
+      yz += y * z;
+      zz += z * z;
+      is_folded |= x * last[0] + y * last[1] + z * last[2] < 0;
+      last = here;
+    }
+    if (!is_folded)
+      sum += Matrix{xx, xy, xz, yy, yz, zz};
+    return !is_folded;
+  }
+
+  // Adds up the planes of the faces around the target of `first`, and those that stand on lines and folds.
+  template <class VertexPointMap>
+  void add_planes_and_lines_around(Halfedge first, bool has_lines, const TriangleMesh& mesh,
+                                   const VertexPointMap& points, Matrix& planes, Matrix& lines) const
+  {
+    Side before = side_at(opposite(first, mesh), mesh), here = side_at(first, mesh);
+    double fold_before = internal::dot(here.normal, before.normal);
+    Halfedge to_v = first;
+    do { // in the order of `halfedges_around_target`
+      const Halfedge from_v = next(to_v, mesh), next_to_v = opposite(from_v, mesh);
+      const Side after = side_at(next_to_v, mesh);
+      const double fold_after = internal::dot(here.normal, after.normal);
+      if (here.has_face) {
+        planes.add_square(here.normal, 1);
+        if (has_lines || fold_after < 0)
+          add_line_between(here, after, from_v, has_lines, mesh, points, lines);
+        if (has_lines || fold_before < 0)
+          add_line_between(here, before, to_v, has_lines, mesh, points, lines);
+      }
+      fold_before = fold_after;
+      before = std::exchange(here, after);
+      to_v = next_to_v;
+    } while (to_v != first);
   }
 
   bool is_at_line(Vertex v, const TriangleMesh& mesh) const
