@@ -331,8 +331,11 @@ const std::vector<Spoiled> ways = {
     {"ALayerTouchesTheNext", "pairs", true,
      [](Result& r) {
        const Index lining = r.inner_vertex(r.triangles("lining_front"));
-       const auto& [a, b, c] = r.soup.triangles[r.triangles("interlining_1_front").front()];
-       r.soup.points[lining] = CGAL::centroid(r.soup.points[a], r.soup.points[b], r.soup.points[c]);
+       const Index_triple& next = r.soup.triangles[r.triangles("interlining_1_front").front()];
+       Point_3 &a = r.soup.points[next[0]], &b = r.soup.points[next[1]];
+       for (Point_3* const end : {&a, &b})
+         *end = {nearest_float32(end->x()), nearest_float32(end->y()), nearest_float32(end->z())};
+       r.soup.points[lining] = CGAL::midpoint(a, b); // on the edge, exactly: it has enough digits
      }},
 
     // ---- Vertices

@@ -10,6 +10,7 @@ A script in the page does the steps of a person and writes what it finds into th
 
 import base64
 import json
+import math
 import pathlib
 import re
 import subprocess
@@ -229,9 +230,9 @@ def main():
         pages.run("simplify", "in.obj", "-o", "out.glb", "--ratio", "0", "--keep", "lining", "--error", "1e-9", "--html", "held.html")
         assert "mode-reason" in pages.look("held.html")["modes"]
 
-        # A tall pose, and one in which the layers are near each other.
+        # A tall pose, and one in which the layers are bent and near each other.
         points = [line.split() for line in (folder / "in.obj").read_text().splitlines()]
-        for name, of in (("tall", lambda x, y, z: (x, 3 * y, z)), ("near", lambda x, y, z: (x, y, z - 0.145 * (z > 0.1)))):
+        for name, of in (("tall", lambda x, y, z: (x, 3 * y, z)), ("near", lambda x, y, z: (x, y, z - 0.145 * (z > 0.1) + 0.5 * math.sin(6 * x)))):
             (folder / f"{name}.obj").write_text("\n".join(
                 " ".join(["v", *map(str, of(*map(float, words[1:])))]) if words[0] == "v" else " ".join(words) for words in points) + "\n")
         poses = ["--pose", "tall.obj", "--pose", "near.obj"]
