@@ -278,7 +278,7 @@ for file, entry in (
     ("Place_rounding.cpp", ("rounded[i] = nearest_float32(rounded[i]);", ";", "places are no 32-bit floats")),
     ("Place_rounding.cpp", ("if (m_is_allowed && !m_is_allowed(result))", "if (false)", "places leave their cell")),
     ("keeps_uv_orientation.cpp",
-     ("before == CGAL::COLLINEAR || uv_orientation(placed, corners, place, uv) == before;", "true;",
+     ("before == CGAL::COLLINEAR || CGAL::orientation(point(uv), ahead, behind) == before;", "true;",
       "triangles of the texture turn over")),
     ("Sewn_mesh.cpp", ("  lock(is_new);\n", "", "vertices that the user locks move")),
 ):
@@ -295,7 +295,7 @@ group("src/replay/Start.cpp", ("smooth_normals_test",),
 group("src/soup/vertex_normals.cpp", ("vertex_normals_test",),
       ("    if (!fronts.empty() && fronts[t] != t)\n      continue;\n", "", "doubles count in the normals of vertices"),
       ("is_turned[t] ? -1 : 1", "is_turned[t] ? 1 : 1", "turned faces count as they came"),
-      ("sums[positions[soup.triangles[t][k]]]", "sums[soup.triangles[t][k]]", "normals of vertices end at seams"))
+      ("sums[positions[corners[k]]]", "sums[corners[k]]", "normals of vertices end at seams"))
 group(headers + "Surface_mesh_simplification/internal/Value_quadric.h", ("vertex_normals_test",),
       ("motion[k] = m_numbers[s_displacements + k] / weight();", "motion[k] = m_numbers[s_displacements + k];", "a value at a new place is not the best one"))
 group("src/simplify/simplify_soup.cpp", ("vertex_normals_test",),
@@ -1385,8 +1385,10 @@ group(
     ("Part_of_star{profile.vR(), profile.vL()}", "Part_of_star{profile.vL(), profile.vR()}",
      "costs are computed anew around the end that has not moved"),
     ("    m_state->enclosures.reset();\n", "", "what faces enclose is kept when everything is computed anew"),
-    ("if (growth.has_lines || fold_after < 0)", "if (growth.has_lines)", "folds are held on one side only"),
+    ("if (has_lines || fold_after < 0)", "if (has_lines)", "folds are held on one side only"),
     ("fold_before = fold_after;\n", "\n", "the fold before a face is that before the first"),
+    ("is_folded |= x * last[0] + y * last[1] + z * last[2] < 0;", "", "folds are not held"),
+    ("xy += x * y;", "xy += x * z;", "planes that are added in single precision are others"),
     ("? m_state->weight_unit * positive(sum(*least)) : 0;", "? 1.5 * m_state->weight_unit * positive(sum(*least)) : 0;",
      "a bound of the cost is too high"),
     ("return m_state->weight_unit * get(m_state->growths, v)", "return get(m_state->growths, v)",
