@@ -378,7 +378,8 @@ TEST(Own_loop, GoesAsCgalsOnAPolyhedron)
   EXPECT_EQ(points(own), points(cgal));
 }
 
-// Makes a rule with limits along borders and along some inner edges.
+// Makes a rule with limits along borders and along some inner edges, and with some pairs of spokes, along
+// which a pole may move onto a vertex that is on no line.
 Border_rule<Surface_mesh> rule_with_lines(const Surface_mesh& mesh)
 {
   Border_rule_options options;
@@ -388,6 +389,13 @@ Border_rule<Surface_mesh> rule_with_lines(const Surface_mesh& mesh)
   for (const auto e : mesh.edges())
     if (std::size_t(e) % 50 == 0)
       rule.mark(e);
+  for (const auto v : mesh.vertices())
+    if (std::size_t(v) % 25 == 0 && rule.is_free(v) && mesh.degree(v) == 6) {
+      const auto h = mesh.halfedge(v);
+      const auto ahead = [&](auto in) { return mesh.opposite(mesh.next(in)); };
+      rule.mark_at_target(h);
+      rule.mark_at_target(ahead(ahead(ahead(h))));
+    }
   return rule;
 }
 

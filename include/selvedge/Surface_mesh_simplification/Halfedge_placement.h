@@ -122,8 +122,8 @@ public:
   }
 
   /// Returns a cost that a first choice that the rule allows does not fall below, and that takes less time to
-  /// compute: of `cost_bounds` of the cost policy that for the end that is free, if one is, or else the
-  /// least. None where the policy has no bound.
+  /// compute: of `cost_bounds` of the cost policy that for the end that is free, if it alone may move, or
+  /// else the least. None where the policy has no bound.
   template <class Profile, class Policy = Cost>
   auto first_cost_bound(const Profile& profile) const ->
       typename std::decay_t<decltype(std::declval<const Policy&>().cost_bounds(profile))>::value_type
@@ -131,9 +131,10 @@ public:
     const auto [onto_v1, onto_v0] = m_cost.cost_bounds(profile);
     if (!onto_v0 || !onto_v1)
       return {};
-    // An end on a line moves along a line only, and then both are on it. Whether it may takes long to ask.
+    // An end on a line moves onto one that is on none along a spoke alone, which is soon asked. Whether one
+    // of two ends on lines may move takes long to ask.
     const bool is_v0_free = m_rule.is_free(profile.v0()), is_v1_free = m_rule.is_free(profile.v1());
-    if (is_v0_free != is_v1_free)
+    if (is_v0_free != is_v1_free && !m_rule.may_move(is_v0_free ? profile.v1_v0() : profile.v0_v1()))
       return is_v0_free ? onto_v1 : onto_v0;
     return (std::min)(*onto_v0, *onto_v1);
   }
