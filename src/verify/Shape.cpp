@@ -80,8 +80,7 @@ double Shape::turned_against(const Shape& other, double margin) const
       directions.push_back(unit(other.m_surface.normal(u)));
     const double as_near = 1.000001 * std::sqrt(CGAL::squared_distance(centre, nearest.point)) + 1e-12;
     if (!other.m_tree.nearest_facing(centre, directions, normal, as_near) &&
-        !(margin > 0 && other.m_tree.nearest_facing(centre, directions, normal, as_near + margin,
-                                                    -cosine_of_turned * area)))
+        !other.m_tree.nearest_facing(nearest.point, directions, normal, margin, -cosine_of_turned * area))
       turned += area;
   }
   return all > 0 ? turned / all : 0;

@@ -45,7 +45,8 @@ public:
 
   /// Returns the share of this shape's area whose normal is more than 104° from that of the triangle of
   /// `other` that is nearest to the centroid of its own triangle, and for which no triangle of `other` that
-  /// is as near faces the same side, nor one that is farther by at most `margin` and turned by at most 76°.
+  /// is as near faces the same side, nor one nearer than `margin` to the nearest point that is turned by at
+  /// most 76°.
   double turned_against(const Shape& other, double margin = 0) const;
 
   /// Returns whether the border of this shape runs as that of `other` does, where both have points in common

@@ -419,6 +419,39 @@ TEST(MatchPieces, ThatAreNotFlatAreTurnedThoughTheyHaveLostMore)
   EXPECT_EQ(mismatches(result, prism), Mismatches{Mismatch::turned});
 }
 
+// A flat box, and one within it whose sides lie so near to the middle that both sides of the box are nearly
+// as near. But they are farther from each other than the two boxes are.
+TEST(MatchPieces, WhoseSidesAreFartherFromEachOtherAreTurned)
+{
+  const auto box = [](double bottom, double top) {
+    return soup({{0, 0, bottom},
+                 {1, 0, bottom},
+                 {1, 1, bottom},
+                 {0, 1, bottom},
+                 {0, 0, top},
+                 {1, 0, top},
+                 {1, 1, top},
+                 {0, 1, top}},
+                {{0, 2, 1},
+                 {0, 3, 2},
+                 {4, 5, 6},
+                 {4, 6, 7},
+                 {0, 1, 5},
+                 {0, 5, 4},
+                 {1, 2, 6},
+                 {1, 6, 5},
+                 {2, 3, 7},
+                 {2, 7, 6},
+                 {3, 0, 4},
+                 {3, 4, 7}});
+  };
+  Triangle_soup result = box(0.018, 0.022);
+  EXPECT_TRUE(match_pieces(result, box(0, 0.04)).is_complete()) << "the control";
+  for (Index_triple& triangle : result.triangles)
+    std::swap(triangle[0], triangle[1]);
+  EXPECT_EQ(mismatches(result, box(0, 0.04)), Mismatches{Mismatch::turned});
+}
+
 // What is left of a lid on a robot's arm, and the box below it. A wall of this that is nearly as near as the
 // one that faces the other way stands at a right angle, and shows nothing.
 TEST(MatchPieces, OfALidThatIsTakenForItsBoxIsTurned)
