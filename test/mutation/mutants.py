@@ -296,6 +296,10 @@ group("src/soup/vertex_normals.cpp", ("vertex_normals_test",),
       ("    if (!fronts.empty() && fronts[t] != t)\n      continue;\n", "", "doubles count in the normals of vertices"),
       ("is_turned[t] ? -1 : 1", "is_turned[t] ? 1 : 1", "turned faces count as they came"),
       ("sums[positions[corners[k]]]", "sums[corners[k]]", "normals of vertices end at seams"))
+group("src/soup/Placed_vertices.cpp", ("placed_vertices_test",),
+      (" || m_last->collapse_count != count", "", "values at a new place are those of faces that have changed since"))
+group(headers + "Surface_mesh_simplification/Halfedge_placement.h", ("loop_test",),
+      (" && !m_rule.may_move(is_v0_free ? profile.v1_v0() : profile.v0_v1())", "", "a pole that moves along a spoke costs less than the bound"))
 group(headers + "Surface_mesh_simplification/internal/Value_quadric.h", ("vertex_normals_test",),
       ("motion[k] = m_numbers[s_displacements + k] / weight();", "motion[k] = m_numbers[s_displacements + k];", "a value at a new place is not the best one"))
 group("src/simplify/simplify_soup.cpp", ("vertex_normals_test",),
@@ -1568,7 +1572,7 @@ group("src/simplify/simplify_soup.cpp", ("lods_test",),
       ("!is_one && !level->report.is_stopped", "!is_one", "levels after one that was stopped have no collapses"),
       ("is_one ? most : count", "count", "a reduction that passes through all levels ends at the first"))
 group("include/selvedge/Error_search.h", ("error_search_test",),
-      ("largest.pose && add_pose(guarded_poses, *largest.pose)", "false", "the error is lowered for a pose that nobody guards"),
+      ("largest.pose && add_pose(guarded_poses, *largest.pose)", "largest.pose && guarded_poses.empty()", "the error is lowered for a pose that nobody guards"),
       ("level.upper >= largest.upper", "true", "the last level decides"))
 
 group("src/verify/Likeness.h", ("verify_match_pieces_test",),
