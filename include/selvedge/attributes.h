@@ -23,11 +23,12 @@ namespace selvedge {
 ///
 /// Where a file has one value for each vertex (PLY, glTF), vertices that differ in nothing else become one:
 /// triangles name the first of them, and the others are unused. Alike, bit for bit, must be positions in all
-/// poses, normals that all corners of a vertex share, attributes, and texture coordinates if they are
-/// numbered like vertices; those with numbers of their own, as in OBJ, join none. Likewise in a glTF scene
-/// the node and all accessors, those of morph targets included. Vertices that differ in nothing at all stay
-/// apart, as pieces that lie beside each other, unless a third one differs from them in what is left out, or
-/// every face has vertices of its own (at least 100 triangles, and twice as many vertices).
+/// poses, normals that all corners of a vertex share unless they are flat (`has_flat_normals`), attributes,
+/// and texture coordinates if they are numbered like vertices; those with numbers of their own, as in OBJ,
+/// join none. Likewise in a glTF scene the node and all accessors, those of morph targets included. Vertices
+/// that differ in nothing at all stay apart, as pieces that lie beside each other, unless a third one differs
+/// from them in what is left out, or every face has vertices of its own (at least 100 triangles, and twice as
+/// many vertices).
 ///
 /// Throws `Input_error` where the mesh has nothing of a name, and `Argument_error` for `POSITION`, `NORMAL`
 /// (`Normals_choice::drop`), what a skin needs, and in glTF, which numbers sets from 0 without a gap, for a

@@ -11,6 +11,7 @@
 #include "selection.h"
 #include <selvedge/Cancellation_scope.h>
 #include <selvedge/Error.h>
+#include <selvedge/normals.h>
 
 #include <algorithm>
 #include <limits>
@@ -151,10 +152,13 @@ private:
   void share_vertices()
   {
     const auto are_never = [](Index, Index) { return false; };
-    // Several that are nearly alike are left at vertices that `share_split_vertices` has joined.
-    const std::vector<Index> normals = values_of_vertices(m_soup.normals, [this](Index a, Index b) {
-      return m_soup.scene && are_near_normals(m_soup.normals.values[a], m_soup.normals.values[b]);
-    });
+    // Several that are nearly alike are left at vertices that `share_split_vertices` has joined. Of vertices
+    // that it has joined because they shade flat, those with one normal are such as have level faces alone.
+    std::vector<Index> normals;
+    if (!has_flat_normals(m_soup))
+      normals = values_of_vertices(m_soup.normals, [this](Index a, Index b) {
+        return m_soup.scene && are_near_normals(m_soup.normals.values[a], m_soup.normals.values[b]);
+      });
     // Where corners have numbers of their own, as in OBJ, several vertices at one place mean something.
     std::vector<Index> uvs;
     if (m_soup.scene || are_numbered_like_vertices(m_soup.uvs, m_soup))

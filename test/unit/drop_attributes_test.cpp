@@ -247,6 +247,32 @@ TEST(Attributes, OfGltfJoinVerticesWhoseNormalsDifferInTheLastDigits)
   EXPECT_EQ(vertices_used(mesh), vertices_used(sheet(12, 12)));
 }
 
+// Where a texture ends, a vertex has one normal on the level side, and several on the other.
+TEST(Attributes, OfGltfThatShadesFlatJoinVerticesWhateverTheirNormals)
+{
+  const Triangle_soup roof = mapped(sheet(12, 12), [](const Point_3& p) {
+    return Point_3(p.x(), p.y(), p.x() > 6 ? int(p.x() + p.y()) % 2 : 0);
+  });
+  Triangle_soup soup = unshared(roof);
+  soup.normals.of_triangle = soup.uvs.of_triangle = soup.triangles;
+  for (const Index_triple& triangle : soup.triangles) {
+    const Point_3 &a = soup.points[triangle[0]], &b = soup.points[triangle[1]], &c = soup.points[triangle[2]];
+    const auto normal = CGAL::unit_normal(a, b, c);
+    const bool is_level = std::max({a.x(), b.x(), c.x()}) <= 6;
+    for (const Index v : triangle) {
+      soup.normals.values.push_back({normal.x(), normal.y(), normal.z()});
+      soup.uvs.values.push_back({soup.points[v].x() / 32 + (is_level ? 0 : 0.5), soup.points[v].y() / 32});
+    }
+  }
+  const Temporary_folder folder;
+  write_mesh(folder / "in.glb", soup);
+  Triangle_soup mesh = read_mesh(folder / "in.glb").soup;
+  EXPECT_EQ(vertices_used(mesh), vertices_used(roof) + 13);
+  drop_attributes(mesh, {"texture"});
+  EXPECT_EQ(vertices_used(mesh), vertices_used(roof));
+  EXPECT_TRUE(has_flat_normals(mesh));
+}
+
 // A glTF file in which each face has vertices of its own, with textures of both sets, as JSON and as read.
 class Attributes_of_gltf : public testing::Test
 {
