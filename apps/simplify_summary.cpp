@@ -196,8 +196,13 @@ std::string why_it_stays(Hindrance reason)
 /// Returns the option against the most frequent reason that has one and holds a tenth of the edges, of those
 /// that are not in parts at their target, and that against the next, if it is half as frequent: an edge that
 /// one of them lets go may be held by the other.
-std::string remedies(const std::vector<Hindrances::Description>& all, const Hindrances& hindrances,
-                     const Simplify_request& request)
+struct Remedies
+{
+  std::string text;      // empty when there is none
+  std::size_t edges = 0; // against whose reasons they are
+};
+Remedies remedies(const std::vector<Hindrances::Description>& all, const Hindrances& hindrances,
+                  const Simplify_request& request)
 {
   std::vector<std::pair<std::string, Hindrances::Description>> options;
   const std::size_t total = hindrances.total() - hindrances[Hindrance::target];
@@ -211,23 +216,27 @@ std::string remedies(const std::vector<Hindrances::Description>& all, const Hind
     if (options.size() == 2)
       break;
   }
-  std::string text;
+  Remedies result;
   for (const auto& [option, description] : options) {
     const bool is_clear = options.size() == 1 && description.reason == all[0].reason;
-    text += (text.empty() ? "" : " and ") + option +
-            (is_clear ? "" : std::string(" against ") + description.name);
+    result.text += (result.text.empty() ? "" : " and ") + option +
+                   (is_clear ? "" : std::string(" against ") + description.name);
+    result.edges += hindrances[description.reason];
   }
-  return text;
+  return result;
 }
 
 /// Names the attribute that makes most of the seams that nothing else makes, if they are many. A texture is
-/// named where no option helps.
+/// named where seams and their ends hold more edges than the options that are named are against.
 std::string seams_to_leave_out(const Prepared_soup& prepared, const Hindrances& hindrances,
-                               bool does_option_help)
+                               const Remedies& options)
 {
+  const std::size_t by_seams =
+      hindrances[Hindrance::seam] + hindrances[Hindrance::texture] + hindrances[Hindrance::line_end];
+  const bool is_texture_left = !options.text.empty() && options.edges >= by_seams;
   std::pair<std::string, std::size_t> most;
   for (const auto& [name, count] : seams_of_attributes(prepared.soup, prepared.positions))
-    if (count > most.second && !(does_option_help && name == "texture"))
+    if (count > most.second && !(is_texture_left && name == "texture"))
       most = {name, count};
   if (10 * most.second < hindrances.total())
     return "";
@@ -272,13 +281,14 @@ std::string held_back(const Simplify_request& request, const Prepared_soup& prep
   }
   if (others > 0)
     text += ", " + with_commas(others) + " by other rules";
-  const std::string options = remedies(all, hindrances, request),
-                    seams = seams_to_leave_out(prepared, hindrances, !options.empty()),
-                    gaping = options.find("--weld") != std::string::npos
+  const Remedies options = remedies(all, hindrances, request);
+  const std::string seams = seams_to_leave_out(prepared, hindrances, options),
+                    gaping = options.text.find("--weld") != std::string::npos
                                  ? ""
                                  : seams_to_let_gape(request, prepared, hindrances);
-  if (!options.empty())
-    text += "; try " + options + (options.find("--error") != std::string::npos ? ", which costs shape" : "");
+  if (!options.text.empty())
+    text += "; try " + options.text +
+            (options.text.find("--error") != std::string::npos ? ", which costs shape" : "");
   else if (seams.empty() && gaping.empty())
     text += "; no option helps much: " + std::string(why_it_stays(all[0].reason));
   return text + seams + gaping;

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
@@ -153,6 +154,37 @@ TEST(App_simplify, NamesTheOptionThatMakesNoSeamsOfNormals)
             .out;
     EXPECT_EQ(dropped.find("shade every face flat") != std::string::npos, name == "out.glb") << dropped;
   }
+}
+
+// A texture is named beside an option where its seams hold more edges than that option is against.
+TEST(App_simplify, NamesTheTextureThatHoldsMoreThanAnOptionLetsGo)
+{
+  const Workspace folder;
+  const auto summary_of = [&](Index textured, Index shaded) {
+    Triangle_soup soup = joined(sheet(textured, textured), moved(sheet(shaded, shaded), 0, 0, 3));
+    const std::size_t of_textured = sheet(textured, textured).triangles.size();
+    for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+      const bool is_textured = t < of_textured;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Point_3& p = soup.points[soup.triangles[t][k]];
+        soup.uvs.values.push_back({p.x() / 64, p.y() / 64 + (is_textured ? double(t) : 0)});
+        soup.normals.values.push_back(is_textured
+                                          ? std::array<double, 3>{p.x() / 10, 0, 1}
+                                          : std::array<double, 3>{0.1 * double(k), 0.1 * double(t % 7), 1});
+      }
+      const Index first = Index(3 * t);
+      soup.uvs.of_triangle.push_back({first, first + 1, first + 2});
+    }
+    soup.normals.of_triangle = soup.uvs.of_triangle;
+    write_mesh(folder / "in.obj", soup);
+    return run_app({"simplify", folder / "in.obj", "-o", folder / "out.obj", "--faces", "1"}).out;
+  };
+  const std::string option = "; try --normals loose against normals that differ across edges";
+  const std::string of_texture = summary_of(20, 10), of_normals = summary_of(10, 20);
+  EXPECT_NE(of_texture.find(option + "; 1,160 edges of the input are seams because of texture"),
+            std::string::npos)
+      << of_texture;
+  EXPECT_NE(of_normals.find("; try --normals loose\n"), std::string::npos) << of_normals;
 }
 
 // A file without names has pieces all the same. The small one costs next to nothing.
