@@ -78,6 +78,15 @@ public:
     return has_doubles(face) ? m_first_ply[face + 1] - m_first_ply[face] : 1;
   }
 
+  /// Returns whether all plies of a face have the same vertex of the soup at a place of it.
+  bool have_plies_one_vertex(Face face, unsigned char place) const
+  {
+    for (Index i = 1; i < ply_count(face); ++i)
+      if (vertex_of(corners(face, i)[place]) != vertex_of(corners(face)[place]))
+        return false;
+    return true;
+  }
+
   /// The triangle of a ply. Triangles of an obstacle are numbered after those of the soup.
   Index triangle(Face face, Index i = 0) const
   {

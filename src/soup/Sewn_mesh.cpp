@@ -121,7 +121,9 @@ Sewn_mesh::Sewn_mesh(const Triangle_soup& soup, const std::vector<Index>& positi
   for (Corner corner = 0; corner < corner_count; ++corner) {
     const Face face(corner / 3);
     is_in_frozen_face[sewing.vertex(corner)] |= m_is_frozen[face];
-    moves_alone[sewing.vertex(corner)] |= is_in_frozen_face[sewing.vertex(corner)] || has_doubles(face);
+    moves_alone[sewing.vertex(corner)] |=
+        is_in_frozen_face[sewing.vertex(corner)] ||
+        (has_doubles(face) && !have_plies_one_vertex(face, static_cast<unsigned char>(corner % 3)));
   }
   find_joint_vertices(is_locked, moves_alone, vertices_at, position_of);
   for (Index v = 0; v < is_locked.size(); ++v)

@@ -98,6 +98,62 @@ TEST(NonManifold, SheetsStayJoinedAlongALineThatIsReduced)
   }
 }
 
+/// Three pages without texture, the last of which has a back: its faces turned, with the same vertices.
+Triangle_soup three_pages_one_with_a_back()
+{
+  Triangle_soup pages = three_pages();
+  pages.uvs = {};
+  const std::size_t all = pages.triangles.size();
+  for (std::size_t t = 2 * all / 3; t < all; ++t)
+    pages.triangles.push_back({pages.triangles[t][0], pages.triangles[t][2], pages.triangles[t][1]});
+  return pages;
+}
+
+// As where two walls of a model have come to lie in one place.
+TEST(NonManifold, ASheetWithABackGoesAlongTheLine)
+{
+  const Triangle_soup pages = three_pages_one_with_a_back();
+  for (const bool is_optimal : {false, true}) {
+    Simplify_options options = to_ratio(0.1);
+    options.placement = is_optimal ? Placement::optimal : Placement::vertices;
+    const Reduction reduction = reduce(pages, options);
+    EXPECT_TRUE(reduction.verification.accepted());
+    EXPECT_TRUE(reduction.simplified.report.is_reached());
+    const auto edges = edges_of_axis(reduction.simplified.soup);
+    EXPECT_LT(edges.size(), s_size / 2);
+    for (const auto& [ends, faces] : edges)
+      EXPECT_EQ(faces, 4) << ends.first << " to " << ends.second;
+    const Logged_reduction logged = reduce_and_log(pages, options);
+    EXPECT_TRUE(replay_text(logged.original, logged.log).is_accepted());
+  }
+}
+
+// A front that has vertices of its own on the axis, and a back that one vertex joins to the other sheets.
+TEST(NonManifold, ABackWithOtherVerticesThanItsFrontStays)
+{
+  Triangle_soup pages = three_pages_one_with_a_back();
+  constexpr double middle = s_size / 2;
+  std::map<Index, Index> of_front, of_back;
+  const auto copy = [&](std::map<Index, Index>& copies, Index v) {
+    const auto [found, is_new] = copies.emplace(v, Index(pages.points.size()));
+    if (is_new)
+      pages.points.push_back(Point_3(pages.points[v]));
+    return found->second;
+  };
+  const std::size_t page = pages.triangles.size() / 4;
+  for (std::size_t t = 2 * page; t < 4 * page; ++t)
+    for (Index& v : pages.triangles[t]) {
+      const bool is_joined = is_on_axis(pages.points[v]) && pages.points[v].z() == middle;
+      if (t < 3 * page)
+        v = is_on_axis(pages.points[v]) ? copy(of_front, v) : v;
+      else
+        v = is_joined ? v : copy(of_back, v);
+    }
+  const Reduction reduction = reduce(pages, to_ratio(0.05));
+  EXPECT_TRUE(reduction.verification.accepted()) << "pieces keep their topology";
+  EXPECT_EQ(edges_of_axis(reduction.simplified.soup).size(), s_size);
+}
+
 // CGAL's loop does one collapse at a time.
 TEST(NonManifold, ControlVerticesThatDoNotMoveTogetherStay)
 {
