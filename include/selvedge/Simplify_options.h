@@ -90,7 +90,7 @@ struct Simplify_options
   /// most one edge is a line. Along the edge of thick cloth, faces can only be as wide as the cloth is thick.
   ///
   /// The default is small, because what bends in one direction alone, as folds, ribs, tubes and mouldings do,
-  /// is told best by long, thin triangles along it. For cloth that is to be simulated, 0.2 keeps triangles
+  /// keeps its shape by long, thin triangles along it. For cloth that is to be simulated, 0.2 keeps triangles
   /// rounder, which is the value of Derichs, Misiak and Fuhrmann; at 10 % of the faces, garments are then 1.2
   /// to 2.5 times as far off.
   double min_aspect_ratio = 0.01;

@@ -95,7 +95,7 @@ TEST(Placement, OptimalIsNearerToTheOriginalAndReachesTheTarget)
   }
 }
 
-// A surface that bends in one direction alone is told by triangles along it, as thin as it takes.
+// A surface that bends in one direction alone keeps its shape by triangles along it, as thin as it takes.
 TEST(Placement, StraightRibsKeepTheirShape)
 {
   const Triangle_soup ribs =
