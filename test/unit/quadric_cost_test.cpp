@@ -252,6 +252,29 @@ TEST(QuadricCost, IsTheSameForASmallThingInALargeScene)
   EXPECT_EQ(collapses, 100);
 }
 
+TEST(QuadricCost, IsTheSameWhereAxesHaveChangedPlaces)
+{
+  const auto costs = [](const Triangle_soup& soup) {
+    Mesh mesh = mesh_of(soup);
+    const auto points = mesh.points();
+    const Kernel traits;
+    Quadric_cost<Mesh> cost(mesh);
+    cost.measure_by(10);
+    cost.initialize(mesh, points, traits);
+    std::vector<double> result;
+    for (const auto moving : mesh.halfedges())
+      result.push_back(*cost.cost_along(Edge_profile(moving, mesh, points, traits), moving));
+    return result;
+  };
+  const Triangle_soup ball = nested_spheres(700, 1, 0.01);
+  const std::vector<double> of_ball = costs(ball), of_turned = costs(mapped(ball, [](const Point_3&p) {
+                                                     return Point_3(p.y(), p.z(), p.x());
+                                                   }));
+  ASSERT_GT(of_ball.size(), 1000u);
+  for (std::size_t i = 0; i < of_ball.size(); ++i)
+    EXPECT_NEAR(of_turned[i], of_ball[i], 1e-4 * of_ball[i]);
+}
+
 TEST(QuadricCost, IsMultipliedByTheWeightOfAllVertices)
 {
   const Kernel traits;
