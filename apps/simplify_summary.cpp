@@ -193,14 +193,16 @@ std::string why_it_stays(Hindrance reason)
   }
 }
 
-/// Returns the option against the most frequent reason that has one and holds a tenth of the edges, of those
-/// that are not in parts at their target, and that against the next, if it is half as frequent: an edge that
-/// one of them lets go may be held by the other.
+/// Options that are named to a user whose target was missed.
 struct Remedies
 {
   std::string text;      // empty when there is none
-  std::size_t edges = 0; // against whose reasons they are
+  std::size_t edges = 0; // that are held by the reasons against which they are
 };
+
+/// Returns the option against the most frequent reason that has one and holds a tenth of the edges, of those
+/// that are not in parts at their target, and that against the next, if it is half as frequent: an edge that
+/// one of them lets go may be held by the other.
 Remedies remedies(const std::vector<Hindrances::Description>& all, const Hindrances& hindrances,
                   const Simplify_request& request)
 {
