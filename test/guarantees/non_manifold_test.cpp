@@ -82,20 +82,31 @@ std::map<std::pair<double, double>, int> edges_of_axis(const Triangle_soup& soup
   return edges;
 }
 
+/// Reduces pages around the axis, and expects fewer edges there, each with as many faces as before.
+void expect_sheets_stay_joined(const Triangle_soup& pages, const Simplify_options& options,
+                               int faces_at_each_edge)
+{
+  const Reduction reduction = reduce(pages, options);
+  EXPECT_TRUE(reduction.verification.accepted());
+  EXPECT_TRUE(reduction.simplified.report.is_reached());
+  const auto edges = edges_of_axis(reduction.simplified.soup);
+  EXPECT_LT(edges.size(), s_size / 2);
+  for (const auto& [ends, faces] : edges)
+    EXPECT_EQ(faces, faces_at_each_edge) << ends.first << " to " << ends.second;
+}
+
+Simplify_options to_a_tenth(Placement placement)
+{
+  Simplify_options options = to_ratio(0.1);
+  options.placement = placement;
+  return options;
+}
+
 TEST(NonManifold, SheetsStayJoinedAlongALineThatIsReduced)
 {
   const Triangle_soup pages = three_pages();
-  for (const bool is_optimal : {false, true}) {
-    Simplify_options options = to_ratio(0.1);
-    options.placement = is_optimal ? Placement::optimal : Placement::vertices;
-    const Reduction reduction = reduce(pages, options);
-    EXPECT_TRUE(reduction.verification.accepted());
-    EXPECT_TRUE(reduction.simplified.report.is_reached());
-    const auto edges = edges_of_axis(reduction.simplified.soup);
-    EXPECT_LT(edges.size(), s_size / 2);
-    for (const auto& [ends, faces] : edges)
-      EXPECT_EQ(faces, 3) << ends.first << " to " << ends.second;
-  }
+  for (const Placement placement : {Placement::vertices, Placement::optimal})
+    expect_sheets_stay_joined(pages, to_a_tenth(placement), 3);
 }
 
 /// Three pages without texture, the last of which has a back: its faces turned, with the same vertices.
@@ -113,16 +124,9 @@ Triangle_soup three_pages_one_with_a_back()
 TEST(NonManifold, ASheetWithABackGoesAlongTheLine)
 {
   const Triangle_soup pages = three_pages_one_with_a_back();
-  for (const bool is_optimal : {false, true}) {
-    Simplify_options options = to_ratio(0.1);
-    options.placement = is_optimal ? Placement::optimal : Placement::vertices;
-    const Reduction reduction = reduce(pages, options);
-    EXPECT_TRUE(reduction.verification.accepted());
-    EXPECT_TRUE(reduction.simplified.report.is_reached());
-    const auto edges = edges_of_axis(reduction.simplified.soup);
-    EXPECT_LT(edges.size(), s_size / 2);
-    for (const auto& [ends, faces] : edges)
-      EXPECT_EQ(faces, 4) << ends.first << " to " << ends.second;
+  for (const Placement placement : {Placement::vertices, Placement::optimal}) {
+    const Simplify_options options = to_a_tenth(placement);
+    expect_sheets_stay_joined(pages, options, 4);
     const Logged_reduction logged = reduce_and_log(pages, options);
     EXPECT_TRUE(replay_text(logged.original, logged.log).is_accepted());
   }
