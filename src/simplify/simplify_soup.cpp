@@ -128,10 +128,9 @@ private:
       constraints.offending_pairs = pairs_of_faces(m_prepared.offending_pairs);
     for (const auto& [a, b] : m_prepared.may_intersect)
       constraints.may_intersect.emplace_back(faces_named(a), faces_named(b));
-    const std::vector<Index> of_soup = m_working.vertices_of_soup(m_prepared.obstacle);
     if (m_options.loop == Collapse_loop::own)
-      hold_gaps(constraints, of_soup);
-    pose(constraints, of_soup);
+      hold_gaps(constraints);
+    pose(constraints);
     if (m_options.instances == Instances::shared && m_options.loop == Collapse_loop::own) {
       if (soup.poses.empty())
         share();
@@ -284,10 +283,11 @@ private:
     m_untied_pairs = tied - partners.size();
   }
 
-  void hold_gaps(Simplify_constraints<Working_mesh::Mesh>& constraints, const std::vector<Index>& of_soup)
+  void hold_gaps(Simplify_constraints<Working_mesh::Mesh>& constraints)
   {
     if (m_prepared.tied.empty() && m_prepared.facing.empty())
       return;
+    const std::vector<Index> of_soup = m_working.vertices_of_soup(m_prepared.obstacle);
     std::vector<Working_mesh::Mesh::Vertex_index> vertices(m_prepared.positions.size()); // by position
     for (const auto v : m_working.mesh().vertices())
       if (of_soup[v] < m_prepared.soup.points.size()) // an obstacle may have a vertex there, too
@@ -299,9 +299,12 @@ private:
   }
 
   // Puts the mesh into the further poses of the soup that are guarded.
-  void pose(Simplify_constraints<Working_mesh::Mesh>& constraints, const std::vector<Index>& of_soup)
+  void pose(Simplify_constraints<Working_mesh::Mesh>& constraints)
   {
     const Triangle_soup& soup = m_prepared.soup;
+    if (soup.poses.empty())
+      return;
+    const std::vector<Index> of_soup = m_working.vertices_of_soup(m_prepared.obstacle);
     auto& mesh = m_working.mesh();
     const std::size_t own_vertices = soup.points.size();
     for (const std::size_t i : guarded_poses(soup, m_options)) {
@@ -321,7 +324,8 @@ private:
   void begin()
   {
     tbb::parallel_invoke(Cancellation_scope::inherited([this] { m_simplification.build_index(); }),
-                         Cancellation_scope::inherited([this] { m_simplification.begin(); }));
+                         Cancellation_scope::inherited([this] { m_simplification.begin(); }),
+                         Cancellation_scope::inherited([this] { m_working.find_wedges(); }));
   }
 
   // Finds collapses in cells, and does them to the whole mesh, which then knows as much of them as of its own
@@ -348,7 +352,8 @@ private:
                                                     {total.faces, total.target, total.faces},
                                                     share});
                          }),
-                         Cancellation_scope::inherited([this] { m_simplification.begin(); }));
+                         Cancellation_scope::inherited([this] { m_simplification.begin(); }),
+                         Cancellation_scope::inherited([this] { m_working.find_wedges(); }));
     m_cells = found.cells;
     m_is_stopped_in_cells = found.is_stopped;
     std::size_t collapses = 0;

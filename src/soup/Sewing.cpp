@@ -7,6 +7,8 @@
 
 #include <selvedge/Cancellation_scope.h>
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <tuple>
 #include <unordered_set>
@@ -40,19 +42,34 @@ public:
       const auto [low, high] = ends(side);
       sides[places[low]++] = {high, side};
     }
-    Cancellation_poll poll;
-    for (Index low = 0, first = 0; low < position_count; first = places[low++]) {
-      poll();
-      const auto begin = sides.begin() + first, end = sides.begin() + places[low];
-      std::sort(begin, end, [](const Side& a, const Side& b) {
-        return std::tie(a.high, a.side) < std::tie(b.high, b.side);
-      });
-      for (auto it = begin, beyond = begin; it != end; it = beyond) {
+    const auto for_each_run = [&](Index low, const auto& function) {
+      const auto end = sides.begin() + places[low];
+      for (auto it = sides.begin() + (low == 0 ? 0 : places[low - 1]), beyond = it; it != end; it = beyond) {
         beyond = std::find_if(it, end, [&](const Side& side) {
           return side.high != it->high || is_own(side.side) != is_own(it->side);
         });
-        match(it, beyond, notes);
+        function(it, beyond);
       }
+    };
+    // Nearly all runs are edges or borders. What else there is comes in the order of its positions.
+    std::vector<char> has_others(position_count, false);
+    Cancellation_scope::check();
+    tbb::parallel_for(Index(0), position_count, [&](Index low) {
+      std::sort(
+          sides.begin() + (low == 0 ? 0 : places[low - 1]), sides.begin() + places[low],
+          [](const Side& a, const Side& b) { return std::tie(a.high, a.side) < std::tie(b.high, b.side); });
+      for_each_run(low, [&](auto first, auto beyond) {
+        has_others[low] |= beyond - first > 1 && !make_edge(first, beyond);
+      });
+    });
+    Cancellation_poll poll;
+    for (Index low = 0; low < position_count; ++low) {
+      poll();
+      if (has_others[low])
+        for_each_run(low, [&](auto first, auto beyond) {
+          if (beyond - first > 1 && !make_edge(first, beyond))
+            leave_apart(first, beyond, notes);
+        });
     }
   }
 
@@ -66,23 +83,29 @@ private:
   Index position(Index corner) const { return m_triangles[corner / 3][corner % 3]; }
   bool is_own(Index side) const { return side < m_own_sides; }
 
-  // Decides about all sides between two positions, either those of the soup or those of the obstacle.
+  // Makes an edge of all sides between two positions, either those of the soup or those of the obstacle, of
+  // which there are several. Returns false, and does nothing, where they are none.
   template <class Iterator>
-  void match(Iterator first, Iterator beyond, Sewing_notes& notes)
+  bool make_edge(Iterator first, Iterator beyond)
   {
-    if (beyond - first == 1)
-      return;
     const Index a = first->side, b = first[1].side;
-    const bool is_opposite = position(a) != position(b);
+    if (beyond - first != 2 || position(a) == position(b) ||
+        position(Sewing::previous(a)) == position(Sewing::previous(b)))
+      return false;
+    m_mates[a] = b;
+    m_mates[b] = a;
+    return true;
+  }
+
+  // Takes note of such sides that are no edge.
+  template <class Iterator>
+  void leave_apart(Iterator first, Iterator beyond, Sewing_notes& notes)
+  {
+    const Index a = first->side, b = first[1].side;
+    const bool is_misoriented = beyond - first == 2 && position(a) == position(b);
     notes.non_manifold_edges += is_own(a) && beyond - first > 2;
-    notes.misoriented_edges += is_own(a) && beyond - first == 2 && !is_opposite;
-    if (beyond - first == 2 && is_opposite &&
-        position(Sewing::previous(a)) != position(Sewing::previous(b))) {
-      m_mates[a] = b;
-      m_mates[b] = a;
-      return;
-    }
-    if (beyond - first == 2 && !is_opposite)
+    notes.misoriented_edges += is_own(a) && is_misoriented;
+    if (is_misoriented)
       m_misoriented.insert(m_misoriented.end(), {a, b});
     m_unsewn.emplace_back();
     for (Iterator it = first; it != beyond; ++it)

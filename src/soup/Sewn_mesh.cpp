@@ -11,6 +11,8 @@
 #include <selvedge/Surface_mesh_simplification/internal/mesh_diagonal.h>
 #include <selvedge/spatial/internal/order_along_curve.h>
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -147,11 +149,14 @@ Sewn_mesh::Sewn_mesh(const Triangle_soup& soup, const std::vector<Index>& positi
 
   Cancellation_scope::check();
   find_regions();
-  for (Index side = 0; side < own_corners; ++side) {
-    const Index mate = sewing.mate(side);
-    if (mate != Sewing::none && side < mate && differences(mesh().edge(halfedges[side])).any())
-      m_constraints.line_edges.push_back(mesh().edge(halfedges[side]));
-  }
+  std::vector<char> is_line(mesh().number_of_edges(), false);
+  tbb::parallel_for(Index(0), Index(is_line.size()), [&](Index number) {
+    const Mesh::Edge_index e(number);
+    is_line[number] = !mesh().is_border(e) && is_own(mesh().face(mesh().halfedge(e))) && differences(e).any();
+  });
+  for (Index side = 0; side < own_corners; ++side)
+    if (const auto e = mesh().edge(halfedges[side]); side < sewing.mate(side) && is_line[e])
+      m_constraints.line_edges.push_back(e);
   m_notes.seam_edges = m_constraints.line_edges.size();
   find_spokes(position_of);
   find_no_strip_vertices(position_of);

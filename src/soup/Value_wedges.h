@@ -39,8 +39,6 @@ public:
   Value_wedges(const Corner_mesh& corners, const Scale& scale, const Simplify_constraints<Mesh>& constraints,
                double unit, const std::vector<Value>* of_vertices = nullptr);
 
-  double unit() const { return m_unit; }
-
   /// Returns by how much a motion displaces the values, see `No_observer::uv_cost`.
   double cost(Halfedge moving) const;
 

@@ -7,6 +7,8 @@
 
 #include <selvedge/Cancellation_scope.h>
 
+#include <oneapi/tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -26,12 +28,10 @@ Working_mesh::Working_mesh(const Triangle_soup& soup, const std::vector<Index>& 
 Working_mesh::Working_mesh(const Working_mesh& whole, const Border_rule<Mesh>& rule,
                            const std::vector<Index>& faces)
     : Sewn_mesh(whole, rule, faces), m_scale(whole.m_scale), m_placed(*this, whole.m_placed.values()),
-      m_rounding(whole.m_rounding)
+      m_rounding(whole.m_rounding), m_uv_unit(whole.m_uv_unit), m_normal_unit(whole.m_normal_unit),
+      m_vertex_normals(whole.m_vertex_normals)
 {
-  if (whole.m_texture)
-    measure_uvs(whole.m_texture->unit());
-  if (whole.m_shading)
-    measure_normals(whole.m_shading->unit(), whole.m_vertex_normals);
+  find_wedges();
 }
 
 void Working_mesh::share(std::vector<Shared_mesh> meshes, double clearance)
@@ -44,16 +44,28 @@ void Working_mesh::share(std::vector<Shared_mesh> meshes, double clearance)
 
 void Working_mesh::measure_uvs(double unit)
 {
-  if (!soup().uvs.empty() && own_face_count() > 0 && unit > 0)
-    m_texture.emplace(*this, m_scale, constraints(), unit);
+  m_uv_unit = soup().uvs.empty() ? 0 : unit;
 }
 
 void Working_mesh::measure_normals(double unit, std::shared_ptr<const Vertex_normals> normals)
 {
-  if (own_face_count() == 0 || !(unit > 0))
-    return;
+  m_normal_unit = unit;
   m_vertex_normals = std::move(normals);
-  m_shading.emplace(*this, m_scale, constraints(), unit, m_vertex_normals.get());
+}
+
+void Working_mesh::find_wedges()
+{
+  if (own_face_count() == 0)
+    return;
+  tbb::parallel_invoke(Cancellation_scope::inherited([this] {
+                         if (m_uv_unit > 0)
+                           m_texture.emplace(*this, m_scale, constraints(), m_uv_unit);
+                       }),
+                       Cancellation_scope::inherited([this] {
+                         if (m_normal_unit > 0)
+                           m_shading.emplace(*this, m_scale, constraints(), m_normal_unit,
+                                             m_vertex_normals.get());
+                       }));
 }
 
 void Working_mesh::allow_new_places(bool is_float32)

@@ -50,13 +50,18 @@ public:
   void share(std::vector<Shared_mesh> meshes, double clearance = 0);
   bool is_shared(Face face) const { return m_shared && m_shared->is_shared(face); }
 
-  /// Makes `uv_cost` say from now on how far the texture is displaced. Before, and where there is no texture,
-  /// it is 0. Weights that should count must be set before. `unit` is the `uv_unit` of the soup at the scale.
+  /// Makes `uv_cost` say how far the texture is displaced, once `find_wedges` has been called. Before, and
+  /// where there is no texture, it is 0. `unit` is the `uv_unit` of the soup at the scale.
   void measure_uvs(double unit);
 
   /// The same for `normal_cost`, in which `unit` is the `normal_unit` of the soup at the scale. The normals
   /// are those of the corners of the soup, or others, by vertex of the soup.
   void measure_normals(double unit, std::shared_ptr<const Vertex_normals> normals = nullptr);
+
+  /// Finds the values around each vertex that are to be measured. Others may read the mesh meanwhile.
+  ///
+  /// **Preconditions** Weights are set, and nothing has been collapsed.
+  void find_wedges();
 
   /// Makes `rounded_place` return places from now on, as `Place_rounding` does; before, it returns none.
   void allow_new_places(bool is_float32);
@@ -176,8 +181,9 @@ private:
   Scale m_scale;
   Placed_vertices m_placed;
   std::optional<Place_rounding> m_rounding;               // none until new places are allowed
-  std::optional<Texture_wedges> m_texture;                // none until it is measured
-  std::optional<Shading_wedges> m_shading;                // none until it is measured
+  double m_uv_unit = 0, m_normal_unit = 0;                // 0 where they are not measured
+  std::optional<Texture_wedges> m_texture;                // none until wedges are found, or if not measured
+  std::optional<Shading_wedges> m_shading;                // the same
   std::shared_ptr<const Vertex_normals> m_vertex_normals; // null where it is that of normals of the soup
   std::optional<Shared_places> m_shared;                  // none until meshes are shared
   std::optional<Progression_recorder> m_progression;
