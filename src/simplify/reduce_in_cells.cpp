@@ -180,7 +180,20 @@ private:
   std::vector<Cell> m_cells;
 };
 
-/// The collapses of one cell, which is reduced as if it had to reach the share alone.
+/// Returns which share of its movable vertices a cell collapses: more than of all, since there are to be more
+/// collapses where they cost less than elsewhere.
+double share_of_cell(double share)
+{
+  return share * (1 + 0.3 * (1 - share));
+}
+
+/// Returns which share of their movable vertices all cells collapse together. The rest is for the reduction
+/// of the whole, which distributes its collapses better.
+double share_of_cells(double share)
+{
+  return 0.95 * share;
+}
+
 struct Cell_run
 {
   std::vector<Cell_collapse> collapses;
@@ -223,7 +236,7 @@ Cell_run run_cell(const Cell_context& whole, const Cell& cell, const std::vector
     return run;
   Working_mesh working(whole.working, whole.rule, cell.faces);
   run.movable_vertices = lock_outside(working, cell, stays);
-  const std::size_t wanted = std::size_t(whole.share * double(run.movable_vertices));
+  const std::size_t wanted = std::size_t(share_of_cell(whole.share) * double(run.movable_vertices));
   if (wanted == 0)
     return run;
 
@@ -236,8 +249,8 @@ Cell_run run_cell(const Cell_context& whole, const Cell& cell, const std::vector
   options.should_stop = stop.of_cell();
   internal::Simplification<Working_mesh::Mesh, Working_mesh> simplification(working.mesh(), options,
                                                                             working.constraints(), working);
-  double highest_cost = 0;
   working.restrict_new_places([&](const Point_3& place) { return cell.box.contains(place); });
+  double highest_cost = 0;
   working.record([&](Working_mesh::Collapse collapse) {
     Index& face = collapse.moving.face;
     face = cell.faces[face];
@@ -250,9 +263,8 @@ Cell_run run_cell(const Cell_context& whole, const Cell& cell, const std::vector
   return run;
 }
 
-// Returns the cost up to which the collapses of cells are done: half of the cells, weighted by their movable
-// vertices, have reached their share at this cost. All stop at one cost, as a reduction of the whole does.
-double common_cost(const std::vector<Cell_run>& runs)
+// Returns the cost at which half of the cells, weighted by their movable vertices, have reached their target.
+double cost_of_half(const std::vector<Cell_run>& runs)
 {
   std::vector<std::pair<double, std::size_t>> costs;
   std::size_t total = 0;
@@ -266,6 +278,26 @@ double common_cost(const std::vector<Cell_run>& runs)
     if (2 * (passed += vertices) >= total)
       return cost;
   return s_infinity;
+}
+
+// Returns the cost at which the cells have collapsed a share of all movable vertices; infinite when they have
+// not.
+double cost_of_share(const std::vector<Cell_run>& runs, double share)
+{
+  std::vector<double> costs; // for each collapse, the highest up to it in its cell
+  double movable_vertices = 0;
+  for (const Cell_run& run : runs) {
+    double highest = 0;
+    for (const Cell_collapse& collapse : run.collapses)
+      costs.push_back(highest = std::max(highest, collapse.cost));
+    movable_vertices += double(run.movable_vertices);
+  }
+  const std::size_t wanted = std::size_t(share * movable_vertices);
+  if (wanted >= costs.size())
+    return s_infinity;
+  const auto last = costs.begin() + std::ptrdiff_t(wanted);
+  std::nth_element(costs.begin(), last, costs.end());
+  return *last;
 }
 
 // Returns the collapses of each cell until the first that costs more than `limit`.
@@ -328,7 +360,10 @@ Cell_collapses reduce_in_cells(const Cell_context& whole)
   tbb::parallel_for(std::size_t(0), cells.size(), Cancellation_scope::inherited(reduce),
                     tbb::simple_partitioner());
   result.is_stopped = stop.is_stopped();
-  const double limit = result.is_stopped ? s_infinity : common_cost(runs);
+  // All stop at one cost, as a reduction of the whole does.
+  const double limit = result.is_stopped
+                           ? s_infinity
+                           : std::min(cost_of_half(runs), cost_of_share(runs, share_of_cells(whole.share)));
   result.collapses = collapses_within(std::move(runs), limit);
   return result;
 }
