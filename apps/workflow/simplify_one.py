@@ -31,8 +31,15 @@ def main():
     parser.add_argument("--selvedge", default="selvedge")
     arguments = parser.parse_args()
 
-    name = arguments.mesh.relative_to(arguments.meshes or arguments.mesh.parent)
+    if not arguments.mesh.is_file():
+        parser.error(f"{arguments.mesh}: there is no such file")
+    try:
+        name = arguments.mesh.relative_to(arguments.meshes or arguments.mesh.parent)
+    except ValueError:
+        parser.error(f"{arguments.mesh}: is not in {arguments.meshes}; give --meshes as the mesh begins")
     folder = arguments.out / name
+    if folder.is_file():
+        parser.error(f"{folder}: is a file, in place of which a folder would be made; choose another OUT")
     folder.mkdir(parents=True, exist_ok=True)
     for old in folder.iterdir():  # of an earlier run, which perhaps got further
         if old.is_file():

@@ -52,6 +52,19 @@ class Steps(unittest.TestCase):
         self.assertEqual(len(good), 2)
         self.assertIn("2 meshes, 1 of them failed", (self.out / "table.html").read_text())
 
+    def test_what_is_no_mesh_in_the_folder_is_refused_and_nothing_is_lost(self):
+        self.out.mkdir()
+        (self.out / "mine.txt").write_text("mine")
+        self.generate("a.obj")
+        for name in (".", "absent.obj"):
+            self.assertEqual(self.simplify(name), 2)
+        self.assertEqual(self.simplify("a.obj", "--meshes", str(self.out)), 2)
+        self.out = self.meshes
+        before = (self.meshes / "a.obj").read_bytes()
+        self.assertEqual(self.simplify("a.obj"), 2)
+        self.assertEqual((self.meshes / "a.obj").read_bytes(), before)
+        self.assertEqual((self.out.parent / "out" / "mine.txt").read_text(), "mine")
+
     def test_mesh_that_misses_a_target_it_needs_keeps_its_figures(self):
         self.generate("tight.obj", "sheets")
         self.assertEqual(self.simplify("tight.obj", "--options=--require-target --error 1e-9"), 1)
