@@ -464,7 +464,7 @@ Action add_replay(CLI::App& command)
   command.add_flag("--ascii", request->is_ascii, "Write PLY and STL as text.");
   command.footer(
       "Examples:\n"
-      "  selvedge simplify jacket.obj -o small.obj --ratio 0.3 --log jacket.log\n"
+      "  selvedge simplify jacket.obj -o small.obj --ratio 0.3 --log jacket.log --placement vertices\n"
       "  selvedge replay jacket.obj jacket.log -o again.obj && cmp small.obj again.obj\n"
       "  selvedge replay jacket.obj jacket.log --obstacle body.obj    # does it keep clear of the body, "
       "too?\n"

@@ -13,7 +13,13 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstddef>
+#include <filesystem>
 #include <map>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
 
 namespace selvedge::test {
 namespace {
@@ -89,6 +95,49 @@ TEST(App_documentation, OptionsInReportsAreThoseOfTheHelp)
     ++defaults;
   }
   EXPECT_EQ(defaults, 24u);
+}
+
+// Each command in the pages has options that the program has.
+TEST(App_documentation, CommandsHaveOptionsThatThereAre)
+{
+  const std::filesystem::path sources = SELVEDGE_SOURCES;
+  std::vector<std::filesystem::path> pages{sources / "README.md"};
+  for (const auto& entry : std::filesystem::directory_iterator(sources / "docs"))
+    if (entry.path().extension() == ".md")
+      pages.push_back(entry.path());
+  std::map<std::string, std::string> helps;
+  const std::regex command("selvedge ([a-z]+) ([^\n`#|]*)"), option("(^|[ \\[])(--[a-z][a-z-]*)");
+  std::size_t count = 0;
+  for (const std::filesystem::path& page : pages) {
+    const std::string text = contents_of(page);
+    for (std::sregex_iterator found(text.begin(), text.end(), command), end; found != end; ++found) {
+      const std::string name = found->str(1), arguments = found->str(2);
+      if (helps.find(name) == helps.end())
+        helps[name] = run_app({name, "--help"}).out;
+      for (std::sregex_iterator at(arguments.begin(), arguments.end(), option); at != end; ++at, ++count)
+        EXPECT_TRUE(std::regex_search(helps[name], std::regex("\n  (-[a-z],)?" + at->str(2) + "[ \n]")))
+            << page << ": " << found->str();
+    }
+  }
+  EXPECT_GT(count, 100u);
+}
+
+TEST(App_documentation, TheHelpOfReplayShowsHowTheSameFileIsMade)
+{
+  const Workspace folder;
+  folder.generate("sheets", "jacket.obj", 2000);
+  const std::string help = run_app({"replay", "--help"}).out;
+  for (const char* begin : {"simplify jacket.obj -o", "replay jacket.obj jacket.log -o"}) {
+    const std::size_t at = help.find(begin);
+    ASSERT_NE(at, std::string::npos) << help;
+    std::istringstream words(help.substr(at, std::min(help.find('\n', at), help.find(" &&", at)) - at));
+    std::vector<std::string> arguments;
+    for (std::string word; words >> word;)
+      arguments.push_back(word.find_first_of("jsa") == 0 && word.find('.') < word.size() ? folder / word
+                                                                                         : word);
+    EXPECT_EQ(run_app(arguments).code, 0);
+  }
+  EXPECT_TRUE(contents_of(folder / "small.obj") == contents_of(folder / "again.obj"));
 }
 
 } // namespace
