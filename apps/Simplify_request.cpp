@@ -7,6 +7,7 @@
 #include "output_files.h"
 #include "poses_option.h"
 #include "standard_streams.h"
+#include "subcommands.h"
 
 #include <selvedge/Error.h>
 #include <selvedge/cells.h>
@@ -47,7 +48,7 @@ double ratio_in(const std::string& text)
 {
   const double ratio = number_in(text);
   if (!(ratio >= 0 && ratio <= 1))
-    throw Argument_error("--ratio: '" + text + "' is not a number from 0 to 1");
+    throw Argument_error("--ratio: '" + text + "' is not a number from 0 to 1" + share_meant(text));
   return ratio;
 }
 

@@ -65,6 +65,23 @@ std::string unknown(const std::string& kind, const std::string& word, const std:
   return message;
 }
 
+// Says why an argument is not expected after a subcommand.
+std::string not_expected(const std::string& argument, const CLI::App& command)
+{
+  std::vector<std::string> options;
+  for (const CLI::Option* option : command.get_options())
+    options.push_back(option->get_name());
+  for (const char* dash : {"\u2013", "\u2014", "\u2212"})
+    if (argument.rfind(dash, 0) == 0)
+      return '\'' + argument + "' begins with a long dash in place of hyphens; type it anew, as --ratio";
+  if (argument.rfind("--", 0) == 0)
+    return unknown("option", argument.substr(0, argument.find('=')), options);
+  if (argument.size() > 1 && argument[0] == '-')
+    return "there is no option '" + argument + "'; a file of such a name is './" + argument + '\'';
+  return '\'' + argument +
+         "' is not expected here; names with blanks, and patterns such as 'frame_*.obj', need quotes";
+}
+
 // Has every option of a command, and of those within it, refuse an empty value, and say what it may be.
 void refuse_empty_values(CLI::App& command)
 {
@@ -161,13 +178,16 @@ Exit_code run(int argc, char** argv)
     const std::vector<CLI::App*> named = app.get_subcommands();
     const std::string command = named.empty() ? "" : named.front()->get_name() + ' ';
     std::string message = error.what();
-    if (const std::vector<std::string> extra = app.remaining(true);
-        dynamic_cast<const CLI::ExtrasError*>(&error) && !extra.empty() &&
-        extra.front().rfind("--", 0) == 0) {
-      std::vector<std::string> options;
-      for (const CLI::Option* option : named.front()->get_options())
-        options.push_back(option->get_name());
-      message = unknown("option", extra.front(), options);
+    // An option that is not known may be why something is missing.
+    if (!named.empty() &&
+        (dynamic_cast<const CLI::ExtrasError*>(&error) || dynamic_cast<const CLI::RequiredError*>(&error))) {
+      const std::vector<std::string> extra = app.remaining(true);
+      char** const end = std::find(argv, argv + argc, std::string("--"));
+      char** const first = std::find_if(argv + 1, end, [&extra](const char* argument) {
+        return std::find(extra.begin(), extra.end(), argument) != extra.end();
+      });
+      if (first != end)
+        message = not_expected(*first, *named.front());
     }
     return fail(exit_usage, message + " (see selvedge " + command + "--help)");
   }

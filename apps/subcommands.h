@@ -5,11 +5,13 @@
 #define SELVEDGE_APPS_SUBCOMMANDS_H
 
 #include "exit_codes.h"
+#include "text.h"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <map>
@@ -43,6 +45,21 @@ inline CLI::Validator positive()
       "");
 }
 
+/// Returns the question whether 0.3 was meant, after 30, 30% or 0,3 where a share should stand; else nothing.
+inline std::string share_meant(std::string text)
+{
+  const bool is_percentage = !text.empty() && text.back() == '%';
+  if (is_percentage)
+    text.pop_back();
+  std::replace(text.begin(), text.end(), ',', '.');
+  double share = -1;
+  if (!CLI::detail::lexical_cast(text, share))
+    return {};
+  if (is_percentage || (share > 1 && share == std::floor(share)))
+    share /= 100;
+  return share >= 0 && share <= 1 ? "; did you mean " + with_digits(share, "%g") + '?' : "";
+}
+
 /// Accepts a number in [least, most]. Unlike `CLI::Range` it refuses NaN.
 inline CLI::Validator in_range(double least, double most = std::numeric_limits<double>::infinity())
 {
@@ -55,7 +72,7 @@ inline CLI::Validator in_range(double least, double most = std::numeric_limits<d
             most == std::numeric_limits<double>::infinity()
                 ? "of at least " + CLI::detail::to_string(least)
                 : "from " + CLI::detail::to_string(least) + " to " + CLI::detail::to_string(most);
-        return "'" + text + "' is not a number " + range;
+        return "'" + text + "' is not a number " + range + (least == 0 && most == 1 ? share_meant(text) : "");
       },
       "");
 }
@@ -70,7 +87,8 @@ inline CLI::Validator whole_number()
         double value = -1;
         constexpr double largest = 9007199254740992; // 2^53: every whole number up to it is a double
         if (!CLI::detail::lexical_cast(digits, value) || !(value >= 0 && value <= largest) ||
-            value != std::floor(value))
+            value != std::floor(value) ||
+            (digits != text && text != with_commas(static_cast<std::size_t>(value)))) // 20,5 and the like
           return "'" + text + "' is not a whole number from 0 to 2^53";
         text = std::to_string(static_cast<unsigned long long>(value));
         return {};
